@@ -1,0 +1,99 @@
+// Impact sequences of a planar body: strike, fly, strike, ... until it ends.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analytic/angle.hpp"
+#include "analytic/flight.hpp"
+#include "analytic/impact_law.hpp"
+#include "analytic/planar_body.hpp"
+
+namespace clatter::analytic {
+
+/// The body as it touches the ground for the first time.
+struct Drop {
+  PlanarBody body;
+  Angle inclination;        ///< in [0°, 90°], end a low
+  PlanarVelocity velocity;  ///< of the centre of mass, before the first impact
+  double gravity = 0;       ///< g >= 0 [m/s²]
+  ImpactLaw law;
+};
+
+struct SequenceOptions {
+  int impacts = 6;  ///< most impacts to report, >= 1
+  /// Relative error to which the end of an accumulation of impacts must be known before the sequence
+  /// is cut there: 10^−digits of the remaining time.  In [1, 15].
+  int digits = 6;
+  /// Also run two neighbouring drops to learn how errors grow (`amplification`); costs twice as much
+  /// again.
+  bool amplification = true;
+
+  /// @throws std::domain_error naming the field, its value and what is allowed.
+  void validate() const;
+};
+
+/// One impact.
+struct ImpactRow {
+  double start = 0;              ///< time since the first impact [s]
+  VertexSet vertices = 0;        ///< which strike
+  double inclination = 0;        ///< α, reduced to (−π, π] [rad]; a lower: positive
+  double contact_angle = 0;      ///< acute angle to the ground [rad]
+  double centre_height = 0;      ///< z of the centre of mass [m]
+  PlanarVelocity before;
+  Impact impact;                 ///< impulse, speeds and velocity after
+  double energy_before = 0;      ///< translational + rotational + potential (z = 0 at the ground) [J]
+  double energy_after = 0;
+  /// Relative change of this row's quantities per relative change of the drop (angle, speed): the
+  /// largest over contact angle, time and impulse.  NaN if it could not be had.
+  double amplification = 0;
+  /// The flight that led here; for the first row all zero.
+  Flight flight;
+  Departure departure;  ///< how that flight began
+};
+
+enum class Outcome {
+  no_further_impact,  ///< nothing reaches the ground any more
+  impact_limit,       ///< as many impacts as asked for
+  at_rest,            ///< infinitely many impacts end in a finite time, with no normal or angular motion left
+  sustained_contact,  ///< a vertex stays on the ground (after infinitely many impacts, or with e = 0)
+                      ///< while the body still turns: beyond the model
+};
+
+/// The remaining impacts after the last row: infinitely many in a finite time.
+struct Tail {
+  double end_time = 0;         ///< time since the first impact [s]
+  double end_time_error = 0;   ///< estimate [s]; 0: closed form
+  double normal_impulse = 0;   ///< sum over the remaining impacts [N·s]
+  double normal_impulse_error = 0;
+  double tangential_impulse = 0;  ///< likewise
+  VertexSet vertices = 0;
+  bool closed_form = false;
+  PlanarVelocity after;  ///< at the end
+};
+
+struct Sequence {
+  std::vector<ImpactRow> rows;
+  Outcome outcome = Outcome::no_further_impact;
+  std::string message;       ///< why it ended, one sentence
+  std::vector<std::string> warnings;  ///< such as energy created by an impulse ratio
+  std::optional<Tail> tail;
+  NearMiss near_miss;        ///< of the last flight, if no_further_impact
+  double total_normal_impulse = 0;  ///< rows and tail [N·s]
+  int root_evaluations = 0;
+};
+
+/// Impact sequence of a drop.
+///
+/// Several vertices that reach the ground together (the body lands flat) are one row by the rule of
+/// strike_flat.  With e < 1 and gravity, infinitely many impacts in a finite time are recognised: in
+/// closed form for flat and upright bouncing, where the times form a geometric series ending
+/// 2w/(g(1−e)) after an impact with rebound speed w, otherwise by extrapolation of the flight times of
+/// one vertex, accepted when its error estimate meets `digits`; there is no velocity threshold.
+/// Results scale exactly with powers of two of every unit.
+/// @throws std::domain_error for a drop whose first contact does not approach the ground, or whose
+///         parameters are out of range; OutsideModelError for jamming.
+[[nodiscard]] Sequence impact_sequence(const Drop& drop, const SequenceOptions& options);
+
+}  // namespace clatter::analytic
