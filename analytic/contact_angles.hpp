@@ -12,8 +12,7 @@ namespace clatter::analytic {
 struct RodParameters {
   double gravity_number = 0;  ///< G = g L/v_n² >= 0
   double restitution = 1;     ///< e in [0, 1]
-  double impulse_ratio = 0;   ///< μ_i of Eq. 8, the same at each impact, against the ground at end a
-                              ///< and mirrored at end b
+  double impulse_ratio = 0;   ///< μ_i of Eq. 8 as given: P_t = μ_i P_n in the world frame, each impact
 
   /// @throws std::domain_error naming the field, its value and what is allowed.
   void validate() const;
@@ -32,7 +31,7 @@ enum class NextImpact {
 /// One contact angle as a decision: whether it exists, by how much, and its value.
 struct ContactAngle {
   NextImpact next = NextImpact::not_reached;
-  double angle = 0;  ///< β or γ [rad]; defined if next == other_end
+  double angle = 0;  ///< β or γ [rad] if next == other_end; at the closest approach if next == none
   double time = 0;   ///< T of the flight to it [L/|v_n|]; defined if a contact exists
   bool within_margin = false;  ///< so near a fold that rounding decides
   double clearance = 0;  ///< if none: height by which the end misses the ground [L]
@@ -88,6 +87,8 @@ enum class ImpactNumber { second = 2, third = 3 };
 
 /// θ up to which the second (third) impact happens as β (γ) <= 90°.  Known for G = 0, e = 1, μ_i = 0:
 /// 58.488442288312° and 27.577809606636°, both folds.
+/// Found by bisection on the decision of contact_angles() down to neighbouring doubles, so it is the
+/// boundary of what the program prints; an impact that does not happen for small θ counts as never.
 /// Accuracy: `uncertainty`, about 4 ulp for folds.
 [[nodiscard]] RegimeBoundary regime_boundary(ImpactNumber impact, const RodParameters& parameters);
 

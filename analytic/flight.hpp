@@ -64,6 +64,7 @@ struct Arrival {
 struct NearMiss {
   double clearance = 0;        ///< least height at a turning point [m]; infinite: none
   double margin = 0;           ///< rounding error bound of that height [m]
+  double time = 0;             ///< when [s]
   int vertex = 0;
   [[nodiscard]] bool within_margin() const { return !(clearance > margin); }
 };

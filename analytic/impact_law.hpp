@@ -80,7 +80,7 @@ struct Impact {
 };
 
 /// A, B, C of (b).  Accuracy: 3 ulp each.
-[[nodiscard]] ContactInertia contact_inertia(double gyration_radius, const ContactPoint& d);
+[[nodiscard]] ContactInertia contact_inertia(double gyration_square, const ContactPoint& d);
 
 /// Velocity of the contact point: u = v_n − ω d_t, s = v_t + ω d_n.
 [[nodiscard]] double normal_velocity(const PlanarVelocity& v, const ContactPoint& d);

@@ -1,0 +1,164 @@
+#include "analytic/body_motion.hpp"
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace clatter::analytic {
+namespace {
+
+VertexSet only(int vertex) { return static_cast<VertexSet>(1u << vertex); }
+
+/// The two vertices of a set that are farthest apart along the ground.
+struct Pair {
+  int first, second;
+};
+Pair outermost(const BodyMotion& motion, VertexSet set) {
+  Pair pair{std::countr_zero(set), std::countr_zero(set)};
+  for (int i = 0; i < motion.body().vertex_count; ++i) {
+    if (!(set >> i & 1)) continue;
+    const double x = motion.contact_point(i).tangential;
+    if (x < motion.contact_point(pair.first).tangential) pair.first = i;
+    if (x > motion.contact_point(pair.second).tangential) pair.second = i;
+  }
+  return pair;
+}
+
+}  // namespace
+
+BodyMotion::BodyMotion(const PlanarBody& body, const Angle& inclination,
+                       const PlanarVelocity& velocity, double gravity)
+    : body_(body), gravity_(gravity), inclination_(inclination.radians), sine_(inclination.sine),
+      cosine_(inclination.cosine), remainder_(velocity) {
+  if (body.uniform_thin_rod && velocity.normal < 0) {
+    frame_ = {.speed = -velocity.normal, .sextant = 3};
+    remainder_.normal = 0;
+    collapse_frame();
+  }
+  centre_height_ = -contact_point(std::countr_zero(lowest_vertices())).normal;
+}
+
+VertexSet BodyMotion::lowest_vertices() const {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < body_.vertex_count; ++i) {
+    lowest = std::fmin(lowest, contact_point(i).normal);
+  }
+  VertexSet set = 0;
+  for (int i = 0; i < body_.vertex_count; ++i) {
+    if (contact_point(i).normal == lowest) set |= only(i);
+  }
+  return set;
+}
+
+PlanarVelocity BodyMotion::velocity() const {
+  if (frame_.speed == 0) return remainder_;
+  const double length = body_.vertices[1].x - body_.vertices[0].x;
+  return {.normal = frame_.normal() + remainder_.normal,
+          .tangential = remainder_.tangential,
+          .angular = frame_.angular(length) + remainder_.angular};
+}
+
+/// The frame helps while the rod lies low and the remainder is the smaller part; otherwise the two
+/// would cancel each other, and everything goes to the remainder.
+void BodyMotion::collapse_frame() {
+  if (frame_.speed == 0) return;
+  const double square = remainder_.normal * remainder_.normal +
+                        body_.gyration_square * (remainder_.angular * remainder_.angular);
+  if (std::fabs(cosine_) >= 0.5 && square <= frame_.speed * frame_.speed / 4) return;
+  remainder_ = velocity();
+  frame_ = {};
+}
+
+BodyMotion::Strike BodyMotion::strike(VertexSet vertices, const ImpactLaw& law) {
+  collapse_frame();
+  if (std::popcount(vertices) > 1) {
+    const auto [first, second] = outermost(*this, vertices);
+    const PlanarVelocity before = velocity();
+    const auto impact =
+        strike_flat(body_, before, contact_point(first), contact_point(second), law);
+    if (impact) {
+      frame_ = {};
+      remainder_ = impact->after;
+      touching_ = vertices;
+      reference_ = first;
+      rebound_speed_ = -law.restitution * normal_velocity(before, contact_point(first));
+      return {*impact, vertices};
+    }
+    const bool first_faster = normal_velocity(before, contact_point(first)) <=
+                              normal_velocity(before, contact_point(second));
+    vertices = only(first_faster ? first : second);
+  }
+  return {strike_point(std::countr_zero(vertices), law), vertices};
+}
+
+Impact BodyMotion::strike_point(int vertex, const ImpactLaw& law) {
+  const ContactPoint d = contact_point(vertex);
+  Impact impact = analytic::strike(body_, velocity(), d, law);
+  if (frame_.speed != 0) strike_framed(vertex, impact);
+  else remainder_ = impact.after;
+  touching_ = only(vertex);
+  reference_ = vertex;
+  rebound_speed_ = impact.separation_speed;
+  return impact;
+}
+
+/// The impact as an elastic reflection of the frame plus what the real one does differently:
+///     P = P_elastic + u_f [(1−e)A − 2 μ_i B]/(A (A − μ_i B)) − (1+e) u_r/(A − μ_i B),
+/// u_f, u_r the contact velocities of frame and remainder, e and μ_i as they came out.
+void BodyMotion::strike_framed(int vertex, Impact& impact) {
+  const ContactPoint d = contact_point(vertex);
+  const ReflectionAxis axis = reflection_axis(body_.vertices[vertex].x < 0, sine_, cosine_);
+  const double e = impact.restitution();
+  const double ratio = impact.impulse_ratio();
+  const double coupled = ratio * contact_inertia(body_.gyration_square, d).coupling;
+  const double inertia = std::fma(3 * cosine_, cosine_, 1.0);
+  const double denominator = inertia - coupled;
+
+  const double of_frame = frame_.contact_velocity(axis);
+  const double of_remainder = normal_velocity(remainder_, d);
+  const double elastic = frame_.reflect(axis);
+  const double difference = of_frame * ((1 - e) * inertia - 2 * coupled) / (inertia * denominator) -
+                            (1 + e) * of_remainder / denominator;
+  const double normal = elastic + difference;
+  remainder_.normal += difference;
+  remainder_.tangential += ratio * normal;
+  remainder_.angular +=
+      (ratio * normal * d.normal - difference * d.tangential) / body_.gyration_square;
+
+  impact.approach_speed = -(of_frame + of_remainder);
+  impact.separation_speed = e * impact.approach_speed;
+  impact.normal_impulse = body_.mass * normal;
+  impact.tangential_impulse = ratio * impact.normal_impulse;
+  impact.after = velocity();
+}
+
+Departure BodyMotion::departure() const {
+  const PlanarVelocity v = velocity();
+  return {.inclination = inclination_, .sine = sine_, .cosine = cosine_, .normal = v.normal,
+          .angular = v.angular, .gravity = gravity_, .touching = touching_,
+          .reference = reference_, .rebound_speed = rebound_speed_};
+}
+
+Flight BodyMotion::fly() {
+  const Flight flight = analytic::fly(body_, departure());
+  if (flight.end != FlightEnd::contact) return flight;
+  const Arrival& arrival = flight.arrival;
+  time_ += arrival.time;
+  remainder_.normal -= gravity_ * arrival.time;
+  if (arrival.time > 0 && arrival.inclination != inclination_) {
+    inclination_ = std::remainder(arrival.inclination, 2 * pi);
+    sine_ = std::sin(arrival.inclination);
+    cosine_ = std::cos(arrival.inclination);
+  }
+  centre_height_ = -contact_point(arrival.vertex).normal;
+  return flight;
+}
+
+double BodyMotion::energy() const {
+  const PlanarVelocity v = velocity();
+  return body_.mass * ((v.normal * v.normal + v.tangential * v.tangential +
+                        body_.gyration_square * (v.angular * v.angular)) / 2 +
+                       gravity_ * centre_height_);
+}
+
+}  // namespace clatter::analytic

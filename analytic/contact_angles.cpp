@@ -1,0 +1,201 @@
+#include "analytic/contact_angles.hpp"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "analytic/body_motion.hpp"
+#include "analytic/detail/small_angle.hpp"
+
+namespace clatter::analytic {
+namespace {
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+constexpr VertexSet end_a = 1;
+constexpr VertexSet end_b = 2;
+
+void require(bool holds, const char* field, double value, const char* allowed) {
+  if (holds) return;
+  std::ostringstream text;
+  text.precision(17);
+  text << field << " = " << value << ": must be " << allowed;
+  throw std::domain_error(text.str());
+}
+
+const PlanarBody& unit_rod() {
+  static const PlanarBody rod = make_rod({});
+  return rod;
+}
+
+ImpactLaw impact_law(const RodParameters& parameters) {
+  return {.restitution = parameters.restitution,
+          .friction = FrictionKind::impulse_ratio,
+          .friction_value = parameters.impulse_ratio};
+}
+
+/// Reads a flight as the decision about the next contact angle; `inclination` is the one at its end, or
+/// at the closest approach.
+ContactAngle decide(const Flight& flight, int other_end, double inclination) {
+  ContactAngle result{.evaluations = flight.evaluations};
+  if (flight.end == FlightEnd::stays_touching) {
+    result.next = NextImpact::stays_touching;
+  } else if (flight.end == FlightEnd::no_contact) {
+    result.next = NextImpact::none;
+    result.angle = std::fabs(inclination);
+    result.clearance = flight.near_miss.clearance;
+    result.within_margin = flight.near_miss.within_margin();
+  } else {
+    result.time = flight.arrival.time;
+    result.within_margin = flight.arrival.within_margin;
+    result.angle = std::fabs(inclination);
+    result.next = flight.arrival.vertex != other_end ? NextImpact::same_end
+                  : result.angle <= pi / 2           ? NextImpact::other_end
+                                                     : NextImpact::beyond_upright;
+  }
+  return result;
+}
+
+/// sin(a + x) − sin a.
+double sine_rise(double a, double x) { return 2 * std::cos(a + x / 2) * std::sin(x / 2); }
+
+/// Solves sin(a+x) − sin a − K x = rise for small x by Newton's method from `guess`.
+double solve_offset(double a, double k, double rise, double guess) {
+  double x = guess;
+  for (int i = 0; i < 2; ++i) {
+    x -= (sine_rise(a, x) - k * x - rise) / (std::cos(a + x) - k);
+  }
+  return x;
+}
+
+/// γ − θ for e = 1, μ_i = 0, G = 0.  With β = θ/2 + η, γ = θ + ε, K₁ = −1/3 + k₁, K₂ = 1/3 + k₂ and
+/// d(x) = x − sin x, the two contact equations lose all their terms of first order:
+///     sin(θ/2 + η) − sin(θ/2) − K₁ η = (3/2) k₁ θ − d(θ) + d(θ/2),
+///     sin(θ + ε) − sin θ − K₂ ε = (3/2) k₂ θ + (1 + K₂) η + d(θ) − d(β).
+double gamma_minus_theta(const Angle& theta, double beta, double gamma) {
+  const double t = theta.radians;
+  const double c = theta.cosine;
+  const double k1 = theta.sine * theta.sine / (1 + c) * (1 + 3 * c) / (6 * c);
+  const double rise1 = 1.5 * k1 * t - detail::sine_deficit(t) + detail::sine_deficit(t / 2);
+  const double eta = solve_offset(t / 2, k1 - 1.0 / 3, rise1, beta - t / 2);
+
+  const double tilt1 = reflection_axis(true, theta.sine, c).tilt;
+  const double tilt2 = reflection_axis(false, std::sin(beta), std::cos(beta)).tilt;
+  const double root3 = std::sqrt(3.0);
+  const double tangent = std::tan(2 * (tilt1 + tilt2));
+  const double k2 = 4 * root3 * tangent / (3 * (3 - root3 * tangent));
+  const double rise2 = 1.5 * k2 * t + (k2 + 4.0 / 3) * eta + detail::sine_deficit(t) -
+                       detail::sine_deficit(beta);
+  return solve_offset(t, k2 + 1.0 / 3, rise2, gamma - t);
+}
+
+/// 2 − ΣP = 1 − V₃ − G (T₁ + T₂), with 1 − V₃ = 2 sin²(deviation/2) where the frame has come round.
+double impulse_deficit(const BodyMotion& motion, const ContactAngles& angles, double gravity) {
+  const ElasticFrame& frame = motion.frame();
+  const double fall = gravity * (angles.beta.time + angles.gamma.time);
+  if (frame.speed == 1 && frame.sextant == 0) {
+    return detail::versine(frame.deviation) - (motion.remainder().normal + fall);
+  }
+  return 2 - angles.impulse[0] - angles.impulse[1] - angles.impulse[2];
+}
+
+/// The chain of three impacts.
+class Chain {
+ public:
+  Chain(const Angle& theta, const RodParameters& parameters)
+      : parameters_(parameters), law_(impact_law(parameters)),
+        motion_(unit_rod(), theta, {.normal = -1}, parameters.gravity_number) {
+    result_.theta = theta;
+    for (int i = 0; i < 3; ++i) {
+      result_.impulse[i] = result_.velocity[i] = result_.angular[i] = missing;
+    }
+    result_.gamma_minus_theta = result_.impulse_deficit = missing;
+  }
+
+  ContactAngles run() {
+    strike(0, end_a);
+    result_.beta = fly(1);
+    if (result_.beta.next != NextImpact::other_end) return result_;
+    strike(1, end_b);
+    result_.gamma = fly(0);
+    if (result_.gamma.next != NextImpact::other_end) return result_;
+    strike(2, end_a);
+    result_.impulse_deficit = impulse_deficit(motion_, result_, parameters_.gravity_number);
+    result_.gamma_minus_theta = offset();
+    return result_;
+  }
+
+ private:
+  void strike(int number, VertexSet end) {
+    const Impact impact = motion_.strike(end, law_).impact;
+    result_.impulse[number] = impact.normal_impulse;
+    result_.velocity[number] = impact.after.normal;
+    result_.angular[number] = impact.after.angular;
+  }
+
+  ContactAngle fly(int other_end) {
+    const Departure departure = motion_.departure();
+    const Flight flight = motion_.fly();
+    const bool missed = flight.end == FlightEnd::no_contact;
+    return decide(flight, other_end,
+                  missed ? departure.inclination - departure.angular * flight.near_miss.time
+                         : motion_.inclination());
+  }
+
+  [[nodiscard]] double offset() const {
+    const double beta = result_.beta.angle;
+    const double gamma = result_.gamma.angle;
+    const bool plain = parameters_.gravity_number == 0 && parameters_.restitution == 1 &&
+                       parameters_.impulse_ratio == 0;
+    return plain ? gamma_minus_theta(result_.theta, beta, gamma) : gamma - result_.theta.radians;
+  }
+
+  const RodParameters& parameters_;
+  ImpactLaw law_;
+  BodyMotion motion_;
+  ContactAngles result_;
+};
+
+void require_contact_angle(const Angle& theta) {
+  require(theta.radians >= 0 && theta.radians <= pi / 2, "theta", theta.radians,
+          "between 0 and π/2");
+}
+
+}  // namespace
+
+void RodParameters::validate() const {
+  require(gravity_number >= 0 && std::isfinite(gravity_number), "gravity number", gravity_number,
+          "at least 0 and finite");
+  require(restitution >= 0 && restitution <= 1, "restitution", restitution, "between 0 and 1");
+  require(std::isfinite(impulse_ratio), "impulse ratio", impulse_ratio, "finite");
+}
+
+int ContactAngles::impacts() const {
+  return 1 + (beta.next == NextImpact::other_end) + (gamma.next == NextImpact::other_end);
+}
+
+ContactAngles contact_angles(const Angle& theta, const RodParameters& parameters) {
+  parameters.validate();
+  require_contact_angle(theta);
+  return Chain(theta, parameters).run();
+}
+
+ContactAngle contact_angle_as_printed(const Angle& theta, double signed_gravity_number) {
+  require_contact_angle(theta);
+  require(std::isfinite(signed_gravity_number), "gravity number", signed_gravity_number, "finite");
+  BodyMotion motion(unit_rod(), theta, {.normal = -1}, 0);
+  motion.strike(end_a, {});
+  Departure departure = motion.departure();
+  departure.gravity = -signed_gravity_number / 2;  // turns − G φ²/Ω² into + (G/2) φ²/Ω²
+  const VertexHeight height = vertex_height(unit_rod(), departure, 1);
+  const FirstRoot root = first_root(height, 2 * pi / height.rate);
+  ContactAngle result{.next = NextImpact::none, .evaluations = root.evaluations};
+  if (!root.time) return result;
+  result.time = *root.time;
+  result.angle = height.rate * result.time - theta.radians;
+  result.within_margin = root.within_margin;
+  result.next = result.angle <= pi / 2 ? NextImpact::other_end : NextImpact::beyond_upright;
+  return result;
+}
+
+}  // namespace clatter::analytic

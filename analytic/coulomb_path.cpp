@@ -1,0 +1,109 @@
+#include "analytic/coulomb_path.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace clatter::analytic {
+namespace {
+
+/// A straight stretch of the path.
+struct Phase {
+  double ratio;   ///< r = dP_t/dP_n
+  double slope;   ///< du/dP
+  double length;  ///< in P; infinite for the last phase
+};
+
+struct Phases {
+  Phase first;
+  Phase second;  ///< meaningful if first.length is finite
+  ImpactMode mode_first;
+  ImpactMode mode_second;
+};
+
+constexpr double endless = std::numeric_limits<double>::infinity();
+
+Phase phase(const PathCoefficients& path, double ratio, double length) {
+  return {ratio, path.normal - path.normal_coupling * ratio, length};
+}
+
+/// Without slip at the start: stick, or slip the way the drift pushes.
+Phases from_rest(const PathCoefficients& path, double friction) {
+  const double sticking = path.slip_drift / path.tangential;
+  if (friction >= std::fabs(sticking)) {
+    return {phase(path, sticking, endless), {}, ImpactMode::stick, ImpactMode::stick};
+  }
+  const double ratio = std::copysign(friction, path.slip_drift);
+  return {phase(path, ratio, endless), {}, ImpactMode::slip, ImpactMode::slip};
+}
+
+Phases from_slip(const PathCoefficients& path, double slip, double friction) {
+  const double ratio = -std::copysign(friction, slip);
+  // Rate at which |s| falls with P.
+  const double slowing =
+      path.tangential * friction + (slip > 0 ? path.slip_drift : -path.slip_drift);
+  const double length = slowing > 0 ? std::fabs(slip) / slowing : endless;
+  const Phase first = phase(path, ratio, length);
+  const double sticking = path.slip_drift / path.tangential;
+  if (friction >= std::fabs(sticking)) {
+    return {first, phase(path, sticking, endless), ImpactMode::slip, ImpactMode::slip_stick};
+  }
+  return {first, phase(path, -ratio, endless), ImpactMode::slip, ImpactMode::reverse_slip};
+}
+
+/// Impulse after which u has risen by `rise` > 0.
+double impulse_for_rise(const Phases& phases, double rise) {
+  const double in_first = phases.first.slope * phases.first.length;
+  if (phases.first.length == endless || (phases.first.slope > 0 && rise <= in_first)) {
+    return rise / phases.first.slope;
+  }
+  return phases.first.length + (rise - in_first) / phases.second.slope;
+}
+
+/// −∫ u dP from the start to the end of compression, for approach speed v.
+double compression_work(const Phases& phases, double v, double compression) {
+  if (!(phases.first.length < compression)) return v * compression / 2;
+  const double length = phases.first.length;
+  const double speed = v - phases.first.slope * length;  // of approach, where slip stops
+  return (v + speed) / 2 * length + speed * (compression - length) / 2;
+}
+
+/// Impulse after compression that returns the work `work` of the normal force (Stronge).
+double impulse_for_work(const Phases& phases, double compression, double work) {
+  if (!(phases.first.length > compression)) return std::sqrt(2 * work / phases.second.slope);
+  if (phases.first.length == endless) return std::sqrt(2 * work / phases.first.slope);
+  const double left = phases.first.length - compression;
+  const double speed = phases.first.slope * left;
+  const double rest = work - speed * left / 2;
+  if (rest <= 0) return std::sqrt(2 * work / phases.first.slope);
+  return left + 2 * rest / (speed + std::sqrt(speed * speed + 2 * phases.second.slope * rest));
+}
+
+double total_impulse(const Phases& phases, double v, const ImpactLaw& law) {
+  const double e = law.restitution;
+  if (law.law == RestitutionLaw::newton) return impulse_for_rise(phases, (1 + e) * v);
+  const double compression = impulse_for_rise(phases, v);
+  if (law.law == RestitutionLaw::poisson) return (1 + e) * compression;
+  // Work is taken in units of v² so that speeds of any magnitude can be squared.
+  const double work = e * e * (compression_work(phases, v, compression) / v / v);
+  const Phases scaled{{phases.first.ratio, phases.first.slope, phases.first.length / v},
+                      phases.second, phases.mode_first, phases.mode_second};
+  return compression + v * impulse_for_work(scaled, compression / v, work);
+}
+
+}  // namespace
+
+PathEnd coulomb_path(const PathCoefficients& path, const PathStart& start, const ImpactLaw& law) {
+  const double friction = law.friction_value;
+  const Phases phases = start.slip == 0 ? from_rest(path, friction)
+                                        : from_slip(path, start.slip, friction);
+  const double impulse = total_impulse(phases, start.approach_speed, law);
+  if (friction == 0) return {impulse, 0, ImpactMode::frictionless};
+  if (!(impulse > phases.first.length)) {
+    return {impulse, phases.first.ratio * impulse, phases.mode_first};
+  }
+  const double second = impulse - phases.first.length;
+  return {impulse, phases.first.ratio * phases.first.length + phases.second.ratio * second,
+          phases.mode_second};
+}
+
+}  // namespace clatter::analytic

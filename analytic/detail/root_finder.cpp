@@ -1,0 +1,110 @@
+#include "analytic/detail/root_finder.hpp"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_roots.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <string>
+
+#include "analytic/errors.hpp"
+
+namespace clatter::analytic::detail {
+namespace {
+
+constexpr int budget = 80;
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// GSL's solvers of one thread, allocated once; its error handler, which would abort, is switched off
+/// here and every status is looked at instead.
+struct Workspace {
+  Workspace() {
+    gsl_set_error_handler_off();
+    newton.reset(gsl_root_fdfsolver_alloc(gsl_root_fdfsolver_newton));
+  }
+  struct Free {
+    void operator()(gsl_root_fdfsolver* s) const { gsl_root_fdfsolver_free(s); }
+  };
+  std::unique_ptr<gsl_root_fdfsolver, Free> newton;
+};
+
+Workspace& workspace() {
+  thread_local Workspace space;
+  return space;
+}
+
+[[noreturn]] void give_up(const char* why, int status) {
+  throw NumericalError(std::string("root-finder: ") + why + " (" + gsl_strerror(status) + ")");
+}
+
+/// What GSL calls: evaluates, counts and remembers the last sample.
+struct Probe {
+  FunctionView f;
+  int evaluations = 0;
+  double at = 0;
+  Sample last{};
+
+  const Sample& sample(double x) {
+    if (evaluations == 0 || x != at) {
+      last = f(x);
+      at = x;
+      ++evaluations;
+    }
+    return last;
+  }
+  static double value(double x, void* probe) { return static_cast<Probe*>(probe)->sample(x).value; }
+  static double slope(double x, void* probe) { return static_cast<Probe*>(probe)->sample(x).slope; }
+  static void both(double x, void* probe, double* value, double* slope) {
+    const Sample& sample = static_cast<Probe*>(probe)->sample(x);
+    *value = sample.value;
+    *slope = sample.slope;
+  }
+};
+
+bool inside(const Bracket& bracket, double x) { return x > bracket.low && x < bracket.high; }
+
+void narrow(Bracket& bracket, const Probe& probe, bool rising) {
+  const bool below = (probe.last.value < 0) == rising;
+  (below ? bracket.low : bracket.high) = probe.at;
+}
+
+}  // namespace
+
+Root bracketed_root(FunctionView f, Bracket bracket, double guess, bool rising) {
+  Probe probe{f};
+  gsl_function_fdf function{&Probe::value, &Probe::slope, &Probe::both, &probe};
+  gsl_root_fdfsolver* const solver = workspace().newton.get();
+  double x = inside(bracket, guess) ? guess : std::midpoint(bracket.low, bracket.high);
+  int status = gsl_root_fdfsolver_set(solver, &function, x);
+  double previous_step = 0;
+  while (status == GSL_SUCCESS && probe.evaluations < budget) {
+    const double step = -probe.last.value / probe.last.slope;
+    if (probe.last.value == 0 || std::fabs(probe.last.value) <= probe.last.noise) {
+      return {x, probe.evaluations};
+    }
+    narrow(bracket, probe, rising);
+    const double next = x + step;
+    const bool stays = inside(bracket, next);
+    // Convergence is quadratic: the step after this one is about step³/previous².
+    const double ratio = previous_step == 0 ? 1 : step / previous_step;
+    const double predicted = std::fabs(step) * ratio * ratio;
+    if (stays && predicted <= 0.25 * epsilon * std::fabs(next)) return {next, probe.evaluations};
+    if (next == x || bracket.high - bracket.low <= epsilon * std::fabs(x)) {
+      return {x, probe.evaluations};
+    }
+    if (stays) {
+      status = gsl_root_fdfsolver_iterate(solver);
+      x = gsl_root_fdfsolver_root(solver);
+      previous_step = step;
+    } else {
+      x = std::midpoint(bracket.low, bracket.high);
+      status = gsl_root_fdfsolver_set(solver, &function, x);
+      previous_step = 0;
+    }
+  }
+  give_up("no convergence", status);
+}
+
+}  // namespace clatter::analytic::detail

@@ -1,0 +1,51 @@
+#include "analytic/elastic_frame.hpp"
+
+#include <cmath>
+
+namespace clatter::analytic {
+namespace {
+
+constexpr double root3 = 1.732050807568877293527446341505872367;
+constexpr double cosines[6] = {1, 0.5, -0.5, -1, -0.5, 0.5};
+/// sin(nπ/3)·2/√3
+constexpr double sines[6] = {0, 1, 1, 0, -1, -1};
+
+int wrap(int sextant) { return ((sextant % 6) + 6) % 6; }
+
+double cosine_of(int sextant, double deviation) {
+  return cosines[sextant] * std::cos(deviation) -
+         root3 / 2 * (sines[sextant] * std::sin(deviation));
+}
+
+}  // namespace
+
+ReflectionAxis reflection_axis(bool left_end, double sine, double cosine) {
+  const double c = std::fabs(cosine);
+  const double from_flat = sine * sine / (1 + c);  // 1 − c
+  const double tilt = std::atan(root3 * from_flat / (1 + 3 * c));
+  return {.sense = left_end == (cosine >= 0) ? 1 : -1,
+          .tilt = tilt,
+          .cosine = 0.5 * std::cos(tilt) + root3 / 2 * std::sin(tilt)};
+}
+
+double ElasticFrame::normal() const { return speed * cosine_of(sextant, deviation); }
+
+double ElasticFrame::angular(double length) const {
+  return speed / length *
+         (3 * sines[sextant] * std::cos(deviation) +
+          2 * root3 * (cosines[sextant] * std::sin(deviation)));
+}
+
+double ElasticFrame::contact_velocity(const ReflectionAxis& axis) const {
+  const double across = cosine_of(wrap(sextant - axis.sense), deviation + axis.sense * axis.tilt);
+  return speed * across / axis.cosine;
+}
+
+double ElasticFrame::reflect(const ReflectionAxis& axis) {
+  const double across = cosine_of(wrap(sextant - axis.sense), deviation + axis.sense * axis.tilt);
+  sextant = wrap(2 * axis.sense + 3 - sextant);
+  deviation = -2 * axis.sense * axis.tilt - deviation;
+  return -2 * speed * across * axis.cosine;
+}
+
+}  // namespace clatter::analytic

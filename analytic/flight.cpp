@@ -1,0 +1,168 @@
+#include "analytic/flight.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "analytic/detail/small_angle.hpp"
+
+namespace clatter::analytic {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double never = std::numeric_limits<double>::infinity();
+
+bool contains(VertexSet set, int vertex) { return (set >> vertex & 1) != 0; }
+
+/// Height of a vertex at the end of the flight, as a function of the inclination then.  Equal to
+/// flight.hpp (1), but written so that small inclinations keep their relative accuracy:
+///     h = α₀ A + α (x_j − x_i − A) + x_i d(α₀) − x_j d(α) + (z_j − z_i)
+///         + z_i vers α₀ − z_j vers α − g t²/2,   d(x) = x − sin x,
+///     A = V/Ω − x_i = w/Ω − x_i vers α₀ − z_i sin α₀
+/// with i the vertex that struck last, w its rebound speed and t = (α₀ − α)/Ω.
+struct FinalHeight {
+  double alpha0, rebound_term, slope, constant, gravity, angular;
+  Vertex target;
+
+  FinalHeight(const PlanarBody& body, const Departure& d, int vertex)
+      : alpha0(d.inclination), gravity(d.gravity), angular(d.angular), target(body.vertices[vertex]) {
+    const auto [x, z] = body.vertices[d.reference];
+    const double vers = detail::versine(alpha0);
+    rebound_term = d.rebound_speed / angular - x * vers - z * d.sine;
+    slope = target.x - x - rebound_term;
+    constant = alpha0 * rebound_term + x * detail::sine_deficit(alpha0) + (target.z - z) + z * vers;
+  }
+
+  /// One Newton step from `alpha`, refused where the graze makes it larger than rounding can be.
+  [[nodiscard]] double polish(double alpha) const {
+    const double t = (alpha0 - alpha) / angular;
+    const double vers = detail::versine(alpha);
+    const double height = std::fma(alpha, slope, constant) -
+                          target.x * detail::sine_deficit(alpha) - target.z * vers -
+                          gravity / 2 * t * t;
+    const double derivative =
+        slope - target.x * vers - target.z * std::sin(alpha) + gravity * t / angular;
+    const double step = height / derivative;
+    return std::fabs(step) <= 1e-8 * std::fabs(alpha0 - alpha) ? alpha - step : alpha;
+  }
+};
+
+/// Fills in the inclination, with the time to match, from the root's time.
+void finish(const PlanarBody& body, const Departure& departure, Flight& flight) {
+  Arrival& arrival = flight.arrival;
+  arrival.inclination = departure.inclination - departure.angular * arrival.time;
+  const double turned = std::fabs(departure.angular * arrival.time);
+  if (departure.angular == 0 || arrival.within_margin || !(std::fabs(arrival.inclination) < turned)) {
+    return;
+  }
+  const FinalHeight height(body, departure, arrival.vertex);
+  arrival.inclination = height.polish(arrival.inclination);
+  arrival.time = (departure.inclination - arrival.inclination) / departure.angular;
+  ++flight.evaluations;
+}
+
+/// Vertices whose height at the arrival is zero to rounding arrive together.
+VertexSet together(const std::array<VertexHeight, max_vertices>& heights, int count,
+                   const Arrival& arrival) {
+  VertexSet set = 0;
+  for (int i = 0; i < count; ++i) {
+    const auto [height, velocity, scale] = heights[i].at(arrival.time);
+    if (i == arrival.vertex || (std::fabs(height) <= 4 * epsilon * scale && velocity < 0)) {
+      set |= static_cast<VertexSet>(1u << i);
+    }
+  }
+  return set;
+}
+
+/// A touching vertex that already approaches again arrives at once.
+bool arrives_at_once(const VertexHeight& height) {
+  return height.height == 0 && height.velocity < 0;
+}
+
+bool cannot_leave(const VertexHeight& height) {
+  return height.height == 0 && height.velocity == 0 && !(height.acceleration(0) > 0);
+}
+
+class Race {
+ public:
+  Race(const PlanarBody& body, const Departure& departure) : departure_(departure) {
+    for (int i = 0; i < body.vertex_count; ++i) heights_[i] = vertex_height(body, departure, i);
+  }
+
+  /// Vertex by vertex, each only up to the earliest arrival so far; those that touch go last, since
+  /// they usually rise.
+  Flight run(const PlanarBody& body) {
+    best_ = never;
+    flight_.near_miss.clearance = never;
+    for (const bool touching : {false, true}) {
+      for (int i = 0; i < body.vertex_count; ++i) {
+        if (contains(departure_.touching, i) == touching && !enter(i)) return flight_;
+      }
+    }
+    if (flight_.end == FlightEnd::contact) {
+      flight_.arrival.vertices = together(heights_, body.vertex_count, flight_.arrival);
+      if (flight_.arrival.time > 0) finish(body, departure_, flight_);
+      else flight_.arrival.inclination = departure_.inclination;
+    }
+    return flight_;
+  }
+
+ private:
+  /// False if the flight is decided without looking further.
+  bool enter(int vertex) {
+    const VertexHeight& height = heights_[vertex];
+    if (cannot_leave(height) && departure_.gravity > 0) {
+      flight_.end = FlightEnd::stays_touching;
+      flight_.arrival.vertex = vertex;
+      return false;
+    }
+    if (arrives_at_once(height)) {
+      FirstRoot now;
+      now.time = 0;
+      take(vertex, now);
+      return true;
+    }
+    const FirstRoot root = first_root(height, best_);
+    flight_.evaluations += root.evaluations;
+    if (root.near_miss.clearance < flight_.near_miss.clearance) {
+      flight_.near_miss = root.near_miss;
+      flight_.near_miss.vertex = vertex;
+    }
+    if (root.time && *root.time < best_) take(vertex, root);
+    return true;
+  }
+
+  void take(int vertex, const FirstRoot& root) {
+    best_ = *root.time;
+    flight_.end = FlightEnd::contact;
+    flight_.arrival.time = best_;
+    flight_.arrival.vertex = vertex;
+    flight_.arrival.bracket_low = root.bracket_low;
+    flight_.arrival.bracket_high = root.bracket_high;
+    flight_.arrival.within_margin = root.within_margin;
+  }
+
+  const Departure& departure_;
+  std::array<VertexHeight, max_vertices> heights_{};
+  Flight flight_;
+  double best_ = never;
+};
+
+}  // namespace
+
+VertexHeight vertex_height(const PlanarBody& body, const Departure& departure, int vertex) {
+  const ContactPoint d = body.contact_point(vertex, departure.sine, departure.cosine);
+  const ContactPoint from = body.contact_point(departure.reference, departure.sine, departure.cosine);
+  const bool touching = contains(departure.touching, vertex);
+  const double sense = departure.angular < 0 ? -1 : 1;
+  return {.height = touching ? 0 : d.normal - from.normal,
+          .velocity = departure.rebound_speed -
+                      departure.angular * (d.tangential - from.tangential),
+          .gravity = departure.gravity,
+          .rate = std::fabs(departure.angular),
+          .versine = -d.normal,
+          .sine = sense * d.tangential};
+}
+
+Flight fly(const PlanarBody& body, const Departure& departure) { return Race(body, departure).run(body); }
+
+}  // namespace clatter::analytic

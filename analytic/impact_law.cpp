@@ -1,0 +1,165 @@
+#include "analytic/impact_law.hpp"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "analytic/coulomb_path.hpp"
+#include "analytic/errors.hpp"
+#include "analytic/impact_limits.hpp"
+
+namespace clatter::analytic {
+namespace {
+
+[[noreturn]] void refuse(const char* field, double value, const char* allowed) {
+  std::ostringstream text;
+  text.precision(17);
+  text << field << " = " << value << ": must be " << allowed;
+  throw std::domain_error(text.str());
+}
+
+[[noreturn]] void jam(double ratio, double limit) {
+  std::ostringstream text;
+  text.precision(6);
+  text << "jamming (Painlevé's paradox): the impulse ratio " << ratio
+       << " is at or beyond the limit " << limit
+       << " at which the contact point can no longer leave the ground";
+  throw OutsideModelError(text.str());
+}
+
+/// Eq. 8 for an impulse ratio as given, per unit mass.
+PathEnd ratio_impulse(const ContactInertia& inertia, double approach_speed, const ImpactLaw& law) {
+  const double ratio = law.friction == FrictionKind::none ? 0 : law.friction_value;
+  const double denominator = std::fma(-ratio, inertia.coupling, inertia.normal);
+  if (!(denominator > 0)) jam(ratio, jamming_ratio(inertia));
+  const double impulse = (1 + law.restitution) * approach_speed / denominator;
+  return {impulse, ratio * impulse, ratio == 0 ? ImpactMode::frictionless : ImpactMode::slip};
+}
+
+PathEnd point_impulse(const ContactInertia& inertia, const PathStart& start, const ImpactLaw& law) {
+  if (law.friction != FrictionKind::coulomb) {
+    return ratio_impulse(inertia, start.approach_speed, law);
+  }
+  return coulomb_path({.normal = inertia.normal,
+                       .normal_coupling = inertia.coupling,
+                       .slip_drift = inertia.coupling,
+                       .tangential = inertia.tangential},
+                      start, law);
+}
+
+/// Impulse (2) of a flat landing, per unit mass.  The body's turning, which reverses in step with the
+/// normal impulse, moves the face along the ground by ω d_n: a drift for the slip.
+PathEnd flat_impulse(const PathStart& start, double angular, double depth, const ImpactLaw& law) {
+  if (law.friction != FrictionKind::coulomb) return ratio_impulse({}, start.approach_speed, law);
+  const double impulse = (1 + law.restitution) * start.approach_speed;
+  return coulomb_path({.normal = 1,
+                       .normal_coupling = 0,
+                       .slip_drift = (1 + law.restitution) * angular * depth / impulse,
+                       .tangential = 1},
+                      start, law);
+}
+
+}  // namespace
+
+void ImpactLaw::validate() const {
+  if (!(restitution >= 0 && restitution <= 1)) {
+    refuse("restitution", restitution, "between 0 and 1");
+  }
+  if (!std::isfinite(friction_value)) refuse("friction", friction_value, "finite");
+  if (friction == FrictionKind::coulomb && !(friction_value >= 0)) {
+    refuse("friction", friction_value, "at least 0");
+  }
+}
+
+double Impact::impulse_ratio() const {
+  return normal_impulse > 0 ? tangential_impulse / normal_impulse : 0;
+}
+
+double Impact::restitution() const {
+  return approach_speed > 0 ? separation_speed / approach_speed : 0;
+}
+
+ContactInertia contact_inertia(double gyration_square, const ContactPoint& d) {
+  const double per_tangential = d.tangential / gyration_square;
+  const double per_normal = d.normal / gyration_square;
+  return {.normal = std::fma(per_tangential, d.tangential, 1.0),
+          .coupling = per_tangential * d.normal,
+          .tangential = std::fma(per_normal, d.normal, 1.0)};
+}
+
+double normal_velocity(const PlanarVelocity& v, const ContactPoint& d) {
+  return std::fma(-v.angular, d.tangential, v.normal);
+}
+
+double slip_velocity(const PlanarVelocity& v, const ContactPoint& d) {
+  return std::fma(v.angular, d.normal, v.tangential);
+}
+
+Impact strike(const PlanarBody& body, const PlanarVelocity& before, const ContactPoint& contact,
+              const ImpactLaw& law) {
+  law.validate();
+  const double u = normal_velocity(before, contact);
+  const double s = slip_velocity(before, contact);
+  Impact impact{.approach_speed = -u, .separation_speed = u, .slip_before = s, .slip_after = s,
+                .after = before};
+  if (!(u < 0)) return impact;
+
+  const ContactInertia inertia = contact_inertia(body.gyration_square, contact);
+  const auto [normal, tangential, mode] =
+      point_impulse(inertia, {.approach_speed = -u, .slip = s}, law);
+  impact.normal_impulse = body.mass * normal;
+  impact.tangential_impulse = body.mass * tangential;
+  impact.mode = mode;
+  const double turning =
+      (tangential * contact.normal - normal * contact.tangential) / body.gyration_square;
+  impact.after = {.normal = before.normal + normal,
+                  .tangential = before.tangential + tangential,
+                  .angular = before.angular + turning};
+  // Newton's law fixes the separation speed exactly; the others through the impulse.
+  const bool fixed = law.friction != FrictionKind::coulomb || law.law == RestitutionLaw::newton;
+  const double rise = inertia.normal * normal - inertia.coupling * tangential;
+  impact.separation_speed = fixed ? -law.restitution * u : u + rise;
+  impact.slip_after = mode == ImpactMode::stick || mode == ImpactMode::slip_stick
+                          ? 0
+                          : s + (inertia.tangential * tangential - inertia.coupling * normal);
+  impact.energy_loss = -(impact.normal_impulse * (u + impact.separation_speed) +
+                         impact.tangential_impulse * (s + impact.slip_after)) / 2;
+  return impact;
+}
+
+std::optional<Impact> strike_flat(const PlanarBody& body, const PlanarVelocity& before,
+                                  const ContactPoint& first, const ContactPoint& second,
+                                  const ImpactLaw& law) {
+  law.validate();
+  if (!(normal_velocity(before, first) < 0 && normal_velocity(before, second) < 0)) return {};
+  const double e = law.restitution;
+  const double depth = first.normal;
+  const PathStart start{.approach_speed = -before.normal, .slip = slip_velocity(before, first)};
+  if (!(start.approach_speed > 0)) return {};
+  const auto [normal, tangential, mode] = flat_impulse(start, before.angular, depth, law);
+
+  // Shares of the two vertices, from the angular momentum that they must supply together.
+  const double moment = tangential * depth + body.gyration_square * (1 + e) * before.angular;
+  const double of_first =
+      (moment - normal * second.tangential) / (first.tangential - second.tangential);
+  if (!(of_first >= 0 && of_first <= normal)) return {};
+
+  Impact impact{.normal_impulse = body.mass * normal,
+                .tangential_impulse = body.mass * tangential,
+                .approach_speed = start.approach_speed,
+                .separation_speed = e * start.approach_speed,
+                .slip_before = start.slip,
+                .mode = mode,
+                .after = {.normal = e * start.approach_speed,
+                          .tangential = before.tangential + tangential,
+                          .angular = -e * before.angular}};
+  impact.slip_after = slip_velocity(impact.after, first);
+  const double turning_energy = body.gyration_square * before.angular * before.angular;
+  const double normal_energy = before.normal * before.normal + turning_energy;
+  impact.energy_loss =
+      (body.mass * (1 - e) * (1 + e) * normal_energy -
+       impact.tangential_impulse * (before.tangential + impact.after.tangential)) / 2;
+  return impact;
+}
+
+}  // namespace clatter::analytic

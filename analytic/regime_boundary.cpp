@@ -1,0 +1,90 @@
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "analytic/contact_angles.hpp"
+
+namespace clatter::analytic {
+namespace {
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+/// The decisions on both sides of a boundary.
+struct Sides {
+  ContactAngles below;  ///< the impact happens
+  ContactAngles above;  ///< it does not
+};
+
+const ContactAngle& angle_of(const ContactAngles& angles, ImpactNumber impact) {
+  return impact == ImpactNumber::second ? angles.beta : angles.gamma;
+}
+
+BoundaryKind kind_of(const ContactAngle& above) {
+  switch (above.next) {
+    case NextImpact::none: return BoundaryKind::fold;
+    case NextImpact::beyond_upright: return BoundaryKind::upright;
+    default: return BoundaryKind::order;
+  }
+}
+
+/// Rounding margin of the clearance over the rate at which it opens with θ.
+double fold_uncertainty(double theta, ImpactNumber impact, const RodParameters& parameters) {
+  const double apart = 1e-6;
+  const auto clearance_at = [&](double t) {
+    return angle_of(contact_angles(Angle::from_radians(t), parameters), impact).clearance;
+  };
+  const double rate = (clearance_at(theta + 2 * apart) - clearance_at(theta + apart)) / apart;
+  constexpr double margin = 16 * std::numeric_limits<double>::epsilon();  // of a height of order L
+  return margin / rate;
+}
+
+RegimeBoundary describe(const Sides& sides, ImpactNumber impact, const RodParameters& parameters) {
+  const ContactAngle& above = angle_of(sides.above, impact);
+  const double theta = sides.below.theta.radians;
+  RegimeBoundary boundary{.kind = kind_of(above), .theta = theta, .gamma = missing};
+  // At a fold the angle of closest approach is the double root itself, free of its square root error.
+  const ContactAngles& at = boundary.kind == BoundaryKind::fold ? sides.above : sides.below;
+  boundary.beta = at.beta.angle;
+  if (impact == ImpactNumber::third) boundary.gamma = at.gamma.angle;
+  boundary.uncertainty = boundary.kind == BoundaryKind::fold
+                             ? fold_uncertainty(theta, impact, parameters)
+                             : sides.above.theta.radians - theta;
+  return boundary;
+}
+
+Sides bisect(Sides sides, ImpactNumber impact, const RodParameters& parameters) {
+  const int number = static_cast<int>(impact);
+  for (;;) {
+    const double low = sides.below.theta.radians;
+    const double high = sides.above.theta.radians;
+    const double middle = std::midpoint(low, high);
+    if (!(middle > low && middle < high)) return sides;
+    const ContactAngles angles = contact_angles(Angle::from_radians(middle), parameters);
+    (angles.impacts() >= number ? sides.below : sides.above) = angles;
+  }
+}
+
+}  // namespace
+
+RegimeBoundary regime_boundary(ImpactNumber impact, const RodParameters& parameters) {
+  const int number = static_cast<int>(impact);
+  const auto at = [&](double degrees) {
+    return contact_angles(Angle::from_degrees(degrees), parameters);
+  };
+  constexpr double step = 0.25;  // degrees; regimes narrower than this are not looked for
+  ContactAngles below = at(step / 1024);
+  RegimeBoundary boundary{.beta = missing, .gamma = missing};
+  if (below.impacts() < number) return boundary;
+  for (double degrees = step; degrees <= 90; degrees += step) {
+    const ContactAngles here = at(degrees);
+    if (here.impacts() < number) {
+      return describe(bisect({below, here}, impact, parameters), impact, parameters);
+    }
+    below = here;
+  }
+  boundary.kind = BoundaryKind::always;
+  boundary.theta = pi / 2;
+  return boundary;
+}
+
+}  // namespace clatter::analytic

@@ -1,0 +1,96 @@
+#include "analytic/restitution_map.hpp"
+
+#include <boost/math/special_functions/lambert_w.hpp>
+#include <boost/math/special_functions/log1p.hpp>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "analytic/detail/root_finder.hpp"
+
+namespace clatter::analytic {
+namespace {
+
+[[noreturn]] void refuse(const char* field, double value, const char* allowed) {
+  std::ostringstream text;
+  text.precision(17);
+  text << field << " = " << value << ": must be " << allowed;
+  throw std::domain_error(text.str());
+}
+
+/// ln(1+x) − x without cancellation.
+double log1p_minus(double x) { return boost::math::log1pmx(x); }
+
+/// atanh(s) − s by its series for |s| <= 1/4.
+double atanh_minus(double s) {
+  const double square = s * s;
+  double sum = 0;
+  for (int k = 27; k >= 3; k -= 2) sum = sum * square + 1.0 / k;
+  return s * square * sum;
+}
+
+/// z = s − s e for small s, from ln[(1+s)/(1−s)] − 2s = ln(1+q) − q + q s, q = z/(1−s): each side is
+/// of the order s³ and computed as such.
+double small_difference(double s) {
+  const double left = 2 * atanh_minus(s);
+  double q = left / s;
+  for (int i = 0; i < 4; ++i) {
+    const double residual = log1p_minus(q) + q * s - left;
+    q -= residual / (s - q / (1 + q));
+  }
+  return q * (1 - s);
+}
+
+/// y = s e from s − ln(1+s) = −y − ln(1−y); Lambert's function gives the start, and all digits for
+/// large s, where its argument is far from the branch point −1/e.
+double product(double s) {
+  const double argument = -(1 + s) * std::exp(-(1 + s));
+  double y = 1 + boost::math::lambert_w0(argument);
+  if (s > 8) return y;
+  const double left = log1p_minus(s);
+  for (int i = 0; i < 2; ++i) y += (log1p_minus(-y) - left) * (1 - y) / y;
+  return y;
+}
+
+constexpr double small = 0.25;  // atanh_minus's series is complete to double precision below this
+
+/// de/ds, from differentiating the equation of product().
+double restitution_slope(double s, double e, double loss) {
+  // d(s e)/ds = [s/(1+s)] (1−s e)/(s e); minus e, over s, with 1 − e² = loss (1+e).
+  return (loss * (1 + e) / e - s * (1 + e)) / (s * (1 + s));
+}
+
+}  // namespace
+
+double restitution_loss_of_damping(double s) {
+  if (!(s >= 0)) refuse("damping number", s, "at least 0");
+  if (s == 0) return 0;
+  if (std::isinf(s)) return 1;
+  if (s < small) return s < 1e-160 ? 2 * s / 3 : small_difference(s) / s;
+  return 1 - product(s) / s;
+}
+
+double restitution_of_damping(double s) {
+  if (s >= small && !std::isinf(s)) return product(s) / s;
+  return 1 - restitution_loss_of_damping(s);
+}
+
+double damping_of_restitution(double restitution) {
+  if (!(restitution >= 0 && restitution <= 1)) refuse("restitution", restitution, "between 0 and 1");
+  if (restitution == 1) return 0;
+  if (restitution == 0) return std::numeric_limits<double>::infinity();
+  const double loss = 1 - restitution;
+  if (loss < 1e-12) return 1.5 * loss * (1 + loss * 4.0 / 3);  // next term below loss³
+  const auto excess = [&](double s) -> detail::Sample {
+    const double lost = restitution_loss_of_damping(s);
+    const double kept = restitution_of_damping(s);
+    const double value = lost < 0.5 ? loss - lost : kept - restitution;
+    return {value, restitution_slope(s, kept, lost), 0};
+  };
+  const double limit = 1 / restitution;
+  const double guess = std::fmin(loss * (1 + restitution / 2) / restitution, limit);
+  return detail::bracketed_root(detail::FunctionView(excess), {0.9 * loss, limit}, guess, false).value;
+}
+
+}  // namespace clatter::analytic

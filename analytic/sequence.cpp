@@ -1,0 +1,278 @@
+#include "analytic/sequence.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "analytic/accumulation.hpp"
+#include "analytic/body_motion.hpp"
+#include "analytic/errors.hpp"
+#include "analytic/units.hpp"
+
+namespace clatter::analytic {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+void require(bool holds, const char* field, double value, const char* allowed) {
+  if (holds) return;
+  std::ostringstream text;
+  text.precision(17);
+  text << field << " = " << value << ": must be " << allowed;
+  throw std::domain_error(text.str());
+}
+
+void validate(const Drop& drop) {
+  drop.law.validate();
+  require(drop.inclination.radians >= 0 && drop.inclination.radians <= pi / 2, "inclination",
+          drop.inclination.degrees, "between 0 and 90 degrees");
+  require(drop.gravity >= 0 && std::isfinite(drop.gravity), "gravity", drop.gravity,
+          "at least 0 and finite");
+  require(std::isfinite(drop.velocity.normal), "normal velocity", drop.velocity.normal, "finite");
+  require(std::isfinite(drop.velocity.tangential), "tangential velocity", drop.velocity.tangential,
+          "finite");
+  require(std::isfinite(drop.velocity.angular), "spin", drop.velocity.angular, "finite");
+  require(drop.body.vertex_count >= 1, "vertex count", drop.body.vertex_count, "at least 1");
+}
+
+/// The loop of impacts, in internal units.
+class Run {
+ public:
+  Run(const Drop& drop, const SequenceOptions& options)
+      : law_(drop.law), options_(options), gravity_(drop.gravity),
+        motion_(drop.body, drop.inclination, drop.velocity, drop.gravity) {
+    result_.rows.reserve(static_cast<std::size_t>(std::min(options.impacts, 64)));
+  }
+
+  Sequence run() {
+    VertexSet arriving = motion_.lowest_vertices();
+    require_approach(arriving);
+    Flight flight;
+    Departure departure;
+    for (;;) {
+      const BodyMotion::Strike strike = record(arriving, flight, departure);
+      if (closed_form_end(strike) || extrapolated_end() || full()) break;
+      departure = motion_.departure();
+      flight = motion_.fly();
+      result_.root_evaluations += flight.evaluations;
+      if (flight.end != FlightEnd::contact) {
+        end_without_contact(flight);
+        break;
+      }
+      arriving = flight.arrival.vertices;
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void require_approach(VertexSet vertices) const {
+    double fastest = infinite;
+    for (int i = 0; i < motion_.body().vertex_count; ++i) {
+      if (!(vertices >> i & 1)) continue;
+      fastest = std::fmin(fastest, normal_velocity(motion_.velocity(), motion_.contact_point(i)));
+    }
+    if (fastest < 0) return;
+    throw std::domain_error("the first contact, end " + PlanarBody::vertex_set_name(vertices) +
+                            ", does not approach the ground: speed and spin must bring it down");
+  }
+
+  BodyMotion::Strike record(VertexSet arriving, const Flight& flight, const Departure& departure) {
+    ImpactRow row{.start = motion_.time(), .inclination = motion_.inclination(),
+                  .centre_height = motion_.centre_height(), .before = motion_.velocity(),
+                  .impact = {}, .energy_before = motion_.energy(), .amplification = missing,
+                  .flight = flight, .departure = departure};
+    row.contact_angle = acute_angle(row.inclination);
+    const BodyMotion::Strike strike = motion_.strike(arriving, law_);
+    row.vertices = strike.vertices;
+    row.impact = strike.impact;
+    row.energy_after = motion_.energy();
+    result_.total_normal_impulse += row.impact.normal_impulse;
+    if (law_.restitution < 1 && gravity_ > 0 && !result_.rows.empty()) {
+      accumulation_.add({row.vertices, flight.arrival.time, row.impact.normal_impulse,
+                         row.impact.tangential_impulse});
+    }
+    warn_of_energy(row.impact);
+    result_.rows.push_back(row);
+    return strike;
+  }
+
+  void warn_of_energy(const Impact& impact) {
+    const double kinetic = result_.rows.empty() ? 1 : result_.rows.front().energy_before;
+    if (impact.energy_loss >= -1e-14 * kinetic) return;  // rounding of an elastic impact
+    created_ -= impact.energy_loss;
+    first_creating_ = first_creating_ == 0 ? static_cast<int>(result_.rows.size()) + 1 : first_creating_;
+  }
+
+  [[nodiscard]] bool last_row() const {
+    return static_cast<int>(result_.rows.size()) >= options_.impacts;
+  }
+
+  bool full() {
+    if (!last_row()) return false;
+    result_.outcome = Outcome::impact_limit;
+    result_.message = "as many impacts as asked for; more may follow";
+    return true;
+  }
+
+  /// A bouncing that repeats itself exactly needs no more rows than asked for.
+  bool closed_form_end(const BodyMotion::Strike& strike) {
+    if (!last_row()) return false;
+    const auto tail = bouncing_tail(motion_, law_, gravity_, strike);
+    if (!tail) return false;
+    finish(*tail);
+    return true;
+  }
+
+  bool extrapolated_end() {
+    auto tail = accumulation_.extrapolate(std::pow(10.0, -options_.digits));
+    if (!tail || !undisturbed(*tail)) return false;
+    const PlanarVelocity v = motion_.velocity();
+    tail->after = v;
+    if (std::popcount(tail->vertices) == 1) {
+      const ContactPoint d = motion_.contact_point(std::countr_zero(tail->vertices));
+      const PlanarBody& body = motion_.body();
+      tail->after.angular += (tail->tangential_impulse * d.normal - tail->normal_impulse * d.tangential) /
+                             (body.mass * body.gyration_square);
+      tail->after.normal = tail->after.angular * d.tangential;
+      tail->after.tangential += tail->tangential_impulse / body.mass;
+    } else {
+      tail->after = {.tangential = v.tangential + tail->tangential_impulse / motion_.body().mass};
+    }
+    tail->end_time += motion_.time();
+    finish(*tail);
+    return true;
+  }
+
+  /// No other vertex reaches the ground before twice the remaining time has passed.
+  [[nodiscard]] bool undisturbed(const Tail& tail) const {
+    const Departure departure = motion_.departure();
+    for (int i = 0; i < motion_.body().vertex_count; ++i) {
+      if (tail.vertices >> i & 1) continue;
+      const VertexHeight height = vertex_height(motion_.body(), departure, i);
+      if (first_root(height, 2 * tail.end_time).time) return false;
+    }
+    return true;
+  }
+
+  void finish(const Tail& tail) {
+    result_.tail = tail;
+    result_.total_normal_impulse += tail.normal_impulse;
+    rest(tail.after, tail.vertices,
+         tail.closed_form ? "infinitely many impacts end in a finite time (geometric series)"
+                          : "infinitely many impacts end in a finite time (extrapolated)");
+  }
+
+  /// The contact has come to rest; has the body?
+  void rest(const PlanarVelocity& after, VertexSet vertices, const std::string& how) {
+    const bool turns = after.angular != 0;
+    result_.outcome = turns ? Outcome::sustained_contact : Outcome::at_rest;
+    result_.message = how + "; " + (turns ? "end " + PlanarBody::vertex_set_name(vertices) +
+                                                " stays on the ground while the body still turns, "
+                                                "which impacts do not describe"
+                                    : after.tangential != 0 ? "the body slides on"
+                                                            : "the body is at rest");
+  }
+
+  void end_without_contact(const Flight& flight) {
+    if (flight.end == FlightEnd::stays_touching) {
+      rest(motion_.velocity(), static_cast<VertexSet>(1u << flight.arrival.vertex),
+           "no rebound (e = 0)");
+      return;
+    }
+    result_.outcome = Outcome::no_further_impact;
+    result_.near_miss = flight.near_miss;
+    result_.message = flight.near_miss.within_margin()
+                          ? "the next impact is a graze so slight that rounding decides; taken as a miss"
+                          : "nothing reaches the ground any more";
+  }
+
+ public:
+  /// Total energy created by an impulse ratio that is not admissible, and the first impact to do so.
+  [[nodiscard]] double created() const { return created_; }
+  [[nodiscard]] int first_creating() const { return first_creating_; }
+
+ private:
+  ImpactLaw law_;
+  const SequenceOptions& options_;
+  double gravity_;
+  BodyMotion motion_;
+  Accumulation accumulation_;
+  Sequence result_;
+  double created_ = 0;
+  int first_creating_ = 0;
+};
+
+Sequence internal_sequence(const Drop& drop, const SequenceOptions& options, const Units& units) {
+  Run run(units.to_internal(drop), options);
+  Sequence sequence = run.run();
+  units.to_si(sequence);
+  if (run.first_creating() > 0) {
+    std::ostringstream text;
+    text.precision(6);
+    text << "the impulse ratio creates energy: " << units.energy(run.created())
+         << " J in all, from impact " << run.first_creating() << " on";
+    sequence.warnings.push_back(text.str());
+  }
+  return sequence;
+}
+
+double relative_change(double value, double neighbour) {
+  return value == neighbour ? 0 : std::fabs((neighbour - value) / value);
+}
+
+/// Rows of a neighbouring drop against the rows: the largest relative change over `shift`.
+void compare(Sequence& sequence, const Sequence& neighbour, double shift) {
+  bool same = true;
+  for (std::size_t i = 0; i < sequence.rows.size(); ++i) {
+    ImpactRow& row = sequence.rows[i];
+    same = same && i < neighbour.rows.size() && neighbour.rows[i].vertices == row.vertices;
+    if (!same) {
+      row.amplification = missing;
+      continue;
+    }
+    const ImpactRow& other = neighbour.rows[i];
+    const double growth =
+        std::max({relative_change(row.start, other.start),
+                  relative_change(row.contact_angle, other.contact_angle),
+                  relative_change(row.impact.normal_impulse, other.impact.normal_impulse)}) / shift;
+    row.amplification = std::fmax(row.amplification, growth);
+  }
+}
+
+/// How a small change of angle and of speed has grown by each impact.
+void add_amplification(Sequence& sequence, const Drop& drop, const SequenceOptions& options,
+                       const Units& units) {
+  constexpr double shift = 0x1p-30;  // between rounding (2⁻⁵²) and the curvature of the results
+  for (ImpactRow& row : sequence.rows) row.amplification = 0;
+  SequenceOptions same_length = options;
+  same_length.impacts = static_cast<int>(sequence.rows.size());
+  Drop faster = drop;
+  faster.velocity.normal *= 1 + shift;
+  compare(sequence, internal_sequence(faster, same_length, units), shift);
+  if (drop.inclination.radians == 0 || drop.inclination.cosine == 0) return;
+  Drop flatter = drop;
+  flatter.inclination = Angle::from_radians(drop.inclination.radians * (1 - shift));
+  compare(sequence, internal_sequence(flatter, same_length, units), shift);
+}
+
+}  // namespace
+
+void SequenceOptions::validate() const {
+  require(impacts >= 1, "impacts", impacts, "at least 1");
+  require(digits >= 1 && digits <= 15, "digits", digits, "between 1 and 15");
+}
+
+Sequence impact_sequence(const Drop& drop, const SequenceOptions& options) {
+  validate(drop);
+  options.validate();
+  const Units units(drop);
+  Sequence sequence = internal_sequence(drop, options, units);
+  if (options.amplification) add_amplification(sequence, drop, options, units);
+  return sequence;
+}
+
+}  // namespace clatter::analytic

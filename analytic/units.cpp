@@ -1,0 +1,84 @@
+#include "analytic/units.hpp"
+
+#include <cmath>
+
+namespace clatter::analytic {
+namespace {
+
+void scale(double& value, int exponent) { value = std::ldexp(value, exponent); }
+
+int exponent_of(double value) { return value == 0 ? 0 : std::ilogb(value); }
+
+}  // namespace
+
+Units::Units(const Drop& drop)
+    : length_(exponent_of(drop.body.reach())), speed_(exponent_of(drop.velocity.normal)),
+      mass_(exponent_of(drop.body.mass)) {}
+
+Drop Units::to_internal(Drop drop) const {
+  scale(drop.body.mass, -mass_);
+  scale(drop.body.gyration_square, -2 * length_);
+  for (Vertex& vertex : drop.body.vertices) {
+    scale(vertex.x, -length_);
+    scale(vertex.z, -length_);
+  }
+  scale(drop.velocity.normal, -speed_);
+  scale(drop.velocity.tangential, -speed_);
+  scale(drop.velocity.angular, length_ - speed_);
+  scale(drop.gravity, length_ - 2 * speed_);
+  return drop;
+}
+
+double Units::energy(double internal) const { return std::ldexp(internal, mass_ + 2 * speed_); }
+
+void Units::to_si(PlanarVelocity& v) const {
+  scale(v.normal, speed_);
+  scale(v.tangential, speed_);
+  scale(v.angular, speed_ - length_);
+}
+
+void Units::to_si(Impact& impact) const {
+  scale(impact.normal_impulse, mass_ + speed_);
+  scale(impact.tangential_impulse, mass_ + speed_);
+  scale(impact.approach_speed, speed_);
+  scale(impact.separation_speed, speed_);
+  scale(impact.slip_before, speed_);
+  scale(impact.slip_after, speed_);
+  scale(impact.energy_loss, mass_ + 2 * speed_);
+  to_si(impact.after);
+}
+
+void Units::to_si(ImpactRow& row) const {
+  const int time = length_ - speed_;
+  scale(row.start, time);
+  scale(row.centre_height, length_);
+  scale(row.energy_before, mass_ + 2 * speed_);
+  scale(row.energy_after, mass_ + 2 * speed_);
+  to_si(row.before);
+  to_si(row.impact);
+  scale(row.flight.arrival.time, time);
+  scale(row.flight.arrival.bracket_low, time);
+  scale(row.flight.arrival.bracket_high, time);
+  scale(row.departure.normal, speed_);
+  scale(row.departure.angular, -time);
+  scale(row.departure.gravity, 2 * speed_ - length_);
+  scale(row.departure.rebound_speed, speed_);
+}
+
+void Units::to_si(Sequence& sequence) const {
+  for (ImpactRow& row : sequence.rows) to_si(row);
+  scale(sequence.total_normal_impulse, mass_ + speed_);
+  scale(sequence.near_miss.clearance, length_);
+  scale(sequence.near_miss.margin, length_);
+  scale(sequence.near_miss.time, length_ - speed_);
+  if (!sequence.tail) return;
+  Tail& tail = *sequence.tail;
+  scale(tail.end_time, length_ - speed_);
+  scale(tail.end_time_error, length_ - speed_);
+  scale(tail.normal_impulse, mass_ + speed_);
+  scale(tail.normal_impulse_error, mass_ + speed_);
+  scale(tail.tangential_impulse, mass_ + speed_);
+  to_si(tail.after);
+}
+
+}  // namespace clatter::analytic

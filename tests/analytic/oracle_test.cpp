@@ -1,0 +1,201 @@
+// The oracles judged on their own: against tables, closed forms and each other.
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <iomanip>
+#include <map>
+#include <random>
+#include <string>
+
+#include "tests/analytic/oracle/march_oracle.hpp"
+#include "tests/analytic/oracle/reference_table.hpp"
+#include "tests/analytic/oracle/rod_oracle.hpp"
+
+namespace oracle = clatter::oracle;
+using oracle::Digits150;
+using oracle::Digits50;
+using oracle::Quantity;
+
+namespace {
+
+/// The tables print 30 significant digits; the last may be rounded either way.
+const Digits150 table_tolerance("1e-28");
+
+const std::map<std::string, Quantity> columns = {
+    {"beta_deg", oracle::beta},      {"gamma_deg", oracle::gamma},    {"P1", oracle::impulse_1},
+    {"P2", oracle::impulse_2},       {"P3", oracle::impulse_3},       {"V1", oracle::velocity_1},
+    {"Omega1", oracle::angular_1},   {"V2", oracle::velocity_2},      {"Omega2", oracle::angular_2},
+    {"V3", oracle::velocity_3},      {"Omega3", oracle::angular_3},   {"T1", oracle::time_1},
+    {"T2", oracle::time_2}};
+
+/// Times are printed for contacts within 90° only.
+bool within_upright(const oracle::RodSolution<Digits150>& solution, Quantity q) {
+  if (q == oracle::time_1) return solution.second == oracle::Contact::other_end;
+  if (q == oracle::time_2) return solution.third == oracle::Contact::other_end;
+  return true;
+}
+
+void check_row(const oracle::ReferenceRow& row) {
+  oracle::RodCase<Digits150> rod;
+  rod.theta = oracle::radians(Digits150(row.at("theta_deg")));
+  rod.gravity_number = Digits150(row.at("G"));
+  const auto solution = oracle::solve_rod(rod);
+  for (const auto& [name, quantity] : columns) {
+    const auto& value = solution.quantities[quantity];
+    const bool expected = value && within_upright(solution, quantity);
+    BOOST_TEST_CONTEXT("theta " << row.at("theta_deg") << " G " << row.at("G") << ": " << name) {
+      BOOST_TEST((row.count(name) == 1) == expected);
+      if (!expected || row.count(name) == 0) continue;
+      const Digits150 reference(row.at(name));
+      const bool angle = quantity == oracle::beta || quantity == oracle::gamma;
+      const Digits150 printed = angle ? oracle::radians(reference) : reference;
+      BOOST_TEST(abs(value->value - printed) <= table_tolerance * abs(printed));
+    }
+  }
+}
+
+void check_table(const std::string& name) {
+  const auto rows = oracle::read_reference_table(std::string(CLATTER_TEST_DATA_DIR) + "/" + name);
+  BOOST_TEST(rows.size() > 20U);
+  for (const auto& row : rows) check_row(row);
+}
+
+Digits50 degrees(const Digits50& angle) {
+  return angle * 180 / boost::math::constants::pi<Digits50>();
+}
+
+Digits50 relative_difference(const Digits50& x, const Digits50& y) { return abs(x - y) / abs(y); }
+
+const oracle::MarchBody thin_rod{1 / std::sqrt(12.0L), {{-0.5L, 0}, {0.5L, 0}}};
+
+/// The march's impacts as the rod oracle names them.
+oracle::Contact contact_of(const oracle::MarchSequence& sequence, std::size_t impact) {
+  if (sequence.impacts.size() <= impact) return oracle::Contact::none;
+  return sequence.impacts[impact].vertex == sequence.impacts[impact - 1].vertex
+             ? oracle::Contact::same_end
+             : oracle::Contact::other_end;
+}
+
+/// The march does not tell on which side of the vertical the other end strikes.
+oracle::Contact without_side(oracle::Contact contact) {
+  return contact == oracle::Contact::beyond_upright ? oracle::Contact::other_end : contact;
+}
+
+void compare_oracles(const oracle::RodCase<long double>& rod) {
+  // Both round in long double.  Rounding inside a flight grows like the condition number of the whole,
+  // but not in proportion to it; a wrong contact would be wrong by far more.
+  constexpr long double tolerance = 4096 * std::numeric_limits<long double>::epsilon();
+  const auto march = oracle::march_sequence(thin_rod, {rod.theta, -1, 0, 0}, 0,
+                                            {rod.restitution, rod.impulse_ratio, rod.gravity_number}, 3);
+  if (march.close_call) return;
+  const auto exact = oracle::solve_rod(rod);
+  BOOST_TEST((contact_of(march, 1) == without_side(exact.second)));
+  if (!exact.third) return;
+  BOOST_TEST((contact_of(march, 2) == without_side(*exact.third)));
+  if (*exact.third != oracle::Contact::other_end) return;
+  const auto impulse = exact.quantities[oracle::impulse_3]->value;
+  const auto allowed = tolerance * (1 + exact.condition(oracle::impulse_3));
+  BOOST_TEST(std::abs(march.impacts[2].impulse / impulse - 1) <= allowed);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(the_rod_oracle_reproduces_the_table_without_gravity) {
+  check_table("rod_sequence_no_gravity.csv");
+}
+
+BOOST_AUTO_TEST_CASE(the_rod_oracle_reproduces_the_table_with_gravity) {
+  check_table("rod_sequence_gravity.csv");
+}
+
+BOOST_AUTO_TEST_CASE(the_folds_lie_at_the_known_angles) {
+  const Digits50 last_digit("1e-12");  // [°], of the known values
+  const Digits50 second = oracle::elastic_fold<Digits50>(oracle::Fold::second);
+  const Digits50 third = oracle::elastic_fold<Digits50>(oracle::Fold::third);
+  BOOST_TEST_MESSAGE(std::setprecision(45) << "folds [rad] " << second << ' ' << third);
+  BOOST_TEST(abs(degrees(second) - Digits50("58.488442288312")) < last_digit);
+  BOOST_TEST(abs(degrees(third) - Digits50("27.577809606636")) < last_digit);
+}
+
+BOOST_AUTO_TEST_CASE(the_first_impulse_is_the_closed_form_of_eq_8) {
+  const Digits50 tolerance("1e-47");
+  for (const char* ratio : {"-0.3", "0", "0.3"}) {
+    const Digits50 mu(ratio), e("0.7");
+    const auto solution = oracle::solve_rod<Digits50>({Digits50("0.6"), 0, e, mu}, 1);
+    const Digits50 s = sin(Digits50("0.6")), c = cos(Digits50("0.6"));
+    const Digits50 closed_form = (1 + e) / (1 + 3 * c * c - 3 * mu * s * c);
+    BOOST_TEST(relative_difference(solution.quantities[oracle::impulse_1]->value, closed_form) <=
+               tolerance);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(small_angles_follow_the_known_expansion) {
+  // β/θ − 1/2 = (17/64) θ² (1 + O(θ²)).
+  const Digits150 theta("1e-20");
+  const auto solution = oracle::solve_rod<Digits150>({theta, 0, 1, 0});
+  const Digits150 rest = solution.quantities[oracle::beta]->value / theta - Digits150(0.5);
+  BOOST_TEST(abs(rest / (theta * theta) * 64 / 17 - 1) < Digits150("1e-38"));
+}
+
+BOOST_AUTO_TEST_CASE(the_small_angle_law_continues_the_direct_solution) {
+  const oracle::SmallAngleLaw law({});
+  const Digits150 theta("1e-20");
+  const auto direct = oracle::solve_rod<Digits150>({theta, 0, 1, 0});
+  const auto by_law = law.at(theta);
+  for (std::size_t q = 0; q < oracle::quantity_count; ++q)
+    BOOST_TEST(abs(by_law.quantities[q]->value / direct.quantities[q]->value - 1) <
+               Digits150("1e-20"));
+}
+
+BOOST_AUTO_TEST_CASE(derivatives_agree_with_central_differences) {
+  const Digits50 step("1e-15"), tolerance("1e-25");  // error (h q‴/q)² ~ 1e-30 away from folds
+  for (const char* gravity : {"0", "0.5"}) {
+    oracle::RodCase<Digits50> rod{Digits50("0.4"), Digits50(gravity), Digits50("0.9"), Digits50("0.1")};
+    const auto at = oracle::solve_rod(rod);
+    const Digits50 theta = rod.theta;
+    rod.theta = theta * (1 + step);
+    const auto above = oracle::solve_rod(rod);
+    rod.theta = theta * (1 - step);
+    const auto below = oracle::solve_rod(rod);
+    for (std::size_t q = 0; q < oracle::quantity_count; ++q) {
+      BOOST_TEST_REQUIRE(at.quantities[q].has_value());
+      const Digits50 difference =
+          (above.quantities[q]->value - below.quantities[q]->value) / (2 * step * theta);
+      BOOST_TEST(relative_difference(at.quantities[q]->slope, difference) <= tolerance);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(search_and_march_agree_on_random_rods) {
+  std::mt19937_64 random(2005);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int i = 0; i < 5000; ++i) {
+    oracle::RodCase<long double> rod;
+    rod.theta = unit(random) * std::acos(-1.0L) / 2;
+    rod.gravity_number = i % 3 == 0 ? 0 : std::pow(10.0L, -3 + 5 * unit(random));
+    rod.restitution = i % 2 == 0 ? 1 : 0.2L + 0.8L * unit(random);
+    rod.impulse_ratio = i % 5 == 0 ? 0 : 0.6L * unit(random) - 0.3L;
+    compare_oracles(rod);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_square_box_on_its_corner_bounces_in_a_geometric_series) {
+  const long double e = 0.6L, g = 2;
+  const oracle::MarchBody box{std::sqrt(1 / 6.0L),
+                              {{-0.5L, -0.5L}, {0.5L, -0.5L}, {-0.5L, 0.5L}, {0.5L, 0.5L}}};
+  const long double balanced = std::acos(-1.0L) / 4;
+  const auto sequence = oracle::march_sequence(box, {balanced, -1, 0, 0}, 0, {e, 0, g}, 4);
+  BOOST_TEST_REQUIRE(sequence.impacts.size() == 4U);
+  // The corner is balanced to 1 ulp, so the box turns by a few ulp.
+  constexpr long double tolerance = 100 * std::numeric_limits<long double>::epsilon();
+  long double time = 0;
+  long double speed = 1;
+  for (const auto& impact : sequence.impacts) {
+    BOOST_TEST(impact.vertex == 0U);
+    BOOST_TEST(std::abs(impact.time - time) <= tolerance);
+    BOOST_TEST(std::abs(impact.impulse - (1 + e) * speed) <= tolerance);
+    speed *= e;
+    time += 2 * speed / g;
+  }
+}

@@ -1,0 +1,413 @@
+#!/bin/bash
+# Tests ./clatter and tests/packages.bash in small trees of their own.  PATH
+# holds nothing but stand-ins for what installs and compiles, which note every
+# call, and links to the few tools that do neither.
+set -euo pipefail
+
+self=$(readlink -f -- "${BASH_SOURCE[0]}")
+project=${self%/tests/*}
+scratch=$(mktemp -d)
+trap 'rm -rf -- "$scratch"' EXIT
+
+# ---- stand-ins -------------------------------------------------------------
+
+# The settings of a test are files in $SETTINGS, so that they reach every process.
+stub() {  # NAME, body on standard input
+  {
+    printf '#!/bin/bash\n'
+    # shellcheck disable=SC2016  # expanded when the stand-in runs
+    printf 'printf "%%s\\n" "%s${*:+ $*}" >>"$SETTINGS/calls"\n' "$1"
+    cat
+  } >"$bin/$1"
+  chmod +x "$bin/$1"
+}
+
+make_stubs() {
+  local tool
+  mkdir -p "$bin"
+  for tool in bash cat chmod cp env find flock grep mkdir mv nproc readlink rm sleep tail touch; do
+    ln -s "$(command -v "$tool")" "$bin/$tool"
+  done
+  stub ninja </dev/null
+  stub g++ </dev/null
+  # A build reads all that it is given and makes noise; it refuses, as CMake
+  # does, a folder that was configured for another place.
+  stub cmake <<'END'
+echo "noise of cmake"; echo "complaint of cmake" >&2
+cat >/dev/null
+set -e
+mkdir -p build/release/validation
+case $* in
+  *--fresh*) echo "$PWD" >build/release/configured ;;
+  --preset*)
+    [[ ! -e build/release/configured || $(<build/release/configured) == "$PWD" ]]
+    echo "$PWD" >build/release/configured ;;
+  --build*)
+    cp "$SETTINGS/program" build/release/validation/clatter
+    [[ ! -e $SETTINGS/save_while_building ]] || { sleep 0.05; touch analytic/a.cpp; }
+    [[ ! -e $SETTINGS/build_takes ]] || sleep "$(<"$SETTINGS/build_takes")"
+    [[ ! -e $SETTINGS/build_fails ]] ;;
+esac
+END
+  stub dpkg-query <<'END'
+grep -qx -- "${*: -1}" "$SETTINGS/installed" && printf installed
+END
+  # Installing brings the tools that the test has put aside.
+  stub apt-get <<'END'
+echo "noise of apt-get"; echo "complaint of apt-get" >&2
+[[ $* != *update* ]] || { rm -f "$SETTINGS/lists_are_stale"; exit 0; }
+[[ ! -e $SETTINGS/lists_are_stale && ! -e $SETTINGS/install_fails ]] || exit 100
+for package; do echo "$package" >>"$SETTINGS/installed"; done
+shopt -s nullglob
+for tool in "$SETTINGS"/uninstalled/*; do mv "$tool" "${BASH_SOURCE[0]%/*}"; done
+END
+  stub id <<'END'
+cat "$SETTINGS/uid"
+END
+}
+
+# What is launched: shows its folder, its arguments and its input.
+write_program() {
+  cat >"$settings/program" <<'END'
+#!/bin/bash
+printf 'in %s\n' "$PWD"
+printf '<%s>\n' "$@"
+cat
+[[ ! -e $SETTINGS/program_takes ]] || exec sleep "$(<"$SETTINGS/program_takes")"
+exit "$(cat "$SETTINGS/exit_status")"
+END
+  chmod +x "$settings/program"
+  echo 0 >"$settings/exit_status"
+}
+
+# A tree that was never built, on a machine of root's that has every package.
+set_up() {
+  tree="$scratch/$1/a tree"
+  settings=$scratch/$1/settings
+  bin=$scratch/$1/bin
+  mkdir -p "$tree"/{analytic,validation/cases,tests} "$settings/uninstalled"
+  cp "$project/clatter" "$tree"
+  cp "$project/tests/packages.bash" "$tree/tests"
+  touch "$tree"/{CMakeLists.txt,CMakePresets.json,analytic/a.cpp,analytic/b.cpp}
+  make_stubs
+  write_program
+  echo 0 >"$settings/uid"
+  printf '%s\n' libgsl-dev libboost-dev libcli11-dev nlohmann-json3-dev libfmt-dev \
+    >"$settings/installed"
+  cd "$scratch/$1"
+}
+
+# ---- steps and expectations ------------------------------------------------
+
+with_stubs() { env -i PATH="$bin" SETTINGS="$settings" "$@"; }
+
+launch_as() {  # LAUNCHER ARGS...; leaves $status, the files out and err, and calls
+  : >"$settings/calls"
+  status=0
+  with_stubs "$@" >"$settings/out" 2>"$settings/err" </dev/null || status=$?
+}
+
+launch() { launch_as "$tree/clatter" "$@"; }
+
+build_first() {
+  launch
+  expect "status of the first launch" 0 "$status"
+  sleep 0.05  # so that what is saved from now on is newer by the file system's clock
+}
+
+expect() {  # WHAT WANTED FOUND
+  [[ $3 == "$2" ]] && return
+  printf '    %s\n      wanted: %s\n      found:  %s\n' "$1" "$2" "$3"
+  exit 1
+}
+
+calls() { grep -c -- "$1" "$settings/calls" || true; }
+
+expect_calls() {  # COUNT PATTERN
+  expect "number of calls '$2' among: $(<"$settings/calls")" "$1" "$(calls "$2")"
+}
+
+wait_for() {  # FILE, 10 s at most
+  local tries=500
+  until [[ -e $1 ]]; do
+    ((tries--)) || expect "existence of" "$1" "nothing after 10 s"
+    sleep 0.02
+  done
+}
+
+expect_no_program() {
+  expect "exit status" 3 "$status"
+  expect "standard output" "" "$(<"$settings/out")"
+}
+
+remove_package() {
+  grep -vx -- "$1" "$settings/installed" >"$settings/rest"
+  mv "$settings/rest" "$settings/installed"
+}
+
+remove_tool() { mv "$bin/$1" "$settings/uninstalled/"; }
+
+become_user() { echo 1000 >"$settings/uid"; }
+
+add_sudo() {
+  stub sudo <<'END'
+exec "$@"
+END
+}
+
+# ---- the claims ------------------------------------------------------------
+
+test_first_launch_builds_and_runs() {
+  launch sequence
+  expect "exit status" 0 "$status"
+  expect_calls 1 "cmake --preset release"
+  expect_calls 1 "cmake --build --preset release"
+  expect_calls 0 "apt-get"
+  expect "standard error" "clatter: building (first run, about a minute) ..." \
+    "$(<"$settings/err")"
+}
+
+test_nothing_is_called_when_nothing_changed() {
+  build_first
+  launch sequence
+  expect "calls" "" "$(<"$settings/calls")"
+  expect "standard error" "" "$(<"$settings/err")"
+}
+
+test_saved_source_is_built() {
+  build_first
+  echo changed >"$tree/analytic/a.cpp"
+  launch
+  expect_calls 1 "cmake --build"
+  launch
+  expect_calls 0 "cmake"
+}
+
+test_added_source_is_built() {
+  build_first
+  touch "$tree/validation/cases/new.toml"
+  launch
+  expect_calls 1 "cmake --build"
+}
+
+test_deleted_source_is_noticed() {
+  build_first
+  rm "$tree/analytic/b.cpp"
+  launch
+  expect_calls 1 "cmake --build"
+}
+
+test_changed_presets_are_noticed() {
+  build_first
+  touch "$tree/CMakePresets.json"
+  launch
+  expect_calls 1 "cmake --build"
+}
+
+test_source_saved_during_a_build_is_built_by_the_next_launch() {
+  touch "$settings/save_while_building"
+  launch
+  rm "$settings/save_while_building"
+  launch
+  expect_calls 1 "cmake --build"
+}
+
+test_failed_build_does_not_run_the_stale_program() {
+  build_first
+  touch "$tree/analytic/a.cpp" "$settings/build_fails"
+  launch
+  expect_no_program
+  expect "the compiler's words in standard error" 1 \
+    "$(grep -c -m 1 "complaint of cmake" "$settings/err")"
+  launch
+  expect_no_program
+  rm "$settings/build_fails"
+  launch
+  expect "exit status" 0 "$status"
+}
+
+test_program_left_by_a_failed_build_is_not_run() {
+  build_first
+  rm "$tree/build/release/validation/clatter"
+  touch "$settings/build_fails"
+  launch
+  launch
+  expect_no_program
+}
+
+test_interrupted_build_is_not_taken_for_finished() {
+  echo 20 >"$settings/build_takes"
+  set -m  # a process group of its own, as a terminal gives
+  with_stubs "$tree/clatter" >"$settings/out" 2>"$settings/err" </dev/null &
+  wait_for "$tree/build/release/validation/clatter"
+  kill -INT -- "-$!"
+  status=0
+  wait $! || status=$?
+  set +m
+  expect "exit status" 130 "$status"
+  expect "standard output" "" "$(<"$settings/out")"
+  rm "$settings/build_takes"
+  launch
+  expect_calls 1 "cmake --build"
+  expect "exit status" 0 "$status"
+}
+
+test_two_launches_at_once_build_once() {
+  echo 0.3 >"$settings/build_takes"
+  : >"$settings/calls"
+  with_stubs "$tree/clatter" one >"$settings/one" 2>/dev/null </dev/null &
+  with_stubs "$tree/clatter" two >"$settings/two" 2>/dev/null </dev/null
+  wait $!
+  expect_calls 1 "cmake --build"
+  expect "output of one" 1 "$(grep -c '<one>' "$settings/one")"
+  expect "output of two" 1 "$(grep -c '<two>' "$settings/two")"
+}
+
+test_running_program_does_not_hold_up_a_build() {
+  echo 5 >"$settings/program_takes"
+  with_stubs "$tree/clatter" >"$settings/one" 2>/dev/null </dev/null &
+  wait_for "$tree/build/release/built"
+  rm "$settings/program_takes"
+  sleep 0.1
+  touch "$tree/analytic/a.cpp"
+  launch
+  expect_calls 1 "cmake --build"
+  expect "whether the first program still runs" 0 "$(kill -0 $! && echo 0)"
+  kill $!
+}
+
+test_moved_tree_is_configured_afresh() {
+  build_first
+  mv "$tree" "$tree moved"
+  tree+=" moved"
+  launch
+  expect "exit status" 0 "$status"
+  expect_calls 1 "cmake --fresh --preset release"
+  expect_calls 1 "cmake --build"
+}
+
+test_build_folder_that_cannot_be_written_is_named() {
+  touch "$tree/build"
+  launch
+  expect_no_program
+  expect "standard error" \
+    "clatter: cannot write to $tree/build; copy the folder to a place of your own and start it there" \
+    "$(<"$settings/err")"
+}
+
+test_arguments_and_exit_status_pass_through() {
+  echo 4 >"$settings/exit_status"
+  launch plain "two words" "" "*" --flag=$'a\nb'
+  expect "exit status" 4 "$status"
+  expect "arguments" $'<plain>\n<two words>\n<>\n<*>\n<--flag=a\nb>' \
+    "$(tail -n +2 "$settings/out")"
+}
+
+test_input_reaches_the_program_whole() {
+  expect "output" "<->|line 1|line 2" \
+    "$(printf 'line 1\nline 2' | with_stubs "$tree/clatter" - 2>/dev/null |
+      tail -n +2 | tr '\n' '|')"
+}
+
+test_standard_output_is_the_programs_alone() {
+  remove_package libgsl-dev
+  launch x
+  expect "standard output" "in $PWD"$'\n<x>' "$(<"$settings/out")"
+}
+
+test_symbolic_link_finds_the_tree() {
+  mkdir elsewhere
+  ln -s "../a tree/clatter" elsewhere/drop
+  cd elsewhere
+  launch_as ./drop x
+  expect "exit status" 0 "$status"
+  expect "standard output" "in $PWD"$'\n<x>' "$(<"$settings/out")"
+}
+
+test_root_installs_all_that_is_missing_at_once() {
+  : >"$settings/installed"
+  remove_tool cmake
+  remove_tool ninja
+  remove_tool g++
+  launch
+  expect "exit status" 0 "$status"
+  expect_calls 1 "apt-get"
+  expect "what is installed" "cmake ninja-build g++ libgsl-dev libboost-dev libcli11-dev\
+ nlohmann-json3-dev libfmt-dev" "$(sed -n 's/^apt-get .*--no-install-recommends //p' \
+    "$settings/calls")"
+}
+
+test_only_what_is_missing_is_installed() {
+  remove_package libfmt-dev
+  launch
+  expect "what is installed" "libfmt-dev" "$(sed -n 's/^apt-get .*--no-install-recommends //p' \
+    "$settings/calls")"
+  expect_calls 0 "apt-get.* update"
+}
+
+test_stale_package_lists_are_renewed_once() {
+  remove_package libgsl-dev
+  touch "$settings/lists_are_stale"
+  launch
+  expect "exit status" 0 "$status"
+  expect_calls 2 "apt-get.* install .*libgsl-dev"
+  expect_calls 1 "apt-get.* update"
+}
+
+test_failed_installation_builds_nothing() {
+  remove_package libgsl-dev
+  touch "$settings/install_fails"
+  launch
+  expect_no_program
+  expect_calls 2 "apt-get.* install"
+  expect_calls 0 "cmake"
+  expect "apt-get's words in standard error" 1 \
+    "$(grep -c -m 1 "complaint of apt-get" "$settings/err")"
+}
+
+test_user_installs_through_sudo() {
+  become_user
+  add_sudo
+  remove_package libgsl-dev
+  launch
+  expect "exit status" 0 "$status"
+  expect_calls 1 "sudo env DEBIAN_FRONTEND=noninteractive apt-get"
+  expect_calls 1 "^apt-get"
+}
+
+test_user_without_sudo_is_told_one_line_to_run() {
+  become_user
+  remove_package libgsl-dev
+  remove_package libfmt-dev
+  launch
+  expect_no_program
+  expect_calls 0 "apt-get"
+  expect_calls 0 "cmake"
+  expect "line to run" \
+    "apt-get update && apt-get install -y --no-install-recommends libgsl-dev libfmt-dev" \
+    "$(grep apt-get "$settings/err")"
+}
+
+test_system_without_dpkg_just_builds() {
+  rm "$bin/dpkg-query"
+  : >"$settings/installed"
+  launch
+  expect "exit status" 0 "$status"
+  expect_calls 0 "apt-get"
+}
+
+# ---- run them --------------------------------------------------------------
+
+failures=0
+for name in $(compgen -A function test_); do
+  claim=${name#test_}
+  # In the background a failed step ends its test: set -e would sleep in an `if`.
+  (set_up "$claim"; "$name") >"$scratch/report" 2>&1 &
+  if wait $!; then
+    printf 'ok      %s\n' "${claim//_/ }"
+  else
+    printf 'FAILED  %s\n%s\n' "${claim//_/ }" "$(<"$scratch/report")"
+    failures=$((failures + 1))
+  fi
+done
+((failures == 0))

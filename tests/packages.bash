@@ -1,0 +1,69 @@
+# The Debian packages that the program and its tests need, and how they get here.
+# Sourced by ./clatter and tests/run; the caller sets `speaker`, its name in
+# messages, and `log`, the file that takes apt-get's output.
+
+: "${speaker:?}" "${log:?}"
+
+# Each header package brings the library that it belongs to.  libboost-dev is
+# Debian's own version (1.74 on Debian 12) and holds Math and Multiprecision.
+# shellcheck disable=SC2034  # both lists are read by the callers
+program_packages=(cmake ninja-build g++ libgsl-dev libboost-dev libcli11-dev nlohmann-json3-dev
+                  libfmt-dev)
+# shellcheck disable=SC2034
+test_packages=(libboost-test-dev libbenchmark-dev)
+
+say() { printf '%s: %s\n' "$speaker" "$*" >&2; }
+
+show_log() { tail -n 40 -- "$log" >&2; }
+
+has_command() { command -v "$1" >/dev/null; }
+
+# A tool counts from wherever it comes; a library must be Debian's.
+is_present() {
+  case $1 in
+    cmake | g++) has_command "$1" && return ;;
+    ninja-build) has_command ninja && return ;;
+  esac
+  [[ $(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null) == installed* ]]
+}
+
+# Without a terminal nobody can answer questions, so apt-get must ask none; it
+# waits when another package manager is at work.
+apt_get() {
+  local command=(env DEBIAN_FRONTEND=noninteractive
+                 apt-get -y -o DPkg::Lock::Timeout=300 "$@")
+  [[ $(id -u) == 0 ]] || command=(sudo "${command[@]}")
+  "${command[@]}" </dev/null >>"$log" 2>&1
+}
+
+# Most machines know their packages, so the lists are renewed only when they
+# turn out to be missing or stale.
+apt_install() {
+  local install=(install --no-install-recommends "$@")
+  apt_get "${install[@]}" || { apt_get update && apt_get "${install[@]}"; }
+}
+
+say_what_to_run() {
+  say "Debian packages are missing; run this as root, then try again:"
+  printf 'apt-get update && apt-get install -y --no-install-recommends %s\n' "$*" >&2
+}
+
+# Installs those of the named packages that are missing, in one go.  On a system
+# without dpkg it does nothing: CMake will name what it does not find.
+install_missing() {
+  local package missing=()
+  has_command dpkg-query || return 0
+  for package; do
+    is_present "$package" || missing+=("$package")
+  done
+  ((${#missing[@]})) || return 0
+  if [[ $(id -u) != 0 ]] && ! has_command sudo; then
+    say_what_to_run "${missing[@]}"
+    return 1
+  fi
+  say "installing ${missing[*]} ..."
+  apt_install "${missing[@]}" && return
+  show_log
+  say_what_to_run "${missing[@]}"
+  return 1
+}
