@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "analytic/elastic_offsets.hpp"
+
 namespace clatter::analytic {
 namespace {
 
@@ -29,7 +31,7 @@ Pair outermost(const BodyMotion& motion, VertexSet set) {
 BodyMotion::BodyMotion(const PlanarBody& body, const Angle& inclination,
                        const PlanarVelocity& velocity, double gravity)
     : body_(body), gravity_(gravity), inclination_(inclination.radians), sine_(inclination.sine),
-      cosine_(inclination.cosine), remainder_(velocity) {
+      cosine_(inclination.cosine), initial_(inclination), remainder_(velocity) {
   if (body.uniform_thin_rod && velocity.normal < 0) {
     frame_ = {.speed = -velocity.normal, .sextant = 3};
     remainder_.normal = 0;
@@ -94,8 +96,10 @@ BodyMotion::Strike BodyMotion::strike(VertexSet vertices, const ImpactLaw& law) 
 Impact BodyMotion::strike_point(int vertex, const ImpactLaw& law) {
   const ContactPoint d = contact_point(vertex);
   Impact impact = analytic::strike(body_, velocity(), d, law);
-  if (frame_.speed != 0) strike_framed(vertex, impact);
-  else remainder_ = impact.after;
+  if (impact.approach_speed > 0) {
+    if (frame_.speed != 0) strike_framed(vertex, impact);
+    else remainder_ = impact.after;
+  }
   touching_ = only(vertex);
   reference_ = vertex;
   rebound_speed_ = impact.separation_speed;
@@ -140,9 +144,10 @@ Departure BodyMotion::departure() const {
 }
 
 Flight BodyMotion::fly() {
-  const Flight flight = analytic::fly(body_, departure());
+  Flight flight = analytic::fly(body_, departure());
   if (flight.end != FlightEnd::contact) return flight;
-  const Arrival& arrival = flight.arrival;
+  Arrival& arrival = flight.arrival;
+  refine(arrival);
   time_ += arrival.time;
   remainder_.normal -= gravity_ * arrival.time;
   if (arrival.time > 0 && arrival.inclination != inclination_) {
@@ -152,6 +157,28 @@ Flight BodyMotion::fly() {
   }
   centre_height_ = -contact_point(arrival.vertex).normal;
   return flight;
+}
+
+/// The first two flights of a thin rod that is carried by its frame alone, a → b → a, have their angles
+/// from elastic_offsets.hpp.
+void BodyMotion::refine(Arrival& arrival) {
+  const bool on_frame = frame_.speed != 0 && gravity_ == 0 && remainder_.normal == 0 &&
+                        remainder_.angular == 0 && initial_.radians > 0;
+  const bool expected = arrival.vertex == (elastic_flights_ == 0 ? 1 : 0) && arrival.time > 0 &&
+                        std::fabs(arrival.inclination) < pi / 2 && !arrival.within_margin;
+  if (!on_frame || !expected || elastic_flights_ < 0 || elastic_flights_ > 1) {
+    elastic_flights_ = -1;
+    return;
+  }
+  const double found = std::fabs(arrival.inclination);
+  const double before = std::fabs(inclination_);
+  offset_ = elastic_flights_ == 0 ? first_offset(initial_, found)
+                                  : second_offset(initial_, offset_, found);
+  const double angle = elastic_flights_ == 0 ? initial_.radians / 2 + offset_
+                                             : initial_.radians + offset_;
+  arrival.inclination = std::copysign(angle, arrival.inclination);
+  arrival.time = (before + angle) / std::fabs(velocity().angular);
+  ++elastic_flights_;
 }
 
 double BodyMotion::energy() const {

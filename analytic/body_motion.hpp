@@ -1,6 +1,8 @@
 // A planar body on its way from impact to impact.
 #pragma once
 
+#include <optional>
+
 #include "analytic/angle.hpp"
 #include "analytic/elastic_frame.hpp"
 #include "analytic/flight.hpp"
@@ -48,6 +50,10 @@ class BodyMotion {
   /// Translational, rotational and potential energy.
   [[nodiscard]] double energy() const;
   [[nodiscard]] const ElasticFrame& frame() const { return frame_; }
+  /// γ − θ after the second flight of an elastic, frictionless, gravity-free thin rod.
+  [[nodiscard]] std::optional<double> elastic_offset() const {
+    return elastic_flights_ == 2 ? std::optional(offset_) : std::nullopt;
+  }
   /// Velocity beyond the frame's.
   [[nodiscard]] const PlanarVelocity& remainder() const { return remainder_; }
   [[nodiscard]] const PlanarBody& body() const { return body_; }
@@ -56,12 +62,16 @@ class BodyMotion {
   Impact strike_point(int vertex, const ImpactLaw& law);
   void strike_framed(int vertex, Impact& impact);
   void collapse_frame();
+  void refine(Arrival& arrival);
 
   PlanarBody body_;
   double gravity_;
   double inclination_, sine_, cosine_;
   double time_ = 0;
   double centre_height_ = 0;
+  Angle initial_;
+  int elastic_flights_ = 0;  ///< flights so far on the frame alone; −1: it has been left
+  double offset_ = 0;        ///< η or ε (elastic_offsets.hpp) of the last of them
   ElasticFrame frame_;
   PlanarVelocity remainder_;
   VertexSet touching_ = 0;

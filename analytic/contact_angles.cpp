@@ -34,8 +34,8 @@ ImpactLaw impact_law(const RodParameters& parameters) {
           .friction_value = parameters.impulse_ratio};
 }
 
-/// Reads a flight as the decision about the next contact angle; `inclination` is the one at its end, or
-/// at the closest approach.
+/// Reads a flight as the decision about the next contact angle; `inclination` is the one at its end or
+/// at the closest approach, counted on from the departure without reducing whole turns.
 ContactAngle decide(const Flight& flight, int other_end, double inclination) {
   ContactAngle result{.evaluations = flight.evaluations};
   if (flight.end == FlightEnd::stays_touching) {
@@ -54,39 +54,6 @@ ContactAngle decide(const Flight& flight, int other_end, double inclination) {
                                                      : NextImpact::beyond_upright;
   }
   return result;
-}
-
-/// sin(a + x) − sin a.
-double sine_rise(double a, double x) { return 2 * std::cos(a + x / 2) * std::sin(x / 2); }
-
-/// Solves sin(a+x) − sin a − K x = rise for small x by Newton's method from `guess`.
-double solve_offset(double a, double k, double rise, double guess) {
-  double x = guess;
-  for (int i = 0; i < 2; ++i) {
-    x -= (sine_rise(a, x) - k * x - rise) / (std::cos(a + x) - k);
-  }
-  return x;
-}
-
-/// γ − θ for e = 1, μ_i = 0, G = 0.  With β = θ/2 + η, γ = θ + ε, K₁ = −1/3 + k₁, K₂ = 1/3 + k₂ and
-/// d(x) = x − sin x, the two contact equations lose all their terms of first order:
-///     sin(θ/2 + η) − sin(θ/2) − K₁ η = (3/2) k₁ θ − d(θ) + d(θ/2),
-///     sin(θ + ε) − sin θ − K₂ ε = (3/2) k₂ θ + (1 + K₂) η + d(θ) − d(β).
-double gamma_minus_theta(const Angle& theta, double beta, double gamma) {
-  const double t = theta.radians;
-  const double c = theta.cosine;
-  const double k1 = theta.sine * theta.sine / (1 + c) * (1 + 3 * c) / (6 * c);
-  const double rise1 = 1.5 * k1 * t - detail::sine_deficit(t) + detail::sine_deficit(t / 2);
-  const double eta = solve_offset(t / 2, k1 - 1.0 / 3, rise1, beta - t / 2);
-
-  const double tilt1 = reflection_axis(true, theta.sine, c).tilt;
-  const double tilt2 = reflection_axis(false, std::sin(beta), std::cos(beta)).tilt;
-  const double root3 = std::sqrt(3.0);
-  const double tangent = std::tan(2 * (tilt1 + tilt2));
-  const double k2 = 4 * root3 * tangent / (3 * (3 - root3 * tangent));
-  const double rise2 = 1.5 * k2 * t + (k2 + 4.0 / 3) * eta + detail::sine_deficit(t) -
-                       detail::sine_deficit(beta);
-  return solve_offset(t, k2 + 1.0 / 3, rise2, gamma - t);
 }
 
 /// 2 − ΣP = 1 − V₃ − G (T₁ + T₂), with 1 − V₃ = 2 sin²(deviation/2) where the frame has come round.
@@ -121,7 +88,8 @@ class Chain {
     if (result_.gamma.next != NextImpact::other_end) return result_;
     strike(2, end_a);
     result_.impulse_deficit = impulse_deficit(motion_, result_, parameters_.gravity_number);
-    result_.gamma_minus_theta = offset();
+    result_.gamma_minus_theta =
+        motion_.elastic_offset().value_or(result_.gamma.angle - result_.theta.radians);
     return result_;
   }
 
@@ -139,15 +107,7 @@ class Chain {
     const bool missed = flight.end == FlightEnd::no_contact;
     return decide(flight, other_end,
                   missed ? departure.inclination - departure.angular * flight.near_miss.time
-                         : motion_.inclination());
-  }
-
-  [[nodiscard]] double offset() const {
-    const double beta = result_.beta.angle;
-    const double gamma = result_.gamma.angle;
-    const bool plain = parameters_.gravity_number == 0 && parameters_.restitution == 1 &&
-                       parameters_.impulse_ratio == 0;
-    return plain ? gamma_minus_theta(result_.theta, beta, gamma) : gamma - result_.theta.radians;
+                         : flight.arrival.inclination);
   }
 
   const RodParameters& parameters_;

@@ -21,7 +21,7 @@ struct RodParameters {
 /// What comes after an impact.
 enum class NextImpact {
   other_end,       ///< the other end strikes at a contact angle of at most 90°
-  beyond_upright,  ///< the other end strikes after the rod has passed the vertical
+  beyond_upright,  ///< the other end strikes after the rod has turned past the vertical
   same_end,        ///< the end that struck strikes again first
   none,            ///< nothing strikes any more
   stays_touching,  ///< the end does not leave the ground (e = 0)

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "analytic/detail/small_angle.hpp"
+
 namespace clatter::analytic {
 namespace {
 
@@ -12,9 +14,14 @@ constexpr double sines[6] = {0, 1, 1, 0, -1, -1};
 
 int wrap(int sextant) { return ((sextant % 6) + 6) % 6; }
 
-double cosine_of(int sextant, double deviation) {
-  return cosines[sextant] * std::cos(deviation) -
+/// cos(nπ/3) − cos(nπ/3 + deviation): the exact part is left out, so that it can be added last.
+double shortfall(int sextant, double deviation) {
+  return cosines[sextant] * detail::versine(deviation) +
          root3 / 2 * (sines[sextant] * std::sin(deviation));
+}
+
+double cosine_of(int sextant, double deviation) {
+  return cosines[sextant] - shortfall(sextant, deviation);
 }
 
 }  // namespace
@@ -32,7 +39,7 @@ double ElasticFrame::normal() const { return speed * cosine_of(sextant, deviatio
 
 double ElasticFrame::angular(double length) const {
   return speed / length *
-         (3 * sines[sextant] * std::cos(deviation) +
+         (3 * sines[sextant] * (1 - detail::versine(deviation)) +
           2 * root3 * (cosines[sextant] * std::sin(deviation)));
 }
 
@@ -42,10 +49,14 @@ double ElasticFrame::contact_velocity(const ReflectionAxis& axis) const {
 }
 
 double ElasticFrame::reflect(const ReflectionAxis& axis) {
-  const double across = cosine_of(wrap(sextant - axis.sense), deviation + axis.sense * axis.tilt);
+  // 2 cos(χ − ψ) cos ψ = cos χ + cos(χ − 2ψ)
+  const int mirrored = wrap(sextant - 2 * axis.sense);
+  const double exact = cosines[sextant] + cosines[mirrored];
+  const double small = shortfall(sextant, deviation) +
+                       shortfall(mirrored, deviation + 2 * axis.sense * axis.tilt);
   sextant = wrap(2 * axis.sense + 3 - sextant);
   deviation = -2 * axis.sense * axis.tilt - deviation;
-  return -2 * speed * across * axis.cosine;
+  return speed * (small - exact);
 }
 
 }  // namespace clatter::analytic

@@ -119,11 +119,15 @@ Impact strike(const PlanarBody& body, const PlanarVelocity& before, const Contac
   const bool fixed = law.friction != FrictionKind::coulomb || law.law == RestitutionLaw::newton;
   const double rise = inertia.normal * normal - inertia.coupling * tangential;
   impact.separation_speed = fixed ? -law.restitution * u : u + rise;
+  const double turned = impact.after.angular * contact.tangential;
+  if (fixed && 2 * std::fabs(turned) <= impact.separation_speed) {  // near upright: no cancellation
+    impact.after.normal = impact.separation_speed + turned;
+  }
   impact.slip_after = mode == ImpactMode::stick || mode == ImpactMode::slip_stick
                           ? 0
                           : s + (inertia.tangential * tangential - inertia.coupling * normal);
-  impact.energy_loss = -(impact.normal_impulse * (u + impact.separation_speed) +
-                         impact.tangential_impulse * (s + impact.slip_after)) / 2;
+  impact.energy_loss = (0 - impact.normal_impulse * (u + impact.separation_speed) -
+                        impact.tangential_impulse * (s + impact.slip_after)) / 2;
   return impact;
 }
 
@@ -152,7 +156,7 @@ std::optional<Impact> strike_flat(const PlanarBody& body, const PlanarVelocity& 
                 .mode = mode,
                 .after = {.normal = e * start.approach_speed,
                           .tangential = before.tangential + tangential,
-                          .angular = -e * before.angular}};
+                          .angular = 0 - e * before.angular}};
   impact.slip_after = slip_velocity(impact.after, first);
   const double turning_energy = body.gyration_square * before.angular * before.angular;
   const double normal_energy = before.normal * before.normal + turning_energy;

@@ -40,12 +40,14 @@ class Search {
     // Where in its period the curvature stands at the start.
     const double place = std::remainder(h_.rate * start - phase_, 2 * pi);
     bool convex = std::fabs(place) < half_width_ || half_width_ == pi;
-    double boundary = start + (convex ? half_width_ - place
-                                      : (place > 0 ? 2 * pi : 0) - half_width_ - place) / h_.rate;
+    const double left = convex ? half_width_ - place
+                               : (place > 0 ? 2 * pi : 0) - half_width_ - place;
+    double boundary = start + std::fmax(left, 0) / h_.rate;
     if (half_width_ == 0 || half_width_ == pi) boundary = never;
     while (node.t < end) {
       const double stop = std::min(boundary, end);
-      if (convex ? convex_piece(node, stop) : concave_piece(node, stop)) return true;
+      const bool empty = !(stop > node.t);  // a piece no longer than rounding
+      if (!empty && (convex ? convex_piece(node, stop) : concave_piece(node, stop))) return true;
       convex = !convex;
       boundary += 2 * (convex ? half_width_ : pi - half_width_) / h_.rate;
     }
