@@ -73,7 +73,10 @@ write_program() {
 printf 'in %s\n' "$PWD"
 printf '<%s>\n' "$@"
 cat
-[[ ! -e $SETTINGS/program_takes ]] || exec sleep "$(<"$SETTINGS/program_takes")"
+[[ ! -e $SETTINGS/program_takes ]] || {
+  touch "$SETTINGS/running"
+  exec sleep "$(<"$SETTINGS/program_takes")"
+}
 exit "$(cat "$SETTINGS/exit_status")"
 END
   chmod +x "$settings/program"
@@ -266,9 +269,9 @@ test_two_launches_at_once_build_once() {
 test_running_program_does_not_hold_up_a_build() {
   echo 5 >"$settings/program_takes"
   with_stubs "$tree/clatter" >"$settings/one" 2>/dev/null </dev/null &
-  wait_for "$tree/build/release/built"
+  wait_for "$settings/running"
   rm "$settings/program_takes"
-  sleep 0.1
+  sleep 0.05
   touch "$tree/analytic/a.cpp"
   launch
   expect_calls 1 "cmake --build"

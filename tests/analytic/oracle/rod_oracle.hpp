@@ -36,6 +36,20 @@ struct RodCase {
   Real impulse_ratio = 0;  ///< P_t = μ_i P_n in the world frame
 };
 
+/// What derivatives are taken with respect to.
+enum class Parameter { theta, gravity_number, restitution, impulse_ratio };
+
+template <class Real>
+Real value_of(const RodCase<Real>& rod, Parameter parameter) {
+  switch (parameter) {
+    case Parameter::theta: return rod.theta;
+    case Parameter::gravity_number: return rod.gravity_number;
+    case Parameter::restitution: return rod.restitution;
+    case Parameter::impulse_ratio: break;
+  }
+  return rod.impulse_ratio;
+}
+
 enum class End : int { a = -1, b = 1 };
 
 inline End other(End end) { return end == End::a ? End::b : End::a; }
@@ -62,19 +76,19 @@ inline constexpr std::array<const char*, quantity_count> quantity_names = {
     "beta", "gamma", "P1", "P2", "P3", "V1", "V2", "V3", "Omega1", "Omega2", "Omega3", "T1", "T2",
     "gamma_minus_theta", "impulse_deficit"};
 
-/// Every quantity of the impacts that happen, with its derivative with respect to θ.
+/// Every quantity of the impacts that happen, with its derivative with respect to one parameter p.
 template <class Real>
 struct RodSolution {
-  Real theta = 0;
+  Real parameter = 0;  ///< value of p
   Contact second = Contact::none;
   std::optional<Contact> third;  ///< set if second == other_end
   Real clearance = 0;            ///< least height at a turning point of the last flight, if `none`
   std::array<std::optional<Dual<Real>>, quantity_count> quantities;
 
-  /// κ = |θ q′(θ)/q|.
+  /// κ = |p q′(p)/q|.
   [[nodiscard]] Real condition(Quantity q) const {
     using std::abs;
-    return abs(theta * quantities[q]->slope / quantities[q]->value);
+    return abs(parameter * quantities[q]->slope / quantities[q]->value);
   }
 };
 
@@ -136,16 +150,23 @@ std::array<Dual<Real>, 4> solve_linear(std::array<std::array<Dual<Real>, 5>, 4> 
   return x;
 }
 
+template <class Number>
+struct RodLaw {
+  Number restitution;
+  Number impulse_ratio;
+};
+
 /// Eq. 8 in the unknowns V_n, V_t, Ω, P_n, for the velocities in `before` (its time is the impact).
 template <class Real>
 RodImpulse<Dual<Real>> strike(const RodFlight<Dual<Real>>& before, End end,
-                              const RodCase<Real>& rod) {
+                              const RodLaw<Dual<Real>>& law) {
   using D = Dual<Real>;
   const D half(Real(0.5)), zero(Real(0)), one(Real(1));
   const D sign(Real(static_cast<int>(end)));
   const D dt = sign * half * cos(before.inclination);
   const D dn = sign * half * sin(before.inclination);
-  const D mu(rod.impulse_ratio), e(rod.restitution);
+  const D mu = law.impulse_ratio;
+  const D e = law.restitution;
   const D inertia(Real(1) / 12);
   const D approach = before.normal - before.angular * dt;
   const auto x = solve_linear<Real>({{
@@ -379,13 +400,15 @@ Real lowest_turning_height(const RodFlight<Real>& flight, End struck) {
 template <class Real>
 class RodSolver {
  public:
-  explicit RodSolver(const RodCase<Real>& rod) : rod_(rod) {}
+  RodSolver(const RodCase<Real>& rod, Parameter parameter) : rod_(rod), parameter_(parameter) {}
 
   /// @param impacts after which to stop, 1 to 3
   [[nodiscard]] RodSolution<Real> solve(int impacts) {
-    solution_.theta = rod_.theta;
-    const D theta(rod_.theta, Real(1));
-    flight_ = {theta, D(Real(-1)), D(Real(0)), D(Real(0)), D(rod_.gravity_number), D(Real(0))};
+    solution_.parameter = value_of(rod_, parameter_);
+    const D theta = seeded(Parameter::theta);
+    law_ = {seeded(Parameter::restitution), seeded(Parameter::impulse_ratio)};
+    flight_ = {theta,      D(Real(-1)), D(Real(0)),
+               D(Real(0)), seeded(Parameter::gravity_number), D(Real(0))};
     impact(End::a, impulse_1, velocity_1, angular_1);
     if (impacts == 1) return solution_;
 
@@ -407,18 +430,21 @@ class RodSolver {
  private:
   using D = Dual<Real>;
 
+  [[nodiscard]] D seeded(Parameter parameter) const {
+    return D(value_of(rod_, parameter), Real(parameter == parameter_ ? 1 : 0));
+  }
   void set(Quantity q, const D& value) { solution_.quantities[q] = value; }
   [[nodiscard]] const D& get(Quantity q) const { return *solution_.quantities[q]; }
 
   void impact(End end, Quantity impulse, Quantity velocity, Quantity angular) {
-    const auto result = strike<Real>(flight_, end, rod_);
+    const auto result = strike<Real>(flight_, end, law_);
     flight_ = result.after;
     set(impulse, result.normal_impulse);
     set(velocity, flight_.normal);
     set(angular, flight_.angular);
   }
 
-  /// Flies to the next contact; the derivative of its time follows from h(T(θ), θ) = 0.
+  /// Flies to the next contact; the derivative of its time follows from h(T(p), p) = 0.
   [[nodiscard]] Contact fly(End struck, Quantity time) {
     const auto plain = values<Real>(flight_);
     const auto arrival = next_contact<Real>(plain, struck);
@@ -437,13 +463,17 @@ class RodSolver {
   }
 
   RodCase<Real> rod_;
+  Parameter parameter_;
+  RodLaw<D> law_;
   RodFlight<D> flight_;
   RodSolution<Real> solution_;
 };
 
+/// @param impacts after which to stop
 template <class Real>
-RodSolution<Real> solve_rod(const RodCase<Real>& rod, int impacts = 3) {
-  return RodSolver<Real>(rod).solve(impacts);
+RodSolution<Real> solve_rod(const RodCase<Real>& rod, int impacts = 3,
+                            Parameter parameter = Parameter::theta) {
+  return RodSolver<Real>(rod, parameter).solve(impacts);
 }
 
 /// θ → 0: every quantity is q ~ C θ^p (1 + O(θ)) with a whole number p.  C and p are read off at 1e-30
@@ -459,8 +489,8 @@ class SmallAngleLaw {
 
   [[nodiscard]] RodSolution<Digits150> at(const Digits150& theta) const {
     RodSolution<Digits150> result = reference_;
-    result.theta = theta;
-    const Digits150 ratio = theta / reference_.theta;
+    result.parameter = theta;
+    const Digits150 ratio = theta / reference_.parameter;
     for (auto& q : result.quantities) {
       if (!q) continue;
       const int power = whole_power(*q);
@@ -472,7 +502,7 @@ class SmallAngleLaw {
 
  private:
   [[nodiscard]] int whole_power(const Dual<Digits150>& q) const {
-    const double power = static_cast<double>(reference_.theta * q.slope / q.value);
+    const double power = static_cast<double>(reference_.parameter * q.slope / q.value);
     const double whole = std::round(power);
     if (!(std::abs(power - whole) < 1e-15)) throw std::runtime_error("no power law at small angles");
     return static_cast<int>(whole);

@@ -1,0 +1,32 @@
+// How an impact came about, as equations with their numbers put in.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analytic/sequence.hpp"
+#include "validation/scene/scene.hpp"
+
+namespace clatter::validation {
+
+/// One line of a derivation: `name = formula = numbers = value unit`.
+struct Equation {
+  std::string name;
+  std::string formula;
+  std::string numbers;  ///< the formula with numbers put in; may be empty
+  double value = 0;
+  std::string unit;
+};
+
+/// A titled group of equations with a sentence before and after.
+struct Step {
+  std::string title;
+  std::string text;
+  std::vector<Equation> equations;
+};
+
+/// Steps that lead to impact n of a sequence (counted from 1), or to the reason why it does not happen.
+[[nodiscard]] std::vector<Step> derive_impact(const Scene& scene, const analytic::Sequence& sequence,
+                                              int n);
+
+}  // namespace clatter::validation

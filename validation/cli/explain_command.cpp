@@ -1,0 +1,177 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "validation/cli/commands.hpp"
+#include "validation/cli/derivation.hpp"
+#include "validation/cli/options.hpp"
+#include "validation/cli/version.hpp"
+#include "validation/output/number.hpp"
+
+namespace clatter::validation {
+namespace {
+
+struct ExplainInput {
+  std::string number;
+  SceneTexts scene;
+  OutputTexts output;
+};
+
+std::string value_text(const Equation& equation, int digits) {
+  return significant(equation.value, digits) + (equation.unit.empty() ? "" : " " + equation.unit);
+}
+
+/// "name = formula" and, where the line gets too long, "= numbers = value" below it.
+std::string equation_text(const Equation& equation, std::size_t name_width, int digits) {
+  const std::string pad(name_width - std::min(name_width, display_width(equation.name)), ' ');
+  std::string line = "  " + pad + equation.name + " = " + equation.formula;
+  const std::string value = (equation.formula.empty() ? "" : " = ") + value_text(equation, digits);
+  if (equation.numbers.empty()) return line + value + "\n";
+  const std::string below = std::string(name_width + 2, ' ');
+  return line + "\n" + below + " = " + equation.numbers + "\n" + below + value + "\n";
+}
+
+std::string as_text(const std::vector<std::string>& head, const std::vector<Step>& steps, int digits,
+                    bool ascii) {
+  std::string out;
+  for (const std::string& line : head) out += wrapped(line) + "\n";
+  for (const Step& step : steps) {
+    std::size_t name_width = 0;
+    for (const Equation& e : step.equations) name_width = std::max(name_width, display_width(e.name));
+    out += "\n" + step.title + "\n" + wrapped("  " + step.text, 79, "") + "\n";
+    for (const Equation& e : step.equations) out += equation_text(e, name_width, digits);
+  }
+  return ascii ? to_ascii(out) : out;
+}
+
+std::string joined(const Equation& e, int digits) {
+  std::string line = e.name;
+  for (const std::string& part : {e.formula, e.numbers, value_text(e, digits)}) {
+    if (!part.empty()) line += " = " + part;
+  }
+  return line;
+}
+
+std::string as_markdown(const std::vector<std::string>& head, const std::vector<Step>& steps, int digits) {
+  std::string out;
+  for (const std::string& line : head) out += line + "  \n";
+  for (const Step& step : steps) {
+    out += "\n### " + step.title + "\n\n" + step.text + "\n\n";
+    for (const Equation& e : step.equations) out += "- `" + joined(e, digits) + "`\n";
+  }
+  return out;
+}
+
+/// LaTeX mathematics for the notation of the equations.
+std::string latex_math(std::string text) {
+  static const std::vector<std::pair<std::string, std::string>> table{
+      {"−", "-"}, {"·", "\\cdot "}, {"Ω", "\\Omega "}, {"ω", "\\omega "}, {"θ", "\\theta "},
+      {"φ", "\\varphi "}, {"α", "\\alpha "}, {"Γ", "\\Gamma "}, {"μᵢ", "\\mu_i "}, {"μ", "\\mu "},
+      {"²", "^2"}, {"₀", "_0"}, {"′", "'"}, {"±", "\\pm "}, {"°", "^\\circ "},
+      {"sin ", "\\sin "}, {"cos ", "\\cos "}, {"sin(", "\\sin("}};
+  for (const auto& [from, to] : table) {
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+      text.replace(at, from.size(), to);
+    }
+  }
+  return text;
+}
+
+bool is_words(const std::string& formula) {
+  return formula.find("the ") != std::string::npos || formula.find("after ") != std::string::npos ||
+         formula.find("before") != std::string::npos || formula.find("mode") != std::string::npos ||
+         formula.find("angle") != std::string::npos || formula.find("height") != std::string::npos ||
+         formula.find("end") != std::string::npos || formula.find("velocity") != std::string::npos ||
+         formula.find("speed") != std::string::npos || formula.find("spin") != std::string::npos ||
+         formula.find("time") != std::string::npos;
+}
+
+std::string latex_name(const std::string& name) {
+  return name.find(' ') == std::string::npos ? latex_math(name) : "\\text{" + name + "}";
+}
+
+std::string as_latex(const std::vector<std::string>& head, const std::vector<Step>& steps, int digits) {
+  std::string out;
+  for (const std::string& line : head) out += "% " + line + "\n";
+  for (const Step& step : steps) {
+    out += "\n\\paragraph{" + step.title + "}\n\\begin{align*}\n";
+    std::string separator;
+    for (const Equation& e : step.equations) {
+      out += separator + "  " + latex_name(e.name == "φ low" ? "\\varphi_{low}" : e.name == "φ high" ? "\\varphi_{high}" : e.name);
+      const bool words = is_words(e.formula);
+      if (!e.formula.empty() && !words) out += " &= " + latex_math(e.formula);
+      else out += " &";
+      if (!e.numbers.empty()) out += " = " + latex_math(e.numbers);
+      out += " = " + significant(e.value, digits) + (e.unit.empty() ? "" : "\\ \\mathrm{" + latex_math(e.unit) + "}");
+      if (words && e.formula.find("Ω") == std::string::npos) out += " &&\\text{" + (e.formula.find("φ") == std::string::npos && e.formula.find("_") == std::string::npos && e.formula.find("μ") == std::string::npos ? e.formula : std::string("at the root")) + "}";
+      separator = " \\\\\n";
+    }
+    out += "\n\\end{align*}\n";
+  }
+  return out;
+}
+
+Json as_json(const Scene& scene, const std::vector<Step>& steps, int n) {
+  Json list = Json::array();
+  for (const Step& step : steps) {
+    Json equations = Json::array();
+    for (const Equation& e : step.equations) {
+      equations.push_back({{"name", e.name}, {"symbolic", e.formula}, {"numeric", e.numbers},
+                           {"value", number_or_null(e.value)}, {"unit", e.unit}});
+    }
+    list.push_back({{"title", step.title}, {"text", step.text}, {"equations", equations}});
+  }
+  return {{"clatter", version}, {"model", "discrete"}, {"scene", scene.json()}, {"impact", n},
+          {"steps", list}};
+}
+
+Table as_table(const std::vector<std::string>& head, const std::vector<Step>& steps) {
+  Table table{.head = head, .columns = {{"step", "", ""}, {"quantity", "", ""}, {"equation", "", ""},
+                                        {"numbers", "", ""}, {"value", "", ""}, {"unit", "", ""}},
+              .rows = {}, .notes = {}};
+  for (const Step& step : steps) {
+    for (const Equation& e : step.equations) {
+      table.rows.push_back({Cell(step.title), Cell(e.name), Cell(e.formula), Cell(e.numbers),
+                            Cell(e.value, 17), Cell(e.unit)});
+    }
+  }
+  return table;
+}
+
+int run_explain(const ExplainInput& input) {
+  const int n = read_integer_option("explain N", input.number, 1, 1000000);
+  Scene scene = read_scene(input.scene);
+  scene.impacts = std::max(scene.impacts, n);
+  const OutputChoice choice = read_output(input.output);
+  const analytic::Sequence sequence = analytic::impact_sequence(
+      scene.drop(), {.impacts = n, .digits = scene.digits, .amplification = false});
+  for (const std::string& warning : sequence.warnings) fmt::print(stderr, "clatter: {}\n", warning);
+  const std::vector<Step> steps = derive_impact(scene, sequence, n);
+  std::vector<std::string> head{headline("explain", fmt::format("impact {} step by step", n))};
+  for (const std::string& line : scene.summary()) head.push_back(line);
+  std::string text;
+  switch (choice.style.format) {
+    case Format::json: text = json_text(as_json(scene, steps, n)); break;
+    case Format::csv: text = table_text(as_table(head, steps), choice.style); break;
+    case Format::markdown: text = as_markdown(head, steps, scene.digits); break;
+    case Format::latex: text = as_latex(head, steps, scene.digits); break;
+    case Format::table: text = as_text(head, steps, scene.digits, choice.style.ascii); break;
+  }
+  write_out(choice, text);
+  return 0;
+}
+
+}  // namespace
+
+Action add_explain_command(CLI::App& app) {
+  auto input = std::make_shared<ExplainInput>();
+  CLI::App* command = app.add_subcommand("explain", "how impact N came about: Eqs. 8-12 with their numbers");
+  command->add_option("N", input->number, "number of the impact, from 1")->type_name("")->required();
+  add_scene_options(*command, input->scene);
+  add_output_options(*command, input->output);
+  command->footer("Example: clatter explain 2 --angle 10");
+  return [input] { return run_explain(*input); };
+}
+
+}  // namespace clatter::validation

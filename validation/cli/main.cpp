@@ -1,0 +1,7 @@
+#include "validation/cli/program.hpp"
+#include "validation/output/interrupt.hpp"
+
+int main(int argc, char** argv) {
+  clatter::validation::handle_signals();
+  return clatter::validation::run_program({argv + 1, argv + argc});
+}

@@ -1,0 +1,114 @@
+#include "validation/cli/options.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "validation/cli/version.hpp"
+#include "validation/output/number.hpp"
+#include "validation/output/sink.hpp"
+#include "validation/scene/bad_input.hpp"
+
+namespace clatter::validation {
+
+CLI::Option* add_text(CLI::App& command, const std::string& name, std::optional<std::string>& text,
+                      const std::string& type, const std::string& help) {
+  return command.add_option(name, text, help)->type_name(type);
+}
+
+void add_scene_options(CLI::App& command, SceneTexts& t) {
+  const auto add = [&](const char* name, std::optional<std::string>& text, const char* type,
+                       const char* help) { add_text(command, name, text, type, help)->group("Scene"); };
+  add("--angle", t.angle, "DEG", "inclination at the first impact, end a low; 0 flat, 90 upright (required)");
+  add("--speed", t.speed, "M/S", "downward speed of the centre of mass at the first touch (1)");
+  add("--height", t.height, "M", "or the height of the centre of mass at release from rest");
+  add("--tangential-velocity", t.tangential_velocity, "M/S", "of the centre of mass, to the right (0)");
+  add("--spin", t.spin, "RAD/S", "clockwise, as Omega in Eq. 8 (0)");
+  add("--gravity", t.gravity, "M/S2", "gravity between impacts (0)");
+  add("--restitution", t.restitution, "E", "coefficient of restitution, 0 to 1 (1)");
+  add("--restitution-law", t.restitution_law, "newton|poisson|stronge", "what the coefficient relates (newton)");
+  add("--impulse-ratio", t.impulse_ratio, "MU_I", "Eq. 8's ratio of tangential to normal impulse, as given (0)");
+  add("--friction", t.friction, "MU", "or Coulomb's coefficient of friction");
+  add("--body", t.body, "rod|box", "shape of the body (rod)");
+  add("--mass", t.mass, "KG", "(1)");
+  add("--length", t.length, "M", "of the rod (1)");
+  add("--radius", t.radius, "M", "of the rod; 0 is the paper's thin rod (0)");
+  add("--size", t.size, "LxWxT", "of the box in m: L along the inclination, T upright at 0 degrees");
+  add("--impacts", t.impacts, "N", "most impacts to report (6)");
+  add("--digits", t.digits, "N", "significant digits in tables, accuracy of an extrapolated end (6)");
+}
+
+void add_output_options(CLI::App& command, OutputTexts& t) {
+  add_text(command, "--format", t.format, "table|csv|json|markdown|latex", "form of the output (table)")
+      ->group("Output");
+  add_text(command, "--output", t.output, "FILE", "write there, whole or not at all")->group("Output");
+  command.add_flag("--ascii", t.ascii, "plain ASCII in tables")->group("Output");
+}
+
+OutputChoice read_output(const OutputTexts& texts) {
+  OutputChoice choice;
+  choice.style.ascii = texts.ascii;
+  choice.path = texts.output.value_or("");
+  if (texts.format) {
+    choice.style.format = static_cast<Format>(read_name_option(
+        "--format", *texts.format, {"table", "csv", "json", "markdown", "latex"}));
+  }
+  return choice;
+}
+
+std::string headline(const std::string& command, const std::string& what) {
+  return fmt::format("clatter {}, {}: {}", version, command, what);
+}
+
+void write_out(const OutputChoice& choice, const std::string& text) {
+  Sink sink(choice.path);
+  sink.write(text);
+  sink.commit();
+}
+
+void add_sweep_options(CLI::App& command, SweepTexts& t, const std::string& what) {
+  add_text(command, "--from", t.from, "X", "first " + what)->group("Range");
+  add_text(command, "--to", t.to, "X", "last " + what)->group("Range");
+  add_text(command, "--step", t.step, "X", "step from one to the next")->group("Range");
+  add_text(command, "--count", t.count, "N", "or the number of values, both ends included")->group("Range");
+}
+
+double Sweep::value(long long i) const {
+  if (i == count - 1 && step == 0) return to;
+  if (step > 0) {
+    double rounded = 0;
+    static_cast<void>(read_number(fmt::format("{:.15g}", from + static_cast<double>(i) * step), rounded));
+    return std::fmin(rounded, to);
+  }
+  const double part = static_cast<double>(i) / static_cast<double>(count - 1);
+  if (logarithmic) return from * std::pow(to / from, part);
+  return from + (to - from) * part;
+}
+
+Sweep read_sweep(const SweepTexts& texts, const SweepDefault& fallback, const Range& range) {
+  Sweep sweep{.from = fallback.from, .to = fallback.to};
+  if (texts.from) sweep.from = read_number_option("--from", *texts.from, range);
+  if (texts.to) sweep.to = read_number_option("--to", *texts.to, range);
+  if (!(sweep.from <= sweep.to)) {
+    throw BadInput(fmt::format("--from {}: must not be greater than --to {}", shortest(sweep.from),
+                               shortest(sweep.to)));
+  }
+  if (texts.step && texts.count) {
+    throw BadInput(fmt::format("--step {} and --count {}: give one of them, not both", *texts.step,
+                               *texts.count));
+  }
+  if (texts.count) {
+    sweep.count = read_integer_option("--count", *texts.count, 1, 100000000);
+    if (sweep.count == 1) sweep.to = sweep.from;
+    return sweep;
+  }
+  sweep.step = texts.step ? read_number_option("--step", *texts.step, {0, 1e300, true, "greater than 0"})
+                          : fallback.step;
+  const double steps = (sweep.to - sweep.from) / sweep.step;
+  if (!(steps < 1e8)) throw BadInput(fmt::format("--step {}: more than 100000000 values", sweep.step));
+  // A step that fits the range but for rounding reaches its end.
+  sweep.count = static_cast<long long>(std::floor(steps * (1 + 1e-12) + 1e-12)) + 1;
+  return sweep;
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,61 @@
+// Options that several commands share.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "validation/output/table.hpp"
+#include "validation/scene/scene.hpp"
+
+namespace clatter::validation {
+
+/// Texts of the output options.
+struct OutputTexts {
+  std::optional<std::string> format, output;
+  bool ascii = false;
+};
+
+/// Where and how to write.
+struct OutputChoice {
+  TableStyle style;
+  std::string path;
+};
+
+void add_scene_options(CLI::App& command, SceneTexts& texts);
+void add_output_options(CLI::App& command, OutputTexts& texts);
+/// A value option whose text is checked later.
+CLI::Option* add_text(CLI::App& command, const std::string& name, std::optional<std::string>& text,
+                      const std::string& type, const std::string& help);
+
+[[nodiscard]] OutputChoice read_output(const OutputTexts& texts);
+
+/// "clatter 0.1.0, COMMAND: WHAT".
+[[nodiscard]] std::string headline(const std::string& command, const std::string& what);
+
+/// Writes a finished text whole.
+void write_out(const OutputChoice& choice, const std::string& text);
+
+/// From, to and step or count of a swept quantity.
+struct SweepTexts {
+  std::optional<std::string> from, to, step, count;
+};
+void add_sweep_options(CLI::App& command, SweepTexts& texts, const std::string& what);
+
+struct Sweep {
+  double from = 0;
+  double to = 0;
+  long long count = 0;
+  double step = 0;  ///< 0: equal parts of [from, to]
+  bool logarithmic = false;
+  /// Value i.  With a step, from + i·step is rounded to 15 digits, so that steps that are decimal
+  /// fractions give clean decimals; with a count, the last value is `to` exactly.
+  [[nodiscard]] double value(long long i) const;
+};
+struct SweepDefault {
+  double from, to, step;
+};
+[[nodiscard]] Sweep read_sweep(const SweepTexts& texts, const SweepDefault& fallback,
+                               const Range& range);
+
+}  // namespace clatter::validation

@@ -1,0 +1,171 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "analytic/contact_angles.hpp"
+#include "validation/cli/commands.hpp"
+#include "validation/cli/options.hpp"
+#include "validation/cli/rod_options.hpp"
+#include "validation/cli/version.hpp"
+#include "validation/output/number.hpp"
+#include "validation/scene/bad_input.hpp"
+
+namespace clatter::validation {
+namespace {
+
+using analytic::BoundaryKind;
+using analytic::degrees_per_radian;
+using analytic::ImpactNumber;
+using analytic::RegimeBoundary;
+using analytic::RodParameters;
+
+struct RegimesInput {
+  std::optional<std::string> over, digits;
+  SweepTexts sweep;
+  bool logarithmic = false;
+  RodTexts rod;
+  OutputTexts output;
+};
+
+/// A quantity to vary.
+struct Quantity {
+  const char* name;
+  const char* heading;
+  double RodParameters::*member;
+  std::vector<double> values;  ///< without a range given
+  Range range;
+};
+
+const std::vector<Quantity>& all_quantities() {
+  static const std::vector<Quantity> all{
+      {"gravity-number", "G", &RodParameters::gravity_number, {0, 0.001, 0.01, 0.1, 1, 10},
+       {0, 1e300, false, "at least 0"}},
+      {"restitution", "e", &RodParameters::restitution, {0.25, 0.5, 0.75, 0.9, 1},
+       {0, 1, false, "from 0 to 1"}},
+      {"impulse-ratio", "μᵢ", &RodParameters::impulse_ratio, {-0.2, -0.1, 0, 0.1, 0.2, 0.3},
+       {-1e300, 1e300, false, "a finite number"}}};
+  return all;
+}
+
+std::vector<double> values_of(const RegimesInput& input, const Quantity& quantity) {
+  const SweepTexts& texts = input.sweep;
+  if (!texts.from && !texts.to && !texts.step && !texts.count) return quantity.values;
+  if (!texts.from || !texts.to || (!texts.step && !texts.count)) {
+    throw BadInput("--from, --to and --step or --count: a range needs all three");
+  }
+  Sweep sweep = read_sweep(texts, {0, 0, 1}, quantity.range);
+  sweep.logarithmic = input.logarithmic;
+  if (input.logarithmic && (!(sweep.from > 0) || sweep.step > 0)) {
+    throw BadInput("--log: needs --from greater than 0 and --count");
+  }
+  std::vector<double> values;
+  for (long long i = 0; i < sweep.count; ++i) values.push_back(sweep.value(i));
+  return values;
+}
+
+const char* kind_name(BoundaryKind kind) {
+  switch (kind) {
+    case BoundaryKind::fold: return "fold";
+    case BoundaryKind::upright: return "upright";
+    case BoundaryKind::order: return "order";
+    case BoundaryKind::always: return "always";
+    case BoundaryKind::never: return "never";
+  }
+  return "";
+}
+
+struct Regimes {
+  double value;
+  RegimeBoundary second, third;
+};
+
+Cell angle_cell(double radians, int digits) {
+  return std::isnan(radians) ? Cell() : Cell(radians * degrees_per_radian, digits);
+}
+
+Table table_of(const std::vector<Regimes>& all, const Quantity& quantity, const std::string& rod,
+               int digits) {
+  Table table{.head = {headline("regimes", "how many impacts, and where that changes"), rod},
+              .columns = {{quantity.name, quantity.heading, ""},
+                          {"theta_2_deg", "θ₂", "°"}, {"kind_2", "kind", ""},
+                          {"beta_deg", "β there", "°"}, {"theta_3_deg", "θ₃", "°"},
+                          {"kind_3", "kind", ""}, {"gamma_deg", "γ there", "°"}},
+              .rows = {},
+              .notes = {"Three impacts below θ₃, two from θ₃ to θ₂, one above (β, γ ≤ 90°).",
+                        "fold: the end grazes the ground; upright: it arrives at 90°; order: another "
+                        "contact comes first."}};
+  for (const auto& [value, second, third] : all) {
+    const auto theta = [&](const RegimeBoundary& b) {
+      return b.kind == BoundaryKind::never ? Cell() : angle_cell(b.theta, digits);
+    };
+    table.rows.push_back({Cell(value, 6), theta(second), Cell(kind_name(second.kind)),
+                          angle_cell(second.beta, digits), theta(third), Cell(kind_name(third.kind)),
+                          angle_cell(third.gamma, digits)});
+  }
+  return table;
+}
+
+Json boundary_json(const RegimeBoundary& b) {
+  const bool exists = b.kind != BoundaryKind::never;
+  return {{"kind", kind_name(b.kind)},
+          {"theta_deg", exists ? Json(b.theta * degrees_per_radian) : Json(nullptr)},
+          {"beta_deg", number_or_null(b.beta * degrees_per_radian)},
+          {"gamma_deg", number_or_null(b.gamma * degrees_per_radian)},
+          {"uncertainty_deg", exists ? Json(b.uncertainty * degrees_per_radian) : Json(nullptr)}};
+}
+
+Json json_of(const std::vector<Regimes>& all, const Quantity& quantity, const RodParameters& rod) {
+  Json rows = Json::array();
+  for (const auto& [value, second, third] : all) {
+    rows.push_back({{quantity.name, value}, {"second", boundary_json(second)},
+                    {"third", boundary_json(third)}});
+  }
+  return {{"clatter", version}, {"model", "discrete"}, {"over", quantity.name},
+          {"parameters", {{"gravity_number", rod.gravity_number}, {"restitution", rod.restitution},
+                          {"impulse_ratio", rod.impulse_ratio}}},
+          {"rows", rows}};
+}
+
+int run_regimes(const RegimesInput& input) {
+  const auto& quantities = all_quantities();
+  std::vector<std::string> names;
+  for (const Quantity& quantity : quantities) names.emplace_back(quantity.name);
+  const Quantity& quantity = quantities[input.over ? read_name_option("--over", *input.over, names) : 0];
+  RodParameters rod = read_rod(input.rod);
+  const int digits = input.digits ? read_integer_option("--digits", *input.digits, 1, 17) : 8;
+  const OutputChoice choice = read_output(input.output);
+  std::vector<Regimes> all;
+  for (const double value : values_of(input, quantity)) {
+    rod.*quantity.member = value;
+    all.push_back({value, analytic::regime_boundary(ImpactNumber::second, rod),
+                   analytic::regime_boundary(ImpactNumber::third, rod)});
+  }
+  if (choice.style.format == Format::json) {
+    write_out(choice, json_text(json_of(all, quantity, rod)));
+    return 0;
+  }
+  const RodParameters fixed = read_rod(input.rod);
+  write_out(choice, table_text(table_of(all, quantity, rod_summary(fixed) + ", but for the first column",
+                                        digits), choice.style));
+  return 0;
+}
+
+}  // namespace
+
+Action add_regimes_command(CLI::App& app) {
+  auto input = std::make_shared<RegimesInput>();
+  CLI::App* command = app.add_subcommand("regimes", "number of impacts and fold angles over G, e or mu_i");
+  add_text(*command, "--over", input->over, "gravity-number|restitution|impulse-ratio",
+           "what to vary (gravity-number)")->group("Range");
+  add_sweep_options(*command, input->sweep, "value");
+  command->add_flag("--log", input->logarithmic, "values in geometric progression")->group("Range");
+  add_rod_options(*command, input->rod);
+  add_output_options(*command, input->output);
+  add_text(*command, "--digits", input->digits, "N", "significant digits in tables (8)")->group("Output");
+  command->footer("Example: clatter regimes --over restitution --from 0.2 --to 1 --step 0.1");
+  return [input] { return run_regimes(*input); };
+}
+
+}  // namespace clatter::validation

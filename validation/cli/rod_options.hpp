@@ -1,0 +1,21 @@
+// Options of the commands that deal with the thin rod's contact angles.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "analytic/contact_angles.hpp"
+
+namespace clatter::validation {
+
+struct RodTexts {
+  std::optional<std::string> gravity_number, gravity, length, speed, restitution, impulse_ratio;
+};
+void add_rod_options(CLI::App& command, RodTexts& texts);
+/// @throws BadInput as read_scene().
+[[nodiscard]] analytic::RodParameters read_rod(const RodTexts& texts);
+/// "thin rod, G = …, e = …, μᵢ = …".
+[[nodiscard]] std::string rod_summary(const analytic::RodParameters& parameters);
+
+}  // namespace clatter::validation

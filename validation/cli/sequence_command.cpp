@@ -1,0 +1,44 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "validation/cli/commands.hpp"
+#include "validation/cli/options.hpp"
+#include "validation/cli/sequence_report.hpp"
+
+namespace clatter::validation {
+namespace {
+
+struct SequenceInput {
+  SceneTexts scene;
+  OutputTexts output;
+};
+
+int run_sequence(const SequenceInput& input) {
+  const Scene scene = read_scene(input.scene);
+  const OutputChoice choice = read_output(input.output);
+  const analytic::Sequence sequence = analytic::impact_sequence(
+      scene.drop(), {.impacts = scene.impacts, .digits = scene.digits});
+  for (const std::string& warning : sequence.warnings) fmt::print(stderr, "clatter: {}\n", warning);
+  switch (choice.style.format) {
+    case Format::json: write_out(choice, json_text(sequence_json(scene, sequence))); break;
+    case Format::csv:
+      write_out(choice, table_text(sequence_records(scene, sequence), choice.style));
+      break;
+    default: write_out(choice, table_text(sequence_table(scene, sequence), choice.style));
+  }
+  return 0;
+}
+
+}  // namespace
+
+Action add_sequence_command(CLI::App& app) {
+  auto input = std::make_shared<SequenceInput>();
+  CLI::App* command = app.add_subcommand("sequence", "impact sequence of a falling rod or box (discrete model)");
+  add_scene_options(*command, input->scene);
+  add_output_options(*command, input->output);
+  command->footer("Example: clatter sequence --angle 10 --gravity 9.81 --restitution 0.8 --impacts 20");
+  return [input] { return run_sequence(*input); };
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,265 @@
+#include "validation/cli/sequence_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "validation/cli/options.hpp"
+#include "validation/cli/version.hpp"
+#include "validation/output/number.hpp"
+
+namespace clatter::validation {
+namespace {
+
+using analytic::degrees_per_radian;
+using analytic::ImpactRow;
+using analytic::Sequence;
+
+const char* const no_history =
+    "the discrete model's impacts are instantaneous: no peak force or time";
+
+/// The numbers of an impact under their names in the JSON, those with an error estimate.
+struct Quantity {
+  const char* name;
+  double value;
+};
+
+std::vector<Quantity> quantities(const ImpactRow& row) {
+  const analytic::Impact& impact = row.impact;
+  return {{"start", row.start},
+          {"inclination_deg", row.inclination * degrees_per_radian},
+          {"contact_angle_deg", row.contact_angle * degrees_per_radian},
+          {"approach_speed", impact.approach_speed},
+          {"impulse_normal", impact.normal_impulse},
+          {"impulse_tangential", impact.tangential_impulse}};
+}
+
+double degrees(double radians, const Scene& scene, int n) {
+  return n == 1 ? std::copysign(scene.angle_deg, radians) : radians * degrees_per_radian;
+}
+
+Json impact_json(const Scene& scene, const ImpactRow& row, int n) {
+  const analytic::Impact& impact = row.impact;
+  Json json{{"n", n},
+            {"start", row.start},
+            {"duration", 0.0},
+            {"end", analytic::PlanarBody::vertex_set_name(row.vertices)},
+            {"inclination_deg", degrees(row.inclination, scene, n)},
+            {"contact_angle_deg", degrees(row.contact_angle, scene, n)},
+            {"approach_speed", number_or_null(impact.approach_speed)},
+            {"restitution", number_or_null(impact.restitution())},
+            {"impulse_normal", number_or_null(impact.normal_impulse)},
+            {"impulse_tangential", number_or_null(impact.tangential_impulse)},
+            {"impulse_ratio", number_or_null(impact.impulse_ratio())},
+            {"mode", mode_name(impact.mode)},
+            {"peak_force", nullptr},
+            {"peak_time", nullptr},
+            {"velocity_after", {number_or_null(impact.after.tangential), 0.0,
+                                number_or_null(impact.after.normal)}},
+            {"angular_velocity_after", {0.0, number_or_null(impact.after.angular), 0.0}},
+            {"energy_before", number_or_null(row.energy_before)},
+            {"energy_after", number_or_null(row.energy_after)},
+            {"energy_loss", number_or_null(impact.energy_loss)}};
+  Json errors = Json::object();
+  for (const auto& [name, value] : quantities(row)) {
+    errors[name] = number_or_null(rounding_error(row, n, value));
+  }
+  json["error_estimate"] = errors;
+  json["amplification"] = number_or_null(row.amplification);
+  return json;
+}
+
+Json tail_json(const analytic::Tail& tail) {
+  return {{"end", analytic::PlanarBody::vertex_set_name(tail.vertices)},
+          {"end_time", tail.end_time},
+          {"end_time_error", tail.end_time_error},
+          {"impulse_normal", tail.normal_impulse},
+          {"impulse_normal_error", tail.normal_impulse_error},
+          {"impulse_tangential", tail.tangential_impulse},
+          {"closed_form", tail.closed_form},
+          {"velocity_after", {tail.after.tangential, 0.0, tail.after.normal}},
+          {"angular_velocity_after", {0.0, tail.after.angular, 0.0}}};
+}
+
+Cell known(const Scene& scene, const ImpactRow& row, int n, double value) {
+  return {value, std::min(scene.digits, known_digits(value, rounding_error(row, n, value)))};
+}
+
+Cell known(const Scene& scene, double value, double error) {
+  return {value, std::min(scene.digits, known_digits(value, error))};
+}
+
+/// Fewer digits in the velocity columns until the table fits 80 columns.
+void fit(Table& table, int digits) {
+  for (int shown = digits - 1; shown >= 3; --shown) {
+    const std::string text = table_text(table, {});
+    std::size_t widest = 0;
+    for (std::size_t begin = 0; begin < text.size();) {
+      const std::size_t end = text.find('\n', begin);
+      widest = std::max(widest, display_width(text.substr(begin, end - begin)));
+      begin = end + 1;
+    }
+    if (widest <= 80) return;
+    for (auto& row : table.rows) {
+      for (std::size_t i = 5; i < row.size(); ++i) row[i].digits = std::min(row[i].digits, shown);
+    }
+  }
+}
+
+bool with_friction(const Scene& scene) {
+  return scene.law.friction != analytic::FrictionKind::none;
+}
+
+bool loses_energy(const Sequence& sequence) {
+  return std::any_of(sequence.rows.begin(), sequence.rows.end(), [&](const ImpactRow& row) {
+    return std::fabs(row.impact.energy_loss) > 1e-14 * sequence.rows[0].energy_before;
+  });
+}
+
+std::vector<std::string> closing_notes(const Scene& scene, const Sequence& sequence) {
+  std::vector<std::string> notes;
+  if (sequence.tail) {
+    const analytic::Tail& tail = *sequence.tail;
+    const auto with_error = [&](double value, double error) {
+      return significant(value, std::min(scene.digits + 3, known_digits(value, error))) +
+             (error > 0 ? " ± " + significant(error, 2) : "");
+    };
+    notes.push_back(fmt::format("…: the last row sums up all further impacts; they end at {} s, {}",
+                                with_error(tail.end_time, tail.end_time_error),
+                                tail.closed_form ? "in closed form" : "by extrapolation"));
+  }
+  notes.push_back(fmt::format("Sum of normal impulses: {} N·s",
+                              significant(sequence.total_normal_impulse, scene.digits)));
+  notes.push_back(fmt::format("{}: {}", outcome_name(sequence.outcome), sequence.message));
+  if (sequence.outcome == analytic::Outcome::no_further_impact &&
+      std::isfinite(sequence.near_miss.clearance)) {
+    notes.push_back(fmt::format("closest approach after the last impact: {} m above the ground",
+                                significant(sequence.near_miss.clearance, std::min(scene.digits, 6))));
+  }
+  return notes;
+}
+
+std::vector<std::string> head_of(const Scene& scene) {
+  std::vector<std::string> head{headline("sequence", "impact sequence, discrete model")};
+  for (const std::string& line : scene.summary()) head.push_back(line);
+  return head;
+}
+
+}  // namespace
+
+const char* outcome_name(analytic::Outcome outcome) {
+  switch (outcome) {
+    case analytic::Outcome::no_further_impact: return "no-further-impact";
+    case analytic::Outcome::impact_limit: return "impact-limit";
+    case analytic::Outcome::at_rest: return "at-rest";
+    case analytic::Outcome::sustained_contact: return "sustained-contact";
+  }
+  return "";
+}
+
+const char* mode_name(analytic::ImpactMode mode) {
+  switch (mode) {
+    case analytic::ImpactMode::frictionless: return "frictionless";
+    case analytic::ImpactMode::slip: return "slip";
+    case analytic::ImpactMode::stick: return "stick";
+    case analytic::ImpactMode::slip_stick: return "slip-stick";
+    case analytic::ImpactMode::reverse_slip: return "reverse-slip";
+  }
+  return "";
+}
+
+double rounding_error(const ImpactRow& row, int n, double value) {
+  const double growth = std::isnan(row.amplification) ? 1 : row.amplification;
+  return std::numeric_limits<double>::epsilon() * (2 + 2 * growth + 2 * n) * std::fabs(value);
+}
+
+Table sequence_table(const Scene& scene, const Sequence& sequence) {
+  const bool friction = with_friction(scene);
+  Table table{.head = head_of(scene), .columns = {}, .rows = {}, .notes = closing_notes(scene, sequence)};
+  table.columns = {{"n", "n", ""}, {"end", "end", ""}, {"start", "t", "s"},
+                   {"contact_angle_deg", "angle", "°"}, {"impulse_normal", "Pₙ", "N·s"},
+                   {"impulse_tangential", "Pₜ", "N·s", friction}, {"velocity_after_z", "Vₙ", "m/s"},
+                   {"angular_velocity_after_y", "Ω", "rad/s"},
+                   {"energy_loss", "loss", "J", !friction && loses_energy(sequence)},
+                   {"mode", "mode", "", friction}};
+  int n = 0;
+  for (const ImpactRow& row : sequence.rows) {
+    ++n;
+    const auto cell = [&](double value) { return known(scene, row, n, value); };
+    table.rows.push_back({Cell(std::to_string(n)),
+                          Cell(analytic::PlanarBody::vertex_set_name(row.vertices)), cell(row.start),
+                          cell(degrees(row.contact_angle, scene, n)), cell(row.impact.normal_impulse),
+                          cell(row.impact.tangential_impulse), cell(row.impact.after.normal),
+                          cell(row.impact.after.angular), cell(row.impact.energy_loss),
+                          Cell(mode_name(row.impact.mode))});
+  }
+  if (sequence.tail) {
+    const analytic::Tail& tail = *sequence.tail;
+    table.rows.push_back({Cell("…"), Cell(analytic::PlanarBody::vertex_set_name(tail.vertices)),
+                          known(scene, tail.end_time, tail.end_time_error), Cell(),
+                          known(scene, tail.normal_impulse, tail.normal_impulse_error),
+                          known(scene, tail.tangential_impulse, tail.normal_impulse_error),
+                          known(scene, tail.after.normal, 0), known(scene, tail.after.angular, 0),
+                          Cell(), Cell()});
+  }
+  fit(table, scene.digits);
+  return table;
+}
+
+Json sequence_json(const Scene& scene, const Sequence& sequence) {
+  Json json{{"clatter", version}, {"model", "discrete"}, {"scene", scene.json()},
+            {"impacts", Json::array()}};
+  int n = 0;
+  for (const ImpactRow& row : sequence.rows) json["impacts"].push_back(impact_json(scene, row, ++n));
+  if (sequence.tail) json["tail"] = tail_json(*sequence.tail);
+  json["outcome"] = outcome_name(sequence.outcome);
+  json["message"] = sequence.message + "; " + no_history;
+  if (!sequence.warnings.empty()) json["warnings"] = sequence.warnings;
+  if (sequence.outcome == analytic::Outcome::no_further_impact) {
+    json["near_miss"] = {{"clearance", number_or_null(sequence.near_miss.clearance)},
+                         {"margin", sequence.near_miss.margin},
+                         {"within_margin", sequence.near_miss.within_margin()}};
+  }
+  json["total_normal_impulse"] = number_or_null(sequence.total_normal_impulse);
+  json["cost"] = {{"force_evaluations", 0}, {"root_evaluations", sequence.root_evaluations}};
+  return json;
+}
+
+Table sequence_records(const Scene& scene, const Sequence& sequence) {
+  const Json json = sequence_json(scene, sequence);
+  Table table{.head = {headline("sequence", "impact sequence, discrete model"),
+                       "scene: " + json["scene"].dump()},
+              .columns = {}, .rows = {},
+              .notes = {"total_normal_impulse: " + shortest(sequence.total_normal_impulse),
+                        fmt::format("{}: {}", outcome_name(sequence.outcome), sequence.message)}};
+  const auto cell_of = [](const Json& value) {
+    return value.is_null() ? Cell() : value.is_string() ? Cell(value.get<std::string>())
+                                                        : Cell(value.get<double>(), 17);
+  };
+  for (const Json& impact : json["impacts"]) {
+    const bool first = table.rows.empty();
+    auto& row = table.rows.emplace_back();
+    for (const auto& [key, value] : impact.items()) {
+      if (value.is_object()) continue;
+      for (std::size_t i = 0; i < (value.is_array() ? 3u : 1u); ++i) {
+        const std::string suffix = value.is_array() ? std::string("_") + "xyz"[i] : "";
+        if (first) table.columns.push_back({key + suffix, key + suffix, ""});
+        row.push_back(cell_of(value.is_array() ? value[i] : value));
+      }
+    }
+  }
+  if (!json.contains("tail")) return table;
+  const Json& tail = json["tail"];
+  auto& row = table.rows.emplace_back();
+  for (const Column& column : table.columns) {
+    if (column.name == "n") row.push_back(Cell("tail"));
+    else if (column.name == "start") row.push_back(cell_of(tail["end_time"]));
+    else if (tail.contains(column.name)) row.push_back(cell_of(tail[column.name]));
+    else row.emplace_back();
+  }
+  return table;
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,26 @@
+// An impact sequence as a table and as JSON.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analytic/sequence.hpp"
+#include "validation/output/json.hpp"
+#include "validation/output/table.hpp"
+#include "validation/scene/scene.hpp"
+
+namespace clatter::validation {
+
+[[nodiscard]] Table sequence_table(const Scene& scene, const analytic::Sequence& sequence);
+[[nodiscard]] Json sequence_json(const Scene& scene, const analytic::Sequence& sequence);
+/// One row per impact with the JSON's names as columns, vectors spread over three.
+[[nodiscard]] Table sequence_records(const Scene& scene, const analytic::Sequence& sequence);
+
+[[nodiscard]] const char* outcome_name(analytic::Outcome outcome);
+[[nodiscard]] const char* mode_name(analytic::ImpactMode mode);
+
+/// Bound on the rounding error of a number of impact n, counted from 1: (2 + 2 × amplification + 2n)
+/// units in the last place.
+[[nodiscard]] double rounding_error(const analytic::ImpactRow& row, int n, double value);
+
+}  // namespace clatter::validation

@@ -1,0 +1,18 @@
+// JSON text.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace clatter::validation {
+
+using Json = nlohmann::ordered_json;
+
+/// A number, or null where it is not finite.
+[[nodiscard]] Json number_or_null(double value);
+
+/// Indented JSON with every number in its shortest round-trip form (nlohmann's own writer is not always
+/// shortest) and short arrays of numbers on one line.
+[[nodiscard]] std::string json_text(const Json& value);
+
+}  // namespace clatter::validation

@@ -1,0 +1,26 @@
+// Numbers as text.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace clatter::validation {
+
+/// Shortest decimal text that reads back as the same double; "nan", "inf", "-inf" otherwise.
+[[nodiscard]] std::string shortest(double value);
+
+/// At most `digits` significant digits, trailing zeros kept, in fixed notation for magnitudes from 1e-4
+/// to below 1e7, else with an exponent.  0 prints as "0".
+[[nodiscard]] std::string significant(double value, int digits);
+
+/// Significant digits of `value` that an absolute error leaves, in [1, 17]; 17 without error.
+[[nodiscard]] int known_digits(double value, double error);
+
+/// Reads a whole text as a finite decimal number (no "nan", "inf", "0x", blanks or overflow).
+/// @returns false if it is not one.
+[[nodiscard]] bool read_number(std::string_view text, double& value);
+
+/// Reads a whole text as a decimal integer.
+[[nodiscard]] bool read_integer(std::string_view text, long long& value);
+
+}  // namespace clatter::validation
