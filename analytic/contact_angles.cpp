@@ -34,21 +34,21 @@ ImpactLaw impact_law(const RodParameters& parameters) {
           .friction_value = parameters.impulse_ratio};
 }
 
-/// Reads a flight as the decision about the next contact angle; `inclination` is the one at its end or
-/// at the closest approach, counted on from the departure without reducing whole turns.
-ContactAngle decide(const Flight& flight, int other_end, double inclination) {
-  ContactAngle result{.evaluations = flight.evaluations};
+/// Reads a flight as the decision about the next contact angle.
+ContactAngle decide(const Flight& flight, const Departure& departure, int other_end) {
+  ContactAngle result{.clearance = flight.near_miss.clearance,
+                      .closest_angle = std::fabs(departure.inclination -
+                                                 departure.angular * flight.near_miss.time),
+                      .evaluations = flight.evaluations};
   if (flight.end == FlightEnd::stays_touching) {
     result.next = NextImpact::stays_touching;
   } else if (flight.end == FlightEnd::no_contact) {
     result.next = NextImpact::none;
-    result.angle = std::fabs(inclination);
-    result.clearance = flight.near_miss.clearance;
     result.within_margin = flight.near_miss.within_margin();
   } else {
     result.time = flight.arrival.time;
-    result.within_margin = flight.arrival.within_margin;
-    result.angle = std::fabs(inclination);
+    result.within_margin = flight.arrival.within_margin || flight.near_miss.within_margin();
+    result.angle = std::fabs(flight.arrival.inclination);  // counted on, whole turns included
     result.next = flight.arrival.vertex != other_end ? NextImpact::same_end
                   : result.angle <= pi / 2           ? NextImpact::other_end
                                                      : NextImpact::beyond_upright;
@@ -103,11 +103,7 @@ class Chain {
 
   ContactAngle fly(int other_end) {
     const Departure departure = motion_.departure();
-    const Flight flight = motion_.fly();
-    const bool missed = flight.end == FlightEnd::no_contact;
-    return decide(flight, other_end,
-                  missed ? departure.inclination - departure.angular * flight.near_miss.time
-                         : flight.arrival.inclination);
+    return decide(motion_.fly(), departure, other_end);
   }
 
   const RodParameters& parameters_;

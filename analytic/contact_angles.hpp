@@ -31,10 +31,11 @@ enum class NextImpact {
 /// One contact angle as a decision: whether it exists, by how much, and its value.
 struct ContactAngle {
   NextImpact next = NextImpact::not_reached;
-  double angle = 0;  ///< β or γ [rad] if next == other_end; at the closest approach if next == none
+  double angle = 0;  ///< β or γ [rad]; defined if next == other_end
   double time = 0;   ///< T of the flight to it [L/|v_n|]; defined if a contact exists
   bool within_margin = false;  ///< so near a fold that rounding decides
-  double clearance = 0;  ///< if none: height by which the end misses the ground [L]
+  double clearance = 0;  ///< height by which a vertex missed the ground on the way [L]; infinite: none did
+  double closest_angle = 0;  ///< contact angle at that closest approach [rad]
   int evaluations = 0;   ///< evaluations of the height functions
 };
 
@@ -67,7 +68,7 @@ struct ContactAngles {
 
 /// Why the second or third impact ends where it does.
 enum class BoundaryKind {
-  fold,     ///< the end touches with zero speed: a double root, then none
+  fold,     ///< the end touches with zero speed: a double root; then none, or one much later
   upright,  ///< the contact angle reaches 90°
   order,    ///< another contact comes first from here on
   always,   ///< the impact happens up to 90°

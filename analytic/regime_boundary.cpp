@@ -19,12 +19,11 @@ const ContactAngle& angle_of(const ContactAngles& angles, ImpactNumber impact) {
   return impact == ImpactNumber::second ? angles.beta : angles.gamma;
 }
 
-BoundaryKind kind_of(const ContactAngle& above) {
-  switch (above.next) {
-    case NextImpact::none: return BoundaryKind::fold;
-    case NextImpact::beyond_upright: return BoundaryKind::upright;
-    default: return BoundaryKind::order;
-  }
+/// At a fold the contact below it vanishes, so that the next one, if any, comes a finite time later.
+BoundaryKind kind_of(const ContactAngle& below, const ContactAngle& above) {
+  const bool jumps = !(std::fabs(above.time - below.time) <= 1e-5 * below.time);
+  if (above.next == NextImpact::none || jumps) return BoundaryKind::fold;
+  return above.next == NextImpact::beyond_upright ? BoundaryKind::upright : BoundaryKind::order;
 }
 
 /// Rounding margin of the clearance over the rate at which it opens with θ.
@@ -39,13 +38,14 @@ double fold_uncertainty(double theta, ImpactNumber impact, const RodParameters& 
 }
 
 RegimeBoundary describe(const Sides& sides, ImpactNumber impact, const RodParameters& parameters) {
+  const ContactAngle& below = angle_of(sides.below, impact);
   const ContactAngle& above = angle_of(sides.above, impact);
   const double theta = sides.below.theta.radians;
-  RegimeBoundary boundary{.kind = kind_of(above), .theta = theta, .gamma = missing};
+  RegimeBoundary boundary{.kind = kind_of(below, above), .theta = theta, .gamma = missing};
   // At a fold the angle of closest approach is the double root itself, free of its square root error.
-  const ContactAngles& at = boundary.kind == BoundaryKind::fold ? sides.above : sides.below;
-  boundary.beta = at.beta.angle;
-  if (impact == ImpactNumber::third) boundary.gamma = at.gamma.angle;
+  const double angle = boundary.kind == BoundaryKind::fold ? above.closest_angle : below.angle;
+  boundary.beta = impact == ImpactNumber::second ? angle : sides.above.beta.angle;
+  if (impact == ImpactNumber::third) boundary.gamma = angle;
   boundary.uncertainty = boundary.kind == BoundaryKind::fold
                              ? fold_uncertainty(theta, impact, parameters)
                              : sides.above.theta.radians - theta;

@@ -43,8 +43,14 @@ constexpr double allowed_ulp_per_condition = 2;
 /// An angle given in degrees is rounded once more on its way to radians: 1 ulp × κ.
 constexpr double allowed_ulp_of_degrees = 1;
 
-/// Smaller numbers may err by as much as this one: their factors pass through the subnormal doubles.
+/// Smaller numbers may err by as much as this one: their factors pass through the subnormal
+/// doubles.
 constexpr double smallest_checked = 1e-300;
+
+/// An end that turns back below this height has nearly touched [L]; higher up, "none" says enough.
+constexpr double near_miss = 0.1;
+/// A clearance is a sum of heights of order 1 that cancel at a fold [L].
+constexpr double clearance_tolerance = 16 * std::numeric_limits<double>::epsilon();
 
 /// Below this, 50 digits are too few for 2 − ΣP ~ θ⁴ [rad]: 22 digits are left there.
 constexpr double fifty_digits_suffice_from = 1e-7;
@@ -54,7 +60,14 @@ constexpr int most_within_margin = 20;
 constexpr int fold_neighbourhood = 1000;  // [ulp] to either side
 
 enum Region : std::size_t {
-  to_0, bulk, to_fold_3, to_fold_2, to_90, with_gravity, with_restitution_and_friction, region_count
+  to_0,
+  bulk,
+  to_fold_3,
+  to_fold_2,
+  to_90,
+  with_gravity,
+  with_restitution_and_friction,
+  region_count
 };
 
 constexpr std::array<const char*, region_count> region_names = {
@@ -91,22 +104,38 @@ double ulp_of(double value) {
 /// Which entry of the result is which quantity; `other_end` contacts only, but for times.
 double entry(const analytic::ContactAngles& result, Quantity q) {
   switch (q) {
-    case oracle::beta: return result.beta.angle;
-    case oracle::gamma: return result.gamma.angle;
-    case oracle::impulse_1: return result.impulse[0];
-    case oracle::impulse_2: return result.impulse[1];
-    case oracle::impulse_3: return result.impulse[2];
-    case oracle::velocity_1: return result.velocity[0];
-    case oracle::velocity_2: return result.velocity[1];
-    case oracle::velocity_3: return result.velocity[2];
-    case oracle::angular_1: return result.angular[0];
-    case oracle::angular_2: return result.angular[1];
-    case oracle::angular_3: return result.angular[2];
-    case oracle::time_1: return result.beta.time;
-    case oracle::time_2: return result.gamma.time;
-    case oracle::gamma_minus_theta: return result.gamma_minus_theta;
-    case oracle::impulse_deficit: return result.impulse_deficit;
-    case oracle::quantity_count: break;
+    case oracle::beta:
+      return result.beta.angle;
+    case oracle::gamma:
+      return result.gamma.angle;
+    case oracle::impulse_1:
+      return result.impulse[0];
+    case oracle::impulse_2:
+      return result.impulse[1];
+    case oracle::impulse_3:
+      return result.impulse[2];
+    case oracle::velocity_1:
+      return result.velocity[0];
+    case oracle::velocity_2:
+      return result.velocity[1];
+    case oracle::velocity_3:
+      return result.velocity[2];
+    case oracle::angular_1:
+      return result.angular[0];
+    case oracle::angular_2:
+      return result.angular[1];
+    case oracle::angular_3:
+      return result.angular[2];
+    case oracle::time_1:
+      return result.beta.time;
+    case oracle::time_2:
+      return result.gamma.time;
+    case oracle::gamma_minus_theta:
+      return result.gamma_minus_theta;
+    case oracle::impulse_deficit:
+      return result.impulse_deficit;
+    case oracle::quantity_count:
+      break;
   }
   return std::numeric_limits<double>::quiet_NaN();
 }
@@ -114,10 +143,14 @@ double entry(const analytic::ContactAngles& result, Quantity q) {
 analytic::NextImpact expected_next(const std::optional<oracle::Contact>& contact) {
   if (!contact) return analytic::NextImpact::not_reached;
   switch (*contact) {
-    case oracle::Contact::other_end: return analytic::NextImpact::other_end;
-    case oracle::Contact::beyond_upright: return analytic::NextImpact::beyond_upright;
-    case oracle::Contact::same_end: return analytic::NextImpact::same_end;
-    case oracle::Contact::none: break;
+    case oracle::Contact::other_end:
+      return analytic::NextImpact::other_end;
+    case oracle::Contact::beyond_upright:
+      return analytic::NextImpact::beyond_upright;
+    case oracle::Contact::same_end:
+      return analytic::NextImpact::same_end;
+    case oracle::Contact::none:
+      break;
   }
   return analytic::NextImpact::none;
 }
@@ -130,7 +163,8 @@ struct Deviation {
 template <class Real>
 double error_in_ulp(double computed, const Real& exact) {
   if (!std::isfinite(computed)) return std::numeric_limits<double>::quiet_NaN();
-  return static_cast<double>(Real(abs(Real(computed) - exact) / ulp_of(static_cast<double>(exact))));
+  return static_cast<double>(
+      Real(abs(Real(computed) - exact) / ulp_of(static_cast<double>(exact))));
 }
 
 Deviation deviation(double ulp, double condition) {
@@ -172,15 +206,13 @@ struct Statistics {
 /// All that is collected over many rows.
 struct Report {
   std::array<std::array<Statistics, oracle::quantity_count>, region_count> statistics;
-  long rows = 0;
   std::set<double> within_margin;  ///< angles left out because rounding decides there
-  std::vector<std::string> wrong;  ///< decisions, in words
+  std::vector<std::string> wrong;  ///< decisions and clearances, in words
 
   void merge(const Report& other) {
     for (std::size_t r = 0; r < region_count; ++r)
       for (std::size_t q = 0; q < oracle::quantity_count; ++q)
         statistics[r][q].merge(other.statistics[r][q]);
-    rows += other.rows;
     within_margin.insert(other.within_margin.begin(), other.within_margin.end());
     wrong.insert(wrong.end(), other.wrong.begin(), other.wrong.end());
   }
@@ -189,8 +221,7 @@ struct Report {
 /// Judges one case of the rod, row by row.
 class Judge {
  public:
-  explicit Judge(const Rod& rod)
-      : rod_(rod), small_angles_(rod.with(Digits150(0))) {}
+  explicit Judge(const Rod& rod) : rod_(rod), small_angles_(rod.with(Digits150(0))) {}
 
   void row(const Sample& sample, Report& report) const {
     if (sample.theta < oracle::SmallAngleLaw::validity)
@@ -206,7 +237,6 @@ class Judge {
   void judge(const Sample& sample, const oracle::RodSolution<Real>& exact, Report& report) const {
     const auto angle = analytic::Angle::from_radians(sample.theta);
     const auto result = analytic::contact_angles(angle, rod_.parameters());
-    ++report.rows;
     if (result.beta.within_margin || result.gamma.within_margin) {
       report.within_margin.insert(sample.theta);
       return;
@@ -217,6 +247,18 @@ class Judge {
     if (!right) return;
     for (std::size_t i = 0; i < oracle::quantity_count; ++i)
       quantity(sample, result, exact, static_cast<Quantity>(i), report);
+    if (result.beta.next == analytic::NextImpact::none)
+      clearance(sample, result.beta.clearance, static_cast<double>(exact.clearance), report);
+    if (result.gamma.next == analytic::NextImpact::none)
+      clearance(sample, result.gamma.clearance, static_cast<double>(exact.clearance), report);
+  }
+
+  static void clearance(const Sample& sample, double computed, double exact, Report& report) {
+    if (!(exact < near_miss) || std::abs(computed - exact) <= clearance_tolerance) return;
+    std::ostringstream out;
+    out << std::setprecision(17) << "theta " << sample.theta << ": clearance " << computed
+        << " instead of " << exact;
+    report.wrong.push_back(out.str());
   }
 
   template <class Real>
@@ -226,7 +268,8 @@ class Judge {
     if (difference && !rod_.elastic()) return;
     if (!exact.quantities[q]) {
       if (must_be_nan(exact, q) && !std::isnan(entry(result, q)))
-        report.wrong.push_back(std::string(oracle::quantity_names[q]) + " of no impact is a number");
+        report.wrong.push_back(std::string(oracle::quantity_names[q]) +
+                               " of no impact is a number");
       return;
     }
     const double ulp = error_in_ulp(entry(result, q), exact.quantities[q]->value);
@@ -236,19 +279,21 @@ class Judge {
   /// Impulse and velocities of an impact that does not happen.
   template <class Real>
   static bool must_be_nan(const oracle::RodSolution<Real>& exact, Quantity q) {
-    const bool of_third = q == oracle::impulse_3 || q == oracle::velocity_3 || q == oracle::angular_3;
+    const bool of_third =
+        q == oracle::impulse_3 || q == oracle::velocity_3 || q == oracle::angular_3;
     const bool of_second =
         q == oracle::impulse_2 || q == oracle::velocity_2 || q == oracle::angular_2;
     if (of_second) return exact.second == oracle::Contact::none;
-    return of_third && (exact.second == oracle::Contact::none || exact.third == oracle::Contact::none);
+    return of_third &&
+           (exact.second == oracle::Contact::none || exact.third == oracle::Contact::none);
   }
 
   [[nodiscard]] std::string describe(const Sample& sample, const analytic::ContactAngles& result,
                                      oracle::Contact second,
                                      const std::optional<oracle::Contact>& third) const {
     std::ostringstream out;
-    out << std::setprecision(17) << "theta " << sample.theta << " G " << rod_.gravity_number << " e "
-        << rod_.restitution << " mu_i " << rod_.impulse_ratio << ": next "
+    out << std::setprecision(17) << "theta " << sample.theta << " G " << rod_.gravity_number
+        << " e " << rod_.restitution << " mu_i " << rod_.impulse_ratio << ": next "
         << static_cast<int>(result.beta.next) << ", " << static_cast<int>(result.gamma.next)
         << " instead of " << static_cast<int>(expected_next(second)) << ", "
         << static_cast<int>(expected_next(third));
@@ -321,8 +366,10 @@ std::vector<Sample> elastic_samples() {
   samples.add_towards(to_0, 0, +1, {-8, degree_decade}, 4500);
   samples.add_towards(to_90, analytic::pi / 2, -1, {ulp_decade, degree_decade}, 4000);
   for (const int side : {-1, 1}) {
-    samples.add_towards(to_fold_2, fold(oracle::Fold::second), side, {ulp_decade, degree_decade}, 2000);
-    samples.add_towards(to_fold_3, fold(oracle::Fold::third), side, {ulp_decade, degree_decade}, 2000);
+    samples.add_towards(to_fold_2, fold(oracle::Fold::second), side, {ulp_decade, degree_decade},
+                        2000);
+    samples.add_towards(to_fold_3, fold(oracle::Fold::third), side, {ulp_decade, degree_decade},
+                        2000);
   }
   samples.add_uniform(bulk, 81000);
   return samples.all();
@@ -346,14 +393,13 @@ void check(const Report& report) {
   for (std::size_t r = 0; r < region_count; ++r)
     for (std::size_t q = 0; q < oracle::quantity_count; ++q) {
       const Statistics& s = report.statistics[r][q];
-      BOOST_TEST(s.worst.ratio <= 1, region_names[r] << ": " << oracle::quantity_names[q]
-                                                     << " errs by " << s.worst.ratio
-                                                     << " of what is allowed at theta = "
-                                                     << std::setprecision(17)
-                                                     << s.theta_of_worst_ratio << " rad");
+      BOOST_TEST(s.worst.ratio <= 1,
+                 region_names[r] << ": " << oracle::quantity_names[q] << " errs by "
+                                 << s.worst.ratio << " of what is allowed at theta = "
+                                 << std::setprecision(17) << s.theta_of_worst_ratio << " rad");
     }
   constexpr std::size_t shown = 5;
-  BOOST_TEST(report.wrong.empty(), report.wrong.size() << " wrong decisions");
+  BOOST_TEST(report.wrong.empty(), report.wrong.size() << " wrong decisions or clearances");
   for (std::size_t i = 0; i < std::min(shown, report.wrong.size()); ++i)
     BOOST_TEST_MESSAGE(report.wrong[i]);
   constexpr std::size_t folds = 2;
@@ -376,8 +422,8 @@ void write_table(std::ostream& out) {
     for (std::size_t q = 0; q < oracle::quantity_count; ++q) {
       const Statistics& s = collected().statistics[r][q];
       if (s.rows == 0) continue;
-      out << "| " << region_names[r] << " | " << oracle::quantity_names[q] << " | " << s.rows << " | "
-          << std::setprecision(3) << s.worst.ulp << " | " << s.worst.ratio << " | "
+      out << "| " << region_names[r] << " | " << oracle::quantity_names[q] << " | " << s.rows
+          << " | " << std::setprecision(3) << s.worst.ulp << " | " << s.worst.ratio << " | "
           << std::setprecision(9) << s.theta_of_worst_ratio * analytic::degrees_per_radian << " | "
           << std::setprecision(2) << s.sum_ulp / static_cast<double>(s.rows) << " |\n";
     }
@@ -395,10 +441,10 @@ struct TableWriter {
 BOOST_TEST_GLOBAL_FIXTURE(TableWriter);
 
 const std::map<std::string, Quantity> columns = {
-    {"beta_deg", oracle::beta},      {"gamma_deg", oracle::gamma},    {"P1", oracle::impulse_1},
-    {"P2", oracle::impulse_2},       {"P3", oracle::impulse_3},       {"V1", oracle::velocity_1},
-    {"Omega1", oracle::angular_1},   {"V2", oracle::velocity_2},      {"Omega2", oracle::angular_2},
-    {"V3", oracle::velocity_3},      {"Omega3", oracle::angular_3},   {"T1", oracle::time_1},
+    {"beta_deg", oracle::beta},    {"gamma_deg", oracle::gamma},  {"P1", oracle::impulse_1},
+    {"P2", oracle::impulse_2},     {"P3", oracle::impulse_3},     {"V1", oracle::velocity_1},
+    {"Omega1", oracle::angular_1}, {"V2", oracle::velocity_2},    {"Omega2", oracle::angular_2},
+    {"V3", oracle::velocity_3},    {"Omega3", oracle::angular_3}, {"T1", oracle::time_1},
     {"T2", oracle::time_2}};
 
 /// The table's digits in place of the oracle's; the oracle lends its condition numbers.
@@ -422,14 +468,15 @@ void check_printed_row(const oracle::ReferenceRow& row) {
   const auto result = analytic::contact_angles(
       theta, {.gravity_number = std::stod(row.at("G")), .restitution = 1, .impulse_ratio = 0});
   BOOST_TEST_CONTEXT("theta " << row.at("theta_deg") << " G " << row.at("G")) {
-    BOOST_TEST((result.beta.next == analytic::NextImpact::other_end) == (row.count("beta_deg") == 1));
+    BOOST_TEST((result.beta.next == analytic::NextImpact::other_end) ==
+               (row.count("beta_deg") == 1));
     BOOST_TEST((result.gamma.next == analytic::NextImpact::other_end) ==
                (row.count("gamma_deg") == 1));
     for (const auto& [name, quantity] : columns) {
       if (row.count(name) == 0) continue;
       const double ulp = error_in_ulp(entry(result, quantity), exact.quantities[quantity]->value);
-      const double allowed =
-          allowed_ulp + (allowed_ulp_per_condition + allowed_ulp_of_degrees) * condition(exact, quantity);
+      const double allowed = allowed_ulp + (allowed_ulp_per_condition + allowed_ulp_of_degrees) *
+                                               condition(exact, quantity);
       BOOST_TEST(ulp <= allowed, name << " errs by " << ulp << " ulp, allowed " << allowed);
     }
   }
@@ -456,8 +503,8 @@ void check_fold(oracle::Fold which) {
   for (int i = -fold_neighbourhood; i <= fold_neighbourhood; ++i) {
     const double theta = nearest + i * ulp;
     const auto at = decision(theta, which);
-    const auto right = Digits50(theta) < exact ? analytic::NextImpact::other_end
-                                               : analytic::NextImpact::none;
+    const auto right =
+        Digits50(theta) < exact ? analytic::NextImpact::other_end : analytic::NextImpact::none;
     if (at.within_margin) ++margin;
     if (at.next != right && !at.within_margin) ++wrong;
   }

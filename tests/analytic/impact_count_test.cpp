@@ -1,4 +1,5 @@
-// Number and order of impacts of impact_sequence() against a brute-force march, at 100 000 random drops.
+// Number and order of impacts of impact_sequence() against a brute-force march, at 100 000 random
+// drops.
 
 #include <boost/test/unit_test.hpp>
 
@@ -78,7 +79,8 @@ analytic::Sequence computed(const RandomDrop& drop) {
   scene.law.friction = drop.impulse_ratio == 0 ? analytic::FrictionKind::none
                                                : analytic::FrictionKind::impulse_ratio;
   scene.law.friction_value = drop.impulse_ratio;
-  return analytic::impact_sequence(scene, {.impacts = impacts, .digits = 15, .amplification = false});
+  return analytic::impact_sequence(scene,
+                                   {.impacts = impacts, .digits = 15, .amplification = false});
 }
 
 /// Uniform solids: k² = (3r² + L²)/12 for the cylinder, (L² + T²)/12 for the box.

@@ -25,10 +25,10 @@ namespace {
 const Digits150 table_tolerance("1e-28");
 
 const std::map<std::string, Quantity> columns = {
-    {"beta_deg", oracle::beta},      {"gamma_deg", oracle::gamma},    {"P1", oracle::impulse_1},
-    {"P2", oracle::impulse_2},       {"P3", oracle::impulse_3},       {"V1", oracle::velocity_1},
-    {"Omega1", oracle::angular_1},   {"V2", oracle::velocity_2},      {"Omega2", oracle::angular_2},
-    {"V3", oracle::velocity_3},      {"Omega3", oracle::angular_3},   {"T1", oracle::time_1},
+    {"beta_deg", oracle::beta},    {"gamma_deg", oracle::gamma},  {"P1", oracle::impulse_1},
+    {"P2", oracle::impulse_2},     {"P3", oracle::impulse_3},     {"V1", oracle::velocity_1},
+    {"Omega1", oracle::angular_1}, {"V2", oracle::velocity_2},    {"Omega2", oracle::angular_2},
+    {"V3", oracle::velocity_3},    {"Omega3", oracle::angular_3}, {"T1", oracle::time_1},
     {"T2", oracle::time_2}};
 
 /// Times are printed for contacts within 90° only.
@@ -85,11 +85,12 @@ oracle::Contact without_side(oracle::Contact contact) {
 }
 
 void compare_oracles(const oracle::RodCase<long double>& rod) {
-  // Both round in long double.  Rounding inside a flight grows like the condition number of the whole,
-  // but not in proportion to it; a wrong contact would be wrong by far more.
+  // Both round in long double.  Rounding inside a flight grows like the condition number of the
+  // whole, but not in proportion to it; a wrong contact would be wrong by far more.
   constexpr long double tolerance = 4096 * std::numeric_limits<long double>::epsilon();
-  const auto march = oracle::march_sequence(thin_rod, {rod.theta, -1, 0, 0}, 0,
-                                            {rod.restitution, rod.impulse_ratio, rod.gravity_number}, 3);
+  const auto march =
+      oracle::march_sequence(thin_rod, {rod.theta, -1, 0, 0}, 0,
+                             {rod.restitution, rod.impulse_ratio, rod.gravity_number}, 3);
   if (march.close_call) return;
   const auto exact = oracle::solve_rod(rod);
   BOOST_TEST((contact_of(march, 1) == without_side(exact.second)));

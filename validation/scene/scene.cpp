@@ -208,12 +208,12 @@ std::vector<std::string> Scene::summary() const {
           ? fmt::format("rod {} m, radius {} m, {} kg", shortest(rod.length), shortest(rod.radius),
                         shortest(rod.mass))
           : fmt::format("thin rod {} m, {} kg", shortest(rod.length), shortest(rod.mass));
-  std::string motion = fmt::format("drop: angle {}°, speed {} m/s", shortest(angle_deg), shortest(speed));
+  std::string motion = fmt::format("drop: {}° at {} m/s", shortest(angle_deg), shortest(speed));
   if (height) motion += fmt::format(" (from {} m)", shortest(*height));
-  motion += fmt::format(", tangential velocity {} m/s, spin {} rad/s, gravity {} m/s²",
+  motion += fmt::format(", tangential {} m/s, spin {} rad/s, gravity {} m/s²",
                         shortest(tangential_velocity), shortest(spin), shortest(gravity));
   return {what, motion,
-          fmt::format("impact: restitution {} ({}), {}; at most {} impacts, {} digits",
+          fmt::format("impact: e = {} ({}), {}; at most {} impacts, {} digits",
                       shortest(law.restitution), law_name(law.law), friction_summary(law), impacts,
                       digits)};
 }

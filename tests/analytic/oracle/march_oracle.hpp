@@ -1,9 +1,9 @@
-// Impact sequences of any planar body by brute force, in long double: Eq. 8 by Cramer's rule, then a
-// march along the height of every vertex.
+// Impact sequences of any planar body by brute force, in long double: Eq. 8 by Cramer's rule, then
+// a march along the height of every vertex.
 //
 // From a height h with velocity h′, and |h″| <= M = g + Ω²ρ with ρ the vertex's distance from the
-// centre of mass, h cannot vanish before the zero Δ of h + h′Δ − MΔ²/2.  Steps of that size never pass
-// a contact, however short or grazing, and close in on it quadratically.
+// centre of mass, h cannot vanish before the zero Δ of h + h′Δ − MΔ²/2.  Steps of that size never
+// pass a contact, however short or grazing, and close in on it quadratically.
 #pragma once
 
 #include <algorithm>
@@ -140,8 +140,8 @@ class MarchFlight {
     return h.velocity < 0 ? 2 * h.value / (root - h.velocity) : (h.velocity + root) / bend;
   }
 
-  /// While the centre of mass is higher than a vertex reaches, it cannot touch: the time at which that
-  /// ends, infinite if it never does, 0 if the centre is not that high.
+  /// While the centre of mass is higher than a vertex reaches, it cannot touch: the time at which
+  /// that ends, infinite if it never does, 0 if the centre is not that high.
   [[nodiscard]] long double back_in_reach(long double t, long double reach) const {
     if (!(centre_height(t) > reach)) return 0;
     const long double v = state_.normal;
@@ -166,8 +166,7 @@ inline long double march_strike(const MarchBody& body, std::size_t vertex, const
   const long double k2 = body.gyration_radius * body.gyration_radius;
   const long double arm = law.impulse_ratio * d.normal - d.tangential;
   const long double spin = k2 * state.angular - arm * state.normal;
-  const long double leave =
-      -law.restitution * (state.normal - d.tangential * state.angular);
+  const long double leave = -law.restitution * (state.normal - d.tangential * state.angular);
   const long double determinant = arm * d.tangential - k2;  // of rows (−arm, k²), (1, −d_t)
   const long double normal = (-spin * d.tangential - k2 * leave) / determinant;
   const long double angular = (-arm * leave - spin) / determinant;

@@ -1,9 +1,10 @@
-// The first three impacts of the thin rod, from the physics alone and at any precision: Eq. 8 solved as
-// the linear system that it is, then free flight, then the first zero of each end's height.
+// The first three impacts of the thin rod, from the physics alone and at any precision: Eq. 8
+// solved as the linear system that it is, then free flight, then the first zero of each end's
+// height.
 //
-// The unit rod (m = L = 1) strikes the ground at θ with its left end, v_n = −1, ω = 0.  The first zero
-// is isolated by exclusion: an interval is dropped when the bound |h″| <= g + Ω²/2 proves h > 0 on it,
-// kept when the bound proves h monotone and its ends differ in sign, and halved otherwise.
+// The unit rod (m = L = 1) strikes the ground at θ with its left end, v_n = −1, ω = 0.  The first
+// zero is isolated by exclusion: an interval is dropped when the bound |h″| <= g + Ω²/2 proves h >
+// 0 on it, kept when the bound proves h monotone and its ends differ in sign, and halved otherwise.
 #pragma once
 
 #include <algorithm>
@@ -42,10 +43,14 @@ enum class Parameter { theta, gravity_number, restitution, impulse_ratio };
 template <class Real>
 Real value_of(const RodCase<Real>& rod, Parameter parameter) {
   switch (parameter) {
-    case Parameter::theta: return rod.theta;
-    case Parameter::gravity_number: return rod.gravity_number;
-    case Parameter::restitution: return rod.restitution;
-    case Parameter::impulse_ratio: break;
+    case Parameter::theta:
+      return rod.theta;
+    case Parameter::gravity_number:
+      return rod.gravity_number;
+    case Parameter::restitution:
+      return rod.restitution;
+    case Parameter::impulse_ratio:
+      break;
   }
   return rod.impulse_ratio;
 }
@@ -63,18 +68,39 @@ enum class Contact {
 };
 
 enum Quantity : std::size_t {
-  beta, gamma,
-  impulse_1, impulse_2, impulse_3,
-  velocity_1, velocity_2, velocity_3,
-  angular_1, angular_2, angular_3,
-  time_1, time_2,
-  gamma_minus_theta, impulse_deficit,
+  beta,
+  gamma,
+  impulse_1,
+  impulse_2,
+  impulse_3,
+  velocity_1,
+  velocity_2,
+  velocity_3,
+  angular_1,
+  angular_2,
+  angular_3,
+  time_1,
+  time_2,
+  gamma_minus_theta,
+  impulse_deficit,
   quantity_count
 };
 
-inline constexpr std::array<const char*, quantity_count> quantity_names = {
-    "beta", "gamma", "P1", "P2", "P3", "V1", "V2", "V3", "Omega1", "Omega2", "Omega3", "T1", "T2",
-    "gamma_minus_theta", "impulse_deficit"};
+inline constexpr std::array<const char*, quantity_count> quantity_names = {"beta",
+                                                                           "gamma",
+                                                                           "P1",
+                                                                           "P2",
+                                                                           "P3",
+                                                                           "V1",
+                                                                           "V2",
+                                                                           "V3",
+                                                                           "Omega1",
+                                                                           "Omega2",
+                                                                           "Omega3",
+                                                                           "T1",
+                                                                           "T2",
+                                                                           "gamma_minus_theta",
+                                                                           "impulse_deficit"};
 
 /// Every quantity of the impacts that happen, with its derivative with respect to one parameter p.
 template <class Real>
@@ -284,7 +310,7 @@ class FirstZero {
 
 template <class To, class From>
 RodFlight<To> convert(const RodFlight<From>& f) {
-  return {static_cast<To>(f.inclination), static_cast<To>(f.normal), static_cast<To>(f.tangential),
+  return {static_cast<To>(f.inclination), static_cast<To>(f.normal),  static_cast<To>(f.tangential),
           static_cast<To>(f.angular),     static_cast<To>(f.gravity), static_cast<To>(f.centre)};
 }
 
@@ -304,10 +330,11 @@ Real bisect(const RodFlight<Real>& flight, End end, Bracket<Real> bracket) {
   }
 }
 
-/// The zero in a bracket: Newton's method from `start`, trusted only if the height changes sign within
-/// a relative distance of ε^0.8 around it; otherwise bisection.
+/// The zero in a bracket: Newton's method from `start`, trusted only if the height changes sign
+/// within a relative distance of ε^0.8 around it; otherwise bisection.
 template <class Real>
-Real polish(const RodFlight<Real>& flight, End end, const Bracket<Real>& bracket, const Real& start) {
+Real polish(const RodFlight<Real>& flight, End end, const Bracket<Real>& bracket,
+            const Real& start) {
   using std::abs;
   using std::pow;
   static const Real width = pow(std::numeric_limits<Real>::epsilon(), Real(0.8));
@@ -325,16 +352,16 @@ Real polish(const RodFlight<Real>& flight, End end, const Bracket<Real>& bracket
   return certain ? t : bisect(flight, end, bracket);
 }
 
-/// A time at which an end that has just struck is certainly above the ground: it leaves at a speed w
-/// and h >= w t − (g + Ω²/2) t²/2.
+/// A time at which an end that has just struck is certainly above the ground: it leaves at a speed
+/// w and h >= w t − (g + Ω²/2) t²/2.
 template <class Real>
 Real departure_time(const RodFlight<Real>& flight, End end) {
   return end_velocity(flight, end, Real(0)) /
          (flight.gravity + flight.angular * flight.angular / 2);
 }
 
-/// First zero of an end's height after t = 0, in full precision.  It is isolated in long double where
-/// that can decide, in Real where it cannot.
+/// First zero of an end's height after t = 0, in full precision.  It is isolated in long double
+/// where that can decide, in Real where it cannot.
 template <class Real>
 std::optional<Real> first_contact_of(const RodFlight<Real>& flight, End end, bool touching,
                                      const std::optional<Real>& until) {
@@ -376,8 +403,8 @@ Arrival<Real> next_contact(const RodFlight<Real>& flight, End struck) {
   return {upright_passed ? Contact::beyond_upright : Contact::other_end, other(struck), *far};
 }
 
-/// Without gravity: least height at a turning point of an end, infinite if there is none.  The first
-/// turning point is the lowest if the centre of mass does not fall.
+/// Without gravity: least height at a turning point of an end, infinite if there is none.  The
+/// first turning point is the lowest if the centre of mass does not fall.
 template <class Real>
 Real lowest_turning_height(const RodFlight<Real>& flight, End struck) {
   using std::abs;
@@ -407,8 +434,8 @@ class RodSolver {
     solution_.parameter = value_of(rod_, parameter_);
     const D theta = seeded(Parameter::theta);
     law_ = {seeded(Parameter::restitution), seeded(Parameter::impulse_ratio)};
-    flight_ = {theta,      D(Real(-1)), D(Real(0)),
-               D(Real(0)), seeded(Parameter::gravity_number), D(Real(0))};
+    flight_ = {theta,     D(Real(-1)), D(Real(0)), D(Real(0)), seeded(Parameter::gravity_number),
+               D(Real(0))};
     impact(End::a, impulse_1, velocity_1, angular_1);
     if (impacts == 1) return solution_;
 
@@ -454,8 +481,7 @@ class RodSolver {
     }
     const D moment(arrival.time);
     const D height = end_height<D>(flight_, arrival.end, moment);
-    const D t(arrival.time,
-              -height.slope / end_velocity<Real>(plain, arrival.end, arrival.time));
+    const D t(arrival.time, -height.slope / end_velocity<Real>(plain, arrival.end, arrival.time));
     set(time, t);
     flight_.inclination = flight_.inclination - flight_.angular * t;
     flight_.normal = flight_.normal - flight_.gravity * t;
@@ -476,8 +502,9 @@ RodSolution<Real> solve_rod(const RodCase<Real>& rod, int impacts = 3,
   return RodSolver<Real>(rod, parameter).solve(impacts);
 }
 
-/// θ → 0: every quantity is q ~ C θ^p (1 + O(θ)) with a whole number p.  C and p are read off at 1e-30
-/// in 150 digits, which leaves 30 correct digits of 2 − ΣP ~ θ⁴; good to 20 digits below 1e-20.
+/// θ → 0: every quantity is q ~ C θ^p (1 + O(θ)) with a whole number p.  C and p are read off at
+/// 1e-30 in 150 digits, which leaves 30 correct digits of 2 − ΣP ~ θ⁴; good to 20 digits below
+/// 1e-20.
 class SmallAngleLaw {
  public:
   static constexpr double validity = 1e-20;  ///< largest θ [rad]
@@ -504,7 +531,8 @@ class SmallAngleLaw {
   [[nodiscard]] int whole_power(const Dual<Digits150>& q) const {
     const double power = static_cast<double>(reference_.parameter * q.slope / q.value);
     const double whole = std::round(power);
-    if (!(std::abs(power - whole) < 1e-15)) throw std::runtime_error("no power law at small angles");
+    if (!(std::abs(power - whole) < 1e-15))
+      throw std::runtime_error("no power law at small angles");
     return static_cast<int>(whole);
   }
 
@@ -531,8 +559,8 @@ Real grazing_height(const RodCase<Real>& rod, Fold fold) {
   return end_height(flight, second ? End::b : End::a, Real(turned / speed));
 }
 
-/// θ at which an end touches with zero speed, by bisection between two angles [rad].  Known for e = 1
-/// without gravity: 58.488442288312° and 27.577809606636°.
+/// θ at which an end touches with zero speed, by bisection between two angles [rad].  Known for e =
+/// 1 without gravity: 58.488442288312° and 27.577809606636°.
 template <class Real>
 Real fold_angle(RodCase<Real> rod, Fold fold, Bracket<Real> bracket) {
   for (;;) {

@@ -1,0 +1,61 @@
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <random>
+
+#include "validation/output/json.hpp"
+#include "validation/output/number.hpp"
+#include "validation/output/table.hpp"
+#include "validation/scene/bad_input.hpp"
+
+using namespace clatter::validation;
+
+BOOST_AUTO_TEST_CASE(the_shortest_text_of_a_double_reads_back_as_the_same_double) {
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 100000; ++i) {
+    const std::uint64_t bits = random();
+    double value = 0;
+    std::memcpy(&value, &bits, sizeof value);
+    if (!std::isfinite(value)) continue;
+    const std::string text = shortest(value);
+    BOOST_REQUIRE(std::strtod(text.c_str(), nullptr) == value);
+    BOOST_REQUIRE(std::strtod(json_text(Json(value)).c_str(), nullptr) == value);
+  }
+  BOOST_TEST(shortest(0.1) == "0.1");
+  BOOST_TEST(shortest(-0.0) == "0");
+  BOOST_TEST(json_text(Json(NAN)) == "null\n");
+}
+
+BOOST_AUTO_TEST_CASE(significant_digits_are_kept_and_no_more_than_known_ones_shown) {
+  BOOST_TEST(significant(5.0819828830553, 6) == "5.08198");
+  BOOST_TEST(significant(10.547977, 6) == "10.5480");
+  BOOST_TEST(significant(9.9999996, 6) == "10.0000");
+  BOOST_TEST(significant(1e-7, 3) == "1.00e-07");
+  BOOST_TEST(significant(0, 6) == "0");
+  BOOST_TEST(known_digits(1.0, 1e-3) == 3);
+  BOOST_TEST(known_digits(1.0, 0) == 17);
+  BOOST_TEST(known_digits(1.0, 10.0) == 1);
+}
+
+BOOST_AUTO_TEST_CASE(only_whole_finite_decimal_numbers_are_read) {
+  double value = 0;
+  BOOST_TEST(read_number("-1.5e-3", value));
+  BOOST_TEST(value == -1.5e-3);
+  for (const char* bad : {"", " 1", "1 ", "nan", "inf", "-inf", "infinity", "1e400", "0x10", "1,5", "1.0.0", "--1", "e5"}) {
+    BOOST_TEST(!read_number(bad, value), bad);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(csv_quotes_what_needs_it_and_tables_align_by_display_width) {
+  Table table{.head = {"head"}, .columns = {{"a", "α", "°"}, {"b", "b", ""}}, .rows = {}, .notes = {"note"}};
+  table.rows.push_back({Cell(1.5, 3), Cell("x,\"y\"")});
+  BOOST_TEST(table_text(table, {Format::csv, false}) == "# head\na,b\n1.5,\"x,\"\"y\"\"\"\n# note\n");
+  for (const char c : table_text(table, {Format::table, true})) BOOST_TEST((c & 0x80) == 0);
+  BOOST_TEST(display_width("Ω [°]") == 5u);
+  BOOST_TEST(display_width(wrapped(std::string(60, 'a') + " " + std::string(60, 'b')).substr(0, 60)) == 60u);
+}
+
+BOOST_AUTO_TEST_CASE(the_nearest_name_is_the_one_with_fewest_changes) {
+  BOOST_TEST(nearest_name("sequnce", {"angles", "sequence", "explain"}) == "sequence");
+}

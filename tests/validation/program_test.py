@@ -1,0 +1,262 @@
+#!/usr/bin/python3
+"""The program as its users meet it: options, errors, formats, files, exit statuses."""
+
+import csv
+import io
+import json
+import os
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+PROGRAM = os.environ["CLATTER_PROGRAM"]
+
+NUMBER_OPTIONS = {
+    "sequence": ["--angle", "--speed", "--height", "--tangential-velocity", "--spin", "--gravity",
+                 "--restitution", "--impulse-ratio", "--friction", "--mass", "--length", "--radius",
+                 "--impacts", "--digits"],
+    "angles": ["--from", "--to", "--step", "--count", "--gravity-number", "--gravity", "--length",
+               "--speed", "--restitution", "--impulse-ratio", "--digits"],
+    "regimes": ["--gravity-number", "--gravity", "--length", "--speed", "--restitution",
+                "--impulse-ratio", "--digits"],
+}
+NOT_NUMBERS = ["nan", "-nan", "inf", "-inf", "1e400", "", "abc", "1x", " 1", "0x1p3", "1,0"]
+NEGATIVE_REFUSED = {"--angle", "--speed", "--height", "--gravity", "--restitution", "--friction", "--mass",
+                    "--length", "--radius", "--impacts", "--digits", "--from", "--to", "--step", "--count",
+                    "--gravity-number"}
+ZERO_REFUSED = {"--speed", "--height", "--mass", "--length", "--impacts", "--digits", "--step", "--count"}
+TOO_LARGE = {"--angle": "90.0000001", "--restitution": "1.0000001", "--impacts": "1000001", "--digits": "18",
+             "--from": "91", "--to": "90.5", "--mass": "1e201", "--length": "1e309"}
+
+
+def run(*arguments, **options):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=60, **options)
+
+
+class BadInput(unittest.TestCase):
+    def refuse(self, *arguments, status=2):
+        with tempfile.TemporaryDirectory() as folder:
+            target = os.path.join(folder, "out")
+            result = run(*arguments, "--output", target) if arguments and "--output" not in arguments else run(*arguments)
+            self.assertEqual(result.returncode, status, (arguments, result.stderr))
+            self.assertEqual(result.stdout, "", arguments)
+            self.assertEqual(result.stderr.count("\n"), 1, (arguments, result.stderr))
+            self.assertEqual(os.listdir(folder), [], arguments)
+        return result.stderr
+
+    def base(self, command, option):
+        return ["--angle", "10"] if command == "sequence" and option != "--angle" else []
+
+    def test_every_number_option_refuses_what_is_no_finite_number(self):
+        for command, options in NUMBER_OPTIONS.items():
+            for option in options:
+                for text in NOT_NUMBERS:
+                    message = self.refuse(command, *self.base(command, option), option, text)
+                    self.assertIn(option, message)
+
+    def test_every_number_option_refuses_what_is_out_of_its_range(self):
+        for command, options in NUMBER_OPTIONS.items():
+            for option in options:
+                base = self.base(command, option)
+                if option in NEGATIVE_REFUSED:
+                    self.refuse(command, *base, option, "-1")
+                if option in ZERO_REFUSED:
+                    self.refuse(command, *base, option, "0")
+                if option in TOO_LARGE:
+                    self.refuse(command, *base, option, TOO_LARGE[option])
+
+    def test_options_given_twice_without_value_or_unknown_are_refused(self):
+        self.assertIn("twice", self.refuse("sequence", "--angle", "10", "--angle", "20"))
+        self.assertIn("value", self.refuse("sequence", "--angle"))
+        self.assertIn("did you mean --angle", self.refuse("sequence", "--agle", "10"))
+        self.assertIn("did you mean sequence", self.refuse("sequnce"))
+        self.assertIn("did you mean json", self.refuse("sequence", "--angle", "10", "--format", "jsn"))
+        self.assertIn("did you mean stronge", self.refuse("sequence", "--angle", "10", "--restitution-law", "strong"))
+        self.assertIn("unexpected", self.refuse("sequence", "10", "--angle", "10"))
+        self.refuse("sequence", "--angle", "10", "-x")
+        self.refuse("sequence", "--angle", "10", "--step", "1")
+        self.refuse("sequence")
+        self.refuse()
+
+    def test_options_that_exclude_each_other_are_refused(self):
+        self.refuse("sequence", "--angle", "10", "--impulse-ratio", "0.1", "--friction", "0.1")
+        self.refuse("sequence", "--angle", "10", "--speed", "1", "--height", "1", "--gravity", "9.81")
+        self.refuse("sequence", "--angle", "10", "--body", "box")
+        self.refuse("sequence", "--angle", "10", "--body", "box", "--size", "1x2")
+        self.refuse("sequence", "--angle", "10", "--body", "box", "--size", "1x1x1", "--radius", "0.1")
+        self.refuse("sequence", "--angle", "10", "--size", "1x1x1")
+        self.refuse("sequence", "--angle", "10", "--height", "1")
+        self.refuse("sequence", "--angle", "90", "--height", "0.4", "--gravity", "9.81")
+        self.refuse("angles", "--gravity", "1", "--gravity-number", "1")
+        self.refuse("angles", "--step", "1", "--count", "3")
+        self.refuse("angles", "--from", "50", "--to", "40")
+        self.refuse("regimes", "--from", "1")
+
+    def test_explain_wants_a_positive_whole_number(self):
+        for text in ["0", "-1", "1.5", "x", "nan", ""]:
+            self.refuse("explain", text, "--angle", "10")
+
+    def test_a_first_contact_that_recedes_is_bad_input(self):
+        self.refuse("sequence", "--angle", "30", "--spin", "10")
+
+    def test_jamming_is_refused_by_name_with_status_4(self):
+        self.assertIn("jamming", self.refuse("sequence", "--angle", "63.4", "--impulse-ratio", "1.5", status=4))
+
+    def test_a_file_that_cannot_be_written_is_bad_input(self):
+        for path in ["/nonexistent/folder/file", "/dev"]:
+            result = run("sequence", "--angle", "10", "--output", path)
+            self.assertEqual((result.returncode, result.stdout), (2, ""))
+
+
+class Output(unittest.TestCase):
+    def test_the_readme_table_has_the_three_impacts(self):
+        text = run("sequence", "--angle", "10").stdout
+        for number in ["5.08198", "10.5480", "0.511569", "1.00284", "0.485091", "1.99950"]:
+            self.assertIn(number, text)
+
+    def test_tables_fit_80_columns(self):
+        for arguments in [["sequence", "--angle", "10"],
+                          ["sequence", "--angle", "10", "--gravity", "9.81", "--restitution", "0.5", "--friction", "0.3",
+                           "--impacts", "60"],
+                          ["sequence", "--angle", "90", "--body", "rod", "--radius", "0.1", "--gravity", "9.81", "--restitution", "0.5"],
+                          ["angles"], ["angles", "--as-printed", "--gravity-number", "1"], ["regimes"],
+                          ["explain", "2", "--angle", "10", "--gravity", "9.81", "--friction", "0.2"],
+                          ["explain", "9", "--angle", "10"], ["--help"]]:
+            for line in run(*arguments).stdout.splitlines():
+                self.assertLessEqual(len(line), 80, (arguments, line))
+
+    def test_ascii_means_ascii(self):
+        for arguments in [["sequence", "--angle", "10", "--restitution", "0.5", "--gravity", "9.81", "--impacts", "99"],
+                          ["angles", "--as-printed"], ["regimes"], ["explain", "2", "--angle", "10", "--gravity", "1"]]:
+            run(*arguments, "--ascii").stdout.encode("ascii")
+
+    def test_json_has_the_promised_keys_and_no_nan(self):
+        text = run("sequence", "--angle", "10", "--format", "json").stdout
+        data = json.loads(text, parse_constant=lambda name: self.fail(name))
+        self.assertEqual(data["model"], "discrete")
+        self.assertEqual(data["outcome"], "no-further-impact")
+        for key in ["clatter", "scene", "impacts", "message", "total_normal_impulse", "cost"]:
+            self.assertIn(key, data)
+        wanted = ["n", "start", "duration", "end", "inclination_deg", "contact_angle_deg", "approach_speed", "restitution",
+                  "impulse_normal", "impulse_tangential", "impulse_ratio", "mode", "peak_force", "peak_time", "velocity_after",
+                  "angular_velocity_after", "energy_before", "energy_after", "energy_loss", "error_estimate", "amplification"]
+        for impact in data["impacts"]:
+            self.assertEqual(list(impact), wanted)
+            self.assertIsNone(impact["peak_force"])
+        self.assertEqual([i["end"] for i in data["impacts"]], ["a", "b", "a"])
+        self.assertEqual(data["scene"]["drop"]["angle_deg"], 10)
+        self.assertEqual(set(data["cost"]), {"force_evaluations", "root_evaluations"})
+
+    def test_csv_and_json_carry_the_same_numbers(self):
+        arguments = ["sequence", "--angle", "33", "--gravity", "9.81", "--friction", "0.1"]
+        data = json.loads(run(*arguments, "--format", "json").stdout)
+        lines = [l for l in run(*arguments, "--format", "csv").stdout.splitlines() if not l.startswith("#")]
+        rows = list(csv.DictReader(io.StringIO("\n".join(lines))))
+        self.assertEqual(len(rows), len(data["impacts"]))
+        for row, impact in zip(rows, data["impacts"]):
+            for key in ["start", "contact_angle_deg", "impulse_normal", "energy_after"]:
+                self.assertEqual(float(row[key]), impact[key])
+            self.assertEqual(float(row["velocity_after_z"]), impact["velocity_after"][2])
+
+    def test_numbers_are_shortest_round_trip(self):
+        for line in run("angles", "--count", "301", "--format", "csv").stdout.splitlines():
+            if line.startswith("#") or line.startswith("theta"):
+                continue
+            for field in filter(None, line.split(",")):
+                digits = len(repr(float(field)).replace("-", "").replace(".", "").split("e")[0].strip("0"))
+                self.assertLessEqual(len(field.replace("-", "").replace(".", "").split("e")[0].strip("0")), digits)
+
+    def test_steps_give_clean_decimals_and_both_ends(self):
+        lines = [l for l in run("angles", "--step", "0.1", "--format", "csv").stdout.splitlines() if l[0].isdigit()]
+        self.assertEqual(len(lines), 901)
+        self.assertEqual(lines[3].split(",")[0], "0.3")
+        self.assertEqual(lines[-1].split(",")[0], "90")
+
+    def test_an_accumulation_ends_in_a_tail_and_at_rest(self):
+        data = json.loads(run("sequence", "--angle", "0", "--gravity", "9.81", "--restitution", "0.5", "--format", "json").stdout)
+        self.assertEqual(data["outcome"], "at-rest")
+        self.assertTrue(data["tail"]["closed_form"])
+        self.assertAlmostEqual(data["tail"]["end_time"], 2 * 0.5 / (9.81 * 0.5), delta=1e-15)
+
+    def test_output_files_appear_whole_with_the_same_text(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "table")
+            result = run("sequence", "--angle", "10", "--output", path)
+            self.assertEqual((result.returncode, result.stdout, os.listdir(folder)), (0, "", ["table"]))
+            with open(path, encoding="utf-8") as file:
+                self.assertEqual(file.read(), run("sequence", "--angle", "10").stdout)
+
+    def test_markdown_and_latex_have_a_row_for_each_impact(self):
+        self.assertEqual(run("sequence", "--angle", "10", "--format", "markdown").stdout.count("\n| "), 4)
+        self.assertEqual(run("sequence", "--angle", "10", "--format", "latex").stdout.count("\\\\"), 5)
+        self.assertIn("\\begin{align*}", run("explain", "2", "--angle", "10", "--format", "latex").stdout)
+
+    def test_an_impact_that_does_not_happen_is_explained(self):
+        result = run("explain", "2", "--angle", "80")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn("does not happen", result.stdout)
+
+    def test_the_printed_gravity_term_is_shown_beside_the_corrected_one(self):
+        data = json.loads(run("angles", "--as-printed", "--gravity", "9.81", "--from", "20", "--to", "20", "--format", "json").stdout)
+        row = data["rows"][0]
+        self.assertAlmostEqual(row["beta_deg"], 3.1820, delta=5e-5)
+        self.assertAlmostEqual(row["beta_printed_deg"], 25.99, delta=5e-3)
+        self.assertAlmostEqual(row["beta_printed_negative_g_deg"], 5.97, delta=5e-3)
+
+
+class Manners(unittest.TestCase):
+    def test_help_at_every_level_has_an_example(self):
+        for command in [[], ["sequence"], ["angles"], ["regimes"], ["explain"], ["completion"], ["man"]]:
+            result = run(*command, "--help")
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            self.assertIn("Example:", result.stdout)
+
+    def test_version(self):
+        self.assertRegex(run("--version").stdout, r"^clatter \d+\.\d+\.\d+\n$")
+
+    def test_completion_scripts_parse(self):
+        for shell in ["bash", "zsh", "fish"]:
+            script = run("completion", shell)
+            self.assertEqual(script.returncode, 0)
+            self.assertIn("sequence", script.stdout)
+            if shutil.which(shell):
+                check = subprocess.run([shell, "-n"], input=script.stdout, capture_output=True, text=True)
+                self.assertEqual((check.returncode, check.stderr), (0, ""), shell)
+
+    def test_the_man_page_renders_without_warnings(self):
+        if not shutil.which("groff"):
+            self.skipTest("no groff here")
+        page = subprocess.run(["groff", "-man", "-ww", "-Tascii"], input=run("man").stdout, capture_output=True, text=True)
+        self.assertEqual((page.returncode, page.stderr), (0, ""))
+
+    def test_a_reader_that_leaves_early_is_no_error(self):
+        process = subprocess.Popen([PROGRAM, "angles", "--count", "300000", "--format", "csv"], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        process.stdout.readline()
+        process.stdout.close()
+        self.assertEqual(process.stderr.read(), b"")
+        process.stderr.close()
+        self.assertEqual(process.wait(timeout=60), 0)
+
+    def test_an_interrupt_gives_130_whole_rows_and_no_half_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            process = subprocess.Popen([PROGRAM, "angles", "--count", "50000000", "--format", "csv", "--output", os.path.join(folder, "x")])
+            time.sleep(0.5)
+            process.send_signal(signal.SIGINT)
+            self.assertEqual(process.wait(timeout=60), 130)
+            self.assertEqual(os.listdir(folder), [])
+        process = subprocess.Popen([PROGRAM, "angles", "--count", "50000000", "--format", "csv"], stdout=subprocess.PIPE, text=True)
+        lines = [process.stdout.readline() for _ in range(5)]
+        process.send_signal(signal.SIGINT)
+        lines += process.stdout.read().splitlines(keepends=True)
+        process.stdout.close()
+        self.assertEqual(process.wait(timeout=60), 130)
+        self.assertTrue(lines[-1].startswith("# interrupted after"))
+        width = next(l for l in lines if l.startswith("theta")).count(",")
+        self.assertTrue(all(l.count(",") == width for l in lines if l[0].isdigit()))
+
+
+if __name__ == "__main__":
+    unittest.main()
