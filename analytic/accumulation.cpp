@@ -77,7 +77,7 @@ double Accumulation::block(int period, int index, double Event::*quantity) const
   return sum;
 }
 
-std::optional<Tail> Accumulation::extrapolate(double relative_error) const {
+std::optional<Tail> Accumulation::extrapolate(const Tolerance& tolerance) const {
   for (int period = 1; period <= 4; ++period) {
     if (!repeats(period)) continue;
     double times[blocks], impulses[blocks];
@@ -87,8 +87,9 @@ std::optional<Tail> Accumulation::extrapolate(double relative_error) const {
     }
     const auto time = shrinking_remainder(times);
     const auto impulse = shrinking_remainder(impulses);
-    if (!time || !impulse || !(time->error <= relative_error * time->value) ||
-        !(impulse->error <= relative_error * impulse->value)) {
+    if (!time || !impulse ||
+        !(time->error <= std::fmax(tolerance.relative * time->value, tolerance.time)) ||
+        !(impulse->error <= std::fmax(tolerance.relative * impulse->value, tolerance.impulse))) {
       continue;
     }
     const double ratio = block(period, blocks - 1, &Event::tangential_impulse) / impulses[blocks - 1];

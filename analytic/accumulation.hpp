@@ -30,9 +30,15 @@ class Accumulation {
   };
   void add(const Event& event) { events_.push_back(event); }
 
-  /// The tail, if time and impulse remaining are known to the relative error given.  Its end_time counts
-  /// from the last event.
-  [[nodiscard]] std::optional<Tail> extrapolate(double relative_error) const;
+  /// How well the remaining time and impulse must be known: relatively, or to the resolution that
+  /// double precision leaves in the sums that they are added to.
+  struct Tolerance {
+    double relative = 0;
+    double time = 0;     ///< [s]
+    double impulse = 0;  ///< [N·s]
+  };
+  /// The tail, if it is known to the tolerance.  Its end_time counts from the last event.
+  [[nodiscard]] std::optional<Tail> extrapolate(const Tolerance& tolerance) const;
 
  private:
   [[nodiscard]] bool repeats(int period) const;

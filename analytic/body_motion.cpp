@@ -163,19 +163,21 @@ Flight BodyMotion::fly() {
 /// from elastic_offsets.hpp.
 void BodyMotion::refine(Arrival& arrival) {
   const bool on_frame = frame_.speed != 0 && gravity_ == 0 && remainder_.normal == 0 &&
-                        remainder_.angular == 0 && initial_.radians > 0;
-  const bool expected = arrival.vertex == (elastic_flights_ == 0 ? 1 : 0) && arrival.time > 0 &&
+                        remainder_.angular == 0 && initial_.radians != 0;
+  const bool expected = arrival.vertex != reference_ && arrival.time > 0 &&
                         std::fabs(arrival.inclination) < pi / 2 && !arrival.within_margin;
   if (!on_frame || !expected || elastic_flights_ < 0 || elastic_flights_ > 1) {
     elastic_flights_ = -1;
     return;
   }
+  const Angle start{std::fabs(initial_.radians), std::fabs(initial_.degrees),
+                    std::fabs(initial_.sine), initial_.cosine};
   const double found = std::fabs(arrival.inclination);
   const double before = std::fabs(inclination_);
-  offset_ = elastic_flights_ == 0 ? first_offset(initial_, found)
-                                  : second_offset(initial_, offset_, found);
-  const double angle = elastic_flights_ == 0 ? initial_.radians / 2 + offset_
-                                             : initial_.radians + offset_;
+  offset_ = elastic_flights_ == 0 ? first_offset(start, found)
+                                  : second_offset(start, offset_, found);
+  const double angle = elastic_flights_ == 0 ? start.radians / 2 + offset_
+                                             : start.radians + offset_;
   arrival.inclination = std::copysign(angle, arrival.inclination);
   arrival.time = (before + angle) / std::fabs(velocity().angular);
   ++elastic_flights_;

@@ -26,10 +26,14 @@ double cosine_of(int sextant, double deviation) {
 
 }  // namespace
 
+double tilt_tangent(double sine, double cosine) {
+  const double c = std::fabs(cosine);
+  return sine * sine / std::fma(c, std::fma(3.0, c, 4.0), 1.0);
+}
+
 ReflectionAxis reflection_axis(bool left_end, double sine, double cosine) {
   const double c = std::fabs(cosine);
-  const double from_flat = sine * sine / (1 + c);  // 1 − c
-  const double tilt = std::atan(root3 * from_flat / (1 + 3 * c));
+  const double tilt = std::atan(root3 * tilt_tangent(sine, c));
   return {.sense = left_end == (cosine >= 0) ? 1 : -1,
           .tilt = tilt,
           .cosine = 0.5 * std::cos(tilt) + root3 / 2 * std::sin(tilt)};

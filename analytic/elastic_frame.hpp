@@ -16,6 +16,9 @@ struct ReflectionAxis {
   double cosine = 0.5;  ///< cos ψ
 };
 
+/// u = (1 − c)/(1 + 3c) = s²/[(1 + c)(1 + 3c)], so that tan(tilt) = √3 u.  Accuracy: 2 ulp.
+[[nodiscard]] double tilt_tangent(double sine, double cosine);
+
 /// Axis of an end at x = ±L/2 when the rod's inclination has this sine and cosine.
 /// Accuracy: tilt 4 ulp, however small.
 [[nodiscard]] ReflectionAxis reflection_axis(bool left_end, double sine, double cosine);

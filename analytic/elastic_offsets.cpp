@@ -37,11 +37,12 @@ double first_offset(const Angle& theta, double beta) {
 double second_offset(const Angle& theta, double eta, double gamma) {
   const double t = theta.radians;
   const double beta = t / 2 + eta;
-  const double tilt1 = reflection_axis(true, theta.sine, theta.cosine).tilt;
-  const double tilt2 = reflection_axis(false, std::sin(beta), std::cos(beta)).tilt;
-  const double root3 = std::sqrt(3.0);
-  const double tangent = std::tan(2 * (tilt1 + tilt2));
-  const double k2 = 4 * root3 * tangent / (3 * (3 - root3 * tangent));
+  // K₂ = tan(π/6 + 2δ₁ + 2δ₂)/√3, by the addition theorems of the tangent with tan δ = √3 u.
+  const double u1 = tilt_tangent(theta.sine, theta.cosine);
+  const double u2 = tilt_tangent(std::sin(beta), std::cos(beta));
+  const double single = 3 * (u1 + u2) / (1 - 3 * u1 * u2);      // √3 tan(δ₁ + δ₂)
+  const double twice = 2 * single / (1 - single * single / 3);  // √3 tan(2δ₁ + 2δ₂)
+  const double k2 = 4 * twice / (9 - 3 * twice);
   const double rise =
       1.5 * k2 * t + (k2 + 4.0 / 3) * eta + sine_deficit(t) - sine_deficit(beta);
   return solve_offset(t, k2 + 1.0 / 3, rise, gamma - t);

@@ -27,7 +27,7 @@ struct VertexHeight {
   struct Value {
     double height = 0;    ///< h(t)
     double velocity = 0;  ///< h′(t)
-    double scale = 0;     ///< sum of the magnitudes of the terms of h(t): rounding error <= 4ε·scale
+    double scale = 0;     ///< sum of the magnitudes of the terms of h(t): its rounding error is below 4ε·scale
   };
   /// h and h′ of (1).  Accuracy: 4 ε × scale.
   [[nodiscard]] Value at(double t) const;
@@ -63,7 +63,7 @@ struct Arrival {
 /// How near the closest approach without contact came.
 struct NearMiss {
   double clearance = 0;        ///< least height at a turning point [m]; infinite: none
-  double margin = 0;           ///< rounding error bound of that height [m]
+  double margin = 0;           ///< estimate of that height's rounding error [m]
   double time = 0;             ///< when [s]
   int vertex = 0;
   [[nodiscard]] bool within_margin() const { return !(clearance > margin); }

@@ -115,6 +115,9 @@ Impact strike(const PlanarBody& body, const PlanarVelocity& before, const Contac
   impact.after = {.normal = before.normal + normal,
                   .tangential = before.tangential + tangential,
                   .angular = before.angular + turning};
+  if (!std::isfinite(impact.after.angular) || !std::isfinite(impact.after.tangential)) {
+    throw NumericalError("the impulse overflows: the impulse ratio is too near the jamming limit");
+  }
   // Newton's law fixes the separation speed exactly; the others through the impulse.
   const bool fixed = law.friction != FrictionKind::coulomb || law.law == RestitutionLaw::newton;
   const double rise = inertia.normal * normal - inertia.coupling * tangential;

@@ -93,7 +93,8 @@ struct Impact {
 /// The energy loss is −(P_n (u + u′) + P_t (s + s′))/2, an identity of (a) that does not cancel.
 /// Accuracy: a few ulp × condition number of (1).  Source: Eq. 8, signs as there.
 /// @throws OutsideModelError if the impulse ratio given is at or beyond the jamming limit
-///         (A − μ_i B <= 0); std::domain_error as ImpactLaw::validate().
+///         (A − μ_i B <= 0); NumericalError if so close to it that the impulse overflows;
+///         std::domain_error as ImpactLaw::validate().
 [[nodiscard]] Impact strike(const PlanarBody& body, const PlanarVelocity& before,
                             const ContactPoint& contact, const ImpactLaw& law);
 

@@ -22,11 +22,12 @@ namespace {
 /// ln(1+x) − x without cancellation.
 double log1p_minus(double x) { return boost::math::log1pmx(x); }
 
-/// atanh(s) − s by its series for |s| <= 1/4.
+/// atanh(s) − s for 0 <= s < 1: by its series below 1/2, where the closed form would cancel.
 double atanh_minus(double s) {
+  if (s >= 0.5) return (log1p_minus(s) - log1p_minus(-s)) / 2;
   const double square = s * s;
   double sum = 0;
-  for (int k = 27; k >= 3; k -= 2) sum = sum * square + 1.0 / k;
+  for (int k = 53; k >= 3; k -= 2) sum = sum * square + 1.0 / k;
   return s * square * sum;
 }
 
@@ -35,7 +36,7 @@ double atanh_minus(double s) {
 double small_difference(double s) {
   const double left = 2 * atanh_minus(s);
   double q = left / s;
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < 5; ++i) {
     const double residual = log1p_minus(q) + q * s - left;
     q -= residual / (s - q / (1 + q));
   }
@@ -53,7 +54,7 @@ double product(double s) {
   return y;
 }
 
-constexpr double small = 0.25;  // atanh_minus's series is complete to double precision below this
+constexpr double small = 0.9;  // above, 1 − e is no longer small against e
 
 /// de/ds, from differentiating the equation of product().
 double restitution_slope(double s, double e, double loss) {

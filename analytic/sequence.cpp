@@ -55,7 +55,7 @@ class Run {
     Departure departure;
     for (;;) {
       const BodyMotion::Strike strike = record(arriving, flight, departure);
-      if (closed_form_end(strike) || extrapolated_end() || full()) break;
+      if (accumulates(strike) || full()) break;
       departure = motion_.departure();
       flight = motion_.fly();
       result_.root_evaluations += flight.evaluations;
@@ -118,17 +118,21 @@ class Run {
     return true;
   }
 
-  /// A bouncing that repeats itself exactly needs no more rows than asked for.
-  bool closed_form_end(const BodyMotion::Strike& strike) {
-    if (!last_row()) return false;
+  /// Whether infinitely many impacts follow that need no more rows: a bouncing in closed form fills the
+  /// rows asked for first.
+  bool accumulates(const BodyMotion::Strike& strike) {
     const auto tail = bouncing_tail(motion_, law_, gravity_, strike);
-    if (!tail) return false;
+    if (!tail) return extrapolated_end();
+    if (!last_row()) return false;
     finish(*tail);
     return true;
   }
 
   bool extrapolated_end() {
-    auto tail = accumulation_.extrapolate(std::pow(10.0, -options_.digits));
+    constexpr double ulps = 4 * std::numeric_limits<double>::epsilon();
+    auto tail = accumulation_.extrapolate({.relative = std::pow(10.0, -options_.digits),
+                                           .time = ulps * motion_.time(),
+                                           .impulse = ulps * result_.total_normal_impulse});
     if (!tail || !undisturbed(*tail)) return false;
     const PlanarVelocity v = motion_.velocity();
     tail->after = v;

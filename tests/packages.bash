@@ -9,8 +9,9 @@
 # shellcheck disable=SC2034  # both lists are read by the callers
 program_packages=(cmake ninja-build g++ libgsl-dev libboost-dev libcli11-dev nlohmann-json3-dev
                   libfmt-dev)
+# Without the shells and groff the tests of completion and man page would be skipped.
 # shellcheck disable=SC2034
-test_packages=(libboost-test-dev libbenchmark-dev)
+test_packages=(libboost-test-dev libbenchmark-dev python3 zsh fish groff-base)
 
 say() { printf '%s: %s\n' "$speaker" "$*" >&2; }
 

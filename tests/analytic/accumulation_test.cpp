@@ -55,7 +55,7 @@ BOOST_AUTO_TEST_CASE(an_extrapolated_end_lies_within_its_error_of_the_end_found_
       Drop drop = bouncing(degrees, 0);
       drop.law.restitution = e;
       const Sequence coarse = impact_sequence(drop, {.impacts = 100000, .digits = 3, .amplification = false});
-      const Sequence fine = impact_sequence(drop, {.impacts = 100000, .digits = 9, .amplification = false});
+      const Sequence fine = impact_sequence(drop, {.impacts = 100000, .digits = 6, .amplification = false});
       BOOST_REQUIRE(coarse.tail.has_value());
       BOOST_REQUIRE(fine.tail.has_value());
       BOOST_TEST(coarse.rows.size() < fine.rows.size());

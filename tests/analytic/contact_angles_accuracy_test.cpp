@@ -36,7 +36,8 @@ using oracle::Quantity;
 
 namespace {
 
-/// The contract: |error| <= (2 + 2κ) ulp.
+/// The contract: |error| <= (2 + 2κ) ulp, κ the sum of |x ∂q/∂x|/|q| over the data x: θ and whichever of
+/// G, e and μ_i is in play.
 constexpr double allowed_ulp = 2;
 constexpr double allowed_ulp_per_condition = 2;
 
@@ -57,6 +58,11 @@ constexpr double fifty_digits_suffice_from = 1e-7;
 
 /// How many doubles in all around a fold may be called undecidable.
 constexpr int most_within_margin = 20;
+
+/// Gravity, restitution and friction enter the velocities through sums that the elastic rod is spared, so
+/// their rows are allowed a multiple of the contract: what headers and documents state for them.
+constexpr double multiple_with_gravity = 6;
+constexpr double multiple_with_restitution_and_friction = 20;
 constexpr int fold_neighbourhood = 1000;  // [ulp] to either side
 
 enum Region : std::size_t {
@@ -171,6 +177,27 @@ Deviation deviation(double ulp, double condition) {
   return {ulp, ulp / (allowed_ulp + allowed_ulp_per_condition * condition)};
 }
 
+/// The conditions of all quantities with respect to the data besides θ.
+using Conditions = std::array<double, oracle::quantity_count>;
+
+template <class Real>
+void add_conditions(const oracle::RodCase<Real>& rod, oracle::Parameter parameter, Conditions& sum) {
+  const auto solution = oracle::RodSolver<Real>(rod, parameter).solve(3);
+  for (std::size_t q = 0; q < oracle::quantity_count; ++q) {
+    if (!solution.quantities[q]) continue;
+    sum[q] += static_cast<double>(solution.condition(static_cast<Quantity>(q)));
+  }
+}
+
+template <class Real>
+Conditions other_conditions(const oracle::RodCase<Real>& rod) {
+  Conditions sum{};
+  if (rod.gravity_number != 0) add_conditions(rod, oracle::Parameter::gravity_number, sum);
+  if (rod.restitution != 1) add_conditions(rod, oracle::Parameter::restitution, sum);
+  if (rod.impulse_ratio != 0) add_conditions(rod, oracle::Parameter::impulse_ratio, sum);
+  return sum;
+}
+
 template <class Real>
 double condition(const oracle::RodSolution<Real>& exact, Quantity q) {
   return static_cast<double>(exact.condition(q));
@@ -245,8 +272,11 @@ class Judge {
                        result.gamma.next == expected_next(exact.third);
     if (!right) report.wrong.push_back(describe(sample, result, exact.second, exact.third));
     if (!right) return;
+    // Towards θ = 0 these conditions tend to constants.
+    const Conditions others = other_conditions(
+        rod_.with(Digits50(std::max(sample.theta, fifty_digits_suffice_from))));
     for (std::size_t i = 0; i < oracle::quantity_count; ++i)
-      quantity(sample, result, exact, static_cast<Quantity>(i), report);
+      quantity(sample, result, exact, static_cast<Quantity>(i), others, report);
     if (result.beta.next == analytic::NextImpact::none)
       clearance(sample, result.beta.clearance, static_cast<double>(exact.clearance), report);
     if (result.gamma.next == analytic::NextImpact::none)
@@ -263,7 +293,7 @@ class Judge {
 
   template <class Real>
   void quantity(const Sample& sample, const analytic::ContactAngles& result,
-                const oracle::RodSolution<Real>& exact, Quantity q, Report& report) const {
+                const oracle::RodSolution<Real>& exact, Quantity q, const Conditions& others, Report& report) const {
     const bool difference = q == oracle::gamma_minus_theta || q == oracle::impulse_deficit;
     if (difference && !rod_.elastic()) return;
     if (!exact.quantities[q]) {
@@ -273,7 +303,7 @@ class Judge {
       return;
     }
     const double ulp = error_in_ulp(entry(result, q), exact.quantities[q]->value);
-    report.statistics[sample.region][q].add(deviation(ulp, condition(exact, q)), sample.theta);
+    report.statistics[sample.region][q].add(deviation(ulp, condition(exact, q) + others[q]), sample.theta);
   }
 
   /// Impulse and velocities of an impact that does not happen.
@@ -389,11 +419,11 @@ Report& collected() {
   return report;
 }
 
-void check(const Report& report) {
+void check(const Report& report, double multiple) {
   for (std::size_t r = 0; r < region_count; ++r)
     for (std::size_t q = 0; q < oracle::quantity_count; ++q) {
       const Statistics& s = report.statistics[r][q];
-      BOOST_TEST(s.worst.ratio <= 1,
+      BOOST_TEST(s.worst.ratio <= multiple,
                  region_names[r] << ": " << oracle::quantity_names[q] << " errs by "
                                  << s.worst.ratio << " of what is allowed at theta = "
                                  << std::setprecision(17) << s.theta_of_worst_ratio << " rad");
@@ -406,11 +436,11 @@ void check(const Report& report) {
   BOOST_TEST(report.within_margin.size() <= folds * most_within_margin);
 }
 
-void check_case(const Rod& rod, const std::vector<Sample>& samples) {
+void check_case(const Rod& rod, const std::vector<Sample>& samples, double multiple = 1) {
   BOOST_TEST_CONTEXT("G " << rod.gravity_number << " e " << rod.restitution << " mu_i "
                           << rod.impulse_ratio) {
     const Report report = judge_all(rod, samples);
-    check(report);
+    check(report, multiple);
     collected().merge(report);
   }
 }
@@ -448,11 +478,15 @@ const std::map<std::string, Quantity> columns = {
     {"T2", oracle::time_2}};
 
 /// The table's digits in place of the oracle's; the oracle lends its condition numbers.
-oracle::RodSolution<Digits150> printed_solution(const oracle::ReferenceRow& row) {
+oracle::RodCase<Digits150> printed_case(const oracle::ReferenceRow& row) {
   oracle::RodCase<Digits150> rod;
   rod.theta = oracle::radians(Digits150(row.at("theta_deg")));
   rod.gravity_number = Digits150(row.at("G"));
-  auto solution = oracle::solve_rod(rod);
+  return rod;
+}
+
+oracle::RodSolution<Digits150> printed_solution(const oracle::ReferenceRow& row) {
+  auto solution = oracle::solve_rod(printed_case(row));
   for (const auto& [name, quantity] : columns) {
     if (row.count(name) == 0) continue;
     const bool angle = quantity == oracle::beta || quantity == oracle::gamma;
@@ -472,11 +506,12 @@ void check_printed_row(const oracle::ReferenceRow& row) {
                (row.count("beta_deg") == 1));
     BOOST_TEST((result.gamma.next == analytic::NextImpact::other_end) ==
                (row.count("gamma_deg") == 1));
+    const Conditions others = other_conditions(printed_case(row));
     for (const auto& [name, quantity] : columns) {
       if (row.count(name) == 0) continue;
       const double ulp = error_in_ulp(entry(result, quantity), exact.quantities[quantity]->value);
       const double allowed = allowed_ulp + (allowed_ulp_per_condition + allowed_ulp_of_degrees) *
-                                               condition(exact, quantity);
+                                               (condition(exact, quantity) + others[quantity]);
       BOOST_TEST(ulp <= allowed, name << " errs by " << ulp << " ulp, allowed " << allowed);
     }
   }
@@ -524,14 +559,15 @@ BOOST_AUTO_TEST_CASE(elastic_rod_without_gravity_keeps_its_accuracy_at_100000_an
 BOOST_AUTO_TEST_CASE(gravity_keeps_the_accuracy) {
   for (const double g : {1e-6, 0.01, 1.0, 9.81})
     check_case({.gravity_number = g, .restitution = 1, .impulse_ratio = 0},
-               fewer_samples(with_gravity));
+               fewer_samples(with_gravity), multiple_with_gravity);
 }
 
 BOOST_AUTO_TEST_CASE(restitution_and_impulse_ratio_keep_the_accuracy) {
   for (const double e : {0.3, 0.9})
     for (const double mu : {0.1, 0.3})
       check_case({.gravity_number = 0, .restitution = e, .impulse_ratio = mu},
-                 fewer_samples(with_restitution_and_friction));
+                 fewer_samples(with_restitution_and_friction),
+                 multiple_with_restitution_and_friction);
 }
 
 BOOST_AUTO_TEST_CASE(angles_in_degrees_reproduce_the_table_without_gravity) {

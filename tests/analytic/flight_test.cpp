@@ -62,12 +62,11 @@ BOOST_AUTO_TEST_CASE(the_first_root_is_the_first_on_a_fine_grid) {
 
 BOOST_AUTO_TEST_CASE(a_million_turns_in_one_flight_cost_no_more_than_a_few) {
   const PlanarBody rod = make_rod({});
-  const Angle angle = Angle::from_degrees(30);
+  const Angle angle = Angle::from_degrees(90);
   Departure departure{.inclination = angle.radians, .sine = angle.sine, .cosine = angle.cosine};
   departure.angular = 4e6;
   departure.gravity = 9.81;
-  departure.rebound_speed = 9.81 / 2 * 1.6 + departure.angular * 0.5 * angle.cosine;
-  departure.normal = 9.81 / 2 * 1.6;  // airborne for 1.6 s: 10⁶ turns
+  departure.normal = departure.rebound_speed = 9.81 / 2 * 1.6;  // airborne for 1.6 s: 10⁶ turns
   departure.touching = 1;
   const Flight flight = fly(rod, departure);
   BOOST_REQUIRE(flight.end == FlightEnd::contact);
@@ -76,9 +75,10 @@ BOOST_AUTO_TEST_CASE(a_million_turns_in_one_flight_cost_no_more_than_a_few) {
   BOOST_TEST(flight.evaluations < 60);
   const VertexHeight height = vertex_height(rod, departure, flight.arrival.vertex);
   BOOST_TEST(std::fabs(height.at(flight.arrival.time).height) <= 1e-8);  // ε·10⁶ turns × length
-  // The first contact comes before the centre has come down to the rod's reach by more than one turn.
-  const double fall = (departure.normal + std::sqrt(departure.normal * departure.normal + 2 * 9.81 * (0.25 - 0.5 + 1e-9) + 0.0)) / 9.81;
-  BOOST_TEST(std::fabs(flight.arrival.time - fall) <= 2 * pi / departure.angular + 1e-6);
+  // An end points down every half turn, so the first contact comes within one of the moment at which
+  // the centre is down to the rod's reach, where it was at the start.
+  BOOST_TEST(flight.arrival.time >= 1.6 - 1e-12);
+  BOOST_TEST(flight.arrival.time <= 1.6 + pi / departure.angular);
 }
 
 BOOST_AUTO_TEST_CASE(a_body_that_does_not_turn_follows_its_parabola) {

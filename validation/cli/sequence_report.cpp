@@ -91,19 +91,27 @@ Cell known(const Scene& scene, double value, double error) {
   return {value, std::min(scene.digits, known_digits(value, error))};
 }
 
-/// Fewer digits in the velocity columns until the table fits 80 columns.
+std::size_t widest_line(const Table& table) {
+  const std::string text = table_text(table, {});
+  std::size_t widest = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin);
+    widest = std::max(widest, display_width(text.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return widest;
+}
+
+/// Fewer digits, first in the velocity columns and then in all, until the table fits 80 columns.
 void fit(Table& table, int digits) {
-  for (int shown = digits - 1; shown >= 3; --shown) {
-    const std::string text = table_text(table, {});
-    std::size_t widest = 0;
-    for (std::size_t begin = 0; begin < text.size();) {
-      const std::size_t end = text.find('\n', begin);
-      widest = std::max(widest, display_width(text.substr(begin, end - begin)));
-      begin = end + 1;
-    }
-    if (widest <= 80) return;
-    for (auto& row : table.rows) {
-      for (std::size_t i = 5; i < row.size(); ++i) row[i].digits = std::min(row[i].digits, shown);
+  for (const std::size_t first : {std::size_t{5}, std::size_t{2}}) {
+    for (int shown = digits - 1; shown >= 3; --shown) {
+      if (widest_line(table) <= 80) return;
+      for (auto& row : table.rows) {
+        for (std::size_t i = first; i < row.size(); ++i) {
+          row[i].digits = std::min(row[i].digits, shown);
+        }
+      }
     }
   }
 }

@@ -180,13 +180,13 @@ std::string wrapped(const std::string& text, std::size_t width, const std::strin
 }
 
 std::string to_ascii(const std::string& text) {
-  static const std::array<std::pair<const char*, const char*>, 38> table{{
+  static const std::array<std::pair<const char*, const char*>, 40> table{{
       {"°", "deg"}, {"Ω", "Omega"}, {"ω", "omega"}, {"β", "beta"}, {"γ", "gamma"}, {"θ", "theta"},
       {"μ", "mu"}, {"Σ", "sum "}, {"·", "*"}, {"…", "..."}, {"∞", "inf"}, {"±", "+-"}, {"−", "-"},
       {"₁", "1"}, {"₂", "2"}, {"₃", "3"}, {"²", "^2"}, {"³", "^3"}, {"ₙ", "_n"}, {"ₜ", "_t"}, {"ᵢ", "_i"},
       {"≤", "<="}, {"≥", ">="}, {"─", "-"}, {"–", "-"}, {"é", "e"}, {"×", "x"}, {"φ", "phi"},
       {"α", "alpha"}, {"σ", "sigma"}, {"′", "'"}, {"″", "''"}, {"½", "1/2"}, {"→", "->"}, {"√", "sqrt "}, {"Δ", "d"}, {"⇒", "=>"},
-      {"π", "pi"}}};
+      {"π", "pi"}, {"Γ", "Gamma"}, {"₀", "0"}}};
   std::string out = text;
   for (const auto& [from, to] : table) {
     for (std::size_t at = 0; (at = out.find(from, at)) != std::string::npos;) {
