@@ -97,8 +97,12 @@ Impact BodyMotion::strike_point(int vertex, const ImpactLaw& law) {
   const ContactPoint d = contact_point(vertex);
   Impact impact = analytic::strike(body_, velocity(), d, law);
   if (impact.approach_speed > 0) {
-    if (frame_.speed != 0) strike_framed(vertex, impact);
-    else remainder_ = impact.after;
+    // Strong friction is no small departure from an elastic impact.
+    if (frame_.speed != 0 && std::fabs(impact.impulse_ratio()) < 1) strike_framed(vertex, impact);
+    else {
+      frame_ = {};
+      remainder_ = impact.after;
+    }
   }
   touching_ = only(vertex);
   reference_ = vertex;
@@ -118,6 +122,8 @@ void BodyMotion::strike_framed(int vertex, Impact& impact) {
   const double inertia = std::fma(3 * cosine_, cosine_, 1.0);
   const double denominator = inertia - coupled;
 
+  const bool from_fall = frame_.sextant == 3 && frame_.deviation == 0 && remainder_.normal == 0 &&
+                         remainder_.angular == 0;
   const double of_frame = frame_.contact_velocity(axis);
   const double of_remainder = normal_velocity(remainder_, d);
   const double elastic = frame_.reflect(axis);
@@ -134,6 +140,9 @@ void BodyMotion::strike_framed(int vertex, Impact& impact) {
   impact.normal_impulse = body_.mass * normal;
   impact.tangential_impulse = ratio * impact.normal_impulse;
   impact.after = velocity();
+  if (from_fall && difference == 0) {  // V₁ = −(1 − 3c²)/(1 + 3c²) v_n, about its limit for θ → 0
+    impact.after.normal = frame_.speed * (1.5 * sine_ * sine_ / inertia - 0.5);
+  }
 }
 
 Departure BodyMotion::departure() const {

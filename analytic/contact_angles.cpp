@@ -144,6 +144,7 @@ ContactAngle contact_angle_as_printed(const Angle& theta, double signed_gravity_
   Departure departure = motion.departure();
   departure.gravity = -signed_gravity_number / 2;  // turns − G φ²/Ω² into + (G/2) φ²/Ω²
   const VertexHeight height = vertex_height(unit_rod(), departure, 1);
+  if (height.height == 0 && height.velocity < 0) return {.next = NextImpact::other_end};  // flat
   const FirstRoot root = first_root(height, 2 * pi / height.rate);
   ContactAngle result{.next = NextImpact::none, .evaluations = root.evaluations};
   if (!root.time) return result;

@@ -57,8 +57,10 @@ struct ContactAngles {
 /// and the same with (β, V₂, |Ω₂|) for γ, always the earliest contact of either end.  (With e = 1,
 /// μ_i = 0: K = (1−3c²)/(6c), 1/Ω₁² = ((1+3c²)/(12c))²; the sign and factor of the G term are those of
 /// erratum E2.)  θ = 0 gives the limit 2:1:2 of a point contact.
-/// Accuracy: (2 + 2 × condition number) ulp for angles, times, velocities and impulses; the same for
-/// γ − θ and 2 − ΣP, which are computed from expressions of their own.
+/// Accuracy, with κ the sum of the condition numbers with respect to θ, G, e and μ_i: for the elastic rod
+/// (e = 1, μ_i = 0, G = 0) (2 + 2κ) ulp for angles, times, velocities and impulses, and the same for γ − θ
+/// and 2 − ΣP, which are computed from expressions of their own; 4 times that with gravity, 12 times with
+/// e < 1 or μ_i ≠ 0.
 /// @throws std::domain_error unless 0 <= θ <= π/2; OutsideModelError if μ_i jams.
 [[nodiscard]] ContactAngles contact_angles(const Angle& theta, const RodParameters& parameters);
 

@@ -28,7 +28,7 @@ double cosine_of(int sextant, double deviation) {
 
 double tilt_tangent(double sine, double cosine) {
   const double c = std::fabs(cosine);
-  return sine * sine / std::fma(c, std::fma(3.0, c, 4.0), 1.0);
+  return sine * sine / (1 + c) / (1 + 3 * c);
 }
 
 ReflectionAxis reflection_axis(bool left_end, double sine, double cosine) {

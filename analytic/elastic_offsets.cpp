@@ -21,7 +21,9 @@ double solve_offset(double a, double k, double rise, double guess) {
     if (!(std::fabs(step) <= 1e-3 * std::fabs(x))) break;  // at a fold, or nothing to gain
     x -= step;
   }
-  return x;
+  if (!(std::fabs(x) < 0.05)) return x;
+  // The same equation with its largest term alone on the left, which rounds least.
+  return (rise + std::cos(a) * sine_deficit(x) + std::sin(a) * detail::versine(x)) / (std::cos(a) - k);
 }
 
 }  // namespace

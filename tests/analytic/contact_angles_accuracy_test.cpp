@@ -61,8 +61,8 @@ constexpr int most_within_margin = 20;
 
 /// Gravity, restitution and friction enter the velocities through sums that the elastic rod is spared, so
 /// their rows are allowed a multiple of the contract: what headers and documents state for them.
-constexpr double multiple_with_gravity = 6;
-constexpr double multiple_with_restitution_and_friction = 20;
+constexpr double multiple_with_gravity = 4;
+constexpr double multiple_with_restitution_and_friction = 12;
 constexpr int fold_neighbourhood = 1000;  // [ulp] to either side
 
 enum Region : std::size_t {
@@ -278,13 +278,17 @@ class Judge {
     for (std::size_t i = 0; i < oracle::quantity_count; ++i)
       quantity(sample, result, exact, static_cast<Quantity>(i), others, report);
     if (result.beta.next == analytic::NextImpact::none)
-      clearance(sample, result.beta.clearance, static_cast<double>(exact.clearance), report);
+      clearance(sample, result.beta.clearance, static_cast<double>(exact.clearance),
+                clearance_tolerance, report);
+    // The second flight starts from β, whose error near its fold it inherits.
     if (result.gamma.next == analytic::NextImpact::none)
-      clearance(sample, result.gamma.clearance, static_cast<double>(exact.clearance), report);
+      clearance(sample, result.gamma.clearance, static_cast<double>(exact.clearance),
+                clearance_tolerance * (1 + condition(exact, oracle::beta)), report);
   }
 
-  static void clearance(const Sample& sample, double computed, double exact, Report& report) {
-    if (!(exact < near_miss) || std::abs(computed - exact) <= clearance_tolerance) return;
+  static void clearance(const Sample& sample, double computed, double exact, double tolerance,
+                        Report& report) {
+    if (!(exact < near_miss) || std::abs(computed - exact) <= tolerance) return;
     std::ostringstream out;
     out << std::setprecision(17) << "theta " << sample.theta << ": clearance " << computed
         << " instead of " << exact;

@@ -26,7 +26,7 @@ void run(const Drop& drop, Counts& counts) {
       for (const double x : {row.start, row.contact_angle, row.impact.normal_impulse, row.impact.after.normal,
                              row.impact.after.tangential, row.impact.after.angular, row.centre_height}) {
         BOOST_REQUIRE_MESSAGE(std::isfinite(x), "inclination " << drop.inclination.degrees << " gravity " << drop.gravity
-                                                               << " e " << drop.law.restitution << " friction " << drop.law.friction_value);
+                                                               << " e " << drop.law.restitution << " friction " << drop.law.friction_value << " row " << (&row - s.rows.data()) << " value " << x);
       }
       BOOST_REQUIRE(row.impact.normal_impulse >= 0);
     }

@@ -36,7 +36,7 @@ BOOST_AUTO_TEST_CASE(known_values_of_the_map) {
   BOOST_TEST(std::fabs(restitution_of_damping(1) - 0.593624260040) <= printed);
 }
 
-BOOST_AUTO_TEST_CASE(the_map_is_good_to_4_ulp_from_1e_minus_12_to_1e6) {
+BOOST_AUTO_TEST_CASE(the_map_is_good_to_4_ulp_and_its_loss_to_8_from_1e_minus_12_to_1e6) {
   double worst = 0, worst_loss = 0;
   for (double s = 1e-12; s < 1e6; s *= 1.17) {
     const Exact exact = exact_restitution(Exact(s));
@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(the_map_is_good_to_4_ulp_from_1e_minus_12_to_1e6) {
   }
   BOOST_TEST_MESSAGE("worst error of e: " << worst << " ulp, of 1 - e: " << worst_loss << " ulp");
   BOOST_TEST(worst <= 4);
-  BOOST_TEST(worst_loss <= 4);
+  BOOST_TEST(worst_loss <= 8);
 }
 
 BOOST_AUTO_TEST_CASE(the_inverse_is_good_to_4_ulp_plus_twice_its_condition) {

@@ -196,7 +196,7 @@ int run_angles(const AnglesInput& input) {
 
 Action add_angles_command(CLI::App& app) {
   auto input = std::make_shared<AnglesInput>();
-  CLI::App* command = app.add_subcommand("angles", "contact angles theta, beta, gamma and impulses of the thin rod");
+  CLI::App* command = app.add_subcommand("angles", "contact angles and impulses of the thin rod");
   add_sweep_options(*command, input->sweep, "angle theta in degrees (0 to 90 by 5)");
   add_rod_options(*command, input->rod);
   command->add_flag("--as-printed", input->as_printed,

@@ -29,7 +29,7 @@ std::string equation_text(const Equation& equation, std::size_t name_width, int 
   const std::string value = (equation.formula.empty() ? "" : " = ") + value_text(equation, digits);
   if (equation.numbers.empty()) return line + value + "\n";
   const std::string below = std::string(name_width + 2, ' ');
-  return line + "\n" + below + " = " + equation.numbers + "\n" + below + value + "\n";
+  return line + "\n" + wrapped(below + " = " + equation.numbers, 79, "   ") + "\n" + below + value + "\n";
 }
 
 std::string as_text(const std::vector<std::string>& head, const std::vector<Step>& steps, int digits,
@@ -166,7 +166,7 @@ int run_explain(const ExplainInput& input) {
 
 Action add_explain_command(CLI::App& app) {
   auto input = std::make_shared<ExplainInput>();
-  CLI::App* command = app.add_subcommand("explain", "how impact N came about: Eqs. 8-12 with their numbers");
+  CLI::App* command = app.add_subcommand("explain", "how impact N came about, step by step");
   command->add_option("N", input->number, "number of the impact, from 1")->type_name("")->required();
   add_scene_options(*command, input->scene);
   add_output_options(*command, input->output);

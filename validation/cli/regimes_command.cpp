@@ -156,7 +156,7 @@ int run_regimes(const RegimesInput& input) {
 
 Action add_regimes_command(CLI::App& app) {
   auto input = std::make_shared<RegimesInput>();
-  CLI::App* command = app.add_subcommand("regimes", "number of impacts and fold angles over G, e or mu_i");
+  CLI::App* command = app.add_subcommand("regimes", "number of impacts and fold angles");
   add_text(*command, "--over", input->over, "gravity-number|restitution|impulse-ratio",
            "what to vary (gravity-number)")->group("Range");
   add_sweep_options(*command, input->sweep, "value");

@@ -34,7 +34,7 @@ int run_sequence(const SequenceInput& input) {
 
 Action add_sequence_command(CLI::App& app) {
   auto input = std::make_shared<SequenceInput>();
-  CLI::App* command = app.add_subcommand("sequence", "impact sequence of a falling rod or box (discrete model)");
+  CLI::App* command = app.add_subcommand("sequence", "impact sequence of a falling rod or box");
   add_scene_options(*command, input->scene);
   add_output_options(*command, input->output);
   command->footer("Example: clatter sequence --angle 10 --gravity 9.81 --restitution 0.8 --impacts 20");
