@@ -5,6 +5,7 @@
 """
 
 import csv
+import itertools
 import subprocess
 import sys
 
@@ -29,8 +30,14 @@ def rows(program, gravity_number):
 
 
 def curve(table, column, colour, dashes):
-    points = " ".join(f"{x_of(float(r['theta_deg'])):.1f},{y_of(float(r[column])):.1f}" for r in table if r[column])
-    return f'<polyline points="{points}" fill="none" stroke="{colour}" stroke-width="2" stroke-dasharray="{dashes}"/>'
+    """One polyline for each stretch of theta on which the impact happens."""
+    out = []
+    for happens, stretch in itertools.groupby(table, key=lambda row: bool(row[column])):
+        points = " ".join(f"{x_of(float(r['theta_deg'])):.1f},{y_of(float(r[column])):.1f}" for r in stretch if happens)
+        if happens:
+            out.append(f'<polyline points="{points}" fill="none" stroke="{colour}" stroke-width="2" '
+                       f'stroke-dasharray="{dashes}"/>')
+    return "\n".join(out)
 
 
 def axes():
