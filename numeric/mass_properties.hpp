@@ -1,0 +1,20 @@
+// Mass, centre of mass and inertia of a body.
+#pragma once
+
+#include "numeric/mesh/mesh.hpp"
+
+namespace clatter::numeric {
+
+struct MassProperties {
+  double mass = 0;                     ///< [kg]
+  Vector3 centre = Vector3::Zero();    ///< centre of mass in the mesh's frame [m]
+  Matrix3 inertia = Matrix3::Zero();   ///< ∫ρ (u·u 1 − u uᵀ) dV about the centre, axes of the mesh [kg·m²]
+};
+
+/// By Gauss quadrature over the elements, of a degree that is exact for straight-sided tetrahedra, prisms and
+/// hexahedra (also with warped faces).  Accuracy: a few ulp of the sum of the elements' contributions.
+/// @throws MeshError naming the first inverted or degenerate element (Jacobian not positive at a corner or at
+/// a quadrature point), or an element with a density that is not a positive finite number.
+[[nodiscard]] MassProperties mass_properties(const Mesh& mesh);
+
+}  // namespace clatter::numeric

@@ -1,0 +1,175 @@
+#include "numeric/mesh/mesh.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/test/unit_test.hpp>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include "numeric/mesh/generators.hpp"
+#include "numeric/surface/surface.hpp"
+#include "tests/numeric/support.hpp"
+
+namespace {
+
+using namespace clatter::numeric;
+using namespace clatter::numeric::test;
+
+long count(const Mesh& mesh, ElementShape shape) {
+  return std::count_if(mesh.elements.begin(), mesh.elements.end(),
+                       [&](const Element& element) { return element.shape == shape; });
+}
+
+/// Whether the nodes are their own mirror image in the plane where the coordinate is 0, to the bit.
+bool is_symmetric(const Mesh& mesh, int coordinate) {
+  std::set<std::array<double, 3>> nodes;
+  for (const Vector3& node : mesh.nodes) nodes.insert({node.x(), node.y(), node.z()});
+  return std::all_of(mesh.nodes.begin(), mesh.nodes.end(), [&](Vector3 node) {
+    node[coordinate] = -node[coordinate];
+    return nodes.contains({node.x(), node.y(), node.z()});
+  });
+}
+
+bool has_node(const Mesh& mesh, const Vector3& place) {
+  return std::any_of(mesh.nodes.begin(), mesh.nodes.end(),
+                     [&](const Vector3& node) { return node == place; });
+}
+
+template <typename Shape, typename Value>
+void check_refused(Value Shape::*field, std::initializer_list<Value> values,
+                   const std::string& name, Mesh (*make)(const Shape&)) {
+  for (const Value value : values) {
+    Shape shape;
+    shape.*field = value;
+    BOOST_CHECK_EXCEPTION(static_cast<void>(make(shape)), std::domain_error,
+                          mentions(name + " = "));
+  }
+}
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(the_rod_of_the_paper_has_its_numbers_of_elements) {
+  const Mesh mesh = rod_mesh({});
+  BOOST_TEST(mesh.elements.size() == 1920u);
+  BOOST_TEST(count(mesh, ElementShape::prism) == 16 * 30);
+  BOOST_TEST(count(mesh, ElementShape::hexahedron) == 3 * 16 * 30);
+  BOOST_TEST(mesh.nodes.size() == 31u * (1 + 4 * 16));
+  int ends[2] = {0, 0}, side = 0;
+  const Surface surface = boundary_surface(mesh);
+  for (const SurfaceElement& element : surface.elements) {
+    double lowest = inf, highest = -inf;
+    for (const int node : element.nodes) {
+      if (node < 0) continue;
+      lowest = std::min(lowest, surface.nodes[node].x());
+      highest = std::max(highest, surface.nodes[node].x());
+    }
+    if (lowest == highest) {
+      ++ends[lowest > 0];
+    } else {
+      ++side;
+    }
+  }
+  BOOST_TEST(ends[0] == 64);
+  BOOST_TEST(ends[1] == 64);
+  BOOST_TEST(side == 480);
+}
+
+BOOST_AUTO_TEST_CASE(the_coordinates_are_symmetric_to_the_bit) {
+  for (int sectors = 3; sectors <= 40; ++sectors) {
+    for (const int layers : {1, 2, 7}) {
+      const Mesh rod = rod_mesh(
+          {.length = 0.7, .radius = 0.013, .sectors = sectors, .rings = 3, .layers = layers});
+      BOOST_CHECK(is_symmetric(rod, 0));
+      BOOST_CHECK(is_symmetric(rod, 1));
+      BOOST_CHECK(is_symmetric(rod, 2) == (sectors % 2 == 0));
+    }
+  }
+  const Mesh box = box_mesh({.size = {0.3, 0.7, 1.1}, .nx = 7, .ny = 10, .nz = 13});
+  for (int i = 0; i < 3; ++i) BOOST_CHECK(is_symmetric(box, i));
+}
+
+BOOST_AUTO_TEST_CASE(the_rod_rests_on_a_rim_node_at_each_end) {
+  for (int sectors = 3; sectors <= 40; ++sectors) {
+    const Mesh rod =
+        rod_mesh({.length = 0.7, .radius = 0.013, .sectors = sectors, .rings = 3, .layers = 7});
+    for (const double x : {-0.35, 0.35}) {
+      BOOST_CHECK(has_node(rod, {x, 0, -0.013}));
+      if (sectors % 2 == 0) BOOST_CHECK(has_node(rod, {x, 0, 0.013}));
+      if (sectors % 4 == 0) {
+        BOOST_CHECK(has_node(rod, {x, 0.013, 0}));
+        BOOST_CHECK(has_node(rod, {x, -0.013, 0}));
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_rim_nodes_lie_at_equal_angles_on_the_circle) {
+  for (const int sectors : {3, 8, 16, 22, 25}) {
+    const Mesh rod = rod_mesh({.radius = 1, .sectors = sectors, .rings = 1, .layers = 1});
+    for (int s = 0; s < sectors; ++s) {
+      const long double angle = 2 * std::acos(-1.L) * s / sectors;
+      const Vector3& node = rod.nodes[1 + s];
+      // Rounding of the angle and of the sine.
+      BOOST_TEST(std::fabs(node.y() - static_cast<double>(std::sin(angle))) <= 4 * eps);
+      BOOST_TEST(std::fabs(node.z() + static_cast<double>(std::cos(angle))) <= 4 * eps);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_corners_of_the_box_are_exactly_half_its_size) {
+  const Mesh box = box_mesh({.size = {0.10566, 0.04394, 0.01905}, .nx = 7, .ny = 3, .nz = 5});
+  BOOST_TEST(box.nodes.size() == 8u * 4 * 6);
+  BOOST_TEST(box.elements.size() == 7u * 3 * 5);
+  Eigen::AlignedBox3d bounds;
+  for (const Vector3& node : box.nodes) bounds.extend(node);
+  BOOST_CHECK(bounds.max() == Vector3(0.10566 / 2, 0.04394 / 2, 0.01905 / 2));
+  BOOST_CHECK(bounds.min() == -bounds.max());
+}
+
+BOOST_AUTO_TEST_CASE(the_density_makes_up_for_the_facets) {
+  const Mesh square = rod_mesh({.length = 2, .radius = 0.5, .mass = 3, .sectors = 4});
+  // Cross-section 2 r², length 2.
+  for (const Element& element : square.elements)
+    BOOST_TEST(std::fabs(element.density - 3) <= 4 * eps * 3);
+  const Mesh box = box_mesh({.size = {1, 2, 4}, .mass = 2, .nx = 3});
+  for (const Element& element : box.elements) BOOST_TEST(element.density == 0.25);
+}
+
+BOOST_AUTO_TEST_CASE(senseless_bodies_are_refused_by_field_and_value) {
+  for (const auto& [field, name] : {std::pair{&RodMesh::length, "length"},
+                                    {&RodMesh::radius, "radius"},
+                                    {&RodMesh::mass, "mass"}}) {
+    check_refused(field, {0., -1., not_a_number, inf}, name, rod_mesh);
+  }
+  check_refused(&RodMesh::sectors, {2, 0, -5}, "sectors", rod_mesh);
+  check_refused(&RodMesh::rings, {0, -1}, "rings", rod_mesh);
+  check_refused(&RodMesh::layers, {0, -1}, "layers", rod_mesh);
+  check_refused(&BoxMesh::mass, {0., -1., not_a_number, inf}, "mass", box_mesh);
+  check_refused(&BoxMesh::nx, {0, -1}, "nx", box_mesh);
+  check_refused(&BoxMesh::ny, {0, -1}, "ny", box_mesh);
+  check_refused(&BoxMesh::nz, {0, -1}, "nz", box_mesh);
+  for (int i = 0; i < 3; ++i) {
+    for (const double value : {0., -1., not_a_number, inf}) {
+      BoxMesh box;
+      box.size[i] = value;
+      const std::string name = std::string("size.") + "xyz"[i] + " = ";
+      BOOST_CHECK_EXCEPTION(static_cast<void>(box_mesh(box)), std::domain_error, mentions(name));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(bodies_beyond_the_numbers_of_the_machine_are_refused) {
+  BOOST_CHECK_EXCEPTION(static_cast<void>(rod_mesh(
+                            {.sectors = 2000000000, .rings = 2000000000, .layers = 2000000000})),
+                        std::domain_error, mentions("sectors, rings, layers"));
+  BOOST_CHECK_EXCEPTION(static_cast<void>(box_mesh({.nx = 2000, .ny = 2000, .nz = 2000})),
+                        std::domain_error, mentions("nx, ny, nz"));
+  BOOST_CHECK_EXCEPTION(static_cast<void>(rod_mesh({.radius = 1e-200})), std::domain_error,
+                        mentions("mass / volume"));
+  BOOST_CHECK_EXCEPTION(static_cast<void>(box_mesh({.size = {1e200, 1e200, 1}})), std::domain_error,
+                        mentions("mass / volume"));
+}

@@ -1,0 +1,80 @@
+// Meshes and checks that the tests of the numeric module share.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <random>
+#include <string>
+
+#include "numeric/mesh/mesh.hpp"
+
+namespace clatter::numeric::test {
+
+inline constexpr double eps = 2.220446049250313e-16;
+
+/// For BOOST_CHECK_EXCEPTION: the message contains the text.
+inline auto mentions(const std::string& text) {
+  return [text](const std::exception& error) {
+    return std::string(error.what()).find(text) != std::string::npos;
+  };
+}
+
+/// A rotation about an axis off every coordinate plane.
+inline Matrix3 rotation() {
+  return Eigen::AngleAxisd(0.7, Vector3(1, -2, 3).normalized()).toRotationMatrix();
+}
+
+inline Mesh moved(Mesh mesh, const Matrix3& turn, const Vector3& shift) {
+  for (Vector3& node : mesh.nodes) node = turn * node + shift;
+  return mesh;
+}
+
+/// The same body with nodes and elements in another order.
+inline Mesh renumbered(const Mesh& mesh, unsigned seed) {
+  std::mt19937 random(seed);
+  std::vector<int> place(mesh.nodes.size());
+  for (std::size_t i = 0; i < place.size(); ++i) place[i] = static_cast<int>(i);
+  std::shuffle(place.begin(), place.end(), random);
+  Mesh other = mesh;
+  for (std::size_t i = 0; i < place.size(); ++i) other.nodes[place[i]] = mesh.nodes[i];
+  for (Element& element : other.elements) {
+    for (int& node : element.nodes) {
+      if (node >= 0) node = place[node];
+    }
+  }
+  std::shuffle(other.elements.begin(), other.elements.end(), random);
+  return other;
+}
+
+inline Mesh single(ElementShape shape, std::vector<Vector3> nodes, double density = 1) {
+  Element element{.shape = shape, .density = density};
+  for (std::size_t i = 0; i < nodes.size(); ++i) element.nodes[i] = static_cast<int>(i);
+  return {std::move(nodes), {element}};
+}
+
+/// Without the elements whose centre `removed` says yes to.
+inline Mesh without(Mesh mesh, const std::function<bool(const Vector3&)>& removed) {
+  std::erase_if(mesh.elements, [&](const Element& element) {
+    Vector3 sum = Vector3::Zero();
+    int count = 0;
+    for (const int node : element.nodes) {
+      if (node < 0) continue;
+      sum += mesh.nodes[node];
+      ++count;
+    }
+    return removed(sum / count);
+  });
+  return mesh;
+}
+
+inline std::vector<Vector3> unit_cube() {
+  return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+}
+
+/// A hexahedron all of whose faces are warped.
+inline std::vector<Vector3> warped_cube() {
+  return {{0, 0, 0.1},    {1.2, 0.1, -0.2}, {0.9, 1.1, 0.3},  {-0.2, 0.8, 0},
+          {0.1, -0.1, 1}, {1, 0.2, 1.3},    {1.25, 1, 0.875}, {0, 0.9, 1.2}};
+}
+
+}  // namespace clatter::numeric::test
