@@ -1,0 +1,150 @@
+#include "numeric/motion/free_flight.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace clatter::numeric {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// A body in flight, seen from its body frame.
+struct View {
+  GroundPlane plane;
+  Vector3 rate_slope;  ///< height rate of the point u: vertical_speed + rate_slope·u
+  double vertical_speed;
+
+  explicit View(const MotionState& state) {
+    plane = {state.attitude.conjugate() * Vector3::UnitZ(), state.centre.z()};
+    vertical_speed = state.velocity.z();
+    rate_slope = plane.normal.cross(state.angular_velocity);
+  }
+};
+
+/// Height and its rate, of a point or a lower bound over a box.
+struct Approach {
+  double height;
+  double rate;
+  double acceleration;  ///< bound
+};
+
+/// The time for which the bound keeps the height positive.
+double safe_time(const Approach& at) {
+  const double height = std::max(at.height, 0.0);
+  const double root = std::sqrt(at.rate * at.rate + 2 * at.acceleration * height);
+  if (at.rate > 0) return at.acceleration > 0 ? (at.rate + root) / at.acceleration
+                                              : std::numeric_limits<double>::infinity();
+  const double speed = root - at.rate;
+  return speed > 0 ? 2 * height / speed : std::numeric_limits<double>::infinity();
+}
+
+template <class Visit>
+void for_each_vertex(const Body& body, int facet, Visit&& visit) {
+  const Facets& facets = body.facets();
+  const Facet& which = facets.facets[static_cast<std::size_t>(facet)];
+  for (int l = which.begin; l < which.end; ++l) {
+    const Loop& loop = facets.loops[static_cast<std::size_t>(l)];
+    for (int c = loop.begin; c < loop.end; ++c) {
+      visit(facets.vertices[static_cast<std::size_t>(facets.corners[static_cast<std::size_t>(c)])]);
+    }
+  }
+}
+
+/// The smallest safe time of all vertices, and whether one of them touches now.
+struct Search {
+  double time = std::numeric_limits<double>::infinity();
+  bool touches = false;
+};
+
+Search search(const Body& body, const FreeFlight& flight, const View& view, double resolution) {
+  Search result;
+  const double turning = flight.turning_acceleration();
+  const auto box_may_matter = [&](const Vector3& centre, const Vector3& half) {
+    const double reach = half.norm();
+    const Approach lowest{view.plane.height(centre) - view.plane.normal.cwiseAbs().dot(half),
+                          view.vertical_speed + view.rate_slope.dot(centre) - view.rate_slope.cwiseAbs().dot(half),
+                          flight.gravity() + turning * (centre.norm() + reach)};
+    return lowest.height <= resolution || safe_time(lowest) < result.time;
+  };
+  body.hierarchy().visit_if(box_may_matter, [&](int facet) {
+    for_each_vertex(body, facet, [&](const Vector3& u) {
+      const Approach at{view.plane.height(u), view.vertical_speed + view.rate_slope.dot(u),
+                        flight.gravity() + turning * u.norm()};
+      if (at.height <= resolution && !(at.rate > 0)) result.touches = true;
+      result.time = std::min(result.time, safe_time(at));
+    });
+  });
+  return result;
+}
+
+/// Time until the sphere around the body can reach the ground; infinite if it never does.
+double sphere_time(double clearance, double vertical_speed, double gravity) {
+  const double bound = safe_time({clearance, vertical_speed, gravity});
+  return bound * (1 - 4 * epsilon);
+}
+
+}  // namespace
+
+FreeFlight::FreeFlight(const Body& body, const MotionState& start, double gravity)
+    : start_(start), gravity_(gravity), rotation_(body.inertia(), {start.attitude, start.angular_velocity}) {}
+
+MotionState FreeFlight::at(double time) const {
+  const Rotation rotation = rotation_.at(time);
+  MotionState state;
+  state.centre = start_.centre + time * start_.velocity - Vector3(0, 0, gravity_ / 2 * time * time);
+  state.velocity = start_.velocity - Vector3(0, 0, gravity_ * time);
+  state.attitude = rotation.attitude;
+  state.angular_velocity = rotation.angular_velocity;
+  return state;
+}
+
+double FreeFlight::turning_acceleration() const {
+  const double speed = rotation_.largest_speed();
+  return speed * speed + rotation_.largest_acceleration();
+}
+
+TouchDown next_touch_down(const Body& body, const FreeFlight& flight, long evaluation_limit) {
+  TouchDown result;
+  while (result.evaluations < evaluation_limit) {
+    const MotionState state = flight.at(result.time);
+    ++result.evaluations;
+    const double clearance = state.centre.z() - body.radius() * (1 + 4 * epsilon);
+    double step = 0;
+    if (clearance > 0) {
+      step = sphere_time(clearance, state.velocity.z(), flight.gravity());
+    } else {
+      const double resolution = 4 * epsilon * (std::fabs(state.centre.z()) + body.radius());
+      const Search found = search(body, flight, View(state), resolution);
+      if (found.touches) {
+        result.kind = TouchDown::Kind::touch;
+        return result;
+      }
+      step = found.time;
+    }
+    if (!(step < std::numeric_limits<double>::infinity())) {
+      result.kind = TouchDown::Kind::never;
+      return result;
+    }
+    // A step below the resolution of time cannot lead on: the vertex is as near as numbers tell.
+    const double next = result.time + step;
+    result.time = next > result.time ? next : std::nextafter(result.time, std::numeric_limits<double>::infinity());
+  }
+  result.kind = TouchDown::Kind::undecided;
+  return result;
+}
+
+double lowest_height(const Body& body, const MotionState& state) {
+  const View view(state);
+  double lowest = std::numeric_limits<double>::infinity();
+  body.hierarchy().visit_if(
+      [&](const Vector3& centre, const Vector3& half) {
+        return view.plane.height(centre) - view.plane.normal.cwiseAbs().dot(half) < lowest;
+      },
+      [&](int facet) {
+        for_each_vertex(body, facet, [&](const Vector3& u) { lowest = std::min(lowest, view.plane.height(u)); });
+      });
+  return lowest;
+}
+
+}  // namespace clatter::numeric

@@ -1,0 +1,305 @@
+#include "numeric/motion/free_rotation.hpp"
+
+#include <algorithm>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+#include <string>
+
+#include "tests/numeric/oracle/taylor_rotation.hpp"
+
+namespace {
+
+using namespace clatter::numeric;
+using clatter::oracle::RotationState;
+using clatter::oracle::taylor_step;
+using Exact = boost::multiprecision::cpp_bin_float_50;
+
+constexpr double eps = 2.2e-16;
+constexpr double turn = 2 * std::numbers::pi;
+
+struct Body {
+  std::string name;
+  Vector3 moments;
+  Vector3 omega;
+};
+
+Matrix3 diagonal(const Vector3& moments) { return moments.asDiagonal(); }
+
+FreeRotation free_rotation(const Body& body) {
+  return {diagonal(body.moments), {.angular_velocity = body.omega}};
+}
+
+/// Largest difference of a component, velocities in units of |ω|.
+template <typename Real>
+double distance(const Rotation& rotation, const RotationState<Real>& exact, double speed) {
+  const auto& q = rotation.attitude;
+  const double computed[4] = {q.w(), q.x(), q.y(), q.z()};
+  Real dot = 0;
+  for (int i = 0; i < 4; ++i) dot += computed[i] * exact.attitude[i];
+  double result = 0;
+  for (int i = 0; i < 4; ++i) {
+    const Real difference = computed[i] - (dot < 0 ? Real(-exact.attitude[i]) : exact.attitude[i]);
+    result = std::fmax(result, std::fabs(static_cast<double>(difference)));
+  }
+  for (int i = 0; i < 3; ++i) {
+    const Real difference = rotation.angular_velocity[i] - exact.omega[i];
+    result = std::fmax(result, std::fabs(static_cast<double>(difference)) / speed);
+  }
+  return result;
+}
+
+/// Largest distance from the integrated motion over `turns`, looked at after every step of a power of two,
+/// so that all times are exact.
+template <typename Real, int order>
+double worst_distance(const Body& body, double turns) {
+  const FreeRotation rotation = free_rotation(body);
+  const double speed = body.omega.norm();
+  const double step = std::exp2(std::floor(std::log2(0.5 / rotation.largest_speed())));
+  RotationState<Real> state;
+  std::array<Real, 3> moments;
+  for (int i = 0; i < 3; ++i) {
+    moments[i] = body.moments[i];
+    state.omega[i] = body.omega[i];
+  }
+  double worst = 0;
+  for (int k = 1; k * step * speed <= turns * turn; ++k) {
+    state = taylor_step<Real, order>(moments, state, Real(step));
+    worst = std::fmax(worst, distance(rotation.at(k * step), state, speed));
+  }
+  return worst;
+}
+
+Vector3 box_moments(double a, double b, double c) {
+  return Vector3(b * b + c * c, c * c + a * a, a * a + b * b) / 12;
+}
+
+const Vector3 phone = box_moments(0.10566, 0.04394, 0.01905);
+
+Vector3 world_momentum(const Matrix3& inertia, const Rotation& r) {
+  return r.attitude * (inertia * r.angular_velocity);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(free_rotation_solves_euler_s_equations_over_1000_turns) {
+  constexpr double tolerance = 1e-11;  // 7 eps for each of the 6283 radians
+  const Body bodies[] = {
+      {"phone about its long axis", phone, {20, 0.5, -0.3}},
+      {"phone about its middle axis", phone, {1, 20, 3}},
+      {"phone about its short axis", phone, {-1, 2, -15}},
+      {"asymmetrical, about the largest", {1, 2, 2.5}, {0.5, -0.4, 0.7}},
+      {"asymmetrical, about the smallest", {1, 2, 2.5}, {0.9, 0.2, -0.3}},
+      {"axes in another order", {2.5, 1, 2}, {-0.6, 0.5, 0.7}},
+      {"axes in reversed order", {2.5, 2, 1}, {0.6, 0.5, -0.7}},
+      {"one component zero", {2, 1, 2.5}, {0, -0.6, 0.2}},
+      {"plate", {1, 2, 3}, {0.5, -0.5, 0.7}},
+      {"thin plate almost a rod", {1e-6, 1, 1 + 1e-6}, {1, 0.5, 0.7}},
+      {"rod of aspect ratio 1e6", {1e-12, 1, 1 + 0.5e-12}, {1, 0.5, 0.7}},
+      {"the same, hardly spinning", {1e-12, 1, 1 + 0.5e-12}, {1e-6, 0.5, 0.7}},
+      {"the same, spinning fast", {1e-12, 1, 1 + 0.5e-12}, {1000, 0.5, 0.7}},
+      {"almost oblate", {1, 1 + 1e-14, 1.5}, {0.5, 0.5, 0.7}},
+      {"almost oblate, tumbling", {1, 1 + 1e-14, 1.5}, {0.5, 0.5, 1e-8}},
+      {"almost oblate, tumbling, circling the other axis", {1, 1 + 1e-9, 1.5}, {0.5, 0.5, 1e-4}},
+      {"almost prolate", {0.5, 1, 1 + 1e-14}, {0.5, 0.5, 0.7}},
+      {"almost prolate, tumbling", {0.5, 1, 1 + 1e-14}, {1e-8, 0.5, 0.7}},
+      {"almost spherical", {1, 1 + 1e-14, 1 + 2e-14}, {0.3, 0.5, 0.7}},
+      {"oblate", {1, 1, 1.5}, {0.4, 0.5, -0.1}},
+      {"prolate", {2, 0.1, 2}, {0.4, 0.5, -0.1}},
+      {"spherical", {2, 2, 2}, {0.4, 0.5, -0.1}},
+      {"fixed axis", {1, 2, 3}, {0, 0.5, 0}},
+      {"close to the separatrix", {1, 2, 3}, {0.03, 1, 0.03}},
+  };
+  for (const Body& body : bodies) {
+    BOOST_TEST_CONTEXT(body.name) {
+      BOOST_TEST((worst_distance<long double, 26>(body, 1000)) <= tolerance);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_body_leaves_its_intermediate_axis_when_a_cross_component_of_1e_17_says_so) {
+  // The first flip comes after 40 time constants, each of which costs a few eps in the phase.
+  constexpr double tolerance = 1e-12;
+  const Body bodies[] = {
+      {"the larger axis alone", {1, 2, 3}, {0, -1, 1e-17}},
+      {"approaching first", {1, 2, 3}, {1e-9, 1, -0.577e-9}},
+      {"phone", phone, {-3e-17, 1, 2e-16}},
+  };
+  for (const Body& body : bodies) {
+    BOOST_TEST_CONTEXT(body.name) {
+      const double worst = worst_distance<Exact, 60>(body, 25);
+      BOOST_TEST(worst <= tolerance);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(energy_and_angular_momentum_stay_to_a_few_eps_over_a_million_turns) {
+  constexpr double tolerance = 20 * eps;
+  const Matrix3 turned = Eigen::Quaterniond(1, 2, -1, 3).normalized().toRotationMatrix();
+  for (const Vector3& moments : {phone, Vector3(1, 2, 3), Vector3(1e-9, 1, 1 + 4e-10), Vector3(1, 1, 2)}) {
+    for (const Matrix3& axes : {Matrix3(Matrix3::Identity()), turned}) {
+      if (axes(0, 0) != 1 && moments.minCoeff() < 1e-6 * moments.maxCoeff()) continue;
+      const Matrix3 inertia = axes * diagonal(moments) * axes.transpose();
+      const Rotation start{Eigen::Quaterniond(1, -2, 1, 0.3).normalized(), {7, -9, 4}};
+      const FreeRotation rotation(inertia, start);
+      const Vector3 momentum = world_momentum(inertia, start);
+      const double energy = start.angular_velocity.dot(inertia * start.angular_velocity);
+      for (double turns = 0; turns <= 1e6; turns += 997.3) {
+        const Rotation r = rotation.at(turns * turn / start.angular_velocity.norm());
+        const double e = r.angular_velocity.dot(inertia * r.angular_velocity);
+        BOOST_REQUIRE(std::fabs(r.attitude.norm() - 1) <= 2 * eps);
+        BOOST_REQUIRE(std::fabs(e - energy) <= tolerance * energy);
+        BOOST_REQUIRE((world_momentum(inertia, r) - momentum).norm() <= tolerance * momentum.norm());
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(rotation_about_a_principal_axis_is_a_uniform_turn) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3 omega = -3 * Vector3::Unit(axis);
+    const FreeRotation rotation(diagonal(phone), {.angular_velocity = omega});
+    for (const double time : {0.0, 0.3, -1.7, 2000.0}) {
+      const Rotation r = rotation.at(time);
+      BOOST_CHECK(r.angular_velocity == omega);
+      Eigen::Vector4d expected = Eigen::Vector4d::Zero();
+      expected[axis] = std::sin(-1.5 * time);
+      expected[3] = std::cos(-1.5 * time);
+      BOOST_TEST((r.attitude.coeffs() - expected).norm() <= 4 * eps);
+    }
+    BOOST_TEST(rotation.largest_acceleration() == 0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_planar_motion_stays_planar_to_the_last_bit) {
+  Matrix3 inertia;
+  inertia << 2, 0, 0.3, 0, 2.5, 0, 0.3, 0, 1;
+  const Rotation start{Eigen::Quaterniond(0.6, 0, 0.8, 0), {0, 1.3, 0}};
+  const Rotation r = FreeRotation(inertia, start).at(123.4);
+  BOOST_CHECK(r.angular_velocity == start.angular_velocity);
+  BOOST_TEST(r.attitude.x() == 0);
+  BOOST_TEST(r.attitude.z() == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_body_at_rest_stays_at_rest) {
+  const FreeRotation rotation(diagonal(phone), {});
+  BOOST_TEST(rotation.at(1e9).angular_velocity.norm() == 0);
+  BOOST_CHECK(rotation.at(1e9).attitude.coeffs() == Eigen::Quaterniond::Identity().coeffs());
+  BOOST_TEST(rotation.largest_speed() == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_symmetrical_body_precesses_steadily_about_its_momentum) {
+  // Momentum along z; the axis of symmetry keeps its angle to it and goes round at L/I_t.
+  const double across = 2, along = 3, nutation = 0.7, momentum = 5;
+  const Vector3 omega(0, momentum * std::sin(nutation) / across, momentum * std::cos(nutation) / along);
+  const Eigen::Quaterniond tilt(Eigen::AngleAxisd(nutation, Vector3::UnitX()));
+  const FreeRotation rotation(diagonal({across, across, along}), {tilt, omega});
+  for (const double time : {0.1, -3.0, 100.0}) {
+    const double psi = momentum / across * time - std::numbers::pi / 2;
+    const Vector3 expected(std::sin(nutation) * std::cos(psi), std::sin(nutation) * std::sin(psi),
+                           std::cos(nutation));
+    const Vector3 axis = rotation.at(time).attitude * Vector3::UnitZ();
+    BOOST_TEST((axis - expected).norm() <= 4 * eps * (1 + std::fabs(psi)));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(two_flights_in_a_row_are_one) {
+  constexpr double tolerance = 400 * eps;  // 20 radians, well conditioned starts
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<> any(-1, 1);
+  for (int i = 0; i < 2000; ++i) {
+    const double a = 1 + any(random) / 2, b = 1 + any(random) / 2;
+    const Matrix3 inertia = diagonal({a, b, std::fabs(a - b) + (any(random) + 1) * std::fmin(a, b)});
+    const Rotation start{Eigen::Quaterniond(any(random), any(random), any(random), 2).normalized(),
+                         {any(random), any(random), any(random)}};
+    const double first = 10 * any(random), second = 10 * any(random);
+    const FreeRotation rotation(inertia, start);
+    const Rotation once = rotation.at(first + second);
+    const Rotation twice = FreeRotation(inertia, rotation.at(first)).at(second);
+    // Near the separatrix a rounding of the middle state grows like e^t.
+    const double growth = std::exp(std::fabs(second));
+    BOOST_REQUIRE((once.angular_velocity - twice.angular_velocity).norm() <= tolerance * growth);
+    BOOST_REQUIRE(1 - std::fabs(once.attitude.dot(twice.attitude)) <= tolerance * growth);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_choice_of_body_axes_does_not_matter) {
+  constexpr double tolerance = 1e-12;  // 600 radians, moments to a few eps
+  const Eigen::Quaterniond axes = Eigen::Quaterniond(1, -2, 0.5, 3).normalized();
+  const Matrix3 inertia = axes.toRotationMatrix() * diagonal({1, 2, 2.6}) * axes.toRotationMatrix().transpose();
+  const Vector3 omega(0.4, 0.3, -0.9);
+  const FreeRotation along(diagonal({1, 2, 2.6}), {.angular_velocity = omega});
+  const FreeRotation across(inertia, {axes.conjugate(), axes * omega});
+  for (double time = 0; time < 600; time += 13.7) {
+    BOOST_TEST((axes * along.at(time).angular_velocity - across.at(time).angular_velocity).norm() <= tolerance);
+    const Eigen::Quaterniond attitude = across.at(time).attitude * axes;
+    BOOST_TEST(1 - std::fabs(attitude.dot(along.at(time).attitude)) <= tolerance);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_bounds_hold_and_the_speed_s_is_attained) {
+  for (const Body& body : {Body{"phone", phone, {1, 20, 3}}, Body{"plate", {1, 2, 3}, {0.5, 0.5, 0.7}},
+                           Body{"disc", {1, 1, 2}, {0.5, 0.5, 0.7}},
+                           Body{"slow", {1, 2, 2.5}, {0.9, 0.2, -0.3}}}) {
+    const FreeRotation rotation = free_rotation(body);
+    const Matrix3 inertia = diagonal(body.moments);
+    double speed = 0, acceleration = 0;
+    for (int i = 0; i < 20000; ++i) {
+      const Vector3 w = rotation.at(i * 0.01 / body.omega.norm()).angular_velocity;
+      speed = std::fmax(speed, w.norm());
+      acceleration = std::fmax(acceleration, (inertia.inverse() * w.cross(inertia * w)).norm());
+    }
+    BOOST_TEST(speed <= rotation.largest_speed());
+    BOOST_TEST(speed >= (1 - 1e-4) * rotation.largest_speed());
+    BOOST_TEST(acceleration <= rotation.largest_acceleration());
+    BOOST_TEST(acceleration >= 0.5 * rotation.largest_acceleration());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(whatever_the_size_shape_and_speed_the_result_is_finite_and_conserves_the_momentum) {
+  constexpr double tolerance = 20 * eps;
+  std::mt19937_64 random(11);
+  const auto power = [&](double low, double high) {
+    return std::pow(10, std::uniform_real_distribution<>(low, high)(random));
+  };
+  for (int i = 0; i < 20000; ++i) {
+    const double size = power(-30, 30), speed = power(-12, 8);
+    const double a = i % 2 == 0 ? power(-12, 0) : 1 + power(-16, 0);
+    const double difference = std::fmin(a, 1) * (i % 3 == 0 ? 1 : power(-17, 0));
+    Vector3 moments = size * Vector3(a, 1, std::fmax(a, 1) + difference);
+    Vector3 omega = speed * Vector3(power(-20, 0), power(-20, 0), power(i % 5 == 0 ? -320 : -20, 0));
+    if (i % 7 == 0) omega[i % 3] = 0;
+    std::swap(moments[0], moments[i % 3]);
+    const Matrix3 inertia = diagonal(moments);
+    const Rotation start{.angular_velocity = omega};
+    const FreeRotation rotation(inertia, start);
+    for (const double turns : {0.0, 0.3, -1e3, 1e18}) {
+      const Rotation r = rotation.at(turns * turn / omega.norm());
+      BOOST_REQUIRE(r.angular_velocity.norm() <= rotation.largest_speed());
+      BOOST_REQUIRE(std::fabs(r.attitude.norm() - 1) <= 2 * eps);
+      const Vector3 momentum = inertia * omega;
+      BOOST_REQUIRE((world_momentum(inertia, r) - momentum).stableNorm() <= tolerance * momentum.stableNorm());
+    }
+    BOOST_REQUIRE(rotation.at(1e300).attitude.coeffs().allFinite());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_is_no_inertia_or_no_number_is_refused) {
+  const auto refused = [](const Matrix3& inertia, const Rotation& start) {
+    BOOST_CHECK_THROW(FreeRotation(inertia, start), std::domain_error);
+  };
+  refused(diagonal({1, 2, 3.1}), {});
+  refused(diagonal({0, 1, 1}), {});
+  refused(diagonal({-1, 1, 1}), {});
+  refused(diagonal({1, NAN, 1}), {});
+  Matrix3 skewed = Matrix3::Identity();
+  skewed(0, 1) = 0.1;
+  refused(skewed, {});
+  refused(diagonal({1, 1, 1}), {.angular_velocity = {0, INFINITY, 0}});
+  refused(diagonal({1, 1, 1}), {.attitude = Eigen::Quaterniond(0, 0, 0, 0)});
+  refused(diagonal({1, 1, 1}), {.attitude = Eigen::Quaterniond(NAN, 0, 0, 0)});
+  BOOST_CHECK_THROW(static_cast<void>(FreeRotation(diagonal({1, 1, 1}), {}).at(NAN)), std::domain_error);
+}
