@@ -1,0 +1,45 @@
+#include "numeric/body.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "numeric/detail/require.hpp"
+
+namespace clatter::numeric {
+namespace {
+
+/// Principal moments of a real body are positive and none exceeds the sum of the others.
+void check_inertia(const Matrix3& inertia) {
+  using detail::require;
+  require(inertia.allFinite(), "inertia", inertia.sum(), "finite");
+  const Vector3 moments = Eigen::SelfAdjointEigenSolver<Matrix3>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
+  require(moments[0] > 0, "smallest principal moment of inertia", moments[0], "greater than 0");
+  require(moments[2] <= (moments[0] + moments[1]) * (1 + 1e-9), "largest principal moment of inertia", moments[2],
+          "at most the sum of the other two");
+}
+
+}  // namespace
+
+Body::Body(const MassProperties& properties, const Surface& surface, bool merge) {
+  set_up(properties, surface, merge);
+}
+
+Body::Body(const Mesh& mesh, bool merge) { set_up(mass_properties(mesh), boundary_surface(mesh), merge); }
+
+void Body::set_up(const MassProperties& properties, const Surface& surface, bool merge) {
+  detail::require(properties.mass > 0, "mass", properties.mass, "finite and greater than 0");
+  check_inertia(properties.inertia);
+  mass_ = properties.mass;
+  inertia_ = properties.inertia;
+  inverse_inertia_ = inertia_.inverse();
+  facets_ = planar_facets(surface, merge);
+  for (Vector3& vertex : facets_.vertices) {
+    vertex -= properties.centre;
+    radius_ = std::max(radius_, vertex.norm());
+    half_length_ = std::max(half_length_, std::fabs(vertex.x()));
+  }
+  hierarchy_ = Hierarchy(facets_);
+}
+
+}  // namespace clatter::numeric

@@ -1,0 +1,122 @@
+#include "numeric/contact/contact_load.hpp"
+
+#include <algorithm>
+
+#include "numeric/contact/slip_quadrature.hpp"
+
+namespace clatter::numeric {
+
+/// One evaluation: what it sees and what it has summed so far.
+struct ContactLoader::Sums {
+  const GroundView& view;
+  const SlipField& slip;
+  Vector3 normal;       ///< of the ground, body frame
+  Vector3 normal_rate;  ///< its rate of change there
+  Vector3 rate_slope;   ///< δ̇ = −(vertical speed + rate_slope·u)
+  LoadIntegrals pressing;
+  ContactLoad load;
+  LoadRates* rates;
+  std::vector<int>* submerged;
+};
+
+struct ContactLoader::FacetView {
+  const Vector3& normal;
+  double weight;       ///< of its area
+  double weight_rate;
+};
+
+ContactLoader::ContactLoader(const Body& body, const Ground& ground) : body_(body), ground_(ground) {
+  std::size_t longest = 0;
+  for (const Loop& loop : body.facets().loops) {
+    longest = std::max(longest, static_cast<std::size_t>(loop.end - loop.begin));
+  }
+  whole_.resize(longest);
+  below_.resize(2 * longest);
+  part_.resize(4 * longest);
+}
+
+ContactLoad ContactLoader::load(const GroundView& view, const SlipField& slip, LoadRates* rates,
+                                std::vector<int>* submerged) {
+  Sums sums{view, slip, view.normal(), {}, {}, {}, {}, rates, submerged};
+  sums.rate_slope = sums.normal.cross(view.angular_velocity);
+  sums.normal_rate = sums.rate_slope;
+  sums.load.deepest = -1;
+  // Boxes are rounded, vertices are not: a margin keeps facets that just touch.
+  const double margin = 1e-14 * body_.radius();
+  body_.hierarchy().visit_below(view.plane(), margin, [&](int facet) {
+    add_facet(body_.facets().facets[static_cast<std::size_t>(facet)], sums);
+  });
+  const double k = ground_.stiffness, c = ground_.damping;
+  const LoadIntegrals& all = sums.pressing;
+  sums.load.force = k * all.depth + c * all.depth_rate;
+  sums.load.first_moment = k * all.depth_position + c * all.depth_rate_position;
+  sums.load.energy *= k / 2;
+  sums.load.damping_power = c * all.depth_rate_squared;
+  sums.load.release_power *= -k;
+  if (rates) rates->load = all;
+  return sums.load;
+}
+
+void ContactLoader::add_facet(const Facet& facet, Sums& sums) {
+  const bool projected = ground_.area == AreaMeasure::projected;
+  const FacetView view{facet.normal, projected ? -facet.normal.dot(sums.normal) : 1,
+                       projected ? -facet.normal.dot(sums.normal_rate) : 0};
+  for (int l = facet.begin; l < facet.end; ++l) add_loop(view, body_.facets().loops[static_cast<std::size_t>(l)], sums);
+}
+
+void ContactLoader::add_loop(const FacetView& facet, const Loop& loop, Sums& sums) {
+  const Facets& facets = body_.facets();
+  ContactCorner* whole = whole_.data();
+  const int count = loop.end - loop.begin;
+  int deepest = 0;
+  for (int i = 0; i < count; ++i) {
+    const int vertex = facets.corners[static_cast<std::size_t>(loop.begin + i)];
+    const Vector3& u = facets.vertices[static_cast<std::size_t>(vertex)];
+    whole[i] = {u, -sums.view.height(u), -(sums.view.vertical_speed + sums.rate_slope.dot(u))};
+    if (whole[i].depth > whole[deepest].depth) deepest = i;
+    if (sums.submerged && whole[i].depth > 0) sums.submerged->push_back(vertex);
+  }
+  if (whole[deepest].depth > sums.load.deepest) {
+    sums.load.deepest = whole[deepest].depth;
+    sums.load.deepest_rate = whole[deepest].rate;
+  }
+  if (!(whole[deepest].depth > 0)) return;
+  const Vector3 origin = whole[deepest].position;
+  for (int i = 0; i < count; ++i) whole[i].position -= origin;
+  const int below = clip(whole, count, below_.data(), [](const ContactCorner& corner) { return corner.depth; });
+  add_below({below_.data(), below, facet.normal, origin}, facet, sums);
+}
+
+void ContactLoader::add_below(const ContactPolygon& below, const FacetView& facet, Sums& sums) {
+  const double k = ground_.stiffness, c = ground_.damping;
+  const auto pressure = [&](const ContactCorner& corner) { return k + c * corner.rate; };
+  const bool presses_everywhere = std::all_of(below.corners, below.corners + below.count,
+                                              [&](const ContactCorner& corner) { return pressure(corner) > 0; });
+  if (presses_everywhere) {
+    sums.load.energy += facet.weight * add_pressing(below, facet, sums);
+    return;
+  }
+  sums.load.energy += facet.weight * depth_integrals(below).depth_squared;
+  ContactPolygon part = below;
+  part.corners = part_.data();
+  part.count = clip(below.corners, below.count, part_.data(),
+                    [&](const ContactCorner& corner) { return -pressure(corner); });
+  sums.load.release_power += facet.weight * depth_integrals(part).depth_rate;
+  part.count = clip(below.corners, below.count, part_.data(), pressure);
+  if (part.count > 0) add_pressing(part, facet, sums);
+}
+
+double ContactLoader::add_pressing(const ContactPolygon& pressing, const FacetView& facet, Sums& sums) {
+  const LoadIntegrals here = load_integrals(pressing);
+  sums.pressing.add(here, facet.weight);
+  if (sums.slip.kind != SlipField::Kind::none) add_slip(pressing, facet.weight, sums.view, ground_, sums.slip, sums.load);
+  if (!sums.rates) return here.depth_squared;
+  sums.rates->rates.add(rate_integrals(pressing), facet.weight);
+  const double k = ground_.stiffness, c = ground_.damping;
+  sums.rates->force_by_area += facet.weight_rate * (k * here.depth + c * here.depth_rate);
+  sums.rates->first_moment_by_area +=
+      facet.weight_rate * (k * here.depth_position + c * here.depth_rate_position);
+  return here.depth_squared;
+}
+
+}  // namespace clatter::numeric

@@ -1,0 +1,95 @@
+// The ground's load on a body: normal force, its moment, powers and stored energy.
+#pragma once
+
+#include <vector>
+
+#include "numeric/body.hpp"
+#include "numeric/contact/ground.hpp"
+#include "numeric/contact/patch_integrals.hpp"
+
+namespace clatter::numeric {
+
+/// How the body lies over the ground and moves, seen from the body frame.  Height above the ground of the body's
+/// point u: (reference.normal·u + reference.offset) + (turn·u + sink); the second part is the small change since
+/// touch-down, kept apart so that depths far below the body's size keep their digits.
+struct GroundView {
+  GroundPlane reference;               ///< at touch-down
+  Vector3 turn = Vector3::Zero();      ///< change of the ground's normal since then
+  double sink = 0;                     ///< change of the height of the centre of mass [m]
+  double vertical_speed = 0;           ///< of the centre of mass, upward [m/s]
+  Vector3 angular_velocity = Vector3::Zero();  ///< body frame [rad/s]
+  Vector3 east = Vector3::UnitX();     ///< world x in the body frame
+  Vector3 north = Vector3::UnitY();    ///< world y in the body frame
+  double east_speed = 0;               ///< of the centre of mass along world x and y [m/s]
+  double north_speed = 0;
+
+  [[nodiscard]] Vector3 normal() const { return reference.normal + turn; }
+  [[nodiscard]] GroundPlane plane() const { return {normal(), reference.offset + sink}; }
+  [[nodiscard]] double height(const Vector3& u) const {
+    return reference.height(u) + (turn.dot(u) + sink);
+  }
+};
+
+/// Slip velocities of the patch, for friction whose direction varies over it.
+struct SlipField {
+  enum class Kind {
+    none,
+    turning,      ///< −v/|v|, v = slip of the centre + spin × distance from it: the patch taken as flat
+    regularised,  ///< −v/√(v² + v_r²), v the velocity of each point
+  };
+  Kind kind = Kind::none;
+  double regularisation = 0;         ///< v_r [m/s]
+  Vector3 centre = Vector3::Zero();  ///< of pressure, body frame [m]
+  double east = 0, north = 0;        ///< slip velocity there [m/s]
+  double spin = 0;                   ///< about the vertical [rad/s]
+};
+
+/// The load, per unit of k_G and c_G as the law f_n = (k_G + c_G δ̇) δ combines them.
+struct ContactLoad {
+  double force = 0;                         ///< F_n [N]
+  Vector3 first_moment = Vector3::Zero();   ///< ∫f_n u, body frame [N·m]
+  double energy = 0;                        ///< ½ k_G ∫δ² over all that is below the ground [J]
+  double damping_power = 0;                 ///< c_G ∫δδ̇² where the ground presses [W]
+  double release_power = 0;                 ///< −k_G ∫δδ̇ where the clamp lets go [W]
+  double deepest = 0;                       ///< largest δ of a vertex [m]; not positive: nothing touches
+  double deepest_rate = 0;                  ///< its δ̇ [m/s]
+  double slip_east = 0, slip_north = 0;     ///< ∫f_n s, s the direction of the field [N]
+  Vector3 slip_moment = Vector3::Zero();    ///< ∫f_n u × s, body frame [N·m]
+
+  [[nodiscard]] Vector3 pressure_centre() const { return first_moment / force; }
+};
+
+/// What the rates of change of F_n and ∫f_n u are made of, over the pressing part and weighted by the area measure.
+struct LoadRates {
+  LoadIntegrals load;
+  RateIntegrals rates;
+  /// Rates through the change of the areas' vertical components (projected measure), depths held.
+  double force_by_area = 0;
+  Vector3 first_moment_by_area = Vector3::Zero();
+};
+
+/// Sums the load over the facets near the ground.  Holds the scratch memory; one per thread.
+class ContactLoader {
+ public:
+  ContactLoader(const Body& body, const Ground& ground);
+
+  /// @param rates  filled if not null.
+  /// @param submerged  gets the indices of vertices below the ground, with repetitions, if not null.
+  [[nodiscard]] ContactLoad load(const GroundView& view, const SlipField& slip, LoadRates* rates = nullptr,
+                                 std::vector<int>* submerged = nullptr);
+
+ private:
+  struct Sums;
+  struct FacetView;
+  void add_facet(const Facet& facet, Sums& sums);
+  void add_loop(const FacetView& facet, const Loop& loop, Sums& sums);
+  void add_below(const ContactPolygon& below, const FacetView& facet, Sums& sums);
+  /// @return ∫δ², not weighted.
+  double add_pressing(const ContactPolygon& pressing, const FacetView& facet, Sums& sums);
+
+  const Body& body_;
+  const Ground& ground_;
+  std::vector<ContactCorner> whole_, below_, part_;
+};
+
+}  // namespace clatter::numeric

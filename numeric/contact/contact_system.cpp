@@ -1,0 +1,261 @@
+#include "numeric/contact/contact_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace clatter::numeric {
+namespace {
+
+constexpr int displacement = 0, parameters = 3, velocity = 7, spin = 10, works = 13;
+
+/// (Aᵀ − 1) v for the rotation A of Euler parameters (b; e): no cancellation when it is small.
+Vector3 back_turned_change(double b, const Vector3& e, const Vector3& v) {
+  const Vector3 across = e.cross(v);
+  return -2 * b * across + 2 * e.cross(across);
+}
+
+Vector3 along(const GroundView& view, const AlongGround& vector) {
+  return vector.east * view.east + vector.north * view.north;
+}
+
+AlongGround slip_at(const GroundView& view, const Vector3& u) {
+  const Vector3 turning = view.angular_velocity.cross(u);
+  return {view.east_speed + view.east.dot(turning), view.north_speed + view.north.dot(turning)};
+}
+
+/// Slip with the phase's direction where it is too slow to have one; beyond the instant where slip ends, where
+/// the step is only a trial, the old direction alone, which keeps it smooth.
+AlongGround leaning_slip(const AlongGround& slip, const FrictionPhase& phase) {
+  const AlongGround lean = phase.direction * std::max(phase.slow, std::numeric_limits<double>::min());
+  if (!(slip.dot(phase.direction) > 0)) return lean;
+  return {slip.east + lean.east, slip.north + lean.north};
+}
+
+AlongGround unit_slip(const AlongGround& slip, const FrictionPhase& phase, bool planar) {
+  if (planar) return phase.direction;
+  const AlongGround leaning = leaning_slip(slip, phase);
+  return leaning * (1 / leaning.norm());
+}
+
+}  // namespace
+
+double AlongGround::norm() const { return std::hypot(east, north); }
+
+/// All that is known at an instant but the friction force.
+struct ContactSystem::Instant {
+  const GroundView& view;
+  const ContactLoad& load;
+  const LoadRates& rates;
+  Vector3 normal;
+  Vector3 centre;  ///< of pressure
+  Vector3 moment;  ///< of the normal load, body frame
+  double rise;     ///< vertical acceleration of the centre of mass
+  AlongGround slip;  ///< velocity of the pressure centre
+
+  struct Changes {
+    double force;        ///< dF_n/dt
+    Vector3 first_moment;
+  };
+  /// Rates of F_n and ∫f_n u for an angular acceleration, by δ̈ = −(V̇_z + h·u).
+  [[nodiscard]] Changes changes(const Ground& ground, const Vector3& acceleration) const {
+    const Vector3& omega = view.angular_velocity;
+    const Vector3 h = normal.cross(acceleration) + normal.dot(omega) * omega - omega.squaredNorm() * normal;
+    const double k = ground.stiffness, c = ground.damping;
+    const LoadIntegrals& l = rates.load;
+    const RateIntegrals& r = rates.rates;
+    return {k * r.rate + c * (r.rate_squared - rise * l.depth - h.dot(l.depth_position)) + rates.force_by_area,
+            k * r.rate_position +
+                c * (r.rate_squared_position - rise * l.depth_position - r.depth_position_squared * h) +
+                rates.first_moment_by_area};
+  }
+};
+
+ContactSystem::ContactSystem(const Body& body, const Ground& ground, double gravity, bool planar)
+    : body_(body), ground_(ground), gravity_(gravity), planar_(planar), loader_(body, ground) {}
+
+void ContactSystem::begin(const MotionState& touch) {
+  touch_ = touch;
+  const Eigen::Quaterniond back = touch.attitude.conjugate();
+  plane_ = {back * Vector3::UnitZ(), touch.centre.z()};
+  east_ = back * Vector3::UnitX();
+  north_ = back * Vector3::UnitY();
+}
+
+ContactState ContactSystem::initial() const {
+  ContactState y = ContactState::Zero();
+  y[parameters] = 1;
+  y.segment<3>(velocity) = touch_.velocity;
+  y.segment<3>(spin) = touch_.angular_velocity;
+  return y;
+}
+
+MotionState ContactSystem::motion(const ContactState& y) const {
+  const Eigen::Quaterniond turn(y[parameters], y[parameters + 1], y[parameters + 2], y[parameters + 3]);
+  return {touch_.centre + y.segment<3>(displacement), (touch_.attitude * turn).normalized(), y.segment<3>(velocity),
+          y.segment<3>(spin)};
+}
+
+GroundView ContactSystem::view(const ContactState& y) const {
+  const double b = y[parameters];
+  const Vector3 e = y.segment<3>(parameters + 1);
+  GroundView view;
+  view.reference = plane_;
+  view.turn = back_turned_change(b, e, plane_.normal);
+  view.sink = y[displacement + 2];
+  view.vertical_speed = y[velocity + 2];
+  view.angular_velocity = y.segment<3>(spin);
+  view.east = east_ + back_turned_change(b, e, east_);
+  view.north = north_ + back_turned_change(b, e, north_);
+  view.east_speed = y[velocity];
+  view.north_speed = y[velocity + 1];
+  return view;
+}
+
+Vector3 ContactSystem::angular_acceleration(const Vector3& moment, const Vector3& omega) const {
+  if (planar_) return north_ * (north_.dot(moment) / north_.dot(body_.inertia() * north_));
+  return body_.inverse_inertia() * (moment - omega.cross(body_.inertia() * omega));
+}
+
+/// Friction's resultant, its moment about the centre of mass (body frame) and the power that it dissipates.
+struct ContactSystem::Friction {
+  AlongGround force;
+  Vector3 moment = Vector3::Zero();
+  double power = 0;
+};
+
+ContactSystem::Friction ContactSystem::friction(const Instant& at) {
+  using Kind = FrictionPhase::Kind;
+  const double mu = ground_.sliding_friction;
+  switch (phase_.kind) {
+    case Kind::none: return {};
+    case Kind::regularised: return over_patch(at, at.load);
+    case Kind::stick: return at_centre(at, stick(at));
+    case Kind::slip: break;
+  }
+  if (!phase_.varies) return at_centre(at, unit_slip(at.slip, phase_, planar_) * (-mu * at.load.force));
+  SlipField field{.kind = SlipField::Kind::turning, .centre = at.centre, .spin = at.normal.dot(at.view.angular_velocity)};
+  const AlongGround slip = leaning_slip(at.slip, phase_);
+  field.east = slip.east;
+  field.north = slip.north;
+  return over_patch(at, loader_.load(at.view, field));
+}
+
+ContactSystem::Friction ContactSystem::at_centre(const Instant& at, const AlongGround& force) const {
+  return {force, at.centre.cross(along(at.view, force)), -force.dot(at.slip)};
+}
+
+/// The power is that of the resultant force and moment, so that the ledger closes whatever the quadrature does.
+ContactSystem::Friction ContactSystem::over_patch(const Instant& at, const ContactLoad& load) const {
+  const double mu = ground_.sliding_friction;
+  Friction friction{{mu * load.slip_east, planar_ ? 0 : mu * load.slip_north}, mu * load.slip_moment, 0};
+  friction.power = -friction.force.dot({at.view.east_speed, at.view.north_speed}) -
+                   friction.moment.dot(at.view.angular_velocity);
+  return friction;
+}
+
+AlongGround ContactSystem::stick(const Instant& at) const {
+  const GroundView& view = at.view;
+  const Vector3& omega = view.angular_velocity;
+  const auto tangential_acceleration = [&](const AlongGround& force) {
+    const Vector3 alpha = angular_acceleration(at.moment + at.centre.cross(along(view, force)), omega);
+    const auto change = at.changes(ground_, alpha);
+    const Vector3 wander = (change.first_moment - at.centre * change.force) / at.load.force;
+    const Vector3 point = alpha.cross(at.centre) + omega.cross(omega.cross(at.centre)) + omega.cross(wander);
+    return AlongGround{force.east / body_.mass() + view.east.dot(point),
+                       force.north / body_.mass() + view.north.dot(point)};
+  };
+  // The acceleration is linear in the force; a probe of the normal force's size keeps the differences exact enough.
+  const double probe = at.load.force;
+  const AlongGround free = tangential_acceleration({});
+  const AlongGround by_east = tangential_acceleration({probe, 0});
+  const double a = (by_east.east - free.east) / probe;
+  if (planar_) return {-free.east / a, 0};
+  const AlongGround by_north = tangential_acceleration({0, probe});
+  const double b = (by_north.east - free.east) / probe;
+  const double c = (by_east.north - free.north) / probe;
+  const double d = (by_north.north - free.north) / probe;
+  const double determinant = a * d - b * c;
+  return {(-free.east * d + free.north * b) / determinant, (-free.north * a + free.east * c) / determinant};
+}
+
+void ContactSystem::derivative(const ContactState& y, ContactState& rate) { evaluate(y, rate, nullptr, nullptr); }
+
+ContactDiagnosis ContactSystem::diagnose(const ContactState& y, ContactState& rate, std::vector<int>* submerged) {
+  ContactDiagnosis diagnosis;
+  evaluate(y, rate, &diagnosis, submerged);
+  return diagnosis;
+}
+
+void ContactSystem::evaluate(const ContactState& y, ContactState& rate, ContactDiagnosis* diagnosis,
+                             std::vector<int>* submerged) {
+  using Kind = FrictionPhase::Kind;
+  ++evaluations_;
+  const GroundView view = this->view(y);
+  SlipField field;
+  if (phase_.kind == Kind::regularised) {
+    field.kind = SlipField::Kind::regularised;
+    field.regularisation = ground_.regularisation_speed;
+  }
+  LoadRates rates;
+  const bool wants_rates = diagnosis || phase_.kind == Kind::stick;
+  const ContactLoad load = loader_.load(view, field, wants_rates ? &rates : nullptr, submerged);
+  const bool presses = load.force > 0;
+  Instant at{view, load, rates, view.normal(), presses ? load.pressure_centre() : Vector3::Zero(),
+             Vector3::Zero(), load.force / body_.mass() - gravity_, {}};
+  at.moment = load.first_moment.cross(at.normal);
+  at.slip = slip_at(view, at.centre);
+  const Friction friction = presses ? this->friction(at) : Friction{};
+  const Vector3 moment = at.moment + friction.moment;
+
+  const double b = y[parameters];
+  const Vector3 e = y.segment<3>(parameters + 1);
+  const Vector3& omega = view.angular_velocity;
+  const Vector3 alpha = angular_acceleration(moment, omega);
+  rate.segment<3>(displacement) = y.segment<3>(velocity);
+  rate[parameters] = -0.5 * e.dot(omega);
+  rate.segment<3>(parameters + 1) = 0.5 * (b * omega + e.cross(omega));
+  rate[velocity] = friction.force.east / body_.mass();
+  rate[velocity + 1] = friction.force.north / body_.mass();
+  rate[velocity + 2] = at.rise;
+  rate.segment<3>(spin) = alpha;
+  rate[works] = load.damping_power;
+  rate[works + 1] = load.release_power;
+  rate[works + 2] = friction.power;
+  if (!diagnosis) return;
+  *diagnosis = {load, at.changes(ground_, alpha).force, friction.force, at.centre, at.slip, at.normal.dot(omega)};
+}
+
+AlongGround ContactSystem::sticking_force(const ContactState& y) {
+  const FrictionPhase before = phase_;
+  phase_ = {.kind = FrictionPhase::Kind::stick, .direction = {}};
+  ContactState rate;
+  const AlongGround force = diagnose(y, rate).friction;
+  phase_ = before;
+  return force;
+}
+
+AlongGround ContactSystem::sticking_ratio(const Vector3& u) const {
+  const auto acceleration = [&](const Vector3& force) {
+    const Vector3 alpha = planar_ ? Vector3(north_ * (north_.dot(u.cross(force)) / north_.dot(body_.inertia() * north_)))
+                                  : Vector3(body_.inverse_inertia() * u.cross(force));
+    return Vector3(force / body_.mass() + alpha.cross(u));
+  };
+  const Vector3 free = acceleration(plane_.normal), by_east = acceleration(east_), by_north = acceleration(north_);
+  if (planar_) return {-east_.dot(free) / east_.dot(by_east), 0};
+  Eigen::Matrix2d matrix;
+  matrix << east_.dot(by_east), east_.dot(by_north), north_.dot(by_east), north_.dot(by_north);
+  const Eigen::Vector2d ratio = matrix.inverse() * Eigen::Vector2d(-east_.dot(free), -north_.dot(free));
+  return {ratio.x(), ratio.y()};
+}
+
+ContactLoad ContactSystem::pressed(double depth) {
+  GroundView view = this->view(initial());
+  view.sink = -depth;
+  view.vertical_speed = 0;
+  view.angular_velocity.setZero();
+  ++evaluations_;
+  return loader_.load(view, {});
+}
+
+}  // namespace clatter::numeric

@@ -1,0 +1,109 @@
+// The equations of motion of a body in contact with the ground, Newton–Euler with Euler parameters.
+#pragma once
+
+#include "numeric/contact/contact_load.hpp"
+#include "numeric/motion/motion_state.hpp"
+
+namespace clatter::numeric {
+
+/// A vector along the ground: world x and y.
+struct AlongGround {
+  double east = 0;
+  double north = 0;
+  [[nodiscard]] double dot(const AlongGround& other) const { return east * other.east + north * other.north; }
+  [[nodiscard]] double norm() const;
+  [[nodiscard]] AlongGround operator*(double factor) const { return {east * factor, north * factor}; }
+};
+
+/// What friction does until an event changes it.
+struct FrictionPhase {
+  enum class Kind { none, slip, stick, regularised };
+  Kind kind = Kind::none;
+  AlongGround direction;  ///< of slip when the phase or the step began, unit
+  bool varies = false;    ///< whether the direction of slip varies over the patch noticeably
+  /// Slip slower than this has no direction but that above: rounding must not choose it [m/s].
+  double slow = 0;
+};
+
+/// State of a contact.  Everything is relative to the touch-down, so that depths of a billionth of the body's size
+/// keep their digits.
+///     r       displacement of the centre of mass, world [m]
+///     β       Euler parameters of the rotation since touch-down
+///     V       velocity of the centre of mass, world [m/s]
+///     ω′      angular velocity, body frame [rad/s]
+///     W_d, W_r, W_f   energy dissipated by dampers, released by the clamp, dissipated by friction [J]
+using ContactState = Eigen::Matrix<double, 16, 1>;
+
+/// Numbers of an instant that events and records need.
+struct ContactDiagnosis {
+  ContactLoad load;
+  double force_rate = 0;         ///< dF_n/dt [N/s]
+  AlongGround friction;          ///< [N]
+  Vector3 centre = Vector3::Zero();  ///< of pressure, body frame [m]
+  AlongGround slip;              ///< velocity of the body there, along the ground [m/s]
+  double spin = 0;               ///< angular velocity about the vertical [rad/s]
+};
+
+///     m V̇ = F_c − m g e_z,   I ω̇′ + ω′ × I ω′ = M′,   β̇ = ½ β ω′,
+///     F_c = F_n e_z + F_t,   M′ = ∫f_n u × n′ + (friction)
+/// Slip: F_t = −μ_k F_n d at the pressure centre c, d the direction of the slip velocity there; if the body spins
+/// about the vertical, −μ_k ∫f_n v/|v| over the patch taken as flat.  (The slip of its points differs by the turning
+/// about the horizontal times their depth too; that is left out: the patch would slip forth and back at once
+/// whenever it is about to stick.)  Stick: F_t at c such that
+///     d/dt v_t(c) = [V̇ + ω̇ × c + ω × (ω × c) + ω × ċ]_t = 0,
+/// ċ being the pressure centre's motion over the body, so that c stays at rest although it moves.
+class ContactSystem {
+ public:
+  ContactSystem(const Body& body, const Ground& ground, double gravity, bool planar);
+
+  /// Sets the pose and velocity at touch-down.
+  void begin(const MotionState& touch);
+  [[nodiscard]] ContactState initial() const;
+  [[nodiscard]] MotionState motion(const ContactState& y) const;
+
+  void set_phase(const FrictionPhase& phase) { phase_ = phase; }
+  [[nodiscard]] const FrictionPhase& phase() const { return phase_; }
+
+  void derivative(const ContactState& y, ContactState& rate);
+  /// The derivative with the numbers of the instant; `submerged` gets vertices below the ground if not null.
+  [[nodiscard]] ContactDiagnosis diagnose(const ContactState& y, ContactState& rate,
+                                          std::vector<int>* submerged = nullptr);
+  /// Friction force that sticking would take.
+  [[nodiscard]] AlongGround sticking_force(const ContactState& y);
+  /// The same per unit of normal force for a light load at the body's point u, from the touch-down pose: tells
+  /// whether a contact that begins without slip sticks.
+  [[nodiscard]] AlongGround sticking_ratio(const Vector3& u) const;
+  /// Static energy and force at a depth below the touch-down pose, for the scales of time and depth.
+  [[nodiscard]] ContactLoad pressed(double depth);
+
+  [[nodiscard]] long evaluations() const { return evaluations_; }
+  [[nodiscard]] const Body& body() const { return body_; }
+  [[nodiscard]] const Ground& ground() const { return ground_; }
+  [[nodiscard]] double gravity() const { return gravity_; }
+  [[nodiscard]] bool planar() const { return planar_; }
+
+ private:
+  struct Instant;
+  struct Friction;
+  void evaluate(const ContactState& y, ContactState& rate, ContactDiagnosis* diagnosis,
+                std::vector<int>* submerged);
+  [[nodiscard]] GroundView view(const ContactState& y) const;
+  [[nodiscard]] Vector3 angular_acceleration(const Vector3& moment, const Vector3& omega) const;
+  [[nodiscard]] Friction friction(const Instant& at);
+  [[nodiscard]] Friction at_centre(const Instant& at, const AlongGround& force) const;
+  [[nodiscard]] Friction over_patch(const Instant& at, const ContactLoad& load) const;
+  [[nodiscard]] AlongGround stick(const Instant& at) const;
+
+  const Body& body_;
+  const Ground& ground_;
+  double gravity_;
+  bool planar_;
+  ContactLoader loader_;
+  MotionState touch_;
+  GroundPlane plane_;
+  Vector3 east_ = Vector3::UnitX(), north_ = Vector3::UnitY();  ///< world axes in the body frame at touch-down
+  FrictionPhase phase_;
+  long evaluations_ = 0;
+};
+
+}  // namespace clatter::numeric

@@ -1,0 +1,179 @@
+#include "numeric/drop_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "numeric/error_growth.hpp"
+#include "numeric/history_writer.hpp"
+#include "numeric/motion/free_flight.hpp"
+#include "numeric/touch_point.hpp"
+
+namespace clatter::numeric {
+namespace {
+
+/// Rounding errors of double precision, so grown, spoil the second digit.
+constexpr double predictable_growth = 0.01 / std::numeric_limits<double>::epsilon();
+
+Outcome outcome_of(ContactEnding ending) {
+  switch (ending) {
+    case ContactEnding::at_rest: return Outcome::at_rest;
+    case ContactEnding::evaluation_limit: return Outcome::evaluation_limit;
+    case ContactEnding::step_too_small: return Outcome::step_too_small;
+    case ContactEnding::not_representable: return Outcome::not_representable;
+    case ContactEnding::interrupted: return Outcome::interrupted;
+    case ContactEnding::lift_off: break;
+  }
+  return Outcome::impact_limit;
+}
+
+/// Inclination of the body's x axis, which falls as the body turns clockwise, and its acute angle to the ground.
+void note_angles(const MotionState& touch, ImpactNumbers& numbers) {
+  const Vector3 axis = touch.attitude * Vector3::UnitX();
+  const double along = std::hypot(axis.x(), axis.y());
+  numbers.inclination = std::atan2(axis.z(), std::copysign(along, axis.x()));
+  numbers.contact_angle = std::atan2(std::fabs(axis.z()), along);
+}
+
+class Run {
+ public:
+  Run(const Body& body, const Ground& ground, const MotionState& start, const Options& options,
+      const Accuracy& accuracy, const RunExtras& extras)
+      : body_(body), options_(options), extras_(extras), system_(body, ground, options.gravity, options.planar),
+        stepper_(make_stepper(accuracy.method)), contact_(system_, *stepper_), state_(start),
+        growth_(body, start, options.gravity, options.planar), history_(body, options.gravity, extras.history) {
+    control_.tolerance = accuracy.tolerance;
+    control_.step = accuracy.step;
+    control_.steps_per_contact = accuracy.steps_per_contact;
+    control_.evaluation_limit = options.evaluation_limit;
+    if (extras.history || extras.progress) {
+      control_.observe = [this](const ContactInstant& at) { return observe(at); };
+    }
+  }
+
+  DropRun run() {
+    while (fall() && strike()) continue;
+    result_.force_evaluations = system_.evaluations();
+    result_.final_state = state_;
+    result_.end_time = time_;
+    return std::move(result_);
+  }
+
+ private:
+  bool end(Outcome outcome) {
+    result_.outcome = outcome;
+    return false;
+  }
+
+  /// The flight to the next touch-down; false if there is none.
+  bool fall() {
+    const FreeFlight flight(body_, state_, options_.gravity);
+    const TouchDown down = next_touch_down(body_, flight);
+    result_.root_evaluations += down.evaluations;
+    if (down.kind == TouchDown::Kind::undecided) return end(Outcome::flight_undecided);
+    if (down.kind == TouchDown::Kind::never) return end(Outcome::no_further_impact);
+    if (static_cast<int>(result_.impacts.size()) == options_.impacts) return end(Outcome::impact_limit);
+    const bool first = result_.impacts.empty();
+    if (!first) {
+      history_.flight(flight, time_, down.time);
+      if (extras_.amplification) growth_.fly(state_, down.time);
+      time_ += down.time;
+    }
+    state_ = flight.at(down.time);
+    if (first) result_.energy_start = mechanical_energy(body_, state_, options_.gravity);
+    return true;
+  }
+
+  /// The contact; false if it did not end in a lift-off.
+  bool strike() {
+    const Vector3 point = touch_point(body_, state_);
+    const ContactResult contact = contact_.run(state_, point, control_);
+    result_.step = contact.step;
+    if (contact.ending != ContactEnding::lift_off && contact.ending != ContactEnding::at_rest) {
+      return end(outcome_of(contact.ending));
+    }
+    result_.impacts.push_back(record(contact, point));
+    if (extras_.amplification) note_growth(contact);
+    state_ = contact.after;
+    time_ += contact.duration;
+    return contact.ending == ContactEnding::lift_off || end(Outcome::at_rest);
+  }
+
+  [[nodiscard]] ImpactRecord record(const ContactResult& contact, const Vector3& point) const {
+    const double g = options_.gravity;
+    const MotionState& after = contact.after;
+    ImpactRecord row;
+    ImpactNumbers& n = row.value;
+    n.start = time_;
+    n.duration = contact.duration;
+    note_angles(state_, n);
+    n.approach_speed = -point_velocity(state_, point).z();
+    n.restitution = contact.touches > 1 ? std::numeric_limits<double>::quiet_NaN()
+                                        : point_velocity(after, point).z() / n.approach_speed;
+    n.impulse = body_.mass() * (after.velocity - state_.velocity + Vector3(0, 0, g * contact.duration));
+    n.peak_force = contact.peak_force;
+    n.peak_time = contact.peak_time;
+    n.velocity_after = after.velocity;
+    n.angular_velocity_after = after.attitude * after.angular_velocity;
+    n.energy_before = mechanical_energy(body_, state_, g);
+    n.energy_after = mechanical_energy(body_, after, g);
+    n.energy_loss = n.energy_before - n.energy_after;
+    n.work_damping = contact.work_damping;
+    n.work_friction = contact.work_friction;
+    n.work_released = contact.work_released;
+    row.end = contact.end;
+    row.touches = contact.touches;
+    row.mode = contact.mode;
+    row.amplification = std::numeric_limits<double>::quiet_NaN();
+    row.energy_stored = contact.energy_stored;
+    const double gap = n.energy_loss - n.work_damping - n.work_friction - n.work_released - row.energy_stored;
+    row.ledger_gap = gap / std::max(result_.energy_start, row.energy_stored);
+    return row;
+  }
+
+  void note_growth(const ContactResult& contact) {
+    const std::function<bool(const ContactInstant&)> observe = std::move(control_.observe);
+    control_.observe = nullptr;
+    growth_.touch(contact_, control_, state_, contact);
+    control_.observe = observe;
+    ImpactRecord& row = result_.impacts.back();
+    row.amplification = growth_.factor();
+    row.predictable = row.amplification < predictable_growth;
+  }
+
+  bool observe(const ContactInstant& at) {
+    history_.contact(system_, at, time_);
+    if (!extras_.progress || ++observed_ % 64 != 0) return true;
+    return (*extras_.progress)(static_cast<int>(result_.impacts.size()), system_.evaluations());
+  }
+
+  const Body& body_;
+  const Options& options_;
+  const RunExtras& extras_;
+  ContactSystem system_;
+  std::unique_ptr<Stepper> stepper_;
+  ContactRun contact_;
+  ContactControl control_;
+  MotionState state_;
+  ErrorGrowth growth_;
+  HistoryWriter history_;
+  double time_ = 0;
+  long observed_ = 0;
+  DropRun result_;
+};
+
+}  // namespace
+
+double mechanical_energy(const Body& body, const MotionState& state, double gravity) {
+  const Vector3& omega = state.angular_velocity;
+  return 0.5 * body.mass() * state.velocity.squaredNorm() + 0.5 * omega.dot(body.inertia() * omega) +
+         body.mass() * gravity * state.centre.z();
+}
+
+DropRun run_drop(const Body& body, const Ground& ground, const MotionState& start, const Options& options,
+                 const Accuracy& accuracy, const RunExtras& extras) {
+  return Run(body, ground, start, options, accuracy, extras).run();
+}
+
+}  // namespace clatter::numeric

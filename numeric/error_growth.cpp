@@ -1,0 +1,128 @@
+#include "numeric/error_growth.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "numeric/touch_point.hpp"
+
+namespace clatter::numeric {
+namespace {
+
+constexpr double radians_per_step = 0.1;
+constexpr double most_steps = 100'000;
+
+/// Angular velocity, its deviation and the deviation of the attitude, all in the body frame.
+struct Turning {
+  Vector3 omega, omega_change, turn;
+  [[nodiscard]] Turning plus(const Turning& rate, double h) const {
+    return {omega + h * rate.omega, omega_change + h * rate.omega_change, turn + h * rate.turn};
+  }
+};
+
+/// Euler's equations and their linearisation: δθ̇ = δω − ω × δθ, I δω̇ = −δω × Iω − ω × Iδω.
+Turning rate_of(const Body& body, const Turning& at) {
+  const Vector3 momentum = body.inertia() * at.omega, momentum_change = body.inertia() * at.omega_change;
+  return {body.inverse_inertia() * momentum.cross(at.omega),
+          body.inverse_inertia() * (momentum.cross(at.omega_change) + momentum_change.cross(at.omega)),
+          at.omega_change - at.omega.cross(at.turn)};
+}
+
+Turning integrate(const Body& body, Turning at, double time) {
+  const double steps = std::clamp(std::ceil(at.omega.norm() * time / radians_per_step), 4.0, most_steps);
+  const double h = time / steps;
+  for (int i = 0; i < static_cast<int>(steps); ++i) {
+    const Turning k1 = rate_of(body, at);
+    const Turning k2 = rate_of(body, at.plus(k1, h / 2));
+    const Turning k3 = rate_of(body, at.plus(k2, h / 2));
+    const Turning k4 = rate_of(body, at.plus(k3, h));
+    at = at.plus(k1, h / 6).plus(k2, h / 3).plus(k3, h / 3).plus(k4, h / 6);
+  }
+  return at;
+}
+
+}  // namespace
+
+ErrorGrowth::ErrorGrowth(const Body& body, const MotionState& start, double gravity, bool planar)
+    : body_(body), gravity_(gravity), planar_(planar),
+      speed_(start.velocity.norm() + body.radius() * start.angular_velocity.norm()) {
+  if (!(speed_ > 0)) speed_ = std::sqrt(gravity * body.radius()) + 1e-300;
+  deviation_ << 1, 1, -1, 1, -1, 1, 1, -1, -1, 1, 1, -1;
+  if (planar) {
+    const Vector3 north = start.attitude.conjugate() * Vector3::UnitY();
+    deviation_[1] = deviation_[7] = 0;
+    deviation_.segment<3>(3) = -north;
+    deviation_.segment<3>(9) = north;
+  }
+  deviation_.normalize();
+}
+
+MotionState ErrorGrowth::moved(const MotionState& state, double size) const {
+  const double radius = body_.radius();
+  MotionState other = state;
+  other.centre += size * radius * deviation_.head<3>();
+  const Vector3 half_turn = size / 2 * deviation_.segment<3>(3);
+  other.attitude = (state.attitude * Eigen::Quaterniond(1, half_turn.x(), half_turn.y(), half_turn.z())).normalized();
+  other.velocity += size * speed_ * deviation_.segment<3>(6);
+  other.angular_velocity += size * speed_ / radius * deviation_.tail<3>();
+  return other;
+}
+
+ErrorGrowth::Deviation ErrorGrowth::between(const MotionState& from, const MotionState& to) const {
+  const double radius = body_.radius();
+  Deviation deviation;
+  Eigen::Quaterniond turn = from.attitude.conjugate() * to.attitude;
+  if (turn.w() < 0) turn.coeffs() = -turn.coeffs();
+  deviation << (to.centre - from.centre) / radius, 2 * turn.vec(), (to.velocity - from.velocity) / speed_,
+      (to.angular_velocity - from.angular_velocity) * (radius / speed_);
+  return deviation;
+}
+
+/// Goes on with `deviation`; one that cannot be measured leaves the last one standing.
+void ErrorGrowth::take(const Deviation& deviation) {
+  const double size = deviation.norm();
+  if (!(size > 0) || !std::isfinite(size)) return;
+  factor_ *= size;
+  deviation_ = deviation / size;
+}
+
+void ErrorGrowth::fly(const MotionState& start, double time) {
+  if (!(time > 0)) return;
+  const double radius = body_.radius();
+  Deviation moved = deviation_;
+  moved.head<3>() += time * speed_ / radius * moved.segment<3>(6);
+  if (planar_) {
+    moved.segment<3>(3) += time * speed_ / radius * moved.tail<3>();
+  } else {
+    const Turning end = integrate(
+        body_, {start.angular_velocity, speed_ / radius * moved.tail<3>(), moved.segment<3>(3)}, time);
+    moved.segment<3>(3) = end.turn;
+    moved.tail<3>() = radius / speed_ * end.omega_change;
+  }
+  take(moved);
+}
+
+void ErrorGrowth::touch(ContactRun& run, const ContactControl& control, const MotionState& touch,
+                        const ContactResult& contact) {
+  const double approach = -point_velocity(touch, touch_point(body_, touch)).z();
+  if (!(approach > 0)) return;
+  const double depth_part = contact.scales.depth / body_.radius();
+  const double size = std::clamp(1e-3 * depth_part, 1e-9, 1e-6);
+  const MotionState other = moved(touch, size);
+  // The neighbour starts a little above the ground, before or after the touch-down.
+  const double back = 4 * size * body_.radius() / approach;
+  const FreeFlight flight(body_, other, gravity_);
+  const MotionState above = flight.at(-back);
+  const FreeFlight approach_flight(body_, above, gravity_);
+  const TouchDown down = next_touch_down(body_, approach_flight);
+  if (down.kind != TouchDown::Kind::touch) return;
+  const MotionState start = approach_flight.at(down.time);
+  const ContactResult result = run.run(start, touch_point(body_, start), control);
+  if (result.ending != ContactEnding::lift_off) return;
+  const double other_end = down.time - back + result.duration;
+  const double end = std::max(contact.duration, other_end);
+  const MotionState here = FreeFlight(body_, contact.after, gravity_).at(end - contact.duration);
+  const MotionState there = FreeFlight(body_, result.after, gravity_).at(end - other_end);
+  take(between(here, there) / size);
+}
+
+}  // namespace clatter::numeric

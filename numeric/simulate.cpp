@@ -1,0 +1,181 @@
+#include "numeric/simulate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "numeric/detail/require.hpp"
+#include "numeric/drop_run.hpp"
+#include "numeric/motion/free_flight.hpp"
+
+namespace clatter::numeric {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+/// How the second run differs, and what its distance from the main one says about that one's error.
+constexpr double coarser_tolerance = 30;
+constexpr double coarser_step = 2;
+constexpr double error_per_distance = 0.2;
+
+bool is_adaptive(Method method) { return method != Method::tvd_rk3; }
+
+/// The local error that gives `digits` digits of velocities and energies after tens of steps.
+Accuracy accuracy_for(const Options& options) {
+  Accuracy accuracy;
+  accuracy.method = options.method;
+  if (options.method == Method::automatic) accuracy.method = options.step > 0 ? Method::tvd_rk3 : Method::rk8pd;
+  accuracy.step = options.step;
+  accuracy.tolerance = std::max(std::pow(10.0, -options.digits - 4), 2e-14);
+  accuracy.steps_per_contact = 10 * std::pow(10.0, std::min(options.digits, 9) / 3.0);
+  return accuracy;
+}
+
+Accuracy coarser(Accuracy accuracy, double used_step) {
+  accuracy.tolerance *= coarser_tolerance;
+  accuracy.steps_per_contact /= coarser_step;
+  if (accuracy.step > 0) accuracy.step = used_step * coarser_step;
+  return accuracy;
+}
+
+template <class Use>
+void for_each_number(const ImpactNumbers& a, const ImpactNumbers& b, ImpactNumbers& out, Use&& use) {
+  using Numbers = ImpactNumbers;
+  for (const auto member :
+       {&Numbers::start, &Numbers::duration, &Numbers::inclination, &Numbers::contact_angle, &Numbers::approach_speed,
+        &Numbers::restitution, &Numbers::peak_force, &Numbers::peak_time, &Numbers::energy_before,
+        &Numbers::energy_after, &Numbers::energy_loss, &Numbers::work_damping, &Numbers::work_friction,
+        &Numbers::work_released}) {
+    out.*member = use(a.*member, b.*member);
+  }
+  for (const auto member : {&Numbers::impulse, &Numbers::velocity_after, &Numbers::angular_velocity_after}) {
+    for (int i = 0; i < 3; ++i) (out.*member)[i] = use((a.*member)[i], (b.*member)[i]);
+  }
+}
+
+/// What rounding leaves of numbers that are differences of larger ones.
+void add_rounding(const ImpactRecord& row, ImpactNumbers& error) {
+  const double growth = std::isfinite(row.amplification) ? row.amplification : 1;
+  const ImpactNumbers& n = row.value;
+  const auto add = [&](double& to, double size) { to += 4 * epsilon * (1 + growth) * std::fabs(size); };
+  for_each_number(n, error, error, [&](double value, double so_far) {
+    add(so_far, value);
+    return so_far;
+  });
+  for (double* work : {&error.energy_loss, &error.work_damping, &error.work_friction, &error.work_released}) {
+    add(*work, n.energy_before);
+  }
+  for (int i = 0; i < 3; ++i) {
+    add(error.impulse[i], n.impulse.norm());
+    add(error.velocity_after[i], n.velocity_after.norm());
+    add(error.angular_velocity_after[i], n.angular_velocity_after.norm());
+  }
+}
+
+void estimate_errors(std::vector<ImpactRecord>& rows, const std::vector<ImpactRecord>& coarse) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool same_kind = i < coarse.size() && coarse[i].end == rows[i].end && coarse[i].touches == rows[i].touches;
+    const ImpactNumbers& other = same_kind ? coarse[i].value : rows[i].value;
+    for_each_number(rows[i].value, other, rows[i].error, [&](double fine, double rough) {
+      return same_kind ? error_per_distance * std::fabs(fine - rough) : not_known;
+    });
+    if (same_kind) add_rounding(rows[i], rows[i].error);
+  }
+}
+
+void forget_errors(std::vector<ImpactRecord>& rows) {
+  for (ImpactRecord& row : rows) {
+    for_each_number(row.value, row.value, row.error, [](double, double) { return not_known; });
+  }
+}
+
+std::string words_for(const Simulation& run, const Options& options, double time) {
+  std::ostringstream text;
+  switch (run.outcome) {
+    case Outcome::no_further_impact: text << "nothing reaches the ground any more"; break;
+    case Outcome::impact_limit: text << "stopped after the " << options.impacts << " impacts asked for"; break;
+    case Outcome::at_rest: text << "the body lies still on the ground from " << time << " s"; break;
+    case Outcome::evaluation_limit:
+      text << "the contact after " << time << " s had not ended after " << options.evaluation_limit
+           << " force evaluations";
+      break;
+    case Outcome::step_too_small:
+      text << "the contact after " << time << " s needs steps too small for the tolerance; ask for fewer digits";
+      break;
+    case Outcome::not_representable:
+      text << "the contact after " << time << " s is too shallow or too deep for double precision";
+      break;
+    case Outcome::flight_undecided:
+      text << "no touch-down found after " << time << " s within the work allowed";
+      break;
+    case Outcome::interrupted: text << "interrupted"; break;
+  }
+  return text.str();
+}
+
+}  // namespace
+
+void Options::validate() const {
+  using detail::require;
+  require(step >= 0, "run.step", step, "finite and at least 0");
+  require(digits >= 2 && digits <= 12, "run.digits", digits, "from 2 to 12");
+  require(impacts >= 1, "run.impacts", impacts, "at least 1");
+  require(gravity >= 0, "world.gravity", gravity, "finite and at least 0");
+  require(evaluation_limit >= 1, "run.evaluation_limit", static_cast<double>(evaluation_limit), "at least 1");
+  if (step > 0) {
+    require(method == Method::automatic || method == Method::tvd_rk3, "run.step", step,
+            "left out for an adaptive method, which chooses its own");
+  }
+}
+
+double Simulation::total_normal_impulse() const {
+  double sum = 0;
+  for (const ImpactRecord& row : impacts) sum += row.value.impulse.z();
+  return sum;
+}
+
+MotionState touching_state(const Body& body, const Drop& drop) {
+  MotionState state;
+  state.attitude = Eigen::AngleAxisd(-drop.inclination, Vector3::UnitY()) *
+                   Eigen::AngleAxisd(drop.out_of_plane_tilt, Vector3::UnitX());
+  state.velocity = drop.velocity;
+  state.angular_velocity = state.attitude.conjugate() * Vector3(0, drop.spin, 0);
+  state.centre.z() = -lowest_height(body, state);
+  return state;
+}
+
+Simulation simulate(const Body& body, const Ground& ground, const MotionState& start, const Options& options) {
+  options.validate();
+  ground.validate();
+  const double low = lowest_height(body, start);
+  detail::require(low >= -1e-12 * body.radius(), "height of the lowest point", low, "at least 0");
+  const Accuracy accuracy = accuracy_for(options);
+  DropRun main = run_drop(body, ground, start, options, accuracy,
+                          {options.amplification, options.history, options.progress ? &options.progress : nullptr});
+  Simulation simulation;
+  simulation.outcome = main.outcome;
+  simulation.method = accuracy.method;
+  simulation.tolerance = is_adaptive(accuracy.method) ? accuracy.tolerance : 0;
+  simulation.step = main.step;
+  simulation.force_evaluations = main.force_evaluations;
+  simulation.root_evaluations = main.root_evaluations;
+  simulation.energy_start = main.energy_start;
+  simulation.final_state = main.final_state;
+  simulation.impacts = std::move(main.impacts);
+  simulation.message = words_for(simulation, options, main.end_time);
+  if (options.error_estimates && !simulation.impacts.empty()) {
+    Options fewer = options;
+    fewer.impacts = static_cast<int>(simulation.impacts.size());
+    const DropRun coarse = run_drop(body, ground, start, fewer, coarser(accuracy, main.step), {});
+    simulation.force_evaluations += coarse.force_evaluations;
+    simulation.root_evaluations += coarse.root_evaluations;
+    estimate_errors(simulation.impacts, coarse.impacts);
+  } else {
+    forget_errors(simulation.impacts);
+  }
+  return simulation;
+}
+
+}  // namespace clatter::numeric

@@ -1,0 +1,45 @@
+// Which parts of the body touch the ground, and how many times a new one came down.
+#pragma once
+
+#include <vector>
+
+#include "numeric/body.hpp"
+
+namespace clatter::numeric {
+
+/// A new place is a set of vertices that go below the ground together, apart from all that were below before:
+/// not connected with them, over vertices below the ground, by edges shorter than a quarter of the body's
+/// radius.  (Along a longer edge the contact spreads as well, but what arrives at its far end is another blow.)
+/// Vertices that go below between two updates are one place.  No allocation after construction.
+class TouchCounter {
+ public:
+  explicit TouchCounter(const Body& body);
+
+  void begin();
+  /// Takes the vertices that are below the ground now, repetitions allowed.
+  void update(const std::vector<int>& submerged);
+  /// Whether none of `submerged` was below the ground at the last update, though others were.
+  [[nodiscard]] bool all_new(const std::vector<int>& submerged) const;
+
+  [[nodiscard]] int touches() const { return touches_; }
+  [[nodiscard]] bool touched_a() const { return touched_a_; }  ///< a vertex with x′ < 0
+  [[nodiscard]] bool touched_b() const { return touched_b_; }  ///< a vertex with x′ > 0
+
+ private:
+  [[nodiscard]] int stamp_of(int vertex) const { return stamps_[static_cast<std::size_t>(vertex)]; }
+  [[nodiscard]] bool joins_old(int seed);
+  void note_end(int vertex);
+
+  const Body& body_;
+  std::vector<int> neighbour_begin_, neighbours_;
+  std::vector<int> stamps_;       ///< update at which a vertex was last below the ground
+  std::vector<int> flooded_;      ///< update at which it was last flooded
+  std::vector<int> before_;       ///< update before the stamp at which it was below, for continuity
+  std::vector<int> stack_;
+  int now_ = 2;
+  int touches_ = 0;
+  bool any_before_ = false;
+  bool touched_a_ = false, touched_b_ = false;
+};
+
+}  // namespace clatter::numeric

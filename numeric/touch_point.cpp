@@ -1,0 +1,32 @@
+#include "numeric/touch_point.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "numeric/motion/free_flight.hpp"
+
+namespace clatter::numeric {
+
+Vector3 touch_point(const Body& body, const MotionState& state) {
+  const double level = lowest_height(body, state) + 1e-11 * body.radius();
+  const GroundPlane plane{state.attitude.conjugate() * Vector3::UnitZ(), state.centre.z()};
+  const Facets& facets = body.facets();
+  std::vector<int> touching;
+  body.hierarchy().visit_below(plane, level, [&](int facet) {
+    const Facet& which = facets.facets[static_cast<std::size_t>(facet)];
+    for (int l = which.begin; l < which.end; ++l) {
+      const Loop& loop = facets.loops[static_cast<std::size_t>(l)];
+      for (int c = loop.begin; c < loop.end; ++c) {
+        const int vertex = facets.corners[static_cast<std::size_t>(c)];
+        if (plane.height(facets.vertices[static_cast<std::size_t>(vertex)]) <= level) touching.push_back(vertex);
+      }
+    }
+  });
+  std::sort(touching.begin(), touching.end());
+  touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
+  Vector3 sum = Vector3::Zero();
+  for (const int vertex : touching) sum += facets.vertices[static_cast<std::size_t>(vertex)];
+  return sum / static_cast<double>(touching.size());
+}
+
+}  // namespace clatter::numeric

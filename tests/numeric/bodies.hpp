@@ -1,0 +1,42 @@
+// Bodies that several tests drop.
+#pragma once
+
+#include <numbers>
+
+#include "numeric/body.hpp"
+#include "numeric/mesh/generators.hpp"
+#include "numeric/simulate.hpp"
+
+namespace clatter::numeric::test {
+
+inline constexpr double degree = std::numbers::pi / 180;
+
+inline Body box_body(const Vector3& size, double mass, int nx = 1, int ny = 1, int nz = 1, bool merge = true) {
+  return Body(box_mesh({.size = size, .mass = mass, .nx = nx, .ny = ny, .nz = nz}), merge);
+}
+
+/// The paper's phone.
+inline constexpr double phone_mass = 0.08814;
+inline Vector3 phone_size() { return {0.10566, 0.04394, 0.01905}; }
+inline Body phone(int nx = 1, int ny = 1, int nz = 1, bool merge = true) {
+  return box_body(phone_size(), phone_mass, nx, ny, nz, merge);
+}
+
+/// The paper's rod.
+inline Body rod() { return Body(rod_mesh({})); }
+
+/// Without estimates, so that the work is one run's.
+inline Options plain_options() {
+  Options options;
+  options.gravity = 0;
+  options.impacts = 1;
+  options.error_estimates = false;
+  options.amplification = false;
+  return options;
+}
+
+inline Simulation drop(const Body& body, const Ground& ground, double angle, double speed, const Options& options) {
+  return simulate(body, ground, touching_state(body, {.inclination = angle, .velocity = {0, 0, -speed}}), options);
+}
+
+}  // namespace clatter::numeric::test

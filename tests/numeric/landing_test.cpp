@@ -1,0 +1,143 @@
+// Contacts with closed forms: flat and upright landings, and what no landing may lose.
+#include <boost/math/special_functions/lambert_w.hpp>
+#include <boost/multiprecision/cpp_dec_float.hpp>
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+
+#include "tests/numeric/bodies.hpp"
+
+namespace {
+
+using namespace clatter::numeric;
+using namespace clatter::numeric::test;
+
+constexpr double promised = 1e-9;
+
+/// A spring k_G A under the mass m: half a sine.
+void check_half_sine(const Simulation& run, double mass, double area, double stiffness, double speed) {
+  BOOST_REQUIRE(run.impacts.size() == 1);
+  const ImpactNumbers& n = run.impacts[0].value;
+  const double frequency = std::sqrt(stiffness * area / mass);
+  BOOST_TEST(n.duration == std::numbers::pi / frequency, boost::test_tools::tolerance(promised));
+  BOOST_TEST(n.peak_force == speed * std::sqrt(stiffness * area * mass), boost::test_tools::tolerance(promised));
+  BOOST_TEST(n.peak_time == n.duration / 2, boost::test_tools::tolerance(1e-5));  // flat top: √ of the force's digits
+  BOOST_TEST(n.impulse.z() == 2 * mass * speed, boost::test_tools::tolerance(promised));
+  BOOST_TEST(n.restitution == 1, boost::test_tools::tolerance(promised));
+  BOOST_TEST(run.impacts[0].touches == 1);
+}
+
+/// The root e of ln[(1+s)/(1−se)] = s(1+e), by bisection in 50 digits because it cancels for small s.
+double restitution(double speed_number) {
+  using Wide = boost::multiprecision::cpp_dec_float_50;
+  const Wide s = speed_number;
+  Wide low = 0, high = s > 1 ? Wide(1) / s : Wide(1);
+  for (int i = 0; i < 100; ++i) {
+    const Wide e = (low + high) / 2;
+    const Wide excess = log1p(s) - log1p(-s * e) - s * (1 + e);
+    (excess < 0 ? low : high) = e;
+  }
+  return static_cast<double>(low);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_flat_landing_is_half_a_sine) {
+  const double stiffness = 1e8, speed = 3;
+  const Ground ground{.stiffness = stiffness, .area = AreaMeasure::projected};
+  const Simulation run = drop(box_body({0.3, 0.2, 0.1}, 2), ground, 0, speed, plain_options());
+  check_half_sine(run, 2, 0.06, stiffness, speed);
+  BOOST_TEST((run.impacts[0].end == ContactEnd::both));
+}
+
+BOOST_AUTO_TEST_CASE(an_upright_landing_is_half_a_sine) {
+  const double stiffness = 1e10, r = 0.01;
+  const Ground ground{.stiffness = stiffness, .area = AreaMeasure::projected};
+  const Simulation run = drop(rod(), ground, 90 * degree, 1, plain_options());
+  check_half_sine(run, 1, 8 * r * r * std::sin(std::numbers::pi / 8), stiffness, 1);
+  BOOST_TEST((run.impacts[0].end == ContactEnd::a));
+}
+
+/// e = [1 + W₀(−(1+s) e^{−(1+s)})]/s.
+BOOST_AUTO_TEST_CASE(the_root_of_the_restitution_is_lamberts_function) {
+  for (const double s : {0.5, 1.0, 3.0, 10.0}) {
+    const double e = (1 + boost::math::lambert_w0(-(1 + s) * std::exp(-(1 + s)))) / s;
+    BOOST_TEST(restitution(s) == e, boost::test_tools::tolerance(1e-13));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_damped_flat_landing_has_the_restitution_of_lamberts_function) {
+  const Body body = box_body({0.3, 0.2, 0.1}, 2);
+  const double stiffness = 1e8, speed = 2;
+  for (const double s : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.3, 1.0, 3.0, 10.0}) {
+    const Ground ground{.stiffness = stiffness, .damping = s * stiffness / speed, .area = AreaMeasure::projected};
+    const Simulation run = drop(body, ground, 0, speed, plain_options());
+    BOOST_REQUIRE(run.impacts.size() == 1);
+    BOOST_TEST(run.impacts[0].value.restitution == restitution(s), boost::test_tools::tolerance(promised));
+  }
+}
+
+/// The force never grows beyond what it is for the whole face: no corner may be ahead of the others.
+BOOST_AUTO_TEST_CASE(a_flat_drop_of_any_mesh_starts_no_spin) {
+  for (const bool merge : {true, false}) {
+    for (const Body& body : {phone(1, 1, 1, merge), phone(7, 5, 3, merge), Body(rod_mesh({.sectors = 12}), merge)}) {
+      const Simulation run = drop(body, {.stiffness = 1e8, .damping = 1e6}, 0, 4, plain_options());
+      BOOST_REQUIRE(run.impacts.size() == 1);
+      BOOST_TEST(run.impacts[0].value.angular_velocity_after.norm() <= 1e-12 * 4 / body.radius());
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(elastic_frictionless_impacts_lose_no_energy) {
+  struct Case {
+    Body body;
+    double angle, tilt, stiffness;
+  };
+  const Case cases[] = {{rod(), 45, 0, 1e11}, {rod(), 10, 0, 1e9}, {rod(), 0, 0, 1e9}, {phone(), 10, 0, 1e8},
+                        {phone(), 30, 20, 1e8}, {phone(), 3, 0, 1e7}, {phone(5, 4, 3, false), 60, 1, 1e10}};
+  for (const auto& [digits, bound] : {std::pair{6, 1e-9}, {12, 1e-12}}) {
+    for (const AreaMeasure area : {AreaMeasure::surface, AreaMeasure::projected}) {
+      for (const Case& c : cases) {
+        Options options = plain_options();
+        options.digits = digits;
+        const MotionState start = touching_state(
+            c.body, {.inclination = c.angle * degree, .velocity = {0.3, 0, -1}, .spin = 0.5,
+                     .out_of_plane_tilt = c.tilt * degree});
+        const Simulation run = simulate(c.body, {.stiffness = c.stiffness, .area = area}, start, options);
+        BOOST_REQUIRE(run.impacts.size() == 1);
+        BOOST_TEST(std::fabs(run.impacts[0].value.energy_loss) <= bound * run.energy_start);
+      }
+    }
+  }
+}
+
+/// What was there before = what is left + dampers + friction + released by the clamp.
+BOOST_AUTO_TEST_CASE(the_ledger_of_energy_closes) {
+  double released = 0;
+  for (const FrictionLaw law : {FrictionLaw::coulomb, FrictionLaw::regularised}) {
+    for (const AreaMeasure area : {AreaMeasure::surface, AreaMeasure::projected}) {
+      for (const double damping : {0.0, 1e6, 1e7, 1e8}) {
+        for (const double friction : {0.0, 0.1, 0.9}) {
+          Options options = plain_options();
+          options.gravity = 9.81;
+          options.impacts = 4;
+          const Body body = phone();
+          const Ground ground{.stiffness = 1e8, .damping = damping, .static_friction = 1.2 * friction,
+                              .sliding_friction = friction, .area = area, .friction = law};
+          const MotionState start =
+              touching_state(body, {.inclination = 0.3, .velocity = {0.5, 0.1, -3}, .spin = -20,
+                                    .out_of_plane_tilt = 0.1});
+          const Simulation run = simulate(body, ground, start, options);
+          BOOST_REQUIRE(!run.impacts.empty());
+          for (const ImpactRecord& row : run.impacts) {
+            BOOST_TEST(std::fabs(row.ledger_gap) <= promised);
+            BOOST_TEST(row.value.work_damping >= 0);
+            BOOST_TEST(row.value.work_released >= 0);
+            released += row.value.work_released;
+          }
+        }
+      }
+    }
+  }
+  BOOST_TEST(released > 0);  // the clamp was at work somewhere
+}
