@@ -14,7 +14,9 @@ struct MassProperties {
 /// By Gauss quadrature over the elements, of a degree that is exact for straight-sided tetrahedra, prisms and
 /// hexahedra (also with warped faces).  Accuracy: a few ulp of the sum of the elements' contributions.
 /// @throws MeshError naming the first inverted or degenerate element (Jacobian not positive at a corner or at
-/// a quadrature point), or an element with a density that is not a positive finite number.
+/// a quadrature point), or an element with a density that is not a positive finite number; if there is no
+/// element.
+/// @throws NumericalError if a result overflows.
 [[nodiscard]] MassProperties mass_properties(const Mesh& mesh);
 
 }  // namespace clatter::numeric

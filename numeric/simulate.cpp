@@ -56,7 +56,7 @@ void for_each_number(const ImpactNumbers& a, const ImpactNumbers& b, ImpactNumbe
 }
 
 /// What rounding leaves of numbers that are differences of larger ones.
-void add_rounding(const ImpactRecord& row, ImpactNumbers& error) {
+void add_rounding(const Body& body, const ImpactRecord& row, ImpactNumbers& error) {
   const double growth = std::isfinite(row.amplification) ? row.amplification : 1;
   const ImpactNumbers& n = row.value;
   const auto add = [&](double& to, double size) { to += 4 * epsilon * (1 + growth) * std::fabs(size); };
@@ -70,18 +70,18 @@ void add_rounding(const ImpactRecord& row, ImpactNumbers& error) {
   for (int i = 0; i < 3; ++i) {
     add(error.impulse[i], n.impulse.norm());
     add(error.velocity_after[i], n.velocity_after.norm());
-    add(error.angular_velocity_after[i], n.angular_velocity_after.norm());
+    add(error.angular_velocity_after[i], n.angular_velocity_after.norm() + n.approach_speed / body.radius());
   }
 }
 
-void estimate_errors(std::vector<ImpactRecord>& rows, const std::vector<ImpactRecord>& coarse) {
+void estimate_errors(const Body& body, std::vector<ImpactRecord>& rows, const std::vector<ImpactRecord>& coarse) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool same_kind = i < coarse.size() && coarse[i].end == rows[i].end && coarse[i].touches == rows[i].touches;
     const ImpactNumbers& other = same_kind ? coarse[i].value : rows[i].value;
     for_each_number(rows[i].value, other, rows[i].error, [&](double fine, double rough) {
       return same_kind ? error_per_distance * std::fabs(fine - rough) : not_known;
     });
-    if (same_kind) add_rounding(rows[i], rows[i].error);
+    if (same_kind) add_rounding(body, rows[i], rows[i].error);
   }
 }
 
@@ -171,7 +171,7 @@ Simulation simulate(const Body& body, const Ground& ground, const MotionState& s
     const DropRun coarse = run_drop(body, ground, start, fewer, coarser(accuracy, main.step), {});
     simulation.force_evaluations += coarse.force_evaluations;
     simulation.root_evaluations += coarse.root_evaluations;
-    estimate_errors(simulation.impacts, coarse.impacts);
+    estimate_errors(body, simulation.impacts, coarse.impacts);
   } else {
     forget_errors(simulation.impacts);
   }

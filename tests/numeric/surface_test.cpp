@@ -174,6 +174,12 @@ BOOST_AUTO_TEST_CASE(elements_that_overlap_are_refused_by_name) {
   folded.nodes.emplace_back(0.2, 0.2, 2);
   folded.elements.push_back({ElementShape::tetrahedron, {0, 1, 2, 4, -1, -1, -1, -1}, 1});
   check_refused(folded, "element 1 (tetrahedron)", "same side");
+  // With a third on the other side between them.
+  folded.nodes.emplace_back(0.2, 0.2, -1);
+  folded.elements.insert(folded.elements.begin() + 1,
+                         {ElementShape::tetrahedron, {0, 2, 1, 5, -1, -1, -1, -1}, 1});
+  check_refused(folded, "element 2 (tetrahedron)",
+                "shares a face with element 0 (tetrahedron) and another");
 }
 
 BOOST_AUTO_TEST_CASE(bodies_that_touch_along_an_edge_are_refused_by_name) {

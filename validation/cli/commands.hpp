@@ -13,6 +13,7 @@ using Action = std::function<int()>;
 [[nodiscard]] Action add_angles_command(CLI::App& app);
 [[nodiscard]] Action add_regimes_command(CLI::App& app);
 [[nodiscard]] Action add_explain_command(CLI::App& app);
+[[nodiscard]] Action add_simulate_command(CLI::App& app);
 [[nodiscard]] Action add_completion_command(CLI::App& app);
 [[nodiscard]] Action add_man_command(CLI::App& app);
 

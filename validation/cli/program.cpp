@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "analytic/errors.hpp"
+#include "numeric/errors.hpp"
 #include "validation/cli/arguments.hpp"
 #include "validation/cli/commands.hpp"
 #include "validation/cli/version.hpp"
@@ -43,6 +44,7 @@ int parse_and_run(const std::vector<std::string>& given) {
   actions["angles"] = add_angles_command(app);
   actions["regimes"] = add_regimes_command(app);
   actions["explain"] = add_explain_command(app);
+  actions["simulate"] = add_simulate_command(app);
   actions["completion"] = add_completion_command(app);
   actions["man"] = add_man_command(app);
   std::vector<std::string> arguments = checked_arguments(app, given);
@@ -67,6 +69,8 @@ int run_program(const std::vector<std::string>& arguments) {
   try {
     return parse_and_run(arguments);
   } catch (const BadInput& error) {
+    return complain(error.what(), bad_input);
+  } catch (const numeric::MeshError& error) {
     return complain(error.what(), bad_input);
   } catch (const analytic::NumericalError& error) {
     return complain(error.what(), not_computed);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "validation/cli/impact_records.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/version.hpp"
 #include "validation/output/number.hpp"
@@ -89,31 +90,6 @@ Cell known(const Scene& scene, const ImpactRow& row, int n, double value) {
 
 Cell known(const Scene& scene, double value, double error) {
   return {value, std::min(scene.digits, known_digits(value, error))};
-}
-
-std::size_t widest_line(const Table& table) {
-  const std::string text = table_text(table, {});
-  std::size_t widest = 0;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = text.find('\n', begin);
-    widest = std::max(widest, display_width(text.substr(begin, end - begin)));
-    begin = end + 1;
-  }
-  return widest;
-}
-
-/// Fewer digits, first in the velocity columns and then in all, until the table fits 80 columns.
-void fit(Table& table, int digits) {
-  for (const std::size_t first : {std::size_t{5}, std::size_t{2}}) {
-    for (int shown = digits - 1; shown >= 3; --shown) {
-      if (widest_line(table) <= 80) return;
-      for (auto& row : table.rows) {
-        for (std::size_t i = first; i < row.size(); ++i) {
-          row[i].digits = std::min(row[i].digits, shown);
-        }
-      }
-    }
-  }
 }
 
 bool with_friction(const Scene& scene) {
@@ -212,7 +188,7 @@ Table sequence_table(const Scene& scene, const Sequence& sequence) {
                           known(scene, tail.after.normal, 0), known(scene, tail.after.angular, 0),
                           Cell(), Cell()});
   }
-  fit(table, scene.digits);
+  fit_columns(table, scene.digits, {5, 2});
   return table;
 }
 
@@ -242,29 +218,14 @@ Table sequence_records(const Scene& scene, const Sequence& sequence) {
               .columns = {}, .rows = {},
               .notes = {"total_normal_impulse: " + shortest(sequence.total_normal_impulse),
                         fmt::format("{}: {}", outcome_name(sequence.outcome), sequence.message)}};
-  const auto cell_of = [](const Json& value) {
-    return value.is_null() ? Cell() : value.is_string() ? Cell(value.get<std::string>())
-                                                        : Cell(value.get<double>(), 17);
-  };
-  for (const Json& impact : json["impacts"]) {
-    const bool first = table.rows.empty();
-    auto& row = table.rows.emplace_back();
-    for (const auto& [key, value] : impact.items()) {
-      if (value.is_object()) continue;
-      for (std::size_t i = 0; i < (value.is_array() ? 3u : 1u); ++i) {
-        const std::string suffix = value.is_array() ? std::string("_") + "xyz"[i] : "";
-        if (first) table.columns.push_back({key + suffix, key + suffix, ""});
-        row.push_back(cell_of(value.is_array() ? value[i] : value));
-      }
-    }
-  }
+  add_impact_records(table, json["impacts"]);
   if (!json.contains("tail")) return table;
   const Json& tail = json["tail"];
   auto& row = table.rows.emplace_back();
   for (const Column& column : table.columns) {
     if (column.name == "n") row.push_back(Cell("tail"));
-    else if (column.name == "start") row.push_back(cell_of(tail["end_time"]));
-    else if (tail.contains(column.name)) row.push_back(cell_of(tail[column.name]));
+    else if (column.name == "start") row.push_back(json_cell(tail["end_time"]));
+    else if (tail.contains(column.name)) row.push_back(json_cell(tail[column.name]));
     else row.emplace_back();
   }
   return table;

@@ -117,12 +117,13 @@ std::string markdown(const Table& table) {
 
 /// Characters that LaTeX reads as commands, and the symbols that the program prints.
 std::string latex_text(const std::string& text) {
-  static const std::array<std::pair<const char*, const char*>, 24> table{{
+  static const std::array<std::pair<const char*, const char*>, 28> table{{
       {"\\", "\\textbackslash{}"}, {"%", "\\%"}, {"#", "\\#"}, {"_", "\\_"}, {"&", "\\&"},
       {"°", "$^\\circ$"}, {"Ω", "$\\Omega$"}, {"β", "$\\beta$"}, {"γ", "$\\gamma$"},
       {"θ", "$\\theta$"}, {"μ", "$\\mu$"}, {"Σ", "$\\Sigma$"}, {"·", "$\\cdot$"},
       {"…", "\\dots{}"}, {"∞", "$\\infty$"}, {"±", "$\\pm$"}, {"−", "$-$"}, {"₁", "$_1$"},
-      {"₂", "$_2$"}, {"₃", "$_3$"}, {"²", "$^2$"}, {"ₙ", "$_n$"}, {"ₜ", "$_t$"}, {"≤", "$\\le$"}}};
+      {"₂", "$_2$"}, {"₃", "$_3$"}, {"²", "$^2$"}, {"ₙ", "$_n$"}, {"ₜ", "$_t$"}, {"≤", "$\\le$"},
+      {"ₖ", "$_k$"}, {"ₛ", "$_s$"}, {"³", "$^3$"}, {"⁴", "$^4$"}}};
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
     const auto match = std::find_if(table.begin(), table.end(), [&](const auto& pair) {
@@ -180,10 +181,11 @@ std::string wrapped(const std::string& text, std::size_t width, const std::strin
 }
 
 std::string to_ascii(const std::string& text) {
-  static const std::array<std::pair<const char*, const char*>, 40> table{{
+  static const std::array<std::pair<const char*, const char*>, 43> table{{
       {"°", "deg"}, {"Ω", "Omega"}, {"ω", "omega"}, {"β", "beta"}, {"γ", "gamma"}, {"θ", "theta"},
       {"μ", "mu"}, {"Σ", "sum "}, {"·", "*"}, {"…", "..."}, {"∞", "inf"}, {"±", "+-"}, {"−", "-"},
-      {"₁", "1"}, {"₂", "2"}, {"₃", "3"}, {"²", "^2"}, {"³", "^3"}, {"ₙ", "_n"}, {"ₜ", "_t"}, {"ᵢ", "_i"},
+      {"₁", "1"}, {"₂", "2"}, {"₃", "3"}, {"²", "^2"}, {"³", "^3"}, {"⁴", "^4"}, {"ₛ", "_s"},
+      {"ₖ", "_k"}, {"ₙ", "_n"}, {"ₜ", "_t"}, {"ᵢ", "_i"},
       {"≤", "<="}, {"≥", ">="}, {"─", "-"}, {"–", "-"}, {"é", "e"}, {"×", "x"}, {"φ", "phi"},
       {"α", "alpha"}, {"σ", "sigma"}, {"′", "'"}, {"″", "''"}, {"½", "1/2"}, {"→", "->"}, {"√", "sqrt "}, {"Δ", "d"}, {"⇒", "=>"},
       {"π", "pi"}, {"Γ", "Gamma"}, {"₀", "0"}}};

@@ -1,0 +1,275 @@
+#!/usr/bin/python3
+"""`clatter simulate` as its users meet it: scene files, their errors, overrides, formats, histories, sweeps."""
+
+import csv
+import glob
+import io
+import json
+import math
+import os
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["CLATTER_PROGRAM"]
+CASES = os.environ["CLATTER_CASES"]
+
+SCENE = """
+[drop]
+angle_deg = 10
+speed = 1
+
+[ground]
+stiffness = 1e8
+
+[run]
+impacts = 2
+"""
+
+# The file's text, where the error stands in it, and what its line must say.
+BAD_SCENES = {
+    "an unknown key": ("[drop]\nangle = 10\n", "2:1", "drop.angle_deg"),
+    "an unknown table": ("[drop]\nangle_deg = 10\n[grund]\nstiffness = 1\n", "3:2", "ground"),
+    "a repeated key": ("[drop]\nangle_deg = 10\nangle_deg = 11\n", "3:", "angle_deg"),
+    "a syntax error": ("[drop\nangle_deg = 10\n", "1:", ""),
+    "nan": ("[drop]\nangle_deg = nan\n[ground]\nstiffness = 1\n", "2:13", "drop.angle_deg = nan"),
+    "inf": ("[drop]\nangle_deg = 10\nspin = inf\n[ground]\nstiffness = 1\n", "3:8", "drop.spin"),
+    "a number too large": ("[drop]\nangle_deg = 1e400\n", "2:", "1e400"),
+    "a text for a number": ("[drop]\nangle_deg = 'ten'\n[ground]\nstiffness = 1\n", "2:13", "'ten'"),
+    "a number for a text": ("[drop]\nangle_deg = 1\n[body]\nshape = 3\n[ground]\nstiffness = 1\n", "4:9", "rod, box, mesh"),
+    "a name misspelt": ("[drop]\nangle_deg = 1\n[ground]\nstiffness = 1\narea = 'surfce'\n", "5:8", "did you mean surface?"),
+    "an angle out of range": ("[drop]\nangle_deg = 91\n[ground]\nstiffness = 1\n", "2:13", "from 0 to 90"),
+    "a stiffness of 0": ("[drop]\nangle_deg = 1\n[ground]\nstiffness = 0\n", "4:13", "greater than 0"),
+    "a negative damping": ("[drop]\nangle_deg = 1\n[ground]\nstiffness = 1\ndamping = -1\n", "5:11", "at least 0"),
+    "less static than sliding friction": (
+        "[drop]\nangle_deg = 1\n[ground]\nstiffness = 1\nstatic_friction = 0.1\nsliding_friction = 0.2\n", "5:19",
+        "at least ground.sliding_friction"),
+    "speed and height": ("[drop]\nangle_deg = 1\nspeed = 1\nheight = 2\n[ground]\nstiffness = 1\n", "4:10", "not both"),
+    "height without gravity": (
+        "[drop]\nangle_deg = 1\nheight = 2\n[world]\ngravity = 0\n[ground]\nstiffness = 1\n", "3:10", "gravity"),
+    "a box without size": ("[drop]\nangle_deg = 1\n[body]\nshape = 'box'\n[ground]\nstiffness = 1\n", "", "body.size"),
+    "a size of two lengths": (
+        "[drop]\nangle_deg = 1\n[body]\nshape = 'box'\nsize = [1, 2]\n[ground]\nstiffness = 1\n", "5:8", "three lengths"),
+    "a rod's key for a box": (
+        "[drop]\nangle_deg = 1\n[body]\nshape = 'box'\nsize = [1, 2, 3]\nradius = 1\n[ground]\nstiffness = 1\n", "6:10",
+        "only for a rod"),
+    "a step for an adaptive method": (
+        "[drop]\nangle_deg = 1\n[ground]\nstiffness = 1\n[run]\nmethod = 'rk8pd'\nstep = 1e-6\n", "7:8", "rk8pd"),
+    "13 digits": ("[drop]\nangle_deg = 1\n[ground]\nstiffness = 1\n[run]\ndigits = 13\n", "6:10", "from 2 to 12"),
+    "a real number of impacts": ("[drop]\nangle_deg = 1\n[ground]\nstiffness = 1\n[run]\nimpacts = 2.5\n", "6:11", "whole"),
+    "no angle": ("[ground]\nstiffness = 1\n", "", "drop.angle_deg: required"),
+    "no stiffness": ("[drop]\nangle_deg = 1\n", "", "ground.stiffness: required"),
+    "both angle and its sweep": (
+        "[drop]\nangle_deg = 1\n[ground]\nstiffness = 1\n[sweep]\nangle_deg = { from = 1, to = 2, step = 1 }\n", "2:13",
+        "sweep"),
+    "a sweep without step": (
+        "[ground]\nstiffness = 1\n[sweep]\nangle_deg = { from = 1, to = 2 }\n", "", "sweep.angle_deg.step"),
+    "a mesh without a file": ("[drop]\nangle_deg = 1\n[body]\nshape = 'mesh'\n[ground]\nstiffness = 1\n", "", "body.mesh.file"),
+    "an STL file that is not there": (
+        "[drop]\nangle_deg = 1\n[body]\nshape = 'mesh'\nmass = 1\ninertia = [1, 1, 1]\nmesh = { file = 'no.stl' }\n"
+        "[ground]\nstiffness = 1\n", "", "no.stl"),
+}
+
+
+def run(*arguments, **options):
+    return subprocess.run([PROGRAM, "simulate", *arguments], capture_output=True, text=True, timeout=120, **options)
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def scene(self, text=SCENE, name="scene.toml"):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+        return self.path(name)
+
+    def json(self, *arguments):
+        result = run(*arguments, "--format", "json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)
+
+
+class BadInput(Folder):
+    def refuse(self, *arguments):
+        before = sorted(os.listdir(self.folder))
+        result = run(*arguments, "--output", self.path("out"))
+        self.assertEqual(result.returncode, 2, (arguments, result.stderr))
+        self.assertEqual(result.stdout, "")
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        self.assertEqual(sorted(os.listdir(self.folder)), before)
+        return result.stderr
+
+    def test_every_error_of_a_file_is_one_line_with_its_place(self):
+        for what, (text, place, words) in BAD_SCENES.items():
+            with self.subTest(what):
+                path = self.scene(text)
+                message = self.refuse(path)
+                self.assertTrue(message.startswith(f"clatter: {path}:{place}") or not place, message)
+                self.assertIn(words, message)
+
+    def test_a_file_that_cannot_be_read_is_named(self):
+        self.assertIn("nowhere.toml", self.refuse(self.path("nowhere.toml")))
+        self.assertIn("SCENE", self.refuse())
+
+    def test_a_flag_is_checked_like_its_key_and_named_as_typed(self):
+        path = self.scene()
+        for flag, text in (("--angle", "91"), ("--stiffness", "0"), ("--digits", "1"), ("--digits", "6.5"),
+                           ("--size", "1x2"), ("--area", "round"), ("--method", "euler"), ("--impacts", "0"),
+                           ("--spin", "nan"), ("--friction", "-1"), ("--step", "1e-6x")):
+            self.assertIn(flag, self.refuse(path, flag, text))
+
+    def test_a_height_below_the_touching_body_is_refused(self):
+        self.assertIn("0.0", self.refuse(self.scene(), "--height", "0.001"))
+
+
+class Overrides(Folder):
+    def test_a_flag_takes_the_place_of_its_key(self):
+        path = self.scene()
+        scene = self.json(path, "--angle", "20", "--digits", "8", "--damping", "1e5", "--impacts", "1", "--planar")["scene"]
+        self.assertEqual(scene["drop"]["angle_deg"], 20)
+        self.assertEqual(scene["run"]["digits"], 8)
+        self.assertEqual(scene["run"]["impacts"], 1)
+        self.assertEqual(scene["ground"]["damping"], 1e5)
+        self.assertIs(scene["run"]["planar"], True)
+
+    def test_height_and_speed_replace_each_other(self):
+        path = self.scene()
+        drop = self.json(path, "--height", "2", "--impacts", "1")
+        self.assertEqual(drop["scene"]["drop"]["height"], 2)
+        self.assertIsNone(drop["scene"]["drop"]["speed"])
+        touch = 0.5 * math.sin(math.radians(10)) + 0.01 * math.cos(math.radians(10))
+        self.assertAlmostEqual(drop["impacts"][0]["approach_speed"], math.sqrt(2 * 9.81 * (2 - touch)), places=12)
+
+    def test_an_angle_ends_the_sweep_of_the_file(self):
+        result = self.json(os.path.join(CASES, "rod-sweep.toml"), "--angle", "30")
+        self.assertEqual(len(result["impacts"]), 1)
+
+
+class Output(Folder):
+    KEYS = ["n", "start", "duration", "end", "inclination_deg", "contact_angle_deg", "approach_speed", "restitution",
+            "impulse_normal", "impulse_tangential", "impulse_ratio", "mode", "peak_force", "peak_time",
+            "velocity_after", "angular_velocity_after", "energy_before", "energy_after", "energy_loss",
+            "work_damping", "work_friction", "error_estimate", "amplification", "touches"]
+
+    def test_the_json_has_every_promised_key_and_no_nan(self):
+        run_json = self.json(self.scene())
+        self.assertEqual(run_json["model"], "continuous")
+        for key in ("clatter", "scene", "impacts", "outcome", "message", "total_normal_impulse", "cost"):
+            self.assertIn(key, run_json)
+        self.assertEqual(sorted(run_json["cost"]), ["force_evaluations", "root_evaluations"])
+        self.assertGreater(run_json["cost"]["force_evaluations"], 0)
+        for row in run_json["impacts"]:
+            for key in self.KEYS:
+                self.assertIn(key, row)
+            self.assertEqual(len(row["velocity_after"]), 3)
+        self.assertAlmostEqual(run_json["total_normal_impulse"], sum(r["impulse_normal"] for r in run_json["impacts"]))
+        self.assertNotIn("nan", run(self.scene(), "--format", "json").stdout.lower())
+
+    def test_csv_and_json_hold_the_same_numbers(self):
+        path = self.scene()
+        rows = self.json(path)["impacts"]
+        lines = [l for l in run(path, "--format", "csv").stdout.splitlines() if not l.startswith("#")]
+        for row, line in zip(rows, csv.DictReader(io.StringIO("\n".join(lines)))):
+            for key in ("start", "duration", "impulse_normal", "peak_force", "energy_loss"):
+                self.assertEqual(float(line[key]), row[key])
+            self.assertEqual(float(line["velocity_after_z"]), row["velocity_after"][2])
+
+    def test_tables_fit_80_columns(self):
+        for path in sorted(glob.glob(os.path.join(CASES, "*.toml"))):
+            result = run(path)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertLessEqual(max(map(len, result.stdout.splitlines())), 80, path)
+            self.assertTrue(run(path, "--ascii").stdout.isascii())
+
+    def test_an_output_file_holds_what_stdout_would(self):
+        path = self.scene()
+        self.assertEqual(run(path, "--output", self.path("out")).stdout, "")
+        with open(self.path("out"), encoding="utf-8") as file:
+            self.assertEqual(file.read(), run(path).stdout)
+
+    def test_a_run_that_gets_nowhere_says_so_with_status_3(self):
+        path = self.scene(SCENE + "evaluation_limit = 10\n")
+        result = run(path)
+        self.assertEqual(result.returncode, 3)
+        self.assertIn("evaluation-limit", result.stderr)
+        self.assertIn("evaluation-limit", result.stdout)
+
+    def test_a_fixed_step_is_used_and_named(self):
+        result = self.json(self.scene(), "--step", "1e-5", "--impacts", "1")
+        self.assertEqual((result["method"], result["step"], result["tolerance"]), ("tvd-rk3", 1e-5, None))
+        result = self.json(self.scene(), "--impacts", "1")
+        self.assertEqual(result["method"], "rk8pd")
+        self.assertGreater(result["tolerance"], 0)
+
+
+class History(Folder):
+    def history(self, *arguments):
+        path = self.path("history.csv")
+        self.assertEqual(run(*arguments, "--history", path).returncode, 0)
+        with open(path, encoding="utf-8") as file:
+            rows = [l for l in file if not l.startswith("#")]
+        return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(rows)]
+
+    def test_time_runs_on_and_the_energy_of_an_elastic_drop_stays(self):
+        rows = self.history(os.path.join(CASES, "phone-elastic.toml"), "--impacts", "2")
+        times = [row["t"] for row in rows]
+        self.assertEqual(times, sorted(times))
+        self.assertLess(times[0], 0)
+        for row in rows:
+            self.assertAlmostEqual(row["energy_total"] / rows[0]["energy_total"], 1, delta=1e-9)
+
+    def test_the_force_integrates_to_the_impulse(self):
+        path = self.scene()
+        rows = self.history(path, "--impacts", "1", "--step", "1e-6")
+        impulse = sum((b["t"] - a["t"]) * (a["fz"] + b["fz"]) / 2 for a, b in zip(rows, rows[1:]))
+        self.assertAlmostEqual(impulse / self.json(path, "--impacts", "1")["impacts"][0]["impulse_normal"], 1, delta=1e-5)
+
+    def test_a_refused_scene_leaves_no_history(self):
+        self.assertEqual(run(self.scene(), "--history", self.path("h.csv"), "--angle", "91").returncode, 2)
+        self.assertNotIn("h.csv", os.listdir(self.folder))
+
+
+class Claims(Folder):
+    """The paper's phone and rod (physics: claims C11, C15, C16, C19)."""
+
+    def case(self, name, *arguments):
+        return self.json(os.path.join(CASES, name), *arguments)
+
+    def test_the_damped_phone_loses_57_to_59_percent_in_two_impacts_whose_second_peak_is_more_than_twice_the_first(self):
+        for area in ("surface", "projected"):
+            rows = self.case("phone-damped.toml", "--area", area, "--impacts", "2")
+            initial = 0.08814 * 9.81 * 1
+            lost = sum(row["energy_loss"] for row in rows["impacts"]) / initial
+            self.assertTrue(0.57 <= lost <= 0.59, (area, lost))
+            first, second = rows["impacts"]
+            self.assertGreater(second["peak_force"], 2 * first["peak_force"])
+
+    def test_the_elastic_phone_cannot_be_predicted_beyond_impact_2(self):
+        rows = self.case("phone-elastic.toml")["impacts"]
+        self.assertEqual([row["predictable"] for row in rows[:3]], [True, True, False])
+        self.assertGreater(rows[2]["amplification"], 1e13)
+
+    def test_in_its_plane_the_elastic_phone_can_be_predicted(self):
+        self.assertTrue(all(row["predictable"] for row in self.case("phone-elastic.toml", "--planar")["impacts"]))
+
+    def test_the_contacts_of_the_phone_merge_below_six_degrees(self):
+        for angle, touches in (("10", 1), ("8", 1), ("5", 2), ("3", 2)):
+            row = self.case("phone-damped.toml", "--angle", angle, "--impacts", "1")["impacts"][0]
+            self.assertEqual(row["touches"], touches, angle)
+
+    def test_the_rods_friction_sweep_ends_in_a_plateau(self):
+        ratios = [run_["impacts"][0]["impulse_ratio"] for run_ in self.case("rod-friction-sweep.toml")["runs"]]
+        self.assertEqual(len(ratios), 17)
+        for i, ratio in enumerate(ratios[:12]):
+            self.assertAlmostEqual(abs(ratio), 0.05 * i, places=6)
+        self.assertLess(max(ratios[13:]) - min(ratios[13:]), 1e-5)
+
+
+if __name__ == "__main__":
+    unittest.main()

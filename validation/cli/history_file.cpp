@@ -1,0 +1,50 @@
+#include "validation/cli/history_file.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "validation/output/number.hpp"
+
+namespace clatter::validation {
+
+using numeric::HistorySample;
+using numeric::Vector3;
+
+HistoryFile::HistoryFile(const std::string& path, const std::vector<std::string>& head) : sink_(path) {
+  for (const std::string& line : head) sink_.write("# " + line + "\n");
+  sink_.write("t,x,y,z,beta0,beta1,beta2,beta3,vx,vy,vz,wx,wy,wz,fx,fy,fz,point_vx,point_vy,point_vz,"
+              "energy_translation,energy_rotation,energy_potential,energy_ground,energy_total,in_contact\n");
+}
+
+void HistoryFile::record(const HistorySample& s) {
+  const Eigen::Quaterniond& beta = s.state.attitude;
+  const Vector3 omega = beta * s.state.angular_velocity;
+  const double total = s.energy_translation + s.energy_rotation + s.energy_potential + s.energy_ground;
+  const std::array<double, 25> numbers{
+      s.time, s.state.centre.x(), s.state.centre.y(), s.state.centre.z(), beta.w(), beta.x(), beta.y(), beta.z(),
+      s.state.velocity.x(), s.state.velocity.y(), s.state.velocity.z(), omega.x(), omega.y(), omega.z(),
+      s.force.x(), s.force.y(), s.force.z(), s.point_velocity.x(), s.point_velocity.y(), s.point_velocity.z(),
+      s.energy_translation, s.energy_rotation, s.energy_potential, s.energy_ground, total};
+  std::string line;
+  for (const double number : numbers) line += shortest(number) + ",";
+  sink_.write(line + (s.in_contact ? "1\n" : "0\n"));
+}
+
+void record_fall(numeric::HistoryRecorder& recorder, const numeric::MotionState& touch, double mass, double gravity,
+                 int parts) {
+  const double fall = -touch.velocity.z() / gravity;
+  for (int i = 0; i < parts; ++i) {
+    HistorySample sample;
+    sample.time = -fall * (1 - static_cast<double>(i) / parts);
+    sample.state = touch;
+    sample.state.centre += sample.time * touch.velocity - Vector3(0, 0, gravity / 2 * sample.time * sample.time);
+    sample.state.velocity.z() -= gravity * sample.time;
+    sample.point_velocity = sample.state.velocity;
+    sample.energy_translation = 0.5 * mass * sample.state.velocity.squaredNorm();
+    sample.energy_potential = mass * gravity * sample.state.centre.z();
+    recorder.record(sample);
+  }
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,27 @@
+// The time history of a run as a CSV file.
+#pragma once
+
+#include <string>
+
+#include "numeric/history.hpp"
+#include "validation/output/sink.hpp"
+
+namespace clatter::validation {
+
+/// Streams samples into a file that appears whole or not at all.
+class HistoryFile : public numeric::HistoryRecorder {
+ public:
+  /// @param head  lines without "# ", written first.  @throws BadInput if the file cannot be created.
+  HistoryFile(const std::string& path, const std::vector<std::string>& head);
+  void record(const numeric::HistorySample& sample) override;
+  void commit() { sink_.commit(); }
+
+ private:
+  Sink sink_;
+};
+
+/// Samples of the fall from rest that ends in `touch` at time 0: `parts` of them, from the release on.
+void record_fall(numeric::HistoryRecorder& recorder, const numeric::MotionState& touch, double mass, double gravity,
+                 int parts);
+
+}  // namespace clatter::validation

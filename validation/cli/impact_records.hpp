@@ -1,0 +1,22 @@
+// What the reports of both models share.
+#pragma once
+
+#include <vector>
+
+#include "validation/output/json.hpp"
+#include "validation/output/table.hpp"
+
+namespace clatter::validation {
+
+/// Fewer digits, first in the columns from starts[0] on, then from starts[1] on, …, until the table fits 80
+/// columns or only three digits are left.
+void fit_columns(Table& table, int digits, const std::vector<std::size_t>& starts);
+
+/// One row per object of the list with its names as columns, vectors spread over three (name_x, name_y, name_z);
+/// objects inside are left out.
+void add_impact_records(Table& table, const Json& impacts);
+
+/// A number, text or nothing.
+[[nodiscard]] Cell json_cell(const Json& value);
+
+}  // namespace clatter::validation

@@ -1,0 +1,300 @@
+#include "validation/cli/simulation_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "validation/cli/impact_records.hpp"
+#include "validation/cli/options.hpp"
+#include "validation/cli/version.hpp"
+#include "validation/output/number.hpp"
+
+namespace clatter::validation {
+namespace {
+
+using numeric::FrictionMode;
+using numeric::ImpactNumbers;
+using numeric::ImpactRecord;
+using numeric::Outcome;
+using numeric::Simulation;
+using numeric::Vector3;
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+double ratio(const ImpactNumbers& n) { return n.impulse.x() / n.impulse.z(); }
+
+double ratio_error(const ImpactRecord& row) {
+  return (row.error.impulse.norm() * (1 + std::fabs(ratio(row.value)))) / std::fabs(row.value.impulse.z());
+}
+
+Json vector_json(const Vector3& v) {
+  return Json::array({number_or_null(v.x()), number_or_null(v.y()), number_or_null(v.z())});
+}
+
+/// The numbers under the names of the JSON; `part` is the values or their error estimates.
+Json numbers_json(const ImpactNumbers& part) {
+  return {{"start", number_or_null(part.start)},
+          {"duration", number_or_null(part.duration)},
+          {"inclination_deg", number_or_null(part.inclination * degrees)},
+          {"contact_angle_deg", number_or_null(part.contact_angle * degrees)},
+          {"approach_speed", number_or_null(part.approach_speed)},
+          {"restitution", number_or_null(part.restitution)},
+          {"impulse_normal", number_or_null(part.impulse.z())},
+          {"impulse_tangential", number_or_null(part.impulse.x())},
+          {"impulse", vector_json(part.impulse)},
+          {"peak_force", number_or_null(part.peak_force)},
+          {"peak_time", number_or_null(part.peak_time)},
+          {"velocity_after", vector_json(part.velocity_after)},
+          {"angular_velocity_after", vector_json(part.angular_velocity_after)},
+          {"energy_before", number_or_null(part.energy_before)},
+          {"energy_after", number_or_null(part.energy_after)},
+          {"energy_loss", number_or_null(part.energy_loss)},
+          {"work_damping", number_or_null(part.work_damping)},
+          {"work_friction", number_or_null(part.work_friction)},
+          {"work_released", number_or_null(part.work_released)}};
+}
+
+Json impact_json(const ImpactRecord& row, int n) {
+  Json json{{"n", n}, {"end", end_name(row.end)}, {"touches", row.touches}, {"mode", mode_name(row.mode)}};
+  json.update(numbers_json(row.value));
+  json["impulse_ratio"] = number_or_null(ratio(row.value));
+  json["energy_stored"] = row.energy_stored;
+  json["ledger_gap"] = number_or_null(row.ledger_gap);
+  json["amplification"] = number_or_null(row.amplification);
+  json["predictable"] = row.predictable;
+  Json errors = numbers_json(row.error);
+  errors["impulse_ratio"] = number_or_null(ratio_error(row));
+  json["error_estimate"] = errors;
+  return json;
+}
+
+/// What is known of a number: the digits that its estimated error leaves, 0 if none, or two digits where a second
+/// run went another way.
+Cell known(const SimulationScene& scene, double value, double error) {
+  if (!scene.options.error_estimates) return {value, scene.options.digits};
+  if (!std::isfinite(error)) return {value, 2};
+  if (std::fabs(value) <= error) return {0.0, 1};
+  return {value, std::min(scene.options.digits, known_digits(value, error))};
+}
+
+/// Whether rounding or the method's error has outgrown the row by itself; what follows such a row is no better.
+bool doubtful(const SimulationScene& scene, const ImpactRecord& row) {
+  return !row.predictable || (scene.options.error_estimates && !std::isfinite(row.error.impulse.z()));
+}
+
+std::string method_words(const Simulation& run) {
+  const std::string how = run.tolerance > 0 ? fmt::format("tolerance {} per step", significant(run.tolerance, 2))
+                                            : fmt::format("steps of {} s", significant(run.step, 4));
+  return fmt::format("{}, {}; {} force evaluations, with those for the error estimates", method_name(run.method), how,
+                     run.force_evaluations);
+}
+
+/// The number of impacts before the first doubtful one.
+std::size_t trusted(const SimulationScene& scene, const Simulation& run) {
+  const auto first = std::find_if(run.impacts.begin(), run.impacts.end(),
+                                  [&](const ImpactRecord& row) { return doubtful(scene, row); });
+  return static_cast<std::size_t>(first - run.impacts.begin());
+}
+
+std::string trust_words(const SimulationScene& scene, const Simulation& run) {
+  const std::size_t last_trusted = trusted(scene, run);
+  if (last_trusted == run.impacts.size()) return "";
+  const auto first = run.impacts.begin() + static_cast<std::ptrdiff_t>(last_trusted);
+  const std::string growth = first->predictable
+                                 ? "then a coarser run goes another way"
+                                 : fmt::format("an error of the start has grown {} times by then",
+                                               significant(first->amplification, 2));
+  return last_trusted == 0 ? fmt::format("?: not to be trusted: {}", growth)
+                           : fmt::format("?: trust ends with impact {}: {}", last_trusted, growth);
+}
+
+std::vector<std::string> notes_of(const SimulationScene& scene, const Simulation& run) {
+  std::vector<std::string> notes;
+  const std::string trust = trust_words(scene, run);
+  if (!trust.empty()) notes.push_back(trust);
+  double gap = 0;
+  for (const ImpactRecord& row : run.impacts) gap = std::max(gap, std::fabs(row.ledger_gap));
+  if (!run.impacts.empty()) {
+    notes.push_back(fmt::format("Sum of normal impulses: {} N·s; the ledger of energy closes to {}",
+                                significant(run.total_normal_impulse(), scene.options.digits), significant(gap, 1)));
+  }
+  notes.push_back(method_words(run));
+  notes.push_back(fmt::format("{}: {}", outcome_name(run.outcome), run.message));
+  return notes;
+}
+
+std::vector<std::string> head_of(const SimulationScene& scene, const std::string& what) {
+  std::vector<std::string> head{headline("simulate", what)};
+  for (const std::string& line : scene.summary()) head.push_back(line);
+  return head;
+}
+
+const char* const what_it_is = "impact sequence, continuous contact";
+
+Cell loss_cell(const SimulationScene& scene, const Simulation& run, const ImpactRecord& row) {
+  const double percent = 100 / run.energy_start;
+  // Below the method's error the loss is none.
+  if (std::fabs(row.value.energy_loss) <= 1e-9 * run.energy_start) return {0.0, 1};
+  return known(scene, row.value.energy_loss * percent, row.error.energy_loss * percent);
+}
+
+Json quantity_json(const SimulationScene& scene, const SweptRun& swept) {
+  Json json{{scene.sweep->quantity == SceneSweep::Quantity::angle_deg ? "angle_deg" : "sliding_friction", swept.value},
+            {"outcome", outcome_name(swept.run.outcome)},
+            {"message", swept.run.message}};
+  json["impacts"] = Json::array();
+  int n = 0;
+  for (const ImpactRecord& row : swept.run.impacts) json["impacts"].push_back(impact_json(row, ++n));
+  return json;
+}
+
+}  // namespace
+
+const char* outcome_name(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::no_further_impact: return "no-further-impact";
+    case Outcome::impact_limit: return "impact-limit";
+    case Outcome::at_rest: return "at-rest";
+    case Outcome::evaluation_limit: return "evaluation-limit";
+    case Outcome::step_too_small: return "step-too-small";
+    case Outcome::not_representable: return "not-representable";
+    case Outcome::flight_undecided: return "flight-undecided";
+    case Outcome::interrupted: return "interrupted";
+  }
+  return "";
+}
+
+const char* mode_name(FrictionMode mode) {
+  switch (mode) {
+    case FrictionMode::frictionless: return "frictionless";
+    case FrictionMode::slip: return "slip";
+    case FrictionMode::stick: return "stick";
+    case FrictionMode::slip_stick: return "slip-stick";
+    case FrictionMode::stick_slip: return "stick-slip";
+    case FrictionMode::reverse_slip: return "reverse-slip";
+    case FrictionMode::regularised: return "regularised";
+  }
+  return "";
+}
+
+const char* end_name(numeric::ContactEnd end) {
+  switch (end) {
+    case numeric::ContactEnd::a: return "a";
+    case numeric::ContactEnd::b: return "b";
+    case numeric::ContactEnd::both: return "both";
+    case numeric::ContactEnd::middle: return "middle";
+  }
+  return "";
+}
+
+Table simulation_table(const SimulationScene& scene, const Simulation& run) {
+  const bool friction = scene.ground.has_friction();
+  const bool loses = friction || scene.ground.damping > 0;
+  Table table{.head = head_of(scene, what_it_is), .columns = {}, .rows = {}, .notes = notes_of(scene, run)};
+  table.columns = {{"n", "n", ""}, {"end", "end", ""}, {"start", "t", "s"}, {"duration", "contact", "s", !friction},
+                   {"contact_angle_deg", "angle", "°"}, {"impulse_normal", "Pₙ", "N·s"},
+                   {"impulse_tangential", "Pₜ", "N·s", friction}, {"peak_force", "peak Fₙ", "N"},
+                   {"velocity_after_z", "Vₙ", "m/s"}, {"angular_velocity_after_y", "Ω", "rad/s"},
+                   {"energy_loss", "loss", "%", loses}};
+  const std::size_t trust = trusted(scene, run);
+  std::size_t n = 0;
+  for (const ImpactRecord& row : run.impacts) {
+    const ImpactNumbers &v = row.value, &e = row.error;
+    ++n;
+    table.rows.push_back({Cell(std::to_string(n) + (n > trust ? "?" : "")), Cell(end_name(row.end)),
+                          known(scene, v.start, e.start), known(scene, v.duration, e.duration),
+                          known(scene, v.contact_angle * degrees, e.contact_angle * degrees),
+                          known(scene, v.impulse.z(), e.impulse.z()), known(scene, v.impulse.x(), e.impulse.x()),
+                          known(scene, v.peak_force, e.peak_force),
+                          known(scene, v.velocity_after.z(), e.velocity_after.z()),
+                          known(scene, v.angular_velocity_after.y(), e.angular_velocity_after.y()),
+                          loss_cell(scene, run, row)});
+  }
+  fit_columns(table, scene.options.digits, {2});
+  return table;
+}
+
+Json simulation_json(const SimulationScene& scene, const Simulation& run) {
+  Json json{{"clatter", version}, {"model", "continuous"}, {"scene", scene.json()}, {"impacts", Json::array()}};
+  int n = 0;
+  for (const ImpactRecord& row : run.impacts) json["impacts"].push_back(impact_json(row, ++n));
+  json["outcome"] = outcome_name(run.outcome);
+  json["message"] = run.message + "; restitution is null where an impact has several touches";
+  json["method"] = method_name(run.method);
+  json["tolerance"] = run.tolerance > 0 ? Json(run.tolerance) : Json(nullptr);
+  json["step"] = run.step > 0 ? Json(run.step) : Json(nullptr);
+  json["total_normal_impulse"] = number_or_null(run.total_normal_impulse());
+  json["energy_start"] = number_or_null(run.energy_start);
+  json["cost"] = {{"force_evaluations", run.force_evaluations}, {"root_evaluations", run.root_evaluations}};
+  return json;
+}
+
+Table simulation_records(const SimulationScene& scene, const Simulation& run) {
+  const Json json = simulation_json(scene, run);
+  Table table{.head = {headline("simulate", what_it_is), "scene: " + json["scene"].dump()}, .columns = {}, .rows = {},
+              .notes = notes_of(scene, run)};
+  add_impact_records(table, json["impacts"]);
+  return table;
+}
+
+Table sweep_table(const SimulationScene& scene, const std::vector<SweptRun>& runs) {
+  const bool over_angle = scene.sweep->quantity == SceneSweep::Quantity::angle_deg;
+  Table table{.head = head_of(scene, "first impacts, continuous contact"), .columns = {}, .rows = {}, .notes = {}};
+  table.columns = {{"value", over_angle ? "angle" : "μₖ", over_angle ? "°" : ""},
+                   {"touches", "touches", ""}, {"impulse_normal", "Pₙ", "N·s"}, {"impulse_ratio", "Pₜ/Pₙ", ""},
+                   {"velocity_after_x", "Vₜ", "m/s"}, {"velocity_after_z", "Vₙ", "m/s"},
+                   {"angular_velocity_after_y", "Ω", "rad/s"}, {"peak_force", "peak Fₙ", "N"},
+                   {"energy_loss", "loss", "%"}};
+  for (const SweptRun& swept : runs) {
+    auto& row = table.rows.emplace_back();
+    row.emplace_back(swept.value, 6);
+    if (swept.run.impacts.empty()) {
+      row.emplace_back(std::string(outcome_name(swept.run.outcome)));
+      row.resize(table.columns.size());
+      continue;
+    }
+    const ImpactRecord& first = swept.run.impacts[0];
+    const ImpactNumbers &v = first.value, &e = first.error;
+    row.emplace_back(std::to_string(first.touches));
+    row.push_back(known(scene, v.impulse.z(), e.impulse.z()));
+    row.push_back(known(scene, ratio(v), ratio_error(first)));
+    row.push_back(known(scene, v.velocity_after.x(), e.velocity_after.x()));
+    row.push_back(known(scene, v.velocity_after.z(), e.velocity_after.z()));
+    row.push_back(known(scene, v.angular_velocity_after.y(), e.angular_velocity_after.y()));
+    row.push_back(known(scene, v.peak_force, e.peak_force));
+    row.push_back(loss_cell(scene, swept.run, first));
+  }
+  if (!runs.empty()) table.notes.push_back(method_words(runs.back().run) + " (the last row's)");
+  fit_columns(table, scene.options.digits, {2});
+  return table;
+}
+
+Json sweep_json(const SimulationScene& scene, const std::vector<SweptRun>& runs) {
+  Json json{{"clatter", version}, {"model", "continuous"}, {"scene", scene.json()}, {"runs", Json::array()}};
+  for (const SweptRun& swept : runs) json["runs"].push_back(quantity_json(scene, swept));
+  return json;
+}
+
+Table sweep_records(const SimulationScene& scene, const std::vector<SweptRun>& runs) {
+  Table table{.head = {headline("simulate", "impacts over a sweep, continuous contact"),
+                       "scene: " + scene.json().dump()},
+              .columns = {}, .rows = {}, .notes = {}};
+  for (const SweptRun& swept : runs) {
+    const std::size_t before = table.rows.size();
+    add_impact_records(table, quantity_json(scene, swept)["impacts"]);
+    for (std::size_t i = before; i < table.rows.size(); ++i) {
+      table.rows[i].insert(table.rows[i].begin(), Cell(swept.value, 17));
+    }
+    if (swept.run.impacts.empty()) {
+      table.notes.push_back(fmt::format("{}: {}: {}", shortest(swept.value), outcome_name(swept.run.outcome),
+                                        swept.run.message));
+    }
+  }
+  const char* name = scene.sweep->quantity == SceneSweep::Quantity::angle_deg ? "angle_deg" : "sliding_friction";
+  table.columns.insert(table.columns.begin(), Column{name, name, ""});
+  return table;
+}
+
+}  // namespace clatter::validation

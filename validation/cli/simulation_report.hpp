@@ -1,0 +1,34 @@
+// A run of the continuous model as a table and as JSON.
+#pragma once
+
+#include <vector>
+
+#include "numeric/simulate.hpp"
+#include "validation/output/json.hpp"
+#include "validation/output/table.hpp"
+#include "validation/scene/simulation_scene.hpp"
+
+namespace clatter::validation {
+
+[[nodiscard]] Table simulation_table(const SimulationScene& scene, const numeric::Simulation& run);
+[[nodiscard]] Json simulation_json(const SimulationScene& scene, const numeric::Simulation& run);
+/// One row per impact with the JSON's names as columns.
+[[nodiscard]] Table simulation_records(const SimulationScene& scene, const numeric::Simulation& run);
+
+/// A sweep: the scene with its value and its run, one after the other.
+struct SweptRun {
+  double value;
+  SimulationScene scene;
+  numeric::Simulation run;
+};
+/// The first impact of each, one row a value.
+[[nodiscard]] Table sweep_table(const SimulationScene& scene, const std::vector<SweptRun>& runs);
+[[nodiscard]] Json sweep_json(const SimulationScene& scene, const std::vector<SweptRun>& runs);
+/// All impacts of each, with the swept value in the first column.
+[[nodiscard]] Table sweep_records(const SimulationScene& scene, const std::vector<SweptRun>& runs);
+
+[[nodiscard]] const char* outcome_name(numeric::Outcome outcome);
+[[nodiscard]] const char* mode_name(numeric::FrictionMode mode);
+[[nodiscard]] const char* end_name(numeric::ContactEnd end);
+
+}  // namespace clatter::validation

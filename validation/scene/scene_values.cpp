@@ -1,0 +1,208 @@
+#include "validation/scene/scene_values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <toml++/toml.h>
+
+#include "validation/output/number.hpp"
+#include "validation/scene/bad_input.hpp"
+
+namespace clatter::validation {
+namespace {
+
+std::string position(const std::string& path, const toml::source_region& region) {
+  return fmt::format("{}:{}:{}", path, region.begin.line, region.begin.column);
+}
+
+template <class Node>
+std::string as_given(const Node& node) {
+  std::ostringstream text;
+  node.visit([&](const auto& value) { text << value; });
+  std::string line = text.str();
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  return line;
+}
+
+bool inside(double value, const Range& range) {
+  return std::isfinite(value) && value >= range.low && value <= range.high && !(range.low_open && value == range.low);
+}
+
+toml::table parse(const std::string& path) {
+  try {
+    return toml::parse_file(path);
+  } catch (const toml::parse_error& error) {
+    const toml::source_region& region = error.source();
+    if (region.begin.line == 0) throw BadInput(fmt::format("{}: cannot be read", path));
+    throw BadInput(fmt::format("{}: {}", position(path, region), error.description()));
+  }
+}
+
+}  // namespace
+
+/// Flattens the tables of a file.
+class SceneParser {
+ public:
+  SceneParser(SceneValues& values, const std::vector<std::string>& known) : values_(values), known_(known) {}
+
+  void add(const toml::table& table, const std::string& prefix) {
+    for (const auto& [name, node] : table) {
+      const std::string key = prefix.empty() ? std::string(name.str()) : prefix + "." + std::string(name.str());
+      const std::string where = position(values_.path_, name.source());
+      if (const toml::table* inner = node.as_table()) {
+        check_table(key, where);
+        add(*inner, key);
+      } else {
+        check_key(key, where);
+        add_value(key, node);
+      }
+    }
+  }
+
+ private:
+  void check_key(const std::string& key, const std::string& where) const {
+    if (std::find(known_.begin(), known_.end(), key) != known_.end()) return;
+    throw BadInput(fmt::format("{}: {}: unknown key; did you mean {}?", where, key, nearest_name(key, known_)));
+  }
+
+  void check_table(const std::string& key, const std::string& where) const {
+    const bool known = std::any_of(known_.begin(), known_.end(),
+                                   [&](const std::string& name) { return name.starts_with(key + "."); });
+    if (known) return;
+    if (std::find(known_.begin(), known_.end(), key) != known_.end()) {
+      throw BadInput(fmt::format("{}: {}: must be a value, not a table", where, key));
+    }
+    std::vector<std::string> tables;
+    for (const std::string& name : known_) tables.push_back(name.substr(0, name.rfind('.')));
+    throw BadInput(fmt::format("{}: {}: unknown table; did you mean {}?", where, key, nearest_name(key, tables)));
+  }
+
+  void add_value(const std::string& key, const toml::node& node) {
+    SceneValues::Entry entry;
+    entry.where = position(values_.path_, node.source()) + ": " + key;
+    entry.shown = as_given(node);
+    if (const auto truth = node.value_exact<bool>()) entry.value = *truth;
+    else if (const auto whole = node.value_exact<std::int64_t>()) entry.value = static_cast<long long>(*whole);
+    else if (const auto real = node.value_exact<double>()) entry.value = *real;
+    else if (const auto words = node.value_exact<std::string>()) entry.value = *words;
+    else if (const toml::array* list = node.as_array()) entry.value = numbers_of(*list, entry.where, entry.shown);
+    else throw BadInput(fmt::format("{} = {}: must be a number, a text or a list", entry.where, entry.shown));
+    values_.entries_[key] = std::move(entry);
+  }
+
+  static std::vector<double> numbers_of(const toml::array& list, const std::string& where, const std::string& shown) {
+    std::vector<double> numbers;
+    for (const toml::node& node : list) {
+      if (!node.is_number()) throw BadInput(fmt::format("{} = {}: must be a list of numbers", where, shown));
+      numbers.push_back(*node.value<double>());
+    }
+    return numbers;
+  }
+
+  SceneValues& values_;
+  const std::vector<std::string>& known_;
+};
+
+SceneValues::SceneValues(const std::string& path, const std::vector<std::string>& known) : path_(path) {
+  SceneParser(*this, known).add(parse(path), "");
+}
+
+void SceneValues::set(const std::string& key, const std::string& flag, const std::string& text) {
+  entries_[key] = {text, fmt::format("'{}'", text), flag, true};
+}
+
+bool SceneValues::has_table(const std::string& name) const {
+  return std::any_of(entries_.begin(), entries_.end(),
+                     [&](const auto& entry) { return entry.first.starts_with(name + "."); });
+}
+
+void SceneValues::require(const std::string& key, const std::string& what) const {
+  if (!has(key)) throw BadInput(fmt::format("{}: {}: required, {}", path_, key, what));
+}
+
+void SceneValues::exclude(const std::string& first, const std::string& second) const {
+  if (!has(first) || !has(second)) return;
+  throw BadInput(fmt::format("{} = {}: excludes {}; give one of them, not both", at(second).where, at(second).shown,
+                             first));
+}
+
+void SceneValues::refuse(const std::string& key, const std::string& allowed) const {
+  const auto entry = entries_.find(key);
+  if (entry == entries_.end()) throw BadInput(fmt::format("{}: {}: must be {}", path_, key, allowed));
+  const Entry& given = entry->second;
+  throw BadInput(fmt::format("{}{}{}: must be {}", given.where, given.is_flag ? " " : " = ", given.shown, allowed));
+}
+
+double SceneValues::number(const std::string& key, double fallback, const Range& range) const {
+  if (!has(key)) return fallback;
+  const Entry& entry = at(key);
+  if (entry.is_flag) return read_number_option(entry.where, std::get<std::string>(entry.value), range);
+  double value = std::nan("");
+  if (const auto* real = std::get_if<double>(&entry.value)) value = *real;
+  if (const auto* whole = std::get_if<long long>(&entry.value)) value = static_cast<double>(*whole);
+  if (!inside(value, range)) refuse(key, fmt::format("a number, {}", range.words));
+  return value;
+}
+
+long long SceneValues::integer(const std::string& key, long long fallback, long long low, long long high) const {
+  if (!has(key)) return fallback;
+  const Entry& entry = at(key);
+  long long value = low - 1;
+  if (entry.is_flag) {
+    if (!read_integer(std::get<std::string>(entry.value), value)) value = low - 1;
+  } else if (const auto* whole = std::get_if<long long>(&entry.value)) {
+    value = *whole;
+  }
+  if (value < low || value > high) refuse(key, fmt::format("a whole number from {} to {}", low, high));
+  return value;
+}
+
+bool SceneValues::truth(const std::string& key, bool fallback) const {
+  if (!has(key)) return fallback;
+  const Entry& entry = at(key);
+  if (const auto* truth = std::get_if<bool>(&entry.value)) return *truth;
+  refuse(key, "true or false");
+}
+
+std::string SceneValues::text(const std::string& key) const {
+  if (!has(key)) return "";
+  const auto* words = std::get_if<std::string>(&at(key).value);
+  if (!words || words->empty()) refuse(key, "a text in quotes, not empty");
+  return *words;
+}
+
+std::size_t SceneValues::name(const std::string& key, std::size_t fallback,
+                              const std::vector<std::string>& names) const {
+  if (!has(key)) return fallback;
+  const std::string allowed = fmt::format("one of {}", fmt::join(names, ", "));
+  const auto* given = std::get_if<std::string>(&at(key).value);
+  if (!given) refuse(key, allowed);
+  const auto found = std::find(names.begin(), names.end(), *given);
+  if (found == names.end()) refuse(key, fmt::format("{}; did you mean {}?", allowed, nearest_name(*given, names)));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+std::vector<double> SceneValues::numbers(const std::string& key, const std::vector<std::size_t>& sizes,
+                                         const Range& range, const std::string& words) const {
+  if (!has(key)) return {};
+  const Entry& entry = at(key);
+  std::vector<double> numbers;
+  if (const auto* list = std::get_if<std::vector<double>>(&entry.value)) numbers = *list;
+  if (entry.is_flag) {
+    std::string text = std::get<std::string>(entry.value);
+    std::replace(text.begin(), text.end(), ',', 'x');
+    std::istringstream parts(text);
+    for (std::string part; std::getline(parts, part, 'x');) {
+      double value = 0;
+      numbers.push_back(read_number(part, value) ? value : std::nan(""));
+    }
+  }
+  const bool right = std::find(sizes.begin(), sizes.end(), numbers.size()) != sizes.end() &&
+                     std::all_of(numbers.begin(), numbers.end(), [&](double value) { return inside(value, range); });
+  if (!right) refuse(key, words);
+  return numbers;
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,63 @@
+// The values of a scene file, with the flags that override them, each knowing where it stands.
+#pragma once
+
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "validation/scene/scene.hpp"
+
+namespace clatter::validation {
+
+/// Keys are dotted: "drop.angle_deg", "body.mesh.sectors".  Each getter checks and says, in one line, where the value
+/// stands, what was given and what is allowed.
+class SceneValues {
+ public:
+  /// Reads a TOML file.  @throws BadInput "file:line:column: ..." if it cannot be read, is no TOML, repeats a
+  /// key, or has a key that is not among `known` (the nearest one is named).
+  SceneValues(const std::string& path, const std::vector<std::string>& known);
+
+  /// A flag takes the place of a key.
+  void set(const std::string& key, const std::string& flag, const std::string& text);
+  void drop(const std::string& key) { entries_.erase(key); }
+
+  [[nodiscard]] bool has(const std::string& key) const { return entries_.contains(key); }
+  /// Whether any key below the table `name` is given.
+  [[nodiscard]] bool has_table(const std::string& name) const;
+  /// @throws BadInput if it is not given.
+  void require(const std::string& key, const std::string& what) const;
+  /// @throws BadInput if both are given.
+  void exclude(const std::string& first, const std::string& second) const;
+
+  [[nodiscard]] double number(const std::string& key, double fallback, const Range& range) const;
+  [[nodiscard]] long long integer(const std::string& key, long long fallback, long long low, long long high) const;
+  [[nodiscard]] bool truth(const std::string& key, bool fallback) const;
+  [[nodiscard]] std::string text(const std::string& key) const;
+  [[nodiscard]] std::size_t name(const std::string& key, std::size_t fallback,
+                                 const std::vector<std::string>& names) const;
+  /// As many numbers as `words` says ("three lengths in m, ..."); a flag's text holds them with "x" or "," between.
+  [[nodiscard]] std::vector<double> numbers(const std::string& key, const std::vector<std::size_t>& sizes,
+                                            const Range& range, const std::string& words) const;
+
+  /// @throws BadInput "where: key = given: must be ALLOWED".
+  [[noreturn]] void refuse(const std::string& key, const std::string& allowed) const;
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+ private:
+  /// A text is a flag's or a string of the file; a list holds the file's array.
+  struct Entry {
+    std::variant<bool, double, long long, std::string, std::vector<double>> value;
+    std::string shown;  ///< as given
+    std::string where;  ///< "file:line:column: key" or "--flag"
+    bool is_flag = false;
+  };
+  friend class SceneParser;
+
+  [[nodiscard]] const Entry& at(const std::string& key) const { return entries_.at(key); }
+
+  std::string path_;
+  std::map<std::string, Entry> entries_;
+};
+
+}  // namespace clatter::validation

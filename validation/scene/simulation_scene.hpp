@@ -1,0 +1,79 @@
+// A scene of the continuous model: a TOML file and the flags that override it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "numeric/simulate.hpp"
+#include "validation/output/json.hpp"
+
+namespace clatter::validation {
+
+/// A flag as given, and the key of the scene file that it overrides.
+struct SceneOverride {
+  std::string key, flag, text;
+};
+
+/// The discrete model's part of a scene, carried along for the commands that run both models.
+struct DiscreteImpact {
+  double restitution = 1;
+  std::string law = "newton";
+  std::optional<double> impulse_ratio, friction;
+};
+
+/// What the body is made of.
+struct BodyScene {
+  enum class Shape { rod, box, mesh } shape = Shape::rod;
+  double mass = 1;                                 ///< [kg]
+  double length = 1, radius = 0.01;                ///< of a rod [m]
+  numeric::Vector3 size{0, 0, 0};                  ///< of a box [m]
+  int sectors = 16, rings = 4, layers = 30;        ///< of a rod's mesh
+  int nx = 1, ny = 1, nz = 1;                      ///< of a box's mesh
+  std::string file;                                ///< Gmsh (.msh, .geo) or STL, resolved
+  double unit = 1;                                 ///< of the file's coordinates [m]
+  std::optional<double> density;                   ///< of a Gmsh file's elements [kg/m³]
+  std::vector<double> inertia;                     ///< of an STL body: 3 or 6 numbers [kg·m²]
+  std::vector<double> centre;                      ///< of mass of an STL body, in the file's frame [m]
+  bool merge = true;
+};
+
+/// Values of one quantity for which the drop is repeated.
+struct SceneSweep {
+  enum class Quantity { angle_deg, friction } quantity = Quantity::angle_deg;
+  double from = 0, to = 0, step = 1;
+  [[nodiscard]] std::vector<double> values() const;
+};
+
+/// A checked scene.
+struct SimulationScene {
+  std::string path;
+  double angle_deg = 0, tilt_deg = 0;
+  double speed = 1;                ///< of the centre of mass at the first touch, downward [m/s]
+  std::optional<double> height;    ///< of the centre of mass at release, if given [m]
+  double tangential_velocity = 0;  ///< [m/s]
+  double spin = 0;                 ///< [rad/s]
+  DiscreteImpact impact;
+  BodyScene body;
+  numeric::Ground ground;
+  numeric::Options options;
+  std::string history;             ///< file for the time history; empty: none
+  std::optional<SceneSweep> sweep;
+
+  [[nodiscard]] numeric::Body make_body() const;
+  /// State at the first touch; with `height` the speed there follows from the fall.
+  /// @throws BadInput if `height` is not above the centre of mass at the touch.
+  [[nodiscard]] numeric::MotionState start(const numeric::Body& body) const;
+  /// Everything, defaults included, under the names of the file.
+  [[nodiscard]] Json json() const;
+  /// The same for a reader: a few lines.
+  [[nodiscard]] std::vector<std::string> summary() const;
+};
+
+/// @throws BadInput with one line "file:line:column: key ..." or "--flag ...".
+[[nodiscard]] SimulationScene read_simulation_scene(const std::string& path,
+                                                    const std::vector<SceneOverride>& overrides);
+
+[[nodiscard]] const char* method_name(numeric::Method method);
+
+}  // namespace clatter::validation
