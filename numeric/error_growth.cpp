@@ -116,7 +116,9 @@ void ErrorGrowth::touch(ContactRun& run, const ContactControl& control, const Mo
   const TouchDown down = next_touch_down(body_, approach_flight);
   if (down.kind != TouchDown::Kind::touch) return;
   const MotionState start = approach_flight.at(down.time);
-  const ContactResult result = run.run(start, touch_point(body_, start), control);
+  ContactControl rough = control;
+  rough.tolerance = std::max(control.tolerance, 0.02 * size);
+  const ContactResult result = run.run(start, touch_point(body_, start), rough);
   if (result.ending != ContactEnding::lift_off) return;
   const double other_end = down.time - back + result.duration;
   const double end = std::max(contact.duration, other_end);

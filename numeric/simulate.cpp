@@ -18,17 +18,24 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 /// How the second run differs, and what its distance from the main one says about that one's error.
 constexpr double coarser_tolerance = 30;
 constexpr double coarser_step = 2;
-constexpr double error_per_distance = 0.2;
+constexpr double error_per_distance = 0.5;
+constexpr double error_per_tolerance = 2;
 
 bool is_adaptive(Method method) { return method != Method::tvd_rk3; }
+
+/// The cheapest that serves: a fifth-order method for few digits, one of eighth order for more.
+Method chosen_method(const Options& options) {
+  if (options.step > 0) return Method::tvd_rk3;
+  return options.digits <= 4 ? Method::rkck : Method::rk8pd;
+}
 
 /// The local error that gives `digits` digits of velocities and energies after tens of steps.
 Accuracy accuracy_for(const Options& options) {
   Accuracy accuracy;
   accuracy.method = options.method;
-  if (options.method == Method::automatic) accuracy.method = options.step > 0 ? Method::tvd_rk3 : Method::rk8pd;
+  if (options.method == Method::automatic) accuracy.method = chosen_method(options);
   accuracy.step = options.step;
-  accuracy.tolerance = std::max(std::pow(10.0, -options.digits - 4), 2e-14);
+  accuracy.tolerance = std::max(std::pow(10.0, -options.digits - 4), 5e-14);
   accuracy.steps_per_contact = 10 * std::pow(10.0, std::min(options.digits, 9) / 3.0);
   return accuracy;
 }
@@ -55,11 +62,13 @@ void for_each_number(const ImpactNumbers& a, const ImpactNumbers& b, ImpactNumbe
   }
 }
 
-/// What rounding leaves of numbers that are differences of larger ones.
-void add_rounding(const Body& body, const ImpactRecord& row, ImpactNumbers& error) {
+/// What the tolerance and rounding, grown since, leave uncertain even where two runs happen to agree; numbers that are
+/// differences take it from what they are differences of.
+void add_floor(const Body& body, double tolerance, const ImpactRecord& row, ImpactNumbers& error) {
   const double growth = std::isfinite(row.amplification) ? row.amplification : 1;
+  const double part = (error_per_tolerance * tolerance + 4 * epsilon) * (1 + growth);
   const ImpactNumbers& n = row.value;
-  const auto add = [&](double& to, double size) { to += 4 * epsilon * (1 + growth) * std::fabs(size); };
+  const auto add = [&](double& to, double size) { to += part * std::fabs(size); };
   for_each_number(n, error, error, [&](double value, double so_far) {
     add(so_far, value);
     return so_far;
@@ -74,14 +83,15 @@ void add_rounding(const Body& body, const ImpactRecord& row, ImpactNumbers& erro
   }
 }
 
-void estimate_errors(const Body& body, std::vector<ImpactRecord>& rows, const std::vector<ImpactRecord>& coarse) {
+void estimate_errors(const Body& body, double tolerance, std::vector<ImpactRecord>& rows,
+                     const std::vector<ImpactRecord>& coarse) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool same_kind = i < coarse.size() && coarse[i].end == rows[i].end && coarse[i].touches == rows[i].touches;
     const ImpactNumbers& other = same_kind ? coarse[i].value : rows[i].value;
     for_each_number(rows[i].value, other, rows[i].error, [&](double fine, double rough) {
       return same_kind ? error_per_distance * std::fabs(fine - rough) : not_known;
     });
-    if (same_kind) add_rounding(body, rows[i], rows[i].error);
+    if (same_kind) add_floor(body, tolerance, rows[i], rows[i].error);
   }
 }
 
@@ -171,7 +181,7 @@ Simulation simulate(const Body& body, const Ground& ground, const MotionState& s
     const DropRun coarse = run_drop(body, ground, start, fewer, coarser(accuracy, main.step), {});
     simulation.force_evaluations += coarse.force_evaluations;
     simulation.root_evaluations += coarse.root_evaluations;
-    estimate_errors(body, simulation.impacts, coarse.impacts);
+    estimate_errors(body, simulation.tolerance, simulation.impacts, coarse.impacts);
   } else {
     forget_errors(simulation.impacts);
   }

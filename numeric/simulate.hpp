@@ -14,7 +14,7 @@ namespace clatter::numeric {
 
 /// How contacts are integrated in time.
 enum class Method {
-  automatic,  ///< rk8pd, or tvd_rk3 when a step is given
+  automatic,  ///< tvd_rk3 when a step is given, else rkck up to four digits and rk8pd beyond
   tvd_rk3,    ///< third-order TVD Runge–Kutta with a fixed step, the paper's method
   rk4,        ///< classical fourth order, adaptive by step doubling (GSL)
   rkf45,      ///< Runge–Kutta–Fehlberg 4(5), adaptive (GSL)

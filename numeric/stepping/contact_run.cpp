@@ -16,7 +16,9 @@ using Kind = FrictionPhase::Kind;
 constexpr double adaptive_first_steps = 20;  ///< first step: this part of the expected contact time
 constexpr double largest_part = 0.2;         ///< of that time, or of the time so far, that a step may cover
 constexpr double smallest_part = 1e-13;
-constexpr double slow_part = 1e-8;           ///< of the contact's speed: slip below it keeps its direction
+/// Slip slower than this part, times √tolerance, of the contact's speed keeps its direction: across it friction is a
+/// damper that stiffens like 1/|v|, which explicit steps could not follow.
+constexpr double slow_part = 0.1;
 constexpr double minor_part = 1e-6;          ///< of energy or time: a friction phase below it does not name the mode
 constexpr int most_switches = 8;             ///< of friction without a step between them
 
@@ -104,7 +106,7 @@ void ContactRun::start_phase(FrictionPhase::Kind kind, const AlongGround& direct
   phase_start_ = now_.time;
   phase_work_ = now_.state[15];
   stopping_speed_ = 0;
-  system_.set_phase({.kind = kind, .direction = direction, .slow = slow_part * scales_.speed});
+  system_.set_phase({.kind = kind, .direction = direction, .slow = slow_part * std::sqrt(control_->tolerance) * scales_.speed});
 }
 
 /// Notes the phase that ends, if it mattered: a sticking end slips for an instant when the force on it fades.
@@ -193,10 +195,15 @@ void ContactRun::accept(const ContactInstant& next) {
   switches_ = 0;
   FrictionPhase phase = system_.phase();
   if (phase.kind != Kind::slip || system_.planar()) return;
-  const double speed = now_.diagnosis.slip.norm();
-  if (now_.diagnosis.load.force > 0 && speed > 0) phase.direction = now_.diagnosis.slip * (1 / speed);
+  const AlongGround& slip = now_.diagnosis.slip;
+  const double speed = slip.norm();
+  // Slip that has hardly begun keeps the direction in which it was let go.
+  const AlongGround leaning{slip.east + phase.slow * phase.direction.east,
+                            slip.north + phase.slow * phase.direction.north};
+  const double size = leaning.norm();
+  if (now_.diagnosis.load.force > 0 && size > 0) phase.direction = leaning * (1 / size);
   const double spin_speed = std::fabs(now_.diagnosis.spin) * system_.body().radius();
-  phase.varies = spin_speed > 1e-9 * scales_.speed;
+  phase.varies = spin_speed > 100 * control_->tolerance * scales_.speed;
   // Spin keeps the friction of a slow patch from stopping it in a finite time: it counts as stopped before.
   const double slow = phase.slow + 1e-3 * spin_speed;
   stopping_speed_ = speed > 2 * slow ? slow : 0;
