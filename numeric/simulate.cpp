@@ -20,6 +20,9 @@ constexpr double coarser_tolerance = 30;
 constexpr double coarser_step = 2;
 constexpr double error_per_distance = 0.5;
 constexpr double error_per_tolerance = 2;
+/// Beyond this growth the distance of the two runs tells more: truncation errors keep a scene's symmetry and may not
+/// grow with the rest.
+constexpr double largest_growth_of_tolerance = 100;
 
 bool is_adaptive(Method method) { return method != Method::tvd_rk3; }
 
@@ -66,7 +69,8 @@ void for_each_number(const ImpactNumbers& a, const ImpactNumbers& b, ImpactNumbe
 /// differences take it from what they are differences of.
 void add_floor(const Body& body, double tolerance, const ImpactRecord& row, ImpactNumbers& error) {
   const double growth = std::isfinite(row.amplification) ? row.amplification : 1;
-  const double part = (error_per_tolerance * tolerance + 4 * epsilon) * (1 + growth);
+  const double part = error_per_tolerance * tolerance * (1 + std::min(growth, largest_growth_of_tolerance)) +
+                      4 * epsilon * (1 + growth);
   const ImpactNumbers& n = row.value;
   const auto add = [&](double& to, double size) { to += part * std::fabs(size); };
   for_each_number(n, error, error, [&](double value, double so_far) {

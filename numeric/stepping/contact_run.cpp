@@ -130,61 +130,56 @@ bool ContactRun::try_step(const ContactInstant& from, double h, ContactInstant& 
 
 double ContactRun::error_of_step() const { return (error_.cwiseAbs().cwiseQuotient(weights_)).maxCoeff(); }
 
-/// One accepted step, or the end: false, with result_.ending set.  `h` is the length to try, then the next one.
-bool ContactRun::advance(double& h) {
+bool ContactRun::end(ContactEnding ending) {
+  result_.ending = ending;
+  return false;
+}
+
+/// A contact shorter than the step, or the gap between two, must not be stepped over.
+bool ContactRun::stepped_over() const {
+  const bool shorter = now_.time == 0 && !(trial_.diagnosis.load.deepest > 0);
+  return shorter || touches_.all_new(submerged_);
+}
+
+/// Steps of at most length h until one is accurate enough; trial_ gets its end and `h` its length, `next` the length
+/// to try after it.  False, with the ending set, if there is none.
+bool ContactRun::find_step(double& h, double& next) {
   const int order = stepper_.error_order();
   const double horizon = std::max(scales_.time, now_.time);
   if (order > 0) h = std::min(h, largest_part * horizon);
-  double next_h = h;
   for (;;) {
-    if (system_.evaluations() >= control_->evaluation_limit) {
-      result_.ending = ContactEnding::evaluation_limit;
-      return false;
-    }
-    if (!(h > smallest_part * horizon)) {
-      result_.ending = ContactEnding::step_too_small;
-      return false;
-    }
+    if (system_.evaluations() >= control_->evaluation_limit) return end(ContactEnding::evaluation_limit);
+    if (!(h > smallest_part * horizon)) return end(ContactEnding::step_too_small);
     if (!try_step(now_, h, trial_)) {
       h /= 8;
       continue;
     }
     const double error = order > 0 ? error_of_step() : 0;
+    const double growth = order > 0 ? 0.9 * std::pow(error, -1.0 / order) : 1;
     if (!(error <= 1)) {
-      h *= std::clamp(0.9 * std::pow(error, -1.0 / order), 0.1, 0.7);
-      continue;
-    }
-    // A contact shorter than the step, or the gap between two, must not be stepped over.
-    const bool shorter = now_.time == 0 && !(trial_.diagnosis.load.deepest > 0);
-    const bool jumped = touches_.all_new(submerged_);
-    if ((shorter || jumped) && h > 1e-9 * scales_.time) {
+      h *= std::clamp(growth, 0.1, 0.7);
+    } else if (stepped_over() && h > 1e-9 * scales_.time) {
       h /= 2;
-      continue;
+    } else {
+      next = h * std::clamp(growth, 0.2, 4.0);
+      return true;
     }
-    if (order > 0) next_h = h * std::clamp(0.9 * std::pow(error, -1.0 / order), 0.2, 4.0);
-    break;
   }
+}
+
+/// One accepted step, cut short where an event lies in it; false, with the ending set, at the end of the contact.
+/// `h` is the length to try, then the next one.
+bool ContactRun::advance(double& h) {
+  double next = h;
+  if (!find_step(h, next)) return false;
   bool lifts = !(trial_.diagnosis.load.deepest > 0);
   if (lifts && now_.diagnosis.load.deepest > 0) h = lift_off_time(h, trial_);
-  if (handle_friction_event(h)) {
-    lifts = false;
-    h = std::max(h, 0.01 * scales_.time);
-  } else {
-    accept(trial_);
-  }
-  if (lifts) {
-    result_.ending = ContactEnding::lift_off;
-    return false;
-  }
-  if (at_rest(now_)) {
-    result_.ending = ContactEnding::at_rest;
-    return false;
-  }
-  if (control_->observe && !control_->observe(now_)) {
-    result_.ending = ContactEnding::interrupted;
-    return false;
-  }
-  h = next_h;
+  if (handle_friction_event(h)) lifts = false;
+  else accept(trial_);
+  h = next;
+  if (lifts) return end(ContactEnding::lift_off);
+  if (at_rest(now_)) return end(ContactEnding::at_rest);
+  if (control_->observe && !control_->observe(now_)) return end(ContactEnding::interrupted);
   return true;
 }
 
@@ -205,8 +200,8 @@ void ContactRun::accept(const ContactInstant& next) {
   const double spin_speed = std::fabs(now_.diagnosis.spin) * system_.body().radius();
   phase.varies = spin_speed > 100 * control_->tolerance * scales_.speed;
   // Spin keeps the friction of a slow patch from stopping it in a finite time: it counts as stopped before.
-  const double slow = phase.slow + 1e-3 * spin_speed;
-  stopping_speed_ = speed > 2 * slow ? slow : 0;
+  const double stopped = 1e-3 * spin_speed;
+  stopping_speed_ = phase.varies && speed > 2 * stopped ? stopped : 0;
   system_.set_phase(phase);
 }
 

@@ -67,7 +67,10 @@ class ContactRun {
   void weigh_errors();
   [[nodiscard]] bool try_step(const ContactInstant& from, double h, ContactInstant& to);
   [[nodiscard]] double error_of_step() const;
-  bool advance(double& h);
+  bool end(ContactEnding ending);
+  [[nodiscard]] bool stepped_over() const;
+  [[nodiscard]] bool find_step(double& h, double& next);
+  [[nodiscard]] bool advance(double& h);
   void accept(const ContactInstant& next);
   void look_for_peak(const ContactInstant& next);
   bool handle_friction_event(double h);

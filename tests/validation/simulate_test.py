@@ -187,6 +187,35 @@ class Output(Folder):
             self.assertLessEqual(max(map(len, result.stdout.splitlines())), 80, path)
             self.assertTrue(run(path, "--ascii").stdout.isascii())
 
+    def test_a_body_from_an_stl_file_falls_like_the_box_that_it_is(self):
+        size, mass = (0.10566, 0.04394, 0.01905), 0.08814
+        faces = []
+        for axis in range(3):
+            for side in (0, 1):
+                square = [[0, 0, 0] for _ in range(4)]
+                for k, (u, v) in enumerate(((0, 0), (1, 0), (1, 1), (0, 1))):
+                    square[k][axis], square[k][(axis + 1) % 3], square[k][(axis + 2) % 3] = side, u, v
+                square = [[1000 * (x - 0.5) * s for x, s in zip(p, size)] for p in square]
+                a, b, c, d = square if side else square[::-1]
+                faces += [(a, b, c), (a, c, d)]
+        with open(self.path("box.stl"), "w", encoding="ascii") as file:
+            file.write("solid box\n")
+            for face in faces:
+                file.write("facet normal 0 0 0\nouter loop\n")
+                file.write("".join("vertex %.17g %.17g %.17g\n" % tuple(p) for p in face))
+                file.write("endloop\nendfacet\n")
+            file.write("endsolid box\n")
+        x, y, z = (s * s for s in size)
+        inertia = [mass * m / 12 for m in (y + z, x + z, x + y)]
+        ground = "[ground]\nstiffness = 1e8\ndamping = 1e7\n[drop]\nangle_deg = 10\nspeed = 4\n"
+        from_file = self.json(self.scene(ground + "[body]\nshape = 'mesh'\nmass = %r\ninertia = %r\n"
+                                         "mesh = { file = 'box.stl', unit = 0.001 }\n" % (mass, inertia)), "--impacts", "2")
+        box = self.json(self.scene(ground + "[body]\nshape = 'box'\nmass = %r\nsize = %r\n" % (mass, list(size))),
+                        "--impacts", "2")
+        for a, b in zip(from_file["impacts"], box["impacts"]):
+            self.assertAlmostEqual(a["impulse_normal"] / b["impulse_normal"], 1, delta=1e-8)
+            self.assertAlmostEqual(a["peak_force"] / b["peak_force"], 1, delta=1e-8)
+
     def test_an_output_file_holds_what_stdout_would(self):
         path = self.scene()
         self.assertEqual(run(path, "--output", self.path("out")).stdout, "")
@@ -206,6 +235,15 @@ class Output(Folder):
         result = self.json(self.scene(), "--impacts", "1")
         self.assertEqual(result["method"], "rk8pd")
         self.assertGreater(result["tolerance"], 0)
+
+
+    def test_the_readme_shows_the_output_of_the_damped_phone(self):
+        root = os.path.join(CASES, "..", "..")
+        with open(os.path.join(root, "README.md"), encoding="utf-8") as file:
+            readme = file.read()
+        for line in run("validation/cases/phone-damped.toml", cwd=root).stdout.splitlines():
+            if "evaluations" not in line:
+                self.assertIn(line + "\n", readme)
 
 
 class History(Folder):

@@ -70,18 +70,20 @@ Json impact_json(const ImpactRecord& row, int n) {
   return json;
 }
 
-/// What is known of a number: the digits that its estimated error leaves, 0 if none, or two digits where a second
-/// run went another way.
-Cell known(const SimulationScene& scene, double value, double error) {
-  if (!scene.options.error_estimates) return {value, scene.options.digits};
-  if (!std::isfinite(error)) return {value, 2};
-  if (std::fabs(value) <= error) return {0.0, 1};
-  return {value, std::min(scene.options.digits, known_digits(value, error))};
-}
-
 /// Whether rounding or the method's error has outgrown the row by itself; what follows such a row is no better.
 bool doubtful(const SimulationScene& scene, const ImpactRecord& row) {
-  return !row.predictable || (scene.options.error_estimates && !std::isfinite(row.error.impulse.z()));
+  if (!row.predictable) return true;
+  if (!scene.options.error_estimates) return false;
+  return !(row.error.impulse.norm() <= 0.05 * row.value.impulse.norm());
+}
+
+/// What is known of a number: the digits that its estimated error leaves, 0 if none; two digits in a row that is not to
+/// be trusted.
+Cell known(const SimulationScene& scene, double value, double error, bool trusted = true) {
+  if (!scene.options.error_estimates) return {value, scene.options.digits};
+  if (!trusted || !std::isfinite(error)) return {value, 2};
+  if (std::fabs(value) <= error) return {0.0, 1};
+  return {value, std::min(scene.options.digits, known_digits(value, error))};
 }
 
 std::string method_words(const Simulation& run) {
@@ -103,7 +105,7 @@ std::string trust_words(const SimulationScene& scene, const Simulation& run) {
   if (last_trusted == run.impacts.size()) return "";
   const auto first = run.impacts.begin() + static_cast<std::ptrdiff_t>(last_trusted);
   const std::string growth = first->predictable
-                                 ? "then a coarser run goes another way"
+                                 ? "after it a coarser run goes another way"
                                  : fmt::format("an error of the start has grown {} times by then",
                                                significant(first->amplification, 2));
   return last_trusted == 0 ? fmt::format("?: not to be trusted: {}", growth)
@@ -133,11 +135,11 @@ std::vector<std::string> head_of(const SimulationScene& scene, const std::string
 
 const char* const what_it_is = "impact sequence, continuous contact";
 
-Cell loss_cell(const SimulationScene& scene, const Simulation& run, const ImpactRecord& row) {
+Cell loss_cell(const SimulationScene& scene, const Simulation& run, const ImpactRecord& row, bool trusted = true) {
   const double percent = 100 / run.energy_start;
   // Below the method's error the loss is none.
   if (std::fabs(row.value.energy_loss) <= 1e-9 * run.energy_start) return {0.0, 1};
-  return known(scene, row.value.energy_loss * percent, row.error.energy_loss * percent);
+  return known(scene, row.value.energy_loss * percent, row.error.energy_loss * percent, trusted);
 }
 
 Json quantity_json(const SimulationScene& scene, const SweptRun& swept) {
@@ -202,15 +204,15 @@ Table simulation_table(const SimulationScene& scene, const Simulation& run) {
   std::size_t n = 0;
   for (const ImpactRecord& row : run.impacts) {
     const ImpactNumbers &v = row.value, &e = row.error;
-    ++n;
-    table.rows.push_back({Cell(std::to_string(n) + (n > trust ? "?" : "")), Cell(end_name(row.end)),
-                          known(scene, v.start, e.start), known(scene, v.duration, e.duration),
-                          known(scene, v.contact_angle * degrees, e.contact_angle * degrees),
-                          known(scene, v.impulse.z(), e.impulse.z()), known(scene, v.impulse.x(), e.impulse.x()),
-                          known(scene, v.peak_force, e.peak_force),
-                          known(scene, v.velocity_after.z(), e.velocity_after.z()),
-                          known(scene, v.angular_velocity_after.y(), e.angular_velocity_after.y()),
-                          loss_cell(scene, run, row)});
+    const bool trusted_row = ++n <= trust;
+    const auto cell = [&](double value, double error) { return known(scene, value, error, trusted_row); };
+    table.rows.push_back({Cell(std::to_string(n) + (trusted_row ? "" : "?")), Cell(end_name(row.end)),
+                          cell(v.start, e.start), cell(v.duration, e.duration),
+                          cell(v.contact_angle * degrees, e.contact_angle * degrees),
+                          cell(v.impulse.z(), e.impulse.z()), cell(v.impulse.x(), e.impulse.x()),
+                          cell(v.peak_force, e.peak_force), cell(v.velocity_after.z(), e.velocity_after.z()),
+                          cell(v.angular_velocity_after.y(), e.angular_velocity_after.y()),
+                          loss_cell(scene, run, row, trusted_row)});
   }
   fit_columns(table, scene.options.digits, {2});
   return table;
