@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <array>
 #include <cmath>
 
 #include "tests/numeric/bodies.hpp"
@@ -85,6 +86,46 @@ BOOST_AUTO_TEST_CASE(a_wedge_gives_the_closed_forms_of_force_moment_and_energy) 
   }
 }
 
+/// A plate's whole lower face in the ground at inclination θ, its middle δ below it, its upper face above.  Projected,
+/// this is the displaced volume W L δ/cos θ; over x along the plate its height is (δ − x sin θ)/cos θ.
+BOOST_AUTO_TEST_CASE(a_tilted_plate_gives_the_closed_forms_of_force_and_moment) {
+  const double length = 0.1, width = 0.2, thickness = 0.5, angle = 0.1, k = 1e7, depth = 0.02;
+  const Body body = box_body({length, width, thickness}, 1);
+  const double sine = std::sin(angle), cosine = std::cos(angle);
+  const double middle = depth - length / 2 * sine;  // below the ground of the lower face's middle
+  const double volume = width * length * middle / cosine;
+  const ContactLoad load = load_at(body, {.stiffness = k, .area = AreaMeasure::projected}, {.inclination = angle}, depth);
+  BOOST_TEST(load.force == k * volume, boost::test_tools::tolerance(relative));
+  // ∫x h dx and ∫(z₀ + h/2) h dx over the trapezoid, h = (δ − x sin θ)/cos θ, z₀ the lower face.
+  const double along = -width * sine / cosine * length * length * length / 12;
+  const double squares = width * (middle * middle * length + sine * sine * length * length * length / 12) / (cosine * cosine);
+  const double up = -thickness / 2 * volume + squares / 2;
+  // The moment about y of k V at the centroid: −(x cos θ − z sin θ) F.
+  const double expected = -k * (along * cosine - up * sine);
+  const MotionState touch = touching_state(body, {.inclination = angle});
+  BOOST_TEST(std::fabs(moment(load, touch).y() - expected) <= relative * load.force * thickness);
+}
+
+/// A triangular prism with an edge down, of half-angle φ: two faces W × d/cos φ and two ends d² tan φ.
+BOOST_AUTO_TEST_CASE(a_prism_gives_the_closed_form_of_the_force) {
+  const double half_angle = 0.6, height = 0.1, width = 0.3, k = 1e8, depth = 0.01;
+  const double reach = height * std::tan(half_angle);
+  Mesh mesh;
+  for (const double y : {-width / 2, width / 2}) {
+    mesh.nodes.emplace_back(0, y, 0);
+    mesh.nodes.emplace_back(reach, y, height);
+    mesh.nodes.emplace_back(-reach, y, height);
+  }
+  mesh.elements.push_back({ElementShape::prism, {0, 2, 1, 3, 5, 4, -1, -1}, 1000});
+  const Body body(mesh);
+  const double ends = depth * depth * std::tan(half_angle);
+  const ContactLoad projected = load_at(body, {.stiffness = k, .area = AreaMeasure::projected}, {}, depth);
+  BOOST_TEST(projected.force == k * width * ends, boost::test_tools::tolerance(relative));
+  const ContactLoad surface = load_at(body, {.stiffness = k}, {}, depth);
+  BOOST_TEST(surface.force == k * (width * depth * depth / std::cos(half_angle) + 2 * ends * depth / 3),
+             boost::test_tools::tolerance(relative));
+}
+
 /// Corner of a box: the ground's normal has components n_i in the body frame, the legs are d/n_i.  Projected:
 /// k × the tetrahedron's volume d³/(6 n₁n₂n₃) with its centroid at a quarter of each leg.  Surface: on the face
 /// across axis i ∫δ = d³/(6 n_j n_k), centroid of pressure at a quarter of its legs.
@@ -159,6 +200,33 @@ BOOST_AUTO_TEST_CASE(meshing_and_merging_change_nothing_beyond_rounding) {
       check_vector(meshed.first_moment, whole.first_moment, rounding * whole.force * phone_size().norm());
       BOOST_TEST(std::fabs(meshed.energy - whole.energy) <= rounding * whole.energy);
       BOOST_TEST(std::fabs(meshed.damping_power - whole.damping_power) <= rounding * whole.damping_power);
+    }
+  }
+}
+
+/// The box of one hexahedron and the same box cut into six tetrahedra around its diagonal.
+BOOST_AUTO_TEST_CASE(a_triangulation_changes_nothing_beyond_rounding) {
+  constexpr double rounding = 1e-13;
+  const Mesh box = box_mesh({.size = phone_size(), .mass = phone_mass});
+  Mesh cut = box;
+  cut.elements.clear();
+  const std::array<int, 8>& n = box.elements[0].nodes;
+  const int around[6] = {1, 2, 3, 7, 4, 5};  // the edges' path around the diagonal from 0 to 6
+  for (int i = 0; i < 6; ++i) {
+    const auto corner = [&](int j) { return n[static_cast<std::size_t>(around[j % 6])]; };
+    Element element{ElementShape::tetrahedron, {n[0], corner(i), corner(i + 1), n[6], -1, -1, -1, -1},
+                    box.elements[0].density};
+    cut.elements.push_back(element);
+  }
+  for (const bool merge : {true, false}) {
+    const Body whole(box, merge), pieces(cut, merge);
+    BOOST_TEST((whole.inertia() - pieces.inertia()).norm() <= rounding * whole.inertia().norm());
+    for (const AreaMeasure area : {AreaMeasure::surface, AreaMeasure::projected}) {
+      const Ground ground{.stiffness = 1e9, .area = area};
+      const Drop drop{.inclination = 0.3, .out_of_plane_tilt = 0.2};
+      const ContactLoad a = load_at(whole, ground, drop, 3e-3), b = load_at(pieces, ground, drop, 3e-3);
+      BOOST_TEST(std::fabs(a.force - b.force) <= rounding * a.force);
+      check_vector(a.first_moment, b.first_moment, rounding * a.force * phone_size().norm());
     }
   }
 }
