@@ -1,7 +1,7 @@
 // One run of a drop: flights and contacts in turn, without error estimates.
 #pragma once
 
-#include "numeric/simulate.hpp"
+#include "numeric/options.hpp"
 #include "numeric/stepping/contact_run.hpp"
 
 namespace clatter::numeric {

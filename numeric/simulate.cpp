@@ -131,19 +131,6 @@ std::string words_for(const Simulation& run, const Options& options, double time
 
 }  // namespace
 
-void Options::validate() const {
-  using detail::require;
-  require(step >= 0, "run.step", step, "finite and at least 0");
-  require(digits >= 2 && digits <= 12, "run.digits", digits, "from 2 to 12");
-  require(impacts >= 1, "run.impacts", impacts, "at least 1");
-  require(gravity >= 0, "world.gravity", gravity, "finite and at least 0");
-  require(evaluation_limit >= 1, "run.evaluation_limit", static_cast<double>(evaluation_limit), "at least 1");
-  if (step > 0) {
-    require(method == Method::automatic || method == Method::tvd_rk3, "run.step", step,
-            "left out for an adaptive method, which chooses its own");
-  }
-}
-
 double Simulation::total_normal_impulse() const {
   double sum = 0;
   for (const ImpactRecord& row : impacts) sum += row.value.impulse.z();

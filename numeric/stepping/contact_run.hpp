@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "numeric/contact/contact_system.hpp"
-#include "numeric/simulate.hpp"
+#include "numeric/impact_record.hpp"
 #include "numeric/stepping/contact_scales.hpp"
 #include "numeric/stepping/stepper.hpp"
 #include "numeric/stepping/touch_counter.hpp"

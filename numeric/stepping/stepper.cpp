@@ -2,7 +2,6 @@
 
 #include <stdexcept>
 
-#include "numeric/simulate.hpp"
 #include "numeric/stepping/gsl_stepper.hpp"
 #include "numeric/stepping/tvd_rk3.hpp"
 

@@ -4,10 +4,9 @@
 #include <memory>
 
 #include "numeric/contact/contact_system.hpp"
+#include "numeric/stepping/method.hpp"
 
 namespace clatter::numeric {
-
-enum class Method;
 
 class Stepper {
  public:
