@@ -36,12 +36,21 @@ void note_angles(const MotionState& touch, ImpactNumbers& numbers) {
   numbers.contact_angle = std::atan2(std::fabs(axis.z()), along);
 }
 
+/// The state without what rounding has put out of the plane.
+MotionState in_plane(const MotionState& state) {
+  MotionState flat = state;
+  const Vector3 north = state.attitude.conjugate() * Vector3::UnitY();
+  flat.velocity.y() = 0;
+  flat.angular_velocity = north * north.dot(state.angular_velocity);
+  return flat;
+}
+
 class Run {
  public:
   Run(const Body& body, const Ground& ground, const MotionState& start, const Options& options,
       const Accuracy& accuracy, const RunExtras& extras)
       : body_(body), options_(options), extras_(extras), system_(body, ground, options.gravity, options.planar),
-        stepper_(make_stepper(accuracy.method)), contact_(system_, *stepper_), state_(start),
+        stepper_(make_stepper(accuracy.method)), contact_(system_, *stepper_), state_(options.planar ? in_plane(start) : start),
         growth_(body, start, options.gravity, options.planar), history_(body, options.gravity, extras.history) {
     control_.tolerance = accuracy.tolerance;
     control_.step = accuracy.step;
@@ -68,7 +77,7 @@ class Run {
 
   /// The flight to the next touch-down; false if there is none.
   bool fall() {
-    const FreeFlight flight(body_, state_, options_.gravity);
+    const FreeFlight flight(body_, state_, options_.gravity, options_.planar);
     const TouchDown down = next_touch_down(body_, flight);
     result_.root_evaluations += down.evaluations;
     if (down.kind == TouchDown::Kind::undecided) return end(Outcome::flight_undecided);
@@ -95,7 +104,7 @@ class Run {
     }
     result_.impacts.push_back(record(contact, point));
     if (extras_.amplification) note_growth(contact);
-    state_ = contact.after;
+    state_ = options_.planar ? in_plane(contact.after) : contact.after;
     time_ += contact.duration;
     return contact.ending == ContactEnding::lift_off || end(Outcome::at_rest);
   }

@@ -110,9 +110,9 @@ void ErrorGrowth::touch(ContactRun& run, const ContactControl& control, const Mo
   const MotionState other = moved(touch, size);
   // The neighbour starts a little above the ground, before or after the touch-down.
   const double back = 4 * size * body_.radius() / approach;
-  const FreeFlight flight(body_, other, gravity_);
+  const FreeFlight flight(body_, other, gravity_, planar_);
   const MotionState above = flight.at(-back);
-  const FreeFlight approach_flight(body_, above, gravity_);
+  const FreeFlight approach_flight(body_, above, gravity_, planar_);
   const TouchDown down = next_touch_down(body_, approach_flight);
   if (down.kind != TouchDown::Kind::touch) return;
   const MotionState start = approach_flight.at(down.time);
@@ -122,8 +122,8 @@ void ErrorGrowth::touch(ContactRun& run, const ContactControl& control, const Mo
   if (result.ending != ContactEnding::lift_off) return;
   const double other_end = down.time - back + result.duration;
   const double end = std::max(contact.duration, other_end);
-  const MotionState here = FreeFlight(body_, contact.after, gravity_).at(end - contact.duration);
-  const MotionState there = FreeFlight(body_, result.after, gravity_).at(end - other_end);
+  const MotionState here = FreeFlight(body_, contact.after, gravity_, planar_).at(end - contact.duration);
+  const MotionState there = FreeFlight(body_, result.after, gravity_, planar_).at(end - other_end);
   take(between(here, there) / size);
 }
 

@@ -145,10 +145,16 @@ ContactSystem::Friction ContactSystem::at_centre(const Instant& at, const AlongG
   return {force, at.centre.cross(along(at.view, force)), -force.dot(at.slip)};
 }
 
-/// The power is that of the resultant force and moment, so that the ledger closes whatever the quadrature does.
+/// Of a patch taken as flat only the resultant at the pressure centre and the moment about the vertical are real; so
+/// their power, −∫f·v over the flat patch, is never negative.
 ContactSystem::Friction ContactSystem::over_patch(const Instant& at, const ContactLoad& load) const {
   const double mu = ground_.sliding_friction;
-  Friction friction{{mu * load.slip_east, planar_ ? 0 : mu * load.slip_north}, mu * load.slip_moment, 0};
+  const AlongGround force{mu * load.slip_east, planar_ ? 0 : mu * load.slip_north};
+  Friction friction{force, mu * load.slip_moment, 0};
+  if (phase_.kind == FrictionPhase::Kind::slip) {
+    const Vector3 at_centre = at.centre.cross(along(at.view, force));
+    friction.moment = at_centre + at.normal * at.normal.dot(friction.moment - at_centre);
+  }
   friction.power = -friction.force.dot({at.view.east_speed, at.view.north_speed}) -
                    friction.moment.dot(at.view.angular_velocity);
   return friction;
@@ -162,8 +168,8 @@ AlongGround ContactSystem::stick(const Instant& at) const {
     const auto change = at.changes(ground_, alpha);
     const Vector3 wander = (change.first_moment - at.centre * change.force) / at.load.force;
     const Vector3 point = alpha.cross(at.centre) + omega.cross(omega.cross(at.centre)) + omega.cross(wander);
-    return AlongGround{force.east / body_.mass() + view.east.dot(point),
-                       force.north / body_.mass() + view.north.dot(point)};
+    return AlongGround{force.east / body_.mass() + view.east.dot(point) + phase_.fading * at.slip.east,
+                       force.north / body_.mass() + view.north.dot(point) + phase_.fading * at.slip.north};
   };
   // The acceleration is linear in the force; a probe of the normal force's size keeps the differences exact enough.
   const double probe = at.load.force;

@@ -23,6 +23,8 @@ struct FrictionPhase {
   bool varies = false;    ///< whether the direction of slip varies over the patch noticeably
   /// Slip slower than this has no direction but that above: rounding must not choose it [m/s].
   double slow = 0;
+  /// In stick a remaining slip of the pressure centre fades at this rate [1/s].
+  double fading = 0;
 };
 
 /// State of a contact.  Everything is relative to the touch-down, so that depths of a billionth of the body's size
@@ -47,11 +49,12 @@ struct ContactDiagnosis {
 ///     m V̇ = F_c − m g e_z,   I ω̇′ + ω′ × I ω′ = M′,   β̇ = ½ β ω′,
 ///     F_c = F_n e_z + F_t,   M′ = ∫f_n u × n′ + (friction)
 /// Slip: F_t = −μ_k F_n d at the pressure centre c, d the direction of the slip velocity there; if the body spins
-/// about the vertical, −μ_k ∫f_n v/|v| over the patch taken as flat.  (The slip of its points differs by the turning
+/// about the vertical, −μ_k ∫f_n v/|v| over the patch taken as flat, with its moment about the vertical.  (The slip of its points differs by the turning
 /// about the horizontal times their depth too; that is left out: the patch would slip forth and back at once
 /// whenever it is about to stick.)  Stick: F_t at c such that
 ///     d/dt v_t(c) = [V̇ + ω̇ × c + ω × (ω × c) + ω × ċ]_t = 0,
-/// ċ being the pressure centre's motion over the body, so that c stays at rest although it moves.
+/// ċ being the pressure centre's motion over the body, so that c stays at rest although it moves
+/// (or comes to rest, like exp(−fading × time), if it was caught with a little slip left).
 class ContactSystem {
  public:
   ContactSystem(const Body& body, const Ground& ground, double gravity, bool planar);

@@ -86,8 +86,10 @@ double sphere_time(double clearance, double vertical_speed, double gravity) {
 
 }  // namespace
 
-FreeFlight::FreeFlight(const Body& body, const MotionState& start, double gravity)
-    : start_(start), gravity_(gravity), rotation_(body.inertia(), {start.attitude, start.angular_velocity}) {}
+FreeFlight::FreeFlight(const Body& body, const MotionState& start, double gravity, bool planar)
+    : start_(start),
+      gravity_(gravity),
+      rotation_(planar ? Matrix3(Matrix3::Identity()) : body.inertia(), {start.attitude, start.angular_velocity}) {}
 
 MotionState FreeFlight::at(double time) const {
   const Rotation rotation = rotation_.at(time);

@@ -10,7 +10,8 @@ namespace clatter::numeric {
 /// A parabola of the centre of mass and a torque-free rotation about it.
 class FreeFlight {
  public:
-  FreeFlight(const Body& body, const MotionState& start, double gravity);
+  /// A planar flight turns about the axis of `start`'s angular velocity, whatever the inertia.
+  FreeFlight(const Body& body, const MotionState& start, double gravity, bool planar = false);
 
   /// State after `time` [s], of either sign.
   [[nodiscard]] MotionState at(double time) const;

@@ -19,6 +19,7 @@ constexpr double smallest_part = 1e-13;
 /// Slip slower than this part, times √tolerance, of the contact's speed keeps its direction: across it friction is a
 /// damper that stiffens like 1/|v|, which explicit steps could not follow.
 constexpr double slow_part = 0.1;
+constexpr double fading_per_contact = 50;    ///< rate at which stick ends a remaining slip, times the contact time
 constexpr double minor_part = 1e-6;          ///< of energy or time: a friction phase below it does not name the mode
 constexpr int most_switches = 8;             ///< of friction without a step between them
 
@@ -106,7 +107,10 @@ void ContactRun::start_phase(FrictionPhase::Kind kind, const AlongGround& direct
   phase_start_ = now_.time;
   phase_work_ = now_.state[15];
   stopping_speed_ = 0;
-  system_.set_phase({.kind = kind, .direction = direction, .slow = slow_part * std::sqrt(control_->tolerance) * scales_.speed});
+  system_.set_phase({.kind = kind,
+                     .direction = direction,
+                     .slow = slow_part * std::sqrt(control_->tolerance) * scales_.speed,
+                     .fading = fading_per_contact / scales_.time});
 }
 
 /// Notes the phase that ends, if it mattered: a sticking end slips for an instant when the force on it fades.
@@ -200,7 +204,7 @@ void ContactRun::accept(const ContactInstant& next) {
   const double spin_speed = std::fabs(now_.diagnosis.spin) * system_.body().radius();
   phase.varies = spin_speed > 100 * control_->tolerance * scales_.speed;
   // Spin keeps the friction of a slow patch from stopping it in a finite time: it counts as stopped before.
-  const double stopped = 1e-3 * spin_speed;
+  const double stopped = 1e-4 * spin_speed;
   stopping_speed_ = phase.varies && speed > 2 * stopped ? stopped : 0;
   system_.set_phase(phase);
 }

@@ -111,6 +111,22 @@ BOOST_AUTO_TEST_CASE(elastic_frictionless_impacts_lose_no_energy) {
   }
 }
 
+/// A vertical load has no moment about the vertical and no part along the ground, however the body spins.
+BOOST_AUTO_TEST_CASE(a_frictionless_contact_keeps_the_vertical_angular_momentum) {
+  for (const Body& body : {phone(), box_body({0.3, 0.2, 0.05}, 1)}) {
+    MotionState start = touching_state(body, {.inclination = 0.5, .velocity = {0.4, -0.2, -3}, .out_of_plane_tilt = 0.3});
+    start.angular_velocity = Vector3(20, -30, 40);
+    const Simulation run = simulate(body, {.stiffness = 1e8, .damping = 1e6}, start, plain_options());
+    BOOST_REQUIRE(run.impacts.size() == 1);
+    const auto vertical = [&](const MotionState& state) {
+      return (state.attitude * (body.inertia() * state.angular_velocity)).z();
+    };
+    BOOST_TEST(vertical(run.final_state) == vertical(start), boost::test_tools::tolerance(promised));
+    BOOST_TEST(run.final_state.velocity.x() == 0.4, boost::test_tools::tolerance(promised));
+    BOOST_TEST(run.final_state.velocity.y() == -0.2, boost::test_tools::tolerance(promised));
+  }
+}
+
 /// What was there before = what is left + dampers + friction + released by the clamp.
 BOOST_AUTO_TEST_CASE(the_ledger_of_energy_closes) {
   double released = 0;

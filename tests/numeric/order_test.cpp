@@ -1,6 +1,7 @@
 // Observed orders of the time integration.
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -78,6 +79,29 @@ BOOST_AUTO_TEST_CASE(the_error_of_adaptive_methods_follows_the_tolerance_over_si
       BOOST_TEST(fine <= 1e-3 * coarse + 1e-12);
     }
   }
+}
+
+/// A box that tumbles while it sinks into a ground too soft to bear it, so that the contact never ends.
+BOOST_AUTO_TEST_CASE(the_euler_parameters_stay_of_unit_norm_over_a_million_steps) {
+  const Body body = box_body({0.3, 0.2, 0.1}, 1);
+  const Ground ground{.stiffness = 1e3, .area = AreaMeasure::projected};
+  const MotionState touch = touching_state(body, {.inclination = 0.3, .velocity = {0, 0, -0.1}, .spin = -1,
+                                                  .out_of_plane_tilt = 0.2});
+  ContactSystem system(body, ground, 9.81, false);
+  const auto stepper = make_stepper(Method::tvd_rk3);
+  long steps = 0;
+  double worst = 0;
+  ContactControl control;
+  control.step = 1e-3;
+  control.evaluation_limit = 100'000'000;
+  control.observe = [&](const ContactInstant& at) {
+    worst = std::max(worst, std::fabs(at.state.segment<4>(3).norm() - 1));
+    return ++steps < 1'000'000;
+  };
+  const ContactResult result = ContactRun(system, *stepper).run(touch, touch_point(body, touch), control);
+  BOOST_TEST(static_cast<int>(result.ending) == static_cast<int>(ContactEnding::interrupted));
+  BOOST_TEST(steps == 1'000'000);
+  BOOST_TEST(worst <= 1e-15);
 }
 
 BOOST_AUTO_TEST_CASE(peak_force_and_duration_converge_with_the_state) {
