@@ -50,6 +50,25 @@ BOOST_AUTO_TEST_CASE(a_flat_landing_is_half_a_sine) {
   BOOST_TEST((run.impacts[0].end == ContactEnd::both));
 }
 
+/// With gravity δ = (v/ω) sin ωt + (g/ω²)(1 − cos ωt) until t = (2/ω)(π − atan(vω/g)); P = 2mv + mgt; the largest force
+/// is mg + √((mg)² + m k_G A v²).  A soft ground, so that gravity matters.
+BOOST_AUTO_TEST_CASE(a_flat_landing_under_gravity_has_its_closed_form) {
+  const double stiffness = 1e5, speed = 0.3, mass = 2, area = 0.06, g = 9.81;
+  Options options = plain_options();
+  options.gravity = g;
+  const Simulation run =
+      drop(box_body({0.3, 0.2, 0.1}, mass), {.stiffness = stiffness, .area = AreaMeasure::projected}, 0, speed, options);
+  BOOST_REQUIRE(run.impacts.size() == 1);
+  const ImpactNumbers& n = run.impacts[0].value;
+  const double frequency = std::sqrt(stiffness * area / mass);
+  const double duration = 2 / frequency * (std::numbers::pi - std::atan(speed * frequency / g));
+  BOOST_TEST(n.duration == duration, boost::test_tools::tolerance(promised));
+  BOOST_TEST(n.impulse.z() == 2 * mass * speed + mass * g * duration, boost::test_tools::tolerance(promised));
+  BOOST_TEST(n.peak_force == mass * g + std::sqrt(mass * g * mass * g + mass * stiffness * area * speed * speed),
+             boost::test_tools::tolerance(promised));
+  BOOST_TEST(std::fabs(n.energy_loss) <= promised * run.energy_start);
+}
+
 BOOST_AUTO_TEST_CASE(an_upright_landing_is_half_a_sine) {
   const double stiffness = 1e10, r = 0.01;
   const Ground ground{.stiffness = stiffness, .area = AreaMeasure::projected};
