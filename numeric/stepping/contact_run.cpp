@@ -40,26 +40,38 @@ ContactResult ContactRun::run(const MotionState& touch, const Vector3& point, co
     result_.ending = ContactEnding::not_representable;
     return result_;
   }
+  begin(touch, point);
+  result_.ending = ContactEnding::interrupted;
+  if (control.observe && !control.observe(now_)) return result_;
+  step_to_the_end();
+  collect();
+  return result_;
+}
+
+void ContactRun::begin(const MotionState& touch, const Vector3& point) {
   weigh_errors();
   phases_.clear();
   phases_.reserve(64);
   switches_ = 0;
+  touches_.begin();
   now_.time = 0;
   now_.state = system_.initial();
   choose_first_phase(touch, point);
-  touches_.begin();
   now_.diagnosis = system_.diagnose(now_.state, now_.rate);
-  const bool fixed = stepper_.error_order() == 0;
+}
+
+void ContactRun::step_to_the_end() {
   double h = scales_.time / adaptive_first_steps;
-  if (fixed) {
-    result_.step = control.step > 0 ? control.step : scales_.time / control.steps_per_contact;
-    h = control.first_step > 0 ? std::min(control.first_step, result_.step) : result_.step;
+  if (stepper_.error_order() > 0) {
+    while (advance(h)) continue;
+    return;
   }
-  result_.ending = ContactEnding::interrupted;
-  if (control.observe && !control.observe(now_)) return result_;
-  while (advance(h)) {
-    if (fixed) h = result_.step;
-  }
+  result_.step = control_->step > 0 ? control_->step : scales_.time / control_->steps_per_contact;
+  h = control_->first_step > 0 ? std::min(control_->first_step, result_.step) : result_.step;
+  while (advance(h)) h = result_.step;
+}
+
+void ContactRun::collect() {
   close_phase();
   result_.duration = now_.time;
   result_.after = system_.motion(now_.state);
@@ -73,7 +85,6 @@ ContactResult ContactRun::run(const MotionState& touch, const Vector3& point, co
                 : touches_.touched_a()                        ? ContactEnd::a
                 : touches_.touched_b()                        ? ContactEnd::b
                                                               : ContactEnd::middle;
-  return result_;
 }
 
 void ContactRun::weigh_errors() {

@@ -63,6 +63,9 @@ class ContactRun {
   };
   using Indicator = double (ContactRun::*)(const ContactInstant&) const;
 
+  void begin(const MotionState& touch, const Vector3& point);
+  void step_to_the_end();
+  void collect();
   void choose_first_phase(const MotionState& touch, const Vector3& point);
   void weigh_errors();
   [[nodiscard]] bool try_step(const ContactInstant& from, double h, ContactInstant& to);
