@@ -124,7 +124,7 @@ std::string words_for(const Simulation& run, const Options& options, double time
     case Outcome::flight_undecided:
       text << "no touch-down found after " << time << " s within the work allowed";
       break;
-    case Outcome::interrupted: text << "interrupted"; break;
+    case Outcome::interrupted: text << "stopped on request after " << time << " s of motion"; break;
   }
   return text.str();
 }

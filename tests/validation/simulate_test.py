@@ -7,8 +7,10 @@ import io
 import json
 import math
 import os
+import signal
 import subprocess
 import tempfile
+import time
 import unittest
 
 PROGRAM = os.environ["CLATTER_PROGRAM"]
@@ -115,7 +117,13 @@ class BadInput(Folder):
 
     def test_a_file_that_cannot_be_read_is_named(self):
         self.assertIn("nowhere.toml", self.refuse(self.path("nowhere.toml")))
+        self.assertIn("not a file", self.refuse(self.folder))
         self.assertIn("SCENE", self.refuse())
+
+    def test_a_history_that_cannot_be_written_is_named(self):
+        self.assertIn("--history", self.refuse(self.scene(), "--history", self.path("no/h.csv")))
+        self.assertIn("--history", self.refuse(self.scene(), "--history", self.path("out")))
+        self.assertIn("sweep", self.refuse(os.path.join(CASES, "rod-sweep.toml"), "--history", self.path("h.csv")))
 
     def test_a_flag_is_checked_like_its_key_and_named_as_typed(self):
         path = self.scene()
@@ -228,6 +236,16 @@ class Output(Folder):
         self.assertEqual(result.returncode, 3)
         self.assertIn("evaluation-limit", result.stderr)
         self.assertIn("evaluation-limit", result.stdout)
+
+    def test_an_interrupt_prints_the_rows_so_far_and_ends_with_130(self):
+        path = self.scene("[drop]\nangle_deg = 10\n[ground]\nstiffness = 1\ndamping = 1e9\n"
+                          "[run]\nevaluation_limit = 1000000000\n")
+        with subprocess.Popen([PROGRAM, "simulate", path], stdout=subprocess.PIPE, text=True) as process:
+            time.sleep(0.5)
+            process.send_signal(signal.SIGINT)
+            output = process.communicate(timeout=60)[0]
+        self.assertEqual(process.returncode, 130)
+        self.assertIn("interrupted: stopped on request", output)
 
     def test_a_fixed_step_is_used_and_named(self):
         result = self.json(self.scene(), "--step", "1e-5", "--impacts", "1")

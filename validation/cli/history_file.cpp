@@ -11,7 +11,7 @@ namespace clatter::validation {
 using numeric::HistorySample;
 using numeric::Vector3;
 
-HistoryFile::HistoryFile(const std::string& path, const std::vector<std::string>& head) : sink_(path) {
+HistoryFile::HistoryFile(const std::string& path, const std::vector<std::string>& head) : sink_(path, "--history") {
   for (const std::string& line : head) sink_.write("# " + line + "\n");
   sink_.write("t,x,y,z,beta0,beta1,beta2,beta3,vx,vy,vz,wx,wy,wz,fx,fy,fz,point_vx,point_vy,point_vz,"
               "energy_translation,energy_rotation,energy_potential,energy_ground,energy_total,in_contact\n");

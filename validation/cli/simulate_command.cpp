@@ -182,6 +182,9 @@ int run_simulate(const SimulateInput& input) {
   SimulationScene scene = read_simulation_scene(input.file, overrides);
   if (input.planar) scene.options.planar = true;
   const OutputChoice choice = read_output(input.output);
+  if (!choice.path.empty() && choice.path == scene.history) {
+    throw BadInput(fmt::format("--history {}: must be another file than --output's", scene.history));
+  }
   const numeric::Body body = scene.make_body();
   return scene.sweep ? run_sweep(scene, body, choice) : run_single(scene, body, choice);
 }

@@ -14,11 +14,12 @@
 
 namespace clatter::validation {
 
-Sink::Sink(const std::string& path) : path_(path), stream_(stdout) {
+Sink::Sink(const std::string& path, const std::string& option)
+    : path_(path), option_(option), stream_(stdout) {
   if (path_.empty()) return;
   struct stat status{};
   if (stat(path_.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
-    throw BadInput(fmt::format("--output {}: not a regular file", path_));
+    throw BadInput(fmt::format("{} {}: not a regular file", option_, path_));
   }
   std::vector<char> name(path_.begin(), path_.end());
   for (const char c : std::string_view(".XXXXXX")) name.push_back(c);
@@ -41,7 +42,7 @@ Sink::~Sink() {
 }
 
 void Sink::fail(const char* what) const {
-  throw BadInput(fmt::format("--output {}: {} ({})", path_, what, std::strerror(errno)));
+  throw BadInput(fmt::format("{} {}: {} ({})", option_, path_, what, std::strerror(errno)));
 }
 
 void Sink::write(std::string_view text) {

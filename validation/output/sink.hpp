@@ -11,8 +11,9 @@ namespace clatter::validation {
 /// error or an interrupt on the way), the file is removed and what was there before stays.
 class Sink {
  public:
-  /// @param path empty: stdout.  @throws BadInput if the file cannot be created.
-  explicit Sink(const std::string& path);
+  /// @param path empty: stdout.
+  /// @param option that named the file, for messages.  @throws BadInput if the file cannot be created.
+  explicit Sink(const std::string& path, const std::string& option = "--output");
   ~Sink();
   Sink(const Sink&) = delete;
   Sink& operator=(const Sink&) = delete;
@@ -26,6 +27,7 @@ class Sink {
   [[noreturn]] void fail(const char* what) const;
 
   std::string path_;
+  std::string option_;
   std::string temporary_;
   std::FILE* stream_;
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 #include <toml++/toml.h>
 
@@ -31,6 +32,9 @@ bool inside(double value, const Range& range) {
 }
 
 toml::table parse(const std::string& path) {
+  if (std::error_code error; !std::filesystem::is_regular_file(path, error) && !std::filesystem::is_fifo(path, error)) {
+    throw BadInput(fmt::format("{}: {}", path, std::filesystem::exists(path, error) ? "not a file" : "cannot be read"));
+  }
   try {
     return toml::parse_file(path);
   } catch (const toml::parse_error& error) {
