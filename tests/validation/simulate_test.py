@@ -224,6 +224,24 @@ class Output(Folder):
             self.assertAlmostEqual(a["impulse_normal"] / b["impulse_normal"], 1, delta=1e-8)
             self.assertAlmostEqual(a["peak_force"] / b["peak_force"], 1, delta=1e-8)
 
+    def test_a_body_from_a_gmsh_file_falls_like_the_box_that_it_is(self):
+        x, y, z = 0.05283, 0.02197, 0.009525
+        corners = [(-x, -y, -z), (x, -y, -z), (x, y, -z), (-x, y, -z), (-x, -y, z), (x, -y, z), (x, y, z), (-x, y, z)]
+        with open(self.path("box.msh"), "w", encoding="ascii") as file:
+            file.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n8\n")
+            file.write("".join("%d %r %r %r\n" % (i + 1, *p) for i, p in enumerate(corners)))
+            file.write("$EndNodes\n$Elements\n1\n1 5 2 1 1 1 2 3 4 5 6 7 8\n$EndElements\n")
+        scene = "[ground]\nstiffness = 1e8\n[drop]\nangle_deg = 10\nspeed = 4\n[run]\nimpacts = 1\n[body]\nmass = 0.08814\n"
+        path = self.scene(scene + "shape = 'mesh'\nmesh = { file = 'box.msh' }\n")
+        # Gmsh's library itself leaks a little.
+        result = run(path, "--format", "json", env={**os.environ, "ASAN_OPTIONS": "detect_leaks=0"})
+        if "no Gmsh" in result.stderr:
+            self.skipTest("this build reads no Gmsh files")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        box = self.json(self.scene(scene + "shape = 'box'\nsize = [0.10566, 0.04394, 0.01905]\n"))["impacts"][0]
+        meshed = json.loads(result.stdout)["impacts"][0]
+        self.assertAlmostEqual(meshed["impulse_normal"] / box["impulse_normal"], 1, delta=1e-8)
+
     def test_an_output_file_holds_what_stdout_would(self):
         path = self.scene()
         self.assertEqual(run(path, "--output", self.path("out")).stdout, "")

@@ -202,7 +202,9 @@ Action add_simulate_command(CLI::App& app) {
   command->add_flag("--planar", input->planar, "keep the motion in its plane")
       ->group("Scene (each overrides its key in the file)");
   add_output_options(*command, input->output);
-  command->footer("Example: clatter simulate validation/cases/phone-damped.toml --digits 8");
+  command->footer(
+      "Example: clatter simulate validation/cases/phone-damped.toml --digits 8\n"
+      "validation/cases/every-key.toml explains the keys of scene files.");
   return [input] { return run_simulate(*input); };
 }
 
