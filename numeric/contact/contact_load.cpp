@@ -90,20 +90,25 @@ void ContactLoader::add_loop(const FacetView& facet, const Loop& loop, Sums& sum
 void ContactLoader::add_below(const ContactPolygon& below, const FacetView& facet, Sums& sums) {
   const double k = ground_.stiffness, c = ground_.damping;
   const auto pressure = [&](const ContactCorner& corner) { return k + c * corner.rate; };
-  const bool presses_everywhere = std::all_of(below.corners, below.corners + below.count,
-                                              [&](const ContactCorner& corner) { return pressure(corner) > 0; });
-  if (presses_everywhere) {
+  const auto presses = [&](const ContactCorner& corner) { return pressure(corner) > 0; };
+  if (std::all_of(below.corners, below.corners + below.count, presses)) {
     sums.load.energy += facet.weight * add_pressing(below, facet, sums);
     return;
   }
-  sums.load.energy += facet.weight * depth_integrals(below).depth_squared;
+  const DepthIntegrals all = depth_integrals(below);
+  sums.load.energy += facet.weight * all.depth_squared;
+  // A heavily damped ground pushes bodies out at just the speed at which it lets go of them: no pressure, all released.
+  if (std::none_of(below.corners, below.corners + below.count, presses)) {
+    sums.load.release_power += facet.weight * all.depth_rate;
+    return;
+  }
   ContactPolygon part = below;
   part.corners = part_.data();
   part.count = clip(below.corners, below.count, part_.data(),
                     [&](const ContactCorner& corner) { return -pressure(corner); });
   sums.load.release_power += facet.weight * depth_integrals(part).depth_rate;
   part.count = clip(below.corners, below.count, part_.data(), pressure);
-  if (part.count > 0) add_pressing(part, facet, sums);
+  add_pressing(part, facet, sums);
 }
 
 double ContactLoader::add_pressing(const ContactPolygon& pressing, const FacetView& facet, Sums& sums) {

@@ -284,6 +284,19 @@ BOOST_AUTO_TEST_CASE(the_clamp_cuts_along_the_exact_line_and_books_the_released_
   BOOST_TEST(load.energy == k * depth * depth, boost::test_tools::tolerance(relative));
 }
 
+/// At δ̇ = −k/c exactly the ground neither presses nor pulls: all the power of its springs is released, k δ (k/c) A.
+BOOST_AUTO_TEST_CASE(at_the_speed_at_which_the_ground_lets_go_all_is_released) {
+  const Body body = box_body({2, 1, 0.1}, 1);
+  const double k = 1e6, c = 5e5, depth = 1e-3;
+  const Ground ground{.stiffness = k, .damping = c, .area = AreaMeasure::projected};
+  GroundView view = pressed(body, touching_state(body, {}), depth);
+  view.vertical_speed = k / c;
+  const ContactLoad load = ContactLoader(body, ground).load(view, {});
+  BOOST_TEST(load.force == 0);
+  BOOST_TEST(load.damping_power == 0);
+  BOOST_TEST(load.release_power == k * depth * (k / c) * 2, boost::test_tools::tolerance(relative));
+}
+
 BOOST_AUTO_TEST_CASE(nothing_presses_above_the_ground) {
   const ContactLoad load = load_at(phone(), {}, {.inclination = 0.3}, -1e-9);
   BOOST_TEST(load.force == 0);

@@ -104,6 +104,19 @@ BOOST_AUTO_TEST_CASE(a_body_that_goes_right_through_the_ground_ends_in_numbers_o
   }
 }
 
+/// The ground pushes the body out at just the speed at which it lets go of it; the energy that its springs release then
+/// was once booked nowhere.
+BOOST_AUTO_TEST_CASE(a_shot_into_a_soft_damped_ground_keeps_its_ledger) {
+  const Body body = box_body({0.043, 0.159, 0.035}, 6.5);
+  Options options;
+  options.gravity = 0;
+  options.impacts = 1;
+  const MotionState start = touching_state(body, {.velocity = {0, 0, -168}, .out_of_plane_tilt = -1});
+  const Simulation run = simulate(body, {.stiffness = 8.9, .damping = 672}, start, options);
+  BOOST_REQUIRE(run.impacts.size() == 1);
+  BOOST_TEST(std::fabs(run.impacts[0].ledger_gap) <= 1e-9);
+}
+
 BOOST_AUTO_TEST_CASE(every_size_ends_in_numbers_or_a_reason) {
   for (const double scale : {1e-9, 1e-3, 1.0, 1e3, 1e9}) {
     const Body body = box_body(scale * phone_size(), phone_mass * scale * scale * scale);
