@@ -17,7 +17,7 @@ struct Options {
   bool planar = false;  ///< keep the motion in its x–z plane: no force or moment out of it acts
   double gravity = 9.81;       ///< [m/s²], >= 0
   long evaluation_limit = 3'000'000;  ///< of the contact forces, in the main run; then the run ends
-  bool error_estimates = true;        ///< by a second run, at a coarser tolerance or step
+  bool error_estimates = true;        ///< by a second run, at a coarser tolerance or half the step
   bool amplification = true;          ///< by a neighbouring run
   HistoryRecorder* history = nullptr;       ///< takes the time history, if any
   /// Called now and then with (impacts so far, contact force evaluations so far); return false to end the run.

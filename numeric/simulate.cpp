@@ -15,10 +15,12 @@ namespace {
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-/// How the second run differs, and what its distance from the main one says about that one's error.
-constexpr double coarser_tolerance = 30;
-constexpr double coarser_step = 2;
+/// How the second run differs, and what its distance from the main one says about that one's error: with a tolerance
+/// it is coarser, with a fixed step finer, so that a step that is long for the contact cannot be compared with itself.
+constexpr double other_tolerance = 30;
+constexpr double other_step = 0.5;
 constexpr double error_per_distance = 0.5;
+constexpr double error_per_distance_of_steps = 1.2;  // 8/7 for order three
 constexpr double error_per_tolerance = 2;
 /// Beyond this growth the distance of the two runs tells more: truncation errors keep a scene's symmetry and may not
 /// grow with the rest.
@@ -43,10 +45,10 @@ Accuracy accuracy_for(const Options& options) {
   return accuracy;
 }
 
-Accuracy coarser(Accuracy accuracy, double used_step) {
-  accuracy.tolerance *= coarser_tolerance;
-  accuracy.steps_per_contact /= coarser_step;
-  if (accuracy.step > 0) accuracy.step = used_step * coarser_step;
+Accuracy second_accuracy(Accuracy accuracy, double used_step) {
+  accuracy.tolerance *= other_tolerance;
+  accuracy.steps_per_contact /= other_step;
+  if (accuracy.step > 0) accuracy.step = used_step * other_step;
   return accuracy;
 }
 
@@ -88,12 +90,13 @@ void add_floor(const Body& body, double tolerance, const ImpactRecord& row, Impa
 }
 
 void estimate_errors(const Body& body, double tolerance, std::vector<ImpactRecord>& rows,
-                     const std::vector<ImpactRecord>& coarse) {
+                     const std::vector<ImpactRecord>& second) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const bool same_kind = i < coarse.size() && coarse[i].end == rows[i].end && coarse[i].touches == rows[i].touches;
-    const ImpactNumbers& other = same_kind ? coarse[i].value : rows[i].value;
-    for_each_number(rows[i].value, other, rows[i].error, [&](double fine, double rough) {
-      return same_kind ? error_per_distance * std::fabs(fine - rough) : not_known;
+    const bool same_kind = i < second.size() && second[i].end == rows[i].end && second[i].touches == rows[i].touches;
+    const ImpactNumbers& other = same_kind ? second[i].value : rows[i].value;
+    for_each_number(rows[i].value, other, rows[i].error, [&](double value, double other_value) {
+      const double part = tolerance > 0 ? error_per_distance : error_per_distance_of_steps;
+      return same_kind ? part * std::fabs(value - other_value) : not_known;
     });
     if (same_kind) add_floor(body, tolerance, rows[i], rows[i].error);
   }
@@ -169,10 +172,10 @@ Simulation simulate(const Body& body, const Ground& ground, const MotionState& s
   if (options.error_estimates && !simulation.impacts.empty()) {
     Options fewer = options;
     fewer.impacts = static_cast<int>(simulation.impacts.size());
-    const DropRun coarse = run_drop(body, ground, start, fewer, coarser(accuracy, main.step), {});
-    simulation.force_evaluations += coarse.force_evaluations;
-    simulation.root_evaluations += coarse.root_evaluations;
-    estimate_errors(body, simulation.tolerance, simulation.impacts, coarse.impacts);
+    const DropRun second = run_drop(body, ground, start, fewer, second_accuracy(accuracy, main.step), {});
+    simulation.force_evaluations += second.force_evaluations;
+    simulation.root_evaluations += second.root_evaluations;
+    estimate_errors(body, simulation.tolerance, simulation.impacts, second.impacts);
   } else {
     forget_errors(simulation.impacts);
   }

@@ -15,6 +15,7 @@ using Kind = FrictionPhase::Kind;
 
 constexpr double adaptive_first_steps = 20;  ///< first step: this part of the expected contact time
 constexpr double largest_part = 0.2;         ///< of that time, or of the time so far, that a step may cover
+constexpr double fewest_steps = 4;           ///< of fixed length, in the expected contact time
 constexpr double smallest_part = 1e-13;
 /// Slip slower than this part, times √tolerance, of the contact's speed keeps its direction: across it friction is a
 /// damper that stiffens like 1/|v|, which explicit steps could not follow.
@@ -66,7 +67,8 @@ void ContactRun::step_to_the_end() {
     while (advance(h)) continue;
     return;
   }
-  result_.step = control_->step > 0 ? control_->step : scales_.time / control_->steps_per_contact;
+  result_.step = control_->step > 0 ? std::min(control_->step, scales_.time / fewest_steps)
+                                    : scales_.time / control_->steps_per_contact;
   h = control_->first_step > 0 ? std::min(control_->first_step, result_.step) : result_.step;
   while (advance(h)) h = result_.step;
 }

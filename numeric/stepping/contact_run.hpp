@@ -22,7 +22,7 @@ struct ContactInstant {
 /// How a contact is stepped.
 struct ContactControl {
   double tolerance = 1e-10;  ///< of an adaptive method: local error <= tolerance × scale, per step
-  double step = 0;           ///< of a fixed-step method [s]; 0: scales.time / steps_per_contact
+  double step = 0;           ///< of a fixed-step method [s], at most a quarter of scales.time; 0: scales.time / steps_per_contact
   double first_step = 0;     ///< length of the first fixed step [s], at most `step`; 0: as the others
   double steps_per_contact = 300;
   long evaluation_limit = 0;  ///< of the system's count, at which the run stops

@@ -57,6 +57,8 @@ BAD_SCENES = {
         "only for a rod"),
     "a step for an adaptive method": (
         "[drop]\nangle_deg = 1\n[ground]\nstiffness = 1\n[run]\nmethod = 'rk8pd'\nstep = 1e-6\n", "7:8", "rk8pd"),
+    "a quoted key with a dot": ('[drop]\nangle_deg = 1\n[ground]\nstiffness = 1\n["drop.angle_deg"]\n', "5:2", "no dots"),
+    "a spin beyond all bodies": ("[drop]\nangle_deg = 1\nspin = 1e308\n[ground]\nstiffness = 1\n", "3:8", "1e9"),
     "13 digits": ("[drop]\nangle_deg = 1\n[ground]\nstiffness = 1\n[run]\ndigits = 13\n", "6:10", "from 2 to 12"),
     "a real number of impacts": ("[drop]\nangle_deg = 1\n[ground]\nstiffness = 1\n[run]\nimpacts = 2.5\n", "6:11", "whole"),
     "no angle": ("[ground]\nstiffness = 1\n", "", "drop.angle_deg: required"),
@@ -128,9 +130,12 @@ class BadInput(Folder):
     def test_a_flag_is_checked_like_its_key_and_named_as_typed(self):
         path = self.scene()
         for flag, text in (("--angle", "91"), ("--stiffness", "0"), ("--digits", "1"), ("--digits", "6.5"),
-                           ("--size", "1x2"), ("--area", "round"), ("--method", "euler"), ("--impacts", "0"),
+                           ("--size", "1x2"), ("--size", "1x1x1x"), ("--height", "1e308"), ("--area", "round"), ("--method", "euler"), ("--impacts", "0"),
                            ("--spin", "nan"), ("--friction", "-1"), ("--step", "1e-6x")):
             self.assertIn(flag, self.refuse(path, flag, text))
+
+    def test_speed_and_height_are_not_both_flags(self):
+        self.assertIn("not both", self.refuse(self.scene(), "--speed", "1", "--height", "1"))
 
     def test_a_height_below_the_touching_body_is_refused(self):
         self.assertIn("0.0", self.refuse(self.scene(), "--height", "0.001"))
@@ -280,6 +285,11 @@ class Output(Folder):
         for line in run("validation/cases/phone-damped.toml", cwd=root).stdout.splitlines():
             if "evaluations" not in line:
                 self.assertIn(line + "\n", readme)
+
+
+    def test_a_step_too_long_for_the_contact_knows_few_digits(self):
+        for row in self.json(self.scene(), "--step", "1e300")["impacts"]:
+            self.assertGreater(row["error_estimate"]["impulse_normal"], 1e-4 * abs(row["impulse_normal"]))
 
 
 class History(Folder):

@@ -105,7 +105,7 @@ std::string trust_words(const SimulationScene& scene, const Simulation& run) {
   if (last_trusted == run.impacts.size()) return "";
   const auto first = run.impacts.begin() + static_cast<std::ptrdiff_t>(last_trusted);
   const std::string growth = first->predictable
-                                 ? "after it a coarser run goes another way"
+                                 ? "after it a second run goes another way"
                                  : fmt::format("an error of the start has grown {} times by then",
                                                significant(first->amplification, 2));
   return last_trusted == 0 ? fmt::format("?: not to be trusted: {}", growth)

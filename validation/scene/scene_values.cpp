@@ -55,6 +55,7 @@ class SceneParser {
     for (const auto& [name, node] : table) {
       const std::string key = prefix.empty() ? std::string(name.str()) : prefix + "." + std::string(name.str());
       const std::string where = position(values_.path_, name.source());
+      check_name(std::string(name.str()), where);
       if (const toml::table* inner = node.as_table()) {
         check_table(key, where);
         add(*inner, key);
@@ -66,6 +67,12 @@ class SceneParser {
   }
 
  private:
+  /// A quoted name with a dot in it would look like a key of a table.
+  static void check_name(const std::string& name, const std::string& where) {
+    if (name.find('.') == std::string::npos) return;
+    throw BadInput(fmt::format("{}: \"{}\": unknown key; tables and keys have no dots in their names", where, name));
+  }
+
   void check_key(const std::string& key, const std::string& where) const {
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) return;
     throw BadInput(fmt::format("{}: {}: unknown key; did you mean {}?", where, key, nearest_name(key, known_)));
@@ -197,7 +204,7 @@ std::vector<double> SceneValues::numbers(const std::string& key, const std::vect
   if (entry.is_flag) {
     std::string text = std::get<std::string>(entry.value);
     std::replace(text.begin(), text.end(), ',', 'x');
-    std::istringstream parts(text);
+    std::istringstream parts(text + "x");  // so that an empty last part counts
     for (std::string part; std::getline(parts, part, 'x');) {
       double value = 0;
       numbers.push_back(read_number(part, value) ? value : std::nan(""));

@@ -29,6 +29,10 @@ constexpr Range positive{0, largest, true, "greater than 0"};
 constexpr Range not_negative{0, largest, false, "at least 0"};
 constexpr Range size_range{1e-100, 1e100, false, "from 1e-100 to 1e100"};
 constexpr Range mass_range{1e-100, 1e100, false, "from 1e-100 to 1e100"};
+constexpr Range speed_range{0, 1e9, true, "greater than 0 and at most 1e9"};
+constexpr Range velocity_range{-1e9, 1e9, false, "from -1e9 to 1e9"};
+constexpr Range gravity_range{0, 1e9, false, "from 0 to 1e9"};
+constexpr Range height_range{0, 1e12, true, "greater than 0 and at most 1e12"};
 constexpr Range angle_range{0, 90, false, "from 0 to 90 degrees"};
 
 const std::vector<std::string> shape_names{"rod", "box", "mesh"};
@@ -105,6 +109,13 @@ void read_mesh(const SceneValues& values, BodyScene& body) {
   if (values.has("body.mesh.density")) body.density = values.number("body.mesh.density", 1, positive);
 }
 
+void refuse_both(const std::vector<SceneOverride>& overrides, const char* first, const char* second) {
+  const auto given = [&](const char* flag) {
+    return std::any_of(overrides.begin(), overrides.end(), [&](const SceneOverride& o) { return o.flag == flag; });
+  };
+  if (given(first) && given(second)) throw BadInput(fmt::format("{} and {}: give one of them, not both", first, second));
+}
+
 BodyScene read_body(const SceneValues& values) {
   BodyScene body;
   body.shape = static_cast<BodyScene::Shape>(values.name("body.shape", 0, shape_names));
@@ -150,7 +161,7 @@ numeric::Ground read_ground(const SceneValues& values) {
 
 numeric::Options read_options(const SceneValues& values) {
   numeric::Options options;
-  options.gravity = values.number("world.gravity", 9.81, not_negative);
+  options.gravity = values.number("world.gravity", 9.81, gravity_range);
   options.impacts = static_cast<int>(values.integer("run.impacts", 6, 1, 1'000'000));
   options.digits = static_cast<int>(values.integer("run.digits", 6, 2, 12));
   options.method = static_cast<Method>(values.name("run.method", 0, method_names));
@@ -199,11 +210,11 @@ void read_drop(const SceneValues& values, SimulationScene& scene) {
   scene.angle_deg = swept ? scene.sweep->from : values.number("drop.angle_deg", 0, angle_range);
   scene.tilt_deg = values.number("drop.tilt_deg", 0, {-180, 180, false, "from -180 to 180 degrees"});
   values.exclude("drop.speed", "drop.height");
-  scene.speed = values.number("drop.speed", 1, positive);
-  scene.tangential_velocity = values.number("drop.tangential_velocity", 0, any);
-  scene.spin = values.number("drop.spin", 0, any);
+  scene.speed = values.number("drop.speed", 1, speed_range);
+  scene.tangential_velocity = values.number("drop.tangential_velocity", 0, velocity_range);
+  scene.spin = values.number("drop.spin", 0, velocity_range);
   if (!values.has("drop.height")) return;
-  scene.height = values.number("drop.height", 0, positive);
+  scene.height = values.number("drop.height", 0, height_range);
   if (!(scene.options.gravity > 0)) values.refuse("drop.height", "left out where world.gravity is 0");
 }
 
@@ -313,6 +324,7 @@ std::vector<double> SceneSweep::values() const {
 
 SimulationScene read_simulation_scene(const std::string& path, const std::vector<SceneOverride>& overrides) {
   SceneValues values(path, known_keys);
+  refuse_both(overrides, "--speed", "--height");
   for (const SceneOverride& flag : overrides) {
     if (flag.key == "drop.speed") values.drop("drop.height");
     if (flag.key == "drop.height") values.drop("drop.speed");
