@@ -233,7 +233,7 @@ void ContactRun::look_for_peak(const ContactInstant& next) {
   note(next);
   const double h = next.time - now_.time;
   const double slope = h * now_.diagnosis.force_rate, end_slope = h * next.diagnosis.force_rate;
-  if (!(slope > 0) || !(end_slope <= 0)) return;
+  if (!(slope >= 0) || !(end_slope <= 0) || slope == end_slope) return;
   const double rise = next.diagnosis.load.force - now_.diagnosis.load.force;
   // p′(s) = slope + 2 b s + 3 a s², which falls through 0 once in (0, 1].
   const double a = slope + end_slope - 2 * rise, b = 3 * rise - 2 * slope - end_slope;

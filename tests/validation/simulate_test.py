@@ -134,6 +134,17 @@ class BadInput(Folder):
                            ("--spin", "nan"), ("--friction", "-1"), ("--step", "1e-6x")):
             self.assertIn(flag, self.refuse(path, flag, text))
 
+    def test_the_scene_file_is_not_written_over(self):
+        path = self.scene()
+        self.assertEqual(run(path, "--output", path).returncode, 2)
+        self.assertEqual(run(path, "--history", path).returncode, 2)
+        with open(path, encoding="utf-8") as file:
+            self.assertEqual(file.read(), SCENE)
+
+    def test_a_swept_friction_is_not_given_as_well(self):
+        self.assertIn("--sliding-friction",
+                      self.refuse(os.path.join(CASES, "rod-friction-sweep.toml"), "--sliding-friction", "0.2"))
+
     def test_speed_and_height_are_not_both_flags(self):
         self.assertIn("not both", self.refuse(self.scene(), "--speed", "1", "--height", "1"))
 

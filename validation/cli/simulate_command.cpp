@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -174,7 +175,11 @@ int run_sweep(const SimulationScene& scene, const numeric::Body& body, const Out
   }
   print(choice, [&] { return sweep_json(scene, runs); }, [&] { return sweep_records(scene, runs); },
         [&] { return sweep_table(scene, runs); });
-  return runs.size() < values.size() ? interrupted_status : 0;
+  if (runs.size() < values.size()) return interrupted_status;
+  const bool any = std::any_of(runs.begin(), runs.end(), [](const SweptRun& swept) { return !swept.run.impacts.empty(); });
+  if (any) return 0;
+  fmt::print(stderr, "clatter: no impact could be computed: {}\n", runs.back().run.message);
+  return 3;
 }
 
 int run_simulate(const SimulateInput& input) {
@@ -184,6 +189,9 @@ int run_simulate(const SimulateInput& input) {
   const OutputChoice choice = read_output(input.output);
   if (!choice.path.empty() && choice.path == scene.history) {
     throw BadInput(fmt::format("--history {}: must be another file than --output's", scene.history));
+  }
+  for (const auto& [option, file] : {std::pair{"--history", scene.history}, {"--output", choice.path}}) {
+    if (!file.empty() && file == input.file) throw BadInput(fmt::format("{} {}: is the scene file", option, file));
   }
   const numeric::Body body = scene.make_body();
   return scene.sweep ? run_sweep(scene, body, choice) : run_single(scene, body, choice);

@@ -72,7 +72,7 @@ Json impact_json(const ImpactRecord& row, int n) {
 
 /// Whether rounding or the method's error has outgrown the row by itself; what follows such a row is no better.
 bool doubtful(const SimulationScene& scene, const ImpactRecord& row) {
-  if (!row.predictable) return true;
+  if (!row.predictable || !(std::fabs(row.ledger_gap) <= 1e-6)) return true;
   if (!scene.options.error_estimates) return false;
   return !(row.error.impulse.norm() <= 0.05 * row.value.impulse.norm());
 }
@@ -140,6 +140,11 @@ Cell loss_cell(const SimulationScene& scene, const Simulation& run, const Impact
   // Below the method's error the loss is none.
   if (std::fabs(row.value.energy_loss) <= 1e-9 * run.energy_start) return {0.0, 1};
   return known(scene, row.value.energy_loss * percent, row.error.energy_loss * percent, trusted);
+}
+
+void add_interruption(const SimulationScene& scene, const std::vector<SweptRun>& runs, Table& table) {
+  const std::size_t values = scene.sweep->values().size();
+  if (runs.size() < values) table.notes.push_back(fmt::format("interrupted: {} of {} values", runs.size(), values));
 }
 
 Json quantity_json(const SimulationScene& scene, const SweptRun& swept) {
@@ -269,6 +274,7 @@ Table sweep_table(const SimulationScene& scene, const std::vector<SweptRun>& run
     row.push_back(loss_cell(scene, swept.run, first));
   }
   if (!runs.empty()) table.notes.push_back(method_words(runs.back().run) + " (the last row's)");
+  add_interruption(scene, runs, table);
   fit_columns(table, scene.options.digits, {2});
   return table;
 }
@@ -276,6 +282,9 @@ Table sweep_table(const SimulationScene& scene, const std::vector<SweptRun>& run
 Json sweep_json(const SimulationScene& scene, const std::vector<SweptRun>& runs) {
   Json json{{"clatter", version}, {"model", "continuous"}, {"scene", scene.json()}, {"runs", Json::array()}};
   for (const SweptRun& swept : runs) json["runs"].push_back(quantity_json(scene, swept));
+  const std::size_t values = scene.sweep->values().size();
+  json["outcome"] = runs.size() < values ? "interrupted" : "complete";
+  json["message"] = fmt::format("{} of {} values", runs.size(), values);
   return json;
 }
 
@@ -294,6 +303,7 @@ Table sweep_records(const SimulationScene& scene, const std::vector<SweptRun>& r
                                         swept.run.message));
     }
   }
+  add_interruption(scene, runs, table);
   const char* name = scene.sweep->quantity == SceneSweep::Quantity::angle_deg ? "angle_deg" : "sliding_friction";
   table.columns.insert(table.columns.begin(), Column{name, name, ""});
   return table;

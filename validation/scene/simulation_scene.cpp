@@ -341,6 +341,9 @@ SimulationScene read_simulation_scene(const std::string& path, const std::vector
   read_drop(values, scene);
   scene.impact = read_impact(values);
   scene.body = read_body(values);
+  if (scene.sweep && scene.sweep->quantity == SceneSweep::Quantity::friction) {
+    only_for(values, {"ground.static_friction", "ground.sliding_friction"}, "a scene that does not sweep it");
+  }
   scene.ground = read_ground(values);
   if (values.has("run.history")) scene.history = values.text("run.history");
   if (scene.sweep && !scene.history.empty()) values.refuse("run.history", "left out in a sweep");
