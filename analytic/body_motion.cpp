@@ -83,7 +83,8 @@ BodyMotion::Strike BodyMotion::strike(VertexSet vertices, const ImpactLaw& law) 
       remainder_ = impact->after;
       touching_ = vertices;
       reference_ = first;
-      rebound_speed_ = -law.restitution * normal_velocity(before, contact_point(first));
+      const double e = law.law == RestitutionLaw::viscoelastic ? impact->restitution() : law.restitution;
+      rebound_speed_ = -e * normal_velocity(before, contact_point(first));
       return {*impact, vertices};
     }
     const bool first_faster = normal_velocity(before, contact_point(first)) <=

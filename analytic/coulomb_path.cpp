@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "analytic/viscoelastic_contact.hpp"
+
 namespace clatter::analytic {
 namespace {
 
@@ -78,8 +80,21 @@ double impulse_for_work(const Phases& phases, double compression, double work) {
   return left + 2 * rest / (speed + std::sqrt(speed * speed + 2 * phases.second.slope * rest));
 }
 
+/// Viscoelastic ground: if slip stops before the ground has given back what it stored, the rest is given back
+/// along the second phase; otherwise the velocities are those of the restitution e.
+double viscoelastic_impulse(const Phases& phases, double v, const ImpactLaw& law) {
+  const double single = impulse_for_rise(phases, (1 + law.restitution) * v);
+  if (!(phases.first.length < endless)) return single;
+  const double speed = phases.first.slope * phases.first.length - v;  // where slip stops
+  if (!(speed < law.restitution * v)) return single;
+  const double work = stored_work(law.damping_time, {.from = -v, .to = speed, .length = phases.first.length});
+  const Unloading rest{.from = speed, .slope = phases.second.slope, .work = work};
+  return phases.first.length + (separation_speed(law.damping_time, rest) - speed) / phases.second.slope;
+}
+
 double total_impulse(const Phases& phases, double v, const ImpactLaw& law) {
   const double e = law.restitution;
+  if (law.law == RestitutionLaw::viscoelastic) return viscoelastic_impulse(phases, v, law);
   if (law.law == RestitutionLaw::newton) return impulse_for_rise(phases, (1 + e) * v);
   const double compression = impulse_for_rise(phases, v);
   if (law.law == RestitutionLaw::poisson) return (1 + e) * compression;

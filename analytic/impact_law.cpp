@@ -7,6 +7,7 @@
 #include "analytic/coulomb_path.hpp"
 #include "analytic/errors.hpp"
 #include "analytic/impact_limits.hpp"
+#include "analytic/restitution_map.hpp"
 
 namespace clatter::analytic {
 namespace {
@@ -25,6 +26,14 @@ namespace {
        << " is at or beyond the limit " << limit
        << " at which the contact point can no longer leave the ground";
   throw OutsideModelError(text.str());
+}
+
+/// The law with the restitution that holds at this approach speed.
+ImpactLaw at_speed(ImpactLaw law, double approach_speed) {
+  if (law.law == RestitutionLaw::viscoelastic) {
+    law.restitution = restitution_of_damping(law.damping_time * approach_speed);
+  }
+  return law;
 }
 
 /// Eq. 8 for an impulse ratio as given, per unit mass.
@@ -69,6 +78,12 @@ void ImpactLaw::validate() const {
   if (friction == FrictionKind::coulomb && !(friction_value >= 0)) {
     refuse("friction", friction_value, "at least 0");
   }
+  if (!(damping_time >= 0 && std::isfinite(damping_time))) {
+    refuse("damping time", damping_time, "at least 0 and finite");
+  }
+  if (law == RestitutionLaw::viscoelastic && restitution != 1) {
+    refuse("restitution", restitution, "1 for the viscoelastic law");
+  }
 }
 
 double Impact::impulse_ratio() const {
@@ -96,14 +111,15 @@ double slip_velocity(const PlanarVelocity& v, const ContactPoint& d) {
 }
 
 Impact strike(const PlanarBody& body, const PlanarVelocity& before, const ContactPoint& contact,
-              const ImpactLaw& law) {
-  law.validate();
+              const ImpactLaw& given) {
+  given.validate();
   const double u = normal_velocity(before, contact);
   const double s = slip_velocity(before, contact);
   Impact impact{.approach_speed = -u, .separation_speed = u, .slip_before = s, .slip_after = s,
                 .after = before};
   if (!(u < 0)) return impact;
 
+  const ImpactLaw law = at_speed(given, -u);
   const ContactInertia inertia = contact_inertia(body.gyration_square, contact);
   const auto [normal, tangential, mode] =
       point_impulse(inertia, {.approach_speed = -u, .slip = s}, law);
@@ -136,9 +152,10 @@ Impact strike(const PlanarBody& body, const PlanarVelocity& before, const Contac
 
 std::optional<Impact> strike_flat(const PlanarBody& body, const PlanarVelocity& before,
                                   const ContactPoint& first, const ContactPoint& second,
-                                  const ImpactLaw& law) {
-  law.validate();
+                                  const ImpactLaw& given) {
+  given.validate();
   if (!(normal_velocity(before, first) < 0 && normal_velocity(before, second) < 0)) return {};
+  const ImpactLaw law = at_speed(given, std::fmax(-before.normal, 0.0));
   const double e = law.restitution;
   const double depth = first.normal;
   const PathStart start{.approach_speed = -before.normal, .slip = slip_velocity(before, first)};

@@ -54,7 +54,7 @@ struct SteppedPath {
     const double dt = c.contact.tangential, dn = c.contact.normal;
     double u = normal_velocity(c.before, c.contact), s = slip_velocity(c.before, c.contact);
     const double u0 = u;
-    double compression = -1, work = 0, work_compression = 0;
+    double compression = -1, work = 0, work_compression = 0, stored = 0;
     for (;;) {
       // Friction opposes slip; within one step of zero slip it is what keeps the slip at zero, if it can.
       const double hold = dt * dn / k2 / (1 + dn * dn / k2);
@@ -66,6 +66,7 @@ struct SteppedPath {
       const double du = ((1 + dt * dt / k2) - dt * dn / k2 * ratio) * step / m;
       const double ds = ((1 + dn * dn / k2) * ratio - dt * dn / k2) * step / m;
       work += (u + du / 2) * step;
+      stored -= (u + du / 2) / (1 - law.damping_time * (u + du / 2)) * step;
       u += du;
       s += ds;
       normal += step;
@@ -78,6 +79,8 @@ struct SteppedPath {
       const double e = law.restitution;
       if (law.law == RestitutionLaw::newton && u >= -e * u0) return;
       if (law.law == RestitutionLaw::poisson && normal >= (1 + e) * compression) return;
+      // The ground holds what the force (1 - tau u) K stored, less what it has given back.
+      if (law.law == RestitutionLaw::viscoelastic && stored <= 0) return;
       if (law.law == RestitutionLaw::stronge && work - work_compression >= -e * e * work_compression) return;
     }
   }
@@ -157,8 +160,12 @@ BOOST_AUTO_TEST_CASE(rouths_closed_form_agrees_with_stepping_along_the_impulse) 
   for (int i = 0; i < 300; ++i) {
     const Case c = random_case(random);
     ImpactLaw law{.restitution = std::uniform_real_distribution<>(0.05, 1)(random),
-                  .law = static_cast<RestitutionLaw>(i % 3), .friction = FrictionKind::coulomb,
+                  .law = static_cast<RestitutionLaw>(i % 4), .friction = FrictionKind::coulomb,
                   .friction_value = std::uniform_real_distribution<>(0.02, 1.2)(random)};
+    if (law.law == RestitutionLaw::viscoelastic) {
+      law.restitution = 1;
+      law.damping_time = std::uniform_real_distribution<>(0, 1)(random);
+    }
     const Impact impact = strike(c.body, c.before, c.contact, law);
     const SteppedPath path(c, law, step);
     BOOST_REQUIRE(close(impact.normal_impulse, path.normal, tolerance));
@@ -200,6 +207,33 @@ BOOST_AUTO_TEST_CASE(coulomb_friction_never_creates_energy_with_stronges_law) {
     BOOST_REQUIRE(impact.energy_loss >= -1e-12 * energy(c.body, c.before));
     BOOST_REQUIRE(close(impact.energy_loss, energy(c.body, c.before) - energy(c.body, impact.after), 1e-11));
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_viscoelastic_ground_without_damping_is_stronges_law_with_e_1) {
+  std::mt19937_64 random(6);
+  for (int i = 0; i < 20000; ++i) {
+    const Case c = random_case(random);
+    ImpactLaw law{.law = RestitutionLaw::stronge, .friction = FrictionKind::coulomb,
+                  .friction_value = std::uniform_real_distribution<>(0, 2)(random)};
+    const Impact stronge = strike(c.body, c.before, c.contact, law);
+    law.law = RestitutionLaw::viscoelastic;
+    // The impulse of a path that nearly jams is large; 1e-13 is 500 roundings of it.
+    BOOST_REQUIRE(close(strike(c.body, c.before, c.contact, law).normal_impulse, stronge.normal_impulse, 1e-13));
+    law.damping_time = 1e-9;  // changes the restitution by (2/3) 1e-9 v
+    BOOST_REQUIRE(close(strike(c.body, c.before, c.contact, law).normal_impulse, stronge.normal_impulse, 1e-7));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_viscoelastic_ground_without_friction_restores_by_its_exact_map) {
+  // s = 1: e = 0.593624260040, s = 0.1: e = 0.937475579949905, from ln[(1+s)/(1-s e)] = s (1+e).
+  const PlanarBody rod = make_rod({});
+  const Angle theta = Angle::from_degrees(30);
+  const ContactPoint d = rod.contact_point(0, theta.sine, theta.cosine);
+  const auto restitution = [&](double tau) {
+    return strike(rod, {.normal = -2}, d, {.law = RestitutionLaw::viscoelastic, .damping_time = tau}).restitution();
+  };
+  BOOST_TEST(std::fabs(restitution(0.5) - 0.593624260040) < 1e-12);
+  BOOST_TEST(std::fabs(restitution(0.05) - 0.937475579949905) < 2e-15);
 }
 
 BOOST_AUTO_TEST_CASE(sticking_at_45_degrees_begins_at_0_6) {

@@ -1,0 +1,56 @@
+#include "analytic/viscoelastic_contact.hpp"
+
+#include <boost/math/special_functions/log1p.hpp>
+#include <cmath>
+#include <limits>
+
+namespace clatter::analytic {
+namespace {
+
+/// ln(1+x) − x, by Boost's series where the difference would cancel.
+double log1p_minus(double x) {
+  return std::fabs(x) < 0.5 ? boost::math::log1pmx(x) : std::log1p(x) - x;
+}
+
+/// ψ(x) = −x − ln(1−x), x²/2 for small x.
+double psi(double x) { return -log1p_minus(-x); }
+
+/// x in [0, 1) with ψ(x) = y, by Newton's method for z = −ln(1−x), in which ψ is convex; the start lies above.
+double inverse_psi(double y) {
+  double z = y + std::sqrt(2 * y);
+  double x = -std::expm1(-z);
+  for (int i = 0; i < 60; ++i) {
+    const double step = (psi(x) - y) / x;
+    if (!(step > 2 * std::numeric_limits<double>::epsilon() * z)) break;
+    z -= step;
+    x = -std::expm1(-z);
+  }
+  return x;
+}
+
+}  // namespace
+
+double stored_work(double damping_time, const ImpulseStretch& stretch) {
+  const double a = damping_time * stretch.from;
+  const double d = damping_time * (stretch.to - stretch.from);
+  const double mean = (stretch.from + stretch.to) / 2;
+  // Below this the ground is elastic to rounding, and ψ of the speeds would underflow.
+  if (std::fabs(a) + std::fabs(d) < std::numeric_limits<double>::epsilon()) return -mean * stretch.length;
+  if (std::fabs(d) < std::numeric_limits<double>::epsilon()) {
+    return -stretch.from / (1 - a) * stretch.length;
+  }
+  // [ψ(a+d) − ψ(a)]/d without its cancellation for small d.
+  const double mean_rate = a / (1 - a) - log1p_minus(-d / (1 - a)) / d;
+  return -mean_rate / damping_time * stretch.length;
+}
+
+double separation_speed(double damping_time, const Unloading& unloading) {
+  const double square = unloading.from * unloading.from + 2 * unloading.slope * unloading.work;
+  const double elastic = std::sqrt(std::fmax(square, 0.0));
+  if (damping_time * elastic < std::numeric_limits<double>::epsilon()) return elastic;
+  const double gain = unloading.slope * damping_time * damping_time * unloading.work;
+  const double target = psi(damping_time * unloading.from) + gain;
+  return target > 0 ? inverse_psi(target) / damping_time : 0;
+}
+
+}  // namespace clatter::analytic
