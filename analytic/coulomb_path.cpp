@@ -87,9 +87,9 @@ double viscoelastic_impulse(const Phases& phases, double v, const ImpactLaw& law
   if (!(phases.first.length < endless)) return single;
   const double speed = phases.first.slope * phases.first.length - v;  // where slip stops
   if (!(speed < law.restitution * v)) return single;
-  const double work = stored_work(law.damping_time, {.from = -v, .to = speed, .length = phases.first.length});
+  const double work = stored_work(law.damping_per_stiffness, {.from = -v, .to = speed, .length = phases.first.length});
   const Unloading rest{.from = speed, .slope = phases.second.slope, .work = work};
-  return phases.first.length + (separation_speed(law.damping_time, rest) - speed) / phases.second.slope;
+  return phases.first.length + (separation_speed(law.damping_per_stiffness, rest) - speed) / phases.second.slope;
 }
 
 double total_impulse(const Phases& phases, double v, const ImpactLaw& law) {

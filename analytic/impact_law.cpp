@@ -31,7 +31,7 @@ namespace {
 /// The law with the restitution that holds at this approach speed.
 ImpactLaw at_speed(ImpactLaw law, double approach_speed) {
   if (law.law == RestitutionLaw::viscoelastic) {
-    law.restitution = restitution_of_damping(law.damping_time * approach_speed);
+    law.restitution = restitution_of_damping(law.damping_per_stiffness * approach_speed);
   }
   return law;
 }
@@ -78,8 +78,8 @@ void ImpactLaw::validate() const {
   if (friction == FrictionKind::coulomb && !(friction_value >= 0)) {
     refuse("friction", friction_value, "at least 0");
   }
-  if (!(damping_time >= 0 && std::isfinite(damping_time))) {
-    refuse("damping time", damping_time, "at least 0 and finite");
+  if (!(damping_per_stiffness >= 0 && std::isfinite(damping_per_stiffness))) {
+    refuse("damping per stiffness", damping_per_stiffness, "at least 0 and finite");
   }
   if (law == RestitutionLaw::viscoelastic && restitution != 1) {
     refuse("restitution", restitution, "1 for the viscoelastic law");

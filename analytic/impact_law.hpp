@@ -34,7 +34,7 @@ enum class RestitutionLaw {
   newton,   ///< velocities: u_after = −e u_before
   poisson,  ///< impulses: P_restitution = e P_compression
   stronge,  ///< work of the normal force: W_restitution = −e² W_compression
-  /// A ground that pushes with (k_G + c_G δ̇) K(δ), any growth K: e follows from `damping_time` and each contact's
+  /// A ground that pushes with (k_G + c_G δ̇) K(δ), any growth K: e follows from `damping_per_stiffness` and each contact's
   /// own approach speed (restitution_map.hpp), and from the work along the path if slip stops on the way
   /// (viscoelastic_contact.hpp).  Without damping it is Stronge's law with e = 1.
   viscoelastic,
@@ -51,7 +51,7 @@ struct ImpactLaw {
   RestitutionLaw law = RestitutionLaw::newton;
   FrictionKind friction = FrictionKind::none;
   double friction_value = 0;  ///< μ_i (any finite value) or Coulomb's μ >= 0
-  double damping_time = 0;    ///< τ = c_G/k_G >= 0 of the viscoelastic law [s]
+  double damping_per_stiffness = 0;  ///< τ = c_G/k_G >= 0 of the viscoelastic law [s/m]
 
   /// @throws std::domain_error naming the field, its value and what is allowed.
   void validate() const;

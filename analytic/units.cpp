@@ -26,7 +26,7 @@ Drop Units::to_internal(Drop drop) const {
   scale(drop.velocity.tangential, -speed_);
   scale(drop.velocity.angular, length_ - speed_);
   scale(drop.gravity, length_ - 2 * speed_);
-  scale(drop.law.damping_time, speed_ - length_);
+  scale(drop.law.damping_per_stiffness, speed_);
   return drop;
 }
 

@@ -30,9 +30,9 @@ double inverse_psi(double y) {
 
 }  // namespace
 
-double stored_work(double damping_time, const ImpulseStretch& stretch) {
-  const double a = damping_time * stretch.from;
-  const double d = damping_time * (stretch.to - stretch.from);
+double stored_work(double damping_per_stiffness, const ImpulseStretch& stretch) {
+  const double a = damping_per_stiffness * stretch.from;
+  const double d = damping_per_stiffness * (stretch.to - stretch.from);
   const double mean = (stretch.from + stretch.to) / 2;
   // Below this the ground is elastic to rounding, and ψ of the speeds would underflow.
   if (std::fabs(a) + std::fabs(d) < std::numeric_limits<double>::epsilon()) return -mean * stretch.length;
@@ -41,16 +41,16 @@ double stored_work(double damping_time, const ImpulseStretch& stretch) {
   }
   // [ψ(a+d) − ψ(a)]/d without its cancellation for small d.
   const double mean_rate = a / (1 - a) - log1p_minus(-d / (1 - a)) / d;
-  return -mean_rate / damping_time * stretch.length;
+  return -mean_rate / damping_per_stiffness * stretch.length;
 }
 
-double separation_speed(double damping_time, const Unloading& unloading) {
+double separation_speed(double damping_per_stiffness, const Unloading& unloading) {
   const double square = unloading.from * unloading.from + 2 * unloading.slope * unloading.work;
   const double elastic = std::sqrt(std::fmax(square, 0.0));
-  if (damping_time * elastic < std::numeric_limits<double>::epsilon()) return elastic;
-  const double gain = unloading.slope * damping_time * damping_time * unloading.work;
-  const double target = psi(damping_time * unloading.from) + gain;
-  return target > 0 ? inverse_psi(target) / damping_time : 0;
+  if (damping_per_stiffness * elastic < std::numeric_limits<double>::epsilon()) return elastic;
+  const double gain = unloading.slope * damping_per_stiffness * damping_per_stiffness * unloading.work;
+  const double target = psi(damping_per_stiffness * unloading.from) + gain;
+  return target > 0 ? inverse_psi(target) / damping_per_stiffness : 0;
 }
 
 }  // namespace clatter::analytic

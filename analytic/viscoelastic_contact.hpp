@@ -1,8 +1,8 @@
 // Work of a viscoelastic contact along an impact in impulse space.
 //
-// The contact force (k_G + c_G δ̇) K(δ)/k_G of a ground with the damping time τ = c_G/k_G drives the normal
-// velocity u of the contact point (up; δ̇ = −u).  With dP = K (1 − τu) dt the elastic energy of the ground
-// changes by K dδ = −u dP/(1 − τu), whatever the growth of K.
+// The contact force (k_G + c_G δ̇) K(δ)/k_G of a ground with τ = c_G/k_G [s/m] drives the normal velocity u of the
+// contact point (up; δ̇ = −u).  With dP = K (1 − τu) dt the elastic energy of the ground changes by
+// K dδ = −u dP/(1 − τu), whatever the growth of K.
 #pragma once
 
 namespace clatter::analytic {
@@ -17,7 +17,7 @@ struct ImpulseStretch {
 /// W = ∫ −u/(1 − τu) dP: what the ground has stored after the stretch, per unit mass [m²/s²]; negative when it
 /// has given.  τ = 0: −(from + to)/2 × length.
 /// Accuracy: a few ulp of ∫ |u|/(1 − τu) dP.  Domain: τ >= 0, τu < 1 all along.
-[[nodiscard]] double stored_work(double damping_time, const ImpulseStretch& stretch);
+[[nodiscard]] double stored_work(double damping_per_stiffness, const ImpulseStretch& stretch);
 
 /// Speed u > 0 at which the ground has given back `work` > 0, with du/dP = `slope` > 0 from the speed `from` on:
 ///     ψ(τu) = ψ(τ from) + slope τ² work,   ψ(x) = −x − ln(1−x).
@@ -27,6 +27,6 @@ struct Unloading {
   double slope = 1;
   double work = 0;   ///< [m²/s²]
 };
-[[nodiscard]] double separation_speed(double damping_time, const Unloading& unloading);
+[[nodiscard]] double separation_speed(double damping_per_stiffness, const Unloading& unloading);
 
 }  // namespace clatter::analytic

@@ -66,7 +66,7 @@ struct SteppedPath {
       const double du = ((1 + dt * dt / k2) - dt * dn / k2 * ratio) * step / m;
       const double ds = ((1 + dn * dn / k2) * ratio - dt * dn / k2) * step / m;
       work += (u + du / 2) * step;
-      stored -= (u + du / 2) / (1 - law.damping_time * (u + du / 2)) * step;
+      stored -= (u + du / 2) / (1 - law.damping_per_stiffness * (u + du / 2)) * step;
       u += du;
       s += ds;
       normal += step;
@@ -164,7 +164,7 @@ BOOST_AUTO_TEST_CASE(rouths_closed_form_agrees_with_stepping_along_the_impulse) 
                   .friction_value = std::uniform_real_distribution<>(0.02, 1.2)(random)};
     if (law.law == RestitutionLaw::viscoelastic) {
       law.restitution = 1;
-      law.damping_time = std::uniform_real_distribution<>(0, 1)(random);
+      law.damping_per_stiffness = std::uniform_real_distribution<>(0, 1)(random);
     }
     const Impact impact = strike(c.body, c.before, c.contact, law);
     const SteppedPath path(c, law, step);
@@ -219,7 +219,7 @@ BOOST_AUTO_TEST_CASE(a_viscoelastic_ground_without_damping_is_stronges_law_with_
     law.law = RestitutionLaw::viscoelastic;
     // The impulse of a path that nearly jams is large; 1e-13 is 500 roundings of it.
     BOOST_REQUIRE(close(strike(c.body, c.before, c.contact, law).normal_impulse, stronge.normal_impulse, 1e-13));
-    law.damping_time = 1e-9;  // changes the restitution by (2/3) 1e-9 v
+    law.damping_per_stiffness = 1e-9;  // changes the restitution by (2/3) 1e-9 v
     BOOST_REQUIRE(close(strike(c.body, c.before, c.contact, law).normal_impulse, stronge.normal_impulse, 1e-7));
   }
 }
@@ -230,7 +230,7 @@ BOOST_AUTO_TEST_CASE(a_viscoelastic_ground_without_friction_restores_by_its_exac
   const Angle theta = Angle::from_degrees(30);
   const ContactPoint d = rod.contact_point(0, theta.sine, theta.cosine);
   const auto restitution = [&](double tau) {
-    return strike(rod, {.normal = -2}, d, {.law = RestitutionLaw::viscoelastic, .damping_time = tau}).restitution();
+    return strike(rod, {.normal = -2}, d, {.law = RestitutionLaw::viscoelastic, .damping_per_stiffness = tau}).restitution();
   };
   BOOST_TEST(std::fabs(restitution(0.5) - 0.593624260040) < 1e-12);
   BOOST_TEST(std::fabs(restitution(0.05) - 0.937475579949905) < 2e-15);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "validation/cli/sequence_report.hpp"
+#include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation {

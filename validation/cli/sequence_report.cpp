@@ -9,6 +9,7 @@
 #include "validation/cli/impact_records.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/version.hpp"
+#include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation {
@@ -139,17 +140,6 @@ const char* outcome_name(analytic::Outcome outcome) {
     case analytic::Outcome::impact_limit: return "impact-limit";
     case analytic::Outcome::at_rest: return "at-rest";
     case analytic::Outcome::sustained_contact: return "sustained-contact";
-  }
-  return "";
-}
-
-const char* mode_name(analytic::ImpactMode mode) {
-  switch (mode) {
-    case analytic::ImpactMode::frictionless: return "frictionless";
-    case analytic::ImpactMode::slip: return "slip";
-    case analytic::ImpactMode::stick: return "stick";
-    case analytic::ImpactMode::slip_stick: return "slip-stick";
-    case analytic::ImpactMode::reverse_slip: return "reverse-slip";
   }
   return "";
 }

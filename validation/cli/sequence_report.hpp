@@ -17,7 +17,6 @@ namespace clatter::validation {
 [[nodiscard]] Table sequence_records(const Scene& scene, const analytic::Sequence& sequence);
 
 [[nodiscard]] const char* outcome_name(analytic::Outcome outcome);
-[[nodiscard]] const char* mode_name(analytic::ImpactMode mode);
 
 /// Bound on the rounding error of a number of impact n, counted from 1: (2 + 2 × amplification + 2n)
 /// units in the last place.

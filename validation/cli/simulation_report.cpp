@@ -9,12 +9,12 @@
 #include "validation/cli/impact_records.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/version.hpp"
+#include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation {
 namespace {
 
-using numeric::FrictionMode;
 using numeric::ImpactNumbers;
 using numeric::ImpactRecord;
 using numeric::Outcome;
@@ -158,43 +158,6 @@ Json quantity_json(const SimulationScene& scene, const SweptRun& swept) {
 }
 
 }  // namespace
-
-const char* outcome_name(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::no_further_impact: return "no-further-impact";
-    case Outcome::impact_limit: return "impact-limit";
-    case Outcome::at_rest: return "at-rest";
-    case Outcome::evaluation_limit: return "evaluation-limit";
-    case Outcome::step_too_small: return "step-too-small";
-    case Outcome::not_representable: return "not-representable";
-    case Outcome::flight_undecided: return "flight-undecided";
-    case Outcome::interrupted: return "interrupted";
-  }
-  return "";
-}
-
-const char* mode_name(FrictionMode mode) {
-  switch (mode) {
-    case FrictionMode::frictionless: return "frictionless";
-    case FrictionMode::slip: return "slip";
-    case FrictionMode::stick: return "stick";
-    case FrictionMode::slip_stick: return "slip-stick";
-    case FrictionMode::stick_slip: return "stick-slip";
-    case FrictionMode::reverse_slip: return "reverse-slip";
-    case FrictionMode::regularised: return "regularised";
-  }
-  return "";
-}
-
-const char* end_name(numeric::ContactEnd end) {
-  switch (end) {
-    case numeric::ContactEnd::a: return "a";
-    case numeric::ContactEnd::b: return "b";
-    case numeric::ContactEnd::both: return "both";
-    case numeric::ContactEnd::middle: return "middle";
-  }
-  return "";
-}
 
 Table simulation_table(const SimulationScene& scene, const Simulation& run) {
   const bool friction = scene.ground.has_friction();

@@ -27,8 +27,4 @@ struct SweptRun {
 /// All impacts of each, with the swept value in the first column.
 [[nodiscard]] Table sweep_records(const SimulationScene& scene, const std::vector<SweptRun>& runs);
 
-[[nodiscard]] const char* outcome_name(numeric::Outcome outcome);
-[[nodiscard]] const char* mode_name(numeric::FrictionMode mode);
-[[nodiscard]] const char* end_name(numeric::ContactEnd end);
-
 }  // namespace clatter::validation

@@ -350,6 +350,14 @@ SimulationScene read_simulation_scene(const std::string& path, const std::vector
   return scene;
 }
 
+SimulationScene SimulationScene::at(double value) const {
+  SimulationScene one = *this;
+  if (sweep->quantity == SceneSweep::Quantity::angle_deg) one.angle_deg = value;
+  else one.ground.static_friction = one.ground.sliding_friction = value;
+  one.sweep.reset();
+  return one;
+}
+
 numeric::Body SimulationScene::make_body() const {
   switch (body.shape) {
     case BodyScene::Shape::rod:

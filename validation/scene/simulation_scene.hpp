@@ -60,6 +60,8 @@ struct SimulationScene {
   std::string history;             ///< file for the time history; empty: none
   std::optional<SceneSweep> sweep;
 
+  /// The scene with the swept quantity at one value, and no sweep.
+  [[nodiscard]] SimulationScene at(double value) const;
   [[nodiscard]] numeric::Body make_body() const;
   /// State at the first touch; with `height` the speed there follows from the fall.
   /// @throws BadInput if `height` is not above the centre of mass at the touch.

@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "validation/cli/commands.hpp"
+#include "validation/cli/comparison_report.hpp"
+#include "validation/cli/options.hpp"
+#include "validation/cli/progress.hpp"
+#include "validation/cli/scene_flags.hpp"
+#include "validation/output/interrupt.hpp"
+
+namespace clatter::validation {
+namespace {
+
+constexpr int check_failed = 1;
+
+struct CompareInput {
+  SceneFlags scene;
+  OutputTexts output;
+};
+
+int compare_one(const SimulationScene& scene, const OutputChoice& choice) {
+  const Comparison comparison = compare_models(scene, scene.make_body());
+  switch (choice.style.format) {
+    case Format::json: write_out(choice, json_text(comparison_json(scene, comparison))); break;
+    case Format::csv: write_out(choice, table_text(comparison_records(scene, comparison), choice.style)); break;
+    default: write_out(choice, table_text(comparison_table(scene, comparison), choice.style));
+  }
+  return comparison.agrees() ? 0 : check_failed;
+}
+
+int compare_swept(const SimulationScene& scene, const OutputChoice& choice) {
+  const CooperativeInterrupt interrupt;
+  const std::vector<double> values = scene.sweep->values();
+  const numeric::Body body = scene.make_body();
+  std::vector<SweptComparison> swept;
+  {
+    Progress progress;
+    for (const double value : values) {
+      if (interrupt.requested()) break;
+      progress.show(progress_bar(swept.size(), values.size()));
+      swept.push_back({value, compare_models(scene.at(value), body)});
+    }
+  }
+  switch (choice.style.format) {
+    case Format::json: write_out(choice, json_text(swept_comparison_json(scene, swept))); break;
+    case Format::csv: write_out(choice, table_text(swept_comparison_records(scene, swept), choice.style)); break;
+    default: write_out(choice, table_text(swept_comparison_table(scene, swept), choice.style));
+  }
+  if (swept.size() < values.size()) return interrupted_status;
+  const bool agree = std::all_of(swept.begin(), swept.end(),
+                                 [](const SweptComparison& one) { return one.comparison.agrees(); });
+  return agree ? 0 : check_failed;
+}
+
+int run_compare(const CompareInput& input) {
+  const SimulationScene scene = read_scene_flags(input.scene);
+  const OutputChoice choice = read_output(input.output);
+  refuse_scene_file(input.scene, "--output", choice.path);
+  return scene.sweep ? compare_swept(scene, choice) : compare_one(scene, choice);
+}
+
+}  // namespace
+
+Action add_compare_command(CLI::App& app) {
+  auto input = std::make_shared<CompareInput>();
+  CLI::App* command = app.add_subcommand("compare", "both models side by side, and why they differ");
+  add_scene_flags(*command, input->scene);
+  add_output_options(*command, input->output);
+  command->footer(
+      "Example: clatter compare validation/cases/phone-damped.toml --impacts 2\n"
+      "Exit status 1 if the stiff limit of the continuous model misses the discrete value.");
+  return [input] { return run_compare(*input); };
+}
+
+}  // namespace clatter::validation

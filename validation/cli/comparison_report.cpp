@@ -1,0 +1,272 @@
+#include "validation/cli/comparison_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/cli/impact_records.hpp"
+#include "validation/cli/options.hpp"
+#include "validation/cli/version.hpp"
+#include "validation/output/names.hpp"
+#include "validation/output/number.hpp"
+
+namespace clatter::validation {
+namespace {
+
+const char* const what_it_is = "discrete and continuous model, impact by impact";
+
+/// A number of an impact in both models.
+struct NumberPair {
+  const ComparedImpact& impact;
+  std::size_t quantity;
+
+  [[nodiscard]] double discrete() const { return (*impact.discrete)[quantity]; }
+  [[nodiscard]] double continuous() const { return (*impact.continuous)[quantity]; }
+  [[nodiscard]] double deviation() const { return continuous() - discrete(); }
+  [[nodiscard]] double predicted() const { return impact.predicted.total()[quantity]; }
+  [[nodiscard]] double miss() const { return impact.limit->value[quantity] - discrete(); }
+  [[nodiscard]] double allowance() const { return impact.allowance[quantity]; }
+};
+
+/// Zero in both models and in the limit, by symmetry.
+bool is_nothing(const Comparison& comparison, const ComparedImpact& impact, std::size_t q) {
+  const double tiny = 1e-12 * comparison.scales[q];
+  return std::fabs((*impact.discrete)[q]) <= tiny && impact.continuous && std::fabs((*impact.continuous)[q]) <= tiny;
+}
+
+std::string landing_word(const ComparedImpact& impact) {
+  return !impact.has_landing() ? "" : impact.lands() ? "agrees" : "DIFFERS";
+}
+
+void add_rows(const Comparison& comparison, const ComparedImpact& impact, Table& table) {
+  bool first = true;
+  for (std::size_t q = 0; q < quantity_count; ++q) {
+    if (!impact.discrete || is_nothing(comparison, impact, q)) continue;
+    const NumberPair pair{impact, q};
+    const bool comparable = impact.reason.empty();
+    std::vector<Cell> row{first ? Cell(std::to_string(impact.n)) : Cell(), first ? Cell(impact.discrete_end) : Cell(),
+                          Cell(quantity_names[q].heading), Cell(pair.discrete(), 6)};
+    if (comparable) {
+      row.insert(row.end(), {Cell(pair.continuous(), 6), Cell(pair.deviation(), 2), Cell(pair.predicted(), 2)});
+    } else {
+      row.insert(row.end(), {Cell("–"), Cell(), Cell()});
+    }
+    if (impact.has_landing()) row.insert(row.end(), {Cell(pair.miss(), 2), Cell(pair.allowance(), 2)});
+    row.resize(9);
+    row.push_back(first ? Cell(landing_word(impact)) : Cell());
+    table.rows.push_back(std::move(row));
+    first = false;
+  }
+}
+
+std::vector<std::string> reasons(const Comparison& comparison) {
+  std::vector<std::string> notes;
+  for (const ComparedImpact& impact : comparison.impacts) {
+    if (impact.reason.empty()) continue;
+    std::string note = fmt::format("Impact {} is not compared: {}", impact.n, impact.reason);
+    if (impact.has_landing()) note += fmt::format("; on stiffer ground it {}", impact.lands() ? "agrees" : "differs");
+    notes.push_back(note);
+  }
+  return notes;
+}
+
+std::string limit_words(const Comparison& comparison) {
+  const StiffLimit& limit = comparison.limit;
+  if (limit.rows.empty()) return "No limit: the impacts do not come apart on stiffer ground either.";
+  return fmt::format(
+      "Limit: k → ∞ from {} runs up to k = {} N/m³, over the contact time, which falls like k^{}; ± its error bar",
+      limit.runs, significant(limit.stiffness, 2), significant(-limit.power, 3));
+}
+
+std::string verdict_words(const Comparison& comparison) {
+  const auto landed = std::count_if(comparison.impacts.begin(), comparison.impacts.end(),
+                                    [](const ComparedImpact& impact) { return impact.has_landing(); });
+  if (!comparison.agrees()) return "The models DIFFER: a limit misses the discrete value.";
+  if (landed == 0) return "Nothing could be compared.";
+  return fmt::format("The models agree: the limit is the discrete value for {} of {} impacts.", landed,
+                     comparison.impacts.size());
+}
+
+std::vector<std::string> head_of(const SimulationScene& scene) {
+  std::vector<std::string> head{headline("compare", what_it_is)};
+  for (const std::string& line : scene.summary()) head.push_back(line);
+  head.push_back("discrete model: real corners and inertia, e from the damping at each impact's speed, Coulomb's μₖ");
+  for (std::string& line : head) line = wrapped(line);
+  return head;
+}
+
+Json number_json(const NumberPair& pair) {
+  const ComparedImpact& impact = pair.impact;
+  const std::size_t q = pair.quantity;
+  const PredictedSize& size = impact.predicted;
+  Json json{{"discrete", impact.discrete ? number_or_null(pair.discrete()) : Json(nullptr)},
+            {"continuous", impact.continuous ? number_or_null(pair.continuous()) : Json(nullptr)}};
+  const bool comparable = impact.reason.empty();
+  json["deviation"] = comparable ? number_or_null(pair.deviation()) : Json(nullptr);
+  json["predicted"] = comparable ? number_or_null(pair.predicted()) : Json(nullptr);
+  json["predicted_gravity"] = comparable ? number_or_null(size.gravity[q]) : Json(nullptr);
+  json["predicted_turning"] = comparable ? number_or_null(size.turning[q]) : Json(nullptr);
+  json["predicted_indentation"] = comparable ? number_or_null(size.indentation[q]) : Json(nullptr);
+  json["predicted_delay"] = comparable ? number_or_null(size.delay[q]) : Json(nullptr);
+  json["limit"] = impact.limit ? number_or_null(impact.limit->value[q]) : Json(nullptr);
+  json["limit_error"] = impact.limit ? number_or_null(impact.limit->error[q]) : Json(nullptr);
+  json["allowance"] = impact.limit ? number_or_null(pair.allowance()) : Json(nullptr);
+  return json;
+}
+
+Json impact_json(const ComparedImpact& impact) {
+  Json json{{"n", impact.n},
+            {"comparable", impact.reason.empty()},
+            {"reason", impact.reason.empty() ? Json(nullptr) : Json(impact.reason)},
+            {"discrete_end", impact.discrete ? Json(impact.discrete_end) : Json(nullptr)},
+            {"continuous_end", impact.continuous ? Json(impact.continuous_end) : Json(nullptr)},
+            {"contact_time", impact.continuous ? number_or_null(impact.contact_time) : Json(nullptr)},
+            {"limit_is_discrete", impact.has_landing() ? Json(impact.lands()) : Json(nullptr)}};
+  for (std::size_t q = 0; q < quantity_count; ++q) json["numbers"][quantity_names[q].name] = number_json({impact, q});
+  return json;
+}
+
+Json result_json(const Comparison& comparison) {
+  Json json{{"impacts", Json::array()}};
+  for (const ComparedImpact& impact : comparison.impacts) json["impacts"].push_back(impact_json(impact));
+  json["limit"] = {{"stiffness", number_or_null(comparison.limit.stiffness)},
+                   {"power", number_or_null(-comparison.limit.power)},
+                   {"runs", comparison.limit.runs}};
+  json["agrees"] = comparison.agrees();
+  json["message"] = verdict_words(comparison);
+  return json;
+}
+
+Json head_json(const SimulationScene& scene) {
+  return {{"clatter", version}, {"model", "comparison"}, {"scene", scene.json()}};
+}
+
+/// Rows of the CSV for one comparison, with further cells in front.
+void add_records(const Comparison& comparison, const std::vector<Cell>& front, Table& table) {
+  for (const ComparedImpact& impact : comparison.impacts) {
+    const Json json = impact_json(impact);
+    for (const auto& [name, numbers] : json["numbers"].items()) {
+      auto& row = table.rows.emplace_back(front);
+      row.insert(row.end(), {Cell(impact.n, 17), Cell(name), Cell(impact.reason)});
+      for (const auto& [key, value] : numbers.items()) row.push_back(json_cell(value));
+    }
+  }
+}
+
+Table records_table(const SimulationScene& scene) {
+  Table table{.head = {headline("compare", what_it_is), "scene: " + scene.json().dump()}, .columns = {}, .rows = {},
+              .notes = {}};
+  for (const char* name : {"n", "quantity", "not_compared_because", "discrete", "continuous", "deviation", "predicted",
+                           "predicted_gravity", "predicted_turning", "predicted_indentation", "predicted_delay",
+                           "limit", "limit_error", "allowance"}) {
+    table.columns.push_back({name, name, ""});
+  }
+  return table;
+}
+
+/// The number of an impact that deviates most for its size: deviation over scale, and what was predicted of it.
+struct Worst {
+  double deviation = 0, predicted = 0, miss = 0, allowance = 0;
+};
+Worst worst_number(const Comparison& comparison, const ComparedImpact& impact) {
+  Worst worst;
+  double largest = -1, largest_miss = -1;
+  for (std::size_t q = 0; q < quantity_count; ++q) {
+    const NumberPair pair{impact, q};
+    const double scale = comparison.scales[q];
+    if (impact.reason.empty() && std::fabs(pair.deviation()) / scale > largest) {
+      largest = std::fabs(pair.deviation()) / scale;
+      worst.deviation = largest;
+      worst.predicted = pair.predicted() / scale;
+    }
+    if (impact.has_landing() && std::fabs(pair.miss()) / pair.allowance() > largest_miss) {
+      largest_miss = std::fabs(pair.miss()) / pair.allowance();
+      worst.miss = std::fabs(pair.miss()) / scale;
+      worst.allowance = pair.allowance() / scale;
+    }
+  }
+  return worst;
+}
+
+const char* sweep_name(const SimulationScene& scene) {
+  return scene.sweep->quantity == SceneSweep::Quantity::angle_deg ? "angle_deg" : "sliding_friction";
+}
+
+}  // namespace
+
+Table comparison_table(const SimulationScene& scene, const Comparison& comparison) {
+  Table table{.head = head_of(scene), .columns = {}, .rows = {}, .notes = {}};
+  table.columns = {{"n", "n", ""}, {"end", "end", ""}, {"quantity", "", ""}, {"discrete", "discrete", ""},
+                   {"continuous", "continuous", ""}, {"deviation", "deviation", ""}, {"predicted", "predicted", ""},
+                   {"miss", "limit − discrete", ""}, {"allowance", "±", ""}, {"verdict", "", ""}};
+  for (const ComparedImpact& impact : comparison.impacts) add_rows(comparison, impact, table);
+  table.notes = reasons(comparison);
+  table.notes.push_back("predicted: gravity, turning and indentation during contacts, carried on from impact to impact");
+  table.notes.push_back(limit_words(comparison));
+  table.notes.push_back(verdict_words(comparison));
+  fit_columns(table, 6, {3});
+  return table;
+}
+
+Json comparison_json(const SimulationScene& scene, const Comparison& comparison) {
+  Json json = head_json(scene);
+  json.update(result_json(comparison));
+  return json;
+}
+
+Table comparison_records(const SimulationScene& scene, const Comparison& comparison) {
+  Table table = records_table(scene);
+  add_records(comparison, {}, table);
+  table.notes = {verdict_words(comparison)};
+  return table;
+}
+
+Table swept_comparison_table(const SimulationScene& scene, const std::vector<SweptComparison>& swept) {
+  const bool over_angle = scene.sweep->quantity == SceneSweep::Quantity::angle_deg;
+  Table table{.head = head_of(scene), .columns = {}, .rows = {}, .notes = {}};
+  table.columns = {{"value", over_angle ? "angle" : "μₖ", over_angle ? "°" : ""}, {"n", "n", ""}, {"end", "end", ""},
+                   {"deviation", "deviation", "of all"}, {"predicted", "predicted", "of all"},
+                   {"miss", "limit − discrete", "of all"}, {"allowance", "±", "of all"}, {"verdict", "", ""}};
+  for (const auto& [value, comparison] : swept) {
+    for (const ComparedImpact& impact : comparison.impacts) {
+      if (!impact.discrete) continue;
+      const Worst worst = worst_number(comparison, impact);
+      std::vector<Cell> row{impact.n == 1 ? Cell(value, 6) : Cell(), Cell(std::to_string(impact.n)),
+                            Cell(impact.discrete_end)};
+      if (impact.reason.empty()) row.insert(row.end(), {Cell(worst.deviation, 2), Cell(worst.predicted, 2)});
+      else row.insert(row.end(), {Cell("–"), Cell()});
+      if (impact.has_landing()) row.insert(row.end(), {Cell(worst.miss, 2), Cell(worst.allowance, 2)});
+      row.resize(7);
+      row.emplace_back(landing_word(impact));
+      table.rows.push_back(std::move(row));
+    }
+  }
+  table.notes.push_back("of all: of the largest time, speed or momentum of the sequence; the worst number of each impact");
+  const auto agreeing = std::count_if(swept.begin(), swept.end(),
+                                      [](const SweptComparison& one) { return one.comparison.agrees(); });
+  table.notes.push_back(fmt::format("{} of {} values agree.", agreeing, swept.size()));
+  return table;
+}
+
+Json swept_comparison_json(const SimulationScene& scene, const std::vector<SweptComparison>& swept) {
+  Json json = head_json(scene);
+  json["runs"] = Json::array();
+  for (const auto& [value, comparison] : swept) {
+    Json one{{sweep_name(scene), value}};
+    one.update(result_json(comparison));
+    json["runs"].push_back(one);
+  }
+  json["agrees"] = std::all_of(swept.begin(), swept.end(),
+                               [](const SweptComparison& one) { return one.comparison.agrees(); });
+  return json;
+}
+
+Table swept_comparison_records(const SimulationScene& scene, const std::vector<SweptComparison>& swept) {
+  Table table = records_table(scene);
+  table.columns.insert(table.columns.begin(), {sweep_name(scene), sweep_name(scene), ""});
+  for (const auto& [value, comparison] : swept) add_records(comparison, {Cell(value, 17)}, table);
+  return table;
+}
+
+}  // namespace clatter::validation

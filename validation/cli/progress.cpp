@@ -1,0 +1,27 @@
+#include "validation/cli/progress.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "validation/output/interrupt.hpp"
+
+namespace clatter::validation {
+
+void Progress::show(const std::string& text) {
+  if (!shows_progress()) return;
+  shown_ = true;
+  fmt::print(stderr, "\r\033[Kclatter: {}", text);
+}
+
+Progress::~Progress() {
+  if (shown_) fmt::print(stderr, "\r\033[K");
+}
+
+std::string progress_bar(std::size_t done, std::size_t of) {
+  constexpr std::size_t width = 30;
+  const std::size_t filled = of > 0 ? width * done / of : 0;
+  return std::string(filled, '#') + std::string(width - filled, '.') + fmt::format(" {} of {}", done, of);
+}
+
+}  // namespace clatter::validation

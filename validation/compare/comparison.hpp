@@ -1,0 +1,48 @@
+// The same scene through both models, aligned by impact.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analytic/sequence.hpp"
+#include "numeric/simulate.hpp"
+#include "validation/compare/prediction.hpp"
+#include "validation/compare/quantities.hpp"
+#include "validation/compare/stiff_limit.hpp"
+#include "validation/scene/simulation_scene.hpp"
+
+namespace clatter::validation {
+
+/// One impact of both models.  Deviations are continuous − discrete.
+struct ComparedImpact {
+  int n = 1;
+  std::string reason;  ///< why the numbers at the scene's own stiffness cannot be compared; empty: they can
+  std::optional<Quantities> discrete, continuous;
+  std::string discrete_end, continuous_end;
+  double contact_time = 0;  ///< of the continuous model [s]
+  PredictedSize predicted;
+  std::optional<LimitRow> limit;  ///< of the continuous model for k_G → ∞, if it has the impact apart from others
+  Quantities allowance{};         ///< |limit − discrete| may be this: error bar of the limit and rounding of both
+  /// Whether every number of the limit is the discrete model's, within `allowance`.  Meaningful with both.
+  [[nodiscard]] bool lands() const;
+  /// Whether there is a limit and a discrete impact of the same end to hold against each other.
+  [[nodiscard]] bool has_landing() const { return limit && discrete; }
+};
+
+struct Comparison {
+  analytic::Drop drop;
+  analytic::Sequence sequence;
+  numeric::Simulation run;
+  StiffLimit limit;
+  Quantities scales{};
+  std::vector<ComparedImpact> impacts;
+  /// No impact whose limit misses the discrete value.
+  [[nodiscard]] bool agrees() const;
+};
+
+/// Runs the scene through both models and over ever stiffer grounds.
+/// @throws analytic::OutsideModelError if the discrete model cannot represent the scene.
+[[nodiscard]] Comparison compare_models(const SimulationScene& scene, const numeric::Body& body);
+
+}  // namespace clatter::validation

@@ -1,0 +1,31 @@
+// How far the two models must differ on a ground of finite stiffness, from what the discrete model leaves out.
+#pragma once
+
+#include <vector>
+
+#include "analytic/sequence.hpp"
+#include "validation/compare/quantities.hpp"
+
+namespace clatter::validation {
+
+/// Sizes of the deviations of one impact's numbers; the sum over this impact and those before it, whose deviations
+/// are carried along by the motion between them.
+struct PredictedSize {
+  Quantities gravity{};      ///< g T added to the approach: gravity acts during the contact, for T
+  Quantities turning{};      ///< the body turns by |Ω| T/2 until the middle of the contact
+  Quantities indentation{};  ///< the contact point lies up to v T/π inside the corner
+  Quantities delay{};        ///< half the duration of each contact before
+  [[nodiscard]] Quantities total() const;
+};
+
+/// One entry per row of `sequence`, as far as `contact_times` (the duration T of each contact [s]) and the rows go.
+/// Each effect is put into the state before each impact in turn and carried on by the discrete model; where that leads
+/// to another sequence of contacts, the sizes from there on are infinite.
+[[nodiscard]] std::vector<PredictedSize> predicted_sizes(const analytic::Drop& drop, const analytic::Sequence& sequence,
+                                                         const std::vector<double>& contact_times);
+
+/// The drop that begins with this row: the state before it, turned or mirrored so that the inclination lies in
+/// [0°, 90°].  Speeds of tangential and angular motion may change sign with that.
+[[nodiscard]] analytic::Drop drop_at(const analytic::Drop& drop, const analytic::ImpactRow& row);
+
+}  // namespace clatter::validation

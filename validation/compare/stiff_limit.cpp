@@ -1,0 +1,190 @@
+#include "validation/compare/stiff_limit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Dense>
+
+#include "numeric/simulate.hpp"
+
+namespace clatter::validation {
+namespace {
+
+using numeric::ImpactRecord;
+using numeric::Simulation;
+
+constexpr double stiffening = 16;  // halves the contact time of a corner, F ∝ δ³, the slowest to converge
+constexpr double small = 0.02;     // what turning, gravity and indentation may be at the first rung
+constexpr int rungs = 4;           // two triples of runs
+constexpr int most_runs = 24;
+constexpr double least_indentation = 1e-8;  // of the body: the depth that doubles still resolve to 12 digits
+constexpr double run_error = 3e-12;  // of a run of 12 digits, relative, per impact
+constexpr double safety = 3;
+
+/// Length below which the contact sees the shape that it has in the limit [m].
+double feature(const SimulationScene& scene, const numeric::Body& body) {
+  switch (scene.body.shape) {
+    case BodyScene::Shape::rod:
+      return scene.body.radius * (1 - std::cos(2 * std::numbers::pi / scene.body.sectors));
+    case BodyScene::Shape::box: return scene.body.size.minCoeff();
+    case BodyScene::Shape::mesh: break;
+  }
+  return body.radius() / 100;
+}
+
+/// Contact `i` of the run is as short as the extrapolation wants it.
+bool is_short(const Simulation& run, std::size_t i, double feature, double gravity) {
+  const ImpactRecord& row = run.impacts[i];
+  const numeric::ImpactNumbers& n = row.value;
+  const double time = n.duration;
+  const double turning = time * n.angular_velocity_after.norm();
+  const double angle = std::min(n.contact_angle, std::numbers::pi / 2 - n.contact_angle);
+  const bool along_an_axis = row.end == numeric::ContactEnd::both || angle < 1e-12;  // flat or upright
+  if (!along_an_axis && !(turning <= small * angle)) return false;
+  if (!(time * n.approach_speed <= small * feature)) return false;
+  if (!(gravity * time <= small * n.approach_speed)) return false;
+  if (i > 0) {
+    const numeric::ImpactNumbers& before = run.impacts[i - 1].value;
+    const double gap = n.start - before.start - before.duration;
+    if (!(std::max(time, before.duration) <= small * gap)) return false;
+  }
+  return true;
+}
+
+/// How many of the first impacts are single contacts of their own and short.
+std::size_t clean_rows(const Simulation& run, double feature, double gravity) {
+  std::size_t count = 0;
+  for (; count < run.impacts.size(); ++count) {
+    if (run.impacts[count].touches > 1 && run.impacts[count].end != numeric::ContactEnd::both) break;
+    if (!is_short(run, count, feature, gravity)) break;
+  }
+  return count;
+}
+
+/// Rows that all rungs have, with the same ends and the same course of friction.
+std::size_t common_rows(const std::vector<Simulation>& ladder, double feature, double gravity) {
+  std::size_t count = clean_rows(ladder.front(), feature, gravity);
+  for (const Simulation& run : ladder) {
+    count = std::min(count, run.impacts.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      const ImpactRecord& first = ladder.front().impacts[i];
+      const ImpactRecord& here = run.impacts[i];
+      if (here.end != first.end || here.mode != first.mode || here.touches != first.touches) count = i;
+    }
+  }
+  return count;
+}
+
+/// Powers of T in which the numbers approach their limit; the third is that of the error left.
+struct Powers {
+  double first = 1, second = 2, third = 3;
+};
+
+/// A contact that sticks lets go before it ends, where its force has fallen to what turning and the wandering of the
+/// pressure centre ask of friction: for F ∝ δ^p the last T^(1/p) of it, which takes T^(1 + 1/p) of the impulse.
+Powers powers_of(const std::vector<Simulation>& ladder, std::size_t row, double exponent) {
+  using Mode = numeric::FrictionMode;
+  const auto& impacts = ladder.back().impacts;
+  const bool sticks = std::any_of(impacts.begin(), impacts.begin() + static_cast<std::ptrdiff_t>(row) + 1,
+                                  [](const ImpactRecord& record) {
+                                    return record.mode != Mode::frictionless && record.mode != Mode::slip;
+                                  });
+  if (!sticks || !(exponent > 1)) return {};
+  return {1, 1 + 1 / exponent, 1 + 2 / exponent};
+}
+
+/// Weights of three values at the points x that give the limit at x = 0 of a + b x^first + c x^second.
+Eigen::Vector3d limit_weights(const Eigen::Vector3d& x, const Powers& powers) {
+  const Eigen::Array3d scaled = x.array() / x[0];
+  const Eigen::Vector3d weights = scaled.pow(powers.first).matrix().cross(scaled.pow(powers.second).matrix());
+  return weights / weights.sum();
+}
+
+/// Relative rounding of the numbers of a run: the sizes that they are made of.
+Quantities noise(const Simulation& run, std::size_t row, double radius, double mass) {
+  double speed = 0, grown = 1;
+  for (std::size_t i = 0; i <= row; ++i) {
+    const numeric::ImpactNumbers& n = run.impacts[i].value;
+    speed = std::max({speed, n.velocity_after.norm(), n.approach_speed, n.angular_velocity_after.norm() * radius});
+    // A relative error of the state grows with the lever by which the next contact arises.
+    if (i > 0) grown *= 2 + 1 / std::max(std::min(n.contact_angle, 1.0), 1e-3);
+  }
+  const double relative = run_error * grown;
+  const double time = std::max(run.impacts[row].value.start, radius / speed);
+  return {relative * time, relative * 90, relative * mass * speed, relative * mass * speed, relative * speed,
+          relative * speed, relative * speed / radius};
+}
+
+LimitRow extrapolate(const std::vector<Simulation>& ladder, std::size_t row, const numeric::Body& body,
+                     double exponent) {
+  Eigen::Vector4d x;
+  Eigen::Matrix<double, static_cast<int>(quantity_count), rungs> y;
+  for (int j = 0; j < rungs; ++j) {
+    const Simulation& run = ladder[static_cast<std::size_t>(j)];
+    x[j] = run.impacts[0].value.duration;
+    const Quantities numbers = quantities(run.impacts[row].value);
+    for (std::size_t q = 0; q < quantity_count; ++q) y(static_cast<int>(q), j) = numbers[q];
+  }
+  const Powers powers = powers_of(ladder, row, exponent);
+  const Eigen::Vector3d coarse = limit_weights(x.head<3>(), powers), fine = limit_weights(x.tail<3>(), powers);
+  const double reduction = std::pow(x[2] / x[3], powers.third) - 1;
+  const Quantities floor = noise(ladder.back(), row, body.radius(), body.mass());
+  LimitRow limit{.end = ladder.back().impacts[row].end, .mode = ladder.back().impacts[row].mode};
+  for (std::size_t q = 0; q < quantity_count; ++q) {
+    const auto values = y.row(static_cast<int>(q));
+    limit.value[q] = values.tail<3>().dot(fine);
+    const double change = limit.value[q] - values.head<3>().dot(coarse);
+    limit.error[q] = safety * std::fabs(change) / reduction + fine.cwiseAbs().sum() * floor[q];
+  }
+  return limit;
+}
+
+}  // namespace
+
+StiffLimit stiff_limit(const SimulationScene& scene, const numeric::Body& body, int impacts) {
+  numeric::Options options = scene.options;
+  options.method = numeric::Method::automatic;
+  options.step = 0;
+  options.digits = 12;
+  options.impacts = impacts;
+  options.planar = true;
+  options.error_estimates = options.amplification = false;
+  options.history = nullptr;
+  const double size = feature(scene, body);
+  const double damping_per_stiffness = scene.ground.damping / scene.ground.stiffness;
+  const numeric::MotionState start = scene.start(body);
+
+  StiffLimit limit;
+  const auto run_at = [&](double stiffness) {
+    numeric::Ground ground = scene.ground;
+    ground.stiffness = stiffness;
+    ground.damping = damping_per_stiffness * stiffness;
+    ++limit.runs;
+    return numeric::simulate(body, ground, start, options);
+  };
+  double stiffness = scene.ground.stiffness;
+  std::vector<Simulation> ladder{run_at(stiffness)};
+  if (ladder.back().impacts.empty()) return limit;
+  const auto enough = [&](const Simulation& run) {
+    return clean_rows(run, size, options.gravity) == run.impacts.size();
+  };
+  // The rungs must all be short enough: climb until the lowest of them is.
+  while (limit.runs < most_runs && !(ladder.size() == rungs && enough(ladder.front()))) {
+    const numeric::ImpactNumbers& first = ladder.back().impacts.front().value;
+    if (ladder.size() == rungs && first.duration * first.approach_speed < least_indentation * body.radius()) break;
+    stiffness *= stiffening;
+    ladder.push_back(run_at(stiffness));
+    if (ladder.size() > rungs) ladder.erase(ladder.begin());
+    if (ladder.back().impacts.empty()) return limit;
+  }
+  limit.stiffness = stiffness;
+  const double ratio = ladder[rungs - 2].impacts[0].value.duration / ladder[rungs - 1].impacts[0].value.duration;
+  limit.power = std::log(ratio) / std::log(stiffening);
+  const std::size_t rows = common_rows(ladder, size, options.gravity);
+  const double exponent = 1 / limit.power - 1;
+  for (std::size_t i = 0; i < rows; ++i) limit.rows.push_back(extrapolate(ladder, i, body, exponent));
+  return limit;
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,37 @@
+// The limit of the continuous model as the ground becomes stiff, by extrapolation over ever stiffer grounds.
+#pragma once
+
+#include <vector>
+
+#include "numeric/body.hpp"
+#include "validation/compare/quantities.hpp"
+#include "validation/scene/simulation_scene.hpp"
+
+namespace clatter::validation {
+
+/// One impact in the limit.
+struct LimitRow {
+  Quantities value{};
+  Quantities error{};  ///< error bars: three times the estimated error of the extrapolation, plus that of the runs
+  numeric::ContactEnd end = numeric::ContactEnd::a;
+  numeric::FrictionMode mode = numeric::FrictionMode::frictionless;
+};
+
+struct StiffLimit {
+  std::vector<LimitRow> rows;  ///< those impacts that the stiffest runs have apart from each other
+  double stiffness = 0;        ///< of the stiffest run [N/m³]
+  double power = 0;            ///< −d ln T/d ln k_G of the first contact's duration: 1/(p+1) for a force ∝ δ^p
+  int runs = 0;
+};
+
+/// Numbers of the first impacts as k_G → ∞ with c_G/k_G kept, in the plane.
+///
+/// They are smooth functions of the duration T of the first contact, which falls like k_G^(−1/(p+1)): turning,
+/// gravity and indentation during a contact are all of the order of T.  The stiffness rises sixteenfold from run to
+/// run until every contact is short against the flights beside it, the turning in it small against its angle, and the
+/// indentation against the body's smallest feature; then a + b T + c T² through three runs (T^(1+1/p) in place of T²
+/// where a contact sticks and lets go) gives the value at T = 0, and the change from one triple of runs to the next,
+/// divided as the next power of T wants it, its error.
+[[nodiscard]] StiffLimit stiff_limit(const SimulationScene& scene, const numeric::Body& body, int impacts);
+
+}  // namespace clatter::validation
