@@ -20,7 +20,8 @@ double inverse_psi(double y) {
   double z = y + std::sqrt(2 * y);
   double x = -std::expm1(-z);
   for (int i = 0; i < 60; ++i) {
-    const double step = (psi(x) - y) / x;
+    const double value = z < 0.5 ? psi(x) : z - x;  // x rounds to 1 for large z
+    const double step = (value - y) / x;
     if (!(step > 2 * std::numeric_limits<double>::epsilon() * z)) break;
     z -= step;
     x = -std::expm1(-z);

@@ -224,6 +224,19 @@ BOOST_AUTO_TEST_CASE(a_viscoelastic_ground_without_damping_is_stronges_law_with_
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_ground_damped_without_bound_lets_a_sticking_contact_separate_slowly) {
+  // The ground gives back at u < 1/tau only, whatever it has stored; s = tau v = 1e4 once gave infinity.
+  const Case c{.body = {.gyration_square = 0.1}, .before = {.normal = -1, .tangential = 0.05}, .contact = {-0.3, -0.4}};
+  for (const double tau : {1e2, 1e4, 1e6}) {
+    const Impact impact = strike(c.body, c.before, c.contact,
+                                 {.law = RestitutionLaw::viscoelastic, .friction = FrictionKind::coulomb,
+                                  .friction_value = 0.9, .damping_per_stiffness = tau});
+    BOOST_TEST((impact.mode == ImpactMode::slip_stick));
+    BOOST_TEST(impact.separation_speed > 0.9 / tau);
+    BOOST_TEST(impact.separation_speed <= (1 + 1e-9) / tau);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_viscoelastic_ground_without_friction_restores_by_its_exact_map) {
   // s = 1: e = 0.593624260040, s = 0.1: e = 0.937475579949905, from ln[(1+s)/(1-s e)] = s (1+e).
   const PlanarBody rod = make_rod({});

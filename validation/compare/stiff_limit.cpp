@@ -21,6 +21,7 @@ constexpr int most_runs = 24;
 constexpr double least_indentation = 1e-8;  // of the body: the depth that doubles still resolve to 12 digits
 constexpr double run_error = 3e-12;  // of a run of 12 digits, relative, per impact
 constexpr double safety = 3;
+constexpr long evaluations_per_run = 200'000;  // contacts that are short take some thousand each
 
 /// Length below which the contact sees the shape that it has in the limit [m].
 double feature(const SimulationScene& scene, const numeric::Body& body) {
@@ -151,6 +152,7 @@ StiffLimit stiff_limit(const SimulationScene& scene, const numeric::Body& body, 
   options.planar = true;
   options.error_estimates = options.amplification = false;
   options.history = nullptr;
+  options.evaluation_limit = std::min(options.evaluation_limit, evaluations_per_run);
   const double size = feature(scene, body);
   const double damping_per_stiffness = scene.ground.damping / scene.ground.stiffness;
   const numeric::MotionState start = scene.start(body);

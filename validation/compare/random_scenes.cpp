@@ -1,0 +1,120 @@
+#include "validation/compare/random_scenes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "analytic/errors.hpp"
+#include "analytic/restitution_map.hpp"
+#include "validation/compare/comparison.hpp"
+#include "validation/output/number.hpp"
+
+namespace clatter::validation {
+namespace {
+
+/// Uniform numbers that do not depend on the library's distributions.
+class Uniform {
+ public:
+  Uniform(std::uint64_t seed, int index) : engine_(seed + 1'000'003ULL * static_cast<std::uint64_t>(index)) {}
+  double operator()(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+  }
+  double logarithmic(double low, double high) { return std::exp((*this)(std::log(low), std::log(high))); }
+  bool one_in(int n) { return (*this)(0, n) < 1; }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+void choose_body(Uniform& random, BodyScene& body) {
+  body.mass = random.logarithmic(0.01, 10);
+  if (random.one_in(2)) {
+    body.shape = BodyScene::Shape::rod;
+    body.length = random.logarithmic(0.05, 2);
+    body.radius = body.length * random.logarithmic(0.005, 0.2);
+    body.sectors = 4 * static_cast<int>(random(1, 5));
+    body.rings = body.layers = 1;
+    return;
+  }
+  body.shape = BodyScene::Shape::box;
+  const double length = random.logarithmic(0.05, 2);
+  body.size = {length, length * random(0.1, 1), length * random.logarithmic(0.03, 1)};
+}
+
+/// Whether the number is a sample at all.
+bool counts(const ComparedImpact& impact, std::size_t q) {
+  if (impact.n == 1 && q < 2) return false;
+  return (*impact.discrete)[q] != 0;
+}
+
+}  // namespace
+
+SimulationScene random_scene(std::uint64_t seed, int index) {
+  Uniform random(seed, index);
+  SimulationScene scene;
+  scene.path = fmt::format("random scene {} of family {}", index, seed);
+  choose_body(random, scene.body);
+  const double size = scene.body.shape == BodyScene::Shape::rod ? scene.body.length : scene.body.size.x();
+  scene.angle_deg = random(3, 87);
+  scene.speed = random.logarithmic(0.3, 10);
+  scene.tangential_velocity = random.one_in(2) ? 0 : random(-1, 1) * scene.speed;
+  scene.spin = random.one_in(2) ? 0 : random(-0.5, 0.5) * scene.speed / size;
+  scene.options.gravity = random.one_in(3) ? 0 : random(1, 20);
+  scene.ground.stiffness = random.logarithmic(1e6, 1e12);
+  const double restitution = random.one_in(3) ? 1 : random(0.3, 1);
+  scene.ground.damping = scene.ground.stiffness * analytic::damping_of_restitution(restitution) / scene.speed;
+  const double friction = random.one_in(3) ? 0 : random(0, 0.8);
+  scene.ground.static_friction = scene.ground.sliding_friction = friction;
+  scene.ground.area = random.one_in(2) ? numeric::AreaMeasure::surface : numeric::AreaMeasure::projected;
+  return scene;
+}
+
+void summarise(RandomScenesResult& result) {
+  std::vector<double> ratios;
+  std::size_t covered = 0;
+  double farthest = 1;
+  result.worst = "none outside";
+  for (const LimitSample& sample : result.samples) {
+    if (sample.gap <= sample.bar) ++covered;
+    if (sample.gap > 0) ratios.push_back(sample.bar / sample.gap);
+    if (!(sample.gap <= farthest * sample.bar)) {
+      farthest = sample.gap / sample.bar;
+      result.worst = fmt::format("scene {}, impact {}, {}: {} times its bar", sample.scene, sample.impact,
+                                 quantity_names[sample.quantity].name, significant(farthest, 2));
+    }
+  }
+  if (result.samples.empty()) return;
+  result.covered = static_cast<double>(covered) / static_cast<double>(result.samples.size());
+  if (ratios.empty()) return;
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  result.median_bar = *middle;
+}
+
+RandomScenesResult run_random_scenes(std::uint64_t seed, int first, int count, int impacts) {
+  RandomScenesResult result;
+  result.scenes = count;
+  for (int index = first; index < first + count; ++index) {
+    SimulationScene scene = random_scene(seed, index);
+    scene.options.impacts = impacts;
+    scene.options.error_estimates = false;
+    const Comparison comparison = compare_models(scene, scene.make_body());
+    bool any = false;
+    for (const ComparedImpact& impact : comparison.impacts) {
+      if (!impact.has_landing()) continue;
+      any = true;
+      for (std::size_t q = 0; q < quantity_count; ++q) {
+        if (!counts(impact, q)) continue;
+        const double gap = std::fabs(impact.limit->value[q] - (*impact.discrete)[q]);
+        result.samples.push_back({index, impact.n, q, gap, impact.limit->error[q]});
+      }
+    }
+    result.with_limit += any ? 1 : 0;
+  }
+  summarise(result);
+  return result;
+}
+
+}  // namespace clatter::validation
