@@ -49,6 +49,7 @@ class Scan {
     const std::string name = argument.substr(0, equal);
     const CLI::Option& option = find_option(command_, name);
     if (!seen_.insert(name).second) throw BadInput(fmt::format("{}: given twice", name));
+    list_ = option.get_items_expected_max() > 1 ? name : "";
     const bool takes_value = option.get_items_expected_max() > 0;
     if (!takes_value) {
       if (equal != std::string::npos) throw BadInput(fmt::format("{}: takes no value", name));
@@ -64,7 +65,13 @@ class Scan {
     out_.push_back(name + "=" + value);
   }
 
+  /// A value of the list before it, or an argument of its own.
   void positional(const std::string& argument) {
+    if (!list_.empty()) {
+      if (argument.empty()) throw BadInput(fmt::format("{} '': the value is empty", list_));
+      out_.push_back(list_ + "=" + argument);
+      return;
+    }
     std::size_t allowed = 0;
     for (const CLI::Option* option : command_.get_options()) allowed += option->get_positional() ? 1 : 0;
     if (++positionals_ > allowed) {
@@ -78,6 +85,7 @@ class Scan {
   std::vector<std::string>& out_;
   std::set<std::string> seen_;
   std::size_t positionals_ = 0;
+  std::string list_;  ///< option whose values may go on; empty: none
 };
 
 /// "-5" is a value that stands alone; "-x" is no option of this program.

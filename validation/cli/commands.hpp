@@ -15,6 +15,8 @@ using Action = std::function<int()>;
 [[nodiscard]] Action add_explain_command(CLI::App& app);
 [[nodiscard]] Action add_simulate_command(CLI::App& app);
 [[nodiscard]] Action add_compare_command(CLI::App& app);
+[[nodiscard]] Action add_verify_command(CLI::App& app);
+[[nodiscard]] Action add_figures_command(CLI::App& app);
 [[nodiscard]] Action add_completion_command(CLI::App& app);
 [[nodiscard]] Action add_man_command(CLI::App& app);
 

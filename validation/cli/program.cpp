@@ -46,6 +46,8 @@ int parse_and_run(const std::vector<std::string>& given) {
   actions["explain"] = add_explain_command(app);
   actions["simulate"] = add_simulate_command(app);
   actions["compare"] = add_compare_command(app);
+  actions["verify"] = add_verify_command(app);
+  actions["figures"] = add_figures_command(app);
   actions["completion"] = add_completion_command(app);
   actions["man"] = add_man_command(app);
   std::vector<std::string> arguments = checked_arguments(app, given);

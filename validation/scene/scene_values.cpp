@@ -31,6 +31,14 @@ bool inside(double value, const Range& range) {
   return std::isfinite(value) && value >= range.low && value <= range.high && !(range.low_open && value == range.low);
 }
 
+toml::table parse(const std::string& path, std::string_view text) {
+  try {
+    return toml::parse(text, path);
+  } catch (const toml::parse_error& error) {
+    throw BadInput(fmt::format("{}: {}", position(path, error.source()), error.description()));
+  }
+}
+
 toml::table parse(const std::string& path) {
   if (std::error_code error; !std::filesystem::is_regular_file(path, error) && !std::filesystem::is_fifo(path, error)) {
     throw BadInput(fmt::format("{}: {}", path, std::filesystem::exists(path, error) ? "not a file" : "cannot be read"));
@@ -118,6 +126,11 @@ class SceneParser {
 
 SceneValues::SceneValues(const std::string& path, const std::vector<std::string>& known) : path_(path) {
   SceneParser(*this, known).add(parse(path), "");
+}
+
+SceneValues::SceneValues(const std::string& path, std::string_view text, const std::vector<std::string>& known)
+    : path_(path) {
+  SceneParser(*this, known).add(parse(path, text), "");
 }
 
 void SceneValues::set(const std::string& key, const std::string& flag, const std::string& text) {

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -17,6 +18,8 @@ class SceneValues {
   /// Reads a TOML file.  @throws BadInput "file:line:column: ..." if it cannot be read, is no TOML, repeats a
   /// key, or has a key that is not among `known` (the nearest one is named).
   SceneValues(const std::string& path, const std::vector<std::string>& known);
+  /// The same from `text`; `path` is what messages call it.
+  SceneValues(const std::string& path, std::string_view text, const std::vector<std::string>& known);
 
   /// A flag takes the place of a key.
   void set(const std::string& key, const std::string& flag, const std::string& text);

@@ -11,6 +11,7 @@
 #include "numeric/mesh/generators.hpp"
 #include "numeric/mesh/import.hpp"
 #include "numeric/motion/free_flight.hpp"
+#include "validation/embedded/embedded.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/bad_input.hpp"
 #include "validation/scene/scene_values.hpp"
@@ -322,8 +323,9 @@ std::vector<double> SceneSweep::values() const {
   return values;
 }
 
-SimulationScene read_simulation_scene(const std::string& path, const std::vector<SceneOverride>& overrides) {
-  SceneValues values(path, known_keys);
+namespace {
+
+SimulationScene read_values(SceneValues values, const std::vector<SceneOverride>& overrides) {
   refuse_both(overrides, "--speed", "--height");
   for (const SceneOverride& flag : overrides) {
     if (flag.key == "drop.speed") values.drop("drop.height");
@@ -335,7 +337,7 @@ SimulationScene read_simulation_scene(const std::string& path, const std::vector
     values.set(flag.key, flag.flag, flag.text);
   }
   SimulationScene scene;
-  scene.path = path;
+  scene.path = values.path();
   scene.sweep = read_sweep_table(values);
   scene.options = read_options(values);
   read_drop(values, scene);
@@ -348,6 +350,17 @@ SimulationScene read_simulation_scene(const std::string& path, const std::vector
   if (values.has("run.history")) scene.history = values.text("run.history");
   if (scene.sweep && !scene.history.empty()) values.refuse("run.history", "left out in a sweep");
   return scene;
+}
+
+}  // namespace
+
+SimulationScene read_simulation_scene(const std::string& path, const std::vector<SceneOverride>& overrides) {
+  return read_values(SceneValues(path, known_keys), overrides);
+}
+
+SimulationScene case_scene(const std::string& name, const std::vector<SceneOverride>& overrides) {
+  const std::string path = "validation/cases/" + name + ".toml";
+  return read_values(SceneValues(path, embedded_text(path), known_keys), overrides);
 }
 
 SimulationScene SimulationScene::at(double value) const {

@@ -76,6 +76,9 @@ struct SimulationScene {
 [[nodiscard]] SimulationScene read_simulation_scene(const std::string& path,
                                                     const std::vector<SceneOverride>& overrides);
 
+/// The scene of validation/cases/NAME.toml, from the program itself.  @throws std::out_of_range if there is none.
+[[nodiscard]] SimulationScene case_scene(const std::string& name, const std::vector<SceneOverride>& overrides = {});
+
 [[nodiscard]] const char* method_name(numeric::Method method);
 
 }  // namespace clatter::validation

@@ -1,0 +1,67 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "validation/cli/commands.hpp"
+#include "validation/cli/options.hpp"
+#include "validation/cli/progress.hpp"
+#include "validation/figures/figure.hpp"
+#include "validation/figures/figure_file.hpp"
+#include "validation/scene/bad_input.hpp"
+
+namespace clatter::validation {
+namespace {
+
+struct FiguresInput {
+  std::optional<std::string> folder;
+  std::vector<std::string> only;
+};
+
+std::string known_numbers() {
+  std::string text;
+  for (const int number : figure_numbers()) text += (text.empty() ? "" : ", ") + std::to_string(number);
+  return text;
+}
+
+std::vector<int> chosen(const FiguresInput& input) {
+  if (input.only.empty()) return figure_numbers();
+  std::vector<int> numbers;
+  for (const std::string& text : input.only) {
+    const int number = read_integer_option("--only", text, 1, 99);
+    const auto& known = figure_numbers();
+    if (std::find(known.begin(), known.end(), number) == known.end()) {
+      throw BadInput(fmt::format("--only {}: no such figure; there are {}", number, known_numbers()));
+    }
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+int run_figures(const FiguresInput& input) {
+  const std::vector<int> numbers = chosen(input);
+  if (!input.folder || input.folder->empty()) throw BadInput("--output DIR: required, the folder for the CSV files");
+  make_folder(*input.folder, "--output");
+  Laboratory laboratory;
+  Progress progress;
+  std::size_t done = 0;
+  for (const int number : numbers) {
+    progress.show(progress_bar(done++, numbers.size()));
+    write_figure(make_figure(number, laboratory), *input.folder);
+  }
+  return 0;
+}
+
+}  // namespace
+
+Action add_figures_command(CLI::App& app) {
+  auto input = std::make_shared<FiguresInput>();
+  CLI::App* command = app.add_subcommand("figures", "the data of the paper's figures, one CSV each");
+  add_text(*command, "--output", input->folder, "DIR", "folder for figure_07.csv, ...; made if it is not there");
+  command->add_option("--only", input->only, "numbers of figures")->type_name("N...");
+  command->footer("Example: clatter figures --only 7 14 --output figures\n"
+                  "clatter verify --html FILE draws them.");
+  return [input] { return run_figures(*input); };
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,121 @@
+#include "validation/cli/verify_report.hpp"
+
+#include <fmt/format.h>
+
+#include "validation/cli/impact_records.hpp"
+#include "validation/cli/options.hpp"
+#include "validation/cli/version.hpp"
+#include "validation/output/number.hpp"
+
+namespace clatter::validation {
+namespace {
+
+const char* const what_it_is = "every claim, its oracle, tolerance and measured error";
+
+std::string verdict_word(const CheckResult& result) {
+  if (!result.done) return "not run";
+  return result.passed() ? "passed" : "FAILED";
+}
+
+std::string answer_word(const CheckResult& result) {
+  return result.done ? answer_name(result.measured.answer) : "";
+}
+
+/// Digits of the number that its error leaves, at most six.
+int digits_of(const CheckResult& result) {
+  const Measured& m = result.measured;
+  return std::min(6, known_digits(m.number, std::max(m.error * std::fabs(m.number), 1e-12 * std::fabs(m.number))));
+}
+
+void add_failures(const std::vector<CheckResult>& results, Table& table) {
+  for (const CheckResult& result : results) {
+    if (result.done && !result.passed()) table.notes.push_back(fmt::format("{}: {}", result.check->id, result.failure));
+  }
+}
+
+Json check_json(const CheckResult& result) {
+  const Check& check = *result.check;
+  const Measured& m = result.measured;
+  return {{"id", check.id},
+          {"what", check.what},
+          {"claim", check.claim},
+          {"quantity", check.number},
+          {"unit", check.unit.empty() ? Json(nullptr) : Json(check.unit)},
+          {"oracle", check.oracle},
+          {"metric", check.error},
+          {"answer", result.done ? Json(answer_name(m.answer)) : Json(nullptr)},
+          {"expected_answer", answer_name(check.answer)},
+          {"number", result.done ? number_or_null(m.number) : Json(nullptr)},
+          {"measured_error", result.done ? number_or_null(m.error) : Json(nullptr)},
+          {"tolerance", check.tolerance},
+          {"seen", check.seen},
+          {"reason", check.reason},
+          {"verdict", verdict_word(result)},
+          {"failure", result.failure.empty() ? Json(nullptr) : Json(result.failure)},
+          {"found", m.found},
+          {"seconds", result.seconds},
+          {"figure", check.figure ? Json(*check.figure) : Json(nullptr)},
+          {"command", check.command}};
+}
+
+}  // namespace
+
+VerifySummary summary_of(const std::vector<CheckResult>& results) {
+  VerifySummary summary;
+  for (const CheckResult& result : results) {
+    ++(result.passed() ? summary.passed : result.done ? summary.failed : summary.not_run);
+    summary.seconds += result.seconds;
+  }
+  return summary;
+}
+
+std::string summary_words(const VerifySummary& summary) {
+  std::string text = fmt::format("{} of {} checks passed", summary.passed, summary.passed + summary.failed + summary.not_run);
+  if (summary.failed > 0) text += fmt::format(", {} FAILED", summary.failed);
+  if (summary.not_run > 0) text += fmt::format(", {} not run: interrupted", summary.not_run);
+  return text + fmt::format("; {} s of processor time", significant(summary.seconds, 3));
+}
+
+Table verify_table(const std::vector<CheckResult>& results, const std::string& selection, Format format) {
+  const bool wide = format != Format::table;
+  Table table{.head = {headline("verify", what_it_is), selection}, .columns = {}, .rows = {}, .notes = {}};
+  table.columns = {{"id", "id", ""}, {"what", "what", ""}, {"answer", "answer", ""}, {"number", "number", ""},
+                   {"measured_error", "error", ""}, {"tolerance", "tolerance", ""}, {"verdict", "verdict", ""},
+                   {"seconds", "cost", "s"}, {"oracle", "oracle", "", wide}, {"found", "found", "", wide}};
+  for (const CheckResult& result : results) {
+    const Measured& m = result.measured;
+    std::vector<Cell> row{Cell(result.check->id), Cell(result.check->what), Cell(answer_word(result))};
+    if (result.done) row.insert(row.end(), {Cell(m.number, digits_of(result)), Cell(m.error, 2)});
+    else row.resize(5);
+    row.insert(row.end(), {Cell(result.check->tolerance, 2), Cell(verdict_word(result)), Cell(result.seconds, 2),
+                           Cell(result.check->oracle), Cell(m.found)});
+    if (result.seconds < 0.005) row[7] = Cell("0.00");
+    table.rows.push_back(std::move(row));
+  }
+  add_failures(results, table);
+  table.notes.push_back(summary_words(summary_of(results)));
+  if (format == Format::table) table.notes.push_back("answer: does the claim hold?  --format json says what each number is and what else was found");
+  return table;
+}
+
+Json verify_json(const std::vector<CheckResult>& results, const std::string& selection) {
+  const VerifySummary summary = summary_of(results);
+  Json json{{"clatter", version}, {"model", "verification"}, {"selection", selection}, {"checks", Json::array()}};
+  for (const CheckResult& result : results) json["checks"].push_back(check_json(result));
+  json["passed"] = summary.passed;
+  json["failed"] = summary.failed;
+  json["not_run"] = summary.not_run;
+  json["seconds"] = summary.seconds;
+  json["message"] = summary_words(summary);
+  return json;
+}
+
+Table verify_records(const std::vector<CheckResult>& results, const std::string& selection) {
+  Table table{.head = {headline("verify", what_it_is), selection}, .columns = {}, .rows = {}, .notes = {}};
+  const Json json = verify_json(results, selection);
+  add_impact_records(table, json["checks"]);
+  table.notes = {summary_words(summary_of(results))};
+  return table;
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,157 @@
+// Figs. 7 and 9 to 12: the thin rod's first three impacts, with the continuous model of a very thin rod on a very
+// stiff ground as points.
+#include <cmath>
+#include <limits>
+
+#include "analytic/contact_angles.hpp"
+#include "validation/figures/figures.hpp"
+
+namespace clatter::validation {
+namespace {
+
+using analytic::Angle;
+using analytic::ContactAngles;
+using analytic::degrees_per_radian;
+using analytic::NextImpact;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double last_angle = 60;
+constexpr double line_step = 0.25, point_step = 5;
+
+/// Angles and impulses of the first three impacts; NaN where an impact does not happen.
+struct FirstImpacts {
+  double beta = none, gamma = none;
+  double impulse[3] = {none, none, none};
+};
+
+FirstImpacts discrete(double theta_deg, double gravity_number) {
+  const ContactAngles angles = contact_angles(Angle::from_degrees(theta_deg), {.gravity_number = gravity_number});
+  FirstImpacts first;
+  for (int i = 0; i < angles.impacts(); ++i) first.impulse[i] = angles.impulse[i];
+  if (angles.impacts() > 1) first.beta = angles.beta.angle * degrees_per_radian;
+  if (angles.impacts() > 2) first.gamma = angles.gamma.angle * degrees_per_radian;
+  return first;
+}
+
+/// Radius 1e-4 m on a ground so stiff that indentations are far below it: the thin rod to about 1e-4.
+FirstImpacts continuous(double theta_deg, double gravity) {
+  SimulationScene scene;
+  scene.angle_deg = theta_deg;
+  scene.body.radius = 1e-4;
+  scene.body.layers = 1;
+  scene.ground.stiffness = 1e30;
+  scene.options.gravity = gravity;
+  scene.options.impacts = 3;
+  scene.options.planar = true;
+  scene.options.error_estimates = scene.options.amplification = false;
+  const numeric::Body body = scene.make_body();
+  const numeric::Simulation run = numeric::simulate(body, scene.ground, scene.start(body), scene.options);
+  FirstImpacts first;
+  bool other_end = true;
+  for (std::size_t i = 0; i < run.impacts.size() && other_end; ++i) {
+    const numeric::ImpactRecord& impact = run.impacts[i];
+    // β and γ are angles of the other end, up to the upright.
+    const bool upright_not_passed = std::fabs(impact.value.inclination) <= analytic::pi / 2;
+    other_end = i == 0 || (impact.end != run.impacts[i - 1].end && upright_not_passed);
+    if (!other_end) break;
+    first.impulse[i] = impact.value.impulse.z();
+    if (i == 1) first.beta = impact.value.contact_angle * degrees_per_radian;
+    if (i == 2) first.gamma = impact.value.contact_angle * degrees_per_radian;
+  }
+  return first;
+}
+
+/// Which numbers a figure shows, by gravity number.
+struct Wanted {
+  bool beta = false, gamma = false;
+  int impulses = 0;
+  std::vector<double> gravity_numbers{0};
+};
+
+std::string suffix(double gravity_number) {
+  return gravity_number == 0 ? "" : gravity_number < 1 ? "_G0_1" : "_G9_81";
+}
+
+std::string words(double gravity_number) {
+  return gravity_number == 0 ? "no gravity" : gravity_number < 1 ? "G = 0.1" : "G = 9.81";
+}
+
+template <class Add>
+void for_each_number(const Wanted& wanted, const Add& add) {
+  if (wanted.beta) add("beta", "deg", "contact angle of the second impact", "β");
+  if (wanted.gamma) add("gamma", "deg", "contact angle of the third impact", "γ");
+  const char* const names[] = {"P1", "P2", "P3"};
+  const char* const signs[] = {"P₁", "P₂", "P₃"};
+  const char* const which[] = {"first", "second", "third"};
+  for (int i = 0; i < wanted.impulses; ++i) {
+    add(names[i], "m |v_n|", std::string("normal impulse of the ") + which[i] + " impact", signs[i]);
+  }
+}
+
+void add_columns(Figure& figure, FigurePlot& plot, const Wanted& wanted, double gravity_number) {
+  for_each_number(wanted, [&](const std::string& name, const std::string& unit, const std::string& what,
+                              const std::string& sign) {
+    const std::string base = name + suffix(gravity_number);
+    figure.columns.push_back({base, unit, what + ", discrete model, " + words(gravity_number)});
+    figure.columns.push_back({base + "_continuous", unit, what + ", continuous model of a rod of radius 1e-4 m, " +
+                                                              words(gravity_number)});
+    const std::string legend = wanted.gravity_numbers.size() > 1 ? sign + ", " + words(gravity_number) : sign;
+    plot.curves.push_back({.x = "theta", .y = base, .legend = legend, .where = {}});
+    plot.curves.push_back({.x = "theta", .y = base + "_continuous", .legend = "",
+                           .style = FigureCurve::Style::points, .where = {}});
+  });
+}
+
+void add_numbers(std::vector<double>& row, const Wanted& wanted, const FirstImpacts& line, const FirstImpacts& point) {
+  if (wanted.beta) row.insert(row.end(), {line.beta, point.beta});
+  if (wanted.gamma) row.insert(row.end(), {line.gamma, point.gamma});
+  for (int i = 0; i < wanted.impulses; ++i) row.insert(row.end(), {line.impulse[i], point.impulse[i]});
+}
+
+Figure discrete_figure(int number, const std::string& title, const Wanted& wanted) {
+  Figure figure{.number = number, .title = title,
+                .scene = "thin rod, m = L = |v_n| = 1, omega = 0, e = 1, no friction; points: continuous model",
+                .columns = {{"theta", "deg", "contact angle of the first impact"}}, .rows = {}, .plots = {}};
+  FigurePlot plot{.title = "", .x_label = "initial contact angle θ [°]",
+                  .y_label = wanted.impulses > 0 ? "normal impulse [m |vₙ|]" : "contact angle [°]", .curves = {},
+                  .x = {0, last_angle}, .y = {0, wanted.impulses > 0 ? none : 90}};
+  for (const double gravity_number : wanted.gravity_numbers) add_columns(figure, plot, wanted, gravity_number);
+  const int count = static_cast<int>(last_angle / line_step);
+  for (int i = 0; i <= count; ++i) {
+    const double theta = i * line_step;
+    const bool with_point = theta > 0 && std::fmod(theta, point_step) == 0;
+    std::vector<double>& row = figure.rows.emplace_back(std::vector<double>{theta});
+    for (const double gravity_number : wanted.gravity_numbers) {
+      add_numbers(row, wanted, discrete(theta, gravity_number),
+                  with_point ? continuous(theta, gravity_number) : FirstImpacts{});
+    }
+  }
+  figure.plots = {plot};
+  return figure;
+}
+
+}  // namespace
+
+Figure figure_second_angle() {
+  return discrete_figure(7, "contact angle of the second impact over that of the first", {.beta = true});
+}
+
+Figure figure_two_impulses() {
+  return discrete_figure(9, "normal impulses of the first and the second impact", {.impulses = 2});
+}
+
+Figure figure_both_angles() {
+  return discrete_figure(10, "contact angles of the second and the third impact", {.beta = true, .gamma = true});
+}
+
+Figure figure_angles_with_gravity() {
+  return discrete_figure(11, "contact angles with and without gravity, G = g L/v_n^2",
+                         {.beta = true, .gamma = true, .gravity_numbers = {0, 0.1, 9.81}});
+}
+
+Figure figure_impulses_with_gravity() {
+  return discrete_figure(12, "normal impulses with and without gravity, G = g L/v_n^2",
+                         {.impulses = 3, .gravity_numbers = {0, 0.1, 9.81}});
+}
+
+}  // namespace clatter::validation

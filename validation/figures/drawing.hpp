@@ -1,0 +1,15 @@
+// Figures as SVG, drawn by gnuplot.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "validation/figures/figure.hpp"
+
+namespace clatter::validation {
+
+/// One SVG element per plot of the figure, ready to stand in an HTML page.
+/// @throws std::runtime_error with gnuplot's first line of complaint if it is not there or fails.
+[[nodiscard]] std::vector<std::string> draw(const Figure& figure);
+
+}  // namespace clatter::validation

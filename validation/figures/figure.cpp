@@ -1,0 +1,69 @@
+#include "validation/figures/figure.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "validation/cli/version.hpp"
+#include "validation/figures/figures.hpp"
+#include "validation/output/number.hpp"
+
+namespace clatter::validation {
+
+std::size_t Figure::column(const std::string& name) const {
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i].name == name) return i;
+  }
+  throw std::out_of_range("no column " + name);
+}
+
+std::string Figure::command() const { return fmt::format("clatter figures --only {} --output DIR", number); }
+
+std::string Figure::file_name() const { return fmt::format("figure_{:02}.csv", number); }
+
+const std::vector<int>& figure_numbers() {
+  static const std::vector<int> numbers{7, 9, 10, 11, 12, 14, 15, 16, 17, 19, 20, 21, 22, 23, 24};
+  return numbers;
+}
+
+Figure make_figure(int number, Laboratory& laboratory) {
+  switch (number) {
+    case 7: return figure_second_angle();
+    case 9: return figure_two_impulses();
+    case 10: return figure_both_angles();
+    case 11: return figure_angles_with_gravity();
+    case 12: return figure_impulses_with_gravity();
+    case 14: return figure_rod_over_angle(laboratory);
+    case 15: return figure_rod_over_friction(laboratory);
+    case 16: return figure_rod_contact(laboratory);
+    case 17: return figure_rod_sequence(laboratory);
+    case 19: return figure_phone_history(laboratory, false);
+    case 20: return figure_phone_impacts(laboratory, false);
+    case 21: return figure_phone_history(laboratory, true);
+    case 22: return figure_phone_impacts(laboratory, true);
+    case 23: return figure_phone_energies(laboratory);
+    case 24: return figure_phone_over_angle(laboratory);
+    default: throw std::out_of_range(fmt::format("no figure {}", number));
+  }
+}
+
+std::string figure_csv(const Figure& figure) {
+  std::string text = fmt::format("# Figure {}: {}\n# scene: {}\n# command: {}\n# clatter {}\n", figure.number,
+                                 figure.title, figure.scene, figure.command(), version);
+  for (const FigureColumn& column : figure.columns) {
+    text += fmt::format("# {} [{}]: {}\n", column.name, column.unit, column.quantity);
+  }
+  for (std::size_t i = 0; i < figure.columns.size(); ++i) text += (i > 0 ? "," : "") + figure.columns[i].name;
+  text += "\n";
+  for (const std::vector<double>& row : figure.rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      text += i > 0 ? "," : "";
+      if (std::isfinite(row[i])) text += shortest(row[i]);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,65 @@
+// The paper's figures as data: columns, rows, and which of them to draw against which.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/verify/laboratory.hpp"
+
+namespace clatter::validation {
+
+struct FigureColumn {
+  std::string name;      ///< of the CSV
+  std::string unit;      ///< "1" for none
+  std::string quantity;  ///< what it is, one line
+};
+
+/// One line or set of points of a plot.
+struct FigureCurve {
+  enum class Style { line, thin_line, points, bars };
+  std::string x, y;  ///< names of columns
+  std::string legend;
+  Style style = Style::line;
+  std::optional<std::pair<std::string, double>> where;  ///< only the rows in which this column has this value
+};
+
+struct Range2 {
+  double low = std::numeric_limits<double>::quiet_NaN();  ///< NaN: from the data
+  double high = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// One panel, with the paper's axes.
+struct FigurePlot {
+  std::string title;
+  std::string x_label, y_label;
+  std::vector<FigureCurve> curves;
+  Range2 x = {};
+  Range2 y = {};
+};
+
+struct Figure {
+  int number = 0;       ///< of the paper
+  std::string title;
+  std::string scene;    ///< what was dropped how, or the scene file
+  std::vector<FigureColumn> columns;
+  std::vector<std::vector<double>> rows;  ///< NaN: no value
+  std::vector<FigurePlot> plots;
+
+  [[nodiscard]] std::size_t column(const std::string& name) const;
+  /// "clatter figures --only N --output DIR".
+  [[nodiscard]] std::string command() const;
+  /// "figure_07.csv".
+  [[nodiscard]] std::string file_name() const;
+};
+
+/// 7, 9 to 12, 14 to 17, 19 to 24.
+[[nodiscard]] const std::vector<int>& figure_numbers();
+/// @throws std::out_of_range for a number that is not among them.
+[[nodiscard]] Figure make_figure(int number, Laboratory& laboratory);
+
+/// CSV of the figure: a head of "# " lines with title, scene, command, version and each column's quantity and unit.
+[[nodiscard]] std::string figure_csv(const Figure& figure);
+
+}  // namespace clatter::validation

@@ -1,0 +1,167 @@
+// Figs. 19 to 24: the paper's phone.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "analytic/sequence.hpp"
+#include "validation/compare/discrete_scene.hpp"
+#include "validation/figures/figures.hpp"
+
+namespace clatter::validation {
+namespace {
+
+using Style = FigureCurve::Style;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// The elastic phone is kept in its plane: in space nothing after its second impact can be predicted.
+struct PhoneCase {
+  std::string name, scene;
+  RunOptions options;
+};
+
+PhoneCase phone_case(bool damped) {
+  if (damped) return {"phone-damped", "validation/cases/phone-damped.toml", {}};
+  return {"phone-elastic", "validation/cases/phone-elastic.toml --planar (in space it is not predictable after impact 2)",
+          {.planar = true}};
+}
+
+double total(const numeric::HistorySample& s) {
+  return s.energy_translation + s.energy_rotation + s.energy_potential + s.energy_ground;
+}
+
+FigurePlot over_time(const std::string& title, const std::string& label, Range2 times) {
+  return {.title = title, .x_label = "time since the first touch-down [s]", .y_label = label, .curves = {}, .x = times, .y = {}};
+}
+
+/// The end of impact 2 with some room around the first two.
+Range2 first_two(const numeric::Simulation& run) {
+  const numeric::ImpactNumbers& second = run.impacts.at(1).value;
+  return {-1e-3, second.start + second.duration + 1e-3};
+}
+
+}  // namespace
+
+Figure figure_phone_history(Laboratory& laboratory, bool damped) {
+  const PhoneCase phone = phone_case(damped);
+  Figure figure{.number = damped ? 21 : 19,
+                .title = fmt::format("impacts of the {} phone over time", damped ? "damped" : "elastic"),
+                .scene = phone.scene,
+                .columns = {{"time", "s", "since the first touch-down"},
+                            {"Fn", "N", "normal contact force"},
+                            {"E", "J", "total energy"},
+                            {"E_kinetic", "J", "kinetic energy"},
+                            {"E_potential", "J", "potential energy"}},
+                .rows = {}, .plots = {}};
+  const RecordedRun& recorded = laboratory.history(phone.name, phone.options);
+  for (const numeric::HistorySample& s : recorded.samples) {
+    figure.rows.push_back({s.time, s.force.z(), total(s), s.energy_translation + s.energy_rotation, s.energy_potential});
+  }
+  for (const bool zoomed : {false, true}) {
+    const Range2 times = zoomed ? first_two(recorded.run) : Range2{};
+    const std::string title = zoomed ? "first two impacts" : "all impacts";
+    FigurePlot force = over_time(title, "normal contact force [N]", times);
+    force.curves = {{.x = "time", .y = "Fn", .legend = "", .where = {}}};
+    FigurePlot energy = over_time(title, "energy [J]", times);
+    energy.y = {0, none};
+    energy.curves = {{.x = "time", .y = "E", .legend = "total", .where = {}},
+                     {.x = "time", .y = "E_kinetic", .legend = "kinetic", .where = {}},
+                     {.x = "time", .y = "E_potential", .legend = "potential", .where = {}}};
+    figure.plots.insert(figure.plots.end(), {force, energy});
+  }
+  return figure;
+}
+
+Figure figure_phone_impacts(Laboratory& laboratory, bool damped) {
+  const PhoneCase phone = phone_case(damped);
+  Figure figure{.number = damped ? 22 : 20,
+                .title = fmt::format("peak force and time of each impact of the {} phone", damped ? "damped" : "elastic"),
+                .scene = phone.scene,
+                .columns = {{"impact", "1", "number of the impact"},
+                            {"peak_force", "N", "largest normal force"},
+                            {"start", "s", "time of the touch-down since the first one"},
+                            {"interval", "s", "time since the touch-down before"},
+                            {"duration", "s", "of the contact"},
+                            {"amplification", "1", "growth of a relative error of the start"}},
+                .rows = {}, .plots = {}};
+  const numeric::Simulation& run = laboratory.history(phone.name, phone.options).run;
+  for (std::size_t i = 0; i < run.impacts.size(); ++i) {
+    const numeric::ImpactNumbers& n = run.impacts[i].value;
+    const double interval = i == 0 ? none : n.start - run.impacts[i - 1].value.start;
+    figure.rows.push_back({static_cast<double>(i + 1), n.peak_force, n.start, interval, n.duration,
+                           run.impacts[i].amplification});
+  }
+  const double last = static_cast<double>(run.impacts.size()) + 0.6;
+  figure.plots = {{.title = "", .x_label = "impact", .y_label = "peak normal force [N]",
+                   .curves = {{.x = "impact", .y = "peak_force", .legend = "", .style = Style::bars, .where = {}}},
+                   .x = {0.4, last}, .y = {0, none}},
+                  {.title = "", .x_label = "impact", .y_label = "elapsed time [s]",
+                   .curves = {{.x = "impact", .y = "start", .legend = "", .style = Style::bars, .where = {}}},
+                   .x = {0.4, last}, .y = {0, none}}};
+  return figure;
+}
+
+Figure figure_phone_energies(Laboratory& laboratory) {
+  Figure figure{.number = 23, .title = "energies of the damped phone in its first two impacts",
+                .scene = "validation/cases/phone-damped.toml",
+                .columns = {{"time", "s", "since the first touch-down"},
+                            {"E", "J", "total energy"},
+                            {"E_translation", "J", "translational kinetic energy"},
+                            {"E_rotation", "J", "rotational kinetic energy"},
+                            {"E_potential", "J", "potential energy"}},
+                .rows = {}, .plots = {}};
+  const RecordedRun& recorded = laboratory.history("phone-damped");
+  const Range2 times = first_two(recorded.run);
+  for (const numeric::HistorySample& s : recorded.samples) {
+    if (s.time < 0 || s.time > times.high) continue;
+    figure.rows.push_back({s.time, total(s), s.energy_translation, s.energy_rotation, s.energy_potential});
+  }
+  FigurePlot plot = over_time("", "energy [J]", times);
+  plot.y = {0, none};
+  plot.curves = {{.x = "time", .y = "E", .legend = "total", .where = {}},
+                 {.x = "time", .y = "E_translation", .legend = "translation", .where = {}},
+                 {.x = "time", .y = "E_rotation", .legend = "rotation", .where = {}},
+                 {.x = "time", .y = "E_potential", .legend = "potential", .where = {}}};
+  figure.plots = {plot};
+  return figure;
+}
+
+Figure figure_phone_over_angle(Laboratory& laboratory) {
+  const std::string name = "phone-sweep";
+  Figure figure{.number = 24, .title = "first impact of the damped phone over the contact angle",
+                .scene = "validation/cases/phone-sweep.toml",
+                .columns = {{"theta", "deg", "contact angle"},
+                            {"Vn", "m/s", "normal velocity of the mass centre after the impact"},
+                            {"Omega", "rad/s", "angular velocity after the impact"},
+                            {"peak_force", "N", "largest normal force"},
+                            {"loss", "J", "energy lost in the impact"},
+                            {"touches", "1", "places that came down in it; 2: the second impact has merged into it"},
+                            {"Vn_discrete", "m/s", "normal velocity, discrete model of the corner"},
+                            {"Omega_discrete", "rad/s", "angular velocity, discrete model of the corner"}},
+                .rows = {}, .plots = {}};
+  const SimulationScene scene = laboratory_scene(name, {});
+  const numeric::Body body = scene.make_body();
+  for (const SweptSimulation& swept : laboratory.sweep(name)) {
+    const numeric::ImpactRecord& first = swept.run.impacts.at(0);
+    const numeric::ImpactNumbers& n = first.value;
+    const auto discrete =
+        impact_sequence(discrete_drop(scene.at(swept.value), body), {.impacts = 1, .amplification = false}).rows[0].impact;
+    figure.rows.push_back({swept.value, n.velocity_after.z(), n.angular_velocity_after.y(), n.peak_force, n.energy_loss,
+                           static_cast<double>(first.touches), discrete.after.normal, discrete.after.angular});
+  }
+  const std::pair<const char*, const char*> panels[] = {{"Vn", "post-impact Vₙ [m/s]"}, {"Omega", "post-impact Ω [rad/s]"},
+                                                        {"peak_force", "peak normal force [N]"}, {"loss", "energy loss [J]"}};
+  for (const auto& [column, label] : panels) {
+    FigurePlot plot{.title = "", .x_label = "impact contact angle θ [°]", .y_label = label, .curves = {}, .x = {0, 90}, .y = {}};
+    const std::string discrete = std::string(column) + "_discrete";
+    if (std::string(column) == "Vn" || std::string(column) == "Omega") {
+      plot.curves.push_back({.x = "theta", .y = discrete, .legend = "discrete, corner", .where = {}});
+    }
+    plot.curves.push_back({.x = "theta", .y = column, .legend = "continuous", .style = Style::points, .where = {}});
+    figure.plots.push_back(plot);
+  }
+  return figure;
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,240 @@
+// Exact results: closed forms, 30-digit tables, conservation laws, convergence orders.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analytic/contact_angles.hpp"
+#include "analytic/restitution_map.hpp"
+#include "analytic/sequence.hpp"
+#include "numeric/contact/contact_load.hpp"
+#include "numeric/mesh/generators.hpp"
+#include "numeric/motion/free_rotation.hpp"
+#include "validation/output/number.hpp"
+#include "validation/verify/check.hpp"
+#include "validation/verify/reference.hpp"
+
+namespace clatter::validation {
+namespace {
+
+using analytic::Angle;
+using analytic::ContactAngles;
+using analytic::degrees_per_radian;
+
+double relative(double value, double exact) { return std::fabs(value - exact) / std::fabs(exact); }
+
+struct Largest {
+  double error = 0;
+  std::string where;
+  void take(double candidate, const std::string& place) {
+    if (!(candidate <= error)) {
+      error = candidate;
+      where = place;
+    }
+  }
+};
+
+/// Largest relative error of all angles, impulses and velocities of a 30-digit table.
+Measured against_table(ReferenceTable table) {
+  Largest worst;
+  int count = 0;
+  for (const ReferenceRow& row : reference_table(table)) {
+    const ContactAngles angles =
+        contact_angles(Angle::from_degrees(row.at("theta_deg")), {.gravity_number = row.at("G")});
+    const std::pair<const char*, double> numbers[] = {
+        {"beta_deg", angles.beta.angle * degrees_per_radian}, {"gamma_deg", angles.gamma.angle * degrees_per_radian},
+        {"P1", angles.impulse[0]}, {"P2", angles.impulse[1]}, {"P3", angles.impulse[2]},
+        {"V1", angles.velocity[0]}, {"V2", angles.velocity[1]}, {"V3", angles.velocity[2]},
+        {"Omega1", angles.angular[0]}, {"Omega2", angles.angular[1]}, {"Omega3", angles.angular[2]}};
+    for (const auto& [name, value] : numbers) {
+      const auto exact = row.find(name);
+      if (exact == row.end()) continue;
+      ++count;
+      worst.take(relative(value, exact->second), fmt::format("{} at θ = {}°, G = {}", name, row.at("theta_deg"), row.at("G")));
+    }
+  }
+  return {static_cast<double>(count), worst.error, Answer::holds, "worst: " + worst.where};
+}
+
+Measured table_without_gravity(Laboratory&) { return against_table(ReferenceTable::no_gravity); }
+Measured table_with_gravity(Laboratory&) { return against_table(ReferenceTable::gravity); }
+
+Measured small_angle_coefficient(Laboratory&) {
+  const double theta = 1e-3;
+  const double beta = contact_angles(Angle::from_radians(theta), {}).beta.angle;
+  const double coefficient = (beta / theta - 0.5) / (theta * theta);
+  return {coefficient, std::fabs(coefficient - 17.0 / 64), Answer::holds, "17/64 = 0.265625, at θ = 1e-3"};
+}
+
+Measured largest_second_impulse(Laboratory&) {
+  const auto impulse = [](double degrees) { return contact_angles(Angle::from_degrees(degrees), {}).impulse[1]; };
+  double low = 40, high = 54;
+  while (high - low > 1e-6) {  // P₂ is unimodal there
+    const double third = (high - low) / 3;
+    (impulse(low + third) < impulse(high - third) ? low : high) = impulse(low + third) < impulse(high - third) ? low + third : high - third;
+  }
+  const double largest = impulse(low);
+  return {largest, std::fabs(largest - 1.04540), Answer::holds, fmt::format("at θ = {}°", significant(low, 5))};
+}
+
+Measured bouncing_end(Laboratory&) {
+  const double e = 0.5, g = 9.81, v = 2;
+  const analytic::Sequence sequence =
+      analytic::impact_sequence({.body = analytic::make_box({}), .inclination = Angle::from_degrees(0), .velocity = {.normal = -v},
+                       .gravity = g, .law = {.restitution = e}},
+                      {.impacts = 3});
+  const double end = sequence.tail.value().end_time;
+  return {end, relative(end, 2 * e * v / (g * (1 - e))), Answer::holds, "flat box, e = 0.5, 2 m/s"};
+}
+
+Measured restitution_map(Laboratory&) {
+  const double at_tenth = analytic::restitution_of_damping(0.1), at_one = analytic::restitution_of_damping(1);
+  const auto residual = [](double s, double e) { return std::fabs(std::log1p(s) - std::log1p(-s * e) - s * (1 + e)); };
+  return {at_tenth,
+          std::max({relative(at_tenth, 0.937475579949905), residual(0.1, at_tenth), residual(1, at_one)}),
+          Answer::holds, fmt::format("e(1) = {}", significant(at_one, 12))};
+}
+
+struct Landing {
+  numeric::ImpactNumbers numbers;
+  double mass = 2, area = 0.06, stiffness = 1e8, speed = 3;
+};
+
+Landing flat_landing(double damping) {
+  Landing landing;
+  const numeric::Body body(numeric::box_mesh({.size = {0.3, 0.2, 0.1}, .mass = landing.mass}));
+  const numeric::Ground ground{.stiffness = landing.stiffness, .damping = damping,
+                               .area = numeric::AreaMeasure::projected};
+  numeric::Options options;
+  options.gravity = 0;
+  options.impacts = 1;
+  options.digits = 10;
+  options.error_estimates = options.amplification = false;
+  const auto start = numeric::touching_state(body, {.inclination = 0, .velocity = {0, 0, -landing.speed}});
+  landing.numbers = numeric::simulate(body, ground, start, options).impacts.at(0).value;
+  return landing;
+}
+
+Measured half_sine(Laboratory&) {
+  const Landing landing = flat_landing(0);
+  const double frequency = std::sqrt(landing.stiffness * landing.area / landing.mass);
+  const double force = landing.speed * std::sqrt(landing.stiffness * landing.area * landing.mass);
+  const double error = std::max(relative(landing.numbers.duration, analytic::pi / frequency),
+                                relative(landing.numbers.peak_force, force));
+  return {landing.numbers.peak_force, error, Answer::holds,
+          fmt::format("contact time {} s", significant(landing.numbers.duration, 9))};
+}
+
+Measured damped_landing(Laboratory&) {
+  double worst = 0, at_one = 0;
+  for (const double s : {0.01, 0.1, 1.0, 5.0}) {
+    const Landing landing = flat_landing(s * 1e8 / 3);
+    const double e = landing.numbers.restitution;
+    const double residual = std::log1p(s) - std::log1p(-s * e) - s * (1 + e);
+    const double slope = s / (1 - s * e) - s;  // of the residual over e
+    worst = std::max(worst, std::fabs(residual / slope));
+    if (s == 1) at_one = e;
+  }
+  return {at_one, worst, Answer::holds, "worst of s = 0.01, 0.1, 1, 5"};
+}
+
+Measured elastic_energy(Laboratory& laboratory) {
+  double worst = 0;
+  for (const char* name : {"rod-45", "phone-elastic"}) {
+    const numeric::Simulation& run = laboratory.run(name, {.planar = true});
+    for (const auto& impact : run.impacts) {
+      worst = std::max(worst, std::fabs(impact.value.energy_loss) / run.energy_start);
+    }
+  }
+  return {worst, worst, Answer::holds, "largest loss of one impact over the energy; digits 6"};
+}
+
+Measured energy_ledger(Laboratory& laboratory) {
+  double worst = 0;
+  for (const char* name : {"phone-damped", "rod-at-1ms", "rod-from-2m", "rod-friction-03"}) {
+    for (const auto& impact : laboratory.run(name).impacts) worst = std::max(worst, std::fabs(impact.ledger_gap));
+  }
+  return {worst, worst, Answer::holds, "loss − dampers − friction − released, over the energy"};
+}
+
+/// Change of the end state from step to step of the paper's method.
+Measured runge_kutta_order(Laboratory&) {
+  SimulationScene scene = laboratory_scene("phone-damped", {.impacts = 1});
+  scene.options.method = numeric::Method::tvd_rk3;
+  const numeric::Body body = scene.make_body();
+  const auto velocity = [&](double step) {
+    scene.options.step = step;
+    scene.options.amplification = false;
+    return numeric::simulate(body, scene.ground, scene.start(body), scene.options).impacts.at(0).value.velocity_after.z();
+  };
+  const double h = 2e-5;
+  const double a = velocity(h), b = velocity(h / 2), c = velocity(h / 4);
+  const double order = std::log2(std::fabs((a - b) / (b - c)));
+  return {order, std::fabs(order - 3), Answer::holds, "damped phone, V_n after impact 1, steps of 20, 10 and 5 µs"};
+}
+
+Measured free_rotation(Laboratory&) {
+  const numeric::Matrix3 inertia = numeric::Vector3(1, 2, 2.5).asDiagonal();
+  const numeric::Rotation start{Eigen::Quaterniond::Identity(), {0.3, 5, -0.2}};
+  const numeric::FreeRotation rotation(inertia, start);
+  const auto momentum = [&](const numeric::Rotation& r) { return numeric::Vector3(r.attitude * (inertia * r.angular_velocity)); };
+  double worst = 0;
+  for (int i = 1; i <= 100; ++i) {
+    const numeric::Rotation at = rotation.at(12.6 * i);
+    worst = std::max(worst, (momentum(at) - momentum(start)).norm() / momentum(start).norm());
+  }
+  return {momentum(start).norm(), worst, Answer::holds, "body about its intermediate axis, 1000 turns"};
+}
+
+/// A box standing on its edge, sunk by d: the submerged wedge has the volume W d²/(2 sin θ cos θ).
+Measured hydrostatic_force(Laboratory&) {
+  const double k = 1e7, depth = 1e-3, width = 0.2, theta = 0.5;
+  const numeric::Vector3 size(0.3, width, 0.1);
+  const numeric::Body body(numeric::box_mesh({.size = size, .mass = 1}));
+  const numeric::Ground ground{.stiffness = k, .area = numeric::AreaMeasure::projected};
+  numeric::GroundView view;
+  view.reference.normal = {std::sin(theta), 0, std::cos(theta)};
+  view.reference.offset = size.x() / 2 * std::sin(theta) + size.z() / 2 * std::cos(theta);
+  view.sink = -depth;
+  const double force = numeric::ContactLoader(body, ground).load(view, {}).force;
+  const double volume = width * depth * depth / (2 * std::sin(theta) * std::cos(theta));
+  return {force, relative(force, k * volume), Answer::holds, "wedge 1 mm deep at 0.5 rad"};
+}
+
+Measured contact_time_powers(Laboratory&) {
+  double worst = 0;
+  std::string found;
+  const auto power = [&](const SimulationScene& scene, double exact, const char* what) {
+    const double measured = stiff_limit(scene, scene.make_body(), 1).power;
+    worst = std::max(worst, std::fabs(measured - exact));
+    found += fmt::format("{}{} {}", found.empty() ? "" : ", ", what, significant(measured, 5));
+    return measured;
+  };
+  SimulationScene flat = laboratory_scene("phone-elastic", {.impacts = 1});
+  flat.angle_deg = 0;
+  power(flat, 1.0 / 2, "face");
+  power(laboratory_scene("phone-elastic", {.impacts = 1}), 1.0 / 3, "edge");
+  const double corner = power(laboratory_scene("rod-45", {.impacts = 1}), 1.0 / 4, "corner");
+  return {corner, worst, Answer::holds, found};
+}
+
+}  // namespace
+
+void add_exact_measures(Measures& measures) {
+  measures["X1"] = table_without_gravity;
+  measures["X2"] = table_with_gravity;
+  measures["X3"] = small_angle_coefficient;
+  measures["X4"] = largest_second_impulse;
+  measures["X5"] = bouncing_end;
+  measures["X6"] = restitution_map;
+  measures["X7"] = half_sine;
+  measures["X8"] = damped_landing;
+  measures["X9"] = elastic_energy;
+  measures["X10"] = energy_ledger;
+  measures["X11"] = runge_kutta_order;
+  measures["X12"] = free_rotation;
+  measures["X13"] = hydrostatic_force;
+  measures["X14"] = contact_time_powers;
+}
+
+}  // namespace clatter::validation

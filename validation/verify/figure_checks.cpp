@@ -1,0 +1,175 @@
+// The figures of the paper: does what they show obey the laws that it must?
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "validation/figures/figure.hpp"
+#include "validation/output/number.hpp"
+#include "validation/verify/check.hpp"
+
+namespace clatter::validation {
+namespace {
+
+using numeric::HistorySample;
+using numeric::ImpactNumbers;
+using numeric::Simulation;
+
+std::string number(double value, int digits = 4) { return significant(value, digits); }
+
+/// Worst distance of the points of the continuous model from the lines of the discrete one, over the largest value of
+/// each column; infinite where one model has an impact and the other has not.
+Measured points_on_lines(int figure_number, Laboratory& laboratory) {
+  const Figure figure = make_figure(figure_number, laboratory);
+  double worst = 0;
+  int points = 0;
+  for (std::size_t column = 1; column + 1 < figure.columns.size(); column += 2) {
+    double scale = 0;
+    for (const auto& row : figure.rows) scale = std::isfinite(row[column]) ? std::max(scale, row[column]) : scale;
+    for (const auto& row : figure.rows) {
+      const bool is_point = row[0] > 0 && std::fmod(row[0], 5.0) == 0;
+      if (!is_point || (!std::isfinite(row[column]) && !std::isfinite(row[column + 1]))) continue;
+      const double off = std::fabs(row[column] - row[column + 1]) / scale;
+      worst = off <= worst ? worst : std::isfinite(off) ? off : std::numeric_limits<double>::infinity();
+      ++points;
+    }
+  }
+  return {static_cast<double>(points), worst, Answer::holds, fmt::format("points on lines; worst {} of the range off", number(worst, 2))};
+}
+
+Measured figure_7(Laboratory& laboratory) { return points_on_lines(7, laboratory); }
+Measured figure_9(Laboratory& laboratory) { return points_on_lines(9, laboratory); }
+Measured figure_10(Laboratory& laboratory) { return points_on_lines(10, laboratory); }
+Measured figure_11(Laboratory& laboratory) { return points_on_lines(11, laboratory); }
+Measured figure_12(Laboratory& laboratory) { return points_on_lines(12, laboratory); }
+
+/// ½mV² + ½IΩ² after the impact is ½mv² before it: from the velocities alone.
+Measured figure_14(Laboratory& laboratory) {
+  const SimulationScene scene = laboratory_scene("rod-sweep", {});
+  const numeric::Body body = scene.make_body();
+  double worst = 0, least = 1;
+  for (const SweptSimulation& swept : laboratory.sweep("rod-sweep")) {
+    const ImpactNumbers& n = swept.run.impacts.at(0).value;
+    const double omega = n.angular_velocity_after.y();
+    const double after = body.mass() * n.velocity_after.squaredNorm() + body.inertia()(1, 1) * omega * omega;
+    worst = std::max(worst, std::fabs(after / (body.mass() * scene.speed * scene.speed) - 1));
+    least = std::min(least, n.velocity_after.z());
+  }
+  return {least, worst, Answer::holds, "least Vₙ over the angle; 91 angles"};
+}
+
+/// What friction dissipates is what the velocities lack.
+Measured figure_15(Laboratory& laboratory) {
+  const SimulationScene scene = laboratory_scene("rod-friction-sweep", {});
+  const numeric::Body body = scene.make_body();
+  double worst = 0, most = 0;
+  for (const SweptSimulation& swept : laboratory.sweep("rod-friction-sweep")) {
+    const ImpactNumbers& n = swept.run.impacts.at(0).value;
+    const double omega = n.angular_velocity_after.y();
+    const double after = (body.mass() * n.velocity_after.squaredNorm() + body.inertia()(1, 1) * omega * omega) / 2;
+    const double lost = body.mass() * scene.speed * scene.speed / 2 - after;
+    worst = std::max(worst, std::fabs(lost - n.work_friction) / (body.mass() * scene.speed * scene.speed / 2));
+    most = std::max(most, lost);
+  }
+  return {most, worst, Answer::holds, "largest loss over friction; friction's own work accounts for it"};
+}
+
+/// |F_t| = μ F_n while the point slides: μ = 0.1, 0.3, 0.5.
+Measured figure_16(Laboratory& laboratory) {
+  double worst = 0, peak = 0;
+  for (const auto& [name, mu] : {std::pair{"rod-friction-01", 0.1}, {"rod-friction-03", 0.3}, {"rod-friction-05", 0.5}}) {
+    for (const HistorySample& s : laboratory.history(name).samples) {
+      if (!s.in_contact || !(s.force.z() > 0)) continue;
+      worst = std::max(worst, std::fabs(std::fabs(s.force.x()) / (mu * s.force.z()) - 1));
+      peak = std::max(peak, s.force.z());
+    }
+  }
+  return {peak, worst, Answer::holds, "largest normal force for μ up to 0.5"};
+}
+
+double total(const HistorySample& s) { return s.energy_translation + s.energy_rotation + s.energy_potential + s.energy_ground; }
+
+/// Energy of the history at its ends against the works booked in between.
+Measured energy_over_history(const RecordedRun& recorded) {
+  double booked = 0;
+  for (const auto& impact : recorded.run.impacts) {
+    booked += impact.value.work_damping + impact.value.work_friction + impact.value.work_released;
+  }
+  const double begin = total(recorded.samples.front()), end = total(recorded.samples.back());
+  return {(begin - end) / begin, std::fabs(begin - end - booked) / begin, Answer::holds,
+          fmt::format("of the energy lost by the end of impact {}; dampers, friction and release account for it", recorded.run.impacts.size())};
+}
+
+Measured figure_17(Laboratory& laboratory) { return energy_over_history(laboratory.history("rod-from-2m")); }
+Measured figure_23(Laboratory& laboratory) { return energy_over_history(laboratory.history("phone-damped", {.impacts = 2})); }
+
+/// The total energy of every sample is that of the first.
+Measured figure_19(Laboratory& laboratory) {
+  const auto& samples = laboratory.history("phone-elastic", {.planar = true}).samples;
+  double worst = 0;
+  for (const HistorySample& s : samples) worst = std::max(worst, std::fabs(total(s) / total(samples.front()) - 1));
+  return {static_cast<double>(samples.size()), worst, Answer::holds, "instants, with the energy of the ground's springs"};
+}
+
+/// m (V_z − v_z) = Σ P_n − m g t at the end of the last impact: the normal impulses are those that stop the fall.
+Measured momentum_balance(const SimulationScene& scene, const Simulation& run) {
+  const numeric::Body body = scene.make_body();
+  const ImpactNumbers& last = run.impacts.back().value;
+  const double before = scene.start(body).velocity.z();
+  const double gained = body.mass() * (last.velocity_after.z() - before);
+  const double given = run.total_normal_impulse() - body.mass() * scene.options.gravity * (last.start + last.duration);
+  return {run.total_normal_impulse(), std::fabs(gained - given) / run.total_normal_impulse(), Answer::holds,
+          fmt::format("sum of the normal impulses of {} impacts", run.impacts.size())};
+}
+
+Measured figure_20(Laboratory& laboratory) {
+  const RunOptions planar{.planar = true};
+  return momentum_balance(laboratory_scene("phone-elastic", planar), laboratory.run("phone-elastic", planar));
+}
+Measured figure_21(Laboratory& laboratory) {
+  return momentum_balance(laboratory_scene("phone-damped", {}), laboratory.run("phone-damped"));
+}
+
+/// Peaks of all impacts by another method at a tolerance 10⁴ times finer.
+Measured figure_22(Laboratory& laboratory) {
+  const Simulation& run = laboratory.run("phone-damped");
+  const Simulation& fine = laboratory.run("phone-damped", {.digits = 10, .method = numeric::Method::rkck});
+  double worst = 0;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, fine.impacts.size()); ++i) {
+    worst = std::max(worst, std::fabs(run.impacts.at(i).value.peak_force / fine.impacts[i].value.peak_force - 1));
+  }
+  return {run.impacts.at(1).value.peak_force, worst, Answer::holds, "largest force of all; peaks of the first three impacts"};
+}
+
+Measured figure_24(Laboratory& laboratory) {
+  SimulationScene scene = laboratory_scene("phone-sweep", {});
+  double worst = 0, most = 0;
+  for (const SweptSimulation& swept : laboratory.sweep("phone-sweep")) {
+    worst = std::max(worst, momentum_balance(scene.at(swept.value), swept.run).error);
+    most = std::max(most, swept.run.impacts.at(0).value.energy_loss);
+  }
+  return {most, worst, Answer::holds, "largest loss over the angle; momentum balance of 84 drops"};
+}
+
+}  // namespace
+
+void add_figure_measures(Measures& measures) {
+  measures["F7"] = figure_7;
+  measures["F9"] = figure_9;
+  measures["F10"] = figure_10;
+  measures["F11"] = figure_11;
+  measures["F12"] = figure_12;
+  measures["F14"] = figure_14;
+  measures["F15"] = figure_15;
+  measures["F16"] = figure_16;
+  measures["F17"] = figure_17;
+  measures["F19"] = figure_19;
+  measures["F20"] = figure_20;
+  measures["F21"] = figure_21;
+  measures["F22"] = figure_22;
+  measures["F23"] = figure_23;
+  measures["F24"] = figure_24;
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,86 @@
+// Both models over every scene, and over random ones: the stiff limit is the discrete value.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/compare/random_scenes.hpp"
+#include "validation/output/number.hpp"
+#include "validation/verify/check.hpp"
+
+namespace clatter::validation {
+namespace {
+
+/// The farthest that a limit lies from the discrete value, over the size of the number at large.
+struct Landing {
+  double miss = 0;      ///< of all
+  double deviation = 0; ///< at the scene's own stiffness
+  int impacts = 0, landed = 0;
+  bool all_land = true;
+
+  void take(const Comparison& comparison) {
+    for (const ComparedImpact& impact : comparison.impacts) {
+      ++impacts;
+      for (std::size_t q = 0; q < quantity_count && impact.reason.empty(); ++q) {
+        deviation = std::max(deviation, std::fabs((*impact.continuous)[q] - (*impact.discrete)[q]) / comparison.scales[q]);
+      }
+      if (!impact.has_landing()) continue;
+      ++landed;
+      all_land = all_land && impact.lands();
+      for (std::size_t q = 0; q < quantity_count; ++q) {
+        miss = std::max(miss, std::fabs(impact.limit->value[q] - (*impact.discrete)[q]) / comparison.scales[q]);
+      }
+    }
+  }
+
+  [[nodiscard]] Measured measured() const {
+    return {static_cast<double>(landed), miss, all_land ? Answer::holds : Answer::refuted,
+            fmt::format("of {} impacts have their limit; at the scene's stiffness those compared are within {}", impacts,
+                        significant(deviation, 2))};
+  }
+};
+
+Measured of_case(Laboratory& laboratory, const char* name) {
+  Landing landing;
+  landing.take(laboratory.comparison(name, 0));
+  return landing.measured();
+}
+
+Measured of_sweep(Laboratory& laboratory, const char* name) {
+  Landing landing;
+  for (const auto& [value, comparison] : laboratory.swept_comparison(name)) landing.take(comparison);
+  return landing.measured();
+}
+
+constexpr std::uint64_t family = 1;
+constexpr int random_impacts = 2;
+
+Measured random_scenes(int count) {
+  const RandomScenesResult result = run_random_scenes(family, 0, count, random_impacts);
+  return {100 * result.covered, 100 * (1 - result.covered),
+          result.covered >= 0.95 && result.median_bar <= 10 ? Answer::holds : Answer::refuted,
+          fmt::format("% of {} numbers of {} scenes lie within their bars; bars are {} times the gap in the median",
+                      result.samples.size(), result.with_limit, significant(result.median_bar, 2))};
+}
+
+}  // namespace
+
+void add_model_measures(Measures& measures) {
+  measures["M1"] = [](Laboratory& laboratory) { return of_case(laboratory, "rod-45"); };
+  measures["M2"] = [](Laboratory& laboratory) { return of_sweep(laboratory, "rod-sweep"); };
+  measures["M3"] = [](Laboratory& laboratory) { return of_sweep(laboratory, "rod-friction-sweep"); };
+  measures["M4"] = [](Laboratory& laboratory) { return of_case(laboratory, "rod-friction-01"); };
+  measures["M5"] = [](Laboratory& laboratory) { return of_case(laboratory, "rod-friction-03"); };
+  measures["M6"] = [](Laboratory& laboratory) { return of_case(laboratory, "rod-friction-05"); };
+  measures["M7"] = [](Laboratory& laboratory) { return of_case(laboratory, "rod-friction-07"); };
+  measures["M8"] = [](Laboratory& laboratory) { return of_case(laboratory, "rod-at-1ms"); };
+  measures["M9"] = [](Laboratory& laboratory) { return of_case(laboratory, "rod-from-2m"); };
+  measures["M10"] = [](Laboratory& laboratory) { return of_case(laboratory, "phone-elastic"); };
+  measures["M11"] = [](Laboratory& laboratory) { return of_case(laboratory, "phone-damped"); };
+  measures["M12"] = [](Laboratory& laboratory) { return of_sweep(laboratory, "phone-sweep"); };
+  measures["M13"] = [](Laboratory& laboratory) { return of_case(laboratory, "every-key"); };
+  measures["R1"] = [](Laboratory&) { return random_scenes(20); };
+  measures["R2"] = [](Laboratory&) { return random_scenes(200); };
+}
+
+}  // namespace clatter::validation
