@@ -194,10 +194,10 @@ bool ContactRun::advance(double& h) {
   if (handle_friction_event(h)) lifts = false;
   else accept(trial_);
   h = next;
+  const bool goes_on = !control_->observe || control_->observe(now_);
   if (lifts) return end(ContactEnding::lift_off);
   if (at_rest(now_)) return end(ContactEnding::at_rest);
-  if (control_->observe && !control_->observe(now_)) return end(ContactEnding::interrupted);
-  return true;
+  return goes_on || end(ContactEnding::interrupted);
 }
 
 void ContactRun::accept(const ContactInstant& next) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "validation/cli/impact_records.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/version.hpp"
@@ -17,14 +19,16 @@ std::string verdict_word(const CheckResult& result) {
   return result.passed() ? "passed" : "FAILED";
 }
 
+std::string verdict_mark(const CheckResult& result) { return !result.done ? "?" : result.passed() ? "✓" : "✗"; }
+
 std::string answer_word(const CheckResult& result) {
   return result.done ? answer_name(result.measured.answer) : "";
 }
 
-/// Digits of the number that its error leaves, at most six.
-int digits_of(const CheckResult& result) {
-  const Measured& m = result.measured;
-  return std::min(6, known_digits(m.number, std::max(m.error * std::fabs(m.number), 1e-12 * std::fabs(m.number))));
+/// The number to four digits; a whole one has no zeros behind its point.
+Cell number_cell(double number) {
+  const bool whole = number == std::round(number) && std::fabs(number) < 1e5;
+  return whole ? Cell(shortest(number)) : Cell(number, 4);
 }
 
 void add_failures(const std::vector<CheckResult>& results, Table& table) {
@@ -79,22 +83,29 @@ std::string summary_words(const VerifySummary& summary) {
 Table verify_table(const std::vector<CheckResult>& results, const std::string& selection, Format format) {
   const bool wide = format != Format::table;
   Table table{.head = {headline("verify", what_it_is), selection}, .columns = {}, .rows = {}, .notes = {}};
-  table.columns = {{"id", "id", ""}, {"what", "what", ""}, {"answer", "answer", ""}, {"number", "number", ""},
-                   {"measured_error", "error", ""}, {"tolerance", "tolerance", ""}, {"verdict", "verdict", ""},
-                   {"seconds", "cost", "s"}, {"oracle", "oracle", "", wide}, {"found", "found", "", wide}};
+  table.columns = {{.name = "id", .heading = "id", .unit = "", .words = true},
+                   {.name = "what", .heading = "what", .unit = "", .words = true},
+                   {.name = "answer", .heading = "answer", .unit = "", .words = true},
+                   {"number", "number", ""},
+                   {"measured_error", "error", ""},
+                   {"tolerance", wide ? "tolerance" : "at most", ""},
+                   {.name = "verdict", .heading = wide ? "verdict" : "", .unit = "", .words = true},
+                   {"seconds", "cost", "s"},
+                   {.name = "oracle", .heading = "oracle", .unit = "", .shown = wide, .words = true},
+                   {.name = "found", .heading = "found", .unit = "", .shown = wide, .words = true}};
   for (const CheckResult& result : results) {
     const Measured& m = result.measured;
     std::vector<Cell> row{Cell(result.check->id), Cell(result.check->what), Cell(answer_word(result))};
-    if (result.done) row.insert(row.end(), {Cell(m.number, digits_of(result)), Cell(m.error, 2)});
+    if (result.done) row.insert(row.end(), {number_cell(m.number), Cell(m.error, 2)});
     else row.resize(5);
-    row.insert(row.end(), {Cell(result.check->tolerance, 2), Cell(verdict_word(result)), Cell(result.seconds, 2),
-                           Cell(result.check->oracle), Cell(m.found)});
-    if (result.seconds < 0.005) row[7] = Cell("0.00");
+    row.insert(row.end(), {Cell(result.check->tolerance, 2), Cell(wide ? verdict_word(result) : verdict_mark(result)),
+                           Cell(fmt::format("{:.2f}", result.seconds)), Cell(result.check->oracle), Cell(m.found)});
     table.rows.push_back(std::move(row));
   }
   add_failures(results, table);
   table.notes.push_back(summary_words(summary_of(results)));
-  if (format == Format::table) table.notes.push_back("answer: does the claim hold?  --format json says what each number is and what else was found");
+  if (format == Format::table) table.notes.push_back("answer: does the claim hold?  ✓: the error is within what it may be at most and the answer is the expected one.  "
+                          "--format json says what each number is and what else was found");
   return table;
 }
 

@@ -21,6 +21,7 @@ constexpr int most_runs = 24;
 constexpr double least_indentation = 1e-8;  // of the body: the depth that doubles still resolve to 12 digits
 constexpr double run_error = 3e-12;  // of a run of 12 digits, relative, per impact
 constexpr double safety = 3;
+constexpr double settled_change = 1e-6;  // from one triple of runs to the next; what is left is far below it
 constexpr long evaluations_per_run = 200'000;  // contacts that are short take some thousand each
 
 /// Length below which the contact sees the shape that it has in the limit [m].
@@ -102,23 +103,29 @@ Eigen::Vector3d limit_weights(const Eigen::Vector3d& x, const Powers& powers) {
   return weights / weights.sum();
 }
 
-/// Relative rounding of the numbers of a run: the sizes that they are made of.
-Quantities noise(const Simulation& run, std::size_t row, double radius, double mass) {
-  double speed = 0, grown = 1;
+/// The sizes that the numbers of a row are made of.
+Quantities sizes(const Simulation& run, std::size_t row, double radius, double mass) {
+  double speed = 0;
   for (std::size_t i = 0; i <= row; ++i) {
     const numeric::ImpactNumbers& n = run.impacts[i].value;
     speed = std::max({speed, n.velocity_after.norm(), n.approach_speed, n.angular_velocity_after.norm() * radius});
-    // A relative error of the state grows with the lever by which the next contact arises.
-    if (i > 0) grown *= 2 + 1 / std::max(std::min(n.contact_angle, 1.0), 1e-3);
   }
-  const double relative = run_error * grown;
   const double time = std::max(run.impacts[row].value.start, radius / speed);
-  return {relative * time, relative * 90, relative * mass * speed, relative * mass * speed, relative * speed,
-          relative * speed, relative * speed / radius};
+  return {time, 90, mass * speed, mass * speed, speed, speed, speed / radius};
 }
 
+/// By what a relative error of the state has grown at a row: with the lever by which each contact arises.
+double growth(const Simulation& run, std::size_t row) {
+  double grown = 1;
+  for (std::size_t i = 1; i <= row; ++i) {
+    grown *= 2 + 1 / std::max(std::min(run.impacts[i].value.contact_angle, 1.0), 1e-3);
+  }
+  return grown;
+}
+
+/// @param largest_change  is raised to the relative change from triple to triple.
 LimitRow extrapolate(const std::vector<Simulation>& ladder, std::size_t row, const numeric::Body& body,
-                     double exponent) {
+                     double exponent, double& largest_change) {
   Eigen::Vector4d x;
   Eigen::Matrix<double, static_cast<int>(quantity_count), rungs> y;
   for (int j = 0; j < rungs; ++j) {
@@ -130,15 +137,30 @@ LimitRow extrapolate(const std::vector<Simulation>& ladder, std::size_t row, con
   const Powers powers = powers_of(ladder, row, exponent);
   const Eigen::Vector3d coarse = limit_weights(x.head<3>(), powers), fine = limit_weights(x.tail<3>(), powers);
   const double reduction = std::pow(x[2] / x[3], powers.third) - 1;
-  const Quantities floor = noise(ladder.back(), row, body.radius(), body.mass());
+  const Quantities size = sizes(ladder.back(), row, body.radius(), body.mass());
+  const double rounding = fine.cwiseAbs().sum() * run_error * growth(ladder.back(), row);
   LimitRow limit{.end = ladder.back().impacts[row].end, .mode = ladder.back().impacts[row].mode};
   for (std::size_t q = 0; q < quantity_count; ++q) {
     const auto values = y.row(static_cast<int>(q));
     limit.value[q] = values.tail<3>().dot(fine);
     const double change = limit.value[q] - values.head<3>().dot(coarse);
-    limit.error[q] = safety * std::fabs(change) / reduction + fine.cwiseAbs().sum() * floor[q];
+    limit.error[q] = safety * std::fabs(change) / reduction + rounding * size[q];
+    largest_change = std::max(largest_change, std::fabs(change) / size[q]);
   }
   return limit;
+}
+
+/// Takes the rows of the ladder into the limit.  @returns whether all impacts are there and settled.
+bool take_limit(const std::vector<Simulation>& ladder, const numeric::Body& body, double feature, double gravity,
+                StiffLimit& limit) {
+  const double ratio = ladder[rungs - 2].impacts[0].value.duration / ladder[rungs - 1].impacts[0].value.duration;
+  limit.power = std::log(ratio) / std::log(stiffening);
+  const double exponent = 1 / limit.power - 1;
+  const std::size_t rows = common_rows(ladder, feature, gravity);
+  double change = 0;
+  limit.rows.clear();
+  for (std::size_t i = 0; i < rows; ++i) limit.rows.push_back(extrapolate(ladder, i, body, exponent, change));
+  return rows == ladder.front().impacts.size() && change <= settled_change;
 }
 
 }  // namespace
@@ -166,26 +188,19 @@ StiffLimit stiff_limit(const SimulationScene& scene, const numeric::Body& body, 
     return numeric::simulate(body, ground, start, options);
   };
   double stiffness = scene.ground.stiffness;
-  std::vector<Simulation> ladder{run_at(stiffness)};
-  if (ladder.back().impacts.empty()) return limit;
-  const auto enough = [&](const Simulation& run) {
-    return clean_rows(run, size, options.gravity) == run.impacts.size();
-  };
-  // The rungs must all be short enough: climb until the lowest of them is.
-  while (limit.runs < most_runs && !(ladder.size() == rungs && enough(ladder.front()))) {
-    const numeric::ImpactNumbers& first = ladder.back().impacts.front().value;
-    if (ladder.size() == rungs && first.duration * first.approach_speed < least_indentation * body.radius()) break;
-    stiffness *= stiffening;
+  std::vector<Simulation> ladder;
+  // The rungs must all be short enough, and the limit must have settled: climb until they are and it has.
+  while (limit.runs < most_runs) {
     ladder.push_back(run_at(stiffness));
-    if (ladder.size() > rungs) ladder.erase(ladder.begin());
     if (ladder.back().impacts.empty()) return limit;
+    limit.stiffness = stiffness;
+    stiffness *= stiffening;
+    if (ladder.size() > rungs) ladder.erase(ladder.begin());
+    if (ladder.size() < rungs) continue;
+    const bool settled = take_limit(ladder, body, size, options.gravity, limit);
+    const numeric::ImpactNumbers& first = ladder.back().impacts.front().value;
+    if (settled || first.duration * first.approach_speed < least_indentation * body.radius()) break;
   }
-  limit.stiffness = stiffness;
-  const double ratio = ladder[rungs - 2].impacts[0].value.duration / ladder[rungs - 1].impacts[0].value.duration;
-  limit.power = std::log(ratio) / std::log(stiffening);
-  const std::size_t rows = common_rows(ladder, size, options.gravity);
-  const double exponent = 1 / limit.power - 1;
-  for (std::size_t i = 0; i < rows; ++i) limit.rows.push_back(extrapolate(ladder, i, body, exponent));
   return limit;
 }
 

@@ -33,6 +33,13 @@ FirstImpacts discrete(double theta_deg, double gravity_number) {
   return first;
 }
 
+/// β and γ are angles of the other end, up to the upright and in the first turn.
+bool is_other_end(const numeric::ImpactRecord& before, const numeric::ImpactRecord& impact) {
+  const double flight = impact.value.start - before.value.start;
+  const double turned = std::fabs(before.value.angular_velocity_after.y()) * flight;
+  return impact.end != before.end && std::fabs(impact.value.inclination) <= analytic::pi / 2 && turned <= analytic::pi;
+}
+
 /// Radius 1e-4 m on a ground so stiff that indentations are far below it: the thin rod to about 1e-4.
 FirstImpacts continuous(double theta_deg, double gravity) {
   SimulationScene scene;
@@ -47,13 +54,9 @@ FirstImpacts continuous(double theta_deg, double gravity) {
   const numeric::Body body = scene.make_body();
   const numeric::Simulation run = numeric::simulate(body, scene.ground, scene.start(body), scene.options);
   FirstImpacts first;
-  bool other_end = true;
-  for (std::size_t i = 0; i < run.impacts.size() && other_end; ++i) {
+  for (std::size_t i = 0; i < run.impacts.size(); ++i) {
     const numeric::ImpactRecord& impact = run.impacts[i];
-    // β and γ are angles of the other end, up to the upright.
-    const bool upright_not_passed = std::fabs(impact.value.inclination) <= analytic::pi / 2;
-    other_end = i == 0 || (impact.end != run.impacts[i - 1].end && upright_not_passed);
-    if (!other_end) break;
+    if (i > 0 && !is_other_end(run.impacts[i - 1], impact)) break;
     first.impulse[i] = impact.value.impulse.z();
     if (i == 1) first.beta = impact.value.contact_angle * degrees_per_radian;
     if (i == 2) first.gamma = impact.value.contact_angle * degrees_per_radian;

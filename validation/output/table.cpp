@@ -46,12 +46,14 @@ std::vector<std::size_t> widths(const Texts& texts) {
   return width;
 }
 
-std::string padded(const std::string& text, std::size_t width) {
-  return std::string(width - display_width(text), ' ') + text;
+std::string padded(const std::string& text, std::size_t width, bool words) {
+  const std::string blanks(width - display_width(text), ' ');
+  return words ? text + blanks : blanks + text;
 }
 
 std::string aligned(const Table& table) {
-  const Texts texts = shown_texts(table, shown_columns(table));
+  const std::vector<std::size_t> columns = shown_columns(table);
+  const Texts texts = shown_texts(table, columns);
   const auto width = widths(texts);
   std::string out;
   for (const auto& line : table.head) out += wrapped(line) + "\n";
@@ -59,7 +61,9 @@ std::string aligned(const Table& table) {
   for (const std::size_t w : width) total += w + 2;
   for (std::size_t row = 0; row < texts.size(); ++row) {
     std::string line;
-    for (std::size_t i = 0; i < width.size(); ++i) line += "  " + padded(texts[row][i], width[i]);
+    for (std::size_t i = 0; i < width.size(); ++i) {
+      line += "  " + padded(texts[row][i], width[i], table.columns[columns[i]].words);
+    }
     out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
     if (row != 1) continue;
     out += "  ";
@@ -95,7 +99,8 @@ std::string comma_separated(const Table& table) {
 }
 
 std::string markdown(const Table& table) {
-  const Texts texts = shown_texts(table, shown_columns(table));
+  const std::vector<std::size_t> columns = shown_columns(table);
+  const Texts texts = shown_texts(table, columns);
   std::string out;
   for (const auto& line : table.head) out += line + "\n";
   out += "\n|";
@@ -103,7 +108,7 @@ std::string markdown(const Table& table) {
     out += " " + texts[0][i] + (texts[1][i].empty() ? "" : " [" + texts[1][i] + "]") + " |";
   }
   out += "\n|";
-  for (std::size_t i = 0; i < texts[0].size(); ++i) out += "---:|";
+  for (const std::size_t column : columns) out += table.columns[column].words ? ":---|" : "---:|";
   out += "\n";
   for (std::size_t row = 2; row < texts.size(); ++row) {
     out += "|";
@@ -185,6 +190,7 @@ std::string to_ascii(const std::string& text) {
       {"°", "deg"}, {"Ω", "Omega"}, {"ω", "omega"}, {"β", "beta"}, {"γ", "gamma"}, {"θ", "theta"},
       {"μ", "mu"}, {"Σ", "sum "}, {"·", "*"}, {"…", "..."}, {"∞", "inf"}, {"±", "+-"}, {"−", "-"},
       {"₁", "1"}, {"₂", "2"}, {"₃", "3"}, {"²", "^2"}, {"³", "^3"}, {"⁴", "^4"}, {"ₛ", "_s"},
+      {"→", "->"}, {"≈", "~"}, {"√", "sqrt"}, {"✓", "+"}, {"✗", "X"}, {"α", "alpha"}, {"δ", "delta"}, {"′", "'"},
       {"ₖ", "_k"}, {"ₙ", "_n"}, {"ₜ", "_t"}, {"ᵢ", "_i"},
       {"≤", "<="}, {"≥", ">="}, {"─", "-"}, {"–", "-"}, {"é", "e"}, {"×", "x"}, {"φ", "phi"},
       {"α", "alpha"}, {"σ", "sigma"}, {"′", "'"}, {"″", "''"}, {"½", "1/2"}, {"→", "->"}, {"√", "sqrt "}, {"Δ", "d"}, {"⇒", "=>"},

@@ -15,6 +15,7 @@ struct Column {
   std::string heading;
   std::string unit;
   bool shown = true;  ///< false: only in CSV and JSON
+  bool words = false; ///< a text, aligned to the left
 };
 
 /// A cell: a number with the digits to show, a text, or nothing.

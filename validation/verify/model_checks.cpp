@@ -57,7 +57,9 @@ constexpr int random_impacts = 2;
 
 Measured random_scenes(int count) {
   const RandomScenesResult result = run_random_scenes(family, 0, count, random_impacts);
-  return {100 * result.covered, 100 * (1 - result.covered),
+  double farthest = 0;
+  for (const LimitSample& sample : result.samples) farthest = std::max(farthest, sample.gap / sample.bar);
+  return {100 * result.covered, farthest,
           result.covered >= 0.95 && result.median_bar <= 10 ? Answer::holds : Answer::refuted,
           fmt::format("% of {} numbers of {} scenes lie within their bars; bars are {} times the gap in the median",
                       result.samples.size(), result.with_limit, significant(result.median_bar, 2))};
