@@ -2,6 +2,7 @@
 // stiff ground as points.
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "analytic/contact_angles.hpp"
 #include "validation/figures/figures.hpp"
@@ -111,6 +112,21 @@ void add_numbers(std::vector<double>& row, const Wanted& wanted, const FirstImpa
   for (int i = 0; i < wanted.impulses; ++i) row.insert(row.end(), {line.impulse[i], point.impulse[i]});
 }
 
+/// Even steps, and finer ones where a branch ends, since the curves are vertical there.
+std::vector<double> line_angles(const Wanted& wanted) {
+  std::set<double> angles;
+  for (int i = 0; i <= static_cast<int>(last_angle / line_step); ++i) angles.insert(i * line_step);
+  for (const double gravity_number : wanted.gravity_numbers) {
+    for (const analytic::ImpactNumber impact : {analytic::ImpactNumber::second, analytic::ImpactNumber::third}) {
+      const double end = regime_boundary(impact, {.gravity_number = gravity_number}).theta * degrees_per_radian;
+      for (const double before : {0.1, 0.03, 0.01, 0.003, 0.001, 1e-6}) {
+        if (end - before > 0 && end < last_angle) angles.insert(end - before);
+      }
+    }
+  }
+  return {angles.begin(), angles.end()};
+}
+
 Figure discrete_figure(int number, const std::string& title, const Wanted& wanted) {
   Figure figure{.number = number, .title = title,
                 .scene = "thin rod, m = L = |v_n| = 1, omega = 0, e = 1, no friction; points: continuous model",
@@ -119,9 +135,7 @@ Figure discrete_figure(int number, const std::string& title, const Wanted& wante
                   .y_label = wanted.impulses > 0 ? "normal impulse [m |vₙ|]" : "contact angle [°]", .curves = {},
                   .x = {0, last_angle}, .y = {0, wanted.impulses > 0 ? none : 90}};
   for (const double gravity_number : wanted.gravity_numbers) add_columns(figure, plot, wanted, gravity_number);
-  const int count = static_cast<int>(last_angle / line_step);
-  for (int i = 0; i <= count; ++i) {
-    const double theta = i * line_step;
+  for (const double theta : line_angles(wanted)) {
     const bool with_point = theta > 0 && std::fmod(theta, point_step) == 0;
     std::vector<double>& row = figure.rows.emplace_back(std::vector<double>{theta});
     for (const double gravity_number : wanted.gravity_numbers) {

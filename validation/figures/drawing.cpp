@@ -37,7 +37,8 @@ class TemporaryFile {
 };
 
 /// Colours that colour-blind readers can tell apart.
-constexpr std::array<const char*, 6> colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
+constexpr std::array<const char*, 9> colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00",
+                                             "#56b4e9", "#000000", "#8c564b", "#7f7f7f"};
 
 std::string range(const Range2& range) {
   const auto bound = [](double value) { return std::isfinite(value) ? shortest(value) : std::string("*"); };
@@ -86,7 +87,7 @@ std::string plot_command(const FigurePlot& plot) {
 std::string script(const Figure& figure, const FigurePlot& plot, std::size_t index) {
   std::string text = fmt::format(
       "set encoding utf8\nset terminal svg size 560,380 dynamic font 'sans-serif,13' background '#ffffff' name 'f{}_{}'\n"
-      "set border 3 lc rgb '#444444'\nset tics nomirror\nset grid lc rgb '#dddddd' lt 1\nset key top right samplen 1.5\n"
+      "set border 3 lc rgb '#444444'\nset tics nomirror\nset grid lc rgb '#dddddd' lt 1\nset key outside top center horizontal samplen 1.5\n"
       "set boxwidth 0.6\nset xlabel '{}'\nset ylabel '{}'\n",
       figure.number, index, plot.x_label, plot.y_label);
   if (!plot.title.empty()) text += fmt::format("set title '{}'\n", plot.title);

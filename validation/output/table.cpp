@@ -186,11 +186,11 @@ std::string wrapped(const std::string& text, std::size_t width, const std::strin
 }
 
 std::string to_ascii(const std::string& text) {
-  static const std::array<std::pair<const char*, const char*>, 43> table{{
+  static const std::array<std::pair<const char*, const char*>, 47> table{{
       {"°", "deg"}, {"Ω", "Omega"}, {"ω", "omega"}, {"β", "beta"}, {"γ", "gamma"}, {"θ", "theta"},
       {"μ", "mu"}, {"Σ", "sum "}, {"·", "*"}, {"…", "..."}, {"∞", "inf"}, {"±", "+-"}, {"−", "-"},
       {"₁", "1"}, {"₂", "2"}, {"₃", "3"}, {"²", "^2"}, {"³", "^3"}, {"⁴", "^4"}, {"ₛ", "_s"},
-      {"→", "->"}, {"≈", "~"}, {"√", "sqrt"}, {"✓", "+"}, {"✗", "X"}, {"α", "alpha"}, {"δ", "delta"}, {"′", "'"},
+      {"≈", "~"}, {"✓", "+"}, {"✗", "X"}, {"δ", "delta"},
       {"ₖ", "_k"}, {"ₙ", "_n"}, {"ₜ", "_t"}, {"ᵢ", "_i"},
       {"≤", "<="}, {"≥", ">="}, {"─", "-"}, {"–", "-"}, {"é", "e"}, {"×", "x"}, {"φ", "phi"},
       {"α", "alpha"}, {"σ", "sigma"}, {"′", "'"}, {"″", "''"}, {"½", "1/2"}, {"→", "->"}, {"√", "sqrt "}, {"Δ", "d"}, {"⇒", "=>"},

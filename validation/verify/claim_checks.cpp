@@ -280,8 +280,9 @@ Measured phone_interval(Laboratory& laboratory) {
     if (s.time <= second.start + second.duration) after = share;
   }
   return {1e3 * interval.value, interval.error / interval.value, rounds_to(1e3 * interval.value, 4, 1),
-          fmt::format("from touch-down to touch-down; rotation's share of the kinetic energy {} → {} → {} as claimed",
-                      number(before, 1), number(between, 2), number(after, 2))};
+          fmt::format("from touch-down to touch-down, {} ms from peak to peak; rotation's share of the kinetic energy {} → {} → {}, as claimed",
+                      number(1e3 * (second.start + second.peak_time - first.peak_time), 3), number(before, 1),
+                      number(between, 2), number(after, 2))};
 }
 
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {

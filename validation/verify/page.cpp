@@ -35,10 +35,11 @@ p { max-width: 46rem; } .pale { color: var(--pale); }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; font-size: .88rem; }
 th, td { text-align: left; padding: .35rem .6rem; border-bottom: 1px solid var(--line); vertical-align: top; }
-th { position: sticky; top: 0; background: #fff; } td.number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
+th { position: sticky; top: 0; background: #fff; } td.number { text-align: right; font-variant-numeric: tabular-nums; } td:nth-child(2) { min-width: 24rem; }
 .passed, .holds { color: var(--good); } .failed, .refuted { color: var(--bad); font-weight: 600; } .ambiguous { color: var(--open); font-weight: 600; }
 code { font: .82rem ui-monospace, monospace; background: #f3f5f8; padding: .1rem .35rem; border-radius: 3px; overflow-wrap: anywhere; }
 .plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 27rem), 1fr)); gap: .8rem; }
+.plots svg:only-child { max-width: 38rem; }
 .plots svg { width: 100%; height: auto; border: 1px solid var(--line); border-radius: 6px; }
 nav a { margin-right: 1rem; }
 )css";
@@ -63,13 +64,13 @@ std::string row_of(const CheckResult& result) {
   const char* verdict = !result.done ? "not run" : result.passed() ? "passed" : "failed";
   const std::string number = significant(m.number, 6) + (check.unit.empty() ? "" : " " + check.unit);
   return fmt::format(
-      "<tr id=\"{}\"><td><b>{}</b></td><td>{}<br><span class=\"pale\">{}</span></td><td class=\"{}\">{}</td>"
-      "<td class=\"number\" title=\"{}\">{}</td><td>{}<br><span class=\"pale\">{}</span></td><td class=\"number\">{}</td>"
-      "<td class=\"number\" title=\"{}\">{}</td><td class=\"{}\">{}{}</td><td class=\"number\">{:.2f}</td><td><code>{}</code></td></tr>\n",
-      check.id, check.id, escaped(check.claim), escaped(m.found), answer, answer, escaped(check.number), escaped(number),
+      "<tr id=\"{}\"><td><b>{}</b></td><td>{}<br><span class=\"pale\">{}</span><br><code>{}</code></td><td class=\"{}\">{}</td>"
+      "<td class=\"number\"><span class=\"pale\">{}</span><br>{}</td><td>{}<br><span class=\"pale\">{}</span></td><td class=\"number\">{}</td>"
+      "<td class=\"number\" title=\"{}\">{}</td><td class=\"{}\">{}{}</td><td class=\"number\">{:.2f}</td></tr>\n",
+      check.id, check.id, escaped(check.claim), escaped(m.found), escaped(check.command), answer, answer, escaped(check.number), escaped(number),
       escaped(check.oracle), escaped(check.error), significant(m.error, 2), escaped(check.reason),
       significant(check.tolerance, 2), verdict, verdict, result.failure.empty() ? "" : ": " + escaped(result.failure),
-      result.seconds, escaped(check.command));
+      result.seconds);
 }
 
 std::string group_html(const Group& group, const std::vector<CheckResult>& results) {
@@ -79,9 +80,8 @@ std::string group_html(const Group& group, const std::vector<CheckResult>& resul
   }
   if (rows.empty()) return "";
   return fmt::format(
-      "<h2 id=\"{}\">{}</h2>\n<p>{}</p>\n<div class=\"scroll\"><table><thead><tr><th></th><th>claim, and what was found</th>"
-      "<th>answer</th><th>number</th><th>oracle, error</th><th>error</th><th>tolerance</th><th>verdict</th><th>s</th>"
-      "<th>command</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
+      "<h2 id=\"{}\">{}</h2>\n<p>{}</p>\n<div class=\"scroll\"><table><thead><tr><th></th><th>claim, what was found, how to see it</th>"
+      "<th>answer</th><th>number</th><th>oracle, error</th><th>error</th><th>tolerance</th><th>verdict</th><th>s</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
       group.letter, group.title, group.text, rows);
 }
 
