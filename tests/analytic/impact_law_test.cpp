@@ -88,6 +88,27 @@ struct SteppedPath {
 
 }  // namespace
 
+/// By sums over the body: Simpson's rule across a length is exact for squares, and so is the trapezoidal rule over
+/// the angle φ of the disc's chords, 2 R sin φ long at the height R cos φ.
+BOOST_AUTO_TEST_CASE(rods_and_boxes_have_the_radius_of_gyration_of_their_points) {
+  const auto square_across = [](double length) { return 2 * (length / 2) * (length / 2) / 6; };  // 0 in the middle
+  const auto square_over_disc = [](double radius) {
+    constexpr int points = 16;
+    double sum = 0, area = 0;
+    for (int i = 0; i < points; ++i) {
+      const double angle = pi * i / points, height = radius * std::cos(angle);
+      const double strip = 2 * radius * std::sin(angle) * radius * std::sin(angle);
+      sum += strip * height * height;
+      area += strip;
+    }
+    return sum / area;
+  };
+  const PlanarBody rod = make_rod({.length = 0.7, .radius = 0.2});
+  BOOST_TEST(close(rod.gyration_square, square_across(0.7) + square_over_disc(0.2), rounding));
+  const PlanarBody box = make_box({.length = 0.7, .width = 0.5, .thickness = 0.2});
+  BOOST_TEST(close(box.gyration_square, square_across(0.7) + square_across(0.2), rounding));
+}
+
 BOOST_AUTO_TEST_CASE(equation_8_is_satisfied_for_any_body) {
   std::mt19937_64 random(8);
   for (int i = 0; i < 20000; ++i) {

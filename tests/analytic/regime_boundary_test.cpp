@@ -50,6 +50,17 @@ BOOST_AUTO_TEST_CASE(without_gravity_every_fold_solves_the_grazing_condition) {
   }
 }
 
+/// Gravity, which brings the end down later, moves the fold without gravity by as little as it is weak.
+BOOST_AUTO_TEST_CASE(with_weak_gravity_the_second_impact_still_ends_in_a_fold) {
+  const RegimeBoundary free = regime_boundary(ImpactNumber::second, {});
+  for (const double g : {1e-8, 1e-6, 1e-4}) {
+    const RegimeBoundary b = regime_boundary(ImpactNumber::second, {.gravity_number = g});
+    BOOST_CHECK(b.kind == BoundaryKind::fold);
+    // The gravity term of Eq. 12 is G φ²/Ω² with φ, 1/Ω of order 1, and so are the derivatives at a fold.
+    BOOST_TEST(std::fabs(b.theta - free.theta) <= 10 * g);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(with_strong_gravity_the_second_impact_ends_upright) {
   const RegimeBoundary b = regime_boundary(ImpactNumber::second, {.gravity_number = 1});
   BOOST_CHECK(b.kind == BoundaryKind::upright);

@@ -104,6 +104,17 @@ BOOST_AUTO_TEST_CASE(every_impact_loses_the_energy_that_it_says) {
   }
 }
 
+/// Of P₁ = (1 + e)/(1 + 3c²), with c the cosine of θ: θ P₁′/P₁ = 6 θ s c/(1 + 3c²); of angle and speed themselves 1.
+BOOST_AUTO_TEST_CASE(the_amplification_at_the_first_impact_is_the_logarithmic_derivative_of_its_impulse) {
+  constexpr double tolerance = 1e-6;  // rounding of 2⁻⁵² over the shift of 2⁻³⁰, with a few roundings
+  for (const double degrees : {5.0, 30.0, 60.0, 75.0}) {
+    const Sequence s = impact_sequence(rod_drop(degrees), {});
+    const double theta = degrees / degrees_per_radian, c = std::cos(theta);
+    const double of_impulse = 6 * theta * std::sin(theta) * c / (1 + 3 * c * c);
+    BOOST_TEST(std::fabs(s.rows[0].amplification - std::fmax(1, of_impulse)) <= tolerance);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(powers_of_two_in_every_unit_change_no_bit) {
   std::mt19937_64 random(15);
   for (int i = 0; i < 300; ++i) {

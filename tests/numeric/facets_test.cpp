@@ -121,6 +121,20 @@ std::vector<int> loop_sizes(const Facets& facets, const Facet& facet) {
 
 Facets facets_of(const Mesh& mesh) { return planar_facets(boundary_surface(mesh)); }
 
+/// A block whose top falls off by a billionth beyond x = 0, with a node of the ridge moved by `bend` within the top:
+/// off the other half's plane by only 1e-9 × bend.
+Facets facets_of_ridge(double bend) {
+  const double fall = 1e-9;
+  return planar_facets({.nodes = {{-1, -1, 0}, {-1, 1, 0}, {1, -1, -fall}, {1, 1, -fall}, {0, -1, 0}, {0, 1, 0},
+                                  {bend, 0, 0}, {-1, -1, -1}, {-1, 1, -1}, {1, -1, -1}, {1, 1, -1}, {0, -1, -1},
+                                  {0, 1, -1}},
+                        .elements = {{.nodes = {0, 4, 6, -1}}, {.nodes = {0, 6, 1, -1}}, {.nodes = {1, 6, 5, -1}},
+                                     {.nodes = {4, 2, 6, -1}}, {.nodes = {6, 2, 3, -1}}, {.nodes = {6, 3, 5, -1}},
+                                     {.nodes = {7, 11, 4, 0}}, {.nodes = {11, 9, 2, 4}}, {.nodes = {12, 8, 1, 5}},
+                                     {.nodes = {10, 12, 5, 3}}, {.nodes = {8, 7, 0, 1}}, {.nodes = {9, 10, 3, 2}},
+                                     {.nodes = {7, 8, 12, 11}}, {.nodes = {11, 12, 10, 9}}}});
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(a_box_of_any_subdivision_and_attitude_has_six_facets_and_eight_vertices) {
@@ -283,6 +297,15 @@ BOOST_AUTO_TEST_CASE(a_fine_curve_does_not_creep_into_one_facet) {
   Mesh bent = box_mesh({.nx = 8});
   for (Vector3& node : bent.nodes) node.z() += 0.3e-12 * 8 * node.x() * node.x();
   BOOST_TEST(facets_of(bent).facets.size() > 6u);
+}
+
+BOOST_AUTO_TEST_CASE(a_bend_between_two_facets_is_kept_even_if_both_planes_hold_it) {
+  const Facets straight = facets_of_ridge(0), bent = facets_of_ridge(1e-4);
+  check_sound(bent);
+  BOOST_TEST(straight.facets.size() == 7u);
+  BOOST_TEST(bent.facets.size() == 7u);
+  BOOST_TEST(straight.vertices.size() == 10u);  // eight corners and the ridge's ends
+  BOOST_TEST(bent.vertices.size() == 11u);
 }
 
 BOOST_AUTO_TEST_CASE(without_merging_every_element_is_its_own_facet) {

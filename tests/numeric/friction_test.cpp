@@ -48,6 +48,22 @@ BOOST_AUTO_TEST_CASE(slip_in_one_direction_has_the_impulse_ratio_mu) {
   }
 }
 
+/// Above the sliding friction the static one only keeps slip that has ended from beginning again.
+BOOST_AUTO_TEST_CASE(a_body_that_slides_feels_the_sliding_friction_alone) {
+  const double sliding = 0.3;
+  const Ground tilted{.stiffness = 1e11, .static_friction = 0.5, .sliding_friction = sliding};  // 0.586 would stick
+  const Simulation rod_run = drop(rod(), tilted, 45 * degree, 1, plain_options());
+  BOOST_TEST((rod_run.impacts[0].mode == FrictionMode::slip));
+  BOOST_TEST(std::fabs(ratio(rod_run.impacts[0].value)) == sliding, boost::test_tools::tolerance(1e-9));
+  // A plate that slides at 10 m/s, by a law over its whole patch: (v_r/v)²/2 below the coefficient.
+  const Ground local{.stiffness = 1e8, .static_friction = 0.5, .sliding_friction = sliding,
+                     .friction = FrictionLaw::regularised};
+  const Body plate = phone();
+  const MotionState start = touching_state(plate, {.velocity = {10, 0, -1}});
+  const Simulation plate_run = simulate(plate, local, start, plain_options());
+  BOOST_TEST(ratio(plate_run.impacts[0].value) == -sliding, boost::test_tools::tolerance(1e-7));
+}
+
 /// Claim C11: a plateau from about 0.6 on; with the rod's real radius from 0.586 on, but for the patch's size.
 BOOST_AUTO_TEST_CASE(beyond_the_sticking_ratio_more_friction_changes_nothing) {
   const Simulation first = rod_at_45(0.62), second = rod_at_45(0.8);
@@ -95,6 +111,14 @@ BOOST_AUTO_TEST_CASE(slip_that_ends_sticks_or_turns_as_the_friction_allows) {
   BOOST_TEST((thrown(0.3, 0.7).impacts[0].mode == FrictionMode::slip_stick));
   BOOST_TEST((thrown(0.3, 0.2).impacts[0].mode == FrictionMode::reverse_slip));
   BOOST_TEST((thrown(-0.3, 0.2).impacts[0].mode == FrictionMode::slip));
+}
+
+/// At 45° the rod sticks from 0.586 on: with that much static friction, however little when it slides.
+BOOST_AUTO_TEST_CASE(slip_that_ends_sticks_if_the_static_friction_allows) {
+  const Body body = rod();
+  const MotionState start = touching_state(body, {.inclination = 45 * degree, .velocity = {0.3, 0, -1}});
+  const Ground ground{.stiffness = 1e11, .static_friction = 0.7, .sliding_friction = 0.5};
+  BOOST_TEST((simulate(body, ground, start, plain_options()).impacts[0].mode == FrictionMode::slip_stick));
 }
 
 BOOST_AUTO_TEST_CASE(a_planar_drop_on_its_plane_and_in_space_are_the_same) {

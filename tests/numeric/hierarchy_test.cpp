@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "tests/numeric/bodies.hpp"
@@ -36,15 +37,18 @@ bool reaches_below(const Body& body, int facet, const GroundPlane& plane) {
 
 BOOST_AUTO_TEST_CASE(every_facet_below_the_ground_is_visited_once) {
   for (const Body& body : {rod(), phone(9, 7, 5, false)}) {
-    for (const double depth : {1e-6, 1e-3, 1e-2, 10.0}) {
-      const GroundPlane plane = plane_at(body, 0.4, 0.2, depth);
-      std::vector<int> visited;
-      body.hierarchy().visit_below(plane, 0, [&](int facet) { visited.push_back(facet); });
-      std::sort(visited.begin(), visited.end());
-      BOOST_TEST((std::adjacent_find(visited.begin(), visited.end()) == visited.end()));
-      for (int f = 0; f < static_cast<int>(body.facets().facets.size()); ++f) {
-        const bool seen = std::binary_search(visited.begin(), visited.end(), f);
-        if (reaches_below(body, f, plane)) BOOST_TEST(seen);
+    // Components of the normal of either sign.
+    for (const auto& [angle, tilt] : {std::pair{0.4, 0.2}, {0.4, -0.2}, {-0.4, 0.2}, {-0.4, 2.8}}) {
+      for (const double depth : {1e-6, 1e-3, 1e-2, 10.0}) {
+        const GroundPlane plane = plane_at(body, angle, tilt, depth);
+        std::vector<int> visited;
+        body.hierarchy().visit_below(plane, 0, [&](int facet) { visited.push_back(facet); });
+        std::sort(visited.begin(), visited.end());
+        BOOST_TEST((std::adjacent_find(visited.begin(), visited.end()) == visited.end()));
+        for (int f = 0; f < static_cast<int>(body.facets().facets.size()); ++f) {
+          const bool seen = std::binary_search(visited.begin(), visited.end(), f);
+          if (reaches_below(body, f, plane)) BOOST_TEST(seen);
+        }
       }
     }
   }

@@ -77,6 +77,16 @@ BOOST_AUTO_TEST_CASE(an_upright_landing_is_half_a_sine) {
   BOOST_TEST((run.impacts[0].end == ContactEnd::a));
 }
 
+/// Ω > 0 is clockwise: it lifts the rim of end a, which lies L/2 cos α − R sin α to the left of the centre.
+BOOST_AUTO_TEST_CASE(a_clockwise_spin_lifts_the_lower_end) {
+  const double angle = 45 * degree, spin = 0.8;
+  const Body body = rod();
+  const MotionState start = touching_state(body, {.inclination = angle, .velocity = {0, 0, -1}, .spin = spin});
+  const Simulation run = simulate(body, {.stiffness = 1e11}, start, plain_options());
+  const double lift = spin * (0.5 * std::cos(angle) - 0.01 * std::sin(angle));
+  BOOST_TEST(run.impacts[0].value.approach_speed == 1 - lift, boost::test_tools::tolerance(1e-13));  // rounding
+}
+
 /// e = [1 + W₀(−(1+s) e^{−(1+s)})]/s.
 BOOST_AUTO_TEST_CASE(the_root_of_the_restitution_is_lamberts_function) {
   for (const double s : {0.5, 1.0, 3.0, 10.0}) {

@@ -34,6 +34,7 @@ BOOST_AUTO_TEST_CASE(significant_digits_are_kept_and_no_more_than_known_ones_sho
   BOOST_TEST(significant(1e-7, 3) == "1.00e-07");
   BOOST_TEST(significant(0, 6) == "0");
   BOOST_TEST(known_digits(1.0, 1e-3) == 3);
+  BOOST_TEST(known_digits(1.0, 2e-3) == 2);  // an error of two in the third digit
   BOOST_TEST(known_digits(1.0, 0) == 17);
   BOOST_TEST(known_digits(1.0, 10.0) == 1);
 }

@@ -4,6 +4,7 @@
 import csv
 import io
 import json
+import math
 import os
 import shutil
 import signal
@@ -155,6 +156,41 @@ class Output(unittest.TestCase):
         self.assertEqual([i["end"] for i in data["impacts"]], ["a", "b", "a"])
         self.assertEqual(data["scene"]["drop"]["angle_deg"], 10)
         self.assertEqual(set(data["cost"]), {"force_evaluations", "root_evaluations"})
+
+    def test_the_angles_of_the_json_are_degrees(self):
+        impacts = json.loads(run("sequence", "--angle", "10", "--format", "json").stdout)["impacts"]
+        # 30-digit values of an independent computation (tests/analytic/reference).
+        for impact, angle in zip(impacts, [10, 5.08198288305537, 10.5479772399858]):
+            self.assertAlmostEqual(impact["contact_angle_deg"], angle, delta=1e-13)  # their last digit
+            self.assertAlmostEqual(abs(impact["inclination_deg"]), angle, delta=1e-13)
+
+    def test_a_height_is_that_of_the_centre_of_mass_at_release(self):
+        impacts = json.loads(run("sequence", "--angle", "30", "--height", "2", "--gravity", "9.81", "--format", "json").stdout)
+        # It falls until the rod's end touches, L/2 sin 30° = 0.25 m below the centre.
+        self.assertAlmostEqual(impacts["impacts"][0]["approach_speed"], math.sqrt(2 * 9.81 * (2 - 0.25)), delta=1e-14)
+
+    def test_the_gravity_number_is_g_l_over_the_square_of_the_speed(self):
+        arguments = ["--gravity", "9.81", "--length", "2", "--speed", "3", "--count", "1", "--format", "json"]
+        number = json.loads(run("angles", *arguments).stdout)["parameters"]["gravity_number"]
+        self.assertAlmostEqual(number, 9.81 * 2 / 9, delta=1e-15)  # three roundings
+
+    def test_the_regimes_of_the_json_are_the_known_folds_in_degrees(self):
+        first = json.loads(run("regimes", "--format", "json").stdout)["rows"][0]
+        self.assertEqual(first["gravity-number"], 0)
+        # The values of tests/analytic/regime_boundary_test.cpp, to the digits given there.
+        for kind, key, angle in [("second", "theta_deg", 58.488442288312), ("second", "beta_deg", 86.701384197437),
+                                 ("third", "theta_deg", 27.577809606636), ("third", "gamma_deg", 63.128123330456)]:
+            self.assertAlmostEqual(first[kind][key], angle, delta=1.2e-12)
+
+    def test_the_root_that_is_explained_solves_equation_12(self):
+        steps = json.loads(run("explain", "2", "--angle", "20", "--gravity", "9.81", "--format", "json").stdout)["steps"]
+        shown = {e["name"]: e["value"] for step in steps[:1] for e in step["equations"]}
+        theta, phi = math.radians(shown["θ"]), shown["φ"]
+        left = math.sin(theta) + shown["K"] * phi - shown["Γ"] * phi * phi - math.sin(phi - theta)
+        self.assertGreater(shown["Γ"], 0)
+        # Terms of order 1, a few roundings each, and the rounding of the angle in degrees.
+        self.assertAlmostEqual(left, 0, delta=1e-14)
+        self.assertAlmostEqual(shown["left side"], 0, delta=1e-14)
 
     def test_csv_and_json_carry_the_same_numbers(self):
         arguments = ["sequence", "--angle", "33", "--gravity", "9.81", "--friction", "0.1"]

@@ -75,6 +75,45 @@ BAD_SCENES = {
 }
 
 
+PHONE = (0.10566, 0.04394, 0.01905), 0.08814
+
+
+def turn(axis, degrees):
+    """The matrix of a rotation about the axis 0, 1 or 2."""
+    s, c = math.sin(math.radians(degrees)), math.cos(math.radians(degrees))
+    matrix = [[float(i == j) for j in range(3)] for i in range(3)]
+    i, j = (axis + 1) % 3, (axis + 2) % 3
+    matrix[i][i], matrix[i][j], matrix[j][i], matrix[j][j] = c, -s, s, c
+    return matrix
+
+
+def product(a, b):
+    return [[sum(x * y for x, y in zip(row, column)) for column in zip(*b)] for row in a]
+
+
+def box_inertia(size, mass):
+    """The principal moments of a box."""
+    x, y, z = (s * s for s in size)
+    return [mass * m / 12 for m in (y + z, x + z, x + y)]
+
+
+def box_stl(size, attitude, centre):
+    """A box in an STL file, in mm."""
+    text = "solid box\n"
+    for axis in range(3):
+        for side in (0, 1):
+            square = [[0, 0, 0] for _ in range(4)]
+            for k, (u, v) in enumerate(((0, 0), (1, 0), (1, 1), (0, 1))):
+                square[k][axis], square[k][(axis + 1) % 3], square[k][(axis + 2) % 3] = side, u, v
+            square = [[1000 * (x - 0.5) * s for x, s in zip(p, size)] for p in square]
+            square = [[sum(x * y for x, y in zip(row, p)) + c for row, c in zip(attitude, centre)] for p in square]
+            a, b, c, d = square if side else square[::-1]
+            for triangle in ((a, b, c), (a, c, d)):
+                corners = "".join("vertex %.17g %.17g %.17g\n" % tuple(p) for p in triangle)
+                text += f"facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n"
+    return text + "endsolid box\n"
+
+
 def run(*arguments, **options):
     return subprocess.run([PROGRAM, "simulate", *arguments], capture_output=True, text=True, timeout=120, **options)
 
@@ -170,6 +209,16 @@ class Overrides(Folder):
         touch = 0.5 * math.sin(math.radians(10)) + 0.01 * math.cos(math.radians(10))
         self.assertAlmostEqual(drop["impacts"][0]["approach_speed"], math.sqrt(2 * 9.81 * (2 - touch)), places=12)
 
+    def test_one_friction_coefficient_is_both(self):
+        for flag in ("--static-friction", "--sliding-friction"):
+            ground = self.json(self.scene(), flag, "0.3", "--impacts", "1")["scene"]["ground"]
+            self.assertEqual((ground["static_friction"], ground["sliding_friction"]), (0.3, 0.3), flag)
+
+    def test_a_sweep_has_both_its_ends(self):
+        path = self.scene("[drop]\nangle_deg = 45\n[ground]\nstiffness = 1e8\n[run]\nimpacts = 1\n"
+                          "[sweep]\nsliding_friction = { from = 0, to = 0.3, step = 0.1 }\n")
+        self.assertEqual([swept["sliding_friction"] for swept in self.json(path)["runs"]], [0, 0.1, 0.2, 0.3])
+
     def test_an_angle_ends_the_sweep_of_the_file(self):
         result = self.json(os.path.join(CASES, "rod-sweep.toml"), "--angle", "30")
         self.assertEqual(len(result["impacts"]), 1)
@@ -195,6 +244,11 @@ class Output(Folder):
         self.assertAlmostEqual(run_json["total_normal_impulse"], sum(r["impulse_normal"] for r in run_json["impacts"]))
         self.assertNotIn("nan", run(self.scene(), "--format", "json").stdout.lower())
 
+    def test_the_angles_of_the_json_are_degrees(self):
+        first = self.json(self.scene(), "--impacts", "1")["impacts"][0]
+        self.assertAlmostEqual(first["inclination_deg"], 10, delta=1e-12)  # rounding of the attitude
+        self.assertAlmostEqual(first["contact_angle_deg"], 10, delta=1e-12)
+
     def test_csv_and_json_hold_the_same_numbers(self):
         path = self.scene()
         rows = self.json(path)["impacts"]
@@ -211,34 +265,40 @@ class Output(Folder):
             self.assertLessEqual(max(map(len, result.stdout.splitlines())), 80, path)
             self.assertTrue(run(path, "--ascii").stdout.isascii())
 
-    def test_a_body_from_an_stl_file_falls_like_the_box_that_it_is(self):
-        size, mass = (0.10566, 0.04394, 0.01905), 0.08814
-        faces = []
-        for axis in range(3):
-            for side in (0, 1):
-                square = [[0, 0, 0] for _ in range(4)]
-                for k, (u, v) in enumerate(((0, 0), (1, 0), (1, 1), (0, 1))):
-                    square[k][axis], square[k][(axis + 1) % 3], square[k][(axis + 2) % 3] = side, u, v
-                square = [[1000 * (x - 0.5) * s for x, s in zip(p, size)] for p in square]
-                a, b, c, d = square if side else square[::-1]
-                faces += [(a, b, c), (a, c, d)]
+    GROUND = "[ground]\nstiffness = 1e8\ndamping = 1e7\n"
+
+    def stl_impacts(self, attitude, centre, inertia, drop):
+        size, mass = PHONE
         with open(self.path("box.stl"), "w", encoding="ascii") as file:
-            file.write("solid box\n")
-            for face in faces:
-                file.write("facet normal 0 0 0\nouter loop\n")
-                file.write("".join("vertex %.17g %.17g %.17g\n" % tuple(p) for p in face))
-                file.write("endloop\nendfacet\n")
-            file.write("endsolid box\n")
-        x, y, z = (s * s for s in size)
-        inertia = [mass * m / 12 for m in (y + z, x + z, x + y)]
-        ground = "[ground]\nstiffness = 1e8\ndamping = 1e7\n[drop]\nangle_deg = 10\nspeed = 4\n"
-        from_file = self.json(self.scene(ground + "[body]\nshape = 'mesh'\nmass = %r\ninertia = %r\n"
-                                         "mesh = { file = 'box.stl', unit = 0.001 }\n" % (mass, inertia)), "--impacts", "2")
-        box = self.json(self.scene(ground + "[body]\nshape = 'box'\nmass = %r\nsize = %r\n" % (mass, list(size))),
-                        "--impacts", "2")
-        for a, b in zip(from_file["impacts"], box["impacts"]):
-            self.assertAlmostEqual(a["impulse_normal"] / b["impulse_normal"], 1, delta=1e-8)
-            self.assertAlmostEqual(a["peak_force"] / b["peak_force"], 1, delta=1e-8)
+            file.write(box_stl(size, attitude, centre))
+        return self.json(self.scene(self.GROUND + drop + "[body]\nshape = 'mesh'\nmass = %r\ninertia = %r\ncentre = %r\n"
+                                    "mesh = { file = 'box.stl', unit = 0.001 }\n" % (mass, inertia, centre)),
+                         "--impacts", "2")["impacts"]
+
+    def box_impacts(self, drop):
+        size, mass = PHONE
+        return self.json(self.scene(self.GROUND + drop + "[body]\nshape = 'box'\nmass = %r\nsize = %r\n" % (mass, list(size))),
+                         "--impacts", "2")["impacts"]
+
+    def same_impacts(self, some, others):
+        self.assertEqual(len(some), len(others))
+        for a, b in zip(some, others):
+            for key in ("impulse_normal", "peak_force"):
+                self.assertAlmostEqual(a[key] / b[key], 1, delta=1e-8)  # of six digits asked for, grown by two impacts
+
+    def test_a_body_from_an_stl_file_falls_like_the_box_that_it_is(self):
+        drop = "[drop]\nangle_deg = 10\nspeed = 4\n"
+        self.same_impacts(self.stl_impacts(turn(0, 0), [0, 0, 0], box_inertia(*PHONE), drop), self.box_impacts(drop))
+
+    def test_a_box_that_lies_askew_in_its_file_falls_like_the_box_that_it_is(self):
+        # Turned in the file by what the drop's angle and tilt then take back.
+        askew = product(turn(0, -25), turn(1, 15))
+        moments = [[m if i == j else 0 for j in range(3)] for i, m in enumerate(box_inertia(*PHONE))]
+        tensor = product(product(askew, moments), list(zip(*askew)))
+        inertia = [tensor[i][j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
+        askew_impacts = self.stl_impacts(askew, [30.0, -20.0, 10.0], inertia,
+                                         "[drop]\nangle_deg = 25\ntilt_deg = 25\nspeed = 4\n")
+        self.same_impacts(askew_impacts, self.box_impacts("[drop]\nangle_deg = 10\nspeed = 4\n"))
 
     def test_a_body_from_a_gmsh_file_falls_like_the_box_that_it_is(self):
         x, y, z = 0.05283, 0.02197, 0.009525
@@ -318,6 +378,25 @@ class History(Folder):
         self.assertLess(times[0], 0)
         for row in rows:
             self.assertAlmostEqual(row["energy_total"] / rows[0]["energy_total"], 1, delta=1e-9)
+
+    def test_the_angular_velocity_is_along_the_axes_of_the_world(self):
+        size, mass = PHONE
+        path = self.scene("[drop]\nangle_deg = 20\ntilt_deg = 30\nspeed = 4\n[ground]\nstiffness = 1e8\n"
+                          "[body]\nshape = 'box'\nmass = %r\nsize = %r\n" % (mass, list(size)))
+        momenta = [self.angular_momentum(row, box_inertia(size, mass)) for row in self.history(path, "--impacts", "2")]
+        largest = max(math.hypot(*momentum) for momentum in momenta)
+        for momentum in momenta:
+            # Without friction none of it is vertical; to the integrator's six digits.
+            self.assertLessEqual(abs(momentum[2]), 1e-6 * largest)
+
+    def angular_momentum(self, row, moments):
+        """About the centre of mass, A I Aᵀ ω with the attitude's matrix A."""
+        b, x, y, z = (row[f"beta{i}"] for i in range(4))
+        attitude = [[1 - 2 * (y * y + z * z), 2 * (x * y - b * z), 2 * (x * z + b * y)],
+                    [2 * (x * y + b * z), 1 - 2 * (x * x + z * z), 2 * (y * z - b * x)],
+                    [2 * (x * z - b * y), 2 * (y * z + b * x), 1 - 2 * (x * x + y * y)]]
+        spin = [sum(a * w for a, w in zip(column, (row["wx"], row["wy"], row["wz"]))) for column in zip(*attitude)]
+        return [sum(a * m * s for a, m, s in zip(line, moments, spin)) for line in attitude]
 
     def test_the_force_integrates_to_the_impulse(self):
         path = self.scene()
