@@ -8,10 +8,12 @@
 # Debian's own version (1.74 on Debian 12) and holds Math and Multiprecision.
 # shellcheck disable=SC2034  # both lists are read by the callers
 program_packages=(cmake ninja-build g++ libgsl-dev libboost-dev libeigen3-dev libcli11-dev
-                  nlohmann-json3-dev libfmt-dev libtomlplusplus-dev)
-# Without the shells and groff the tests of completion and man page would be skipped.
+                  nlohmann-json3-dev libfmt-dev libtomlplusplus-dev gnuplot-nox)
+# Without the shells and groff the tests of completion and man page would be skipped;
+# Chromium opens the page that clatter verify writes.
 # shellcheck disable=SC2034
-test_packages=(libgmsh-dev libboost-test-dev libbenchmark-dev python3 zsh fish groff-base)
+test_packages=(libgmsh-dev libboost-test-dev libbenchmark-dev python3 zsh fish groff-base
+               chromium chromium-driver)
 
 say() { printf '%s: %s\n' "$speaker" "$*" >&2; }
 

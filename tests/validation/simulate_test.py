@@ -348,16 +348,6 @@ class Output(Folder):
         self.assertEqual(result["method"], "rk8pd")
         self.assertGreater(result["tolerance"], 0)
 
-
-    def test_the_readme_shows_the_output_of_the_damped_phone(self):
-        root = os.path.join(CASES, "..", "..")
-        with open(os.path.join(root, "README.md"), encoding="utf-8") as file:
-            readme = file.read()
-        for line in run("validation/cases/phone-damped.toml", cwd=root).stdout.splitlines():
-            if "evaluations" not in line:
-                self.assertIn(line + "\n", readme)
-
-
     def test_a_step_too_long_for_the_contact_knows_few_digits(self):
         for row in self.json(self.scene(), "--step", "1e300")["impacts"]:
             self.assertGreater(row["error_estimate"]["impulse_normal"], 1e-4 * abs(row["impulse_normal"]))

@@ -1,0 +1,112 @@
+#!/usr/bin/python3
+"""Writes what the documents show of the program's output: blocks of README.md, verification.md, the figures' data.
+
+    notebooks-data/documents.py PROGRAM            writes them
+    notebooks-data/documents.py PROGRAM --check    says which are not what PROGRAM prints, and changes nothing
+
+A block of README.md stands between "<!-- output: COMMAND -->" (or "<!-- verdicts -->") and "<!-- end -->".
+"""
+
+import itertools
+import json
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+README = ROOT / "README.md"
+VERIFICATION = ROOT / "notebooks-data" / "verification.md"
+BLOCK = re.compile(r"(<!-- (output: (?P<command>[^>]+?)|verdicts) -->\n).*?(<!-- end -->)", re.DOTALL)
+GROUPS = {"C": "Claims of the paper", "E": "Errata", "F": "Figures", "X": "Exact results",
+          "M": "Both models over every scene", "R": "Random scenes"}
+
+
+def printed(program, arguments):
+    return subprocess.run([program, *arguments], capture_output=True, text=True, check=True, cwd=ROOT).stdout
+
+
+def number(check):
+    """Five digits; errors below them differ from machine to machine."""
+    value = check["number"]
+    text = str(int(value)) if value == int(value) and abs(value) < 1e5 else f"{value:.5g}"
+    # A rounding error has no digits that other machines would print too.
+    text = "below 1e-15" if 0 < abs(value) < 1e-15 else text
+    return text.replace("-", "−") + (f" {check['unit']}" if check["unit"] else "")
+
+
+def cell(text):
+    return text.replace("|", "\\|")
+
+
+def cell_pair(text):
+    """Two cells with " | " between them."""
+    return " | ".join(cell(part) for part in text.split(" | "))
+
+
+def settled(text):
+    """Without rounding errors and what hangs on them, which differ from machine to machine."""
+    return re.sub(r"\d(\.\d+)?e[-−]\d\d|\d+ force evaluations", "", text)
+
+
+def verdict(check):
+    answer = check["answer"] if check["answer"] == "holds" else f"**{check['answer']}**"
+    return f"{check['id']} {check['what']} | {answer}; {check['quantity']}: {number(check)}"
+
+
+def verdicts(checks):
+    """Claims and errata, two in a row."""
+    chosen = [check for check in checks if check["id"][0] in "CE"]
+    half = (len(chosen) + 1) // 2
+    lines = ["| claim | answer | claim, or what is wrong in print | answer |", "|---|---|---|---|"]
+    for left, right in itertools.zip_longest(chosen[:half], chosen[half:]):
+        sides = [cell_pair(verdict(left)), cell_pair(verdict(right)) if right else " | "]
+        lines.append(f"| {' | '.join(sides)} |")
+    return "\n".join(lines) + "\n"
+
+
+def verification(result):
+    lines = [f"# What `clatter verify` found (clatter {result['clatter']})", "",
+             "Written by `notebooks-data/documents.py`.  `clatter verify --html FILE` draws the figures too.",
+             f"{result['passed']} of {len(result['checks'])} checks passed."]
+    for letter, title in GROUPS.items():
+        lines += ["", f"## {title}", "", "| | claim | answer | number | found | oracle | error at most | because |",
+                  "|---|---|---|---|---|---|---|---|"]
+        for check in result["checks"]:
+            if check["id"][0] == letter:
+                cells = [check["id"], check["claim"], check["answer"], f"{check['quantity']}: {number(check)}", check["found"],
+                         f"{check['oracle']}; {check['metric']}", f"{check['tolerance']:.2g}", check["reason"]]
+                lines.append("| " + " | ".join(cell(text) for text in cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def readme(program, text, checks):
+    def block(found):
+        command = found.group("command")
+        content = verdicts(checks) if command is None else f"```\n{printed(program, shlex.split(command)[1:])}```\n"
+        return found.group(1) + content + found.group(4)
+    return BLOCK.sub(block, text)
+
+
+def main():
+    if len(sys.argv) not in (2, 3) or sys.argv[2:] not in ([], ["--check"]):
+        print(__doc__, file=sys.stderr)
+        return 2
+    program = str(Path(sys.argv[1]).resolve())
+    result = json.loads(printed(program, ["verify", "--format", "json"]))
+    old = README.read_text(encoding="utf-8")
+    wanted = {README: readme(program, old, result["checks"]), VERIFICATION: verification(result)}
+    stale = [path for path, text in wanted.items() if not path.exists() or settled(path.read_text(encoding="utf-8")) != settled(text)]
+    if sys.argv[2:]:
+        for path in stale:
+            print(f"{path.relative_to(ROOT)} is not what the program prints; run notebooks-data/documents.py")
+        return 1 if stale else 0
+    for path in stale:
+        path.write_text(wanted[path], encoding="utf-8")
+    printed(program, ["figures", "--output", str(ROOT / "notebooks-data" / "figures")])
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,182 @@
+#!/usr/bin/python3
+"""`clatter compare`, `verify` and `figures` as their users meet them."""
+
+import csv
+import io
+import json
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["CLATTER_PROGRAM"]
+ROOT = os.environ["CLATTER_ROOT"]
+CASES = os.path.join(ROOT, "validation", "cases")
+FIGURES = os.path.join(ROOT, "notebooks-data", "figures")
+NUMBERS = [7, 9, 10, 11, 12, 14, 15, 16, 17, 19, 20, 21, 22, 23, 24]
+
+
+def clatter(*arguments):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=300)
+
+
+def case(name):
+    return os.path.join(CASES, name + ".toml")
+
+
+class Compare(unittest.TestCase):
+    def test_the_rows_are_aligned_and_the_limits_land(self):
+        run = clatter("compare", case("phone-damped"), "--format", "json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        result = json.loads(run.stdout)
+        self.assertTrue(result["agrees"])
+        self.assertEqual([impact["n"] for impact in result["impacts"]], [1, 2, 3, 4, 5, 6])
+        for impact in result["impacts"]:
+            for name, numbers in impact["numbers"].items():
+                self.assertLessEqual(abs(numbers["limit"] - numbers["discrete"]), numbers["allowance"], name)
+        first = result["impacts"][0]["numbers"]["impulse_normal"]
+        self.assertAlmostEqual(first["deviation"], first["continuous"] - first["discrete"], delta=1e-15)
+        parts = [first["predicted_" + part] for part in ("gravity", "turning", "indentation", "delay")]
+        self.assertAlmostEqual(first["predicted"], sum(parts), delta=1e-15)
+
+    def test_a_row_that_cannot_be_compared_says_why(self):
+        run = clatter("compare", case("phone-elastic"), "--angle", "3", "--impacts", "1", "--format", "json")
+        impact = json.loads(run.stdout)["impacts"][0]
+        self.assertFalse(impact["comparable"])
+        self.assertIn("another place touches", impact["reason"])
+        self.assertIsNone(impact["numbers"]["impulse_normal"]["deviation"])
+
+    def test_tables_fit_a_terminal(self):
+        for name in ("phone-damped", "rod-45", "rod-from-2m", "every-key"):
+            for line in clatter("compare", case(name)).stdout.splitlines():
+                self.assertLessEqual(len(line), 80, line)
+
+    def test_every_scene_file_agrees(self):
+        for file in sorted(os.listdir(CASES)):
+            self.assertEqual(clatter("compare", os.path.join(CASES, file)).returncode, 0, file)
+
+    def test_a_sweep_has_a_row_for_each_value(self):
+        run = clatter("compare", case("rod-friction-sweep"), "--format", "csv")
+        rows = list(csv.DictReader(line for line in run.stdout.splitlines() if not line.startswith("#")))
+        self.assertEqual(len(rows), 17 * 7)
+        self.assertEqual(float(rows[-1]["sliding_friction"]), 0.8)
+
+    def test_what_the_discrete_model_cannot_represent_has_status_4(self):
+        run = clatter("compare", case("phone-elastic"), "--tilt", "5")
+        self.assertEqual((run.returncode, run.stdout), (4, ""))
+        self.assertEqual(len(run.stderr.splitlines()), 1)
+
+    def test_the_scene_file_is_not_written_over(self):
+        self.assertEqual(clatter("compare", case("rod-45"), "--output", case("rod-45")).returncode, 2)
+
+
+class Verify(unittest.TestCase):
+    def test_the_quick_set_passes_and_answers_every_claim_and_erratum(self):
+        run = clatter("verify", "--quick", "--format", "json")
+        self.assertEqual(run.returncode, 0, run.stdout)
+        result = json.loads(run.stdout)
+        self.assertEqual(result["failed"], 0)
+        checks = {check["id"]: check for check in result["checks"]}
+        for name in [f"C{i}" for i in range(1, 21)] + [f"E{i}" for i in range(1, 12)]:
+            self.assertIn(checks[name]["answer"], ("holds", "refuted", "ambiguous"))
+            self.assertIsInstance(checks[name]["number"], (int, float))
+        for check in checks.values():
+            self.assertLessEqual(check["measured_error"], check["tolerance"])
+            self.assertLessEqual(check["tolerance"], 5.000001 * check["seen"])
+
+    def test_the_table_fits_a_terminal(self):
+        lines = clatter("verify", "--only", "C1", "C5", "E8", "F24", "M10").stdout.splitlines()
+        self.assertEqual(sum(1 for line in lines if line.startswith(("  C", "  E", "  F", "  M"))), 5)
+        for line in lines:
+            self.assertLessEqual(len(line), 80, line)
+
+    def test_every_command_in_the_table_runs(self):
+        checks = json.loads(clatter("verify", "--only", "X1", "--format", "json").stdout)["checks"]
+        self.assertEqual([check["id"] for check in checks], ["X1"])
+        everything = json.loads(clatter("verify", "--quick", "--format", "json").stdout)["checks"]
+        with tempfile.TemporaryDirectory() as folder:
+            for command in sorted({check["command"] for check in everything}):
+                if command.startswith("clatter verify"):
+                    continue
+                words = command.replace("DIR", folder).replace("FILE", os.path.join(folder, "history.csv")).split()
+                run = subprocess.run([PROGRAM, *words[1:]], capture_output=True, text=True, cwd=ROOT, timeout=300)
+                self.assertEqual(run.returncode, 0, f"{command}: {run.stderr}")
+
+    def test_bad_arguments_have_one_line_and_status_2(self):
+        for arguments in (["--only", "C21"], ["--only"], ["--quick", "--only", "C1"], ["--html", "/no/such/folder/x.html"],
+                          ["--only", "C1", ""], ["--fast"]):
+            run = clatter("verify", *arguments)
+            self.assertEqual((run.returncode, run.stdout), (2, ""), arguments)
+            self.assertEqual(len(run.stderr.splitlines()), 1, run.stderr)
+        self.assertIn("C2", clatter("verify", "--only", "C21").stderr)
+
+    def test_without_gnuplot_the_page_is_refused_and_nothing_is_written(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "page.html")
+            run = subprocess.run([PROGRAM, "verify", "--only", "C1", "--html", path], capture_output=True, text=True,
+                                 env={**os.environ, "PATH": "/nonexistent"})
+            self.assertEqual(run.returncode, 3)
+            self.assertIn("gnuplot", run.stderr)
+            self.assertEqual(os.listdir(folder), [])
+
+
+def read_figure(path):
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    head = [line for line in text.splitlines() if line.startswith("#")]
+    rows = list(csv.reader(io.StringIO("\n".join(line for line in text.splitlines() if not line.startswith("#")))))
+    return head, rows[0], [[float(cell) if cell else None for cell in row] for row in rows[1:]]
+
+
+class Figures(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.run_result = clatter("figures", "--output", os.path.join(cls.folder.name, "new", "folder"))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def path(self, number):
+        return os.path.join(self.folder.name, "new", "folder", f"figure_{number:02}.csv")
+
+    def test_there_is_one_file_for_each_figure(self):
+        self.assertEqual(self.run_result.returncode, 0, self.run_result.stderr)
+        self.assertEqual(sorted(os.listdir(os.path.dirname(self.path(7)))), [f"figure_{n:02}.csv" for n in NUMBERS])
+
+    def test_the_head_says_quantity_unit_scene_command_and_version(self):
+        for number in NUMBERS:
+            head, names, _ = read_figure(self.path(number))
+            self.assertTrue(head[0].startswith(f"# Figure {number}: "))
+            self.assertTrue(head[1].startswith("# scene: "))
+            self.assertEqual(head[2], f"# command: clatter figures --only {number} --output DIR")
+            self.assertRegex(head[3], r"^# clatter \d+\.\d+\.\d+$")
+            for name, line in zip(names, head[4:], strict=True):
+                self.assertRegex(line, rf"^# {re.escape(name)} \[[^\]]+\]: ..")
+
+    def test_the_files_in_the_tree_are_what_the_program_writes(self):
+        """To a millionth of each column's range: another machine rounds differently, and errors grow over impacts."""
+        for number in NUMBERS:
+            head, names, rows = read_figure(self.path(number))
+            kept_head, kept_names, kept_rows = read_figure(os.path.join(FIGURES, f"figure_{number:02}.csv"))
+            self.assertEqual((head, names, len(rows)), (kept_head, kept_names, len(kept_rows)), number)
+            for column, name in enumerate(names):
+                values = [row[column] for row in kept_rows if row[column] is not None]
+                tolerance = 1e-6 * max(1e-3, max(map(abs, values)))
+                for row, kept in zip(rows, kept_rows):
+                    self.assertEqual(row[column] is None, kept[column] is None, (number, name))
+                    if kept[column] is not None:
+                        self.assertLessEqual(abs(row[column] - kept[column]), tolerance, (number, name))
+
+    def test_bad_arguments_have_status_2(self):
+        for arguments in ([], ["--output"], ["--output", self.path(7)], ["--output", self.folder.name, "--only", "8"],
+                          ["--output", self.folder.name, "--only", "x"]):
+            run = clatter("figures", *arguments)
+            self.assertEqual((run.returncode, run.stdout), (2, ""), arguments)
+            self.assertEqual(len(run.stderr.splitlines()), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
