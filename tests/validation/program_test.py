@@ -118,12 +118,6 @@ class Output(unittest.TestCase):
         for number in ["5.08198", "10.5480", "0.511569", "1.00284", "0.485091", "1.99950"]:
             self.assertIn(number, text)
 
-    def test_the_readme_shows_what_the_program_prints(self):
-        with open(os.path.join(os.path.dirname(__file__), "..", "..", "README.md"), encoding="utf-8") as file:
-            readme = file.read()
-        for arguments in [["sequence", "--angle", "10"], ["regimes"]]:
-            self.assertIn(run(*arguments).stdout, readme)
-
     def test_tables_fit_80_columns(self):
         for arguments in [["sequence", "--angle", "10"],
                           ["sequence", "--angle", "10", "--gravity", "9.81", "--restitution", "0.5", "--friction", "0.3",

@@ -54,13 +54,13 @@ std::string reason_against(const Comparison& comparison, const SimulationScene& 
   if (i >= impacts.size()) return "the continuous run has ended: " + comparison.run.message;
   const ImpactRecord& record = impacts[i];
   const std::string end = end_of(comparison.drop.body, rows[i]);
-  if (record.touches > 1 && end != "both") return "another place touches before the first contact has ended";
-  if (jams(comparison, rows[i])) return "jamming: friction beyond Painlevé's limit drives the contact into the ground";
   if (!record.predictable) {
     return fmt::format("beyond the predictable: out of its plane an error of the start has grown {} times",
                        significant(record.amplification, 2));
   }
   if (!(rows[i].amplification * epsilon <= 0.01)) return "beyond the predictable: an error of the start has grown too far";
+  if (record.touches > 1 && end != "both") return "another place touches before the first contact has ended";
+  if (jams(comparison, rows[i])) return "jamming: friction beyond Painlevé's limit drives the contact into the ground";
   if (end != end_name(record.end)) return fmt::format("end {} strikes in one model, end {} in the other", end, end_name(record.end));
   if (scene.ground.static_friction != scene.ground.sliding_friction && sticks(rows[i].impact.mode) != sticks(record.mode)) {
     return "static and sliding friction differ; the discrete model has one coefficient";
