@@ -197,3 +197,22 @@ BOOST_AUTO_TEST_CASE(an_impulse_ratio_beyond_the_limit_is_computed_with_a_warnin
   BOOST_REQUIRE(s.warnings.size() == 1);
   BOOST_TEST(s.warnings[0].find("creates energy") != std::string::npos);
 }
+
+/// Each impact restores by the map at its own speed v: e solves ln[(1+s)/(1-s e)] = s (1+e), s = tau v; a flight from
+/// e v lasts 2 e v/g.
+BOOST_AUTO_TEST_CASE(a_flat_body_on_damped_ground_bounces_with_the_restitution_of_each_speed) {
+  const double tau = 0.3, g = 9.81;
+  const Drop drop{.body = make_box({}), .inclination = Angle::from_degrees(0), .velocity = {.normal = -3}, .gravity = g,
+                  .law = {.law = RestitutionLaw::viscoelastic, .damping_per_stiffness = tau}};
+  const Sequence s = impact_sequence(drop, {.impacts = 4});
+  double speed = 3, time = 0;
+  for (const ImpactRow& row : s.rows) {
+    const double e = row.impact.restitution(), number = tau * speed;
+    BOOST_TEST(row.impact.approach_speed == speed, boost::test_tools::tolerance(1e-13));
+    BOOST_TEST(std::fabs(row.start - time) <= 1e-13);
+    BOOST_TEST(std::fabs(std::log1p(number) - std::log1p(-number * e) - number * (1 + e)) <= 1e-14);
+    time += 2 * e * speed / g;
+    speed *= e;
+  }
+  BOOST_TEST(s.rows.size() == 4u);
+}

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "validation/cli/verify_report.hpp"
 #include "validation/figures/figure.hpp"
 #include "validation/verify/verification.hpp"
 
@@ -66,6 +67,15 @@ BOOST_AUTO_TEST_CASE(a_measurement_that_throws_is_a_failure_with_its_reason) {
   one.id = "C99";
   BOOST_TEST(!judged(one).passed());
   BOOST_TEST(!judged(one).failure.empty());
+}
+
+BOOST_AUTO_TEST_CASE(the_exit_status_tells_passed_failed_and_interrupted_apart) {
+  Check strict = check("X3");
+  strict.tolerance = 1e-12;
+  BOOST_TEST(verify_status(summary_of({judged(check("C1"))})) == 0);
+  BOOST_TEST(verify_status(summary_of({judged(check("C1")), judged(strict)})) == 1);
+  const CheckResult not_run{.check = &strict, .measured = {}, .failure = {}, .done = false};
+  BOOST_TEST(verify_status(summary_of({judged(check("C1")), not_run})) == 130);
 }
 
 BOOST_AUTO_TEST_CASE(an_interrupt_leaves_the_rest_not_run) {

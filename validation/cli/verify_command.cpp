@@ -15,8 +15,6 @@
 namespace clatter::validation {
 namespace {
 
-constexpr int check_failed = 1;
-
 struct VerifyInput {
   bool quick = false;
   std::vector<std::string> only;
@@ -77,9 +75,7 @@ int run_verify(const VerifyInput& input) {
     page->commit();
   }
   write_out(choice, report(choice, results, selection));
-  const VerifySummary summary = summary_of(results);
-  if (summary.not_run > 0) return interrupted_status;
-  return summary.failed > 0 ? check_failed : 0;
+  return verify_status(summary_of(results));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "validation/cli/impact_records.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/version.hpp"
+#include "validation/output/interrupt.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation {
@@ -71,6 +72,12 @@ VerifySummary summary_of(const std::vector<CheckResult>& results) {
     summary.seconds += result.seconds;
   }
   return summary;
+}
+
+int verify_status(const VerifySummary& summary) {
+  constexpr int check_failed = 1;
+  if (summary.not_run > 0) return interrupted_status;
+  return summary.failed > 0 ? check_failed : 0;
 }
 
 std::string summary_words(const VerifySummary& summary) {

@@ -15,6 +15,8 @@ struct VerifySummary {
   double seconds = 0;  ///< of all threads [s]
 };
 [[nodiscard]] VerifySummary summary_of(const std::vector<CheckResult>& results);
+/// Exit status: 0 all passed, 1 a check failed, 130 interrupted.
+[[nodiscard]] int verify_status(const VerifySummary& summary);
 /// "75 of 75 checks passed; …".
 [[nodiscard]] std::string summary_words(const VerifySummary& summary);
 
