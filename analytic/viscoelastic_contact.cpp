@@ -8,9 +8,7 @@ namespace clatter::analytic {
 namespace {
 
 /// ln(1+x) − x, by Boost's series where the difference would cancel.
-double log1p_minus(double x) {
-  return std::fabs(x) < 0.5 ? boost::math::log1pmx(x) : std::log1p(x) - x;
-}
+double log1p_minus(double x) { return std::fabs(x) < 0.5 ? boost::math::log1pmx(x) : std::log1p(x) - x; }
 
 /// ψ(x) = −x − ln(1−x), x²/2 for small x.
 double psi(double x) { return -log1p_minus(-x); }

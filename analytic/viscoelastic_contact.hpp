@@ -23,9 +23,9 @@ struct ImpulseStretch {
 ///     ψ(τu) = ψ(τ from) + slope τ² work,   ψ(x) = −x − ln(1−x).
 /// Accuracy: a few ulp × condition number.
 struct Unloading {
-  double from = 0;   ///< [m/s]
+  double from = 0;  ///< [m/s]
   double slope = 1;
-  double work = 0;   ///< [m²/s²]
+  double work = 0;  ///< [m²/s²]
 };
 [[nodiscard]] double separation_speed(double damping_per_stiffness, const Unloading& unloading);
 

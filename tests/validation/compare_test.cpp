@@ -62,7 +62,8 @@ BOOST_AUTO_TEST_CASE(bodies_and_drops_that_leave_the_plane_are_refused_by_name) 
   for (int i = 0; i < 8; ++i) {
     cube.nodes.push_back({(i & 1 ? 1 : -1) * h.x(), (i & 2 ? 1 : -1) * h.y() + 0.1, (i & 4 ? 1 : -1) * h.z()});
   }
-  for (const auto& nodes : {std::array{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
+  for (const auto& nodes :
+       {std::array{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
     cube.elements.push_back({.nodes = nodes});
   }
   const numeric::Body moved({.mass = 1, .centre = {0, 0, 0}, .inertia = numeric::Matrix3::Identity()}, cube);

@@ -23,9 +23,14 @@ struct CompareInput {
 int compare_one(const SimulationScene& scene, const OutputChoice& choice) {
   const Comparison comparison = compare_models(scene, scene.make_body());
   switch (choice.style.format) {
-    case Format::json: write_out(choice, json_text(comparison_json(scene, comparison))); break;
-    case Format::csv: write_out(choice, table_text(comparison_records(scene, comparison), choice.style)); break;
-    default: write_out(choice, table_text(comparison_table(scene, comparison), choice.style));
+    case Format::json:
+      write_out(choice, json_text(comparison_json(scene, comparison)));
+      break;
+    case Format::csv:
+      write_out(choice, table_text(comparison_records(scene, comparison), choice.style));
+      break;
+    default:
+      write_out(choice, table_text(comparison_table(scene, comparison), choice.style));
   }
   return comparison.agrees() ? 0 : check_failed;
 }
@@ -44,13 +49,18 @@ int compare_swept(const SimulationScene& scene, const OutputChoice& choice) {
     }
   }
   switch (choice.style.format) {
-    case Format::json: write_out(choice, json_text(swept_comparison_json(scene, swept))); break;
-    case Format::csv: write_out(choice, table_text(swept_comparison_records(scene, swept), choice.style)); break;
-    default: write_out(choice, table_text(swept_comparison_table(scene, swept), choice.style));
+    case Format::json:
+      write_out(choice, json_text(swept_comparison_json(scene, swept)));
+      break;
+    case Format::csv:
+      write_out(choice, table_text(swept_comparison_records(scene, swept), choice.style));
+      break;
+    default:
+      write_out(choice, table_text(swept_comparison_table(scene, swept), choice.style));
   }
   if (swept.size() < values.size()) return interrupted_status;
-  const bool agree = std::all_of(swept.begin(), swept.end(),
-                                 [](const SweptComparison& one) { return one.comparison.agrees(); });
+  const bool agree =
+      std::all_of(swept.begin(), swept.end(), [](const SweptComparison& one) { return one.comparison.agrees(); });
   return agree ? 0 : check_failed;
 }
 

@@ -138,6 +138,8 @@ Json result_json(const Comparison& comparison) {
   json["limit"] = {{"stiffness", number_or_null(comparison.limit.stiffness)},
                    {"power", number_or_null(-comparison.limit.power)},
                    {"runs", comparison.limit.runs}};
+  json["discrete_ended"] = comparison.sequence.message;
+  json["continuous_ended"] = comparison.run.message;
   json["agrees"] = comparison.agrees();
   json["message"] = verdict_words(comparison);
   return json;
@@ -160,7 +162,9 @@ void add_records(const Comparison& comparison, const std::vector<Cell>& front, T
 }
 
 Table records_table(const SimulationScene& scene) {
-  Table table{.head = {headline("compare", what_it_is), "scene: " + scene.json().dump()}, .columns = {}, .rows = {},
+  Table table{.head = {headline("compare", what_it_is), "scene: " + scene.json().dump()},
+              .columns = {},
+              .rows = {},
               .notes = {}};
   for (const char* name : {"n", "quantity", "not_compared_because", "discrete", "continuous", "deviation", "predicted",
                            "predicted_gravity", "predicted_turning", "predicted_indentation", "predicted_delay",
@@ -202,12 +206,19 @@ const char* sweep_name(const SimulationScene& scene) {
 
 Table comparison_table(const SimulationScene& scene, const Comparison& comparison) {
   Table table{.head = head_of(scene), .columns = {}, .rows = {}, .notes = {}};
-  table.columns = {{"n", "n", ""}, {"end", "end", ""}, {"quantity", "", ""}, {"discrete", "discrete", ""},
-                   {"continuous", "continuous", ""}, {"deviation", "deviation", ""}, {"predicted", "predicted", ""},
-                   {"miss", "limit off", ""}, {"allowance", "±", ""}};
+  table.columns = {{"n", "n", ""},
+                   {"end", "end", ""},
+                   {"quantity", "", ""},
+                   {"discrete", "discrete", ""},
+                   {"continuous", "continuous", ""},
+                   {"deviation", "deviation", ""},
+                   {"predicted", "predicted", ""},
+                   {"miss", "limit off", ""},
+                   {"allowance", "±", ""}};
   for (const ComparedImpact& impact : comparison.impacts) add_rows(comparison, impact, table);
   table.notes = reasons(comparison);
-  table.notes.push_back("predicted: gravity, turning and indentation during contacts, carried on from impact to impact");
+  table.notes.push_back(
+      "predicted: gravity, turning and indentation during contacts, carried on from impact to impact");
   table.notes.push_back(limit_words(comparison));
   table.notes.push_back(verdict_words(comparison));
   fit_columns(table, 6, {3});
@@ -230,26 +241,34 @@ Table comparison_records(const SimulationScene& scene, const Comparison& compari
 Table swept_comparison_table(const SimulationScene& scene, const std::vector<SweptComparison>& swept) {
   const bool over_angle = scene.sweep->quantity == SceneSweep::Quantity::angle_deg;
   Table table{.head = head_of(scene), .columns = {}, .rows = {}, .notes = {}};
-  table.columns = {{"value", over_angle ? "angle" : "μₖ", over_angle ? "°" : ""}, {"n", "n", ""}, {"end", "end", ""},
-                   {"deviation", "deviation", "of all"}, {"predicted", "predicted", "of all"},
-                   {"miss", "limit off", "of all"}, {"allowance", "±", "of all"}, {"verdict", "", ""}};
+  table.columns = {{"value", over_angle ? "angle" : "μₖ", over_angle ? "°" : ""},
+                   {"n", "n", ""},
+                   {"end", "end", ""},
+                   {"deviation", "deviation", "of all"},
+                   {"predicted", "predicted", "of all"},
+                   {"miss", "limit off", "of all"},
+                   {"allowance", "±", "of all"},
+                   {"verdict", "", ""}};
   for (const auto& [value, comparison] : swept) {
     for (const ComparedImpact& impact : comparison.impacts) {
       if (!impact.discrete) continue;
       const Worst worst = worst_number(comparison, impact);
       std::vector<Cell> row{impact.n == 1 ? Cell(value, 6) : Cell(), Cell(std::to_string(impact.n)),
                             Cell(impact.discrete_end)};
-      if (impact.reason.empty()) row.insert(row.end(), {Cell(worst.deviation, 2), Cell(worst.predicted, 2)});
-      else row.insert(row.end(), {Cell("–"), Cell()});
+      if (impact.reason.empty())
+        row.insert(row.end(), {Cell(worst.deviation, 2), Cell(worst.predicted, 2)});
+      else
+        row.insert(row.end(), {Cell("–"), Cell()});
       if (impact.has_landing()) row.insert(row.end(), {Cell(worst.miss, 2), Cell(worst.allowance, 2)});
       row.resize(7);
       row.emplace_back(landing_word(impact));
       table.rows.push_back(std::move(row));
     }
   }
-  table.notes.push_back("of all: of the largest time, speed or momentum of the sequence; the worst number of each impact");
-  const auto agreeing = std::count_if(swept.begin(), swept.end(),
-                                      [](const SweptComparison& one) { return one.comparison.agrees(); });
+  table.notes.push_back(
+      "of all: of the largest time, speed or momentum of the sequence; the worst number of each impact");
+  const auto agreeing =
+      std::count_if(swept.begin(), swept.end(), [](const SweptComparison& one) { return one.comparison.agrees(); });
   table.notes.push_back(fmt::format("{} of {} values agree.", agreeing, swept.size()));
   return table;
 }
@@ -262,8 +281,8 @@ Json swept_comparison_json(const SimulationScene& scene, const std::vector<Swept
     one.update(result_json(comparison));
     json["runs"].push_back(one);
   }
-  json["agrees"] = std::all_of(swept.begin(), swept.end(),
-                               [](const SweptComparison& one) { return one.comparison.agrees(); });
+  json["agrees"] =
+      std::all_of(swept.begin(), swept.end(), [](const SweptComparison& one) { return one.comparison.agrees(); });
   return json;
 }
 

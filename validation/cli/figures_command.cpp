@@ -58,9 +58,10 @@ Action add_figures_command(CLI::App& app) {
   auto input = std::make_shared<FiguresInput>();
   CLI::App* command = app.add_subcommand("figures", "the data of the paper's figures, one CSV each");
   add_text(*command, "--output", input->folder, "DIR", "folder for figure_07.csv, ...; made if it is not there");
-  command->add_option("--only", input->only, "numbers of figures")->type_name("N...");
-  command->footer("Example: clatter figures --only 7 14 --output figures\n"
-                  "clatter verify --html FILE draws them.");
+  command->add_option("--only", input->only, "numbers of figures")->type_name("N");
+  command->footer(
+      "Example: clatter figures --only 7 14 --output figures\n"
+      "clatter verify --html FILE draws them.");
   return [input] { return run_figures(*input); };
 }
 

@@ -47,16 +47,20 @@ std::string selection_words(const VerifyInput& input, std::size_t count) {
 
 std::string report(const OutputChoice& choice, const std::vector<CheckResult>& results, const std::string& selection) {
   switch (choice.style.format) {
-    case Format::json: return json_text(verify_json(results, selection));
-    case Format::csv: return table_text(verify_records(results, selection), choice.style);
-    default: return table_text(verify_table(results, selection, choice.style.format), choice.style);
+    case Format::json:
+      return json_text(verify_json(results, selection));
+    case Format::csv:
+      return table_text(verify_records(results, selection), choice.style);
+    default:
+      return table_text(verify_table(results, selection, choice.style.format), choice.style);
   }
 }
 
 int run_verify(const VerifyInput& input) {
   const std::vector<const Check*> checks = chosen(input);
   const OutputChoice choice = read_output(input.output);
-  if (input.html && *input.html == choice.path) throw BadInput(fmt::format("--html {}: must be another file than --output's", *input.html));
+  if (input.html && *input.html == choice.path)
+    throw BadInput(fmt::format("--html {}: must be another file than --output's", *input.html));
   std::optional<Sink> page;
   if (input.html) page.emplace(*input.html, "--html");  // an unwritable file is found before the work
   const std::string selection = selection_words(input, checks.size());
@@ -84,7 +88,7 @@ Action add_verify_command(CLI::App& app) {
   auto input = std::make_shared<VerifyInput>();
   CLI::App* command = app.add_subcommand("verify", "every claim of the paper, checked");
   command->add_flag("--quick", input->quick, "leave out the checks that take long");
-  command->add_option("--only", input->only, "these checks, such as C1 E2")->type_name("ID...");
+  command->add_option("--only", input->only, "these checks, such as C1 E2")->type_name("ID");
   add_text(*command, "--html", input->html, "FILE", "also a page with the verdicts and all figures");
   add_output_options(*command, input->output);
   command->footer("Example: clatter verify --quick --html verification.html\nExit status 1 if a check fails.");

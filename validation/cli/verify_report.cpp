@@ -22,9 +22,7 @@ std::string verdict_word(const CheckResult& result) {
 
 std::string verdict_mark(const CheckResult& result) { return !result.done ? "?" : result.passed() ? "✓" : "✗"; }
 
-std::string answer_word(const CheckResult& result) {
-  return result.done ? answer_name(result.measured.answer) : "";
-}
+std::string answer_word(const CheckResult& result) { return result.done ? answer_name(result.measured.answer) : ""; }
 
 /// The number to four digits; a whole one has no zeros behind its point.
 Cell number_cell(double number) {
@@ -81,7 +79,8 @@ int verify_status(const VerifySummary& summary) {
 }
 
 std::string summary_words(const VerifySummary& summary) {
-  std::string text = fmt::format("{} of {} checks passed", summary.passed, summary.passed + summary.failed + summary.not_run);
+  std::string text =
+      fmt::format("{} of {} checks passed", summary.passed, summary.passed + summary.failed + summary.not_run);
   if (summary.failed > 0) text += fmt::format(", {} FAILED", summary.failed);
   if (summary.not_run > 0) text += fmt::format(", {} not run: interrupted", summary.not_run);
   return text + fmt::format("; {} s of processor time", significant(summary.seconds, 3));
@@ -103,16 +102,21 @@ Table verify_table(const std::vector<CheckResult>& results, const std::string& s
   for (const CheckResult& result : results) {
     const Measured& m = result.measured;
     std::vector<Cell> row{Cell(result.check->id), Cell(result.check->what), Cell(answer_word(result))};
-    if (result.done) row.insert(row.end(), {number_cell(m.number), Cell(m.error, 2)});
-    else row.resize(5);
+    if (result.done)
+      row.insert(row.end(), {number_cell(m.number), Cell(m.error, 2)});
+    else
+      row.resize(5);
     row.insert(row.end(), {Cell(result.check->tolerance, 2), Cell(wide ? verdict_word(result) : verdict_mark(result)),
                            Cell(fmt::format("{:.2f}", result.seconds)), Cell(result.check->oracle), Cell(m.found)});
     table.rows.push_back(std::move(row));
   }
   add_failures(results, table);
   table.notes.push_back(summary_words(summary_of(results)));
-  if (format == Format::table) table.notes.push_back("answer: does the claim hold?  ✓: the error is within what it may be at most and the answer is the expected one.  "
-                          "--format json says what each number is and what else was found");
+  if (format == Format::table)
+    table.notes.push_back(
+        "answer: does the claim hold?  ✓: the error is within what it may be at most and the answer is the expected "
+        "one.  "
+        "--format json says what each number is and what else was found");
   return table;
 }
 

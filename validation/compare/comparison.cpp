@@ -58,11 +58,14 @@ std::string reason_against(const Comparison& comparison, const SimulationScene& 
     return fmt::format("beyond the predictable: out of its plane an error of the start has grown {} times",
                        significant(record.amplification, 2));
   }
-  if (!(rows[i].amplification * epsilon <= 0.01)) return "beyond the predictable: an error of the start has grown too far";
+  if (!(rows[i].amplification * epsilon <= 0.01))
+    return "beyond the predictable: an error of the start has grown too far";
   if (record.touches > 1 && end != "both") return "another place touches before the first contact has ended";
   if (jams(comparison, rows[i])) return "jamming: friction beyond Painlevé's limit drives the contact into the ground";
-  if (end != end_name(record.end)) return fmt::format("end {} strikes in one model, end {} in the other", end, end_name(record.end));
-  if (scene.ground.static_friction != scene.ground.sliding_friction && sticks(rows[i].impact.mode) != sticks(record.mode)) {
+  if (end != end_name(record.end))
+    return fmt::format("end {} strikes in one model, end {} in the other", end, end_name(record.end));
+  if (scene.ground.static_friction != scene.ground.sliding_friction &&
+      sticks(rows[i].impact.mode) != sticks(record.mode)) {
     return "static and sliding friction differ; the discrete model has one coefficient";
   }
   const Quantities size = comparison.impacts[i].predicted.total();
@@ -85,8 +88,14 @@ Quantities allowance(const ComparedImpact& impact, const ImpactRow& row, const Q
 void add_impact(Comparison& comparison, std::size_t i, const std::vector<PredictedSize>& predicted) {
   const auto& rows = comparison.sequence.rows;
   const auto& records = comparison.run.impacts;
-  ComparedImpact impact{.n = static_cast<int>(i) + 1, .reason = {}, .discrete = {}, .continuous = {},
-                        .discrete_end = {}, .continuous_end = {}, .predicted = {}, .limit = {}};
+  ComparedImpact impact{.n = static_cast<int>(i) + 1,
+                        .reason = {},
+                        .discrete = {},
+                        .continuous = {},
+                        .discrete_end = {},
+                        .continuous_end = {},
+                        .predicted = {},
+                        .limit = {}};
   if (i < rows.size()) {
     impact.discrete = quantities(rows[i]);
     impact.discrete_end = end_of(comparison.drop.body, rows[i]);
@@ -151,8 +160,8 @@ Comparison compare_models(const SimulationScene& scene, const numeric::Body& bod
   for (std::size_t i = 0; i < count; ++i) {
     add_impact(comparison, i, predicted);
     ComparedImpact& impact = comparison.impacts.back();
-    impact.reason = first_reason.empty() ? reason_against(comparison, scene, i)
-                                         : "follows an impact that cannot be compared";
+    impact.reason =
+        first_reason.empty() ? reason_against(comparison, scene, i) : "follows an impact that cannot be compared";
     if (first_reason.empty()) first_reason = impact.reason;
   }
   drop_unlike_limits(comparison, scene);

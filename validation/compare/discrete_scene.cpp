@@ -27,9 +27,8 @@ double cross(const Vertex& o, const Vertex& a, const Vertex& b) {
 
 /// Corners of the convex hull, counter-clockwise (Andrew's monotone chain); points on an edge are left out.
 std::vector<Vertex> convex_hull(std::vector<Vertex> points, double size) {
-  std::sort(points.begin(), points.end(), [](const Vertex& a, const Vertex& b) {
-    return a.x != b.x ? a.x < b.x : a.z < b.z;
-  });
+  std::sort(points.begin(), points.end(),
+            [](const Vertex& a, const Vertex& b) { return a.x != b.x ? a.x < b.x : a.z < b.z; });
   const double flat = symmetry * size * size;
   std::vector<Vertex> hull;
   const auto half = [&](auto begin, auto end) {
@@ -50,7 +49,8 @@ void require_symmetric(const numeric::Body& body, const std::vector<Vertex>& cor
   const double size = body.radius();
   const numeric::Matrix3& inertia = body.inertia();
   const double product = std::max(std::fabs(inertia(0, 1)), std::fabs(inertia(1, 2)));
-  if (!(product <= symmetry * body.mass() * size * size)) outside("the body's products of inertia turn it out of its plane");
+  if (!(product <= symmetry * body.mass() * size * size))
+    outside("the body's products of inertia turn it out of its plane");
   for (const Vertex& corner : corners) {
     double low = 0, high = 0;
     bool first = true;
@@ -80,7 +80,8 @@ analytic::PlanarBody planar_body(const numeric::Body& body) {
   for (std::size_t i = 0; i + 1 < corners.size(); i += 2) {
     if (corners[i].x > corners[i + 1].x) std::swap(corners[i], corners[i + 1]);
   }
-  analytic::PlanarBody planar{.mass = body.mass(), .gyration_square = body.inertia()(1, 1) / body.mass(),
+  analytic::PlanarBody planar{.mass = body.mass(),
+                              .gyration_square = body.inertia()(1, 1) / body.mass(),
                               .vertex_count = static_cast<int>(corners.size())};
   std::copy(corners.begin(), corners.end(), planar.vertices.begin());
   return planar;
@@ -99,9 +100,11 @@ analytic::Drop discrete_drop(const SimulationScene& scene, const numeric::Body& 
     law.friction = analytic::FrictionKind::coulomb;
     law.friction_value = ground.sliding_friction;
   }
-  return {.body = planar_body(body), .inclination = analytic::Angle::from_degrees(scene.angle_deg),
+  return {.body = planar_body(body),
+          .inclination = analytic::Angle::from_degrees(scene.angle_deg),
           .velocity = {.normal = start.velocity.z(), .tangential = start.velocity.x(), .angular = scene.spin},
-          .gravity = scene.options.gravity, .law = law};
+          .gravity = scene.options.gravity,
+          .law = law};
 }
 
 }  // namespace clatter::validation

@@ -8,13 +8,23 @@ namespace clatter::validation {
 using analytic::degrees_per_radian;
 
 Quantities quantities(const analytic::ImpactRow& row) {
-  return {row.start, row.contact_angle * degrees_per_radian, row.impact.normal_impulse, row.impact.tangential_impulse,
-          row.impact.after.normal, row.impact.after.tangential, row.impact.after.angular};
+  return {row.start,
+          row.contact_angle * degrees_per_radian,
+          row.impact.normal_impulse,
+          row.impact.tangential_impulse,
+          row.impact.after.normal,
+          row.impact.after.tangential,
+          row.impact.after.angular};
 }
 
 Quantities quantities(const numeric::ImpactNumbers& n) {
-  return {n.start, n.contact_angle * degrees_per_radian, n.impulse.z(), n.impulse.x(), n.velocity_after.z(),
-          n.velocity_after.x(), n.angular_velocity_after.y()};
+  return {n.start,
+          n.contact_angle * degrees_per_radian,
+          n.impulse.z(),
+          n.impulse.x(),
+          n.velocity_after.z(),
+          n.velocity_after.x(),
+          n.angular_velocity_after.y()};
 }
 
 Quantities quantity_scales(const analytic::Sequence& sequence, const analytic::PlanarBody& body) {

@@ -10,8 +10,15 @@
 namespace clatter::validation {
 
 /// The numbers that both models have of an impact, in this order.
-enum class QuantityId : std::size_t { start, contact_angle, impulse_normal, impulse_tangential, velocity_normal,
-                                      velocity_tangential, angular_velocity };
+enum class QuantityId : std::size_t {
+  start,
+  contact_angle,
+  impulse_normal,
+  impulse_tangential,
+  velocity_normal,
+  velocity_tangential,
+  angular_velocity
+};
 inline constexpr std::size_t quantity_count = 7;
 using Quantities = std::array<double, quantity_count>;
 
@@ -20,12 +27,12 @@ struct QuantityName {
   const char *name, *heading, *unit;
 };
 inline constexpr std::array<QuantityName, quantity_count> quantity_names{{{"start", "t", "s"},
-                                                                         {"contact_angle_deg", "angle", "°"},
-                                                                         {"impulse_normal", "Pₙ", "N·s"},
-                                                                         {"impulse_tangential", "Pₜ", "N·s"},
-                                                                         {"velocity_normal", "Vₙ", "m/s"},
-                                                                         {"velocity_tangential", "Vₜ", "m/s"},
-                                                                         {"angular_velocity", "Ω", "rad/s"}}};
+                                                                          {"contact_angle_deg", "angle", "°"},
+                                                                          {"impulse_normal", "Pₙ", "N·s"},
+                                                                          {"impulse_tangential", "Pₜ", "N·s"},
+                                                                          {"velocity_normal", "Vₙ", "m/s"},
+                                                                          {"velocity_tangential", "Vₜ", "m/s"},
+                                                                          {"angular_velocity", "Ω", "rad/s"}}};
 
 [[nodiscard]] Quantities quantities(const analytic::ImpactRow& row);
 [[nodiscard]] Quantities quantities(const numeric::ImpactNumbers& numbers);

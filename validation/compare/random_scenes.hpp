@@ -23,11 +23,11 @@ struct LimitSample {
 
 struct RandomScenesResult {
   int scenes = 0;
-  int with_limit = 0;       ///< that have a limit to hold against a discrete impact
+  int with_limit = 0;  ///< that have a limit to hold against a discrete impact
   std::vector<LimitSample> samples;
-  double covered = 0;       ///< share of the samples whose gap lies within the bar
-  double median_bar = 0;    ///< of bar/gap
-  std::string worst;        ///< the sample farthest outside, in words
+  double covered = 0;     ///< share of the samples whose gap lies within the bar
+  double median_bar = 0;  ///< of bar/gap
+  std::string worst;      ///< the sample farthest outside, in words
 };
 
 /// Numbers that are equal by construction (the first start and angle) or zero in the discrete model are no samples.

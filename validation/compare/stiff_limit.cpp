@@ -19,9 +19,9 @@ constexpr double small = 0.02;     // what turning, gravity and indentation may 
 constexpr int rungs = 4;           // two triples of runs
 constexpr int most_runs = 24;
 constexpr double least_indentation = 1e-8;  // of the body: the depth that doubles still resolve to 12 digits
-constexpr double run_error = 3e-12;  // of a run of 12 digits, relative, per impact
+constexpr double run_error = 3e-12;         // of a run of 12 digits, relative, per impact
 constexpr double safety = 3;
-constexpr double settled_change = 1e-6;  // from one triple of runs to the next; what is left is far below it
+constexpr double settled_change = 1e-6;        // from one triple of runs to the next; what is left is far below it
 constexpr long evaluations_per_run = 200'000;  // contacts that are short take some thousand each
 
 /// Length below which the contact sees the shape that it has in the limit [m].
@@ -29,8 +29,10 @@ double feature(const SimulationScene& scene, const numeric::Body& body) {
   switch (scene.body.shape) {
     case BodyScene::Shape::rod:
       return scene.body.radius * (1 - std::cos(2 * std::numbers::pi / scene.body.sectors));
-    case BodyScene::Shape::box: return scene.body.size.minCoeff();
-    case BodyScene::Shape::mesh: break;
+    case BodyScene::Shape::box:
+      return scene.body.size.minCoeff();
+    case BodyScene::Shape::mesh:
+      break;
   }
   return body.radius() / 100;
 }
@@ -88,10 +90,9 @@ struct Powers {
 Powers powers_of(const std::vector<Simulation>& ladder, std::size_t row, double exponent) {
   using Mode = numeric::FrictionMode;
   const auto& impacts = ladder.back().impacts;
-  const bool sticks = std::any_of(impacts.begin(), impacts.begin() + static_cast<std::ptrdiff_t>(row) + 1,
-                                  [](const ImpactRecord& record) {
-                                    return record.mode != Mode::frictionless && record.mode != Mode::slip;
-                                  });
+  const bool sticks = std::any_of(
+      impacts.begin(), impacts.begin() + static_cast<std::ptrdiff_t>(row) + 1,
+      [](const ImpactRecord& record) { return record.mode != Mode::frictionless && record.mode != Mode::slip; });
   if (!sticks || !(exponent > 1)) return {};
   return {1, 1 + 1 / exponent, 1 + 2 / exponent};
 }
@@ -124,8 +125,8 @@ double growth(const Simulation& run, std::size_t row) {
 }
 
 /// @param largest_change  is raised to the relative change from triple to triple.
-LimitRow extrapolate(const std::vector<Simulation>& ladder, std::size_t row, const numeric::Body& body,
-                     double exponent, double& largest_change) {
+LimitRow extrapolate(const std::vector<Simulation>& ladder, std::size_t row, const numeric::Body& body, double exponent,
+                     double& largest_change) {
   Eigen::Vector4d x;
   Eigen::Matrix<double, static_cast<int>(quantity_count), rungs> y;
   for (int j = 0; j < rungs; ++j) {

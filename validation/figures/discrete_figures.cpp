@@ -72,9 +72,7 @@ struct Wanted {
   std::vector<double> gravity_numbers{0};
 };
 
-std::string suffix(double gravity_number) {
-  return gravity_number == 0 ? "" : gravity_number < 1 ? "_G0_1" : "_G9_81";
-}
+std::string suffix(double gravity_number) { return gravity_number == 0 ? "" : gravity_number < 1 ? "_G0_1" : "_G9_81"; }
 
 std::string words(double gravity_number) {
   return gravity_number == 0 ? "no gravity" : gravity_number < 1 ? "G = 0.1" : "G = 9.81";
@@ -93,17 +91,17 @@ void for_each_number(const Wanted& wanted, const Add& add) {
 }
 
 void add_columns(Figure& figure, FigurePlot& plot, const Wanted& wanted, double gravity_number) {
-  for_each_number(wanted, [&](const std::string& name, const std::string& unit, const std::string& what,
-                              const std::string& sign) {
-    const std::string base = name + suffix(gravity_number);
-    figure.columns.push_back({base, unit, what + ", discrete model, " + words(gravity_number)});
-    figure.columns.push_back({base + "_continuous", unit, what + ", continuous model of a rod of radius 1e-4 m, " +
-                                                              words(gravity_number)});
-    const std::string legend = wanted.gravity_numbers.size() > 1 ? sign + ", " + words(gravity_number) : sign;
-    plot.curves.push_back({.x = "theta", .y = base, .legend = legend, .where = {}});
-    plot.curves.push_back({.x = "theta", .y = base + "_continuous", .legend = "",
-                           .style = FigureCurve::Style::points, .where = {}});
-  });
+  for_each_number(
+      wanted, [&](const std::string& name, const std::string& unit, const std::string& what, const std::string& sign) {
+        const std::string base = name + suffix(gravity_number);
+        figure.columns.push_back({base, unit, what + ", discrete model, " + words(gravity_number)});
+        figure.columns.push_back({base + "_continuous", unit,
+                                  what + ", continuous model of a rod of radius 1e-4 m, " + words(gravity_number)});
+        const std::string legend = wanted.gravity_numbers.size() > 1 ? sign + ", " + words(gravity_number) : sign;
+        plot.curves.push_back({.x = "theta", .y = base, .legend = legend, .where = {}});
+        plot.curves.push_back(
+            {.x = "theta", .y = base + "_continuous", .legend = "", .style = FigureCurve::Style::points, .where = {}});
+      });
 }
 
 void add_numbers(std::vector<double>& row, const Wanted& wanted, const FirstImpacts& line, const FirstImpacts& point) {
@@ -128,12 +126,18 @@ std::vector<double> line_angles(const Wanted& wanted) {
 }
 
 Figure discrete_figure(int number, const std::string& title, const Wanted& wanted) {
-  Figure figure{.number = number, .title = title,
+  Figure figure{.number = number,
+                .title = title,
                 .scene = "thin rod, m = L = |v_n| = 1, omega = 0, e = 1, no friction; points: continuous model",
-                .columns = {{"theta", "deg", "contact angle of the first impact"}}, .rows = {}, .plots = {}};
-  FigurePlot plot{.title = "", .x_label = "initial contact angle θ [°]",
-                  .y_label = wanted.impulses > 0 ? "normal impulse [m |vₙ|]" : "contact angle [°]", .curves = {},
-                  .x = {0, last_angle}, .y = {0, wanted.impulses > 0 ? none : 90}};
+                .columns = {{"theta", "deg", "contact angle of the first impact"}},
+                .rows = {},
+                .plots = {}};
+  FigurePlot plot{.title = "",
+                  .x_label = "initial contact angle θ [°]",
+                  .y_label = wanted.impulses > 0 ? "normal impulse [m |vₙ|]" : "contact angle [°]",
+                  .curves = {},
+                  .x = {0, last_angle},
+                  .y = {0, wanted.impulses > 0 ? none : 90}};
   for (const double gravity_number : wanted.gravity_numbers) add_columns(figure, plot, wanted, gravity_number);
   for (const double theta : line_angles(wanted)) {
     const bool with_point = theta > 0 && std::fmod(theta, point_step) == 0;

@@ -63,10 +63,14 @@ std::string data_block(const Figure& figure, const FigurePlot& plot, const Figur
 
 std::string style(const FigureCurve& curve, const char* colour) {
   switch (curve.style) {
-    case FigureCurve::Style::line: return fmt::format("with lines lw 2 lc rgb '{}'", colour);
-    case FigureCurve::Style::thin_line: return fmt::format("with lines lw 1.2 dt 2 lc rgb '{}'", colour);
-    case FigureCurve::Style::points: return fmt::format("with points pt 6 ps 0.5 lc rgb '{}'", colour);
-    case FigureCurve::Style::bars: return fmt::format("with boxes fs solid 0.6 lc rgb '{}'", colour);
+    case FigureCurve::Style::line:
+      return fmt::format("with lines lw 2 lc rgb '{}'", colour);
+    case FigureCurve::Style::thin_line:
+      return fmt::format("with lines lw 1.2 dt 2 lc rgb '{}'", colour);
+    case FigureCurve::Style::points:
+      return fmt::format("with points pt 6 ps 0.5 lc rgb '{}'", colour);
+    case FigureCurve::Style::bars:
+      return fmt::format("with boxes fs solid 0.6 lc rgb '{}'", colour);
   }
   return "";
 }
@@ -79,15 +83,18 @@ std::string plot_command(const FigurePlot& plot) {
     const FigureCurve& curve = plot.curves[i];
     if (i > 0 && !curve.legend.empty()) ++colour;
     const std::string title = curve.legend.empty() ? "notitle" : fmt::format("title '{}'", curve.legend);
-    command += fmt::format("{}$d{} using 1:2 {} {}", i > 0 ? ", \\\n  " : "", i, style(curve, colours[colour % colours.size()]), title);
+    command += fmt::format("{}$d{} using 1:2 {} {}", i > 0 ? ", \\\n  " : "", i,
+                           style(curve, colours[colour % colours.size()]), title);
   }
   return command + "\n";
 }
 
 std::string script(const Figure& figure, const FigurePlot& plot, std::size_t index) {
   std::string text = fmt::format(
-      "set encoding utf8\nset terminal svg size 560,380 dynamic font 'sans-serif,13' background '#ffffff' name 'f{}_{}'\n"
-      "set border 3 lc rgb '#444444'\nset tics nomirror\nset grid lc rgb '#dddddd' lt 1\nset key outside top center horizontal samplen 1.5\n"
+      "set encoding utf8\nset terminal svg size 560,380 dynamic font 'sans-serif,13' background '#ffffff' name "
+      "'f{}_{}'\n"
+      "set border 3 lc rgb '#444444'\nset tics nomirror\nset grid lc rgb '#dddddd' lt 1\nset key outside top center "
+      "horizontal samplen 1.5\n"
       "set boxwidth 0.6\nset xlabel '{}'\nset ylabel '{}'\n",
       figure.number, index, plot.x_label, plot.y_label);
   if (!plot.title.empty()) text += fmt::format("set title '{}'\n", plot.title);

@@ -40,9 +40,9 @@ struct FigurePlot {
 };
 
 struct Figure {
-  int number = 0;       ///< of the paper
+  int number = 0;  ///< of the paper
   std::string title;
-  std::string scene;    ///< what was dropped how, or the scene file
+  std::string scene;  ///< what was dropped how, or the scene file
   std::vector<FigureColumn> columns;
   std::vector<std::vector<double>> rows;  ///< NaN: no value
   std::vector<FigurePlot> plots;

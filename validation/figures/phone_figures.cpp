@@ -24,7 +24,8 @@ struct PhoneCase {
 
 PhoneCase phone_case(bool damped) {
   if (damped) return {"phone-damped", "validation/cases/phone-damped.toml", {.digits = 9}};
-  return {"phone-elastic", "validation/cases/phone-elastic.toml --planar (in space it is not predictable after impact 2)",
+  return {"phone-elastic",
+          "validation/cases/phone-elastic.toml --planar (in space it is not predictable after impact 2)",
           {.digits = 9, .planar = true}};
 }
 
@@ -33,7 +34,12 @@ double total(const numeric::HistorySample& s) {
 }
 
 FigurePlot over_time(const std::string& title, const std::string& label, Range2 times) {
-  return {.title = title, .x_label = "time since the first touch-down [s]", .y_label = label, .curves = {}, .x = times, .y = {}};
+  return {.title = title,
+          .x_label = "time since the first touch-down [s]",
+          .y_label = label,
+          .curves = {},
+          .x = times,
+          .y = {}};
 }
 
 /// The end of impact 2 with some room around the first two.
@@ -54,10 +60,12 @@ Figure figure_phone_history(Laboratory& laboratory, bool damped) {
                             {"E", "J", "total energy"},
                             {"E_kinetic", "J", "kinetic energy"},
                             {"E_potential", "J", "potential energy"}},
-                .rows = {}, .plots = {}};
+                .rows = {},
+                .plots = {}};
   const RecordedRun& recorded = laboratory.history(phone.name, phone.options);
   for (const numeric::HistorySample& s : recorded.samples) {
-    figure.rows.push_back({s.time, s.force.z(), total(s), s.energy_translation + s.energy_rotation, s.energy_potential});
+    figure.rows.push_back(
+        {s.time, s.force.z(), total(s), s.energy_translation + s.energy_rotation, s.energy_potential});
   }
   for (const bool zoomed : {false, true}) {
     const Range2 times = zoomed ? first_two(recorded.run) : Range2{};
@@ -76,42 +84,52 @@ Figure figure_phone_history(Laboratory& laboratory, bool damped) {
 
 Figure figure_phone_impacts(Laboratory& laboratory, bool damped) {
   const PhoneCase phone = phone_case(damped);
-  Figure figure{.number = damped ? 22 : 20,
-                .title = fmt::format("peak force and time of each impact of the {} phone", damped ? "damped" : "elastic"),
-                .scene = phone.scene,
-                .columns = {{"impact", "1", "number of the impact"},
-                            {"peak_force", "N", "largest normal force"},
-                            {"start", "s", "time of the touch-down since the first one"},
-                            {"interval", "s", "time since the touch-down before"},
-                            {"duration", "s", "of the contact"},
-                            {"amplification", "1", "growth of a relative error of the start"}},
-                .rows = {}, .plots = {}};
+  Figure figure{
+      .number = damped ? 22 : 20,
+      .title = fmt::format("peak force and time of each impact of the {} phone", damped ? "damped" : "elastic"),
+      .scene = phone.scene,
+      .columns = {{"impact", "1", "number of the impact"},
+                  {"peak_force", "N", "largest normal force"},
+                  {"start", "s", "time of the touch-down since the first one"},
+                  {"interval", "s", "time since the touch-down before"},
+                  {"duration", "s", "of the contact"},
+                  {"amplification", "1", "growth of a relative error of the start"}},
+      .rows = {},
+      .plots = {}};
   const numeric::Simulation& run = laboratory.history(phone.name, phone.options).run;
   for (std::size_t i = 0; i < run.impacts.size(); ++i) {
     const numeric::ImpactNumbers& n = run.impacts[i].value;
     const double interval = i == 0 ? none : n.start - run.impacts[i - 1].value.start;
-    figure.rows.push_back({static_cast<double>(i + 1), n.peak_force, n.start, interval, n.duration,
-                           run.impacts[i].amplification});
+    figure.rows.push_back(
+        {static_cast<double>(i + 1), n.peak_force, n.start, interval, n.duration, run.impacts[i].amplification});
   }
   const double last = static_cast<double>(run.impacts.size()) + 0.6;
-  figure.plots = {{.title = "", .x_label = "impact", .y_label = "peak normal force [N]",
+  figure.plots = {{.title = "",
+                   .x_label = "impact",
+                   .y_label = "peak normal force [N]",
                    .curves = {{.x = "impact", .y = "peak_force", .legend = "", .style = Style::bars, .where = {}}},
-                   .x = {0.4, last}, .y = {0, none}},
-                  {.title = "", .x_label = "impact", .y_label = "elapsed time [s]",
+                   .x = {0.4, last},
+                   .y = {0, none}},
+                  {.title = "",
+                   .x_label = "impact",
+                   .y_label = "elapsed time [s]",
                    .curves = {{.x = "impact", .y = "start", .legend = "", .style = Style::bars, .where = {}}},
-                   .x = {0.4, last}, .y = {0, none}}};
+                   .x = {0.4, last},
+                   .y = {0, none}}};
   return figure;
 }
 
 Figure figure_phone_energies(Laboratory& laboratory) {
-  Figure figure{.number = 23, .title = "energies of the damped phone in its first two impacts",
+  Figure figure{.number = 23,
+                .title = "energies of the damped phone in its first two impacts",
                 .scene = "validation/cases/phone-damped.toml",
                 .columns = {{"time", "s", "since the first touch-down"},
                             {"E", "J", "total energy"},
                             {"E_translation", "J", "translational kinetic energy"},
                             {"E_rotation", "J", "rotational kinetic energy"},
                             {"E_potential", "J", "potential energy"}},
-                .rows = {}, .plots = {}};
+                .rows = {},
+                .plots = {}};
   const RecordedRun& recorded = laboratory.history("phone-damped", phone_case(true).options);
   const Range2 times = first_two(recorded.run);
   for (const numeric::HistorySample& s : recorded.samples) {
@@ -130,7 +148,8 @@ Figure figure_phone_energies(Laboratory& laboratory) {
 
 Figure figure_phone_over_angle(Laboratory& laboratory) {
   const std::string name = "phone-sweep";
-  Figure figure{.number = 24, .title = "first impact of the damped phone over the contact angle",
+  Figure figure{.number = 24,
+                .title = "first impact of the damped phone over the contact angle",
                 .scene = "validation/cases/phone-sweep.toml",
                 .columns = {{"theta", "deg", "contact angle"},
                             {"Vn", "m/s", "normal velocity of the mass centre after the impact"},
@@ -140,21 +159,27 @@ Figure figure_phone_over_angle(Laboratory& laboratory) {
                             {"touches", "1", "places that came down in it; 2: the second impact has merged into it"},
                             {"Vn_discrete", "m/s", "normal velocity, discrete model of the corner"},
                             {"Omega_discrete", "rad/s", "angular velocity, discrete model of the corner"}},
-                .rows = {}, .plots = {}};
+                .rows = {},
+                .plots = {}};
   const SimulationScene scene = laboratory_scene(name, {});
   const numeric::Body body = scene.make_body();
   for (const SweptSimulation& swept : laboratory.sweep(name)) {
     const numeric::ImpactRecord& first = swept.run.impacts.at(0);
     const numeric::ImpactNumbers& n = first.value;
     const auto discrete =
-        impact_sequence(discrete_drop(scene.at(swept.value), body), {.impacts = 1, .amplification = false}).rows[0].impact;
+        impact_sequence(discrete_drop(scene.at(swept.value), body), {.impacts = 1, .amplification = false})
+            .rows[0]
+            .impact;
     figure.rows.push_back({swept.value, n.velocity_after.z(), n.angular_velocity_after.y(), n.peak_force, n.energy_loss,
                            static_cast<double>(first.touches), discrete.after.normal, discrete.after.angular});
   }
-  const std::pair<const char*, const char*> panels[] = {{"Vn", "post-impact Vₙ [m/s]"}, {"Omega", "post-impact Ω [rad/s]"},
-                                                        {"peak_force", "peak normal force [N]"}, {"loss", "energy loss [J]"}};
+  const std::pair<const char*, const char*> panels[] = {{"Vn", "post-impact Vₙ [m/s]"},
+                                                        {"Omega", "post-impact Ω [rad/s]"},
+                                                        {"peak_force", "peak normal force [N]"},
+                                                        {"loss", "energy loss [J]"}};
   for (const auto& [column, label] : panels) {
-    FigurePlot plot{.title = "", .x_label = "impact contact angle θ [°]", .y_label = label, .curves = {}, .x = {0, 90}, .y = {}};
+    FigurePlot plot{
+        .title = "", .x_label = "impact contact angle θ [°]", .y_label = label, .curves = {}, .x = {0, 90}, .y = {}};
     const std::string discrete = std::string(column) + "_discrete";
     if (std::string(column) == "Vn" || std::string(column) == "Omega") {
       plot.curves.push_back({.x = "theta", .y = discrete, .legend = "discrete, corner", .where = {}});

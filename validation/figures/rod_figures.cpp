@@ -36,8 +36,10 @@ FirstImpact of(const numeric::Simulation& run) {
 
 /// The thin rod of Eq. 9.
 FirstImpact thin_rod(double angle_deg, const analytic::ImpactLaw& law) {
-  return of({.body = analytic::make_rod({}), .inclination = analytic::Angle::from_degrees(angle_deg),
-             .velocity = {.normal = -1}, .law = law});
+  return of({.body = analytic::make_rod({}),
+             .inclination = analytic::Angle::from_degrees(angle_deg),
+             .velocity = {.normal = -1},
+             .law = law});
 }
 
 struct ShownNumber {
@@ -48,8 +50,8 @@ constexpr ShownNumber normal_velocity{"Vn", "m/s", "normal velocity of the mass 
                                       "post-impact Vₙ [m/s]", &FirstImpact::normal_velocity};
 constexpr ShownNumber tangential_velocity{"Vt", "m/s", "tangential velocity of the mass centre after the impact",
                                           "post-impact Vₜ [m/s]", &FirstImpact::tangential_velocity};
-constexpr ShownNumber angular_velocity{"Omega", "rad/s", "angular velocity after the impact",
-                                       "post-impact Ω [rad/s]", &FirstImpact::angular_velocity};
+constexpr ShownNumber angular_velocity{"Omega", "rad/s", "angular velocity after the impact", "post-impact Ω [rad/s]",
+                                       &FirstImpact::angular_velocity};
 constexpr ShownNumber impulse{"Pn", "N s", "normal impulse", "normal impulse [N·s]", &FirstImpact::impulse};
 constexpr ShownNumber loss{"loss", "J", "energy lost in the impact", "energy loss [J]", &FirstImpact::loss};
 
@@ -67,14 +69,15 @@ void add_panels(Figure& figure, const std::vector<ShownNumber>& numbers, const s
     for (const Source& source : sources) {
       const std::string name = std::string(number.name) + "_" + source.suffix;
       figure.columns.push_back({name, number.unit, std::string(number.quantity) + ", " + source.words});
-      plot.curves.push_back({.x = figure.columns[0].name, .y = name, .legend = source.legend, .style = source.style,
-                             .where = {}});
+      plot.curves.push_back(
+          {.x = figure.columns[0].name, .y = name, .legend = source.legend, .style = source.style, .where = {}});
     }
     figure.plots.push_back(plot);
   }
 }
 
-void add_row(Figure& figure, double x, const std::vector<ShownNumber>& numbers, const std::vector<FirstImpact>& sources) {
+void add_row(Figure& figure, double x, const std::vector<ShownNumber>& numbers,
+             const std::vector<FirstImpact>& sources) {
   std::vector<double>& row = figure.rows.emplace_back(std::vector<double>{x});
   for (const ShownNumber& number : numbers) {
     for (const FirstImpact& source : sources) row.push_back(source.*number.value);
@@ -94,15 +97,19 @@ double sum_of_energies(const numeric::HistorySample& s) {
 
 Figure figure_rod_over_angle(Laboratory& laboratory) {
   const std::string name = "rod-sweep";
-  Figure figure{.number = 14, .title = "first impact of the rod over the contact angle, no friction",
+  Figure figure{.number = 14,
+                .title = "first impact of the rod over the contact angle, no friction",
                 .scene = "validation/cases/rod-sweep.toml",
-                .columns = {{"theta", "deg", "contact angle"}}, .rows = {}, .plots = {}};
+                .columns = {{"theta", "deg", "contact angle"}},
+                .rows = {},
+                .plots = {}};
   const std::vector<ShownNumber> numbers{normal_velocity, angular_velocity, impulse, loss};
-  add_panels(figure, numbers,
-             {{"thin", "discrete model of the thin rod, Eqs. 9 to 11", "thin rod, Eq. 9", Style::line},
-              {"rim", "discrete model with the rim as contact point", "rim", Style::thin_line},
-              {"continuous", "continuous model", "continuous", Style::points}},
-             {.title = "", .x_label = "impact contact angle θ [°]", .y_label = "", .curves = {}, .x = {0, 90}, .y = {}});
+  add_panels(
+      figure, numbers,
+      {{"thin", "discrete model of the thin rod, Eqs. 9 to 11", "thin rod, Eq. 9", Style::line},
+       {"rim", "discrete model with the rim as contact point", "rim", Style::thin_line},
+       {"continuous", "continuous model", "continuous", Style::points}},
+      {.title = "", .x_label = "impact contact angle θ [°]", .y_label = "", .curves = {}, .x = {0, 90}, .y = {}});
   figure.plots.back().y = {-0.05, 0.05};  // the losses are zero to nine digits
   const SimulationScene scene = laboratory_scene(name, {});
   const numeric::Body body = scene.make_body();
@@ -115,21 +122,29 @@ Figure figure_rod_over_angle(Laboratory& laboratory) {
 
 Figure figure_rod_over_friction(Laboratory& laboratory) {
   const std::string name = "rod-friction-sweep";
-  Figure figure{.number = 15, .title = "first impact of the rod at 45 degrees over friction",
+  Figure figure{.number = 15,
+                .title = "first impact of the rod at 45 degrees over friction",
                 .scene = "validation/cases/rod-friction-sweep.toml",
-                .columns = {{"mu", "1", "friction coefficient; impulse ratio of Eq. 9"}}, .rows = {}, .plots = {}};
+                .columns = {{"mu", "1", "friction coefficient; impulse ratio of Eq. 9"}},
+                .rows = {},
+                .plots = {}};
   const std::vector<ShownNumber> numbers{normal_velocity, tangential_velocity, angular_velocity, impulse, loss};
   add_panels(figure, numbers,
              {{"eq9", "Eq. 9 with mu as the impulse ratio", "Eq. 9", Style::line},
               {"coulomb", "discrete model at the rim, Coulomb friction", "rim, Coulomb", Style::thin_line},
               {"continuous", "continuous model", "continuous", Style::points}},
-             {.title = "", .x_label = "impulse ratio μᵢ, friction coefficient μ", .y_label = "", .curves = {},
-              .x = {0, 0.8}, .y = {}});
+             {.title = "",
+              .x_label = "impulse ratio μᵢ, friction coefficient μ",
+              .y_label = "",
+              .curves = {},
+              .x = {0, 0.8},
+              .y = {}});
   figure.columns.push_back({"ratio_continuous", "1", "impulse ratio that came out of the continuous model"});
   const SimulationScene scene = laboratory_scene(name, {});
   const numeric::Body body = scene.make_body();
   for (const SweptSimulation& swept : laboratory.sweep(name)) {
-    const analytic::ImpactLaw as_given{.friction = analytic::FrictionKind::impulse_ratio, .friction_value = swept.value};
+    const analytic::ImpactLaw as_given{.friction = analytic::FrictionKind::impulse_ratio,
+                                       .friction_value = swept.value};
     add_row(figure, swept.value, numbers,
             {thin_rod(scene.angle_deg, as_given), of(discrete_drop(scene.at(swept.value), body)), of(swept.run)});
     const numeric::Vector3& p = swept.run.impacts[0].value.impulse;
@@ -139,7 +154,8 @@ Figure figure_rod_over_friction(Laboratory& laboratory) {
 }
 
 Figure figure_rod_contact(Laboratory& laboratory) {
-  Figure figure{.number = 16, .title = "course of the rod's first contact at 45 degrees for four frictions",
+  Figure figure{.number = 16,
+                .title = "course of the rod's first contact at 45 degrees for four frictions",
                 .scene = "validation/cases/rod-friction-01.toml, -03, -05, -07",
                 .columns = {{"mu", "1", "friction coefficient"},
                             {"time", "s", "since touch-down"},
@@ -147,7 +163,8 @@ Figure figure_rod_contact(Laboratory& laboratory) {
                             {"point_vt", "m/s", "tangential velocity of the contact point"},
                             {"Fn", "N", "normal contact force"},
                             {"Ft", "N", "tangential contact force"}},
-                .rows = {}, .plots = {}};
+                .rows = {},
+                .plots = {}};
   for (const double mu : contact_frictions) {
     const auto& samples = laboratory.history(fmt::format("rod-friction-0{}", std::lround(10 * mu)), smooth).samples;
     for (const numeric::HistorySample& s : samples) {
@@ -170,7 +187,8 @@ Figure figure_rod_contact(Laboratory& laboratory) {
 }
 
 Figure figure_rod_sequence(Laboratory& laboratory) {
-  Figure figure{.number = 17, .title = "several impacts of the damped rod with friction, by the text and by the caption",
+  Figure figure{.number = 17,
+                .title = "several impacts of the damped rod with friction, by the text and by the caption",
                 .scene = "validation/cases/rod-at-1ms.toml (text, v_n = -1), rod-from-2m.toml (caption, z_c = 2)",
                 .columns = {{"variant", "1", "1: the text's 1 m/s; 2: the caption's drop from 2 m"},
                             {"time", "s", "since the first touch-down"},
@@ -178,18 +196,23 @@ Figure figure_rod_sequence(Laboratory& laboratory) {
                             {"E", "J", "total energy"},
                             {"E_kinetic", "J", "kinetic energy"},
                             {"E_potential", "J", "potential energy"}},
-                .rows = {}, .plots = {}};
-  const std::pair<const char*, const char*> variants[] = {{"rod-at-1ms", "1 m/s (text)"}, {"rod-from-2m", "from 2 m (caption)"}};
+                .rows = {},
+                .plots = {}};
+  const std::pair<const char*, const char*> variants[] = {{"rod-at-1ms", "1 m/s (text)"},
+                                                          {"rod-from-2m", "from 2 m (caption)"}};
   double variant = 1;
   for (const auto& [name, words] : variants) {
     for (const numeric::HistorySample& s : laboratory.history(name, smooth).samples) {
       figure.rows.push_back({variant, s.time, s.force.z(), sum_of_energies(s), s.energy_translation + s.energy_rotation,
                              s.energy_potential});
     }
-    FigurePlot force{.title = words, .x_label = "time [s]", .y_label = "normal contact force [N]", .curves = {}, .x = {}, .y = {}};
+    FigurePlot force{
+        .title = words, .x_label = "time [s]", .y_label = "normal contact force [N]", .curves = {}, .x = {}, .y = {}};
     force.curves.push_back({.x = "time", .y = "Fn", .legend = "", .where = {{"variant", variant}}});
-    FigurePlot energy{.title = words, .x_label = "time [s]", .y_label = "energy [J]", .curves = {}, .x = {}, .y = {0, none}};
-    for (const auto& [column, legend] : {std::pair{"E", "total"}, {"E_kinetic", "kinetic"}, {"E_potential", "potential"}}) {
+    FigurePlot energy{
+        .title = words, .x_label = "time [s]", .y_label = "energy [J]", .curves = {}, .x = {}, .y = {0, none}};
+    for (const auto& [column, legend] :
+         {std::pair{"E", "total"}, {"E_kinetic", "kinetic"}, {"E_potential", "potential"}}) {
       energy.curves.push_back({.x = "time", .y = column, .legend = legend, .where = {{"variant", variant}}});
     }
     figure.plots.push_back(force);

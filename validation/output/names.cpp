@@ -8,48 +8,72 @@ using numeric::Outcome;
 
 const char* mode_name(analytic::ImpactMode mode) {
   switch (mode) {
-    case analytic::ImpactMode::frictionless: return "frictionless";
-    case analytic::ImpactMode::slip: return "slip";
-    case analytic::ImpactMode::stick: return "stick";
-    case analytic::ImpactMode::slip_stick: return "slip-stick";
-    case analytic::ImpactMode::reverse_slip: return "reverse-slip";
+    case analytic::ImpactMode::frictionless:
+      return "frictionless";
+    case analytic::ImpactMode::slip:
+      return "slip";
+    case analytic::ImpactMode::stick:
+      return "stick";
+    case analytic::ImpactMode::slip_stick:
+      return "slip-stick";
+    case analytic::ImpactMode::reverse_slip:
+      return "reverse-slip";
   }
   return "";
 }
 
 const char* outcome_name(Outcome outcome) {
   switch (outcome) {
-    case Outcome::no_further_impact: return "no-further-impact";
-    case Outcome::impact_limit: return "impact-limit";
-    case Outcome::at_rest: return "at-rest";
-    case Outcome::evaluation_limit: return "evaluation-limit";
-    case Outcome::step_too_small: return "step-too-small";
-    case Outcome::not_representable: return "not-representable";
-    case Outcome::flight_undecided: return "flight-undecided";
-    case Outcome::interrupted: return "interrupted";
+    case Outcome::no_further_impact:
+      return "no-further-impact";
+    case Outcome::impact_limit:
+      return "impact-limit";
+    case Outcome::at_rest:
+      return "at-rest";
+    case Outcome::evaluation_limit:
+      return "evaluation-limit";
+    case Outcome::step_too_small:
+      return "step-too-small";
+    case Outcome::not_representable:
+      return "not-representable";
+    case Outcome::flight_undecided:
+      return "flight-undecided";
+    case Outcome::interrupted:
+      return "interrupted";
   }
   return "";
 }
 
 const char* mode_name(FrictionMode mode) {
   switch (mode) {
-    case FrictionMode::frictionless: return "frictionless";
-    case FrictionMode::slip: return "slip";
-    case FrictionMode::stick: return "stick";
-    case FrictionMode::slip_stick: return "slip-stick";
-    case FrictionMode::stick_slip: return "stick-slip";
-    case FrictionMode::reverse_slip: return "reverse-slip";
-    case FrictionMode::regularised: return "regularised";
+    case FrictionMode::frictionless:
+      return "frictionless";
+    case FrictionMode::slip:
+      return "slip";
+    case FrictionMode::stick:
+      return "stick";
+    case FrictionMode::slip_stick:
+      return "slip-stick";
+    case FrictionMode::stick_slip:
+      return "stick-slip";
+    case FrictionMode::reverse_slip:
+      return "reverse-slip";
+    case FrictionMode::regularised:
+      return "regularised";
   }
   return "";
 }
 
 const char* end_name(numeric::ContactEnd end) {
   switch (end) {
-    case numeric::ContactEnd::a: return "a";
-    case numeric::ContactEnd::b: return "b";
-    case numeric::ContactEnd::both: return "both";
-    case numeric::ContactEnd::middle: return "middle";
+    case numeric::ContactEnd::a:
+      return "a";
+    case numeric::ContactEnd::b:
+      return "b";
+    case numeric::ContactEnd::both:
+      return "both";
+    case numeric::ContactEnd::middle:
+      return "middle";
   }
   return "";
 }

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <toml++/toml.h>
 #include <set>
 #include <stdexcept>
-#include <toml++/toml.h>
 
 #include "validation/embedded/embedded.hpp"
 
@@ -26,14 +26,23 @@ Answer answer_of(const std::string& id, const std::string& name) {
 
 Check check_of(const toml::table& row) {
   const auto text = [&](const char* key) { return row[key].value_or(std::string()); };
-  Check check{.id = text("id"), .what = text("what"), .claim = text("claim"), .number = text("number"),
-              .unit = text("unit"), .oracle = text("oracle"), .error = text("error"),
-              .seen = row["seen"].value_or(0.0), .tolerance = row["tolerance"].value_or(0.0),
-              .reason = text("reason"), .answer = Answer::holds, .quick = row["quick"].value_or(true),
-              .figure = row["figure"].value<int>(), .command = text("command")};
+  Check check{.id = text("id"),
+              .what = text("what"),
+              .claim = text("claim"),
+              .number = text("number"),
+              .unit = text("unit"),
+              .oracle = text("oracle"),
+              .error = text("error"),
+              .seen = row["seen"].value_or(0.0),
+              .tolerance = row["tolerance"].value_or(0.0),
+              .reason = text("reason"),
+              .answer = Answer::holds,
+              .quick = row["quick"].value_or(true),
+              .figure = row["figure"].value<int>(),
+              .command = text("command")};
   check.answer = answer_of(check.id, row["answer"].value_or(std::string("holds")));
-  for (const std::string* required : {&check.what, &check.claim, &check.number, &check.oracle, &check.error,
-                                      &check.reason, &check.command}) {
+  for (const std::string* required :
+       {&check.what, &check.claim, &check.number, &check.oracle, &check.error, &check.reason, &check.command}) {
     if (required->empty()) unsound(check.id, "what, claim, number, oracle, error, reason and command are required");
   }
   if (!(check.tolerance > 0 && check.tolerance <= loosest * check.seen * (1 + 1e-12))) {
@@ -61,9 +70,12 @@ std::vector<Check> read_checks() {
 
 const char* answer_name(Answer answer) {
   switch (answer) {
-    case Answer::holds: return "holds";
-    case Answer::refuted: return "refuted";
-    case Answer::ambiguous: return "ambiguous";
+    case Answer::holds:
+      return "holds";
+    case Answer::refuted:
+      return "refuted";
+    case Answer::ambiguous:
+      return "ambiguous";
   }
   return "";
 }

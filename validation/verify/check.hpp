@@ -20,20 +20,20 @@ enum class Answer {
 
 /// One row of validation/verify/checks.toml.
 struct Check {
-  std::string id;         ///< C1 … C20 claims, E1 … E11 errata, F7 … F24 figures, X… exact results, M… scenes, R… random
-  std::string what;       ///< in a few words
-  std::string claim;      ///< in full
-  std::string number;     ///< which number is measured
+  std::string id;  ///< C1 … C20 claims, E1 … E11 errata, F7 … F24 figures, X… exact results, M… scenes, R… random
+  std::string what;    ///< in a few words
+  std::string claim;   ///< in full
+  std::string number;  ///< which number is measured
   std::string unit;
-  std::string oracle;     ///< closed form, 30-digit table, conservation law, other model, convergence
-  std::string error;      ///< how the error is formed
-  double seen = 0;        ///< error when the tolerance was set; at least one unit in the last place
-  double tolerance = 0;   ///< the error may be this; at most 5 × seen
-  std::string reason;     ///< of the tolerance
+  std::string oracle;             ///< closed form, 30-digit table, conservation law, other model, convergence
+  std::string error;              ///< how the error is formed
+  double seen = 0;                ///< error when the tolerance was set; at least one unit in the last place
+  double tolerance = 0;           ///< the error may be this; at most 5 × seen
+  std::string reason;             ///< of the tolerance
   Answer answer = Answer::holds;  ///< expected
-  bool quick = true;      ///< belongs to --quick
+  bool quick = true;              ///< belongs to --quick
   std::optional<int> figure;
-  std::string command;    ///< that shows the number
+  std::string command;  ///< that shows the number
 };
 
 /// The table.  @throws std::runtime_error if it is not sound (an id twice, a tolerance above 5 × seen …).
@@ -42,9 +42,9 @@ struct Check {
 /// What a measurement found.
 struct Measured {
   double number = 0;
-  double error = 0;    ///< against the oracle
+  double error = 0;  ///< against the oracle
   Answer answer = Answer::holds;
-  std::string found;   ///< in words, with further numbers
+  std::string found;  ///< in words, with further numbers
 };
 
 using Measure = Measured (*)(Laboratory&);

@@ -90,7 +90,8 @@ Measured last_second_impact(Laboratory&) {
 Measured last_third_impact(Laboratory&) {
   const double boundary = regime_boundary(analytic::ImpactNumber::third, {}).theta * degrees_per_radian;
   constexpr double known = 27.577809606636;  // from an independent computation in 60 digits
-  return {boundary, std::fabs(boundary - known) / known, rounds_to(boundary, 27, 1), "a grazing fold; rounded it is 28°"};
+  return {boundary, std::fabs(boundary - known) / known, rounds_to(boundary, 27, 1),
+          "a grazing fold; rounded it is 28°"};
 }
 
 Measured two_one_two(Laboratory&) {
@@ -132,7 +133,8 @@ Measured jump_at_zero(Laboratory& laboratory) {
   const double error = std::max({std::fabs(at.velocity[0] + 0.5), std::fabs(at.angular[0] - 3) / 3,
                                  std::fabs(at.impulse[0] - 0.5), std::fabs(flat - 2)});
   return {flat / degree, error, holds_if(flat / degree > 3),
-          fmt::format("Vₙ 1 → −1/2, Ω 0 → 3, Pₙ 2 → 1/2; continuous model: Pₙ {} at 0°, {} at 1°", number(flat), number(degree))};
+          fmt::format("Vₙ 1 → −1/2, Ω 0 → 3, Pₙ 2 → 1/2; continuous model: Pₙ {} at 0°, {} at 1°", number(flat),
+                      number(degree))};
 }
 
 /// Deviation of the continuous model from Eq. 9 over the sweep, over the range that each number covers (6 for Ω).
@@ -176,7 +178,8 @@ Measured friction_plateau(Laboratory& laboratory) {
                              analytic::make_rod({}).contact_point(0, std::sqrt(0.5), std::sqrt(0.5)),
                              {.friction = analytic::FrictionKind::impulse_ratio, .friction_value = 0.8})
                           .energy_loss;
-  return {ratio_at_seven, spread, holds_if(below < 0.05 && spread < 1e-6 && loss < 0 && rounds_to(ratio_at_seven, 0.6, 0.1) == Answer::holds),
+  return {ratio_at_seven, spread,
+          holds_if(below < 0.05 && spread < 1e-6 && loss < 0 && rounds_to(ratio_at_seven, 0.6, 0.1) == Answer::holds),
           fmt::format("plateau of Pₜ/Pₙ; below it within {} of Eq. 9, above it constant; Eq. 9 at μ = 0.8 loses {} J",
                       number(below, 2), number(loss, 4))};
 }
@@ -191,12 +194,14 @@ Measured contact_point_course(Laboratory& laboratory) {
       last = s.point_velocity.z();
       largest = std::max(largest, std::fabs(s.point_velocity.x()));
     }
-    error = std::max(error, std::fabs(recorded.run.impacts.at(0).value.energy_loss - recorded.run.impacts[0].value.work_friction));
+    error = std::max(
+        error, std::fabs(recorded.run.impacts.at(0).value.energy_loss - recorded.run.impacts[0].value.work_friction));
     if (std::string(name) == "rod-friction-07") slide = largest;
     end = std::max(end, std::fabs(last - 1));
   }
   return {1 - end, error, holds_if(end < 0.1 && slide < 0.01),
-          fmt::format("least normal speed at the end of the four contacts, −1 at their start; at μ = 0.7 the point slides at {} m/s at most",
+          fmt::format("least normal speed at the end of the four contacts, −1 at their start; at μ = 0.7 the point "
+                      "slides at {} m/s at most",
                       number(slide, 2))};
 }
 
@@ -204,14 +209,17 @@ Measured friction_and_force(Laboratory& laboratory) {
   std::vector<double> normal, tangential;
   for (const char* name : {"rod-friction-01", "rod-friction-03", "rod-friction-05", "rod-friction-07"}) {
     double largest = 0;
-    for (const numeric::HistorySample& s : laboratory.history(name).samples) largest = std::max(largest, std::fabs(s.force.x()));
+    for (const numeric::HistorySample& s : laboratory.history(name).samples)
+      largest = std::max(largest, std::fabs(s.force.x()));
     tangential.push_back(largest);
     normal.push_back(peak(laboratory.run(name), 0));
   }
   const Converged last = converged(laboratory, "rod-friction-07", [](const Simulation& run) { return peak(run, 0); });
-  const bool grow = std::is_sorted(normal.begin(), normal.end()) && std::is_sorted(tangential.begin(), tangential.end());
+  const bool grow =
+      std::is_sorted(normal.begin(), normal.end()) && std::is_sorted(tangential.begin(), tangential.end());
   return {normal.back() / normal.front(), last.error / last.value, holds_if(grow),
-          fmt::format("peak Fₙ at μ = 0.7 over that at 0.1; Fₜ {} to {} N", number(tangential.front(), 3), number(tangential.back(), 3))};
+          fmt::format("peak Fₙ at μ = 0.7 over that at 0.1; Fₜ {} to {} N", number(tangential.front(), 3),
+                      number(tangential.back(), 3))};
 }
 
 /// Whether a run shows what the text of Fig. 17 describes.
@@ -230,17 +238,21 @@ Measured several_impacts(Laboratory& laboratory) {
   const SequenceShape text = shape_of(laboratory.run("rod-at-1ms")), caption = shape_of(laboratory.run("rod-from-2m"));
   double in_flight = 0;
   const auto& samples = laboratory.history("rod-from-2m").samples;
-  const auto total = [](const numeric::HistorySample& s) { return s.energy_translation + s.energy_rotation + s.energy_potential; };
+  const auto total = [](const numeric::HistorySample& s) {
+    return s.energy_translation + s.energy_rotation + s.energy_potential;
+  };
   for (std::size_t i = 1; i < samples.size(); ++i) {
     if (samples[i].in_contact || samples[i - 1].in_contact) continue;
     in_flight = std::max(in_flight, std::fabs(total(samples[i]) / total(samples[i - 1]) - 1));
   }
-  return {caption.peaks, in_flight, caption.as_described == text.as_described ? holds_if(text.as_described)
-                                    : caption.as_described                    ? Answer::holds
-                                                                              : Answer::refuted,
-          fmt::format("second peak over the first for the caption's drop from 2 m, third after {} times the interval; the "
-                      "text's 1 m/s gives {} and {}: there the third is not apart",
-                      number(caption.gaps, 3), number(text.peaks, 3), number(text.gaps, 2))};
+  return {
+      caption.peaks, in_flight,
+      caption.as_described == text.as_described ? holds_if(text.as_described)
+      : caption.as_described                    ? Answer::holds
+                                                : Answer::refuted,
+      fmt::format("second peak over the first for the caption's drop from 2 m, third after {} times the interval; the "
+                  "text's 1 m/s gives {} and {}: there the third is not apart",
+                  number(caption.gaps, 3), number(text.peaks, 3), number(text.gaps, 2))};
 }
 
 double peak_ratio(const Simulation& run) { return peak(run, 1) / peak(run, 0); }
@@ -260,16 +272,20 @@ double lost_in_two(const Simulation& run) {
 
 Measured phone_losses(Laboratory& laboratory) {
   const Converged lost = converged(laboratory, "phone-damped", lost_in_two, two_impacts);
-  const double projected = lost_in_two(laboratory.run("phone-damped", {.impacts = 2, .area = numeric::AreaMeasure::projected}));
-  const Simulation &damped = laboratory.run("phone-damped"), &elastic_run = laboratory.run("phone-elastic", {.planar = true});
-  const double later = std::max(peak(damped, 2), peak(damped, 3)) / std::max(peak(elastic_run, 2), peak(elastic_run, 3));
+  const double projected =
+      lost_in_two(laboratory.run("phone-damped", {.impacts = 2, .area = numeric::AreaMeasure::projected}));
+  const Simulation &damped = laboratory.run("phone-damped"),
+                   &elastic_run = laboratory.run("phone-elastic", {.planar = true});
+  const double later =
+      std::max(peak(damped, 2), peak(damped, 3)) / std::max(peak(elastic_run, 2), peak(elastic_run, 3));
   return {lost.value, lost.error, holds_if(lost.value > 0.55 && lost.value < 0.6 && later < 0.5),
-          fmt::format("of the energy, {} with projected area; later peaks {} of the elastic phone's", number(projected, 4), number(later, 2))};
+          fmt::format("of the energy, {} with projected area; later peaks {} of the elastic phone's",
+                      number(projected, 4), number(later, 2))};
 }
 
 Measured phone_interval(Laboratory& laboratory) {
-  const Converged interval =
-      converged(laboratory, "phone-damped", [](const Simulation& run) { return run.impacts.at(1).value.start; }, two_impacts);
+  const Converged interval = converged(
+      laboratory, "phone-damped", [](const Simulation& run) { return run.impacts.at(1).value.start; }, two_impacts);
   double before = 0, between = 0, after = 0;
   const RecordedRun& recorded = laboratory.history("phone-damped");
   const ImpactNumbers &first = recorded.run.impacts.at(0).value, &second = recorded.run.impacts.at(1).value;
@@ -280,7 +296,8 @@ Measured phone_interval(Laboratory& laboratory) {
     if (s.time <= second.start + second.duration) after = share;
   }
   return {1e3 * interval.value, interval.error / interval.value, rounds_to(1e3 * interval.value, 4, 1),
-          fmt::format("from touch-down to touch-down, {} ms from peak to peak; rotation's share of the kinetic energy {} → {} → {}, as claimed",
+          fmt::format("from touch-down to touch-down, {} ms from peak to peak; rotation's share of the kinetic energy "
+                      "{} → {} → {}, as claimed",
                       number(1e3 * (second.start + second.peak_time - first.peak_time), 3), number(before, 1),
                       number(between, 2), number(after, 2))};
 }
@@ -318,14 +335,16 @@ Measured phone_over_angle(Laboratory& laboratory) {
   }
   const double alike = correlation(phone, rod);
   return {alike, gap, holds_if(alike > 0.9),
-          fmt::format("correlation of Vₙ(θ) of phone and rod from 7° on; of Ω(θ) {}; below 7° the phone's two impacts are one",
-                      number(correlation(phone_turning, rod_turning), 3))};
+          fmt::format(
+              "correlation of Vₙ(θ) of phone and rod from 7° on; of Ω(θ) {}; below 7° the phone's two impacts are one",
+              number(correlation(phone_turning, rod_turning), 3))};
 }
 
 Measured more_than_twice(Laboratory& laboratory) {
   const Converged damped = converged(laboratory, "phone-damped", peak_ratio, two_impacts);
   return {damped.value, damped.error, holds_if(damped.value > 2),
-          fmt::format("damped phone at 10°; elastic {}", number(peak_ratio(laboratory.run("phone-elastic", two_impacts)), 4))};
+          fmt::format("damped phone at 10°; elastic {}",
+                      number(peak_ratio(laboratory.run("phone-elastic", two_impacts)), 4))};
 }
 
 Measured damping_and_peaks(Laboratory& laboratory) {
@@ -335,7 +354,9 @@ Measured damping_and_peaks(Laboratory& laboratory) {
   const double one = damped.value / peak(free, 0);
   const double two = peak(laboratory.run("phone-damped", two_impacts), 1) / peak(free, 1);
   return {one, damped.error / damped.value, one < 1 && two < 1 ? Answer::ambiguous : Answer::refuted,
-          fmt::format("damped over elastic, first peak; second {}: smaller, by a tenth, which \"slightly\" may or may not mean", number(two, 3))};
+          fmt::format(
+              "damped over elastic, first peak; second {}: smaller, by a tenth, which \"slightly\" may or may not mean",
+              number(two, 3))};
 }
 
 }  // namespace

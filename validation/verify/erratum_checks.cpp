@@ -62,7 +62,8 @@ Measured gravity_term(Laboratory&) {
     return contact_angle_as_printed(theta, signed_g).angle * degrees_per_radian;
   };
   return {beta, std::fabs(beta - marched) / marched, Answer::holds,
-          fmt::format("β at 20°, v_n = −1, g = 9.81; printed {}° (g > 0) or {}° (g < 0)", number(printed(g), 4), number(printed(-g), 3))};
+          fmt::format("β at 20°, v_n = −1, g = 9.81; printed {}° (g > 0) or {}° (g < 0)", number(printed(g), 4),
+                      number(printed(-g), 3))};
 }
 
 /// V_b after impact 2 for v_n = −2: the end leaves as fast as it came.
@@ -85,14 +86,16 @@ Measured relative_velocity(Laboratory&) {
   const double actual = at.velocity[0] - at.angular[0] * std::cos(at.beta.angle) / 2;
   const ContactAngles heavy = contact_angles(Angle::from_degrees(20), {.gravity_number = 1});
   return {printed / actual, std::fabs(printed / actual + 1), Answer::holds,
-          fmt::format("v_rn over the normal velocity of the contact point; with G = 1 also − gT = {}", number(-heavy.beta.time, 3))};
+          fmt::format("v_rn over the normal velocity of the contact point; with G = 1 also − gT = {}",
+                      number(-heavy.beta.time, 3))};
 }
 
 Measured second_fold(Laboratory&) {
   const analytic::RegimeBoundary fold = regime_boundary(analytic::ImpactNumber::second, {});
   const double exact = second_impact_fold_beta();
   return {fold.beta * degrees_per_radian, std::fabs(fold.beta - exact) / exact, Answer::holds,
-          fmt::format("β at the end of the second impact, θ = {}°; printed 90° at 58°", number(fold.theta * degrees_per_radian, 14))};
+          fmt::format("β at the end of the second impact, θ = {}°; printed 90° at 58°",
+                      number(fold.theta * degrees_per_radian, 14))};
 }
 
 Measured third_fold(Laboratory&) {
@@ -106,7 +109,8 @@ Measured third_fold(Laboratory&) {
 Measured centre_after_first(Laboratory&) {
   const double at_45 = elastic(45).velocity[0];
   return {at_45, std::fabs(at_45 + 0.2), Answer::holds,
-          fmt::format("V₁ at 45°, downward; {} at 54.7356°, {} at 58°", number(elastic(std::acos(1 / std::sqrt(3.0)) * degrees_per_radian).velocity[0], 1),
+          fmt::format("V₁ at 45°, downward; {} at 54.7356°, {} at 58°",
+                      number(elastic(std::acos(1 / std::sqrt(3.0)) * degrees_per_radian).velocity[0], 1),
                       number(elastic(58).velocity[0], 3))};
 }
 
@@ -141,7 +145,8 @@ Measured block_column(Laboratory&) {
   numeric::Vector7 rate;
   rate << general.state.velocity, system.beta_rate;
   const Vector3& omega = general.state.angular_velocity;
-  const double exact = (general.body.mass * general.state.velocity.squaredNorm() + omega.dot(general.body.inertia * omega)) / 2;
+  const double exact =
+      (general.body.mass * general.state.velocity.squaredNorm() + omega.dot(general.body.inertia * omega)) / 2;
   const double full = rate.dot(system.mass_matrix * rate) / 2;
   const double printed = rate.tail<4>().dot(system.mass_matrix.bottomRows<4>() * rate) / 2;
   return {printed / exact, std::fabs(full / exact - 1), Answer::holds,
@@ -168,11 +173,15 @@ Measured two_versions_of_figure_17(Laboratory& laboratory) {
   const double fall = 2 - (0.5 + 0.01) * std::sqrt(0.5), speed = std::sqrt(2 * 9.81 * fall);
   const double came = caption.at(0).value.approach_speed;
   const auto gaps = [](const auto& impacts) {
-    return (impacts.at(2).value.start - impacts.at(1).value.start) / (impacts.at(1).value.start - impacts.at(0).value.start);
+    return (impacts.at(2).value.start - impacts.at(1).value.start) /
+           (impacts.at(1).value.start - impacts.at(0).value.start);
   };
-  return {came, std::fabs(came / speed - 1), Answer::holds,
-          fmt::format("m/s at the first touch from 2 m, text 1; the third impact is apart, as described, only in the caption's: "
-                      "its interval is {} times the first (text: {})", number(gaps(caption), 3), number(gaps(text), 2))};
+  return {
+      came, std::fabs(came / speed - 1), Answer::holds,
+      fmt::format(
+          "m/s at the first touch from 2 m, text 1; the third impact is apart, as described, only in the caption's: "
+          "its interval is {} times the first (text: {})",
+          number(gaps(caption), 3), number(gaps(text), 2))};
 }
 
 }  // namespace

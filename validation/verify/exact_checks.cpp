@@ -41,16 +41,23 @@ Measured against_table(ReferenceTable table) {
   for (const ReferenceRow& row : reference_table(table)) {
     const ContactAngles angles =
         contact_angles(Angle::from_degrees(row.at("theta_deg")), {.gravity_number = row.at("G")});
-    const std::pair<const char*, double> numbers[] = {
-        {"beta_deg", angles.beta.angle * degrees_per_radian}, {"gamma_deg", angles.gamma.angle * degrees_per_radian},
-        {"P1", angles.impulse[0]}, {"P2", angles.impulse[1]}, {"P3", angles.impulse[2]},
-        {"V1", angles.velocity[0]}, {"V2", angles.velocity[1]}, {"V3", angles.velocity[2]},
-        {"Omega1", angles.angular[0]}, {"Omega2", angles.angular[1]}, {"Omega3", angles.angular[2]}};
+    const std::pair<const char*, double> numbers[] = {{"beta_deg", angles.beta.angle * degrees_per_radian},
+                                                      {"gamma_deg", angles.gamma.angle * degrees_per_radian},
+                                                      {"P1", angles.impulse[0]},
+                                                      {"P2", angles.impulse[1]},
+                                                      {"P3", angles.impulse[2]},
+                                                      {"V1", angles.velocity[0]},
+                                                      {"V2", angles.velocity[1]},
+                                                      {"V3", angles.velocity[2]},
+                                                      {"Omega1", angles.angular[0]},
+                                                      {"Omega2", angles.angular[1]},
+                                                      {"Omega3", angles.angular[2]}};
     for (const auto& [name, value] : numbers) {
       const auto exact = row.find(name);
       if (exact == row.end()) continue;
       ++count;
-      worst.take(relative(value, exact->second), fmt::format("{} at θ = {}°, G = {}", name, row.at("theta_deg"), row.at("G")));
+      worst.take(relative(value, exact->second),
+                 fmt::format("{} at θ = {}°, G = {}", name, row.at("theta_deg"), row.at("G")));
     }
   }
   return {static_cast<double>(count), worst.error, Answer::holds, "worst: " + worst.where};
@@ -71,7 +78,8 @@ Measured largest_second_impulse(Laboratory&) {
   double low = 40, high = 54;
   while (high - low > 1e-6) {  // P₂ is unimodal there
     const double third = (high - low) / 3;
-    (impulse(low + third) < impulse(high - third) ? low : high) = impulse(low + third) < impulse(high - third) ? low + third : high - third;
+    (impulse(low + third) < impulse(high - third) ? low : high) =
+        impulse(low + third) < impulse(high - third) ? low + third : high - third;
   }
   const double largest = impulse(low);
   return {largest, std::fabs(largest - 1.04540), Answer::holds, fmt::format("at θ = {}°", significant(low, 5))};
@@ -79,10 +87,12 @@ Measured largest_second_impulse(Laboratory&) {
 
 Measured bouncing_end(Laboratory&) {
   const double e = 0.5, g = 9.81, v = 2;
-  const analytic::Sequence sequence =
-      analytic::impact_sequence({.body = analytic::make_box({}), .inclination = Angle::from_degrees(0), .velocity = {.normal = -v},
-                       .gravity = g, .law = {.restitution = e}},
-                      {.impacts = 3});
+  const analytic::Sequence sequence = analytic::impact_sequence({.body = analytic::make_box({}),
+                                                                 .inclination = Angle::from_degrees(0),
+                                                                 .velocity = {.normal = -v},
+                                                                 .gravity = g,
+                                                                 .law = {.restitution = e}},
+                                                                {.impacts = 3});
   const double end = sequence.tail.value().end_time;
   return {end, relative(end, 2 * e * v / (g * (1 - e))), Answer::holds, "flat box, e = 0.5, 2 m/s"};
 }
@@ -90,8 +100,7 @@ Measured bouncing_end(Laboratory&) {
 Measured restitution_map(Laboratory&) {
   const double at_tenth = analytic::restitution_of_damping(0.1), at_one = analytic::restitution_of_damping(1);
   const auto residual = [](double s, double e) { return std::fabs(std::log1p(s) - std::log1p(-s * e) - s * (1 + e)); };
-  return {at_tenth,
-          std::max({relative(at_tenth, 0.937475579949905), residual(0.1, at_tenth), residual(1, at_one)}),
+  return {at_tenth, std::max({relative(at_tenth, 0.937475579949905), residual(0.1, at_tenth), residual(1, at_one)}),
           Answer::holds, fmt::format("e(1) = {}", significant(at_one, 12))};
 }
 
@@ -103,8 +112,8 @@ struct Landing {
 Landing flat_landing(double damping) {
   Landing landing;
   const numeric::Body body(numeric::box_mesh({.size = {0.3, 0.2, 0.1}, .mass = landing.mass}));
-  const numeric::Ground ground{.stiffness = landing.stiffness, .damping = damping,
-                               .area = numeric::AreaMeasure::projected};
+  const numeric::Ground ground{
+      .stiffness = landing.stiffness, .damping = damping, .area = numeric::AreaMeasure::projected};
   numeric::Options options;
   options.gravity = 0;
   options.impacts = 1;
@@ -165,7 +174,9 @@ Measured runge_kutta_order(Laboratory&) {
   const auto velocity = [&](double step) {
     scene.options.step = step;
     scene.options.amplification = false;
-    return numeric::simulate(body, scene.ground, scene.start(body), scene.options).impacts.at(0).value.velocity_after.z();
+    return numeric::simulate(body, scene.ground, scene.start(body), scene.options)
+        .impacts.at(0)
+        .value.velocity_after.z();
   };
   const double h = 2e-5;
   const double a = velocity(h), b = velocity(h / 2), c = velocity(h / 4);
@@ -177,7 +188,9 @@ Measured free_rotation(Laboratory&) {
   const numeric::Matrix3 inertia = numeric::Vector3(1, 2, 2.5).asDiagonal();
   const numeric::Rotation start{Eigen::Quaterniond::Identity(), {0.3, 5, -0.2}};
   const numeric::FreeRotation rotation(inertia, start);
-  const auto momentum = [&](const numeric::Rotation& r) { return numeric::Vector3(r.attitude * (inertia * r.angular_velocity)); };
+  const auto momentum = [&](const numeric::Rotation& r) {
+    return numeric::Vector3(r.attitude * (inertia * r.angular_velocity));
+  };
   double worst = 0;
   for (int i = 1; i <= 100; ++i) {
     const numeric::Rotation at = rotation.at(12.6 * i);

@@ -35,7 +35,8 @@ Measured points_on_lines(int figure_number, Laboratory& laboratory) {
       ++points;
     }
   }
-  return {static_cast<double>(points), worst, Answer::holds, fmt::format("points on lines; worst {} of the range off", number(worst, 2))};
+  return {static_cast<double>(points), worst, Answer::holds,
+          fmt::format("points on lines; worst {} of the range off", number(worst, 2))};
 }
 
 Measured figure_7(Laboratory& laboratory) { return points_on_lines(7, laboratory); }
@@ -78,7 +79,8 @@ Measured figure_15(Laboratory& laboratory) {
 /// |F_t| = μ F_n while the point slides: μ = 0.1, 0.3, 0.5.
 Measured figure_16(Laboratory& laboratory) {
   double worst = 0, peak = 0;
-  for (const auto& [name, mu] : {std::pair{"rod-friction-01", 0.1}, {"rod-friction-03", 0.3}, {"rod-friction-05", 0.5}}) {
+  for (const auto& [name, mu] :
+       {std::pair{"rod-friction-01", 0.1}, {"rod-friction-03", 0.3}, {"rod-friction-05", 0.5}}) {
     for (const HistorySample& s : laboratory.history(name).samples) {
       if (!s.in_contact || !(s.force.z() > 0)) continue;
       worst = std::max(worst, std::fabs(std::fabs(s.force.x()) / (mu * s.force.z()) - 1));
@@ -88,7 +90,9 @@ Measured figure_16(Laboratory& laboratory) {
   return {peak, worst, Answer::holds, "largest normal force for μ up to 0.5"};
 }
 
-double total(const HistorySample& s) { return s.energy_translation + s.energy_rotation + s.energy_potential + s.energy_ground; }
+double total(const HistorySample& s) {
+  return s.energy_translation + s.energy_rotation + s.energy_potential + s.energy_ground;
+}
 
 /// Energy of the history at its ends against the works booked in between.
 Measured energy_over_history(const RecordedRun& recorded) {
@@ -98,18 +102,22 @@ Measured energy_over_history(const RecordedRun& recorded) {
   }
   const double begin = total(recorded.samples.front()), end = total(recorded.samples.back());
   return {(begin - end) / begin, std::fabs(begin - end - booked) / begin, Answer::holds,
-          fmt::format("of the energy lost by the end of impact {}; dampers, friction and release account for it", recorded.run.impacts.size())};
+          fmt::format("of the energy lost by the end of impact {}; dampers, friction and release account for it",
+                      recorded.run.impacts.size())};
 }
 
 Measured figure_17(Laboratory& laboratory) { return energy_over_history(laboratory.history("rod-from-2m")); }
-Measured figure_23(Laboratory& laboratory) { return energy_over_history(laboratory.history("phone-damped", {.impacts = 2})); }
+Measured figure_23(Laboratory& laboratory) {
+  return energy_over_history(laboratory.history("phone-damped", {.impacts = 2}));
+}
 
 /// The total energy of every sample is that of the first.
 Measured figure_19(Laboratory& laboratory) {
   const auto& samples = laboratory.history("phone-elastic", {.planar = true}).samples;
   double worst = 0;
   for (const HistorySample& s : samples) worst = std::max(worst, std::fabs(total(s) / total(samples.front()) - 1));
-  return {static_cast<double>(samples.size()), worst, Answer::holds, "instants, with the energy of the ground's springs"};
+  return {static_cast<double>(samples.size()), worst, Answer::holds,
+          "instants, with the energy of the ground's springs"};
 }
 
 /// m (V_z − v_z) = Σ P_n − m g t at the end of the last impact: the normal impulses are those that stop the fall.
@@ -139,7 +147,8 @@ Measured figure_22(Laboratory& laboratory) {
   for (std::size_t i = 0; i < std::min<std::size_t>(3, fine.impacts.size()); ++i) {
     worst = std::max(worst, std::fabs(run.impacts.at(i).value.peak_force / fine.impacts[i].value.peak_force - 1));
   }
-  return {run.impacts.at(1).value.peak_force, worst, Answer::holds, "largest force of all; peaks of the first three impacts"};
+  return {run.impacts.at(1).value.peak_force, worst, Answer::holds,
+          "largest force of all; peaks of the first three impacts"};
 }
 
 Measured figure_24(Laboratory& laboratory) {

@@ -28,8 +28,8 @@ struct RecordedRun {
 
 /// How a case is run.
 struct RunOptions {
-  int digits = 0;    ///< 0: as the case says
-  int impacts = 0;   ///< 0: as the case says
+  int digits = 0;   ///< 0: as the case says
+  int impacts = 0;  ///< 0: as the case says
   bool planar = false;
   numeric::Method method = numeric::Method::automatic;
   numeric::AreaMeasure area = numeric::AreaMeasure::surface;

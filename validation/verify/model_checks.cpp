@@ -13,8 +13,8 @@ namespace {
 
 /// The farthest that a limit lies from the discrete value, over the size of the number at large.
 struct Landing {
-  double miss = 0;      ///< of all
-  double deviation = 0; ///< at the scene's own stiffness
+  double miss = 0;       ///< of all
+  double deviation = 0;  ///< at the scene's own stiffness
   int impacts = 0, landed = 0;
   bool all_land = true;
 
@@ -22,7 +22,8 @@ struct Landing {
     for (const ComparedImpact& impact : comparison.impacts) {
       ++impacts;
       for (std::size_t q = 0; q < quantity_count && impact.reason.empty(); ++q) {
-        deviation = std::max(deviation, std::fabs((*impact.continuous)[q] - (*impact.discrete)[q]) / comparison.scales[q]);
+        deviation =
+            std::max(deviation, std::fabs((*impact.continuous)[q] - (*impact.discrete)[q]) / comparison.scales[q]);
       }
       if (!impact.has_landing()) continue;
       ++landed;
@@ -35,8 +36,8 @@ struct Landing {
 
   [[nodiscard]] Measured measured() const {
     return {static_cast<double>(landed), miss, all_land ? Answer::holds : Answer::refuted,
-            fmt::format("of {} impacts have their limit; at the scene's stiffness those compared are within {}", impacts,
-                        significant(deviation, 2))};
+            fmt::format("of {} impacts have their limit; at the scene's stiffness those compared are within {}",
+                        impacts, significant(deviation, 2))};
   }
 };
 

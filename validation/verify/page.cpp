@@ -17,11 +17,20 @@ std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
     }
   }
   return out;
@@ -50,8 +59,11 @@ struct Group {
   const char *title, *text;
 };
 constexpr Group groups[] = {
-    {'C', "Claims of the paper", "Does each statement hold?  A refuted one is answered with the number that was measured."},
-    {'E', "Errata", "The printed form and the right one, both evaluated; the number is what the printed form gives or the right value, as the text beside it says."},
+    {'C', "Claims of the paper",
+     "Does each statement hold?  A refuted one is answered with the number that was measured."},
+    {'E', "Errata",
+     "The printed form and the right one, both evaluated; the number is what the printed form gives or the right "
+     "value, as the text beside it says."},
     {'F', "Figures", "Laws that the data of each figure must obey."},
     {'X', "Exact results", "Closed forms, 30-digit tables, conservation laws, orders of convergence."},
     {'M', "Both models over every scene", "The limit of ever stiffer grounds is the discrete model's value."},
@@ -64,13 +76,15 @@ std::string row_of(const CheckResult& result) {
   const char* verdict = !result.done ? "not run" : result.passed() ? "passed" : "failed";
   const std::string number = significant(m.number, 6) + (check.unit.empty() ? "" : " " + check.unit);
   return fmt::format(
-      "<tr id=\"{}\"><td><b>{}</b></td><td>{}<br><span class=\"pale\">{}</span><br><code>{}</code></td><td class=\"{}\">{}</td>"
-      "<td class=\"number\"><span class=\"pale\">{}</span><br>{}</td><td>{}<br><span class=\"pale\">{}</span></td><td class=\"number\">{}</td>"
+      "<tr id=\"{}\"><td><b>{}</b></td><td>{}<br><span class=\"pale\">{}</span><br><code>{}</code></td><td "
+      "class=\"{}\">{}</td>"
+      "<td class=\"number\"><span class=\"pale\">{}</span><br>{}</td><td>{}<br><span class=\"pale\">{}</span></td><td "
+      "class=\"number\">{}</td>"
       "<td class=\"number\" title=\"{}\">{}</td><td class=\"{}\">{}{}</td><td class=\"number\">{:.2f}</td></tr>\n",
-      check.id, check.id, escaped(check.claim), escaped(m.found), escaped(check.command), answer, answer, escaped(check.number), escaped(number),
-      escaped(check.oracle), escaped(check.error), significant(m.error, 2), escaped(check.reason),
-      significant(check.tolerance, 2), verdict, verdict, result.failure.empty() ? "" : ": " + escaped(result.failure),
-      result.seconds);
+      check.id, check.id, escaped(check.claim), escaped(m.found), escaped(check.command), answer, answer,
+      escaped(check.number), escaped(number), escaped(check.oracle), escaped(check.error), significant(m.error, 2),
+      escaped(check.reason), significant(check.tolerance, 2), verdict, verdict,
+      result.failure.empty() ? "" : ": " + escaped(result.failure), result.seconds);
 }
 
 std::string group_html(const Group& group, const std::vector<CheckResult>& results) {
@@ -80,14 +94,18 @@ std::string group_html(const Group& group, const std::vector<CheckResult>& resul
   }
   if (rows.empty()) return "";
   return fmt::format(
-      "<h2 id=\"{}\">{}</h2>\n<p>{}</p>\n<div class=\"scroll\"><table><thead><tr><th></th><th>claim, what was found, how to see it</th>"
-      "<th>answer</th><th>number</th><th>oracle, error</th><th>error</th><th>tolerance</th><th>verdict</th><th>s</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
+      "<h2 id=\"{}\">{}</h2>\n<p>{}</p>\n<div class=\"scroll\"><table><thead><tr><th></th><th>claim, what was found, "
+      "how to see it</th>"
+      "<th>answer</th><th>number</th><th>oracle, "
+      "error</th><th>error</th><th>tolerance</th><th>verdict</th><th>s</th></tr></thead><tbody>\n{}</tbody></table></"
+      "div>\n",
       group.letter, group.title, group.text, rows);
 }
 
 std::string figure_html(const Figure& figure) {
-  std::string html = fmt::format("<h2 id=\"figure{}\">Figure {}: {}</h2>\n<p class=\"pale\">Scene: {}</p>\n<div class=\"plots\">\n",
-                                 figure.number, figure.number, escaped(figure.title), escaped(figure.scene));
+  std::string html =
+      fmt::format("<h2 id=\"figure{}\">Figure {}: {}</h2>\n<p class=\"pale\">Scene: {}</p>\n<div class=\"plots\">\n",
+                  figure.number, figure.number, escaped(figure.title), escaped(figure.scene));
   for (const std::string& picture : draw(figure)) html += picture + "\n";
   return html + fmt::format("</div>\n<p><code>{}</code></p>\n", escaped(figure.command()));
 }
@@ -106,18 +124,23 @@ std::set<int> wanted_figures(const std::vector<CheckResult>& results) {
 std::string verify_page(const std::vector<CheckResult>& results, const std::string& selection, Laboratory& laboratory) {
   const VerifySummary summary = summary_of(results);
   std::string html = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, "
-      "initial-scale=1\"><title>clatter {}: verification</title><link rel=\"icon\" href=\"data:,\"><style>{}</style></head><body>\n"
-      "<h1>clatter {}: verification</h1>\n<p class=\"{}\">{}</p>\n<p class=\"pale\">{}.  Reproduce: <code>clatter verify --html FILE</code></p>\n<nav>",
-      version, style, version, summary.failed == 0 ? "passed" : "failed", escaped(summary_words(summary)), escaped(selection));
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "content=\"width=device-width, "
+      "initial-scale=1\"><title>clatter {}: verification</title><link rel=\"icon\" "
+      "href=\"data:,\"><style>{}</style></head><body>\n"
+      "<h1>clatter {}: verification</h1>\n<p class=\"{}\">{}</p>\n<p class=\"pale\">{}.  Reproduce: <code>clatter "
+      "verify --html FILE</code></p>\n<nav>",
+      version, style, version, summary.failed == 0 ? "passed" : "failed", escaped(summary_words(summary)),
+      escaped(selection));
   for (const Group& group : groups) {
     const std::string part = group_html(group, results);
     if (!part.empty()) html += fmt::format("<a href=\"#{}\">{}</a>", group.letter, group.title);
   }
   html += "<a href=\"#figures\">Pictures</a></nav>\n";
   for (const Group& group : groups) html += group_html(group, results);
-  html += "<h2 id=\"figures\">The paper's figures, from this run</h2>\n<p>Lines: discrete model, unless the legend says "
-          "otherwise; points: continuous model.</p>\n";
+  html +=
+      "<h2 id=\"figures\">The paper's figures, from this run</h2>\n<p>Lines: discrete model, unless the legend says "
+      "otherwise; points: continuous model.</p>\n";
   for (const int number : wanted_figures(results)) html += figure_html(make_figure(number, laboratory));
   return html + "</body></html>\n";
 }

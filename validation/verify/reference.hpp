@@ -13,7 +13,8 @@ using ReferenceRow = std::map<std::string, double>;
 
 enum class ReferenceTable { no_gravity, gravity };
 
-/// Columns theta_deg, G, beta_deg, gamma_deg, P1, P2, P3, V1, Omega1, V2, Omega2, V3, Omega3, T1, T2 for m = L = |v_n| = 1.
+/// Columns theta_deg, G, beta_deg, gamma_deg, P1, P2, P3, V1, Omega1, V2, Omega2, V3, Omega3, T1, T2 for m = L = |v_n|
+/// = 1.
 [[nodiscard]] const std::vector<ReferenceRow>& reference_table(ReferenceTable table);
 
 }  // namespace clatter::validation
