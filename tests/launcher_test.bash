@@ -166,7 +166,7 @@ test_first_launch_builds_and_runs() {
   expect_calls 1 "cmake --preset release"
   expect_calls 1 "cmake --build --preset release"
   expect_calls 0 "apt-get"
-  expect "standard error" "clatter: building (first run, about a minute) ..." \
+  expect "standard error" "clatter: building (first run, a few minutes) ..." \
     "$(<"$settings/err")"
 }
 

@@ -20,7 +20,23 @@ std::string verdict_word(const CheckResult& result) {
   return result.passed() ? "passed" : "FAILED";
 }
 
-std::string verdict_mark(const CheckResult& result) { return !result.done ? "?" : result.passed() ? "✓" : "✗"; }
+/// One letter for the oracle, so that the table fits a terminal.
+std::string oracle_letter(const std::string& oracle) {
+  for (const auto& [name, letter] : {std::pair{"closed form", "c"},
+                                     {"30-digit table", "t"},
+                                     {"conservation law", "l"},
+                                     {"other model", "m"},
+                                     {"convergence", "o"},
+                                     {"independent value", "v"}}) {
+    if (oracle == name) return letter;
+  }
+  return oracle;
+}
+
+/// The answer with a mark that says whether the check passed.
+std::string marked_answer(const CheckResult& result) {
+  return !result.done ? "not run" : std::string(answer_name(result.measured.answer)) + (result.passed() ? "✓" : "✗");
+}
 
 std::string answer_word(const CheckResult& result) { return result.done ? answer_name(result.measured.answer) : ""; }
 
@@ -28,12 +44,6 @@ std::string answer_word(const CheckResult& result) { return result.done ? answer
 Cell number_cell(double number) {
   const bool whole = number == std::round(number) && std::fabs(number) < 1e5;
   return whole ? Cell(shortest(number)) : Cell(number, 4);
-}
-
-void add_failures(const std::vector<CheckResult>& results, Table& table) {
-  for (const CheckResult& result : results) {
-    if (result.done && !result.passed()) table.notes.push_back(fmt::format("{}: {}", result.check->id, result.failure));
-  }
 }
 
 Json check_json(const CheckResult& result) {
@@ -59,6 +69,50 @@ Json check_json(const CheckResult& result) {
           {"seconds", result.seconds},
           {"figure", check.figure ? Json(*check.figure) : Json(nullptr)},
           {"command", check.command}};
+}
+
+/// For a terminal: the oracle as a letter, the verdict as a mark.
+Table narrow_table(const std::vector<CheckResult>& results) {
+  Table table;
+  table.columns = {{.name = "id", .heading = "id", .unit = "", .words = true},
+                   {.name = "what", .heading = "what", .unit = "", .words = true},
+                   {.name = "answer", .heading = "answer", .unit = "", .words = true},
+                   {"number", "number", ""},
+                   {.name = "oracle", .heading = "by", .unit = "", .words = true},
+                   {"measured_error", "error", ""},
+                   {"tolerance", "limit", ""},
+                   {"seconds", "cost", "s"}};
+  for (const CheckResult& result : results) {
+    const Measured& m = result.measured;
+    table.rows.push_back({Cell(result.check->id), Cell(result.check->what), Cell(marked_answer(result)),
+                          result.done ? number_cell(m.number) : Cell(), Cell(oracle_letter(result.check->oracle)),
+                          result.done ? Cell(m.error, 2) : Cell(), Cell(result.check->tolerance, 1),
+                          Cell(fmt::format("{:.2f}", result.seconds))});
+  }
+  table.notes = {
+      "by: the oracle, c closed form, t 30-digit table, l conservation law, m other model, o convergence, v "
+      "independent value; limit: of the error",
+      "answer: does the claim hold?  ✓: the error is within its limit and the answer is the expected one.  "
+      "--format json says what each number is and what else was found"};
+  return table;
+}
+
+Table wide_table(const std::vector<CheckResult>& results) {
+  Table table;
+  for (const char* name : {"id", "what", "answer"})
+    table.columns.push_back({.name = name, .heading = name, .unit = "", .words = true});
+  for (const char* name : {"number", "error", "tolerance"}) table.columns.push_back({name, name, ""});
+  for (const char* name : {"verdict", "oracle", "found"})
+    table.columns.push_back({.name = name, .heading = name, .unit = "", .words = true});
+  table.columns.push_back({"seconds", "cost", "s"});
+  for (const CheckResult& result : results) {
+    const Measured& m = result.measured;
+    table.rows.push_back({Cell(result.check->id), Cell(result.check->what), Cell(answer_word(result)),
+                          result.done ? number_cell(m.number) : Cell(), result.done ? Cell(m.error, 2) : Cell(),
+                          Cell(result.check->tolerance, 2), Cell(verdict_word(result)), Cell(result.check->oracle),
+                          Cell(m.found), Cell(fmt::format("{:.2f}", result.seconds))});
+  }
+  return table;
 }
 
 }  // namespace
@@ -87,36 +141,14 @@ std::string summary_words(const VerifySummary& summary) {
 }
 
 Table verify_table(const std::vector<CheckResult>& results, const std::string& selection, Format format) {
-  const bool wide = format != Format::table;
-  Table table{.head = {headline("verify", what_it_is), selection}, .columns = {}, .rows = {}, .notes = {}};
-  table.columns = {{.name = "id", .heading = "id", .unit = "", .words = true},
-                   {.name = "what", .heading = "what", .unit = "", .words = true},
-                   {.name = "answer", .heading = "answer", .unit = "", .words = true},
-                   {"number", "number", ""},
-                   {"measured_error", "error", ""},
-                   {"tolerance", wide ? "tolerance" : "at most", ""},
-                   {.name = "verdict", .heading = wide ? "verdict" : "", .unit = "", .words = true},
-                   {"seconds", "cost", "s"},
-                   {.name = "oracle", .heading = "oracle", .unit = "", .shown = wide, .words = true},
-                   {.name = "found", .heading = "found", .unit = "", .shown = wide, .words = true}};
+  Table table = format == Format::table ? narrow_table(results) : wide_table(results);
+  table.head = {headline("verify", what_it_is), selection};
+  std::vector<std::string> outcome;
   for (const CheckResult& result : results) {
-    const Measured& m = result.measured;
-    std::vector<Cell> row{Cell(result.check->id), Cell(result.check->what), Cell(answer_word(result))};
-    if (result.done)
-      row.insert(row.end(), {number_cell(m.number), Cell(m.error, 2)});
-    else
-      row.resize(5);
-    row.insert(row.end(), {Cell(result.check->tolerance, 2), Cell(wide ? verdict_word(result) : verdict_mark(result)),
-                           Cell(fmt::format("{:.2f}", result.seconds)), Cell(result.check->oracle), Cell(m.found)});
-    table.rows.push_back(std::move(row));
+    if (result.done && !result.passed()) outcome.push_back(fmt::format("{}: {}", result.check->id, result.failure));
   }
-  add_failures(results, table);
-  table.notes.push_back(summary_words(summary_of(results)));
-  if (format == Format::table)
-    table.notes.push_back(
-        "answer: does the claim hold?  ✓: the error is within what it may be at most and the answer is the expected "
-        "one.  "
-        "--format json says what each number is and what else was found");
+  outcome.push_back(summary_words(summary_of(results)));
+  table.notes.insert(table.notes.begin(), outcome.begin(), outcome.end());
   return table;
 }
 
