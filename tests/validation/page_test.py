@@ -20,9 +20,12 @@ BROWSER = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--n
 class Driver:
     """As much of the WebDriver protocol as the test needs."""
 
-    def __init__(self, folder):
+    def __init__(self):
+        self.session = None
         self.process = subprocess.Popen(["chromedriver", "--port=0"], stdout=subprocess.PIPE,
                                         stderr=subprocess.DEVNULL, text=True)
+
+    def start(self, folder):
         port = None
         while port is None:
             line = self.process.stdout.readline()
@@ -35,11 +38,12 @@ class Driver:
                   "perfLoggingPrefs": {"enableNetwork": True, "enablePage": True}}
         wanted = {"browserName": "chrome", "goog:chromeOptions": chrome,
                   "goog:loggingPrefs": {"browser": "ALL", "performance": "ALL"}}
-        session = self.post("", {"capabilities": {"alwaysMatch": wanted}})
-        self.base += "/" + session["sessionId"]
+        self.session = self.post("", {"capabilities": {"alwaysMatch": wanted}})["sessionId"]
+        self.base += "/" + self.session
 
-    def post(self, path, body):
-        request = urllib.request.Request(self.base + path, json.dumps(body).encode(), {"Content-Type": "application/json"})
+    def post(self, path, body, method="POST"):
+        request = urllib.request.Request(self.base + path, json.dumps(body).encode(), {"Content-Type": "application/json"},
+                                         method=method)
         opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
         with opener.open(request, timeout=120) as answer:
             return json.load(answer)["value"]
@@ -54,6 +58,8 @@ class Driver:
         return self.post("/se/log", {"type": kind})
 
     def close(self):
+        if self.session:
+            self.post("", {}, "DELETE")  # ends the browser too
         self.process.terminate()
         self.process.wait()
         self.process.stdout.close()
@@ -63,19 +69,17 @@ class Page(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
         cls.path = os.path.join(cls.folder.name, "verification.html")
         run = subprocess.run([PROGRAM, "verify", "--quick", "--html", cls.path, "--format", "json"], capture_output=True,
                              text=True)
         cls.status = run.returncode
         cls.results = json.loads(run.stdout)
-        cls.driver = Driver(os.path.join(cls.folder.name, "profile"))
+        cls.driver = Driver()
+        cls.addClassCleanup(cls.driver.close)
+        cls.driver.start(os.path.join(cls.folder.name, "profile"))
         cls.driver.open(cls.path)
         time.sleep(0.5)  # for a request that a page might start after it has loaded
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.driver.close()
-        cls.folder.cleanup()
 
     def test_the_run_passed(self):
         self.assertEqual(self.status, 0)
