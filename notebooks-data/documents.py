@@ -69,7 +69,8 @@ def verdicts(checks):
 def verification(result):
     lines = [f"# What `clatter verify` found (clatter {result['clatter']})", "",
              "Written by `notebooks-data/documents.py`.  `clatter verify --html FILE` draws the figures too.",
-             f"{result['passed']} of {len(result['checks'])} checks passed."]
+             "A tolerance is at most five times the error seen when it was set; \"because\" says what that error is made of.",
+             "", f"{result['passed']} of {len(result['checks'])} checks passed."]
     for letter, title in GROUPS.items():
         lines += ["", f"## {title}", "", "| | claim | answer | number | found | oracle | error at most | because |",
                   "|---|---|---|---|---|---|---|---|"]

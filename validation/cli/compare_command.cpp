@@ -9,11 +9,12 @@
 #include "validation/cli/progress.hpp"
 #include "validation/cli/scene_flags.hpp"
 #include "validation/output/interrupt.hpp"
+#include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {
 namespace {
 
-constexpr int check_failed = 1;
+constexpr int check_failed = 1, outside_model = 4;
 
 struct CompareInput {
   SceneFlags scene;
@@ -32,7 +33,11 @@ int compare_one(const SimulationScene& scene, const OutputChoice& choice) {
     default:
       write_out(choice, table_text(comparison_table(scene, comparison), choice.style));
   }
-  return comparison.agrees() ? 0 : check_failed;
+  if (!comparison.agrees()) return check_failed;
+  if (comparison.has_content()) return 0;
+  fmt::print(stderr, "clatter: nothing could be compared: {}\n",
+             comparison.impacts.empty() ? comparison.run.message : comparison.impacts[0].reason);
+  return outside_model;
 }
 
 int compare_swept(const SimulationScene& scene, const OutputChoice& choice) {
@@ -67,6 +72,7 @@ int compare_swept(const SimulationScene& scene, const OutputChoice& choice) {
 int run_compare(const CompareInput& input) {
   const SimulationScene scene = read_scene_flags(input.scene);
   const OutputChoice choice = read_output(input.output);
+  if (is_given(input.scene, "--history")) throw BadInput("--history: compare writes none; clatter simulate does");
   refuse_scene_file(input.scene, "--output", choice.path);
   return scene.sweep ? compare_swept(scene, choice) : compare_one(scene, choice);
 }
@@ -80,7 +86,8 @@ Action add_compare_command(CLI::App& app) {
   add_output_options(*command, input->output);
   command->footer(
       "Example: clatter compare validation/cases/phone-damped.toml --impacts 2\n"
-      "Exit status 1 if the stiff limit of the continuous model misses the discrete value.");
+      "Exit status 1 if the stiff limit of the continuous model misses the discrete value,\n"
+      "4 if nothing can be compared.");
   return [input] { return run_compare(*input); };
 }
 

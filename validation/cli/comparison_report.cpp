@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "validation/cli/impact_records.hpp"
 #include "validation/cli/options.hpp"
@@ -27,10 +28,12 @@ struct NumberPair {
   [[nodiscard]] double predicted() const { return impact.predicted.total()[quantity]; }
   [[nodiscard]] double miss() const { return impact.limit->value[quantity] - discrete(); }
   [[nodiscard]] double allowance() const { return impact.allowance[quantity]; }
+  [[nodiscard]] double bar() const { return impact.limit->error[quantity]; }
 };
 
-/// Zero in both models and in the limit, by symmetry.
+/// Zero in both models and in the limit, by symmetry; a limit that misses is something.
 bool is_nothing(const Comparison& comparison, const ComparedImpact& impact, std::size_t q) {
+  if (impact.has_landing() && !(std::fabs(NumberPair{impact, q}.miss()) <= impact.allowance[q])) return false;
   const double tiny = 1e-12 * comparison.scales[q];
   return std::fabs((*impact.discrete)[q]) <= tiny && impact.continuous && std::fabs((*impact.continuous)[q]) <= tiny;
 }
@@ -57,20 +60,24 @@ void add_rows(const Comparison& comparison, const ComparedImpact& impact, Table&
     } else {
       row.insert(row.end(), {Cell("–"), Cell(), Cell()});
     }
-    if (impact.has_landing()) row.insert(row.end(), {Cell(pair.miss(), 2), Cell(pair.allowance(), 2)});
+    if (impact.has_landing()) row.insert(row.end(), {Cell(pair.miss(), 2), Cell(pair.bar(), 2)});
     row.resize(9);
     table.rows.push_back(std::move(row));
     first = false;
   }
 }
 
+/// Why impacts are not compared; those that follow one in one line.
 std::vector<std::string> reasons(const Comparison& comparison) {
   std::vector<std::string> notes;
   for (const ComparedImpact& impact : comparison.impacts) {
     if (impact.reason.empty()) continue;
+    const int last = static_cast<int>(comparison.impacts.size());
     std::string note = fmt::format("Impact {} is not compared: {}", impact.n, impact.reason);
     if (impact.has_landing()) note += fmt::format("; on stiffer ground it {}", impact.lands() ? "agrees" : "differs");
+    if (impact.n < last) note += fmt::format("; nor are those that follow, up to {}", last);
     notes.push_back(note);
+    break;
   }
   return notes;
 }
@@ -97,7 +104,6 @@ std::vector<std::string> head_of(const SimulationScene& scene) {
   std::vector<std::string> head{headline("compare", what_it_is)};
   for (const std::string& line : scene.summary()) head.push_back(line);
   head.push_back("discrete model: real corners and inertia, e from the damping at each impact's speed, Coulomb's μₖ");
-  for (std::string& line : head) line = wrapped(line);
   return head;
 }
 
@@ -192,10 +198,21 @@ Worst worst_number(const Comparison& comparison, const ComparedImpact& impact) {
     if (impact.has_landing() && std::fabs(pair.miss()) / pair.allowance() > largest_miss) {
       largest_miss = std::fabs(pair.miss()) / pair.allowance();
       worst.miss = std::fabs(pair.miss()) / scale;
-      worst.allowance = pair.allowance() / scale;
+      worst.allowance = pair.bar() / scale;
     }
   }
   return worst;
+}
+
+/// How often first impacts are not compared (–), by reason.
+void add_swept_reasons(const std::vector<SweptComparison>& swept, Table& table) {
+  std::map<std::string, int> counts;
+  for (const auto& [value, comparison] : swept) {
+    if (!comparison.impacts.empty() && !comparison.impacts[0].reason.empty()) ++counts[comparison.impacts[0].reason];
+  }
+  for (const auto& [reason, count] : counts) {
+    table.notes.push_back(fmt::format("–: not compared at this stiffness, {} of {} values: {}", count, swept.size(), reason));
+  }
 }
 
 const char* sweep_name(const SimulationScene& scene) {
@@ -210,7 +227,7 @@ Table comparison_table(const SimulationScene& scene, const Comparison& compariso
                    {"end", "end", ""},
                    {"quantity", "", ""},
                    {"discrete", "discrete", ""},
-                   {"continuous", "continuous", ""},
+                   {"continuous", "contin.", ""},
                    {"deviation", "deviation", ""},
                    {"predicted", "predicted", ""},
                    {"miss", "limit off", ""},
@@ -218,7 +235,8 @@ Table comparison_table(const SimulationScene& scene, const Comparison& compariso
   for (const ComparedImpact& impact : comparison.impacts) add_rows(comparison, impact, table);
   table.notes = reasons(comparison);
   table.notes.push_back(
-      "predicted: gravity, turning and indentation during contacts, carried on from impact to impact");
+      "t in s, angles in °, P in N·s, V in m/s, Ω in rad/s; predicted: the size, no bound, of what gravity, turning and "
+      "indentation do during contacts, carried on from impact to impact");
   table.notes.push_back(limit_words(comparison));
   table.notes.push_back(verdict_words(comparison));
   fit_columns(table, 6, {3});
@@ -270,6 +288,9 @@ Table swept_comparison_table(const SimulationScene& scene, const std::vector<Swe
   const auto agreeing =
       std::count_if(swept.begin(), swept.end(), [](const SweptComparison& one) { return one.comparison.agrees(); });
   table.notes.push_back(fmt::format("{} of {} values agree.", agreeing, swept.size()));
+  add_swept_reasons(swept, table);
+  const std::size_t values = scene.sweep->values().size();
+  if (swept.size() < values) table.notes.push_back(fmt::format("interrupted: {} of {} values", swept.size(), values));
   return table;
 }
 

@@ -48,6 +48,7 @@ int parse_and_run(const std::vector<std::string>& given) {
   actions["compare"] = add_compare_command(app);
   actions["verify"] = add_verify_command(app);
   actions["figures"] = add_figures_command(app);
+  actions["tradeoff"] = add_tradeoff_command(app);
   actions["completion"] = add_completion_command(app);
   actions["man"] = add_man_command(app);
   std::vector<std::string> arguments = checked_arguments(app, given);

@@ -66,6 +66,13 @@ SimulationScene read_scene_flags(const SceneFlags& given) {
   return scene;
 }
 
+bool is_given(const SceneFlags& given, const std::string& name) {
+  for (std::size_t i = 0; i < given.texts.size(); ++i) {
+    if (name == flags[i].name) return given.texts[i].has_value();
+  }
+  return false;
+}
+
 void refuse_scene_file(const SceneFlags& given, const std::string& option, const std::string& path) {
   if (!path.empty() && path == given.file) throw BadInput(fmt::format("{} {}: is the scene file", option, path));
 }

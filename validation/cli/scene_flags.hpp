@@ -21,6 +21,8 @@ struct SceneFlags {
 void add_scene_flags(CLI::App& command, SceneFlags& flags);
 /// @throws BadInput with one line.
 [[nodiscard]] SimulationScene read_scene_flags(const SceneFlags& flags);
+/// Whether the flag ("--history") was typed.
+[[nodiscard]] bool is_given(const SceneFlags& flags, const std::string& name);
 /// @throws BadInput if `path`, given for `option`, is the scene file itself.
 void refuse_scene_file(const SceneFlags& flags, const std::string& option, const std::string& path);
 

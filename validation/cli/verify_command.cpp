@@ -7,6 +7,7 @@
 #include "validation/cli/options.hpp"
 #include "validation/cli/progress.hpp"
 #include "validation/cli/verify_report.hpp"
+#include "validation/figures/drawing.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/scene/bad_input.hpp"
@@ -62,10 +63,14 @@ int run_verify(const VerifyInput& input) {
   if (input.html && *input.html == choice.path)
     throw BadInput(fmt::format("--html {}: must be another file than --output's", *input.html));
   std::optional<Sink> page;
-  if (input.html) page.emplace(*input.html, "--html");  // an unwritable file is found before the work
+  if (input.html) {  // what is missing is found before the work
+    require_gnuplot();
+    page.emplace(*input.html, "--html");
+  }
   const std::string selection = selection_words(input, checks.size());
   const CooperativeInterrupt interrupt;
   Laboratory laboratory;
+  laboratory.goes_on = [&] { return !interrupt.requested(); };
   std::vector<CheckResult> results;
   {
     Progress progress;
@@ -74,11 +79,11 @@ int run_verify(const VerifyInput& input) {
       return !interrupt.requested();
     });
   }
+  write_out(choice, report(choice, results, selection));
   if (page && !interrupt.requested()) {
     page->write(verify_page(results, selection, laboratory));
     page->commit();
   }
-  write_out(choice, report(choice, results, selection));
   return verify_status(summary_of(results));
 }
 
@@ -89,7 +94,7 @@ Action add_verify_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("verify", "every claim of the paper, checked");
   command->add_flag("--quick", input->quick, "leave out the checks that take long");
   command->add_option("--only", input->only, "these checks, such as C1 E2")->type_name("ID");
-  add_text(*command, "--html", input->html, "FILE", "also a page with the verdicts and all figures");
+  add_text(*command, "--html", input->html, "FILE", "also a page with the verdicts and all figures (needs gnuplot)");
   add_output_options(*command, input->output);
   command->footer("Example: clatter verify --quick --html verification.html\nExit status 1 if a check fails.");
   return [input] { return run_verify(*input); };

@@ -21,6 +21,8 @@ using numeric::ContactEnd;
 using numeric::ImpactRecord;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double bars_apart = 5;  // a bar holds in all but some of a hundred numbers; a model that is wrong misses by many
+constexpr long evaluations_per_run = 300'000;  // a contact that takes more is none that the discrete model knows
 
 /// End of the continuous model's kind: by the side of the body that the vertices are on.
 std::string end_of(const analytic::PlanarBody& body, const ImpactRow& row) {
@@ -46,12 +48,39 @@ bool sticks(numeric::FrictionMode mode) {
   return mode == numeric::FrictionMode::stick || mode == numeric::FrictionMode::slip_stick;
 }
 
+/// The body lies flat or stands upright as it lands.
+bool is_face(const ImpactRow& row) {
+  constexpr double square = 1e-12;  // [rad]
+  return row.contact_angle < square || row.contact_angle > analytic::pi / 2 - square;
+}
+
+/// A whole face lands while it turns or slides.  Where along the face the ground then presses decides the rebound,
+/// which impulses at corners do not know; only a face that lands at rest against the ground has one answer.
+bool is_open_face(const ImpactRow& row) {
+  return is_face(row) && (row.before.angular != 0 || row.impact.tangential_impulse != 0);
+}
+
+/// Why row i cannot be compared at any stiffness; empty if it can.
+std::string reason_in_principle(const Comparison& comparison, std::size_t i) {
+  const auto& rows = comparison.sequence.rows;
+  if (i < rows.size() && is_open_face(rows[i])) {
+    return "a whole face lands turning or sliding: its rebound depends on where along it the ground presses";
+  }
+  const auto landed = std::find_if(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(std::min(i, rows.size())),
+                                   [](const ImpactRow& row) { return is_face(row); });
+  if (i < rows.size() && landed != rows.begin() + static_cast<std::ptrdiff_t>(i)) {
+    return "follows the landing of a whole face: rounding decides how it lands again";
+  }
+  return "";
+}
+
 /// Why row i cannot be compared at the scene's stiffness; empty if it can.
 std::string reason_against(const Comparison& comparison, const SimulationScene& scene, std::size_t i) {
   const auto& rows = comparison.sequence.rows;
   const auto& impacts = comparison.run.impacts;
   if (i >= rows.size()) return "the discrete sequence has ended: " + comparison.sequence.message;
   if (i >= impacts.size()) return "the continuous run has ended: " + comparison.run.message;
+  if (const std::string reason = reason_in_principle(comparison, i); !reason.empty()) return reason;
   const ImpactRecord& record = impacts[i];
   const std::string end = end_of(comparison.drop.body, rows[i]);
   if (!record.predictable) {
@@ -80,7 +109,7 @@ Quantities allowance(const ComparedImpact& impact, const ImpactRow& row, const Q
   Quantities sum{};
   const double growth = std::isfinite(row.amplification) ? row.amplification : 1;
   for (std::size_t q = 0; q < quantity_count; ++q) {
-    sum[q] = impact.limit->error[q] + 8 * epsilon * (1 + growth) * scales[q];
+    sum[q] = bars_apart * impact.limit->error[q] + 8 * epsilon * (1 + growth) * scales[q];
   }
   return sum;
 }
@@ -107,7 +136,8 @@ void add_impact(Comparison& comparison, std::size_t i, const std::vector<Predict
   }
   if (i < predicted.size()) impact.predicted = predicted[i];
   const auto& limits = comparison.limit.rows;
-  if (i < limits.size() && i < rows.size() && impact.discrete_end == end_name(limits[i].end)) {
+  if (i < limits.size() && i < rows.size() && impact.discrete_end == end_name(limits[i].end) &&
+      reason_in_principle(comparison, i).empty()) {
     impact.limit = limits[i];
     impact.allowance = allowance(impact, rows[i], comparison.scales);
   }
@@ -137,6 +167,11 @@ bool ComparedImpact::lands() const {
   return true;
 }
 
+bool Comparison::has_content() const {
+  return std::any_of(impacts.begin(), impacts.end(),
+                     [](const ComparedImpact& impact) { return impact.has_landing() || impact.reason.empty(); });
+}
+
 bool Comparison::agrees() const {
   return std::all_of(impacts.begin(), impacts.end(),
                      [](const ComparedImpact& impact) { return !impact.has_landing() || impact.lands(); });
@@ -148,6 +183,7 @@ Comparison compare_models(const SimulationScene& scene, const numeric::Body& bod
   numeric::Options options = scene.options;
   options.amplification = true;
   options.history = nullptr;
+  options.evaluation_limit = std::min(options.evaluation_limit, evaluations_per_run);
   comparison.run = numeric::simulate(body, scene.ground, scene.start(body), options);
   comparison.limit = stiff_limit(scene, body, scene.options.impacts);
   comparison.scales = quantity_scales(comparison.sequence, comparison.drop.body);

@@ -23,7 +23,7 @@ struct ComparedImpact {
   double contact_time = 0;  ///< of the continuous model [s]
   PredictedSize predicted;
   std::optional<LimitRow> limit;  ///< of the continuous model for k_G → ∞, if it has the impact apart from others
-  Quantities allowance{};         ///< |limit − discrete| may be this: error bar of the limit and rounding of both
+  Quantities allowance{};         ///< |limit − discrete| may be this: five error bars of the limit, rounding of both
   /// Whether every number of the limit is the discrete model's, within `allowance`.  Meaningful with both.
   [[nodiscard]] bool lands() const;
   /// Whether there is a limit and a discrete impact of the same end to hold against each other.
@@ -37,6 +37,8 @@ struct Comparison {
   StiffLimit limit;
   Quantities scales{};
   std::vector<ComparedImpact> impacts;
+  /// Whether there is anything to compare: an impact at the scene's stiffness or a limit.
+  [[nodiscard]] bool has_content() const;
   /// No impact whose limit misses the discrete value.
   [[nodiscard]] bool agrees() const;
 };

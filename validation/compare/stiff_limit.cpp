@@ -16,11 +16,12 @@ using numeric::Simulation;
 
 constexpr double stiffening = 16;  // halves the contact time of a corner, F ∝ δ³, the slowest to converge
 constexpr double small = 0.02;     // what turning, gravity and indentation may be at the first rung
-constexpr int rungs = 4;           // two triples of runs
+constexpr int rungs = 5;           // three triples of runs
 constexpr int most_runs = 24;
 constexpr double least_indentation = 1e-8;  // of the body: the depth that doubles still resolve to 12 digits
 constexpr double run_error = 3e-12;         // of a run of 12 digits, relative, per impact
-constexpr double safety = 3;
+constexpr double safety = 2;
+constexpr double no_limit = 1e-3;  // a relative error bar above it: the runs are not near any limit yet
 constexpr double settled_change = 1e-6;        // from one triple of runs to the next; what is left is far below it
 constexpr long evaluations_per_run = 200'000;  // contacts that are short take some thousand each
 
@@ -47,7 +48,8 @@ bool is_short(const Simulation& run, std::size_t i, double feature, double gravi
   const bool along_an_axis = row.end == numeric::ContactEnd::both || angle < 1e-12;  // flat or upright
   if (!along_an_axis && !(turning <= small * angle)) return false;
   if (!(time * n.approach_speed <= small * feature)) return false;
-  if (!(gravity * time <= small * n.approach_speed)) return false;
+  const double separation = std::isfinite(n.restitution) ? n.restitution * n.approach_speed : n.approach_speed;
+  if (!(gravity * time <= small * std::min(n.approach_speed, separation))) return false;
   if (i > 0) {
     const numeric::ImpactNumbers& before = run.impacts[i - 1].value;
     const double gap = n.start - before.start - before.duration;
@@ -124,10 +126,20 @@ double growth(const Simulation& run, std::size_t row) {
   return grown;
 }
 
+/// Error bar of the last of three extrapolations by the two changes between them.  They should fall by the factor
+/// `expected`; where they do not, the numbers approach their limit more slowly than the powers say (on a strongly damped
+/// ground the clamp acts on parts of the patch), and the factor seen counts.
+double error_bar(double before, double last, double expected) {
+  constexpr double slowest = 1.3;
+  const double larger = std::max(std::fabs(last), std::fabs(before) / expected);  // `last` may be small by chance
+  const double seen = larger > 0 ? std::fabs(before) / larger : expected;
+  return safety * larger / (std::clamp(seen, slowest, expected) - 1);
+}
+
 /// @param largest_change  is raised to the relative change from triple to triple.
 LimitRow extrapolate(const std::vector<Simulation>& ladder, std::size_t row, const numeric::Body& body, double exponent,
                      double& largest_change) {
-  Eigen::Vector4d x;
+  Eigen::Matrix<double, rungs, 1> x;
   Eigen::Matrix<double, static_cast<int>(quantity_count), rungs> y;
   for (int j = 0; j < rungs; ++j) {
     const Simulation& run = ladder[static_cast<std::size_t>(j)];
@@ -136,17 +148,21 @@ LimitRow extrapolate(const std::vector<Simulation>& ladder, std::size_t row, con
     for (std::size_t q = 0; q < quantity_count; ++q) y(static_cast<int>(q), j) = numbers[q];
   }
   const Powers powers = powers_of(ladder, row, exponent);
-  const Eigen::Vector3d coarse = limit_weights(x.head<3>(), powers), fine = limit_weights(x.tail<3>(), powers);
-  const double reduction = std::pow(x[2] / x[3], powers.third) - 1;
+  const Eigen::Vector3d weights[] = {limit_weights(x.segment<3>(0), powers), limit_weights(x.segment<3>(1), powers),
+                                     limit_weights(x.segment<3>(2), powers)};
+  const double expected = std::pow(x[3] / x[4], powers.third);
   const Quantities size = sizes(ladder.back(), row, body.radius(), body.mass());
-  const double rounding = fine.cwiseAbs().sum() * run_error * growth(ladder.back(), row);
+  const double rounding = weights[2].cwiseAbs().sum() * run_error * growth(ladder.back(), row);
   LimitRow limit{.end = ladder.back().impacts[row].end, .mode = ladder.back().impacts[row].mode};
   for (std::size_t q = 0; q < quantity_count; ++q) {
-    const auto values = y.row(static_cast<int>(q));
-    limit.value[q] = values.tail<3>().dot(fine);
-    const double change = limit.value[q] - values.head<3>().dot(coarse);
-    limit.error[q] = safety * std::fabs(change) / reduction + rounding * size[q];
-    largest_change = std::max(largest_change, std::fabs(change) / size[q]);
+    const Eigen::Matrix<double, 1, rungs> values = y.row(static_cast<int>(q));
+    double triples[3];
+    for (int t = 0; t < 3; ++t) triples[t] = values.segment<3>(t).dot(weights[t]);
+    const double last = triples[2] - triples[1];
+    limit.value[q] = triples[2];
+    limit.error[q] = error_bar(triples[1] - triples[0], last, expected) + rounding * size[q];
+    largest_change = std::max(largest_change, std::fabs(last) / size[q]);
+    limit.relative_error = std::max(limit.relative_error, limit.error[q] / size[q]);
   }
   return limit;
 }
@@ -160,7 +176,11 @@ bool take_limit(const std::vector<Simulation>& ladder, const numeric::Body& body
   const std::size_t rows = common_rows(ladder, feature, gravity);
   double change = 0;
   limit.rows.clear();
-  for (std::size_t i = 0; i < rows; ++i) limit.rows.push_back(extrapolate(ladder, i, body, exponent, change));
+  for (std::size_t i = 0; i < rows; ++i) {
+    const LimitRow row = extrapolate(ladder, i, body, exponent, change);
+    if (!(row.relative_error <= no_limit)) break;  // another sequence of contacts may follow from here
+    limit.rows.push_back(row);
+  }
   return rows == ladder.front().impacts.size() && change <= settled_change;
 }
 

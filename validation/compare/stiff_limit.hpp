@@ -12,7 +12,8 @@ namespace clatter::validation {
 /// One impact in the limit.
 struct LimitRow {
   Quantities value{};
-  Quantities error{};  ///< error bars: three times the estimated error of the extrapolation, plus that of the runs
+  Quantities error{};  ///< error bars: twice the estimated error of the extrapolation, plus that of the runs
+  double relative_error = 0;  ///< largest of them over the sizes that the numbers are made of
   numeric::ContactEnd end = numeric::ContactEnd::a;
   numeric::FrictionMode mode = numeric::FrictionMode::frictionless;
 };
@@ -30,8 +31,8 @@ struct StiffLimit {
 /// gravity and indentation during a contact are all of the order of T.  The stiffness rises sixteenfold from run to
 /// run until every contact is short against the flights beside it, the turning in it small against its angle, and the
 /// indentation against the body's smallest feature; then a + b T + c T² through three runs (T^(1+1/p) in place of T²
-/// where a contact sticks and lets go) gives the value at T = 0, and the change from one triple of runs to the next,
-/// divided as the next power of T wants it, its error.
+/// where a contact sticks and lets go) gives the value at T = 0, and the changes from one triple of runs to the next
+/// its error.  Impacts whose relative error bar stays above 1e-3 have no limit here, nor do those after them.
 [[nodiscard]] StiffLimit stiff_limit(const SimulationScene& scene, const numeric::Body& body, int impacts);
 
 }  // namespace clatter::validation

@@ -16,13 +16,19 @@
 namespace clatter::validation {
 namespace {
 
+std::filesystem::path temporary_folder() {
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+  return error ? std::filesystem::path("/tmp") : folder;
+}
+
 /// A file in the folder for temporary files that goes when the object does.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& text)
-      : path_((std::filesystem::temp_directory_path() / "clatter-XXXXXX").string()) {
+      : path_((temporary_folder() / "clatter-XXXXXX").string()) {
     const int file = mkstemp(path_.data());
-    if (file < 0) throw std::runtime_error("no temporary file can be made in " + path_);
+    if (file < 0) throw std::runtime_error("no temporary file can be made in " + temporary_folder().string() + " (TMPDIR)");
     std::FILE* stream = fdopen(file, "w");
     std::fwrite(text.data(), 1, text.size(), stream);
     std::fclose(stream);
@@ -39,6 +45,8 @@ class TemporaryFile {
 /// Colours that colour-blind readers can tell apart.
 constexpr std::array<const char*, 9> colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00",
                                              "#56b4e9", "#000000", "#8c564b", "#7f7f7f"};
+
+constexpr const char* point_colour = "#222222";  // of points that lie on a line of their own colour
 
 std::string range(const Range2& range) {
   const auto bound = [](double value) { return std::isfinite(value) ? shortest(value) : std::string("*"); };
@@ -68,7 +76,7 @@ std::string style(const FigureCurve& curve, const char* colour) {
     case FigureCurve::Style::thin_line:
       return fmt::format("with lines lw 1.2 dt 2 lc rgb '{}'", colour);
     case FigureCurve::Style::points:
-      return fmt::format("with points pt 6 ps 0.5 lc rgb '{}'", colour);
+      return fmt::format("with points pt 6 ps 0.6 lc rgb '{}'", colour);
     case FigureCurve::Style::bars:
       return fmt::format("with boxes fs solid 0.6 lc rgb '{}'", colour);
   }
@@ -82,9 +90,10 @@ std::string plot_command(const FigurePlot& plot) {
   for (std::size_t i = 0; i < plot.curves.size(); ++i) {
     const FigureCurve& curve = plot.curves[i];
     if (i > 0 && !curve.legend.empty()) ++colour;
+    const bool unnamed_points = curve.legend.empty() && curve.style == FigureCurve::Style::points;
     const std::string title = curve.legend.empty() ? "notitle" : fmt::format("title '{}'", curve.legend);
     command += fmt::format("{}$d{} using 1:2 {} {}", i > 0 ? ", \\\n  " : "", i,
-                           style(curve, colours[colour % colours.size()]), title);
+                           style(curve, unnamed_points ? point_colour : colours[colour % colours.size()]), title);
   }
   return command + "\n";
 }
@@ -99,6 +108,7 @@ std::string script(const Figure& figure, const FigurePlot& plot, std::size_t ind
       figure.number, index, plot.x_label, plot.y_label);
   if (!plot.title.empty()) text += fmt::format("set title '{}'\n", plot.title);
   text += fmt::format("set xrange {}\nset yrange {}\nset offsets 0, 0, graph 0.05, 0\n", range(plot.x), range(plot.y));
+  if (plot.logarithmic) text += "set logscale xy\nset format '10^{%T}'\nset offsets 0, 0, 0, 0\n";
   for (std::size_t i = 0; i < plot.curves.size(); ++i) text += data_block(figure, plot, plot.curves[i], i);
   return text + plot_command(plot);
 }
@@ -113,7 +123,7 @@ std::string run_gnuplot(const std::string& path) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127) {
     throw std::runtime_error("gnuplot is not there; install the package gnuplot-nox");
   }
-  if (status != 0) throw std::runtime_error("gnuplot failed: " + text.substr(0, text.find('\n')));
+  if (status != 0) throw std::runtime_error("gnuplot failed: " + (text.empty() ? "it said nothing" : text.substr(0, text.find('\n'))));
   return text;
 }
 
@@ -125,6 +135,11 @@ std::string element(const std::string& svg) {
 }
 
 }  // namespace
+
+void require_gnuplot() {
+  const TemporaryFile file("print 1\n");
+  static_cast<void>(run_gnuplot(file.path()));
+}
 
 std::vector<std::string> draw(const Figure& figure) {
   std::vector<std::string> pictures;

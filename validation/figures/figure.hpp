@@ -37,6 +37,7 @@ struct FigurePlot {
   std::vector<FigureCurve> curves;
   Range2 x = {};
   Range2 y = {};
+  bool logarithmic = false;  ///< both axes
 };
 
 struct Figure {

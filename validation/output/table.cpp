@@ -122,13 +122,15 @@ std::string markdown(const Table& table) {
 
 /// Characters that LaTeX reads as commands, and the symbols that the program prints.
 std::string latex_text(const std::string& text) {
-  static const std::array<std::pair<const char*, const char*>, 28> table{{
+  static const std::array<std::pair<const char*, const char*>, 38> table{{
       {"\\", "\\textbackslash{}"}, {"%", "\\%"}, {"#", "\\#"}, {"_", "\\_"}, {"&", "\\&"},
       {"°", "$^\\circ$"}, {"Ω", "$\\Omega$"}, {"β", "$\\beta$"}, {"γ", "$\\gamma$"},
       {"θ", "$\\theta$"}, {"μ", "$\\mu$"}, {"Σ", "$\\Sigma$"}, {"·", "$\\cdot$"},
       {"…", "\\dots{}"}, {"∞", "$\\infty$"}, {"±", "$\\pm$"}, {"−", "$-$"}, {"₁", "$_1$"},
       {"₂", "$_2$"}, {"₃", "$_3$"}, {"²", "$^2$"}, {"ₙ", "$_n$"}, {"ₜ", "$_t$"}, {"≤", "$\\le$"},
-      {"ₖ", "$_k$"}, {"ₛ", "$_s$"}, {"³", "$^3$"}, {"⁴", "$^4$"}}};
+      {"ₖ", "$_k$"}, {"ₛ", "$_s$"}, {"³", "$^3$"}, {"⁴", "$^4$"}, {"→", "$\\to$"}, {"≈", "$\\approx$"}, {"–", "--"},
+      {"π", "$\\pi$"}, {"ω", "$\\omega$"}, {"α", "$\\alpha$"}, {"√", "$\\surd$"}, {"×", "$\\times$"},
+      {"✓", "$\\surd$"}, {"✗", "$\\times$"}}};
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
     const auto match = std::find_if(table.begin(), table.end(), [&](const auto& pair) {

@@ -40,6 +40,10 @@ struct RunOptions {
 /// Results by the name of the case (validation/cases/NAME.toml).  Thread-safe: who comes second waits for the first.
 class Laboratory {
  public:
+  /// Asked now and then by long checks; false ends them with Interrupted.
+  std::function<bool()> goes_on = [] { return true; };
+  struct Interrupted {};
+
   const numeric::Simulation& run(const std::string& name, const RunOptions& options = {});
   const RecordedRun& history(const std::string& name, const RunOptions& options = {});
   const std::vector<SweptSimulation>& sweep(const std::string& name, const RunOptions& options = {});

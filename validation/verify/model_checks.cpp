@@ -55,9 +55,17 @@ Measured of_sweep(Laboratory& laboratory, const char* name) {
 
 constexpr std::uint64_t family = 1;
 constexpr int random_impacts = 2;
+constexpr int scenes_at_once = 10;  // between two looks for an interrupt
 
-Measured random_scenes(int count) {
-  const RandomScenesResult result = run_random_scenes(family, 0, count, random_impacts);
+Measured random_scenes(Laboratory& laboratory, int count) {
+  RandomScenesResult result;
+  for (int first = 0; first < count; first += scenes_at_once) {
+    if (!laboratory.goes_on()) throw Laboratory::Interrupted{};
+    const RandomScenesResult part = run_random_scenes(family, first, std::min(scenes_at_once, count - first), random_impacts);
+    result.with_limit += part.with_limit;
+    result.samples.insert(result.samples.end(), part.samples.begin(), part.samples.end());
+  }
+  summarise(result);
   double farthest = 0;
   for (const LimitSample& sample : result.samples) farthest = std::max(farthest, sample.gap / sample.bar);
   return {100 * result.covered, farthest,
@@ -82,8 +90,8 @@ void add_model_measures(Measures& measures) {
   measures["M11"] = [](Laboratory& laboratory) { return of_case(laboratory, "phone-damped"); };
   measures["M12"] = [](Laboratory& laboratory) { return of_sweep(laboratory, "phone-sweep"); };
   measures["M13"] = [](Laboratory& laboratory) { return of_case(laboratory, "every-key"); };
-  measures["R1"] = [](Laboratory&) { return random_scenes(20); };
-  measures["R2"] = [](Laboratory&) { return random_scenes(200); };
+  measures["R1"] = [](Laboratory& laboratory) { return random_scenes(laboratory, 20); };
+  measures["R2"] = [](Laboratory& laboratory) { return random_scenes(laboratory, 200); };
 }
 
 }  // namespace clatter::validation

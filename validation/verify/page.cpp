@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <set>
 
 #include "validation/cli/verify_report.hpp"
@@ -44,13 +45,13 @@ p { max-width: 46rem; } .pale { color: var(--pale); }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; font-size: .88rem; }
 th, td { text-align: left; padding: .35rem .6rem; border-bottom: 1px solid var(--line); vertical-align: top; }
-th { position: sticky; top: 0; background: #fff; } td.number { text-align: right; font-variant-numeric: tabular-nums; } td:nth-child(2) { min-width: 24rem; }
-.passed, .holds { color: var(--good); } .failed, .refuted { color: var(--bad); font-weight: 600; } .ambiguous { color: var(--open); font-weight: 600; }
+th { position: sticky; top: 0; background: #fff; } td.number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; } td.number .pale { white-space: normal; } td:nth-child(2) { min-width: min(24rem, 60vw); }
+.passed, .holds { color: var(--good); } .failed { color: var(--bad); font-weight: 600; } .refuted, .ambiguous { color: var(--open); font-weight: 600; }
 code { font: .82rem ui-monospace, monospace; background: #f3f5f8; padding: .1rem .35rem; border-radius: 3px; overflow-wrap: anywhere; }
 .plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 27rem), 1fr)); gap: .8rem; }
 .plots svg:only-child { max-width: 38rem; }
 .plots svg { width: 100%; height: auto; border: 1px solid var(--line); border-radius: 6px; }
-nav a { margin-right: 1rem; }
+nav a { margin-right: 1rem; white-space: nowrap; display: inline-block; }
 )css";
 
 /// Headings of the groups, by the first letter of the checks' names.
@@ -74,7 +75,8 @@ std::string row_of(const CheckResult& result) {
   const Measured& m = result.measured;
   const std::string answer = result.done ? answer_name(m.answer) : "";
   const char* verdict = !result.done ? "not run" : result.passed() ? "passed" : "failed";
-  const std::string number = significant(m.number, 6) + (check.unit.empty() ? "" : " " + check.unit);
+  const bool whole = m.number == std::round(m.number) && std::fabs(m.number) < 1e5;
+  const std::string number = (whole ? shortest(m.number) : significant(m.number, 6)) + (check.unit.empty() ? "" : " " + check.unit);
   return fmt::format(
       "<tr id=\"{}\"><td><b>{}</b></td><td>{}<br><span class=\"pale\">{}</span><br><code>{}</code></td><td "
       "class=\"{}\">{}</td>"
@@ -129,9 +131,10 @@ std::string verify_page(const std::vector<CheckResult>& results, const std::stri
       "initial-scale=1\"><title>clatter {}: verification</title><link rel=\"icon\" "
       "href=\"data:,\"><style>{}</style></head><body>\n"
       "<h1>clatter {}: verification</h1>\n<p class=\"{}\">{}</p>\n<p class=\"pale\">{}.  Reproduce: <code>clatter "
-      "verify --html FILE</code></p>\n<nav>",
+      "verify{} --html FILE</code></p>\n<p class=\"pale\">A tolerance is at most five times the error seen when it was set; "
+      "its reason, shown when you point at it, says what that error is made of.</p>\n<nav>",
       version, style, version, summary.failed == 0 ? "passed" : "failed", escaped(summary_words(summary)),
-      escaped(selection));
+      escaped(selection), selection.starts_with("quick") ? " --quick" : "");
   for (const Group& group : groups) {
     const std::string part = group_html(group, results);
     if (!part.empty()) html += fmt::format("<a href=\"#{}\">{}</a>", group.letter, group.title);
@@ -139,8 +142,8 @@ std::string verify_page(const std::vector<CheckResult>& results, const std::stri
   html += "<a href=\"#figures\">Pictures</a></nav>\n";
   for (const Group& group : groups) html += group_html(group, results);
   html +=
-      "<h2 id=\"figures\">The paper's figures, from this run</h2>\n<p>Lines: discrete model, unless the legend says "
-      "otherwise; points: continuous model.</p>\n";
+      "<h2 id=\"figures\">The paper's figures, from this run</h2>\n<p>Points: the continuous model.  Lines: the discrete "
+      "model where there are points too, otherwise the continuous one over time.</p>\n";
   for (const int number : wanted_figures(results)) html += figure_html(make_figure(number, laboratory));
   return html + "</body></html>\n";
 }

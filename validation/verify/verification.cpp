@@ -36,6 +36,8 @@ CheckResult run(const Check& check, Laboratory& laboratory) {
   try {
     result.measured = all_measures().at(check.id)(laboratory);
     result.failure = judge(check, result.measured);
+  } catch (const Laboratory::Interrupted&) {
+    result.done = false;
   } catch (const std::exception& error) {
     result.failure = error.what();
   }

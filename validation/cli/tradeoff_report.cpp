@@ -1,0 +1,148 @@
+#include "validation/cli/tradeoff_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "validation/cli/impact_records.hpp"
+#include "validation/cli/options.hpp"
+#include "validation/cli/version.hpp"
+#include "validation/output/number.hpp"
+
+namespace clatter::validation {
+namespace {
+
+const char* const what_it_is = "cost against true error";
+
+std::string setting_words(const TradePoint& point) {
+  if (point.digits > 0) return fmt::format("{} digits", point.digits);
+  if (point.step > 0) return fmt::format("{} s", significant(point.step, 2));
+  return "";
+}
+
+std::string name_of(const TradePoint& point) {
+  return point.method.empty() ? rung_name(point.rung) : fmt::format("{} {}", rung_name(point.rung), point.method);
+}
+
+/// The points of the front, the cheapest first.
+std::vector<const TradePoint*> front_of(const Tradeoff& tradeoff) {
+  std::vector<const TradePoint*> front;
+  for (const TradePoint& point : tradeoff.points) {
+    if (point.pareto) front.push_back(&point);
+  }
+  std::sort(front.begin(), front.end(),
+            [](const TradePoint* a, const TradePoint* b) { return a->seconds < b->seconds; });
+  return front;
+}
+
+Json point_json(const TradePoint& point) {
+  return {{"model", rung_name(point.rung)},
+          {"method", point.method.empty() ? Json(nullptr) : Json(point.method)},
+          {"digits", point.digits > 0 ? Json(point.digits) : Json(nullptr)},
+          {"step", point.step > 0 ? Json(point.step) : Json(nullptr)},
+          {"mesh", point.mesh.empty() ? Json(nullptr) : Json(point.mesh)},
+          {"seconds", point.failure.empty() ? number_or_null(point.seconds) : Json(nullptr)},
+          {"repeats", point.repeats},
+          {"force_evaluations", point.evaluations},
+          {"error", number_or_null(point.error)},
+          {"front", point.pareto},
+          {"failure", point.failure.empty() ? Json(nullptr) : Json(point.failure)}};
+}
+
+std::vector<std::string> head_of(const SimulationScene& scene) {
+  std::vector<std::string> head{headline("tradeoff", what_it_is)};
+  for (const std::string& line : scene.summary()) head.push_back(line);
+  return head;
+}
+
+std::string reference_words(const Tradeoff& tradeoff) {
+  return fmt::format("error: largest over {} impacts, relative to the sequence's sizes; true values: {}, known to {}",
+                     tradeoff.impacts, tradeoff.reference, significant(tradeoff.reference_error, 1));
+}
+
+}  // namespace
+
+Table tradeoff_table(const SimulationScene& scene, const Tradeoff& tradeoff) {
+  Table table{.head = head_of(scene), .columns = {}, .rows = {}, .notes = {}};
+  table.columns = {{.name = "model", .heading = "model", .unit = "", .words = true},
+                   {.name = "method", .heading = "method", .unit = "", .words = true},
+                   {.name = "setting", .heading = "setting", .unit = "", .words = true},
+                   {.name = "mesh", .heading = "mesh", .unit = "", .words = true},
+                   {"seconds", "cost", "ms"},
+                   {"force_evaluations", "evaluations", ""},
+                   {"error", "error", ""}};
+  for (const TradePoint* point : front_of(tradeoff)) {
+    table.rows.push_back({Cell(rung_name(point->rung)), Cell(point->method), Cell(setting_words(*point)),
+                          Cell(point->mesh), Cell(1e3 * point->seconds, 2),
+                          point->evaluations > 0 ? Cell(std::to_string(point->evaluations)) : Cell(),
+                          Cell(point->error, 2)});
+  }
+  table.notes.push_back(
+      fmt::format("The front: of {} points, those that none beats in both cost and error.", tradeoff.points.size()));
+  table.notes.push_back(reference_words(tradeoff));
+  for (const TradePoint& point : tradeoff.points) {
+    if (point.failure.empty()) continue;
+    const std::string setting = setting_words(point);
+    table.notes.push_back(
+        fmt::format("failed: {}{}{}: {}", name_of(point), setting.empty() ? "" : ", ", setting, point.failure));
+  }
+  return table;
+}
+
+Table tradeoff_records(const SimulationScene& scene, const Tradeoff& tradeoff) {
+  Table table{.head = {headline("tradeoff", what_it_is), "scene: " + scene.json().dump()},
+              .columns = {},
+              .rows = {},
+              .notes = {reference_words(tradeoff)}};
+  Json points = Json::array();
+  for (const TradePoint& point : tradeoff.points) points.push_back(point_json(point));
+  add_impact_records(table, points);
+  return table;
+}
+
+Json tradeoff_json(const SimulationScene& scene, const Tradeoff& tradeoff) {
+  Json json{{"clatter", version}, {"model", "tradeoff"}, {"scene", scene.json()}, {"points", Json::array()}};
+  for (const TradePoint& point : tradeoff.points) json["points"].push_back(point_json(point));
+  json["reference"] = tradeoff.reference;
+  json["reference_error"] = number_or_null(tradeoff.reference_error);
+  json["impacts"] = tradeoff.impacts;
+  json["message"] = reference_words(tradeoff);
+  return json;
+}
+
+Figure tradeoff_figure(const SimulationScene& scene, const Tradeoff& tradeoff) {
+  Figure figure{.number = 0,
+                .title = what_it_is,
+                .scene = scene.path,
+                .columns = {{"curve", "1", "number of the model and method"},
+                            {"cost", "ms", "least wall time"},
+                            {"error", "1", "true error"}},
+                .rows = {},
+                .plots = {}};
+  FigurePlot plot{.title = "",
+                  .x_label = "cost [ms]",
+                  .y_label = "true error",
+                  .curves = {},
+                  .x = {},
+                  .y = {},
+                  .logarithmic = true};
+  std::map<std::string, double> curves;
+  for (const TradePoint& point : tradeoff.points) {
+    if (!point.failure.empty() || !point.mesh.empty() || !(point.error > 0)) continue;
+    const auto [place, is_new] = curves.try_emplace(name_of(point), static_cast<double>(curves.size()));
+    figure.rows.push_back({place->second, 1e3 * point.seconds, point.error});
+    if (!is_new) continue;
+    const bool single = point.method.empty();
+    plot.curves.push_back(
+        {.x = "cost",
+         .y = "error",
+         .legend = name_of(point),
+         .style = single || point.rung == Rung::spatial ? FigureCurve::Style::points : FigureCurve::Style::line,
+         .where = {{"curve", place->second}}});
+  }
+  figure.plots = {plot};
+  return figure;
+}
+
+}  // namespace clatter::validation
