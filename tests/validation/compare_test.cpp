@@ -89,6 +89,28 @@ BOOST_AUTO_TEST_CASE(a_drop_that_begins_with_a_row_goes_on_like_the_sequence) {
   }
 }
 
+/// The same for a body that is not its own mirror image.
+BOOST_AUTO_TEST_CASE(a_lopsided_body_goes_on_like_its_sequence_too) {
+  const analytic::Drop drop{.body = {.mass = 1,
+                                     .gyration_square = 0.06,
+                                     .vertex_count = 3,
+                                     .vertices = {{{-0.35, -0.1}, {0.6, -0.12}, {0.05, 0.3}}}},
+                            .inclination = analytic::Angle::from_degrees(20),
+                            .velocity = {.normal = -1},
+                            .gravity = 9.81,
+                            .law = {}};
+  const analytic::Sequence whole = impact_sequence(drop, {.impacts = 4, .amplification = false});
+  BOOST_REQUIRE(whole.rows.size() == 4u);
+  for (std::size_t from = 1; from < 3; ++from) {
+    const analytic::Sequence rest =
+        impact_sequence(drop_at(drop, whole.rows[from]), {.impacts = 2, .amplification = false});
+    for (std::size_t i = 0; i < 2; ++i) {
+      BOOST_TEST(rest.rows[i].impact.normal_impulse == whole.rows[from + i].impact.normal_impulse,
+                 boost::test_tools::tolerance(1e-11));
+    }
+  }
+}
+
 /// All three effects are of the order of the contact time, T ∝ k^(−1/3) for an edge: so are the deviations, and no
 /// number deviates by more than was predicted.
 BOOST_AUTO_TEST_CASE(deviations_have_the_predicted_size_and_fall_with_the_contact_time) {
