@@ -14,6 +14,8 @@ PROGRAM = os.environ["CLATTER_PROGRAM"]
 ROOT = os.environ["CLATTER_ROOT"]
 CASES = os.path.join(ROOT, "validation", "cases")
 FIGURES = os.path.join(ROOT, "notebooks-data", "figures")
+# Under the sanitizers, which cost a factor of ten, other tests run the same code.
+UNLESS_SLOW = unittest.skipIf(os.environ.get("CLATTER_SLOW") == "1", "takes long in this build")
 NUMBERS = [7, 9, 10, 11, 12, 14, 15, 16, 17, 19, 20, 21, 22, 23, 24]
 
 
@@ -52,6 +54,7 @@ class Compare(unittest.TestCase):
             for line in clatter("compare", case(name)).stdout.splitlines():
                 self.assertLessEqual(len(line), 80, line)
 
+    @UNLESS_SLOW
     def test_every_scene_file_agrees(self):
         for file in sorted(os.listdir(CASES)):
             self.assertEqual(clatter("compare", os.path.join(CASES, file)).returncode, 0, file)
@@ -94,6 +97,7 @@ class Verify(unittest.TestCase):
         for line in lines:
             self.assertLessEqual(len(line), 80, line)
 
+    @UNLESS_SLOW
     def test_every_command_in_the_table_runs(self):
         checks = json.loads(clatter("verify", "--only", "X1", "--format", "json").stdout)["checks"]
         self.assertEqual([check["id"] for check in checks], ["X1"])
