@@ -48,8 +48,9 @@ class Scan {
     const std::size_t equal = argument.find('=');
     const std::string name = argument.substr(0, equal);
     const CLI::Option& option = find_option(command_, name);
-    if (!seen_.insert(name).second) throw BadInput(fmt::format("{}: given twice", name));
-    list_ = option.get_items_expected_max() > 1 ? name : "";
+    const bool may_repeat = option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
+    if (!seen_.insert(name).second && !may_repeat) throw BadInput(fmt::format("{}: given twice", name));
+    list_ = option.get_items_expected_max() > 1 && !may_repeat ? name : "";
     const bool takes_value = option.get_items_expected_max() > 0;
     if (!takes_value) {
       if (equal != std::string::npos) throw BadInput(fmt::format("{}: takes no value", name));

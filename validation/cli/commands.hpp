@@ -15,6 +15,7 @@ using Action = std::function<int()>;
 [[nodiscard]] Action add_explain_command(CLI::App& app);
 [[nodiscard]] Action add_simulate_command(CLI::App& app);
 [[nodiscard]] Action add_compare_command(CLI::App& app);
+[[nodiscard]] Action add_sweep_command(CLI::App& app);
 [[nodiscard]] Action add_verify_command(CLI::App& app);
 [[nodiscard]] Action add_figures_command(CLI::App& app);
 [[nodiscard]] Action add_tradeoff_command(CLI::App& app);

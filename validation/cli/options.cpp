@@ -75,11 +75,7 @@ void add_sweep_options(CLI::App& command, SweepTexts& t, const std::string& what
 
 double Sweep::value(long long i) const {
   if (i == count - 1 && step == 0) return to;
-  if (step > 0) {
-    double rounded = 0;
-    static_cast<void>(read_number(fmt::format("{:.15g}", from + static_cast<double>(i) * step), rounded));
-    return std::fmin(rounded, to);
-  }
+  if (step > 0) return std::fmin(clean_step(from, step, i), to);
   const double part = static_cast<double>(i) / static_cast<double>(count - 1);
   if (logarithmic) return from * std::pow(to / from, part);
   return from + (to - from) * part;

@@ -46,6 +46,7 @@ int parse_and_run(const std::vector<std::string>& given) {
   actions["explain"] = add_explain_command(app);
   actions["simulate"] = add_simulate_command(app);
   actions["compare"] = add_compare_command(app);
+  actions["sweep"] = add_sweep_command(app);
   actions["verify"] = add_verify_command(app);
   actions["figures"] = add_figures_command(app);
   actions["tradeoff"] = add_tradeoff_command(app);

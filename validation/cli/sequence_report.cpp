@@ -9,6 +9,7 @@
 #include "validation/cli/impact_records.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/version.hpp"
+#include "validation/output/impact_entries.hpp"
 #include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
 
@@ -38,32 +39,9 @@ std::vector<Quantity> quantities(const ImpactRow& row) {
           {"impulse_tangential", impact.tangential_impulse}};
 }
 
-double degrees(double radians, const Scene& scene, int n) {
-  return n == 1 ? std::copysign(scene.angle_deg, radians) : radians * degrees_per_radian;
-}
-
 Json impact_json(const Scene& scene, const ImpactRow& row, int n) {
-  const analytic::Impact& impact = row.impact;
-  Json json{{"n", n},
-            {"start", row.start},
-            {"duration", 0.0},
-            {"end", analytic::PlanarBody::vertex_set_name(row.vertices)},
-            {"inclination_deg", degrees(row.inclination, scene, n)},
-            {"contact_angle_deg", degrees(row.contact_angle, scene, n)},
-            {"approach_speed", number_or_null(impact.approach_speed)},
-            {"restitution", number_or_null(impact.restitution())},
-            {"impulse_normal", number_or_null(impact.normal_impulse)},
-            {"impulse_tangential", number_or_null(impact.tangential_impulse)},
-            {"impulse_ratio", number_or_null(impact.impulse_ratio())},
-            {"mode", mode_name(impact.mode)},
-            {"peak_force", nullptr},
-            {"peak_time", nullptr},
-            {"velocity_after", {number_or_null(impact.after.tangential), 0.0,
-                                number_or_null(impact.after.normal)}},
-            {"angular_velocity_after", {0.0, number_or_null(impact.after.angular), 0.0}},
-            {"energy_before", number_or_null(row.energy_before)},
-            {"energy_after", number_or_null(row.energy_after)},
-            {"energy_loss", number_or_null(impact.energy_loss)}};
+  Json json;
+  for_each_entry(row, n, scene.angle_deg, [&](const char* name, const auto& value) { json[name] = entry_json(value); });
   Json errors = Json::object();
   for (const auto& [name, value] : quantities(row)) {
     errors[name] = number_or_null(rounding_error(row, n, value));
@@ -134,16 +112,6 @@ std::vector<std::string> head_of(const Scene& scene) {
 
 }  // namespace
 
-const char* outcome_name(analytic::Outcome outcome) {
-  switch (outcome) {
-    case analytic::Outcome::no_further_impact: return "no-further-impact";
-    case analytic::Outcome::impact_limit: return "impact-limit";
-    case analytic::Outcome::at_rest: return "at-rest";
-    case analytic::Outcome::sustained_contact: return "sustained-contact";
-  }
-  return "";
-}
-
 double rounding_error(const ImpactRow& row, int n, double value) {
   const double growth = std::isnan(row.amplification) ? 1 : row.amplification;
   return std::numeric_limits<double>::epsilon() * (2 + 2 * growth + 2 * n) * std::fabs(value);
@@ -164,7 +132,7 @@ Table sequence_table(const Scene& scene, const Sequence& sequence) {
     const auto cell = [&](double value) { return known(scene, row, n, value); };
     table.rows.push_back({Cell(std::to_string(n)),
                           Cell(analytic::PlanarBody::vertex_set_name(row.vertices)), cell(row.start),
-                          cell(degrees(row.contact_angle, scene, n)), cell(row.impact.normal_impulse),
+                          cell(degrees_of(row.contact_angle, n, scene.angle_deg)), cell(row.impact.normal_impulse),
                           cell(row.impact.tangential_impulse), cell(row.impact.after.normal),
                           cell(row.impact.after.angular), cell(row.impact.energy_loss),
                           Cell(mode_name(row.impact.mode))});

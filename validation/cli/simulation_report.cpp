@@ -9,6 +9,7 @@
 #include "validation/cli/impact_records.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/version.hpp"
+#include "validation/output/impact_entries.hpp"
 #include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
 
@@ -23,48 +24,14 @@ using numeric::Vector3;
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-double ratio(const ImpactNumbers& n) { return n.impulse.x() / n.impulse.z(); }
-
 double ratio_error(const ImpactRecord& row) {
-  return (row.error.impulse.norm() * (1 + std::fabs(ratio(row.value)))) / std::fabs(row.value.impulse.z());
-}
-
-Json vector_json(const Vector3& v) {
-  return Json::array({number_or_null(v.x()), number_or_null(v.y()), number_or_null(v.z())});
-}
-
-/// The numbers under the names of the JSON; `part` is the values or their error estimates.
-Json numbers_json(const ImpactNumbers& part) {
-  return {{"start", number_or_null(part.start)},
-          {"duration", number_or_null(part.duration)},
-          {"inclination_deg", number_or_null(part.inclination * degrees)},
-          {"contact_angle_deg", number_or_null(part.contact_angle * degrees)},
-          {"approach_speed", number_or_null(part.approach_speed)},
-          {"restitution", number_or_null(part.restitution)},
-          {"impulse_normal", number_or_null(part.impulse.z())},
-          {"impulse_tangential", number_or_null(part.impulse.x())},
-          {"impulse", vector_json(part.impulse)},
-          {"peak_force", number_or_null(part.peak_force)},
-          {"peak_time", number_or_null(part.peak_time)},
-          {"velocity_after", vector_json(part.velocity_after)},
-          {"angular_velocity_after", vector_json(part.angular_velocity_after)},
-          {"energy_before", number_or_null(part.energy_before)},
-          {"energy_after", number_or_null(part.energy_after)},
-          {"energy_loss", number_or_null(part.energy_loss)},
-          {"work_damping", number_or_null(part.work_damping)},
-          {"work_friction", number_or_null(part.work_friction)},
-          {"work_released", number_or_null(part.work_released)}};
+  return (row.error.impulse.norm() * (1 + std::fabs(impulse_ratio(row.value)))) / std::fabs(row.value.impulse.z());
 }
 
 Json impact_json(const ImpactRecord& row, int n) {
-  Json json{{"n", n}, {"end", end_name(row.end)}, {"touches", row.touches}, {"mode", mode_name(row.mode)}};
-  json.update(numbers_json(row.value));
-  json["impulse_ratio"] = number_or_null(ratio(row.value));
-  json["energy_stored"] = row.energy_stored;
-  json["ledger_gap"] = number_or_null(row.ledger_gap);
-  json["amplification"] = number_or_null(row.amplification);
-  json["predictable"] = row.predictable;
-  Json errors = numbers_json(row.error);
+  Json json, errors;
+  for_each_entry(row, n, [&](const char* name, const auto& value) { json[name] = entry_json(value); });
+  for_each_number(row.error, [&](const char* name, const auto& value) { errors[name] = entry_json(value); });
   errors["impulse_ratio"] = number_or_null(ratio_error(row));
   json["error_estimate"] = errors;
   return json;
@@ -229,7 +196,7 @@ Table sweep_table(const SimulationScene& scene, const std::vector<SweptRun>& run
     const ImpactNumbers &v = first.value, &e = first.error;
     row.emplace_back(std::to_string(first.touches));
     row.push_back(known(scene, v.impulse.z(), e.impulse.z()));
-    row.push_back(known(scene, ratio(v), ratio_error(first)));
+    row.push_back(known(scene, impulse_ratio(v), ratio_error(first)));
     row.push_back(known(scene, v.velocity_after.x(), e.velocity_after.x()));
     row.push_back(known(scene, v.velocity_after.z(), e.velocity_after.z()));
     row.push_back(known(scene, v.angular_velocity_after.y(), e.angular_velocity_after.y()));

@@ -6,7 +6,10 @@
 #include <cmath>
 #include <vector>
 
+#include "analytic/body_motion.hpp"
 #include "analytic/errors.hpp"
+#include "validation/output/number.hpp"
+#include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -64,6 +67,33 @@ void require_symmetric(const numeric::Body& body, const std::vector<Vertex>& cor
   }
 }
 
+analytic::ImpactLaw impact_law(const DiscreteImpact& impact) {
+  using analytic::RestitutionLaw;
+  analytic::ImpactLaw law{.restitution = impact.restitution};
+  for (const RestitutionLaw one : {RestitutionLaw::newton, RestitutionLaw::poisson, RestitutionLaw::stronge}) {
+    if (impact.law == law_name(one)) law.law = one;
+  }
+  if (impact.impulse_ratio) {
+    law.friction = analytic::FrictionKind::impulse_ratio;
+    law.friction_value = *impact.impulse_ratio;
+  }
+  if (impact.friction) {
+    law.friction = analytic::FrictionKind::coulomb;
+    law.friction_value = *impact.friction;
+  }
+  return law;
+}
+
+/// Downward speed at the touch, of a centre of mass that fell from `height`.
+double fallen_speed(double height, double gravity, const analytic::PlanarBody& body, const analytic::Angle& inclination) {
+  const double touch = analytic::BodyMotion(body, inclination, {}, 0).centre_height();
+  if (!(height > touch)) {
+    throw BadInput(fmt::format("drop.height = {}: must be greater than {} m, the height of the centre of mass at the "
+                               "first touch", shortest(height), significant(touch, 6)));
+  }
+  return std::sqrt(2 * gravity * (height - touch));
+}
+
 }  // namespace
 
 analytic::PlanarBody planar_body(const numeric::Body& body) {
@@ -105,6 +135,31 @@ analytic::Drop discrete_drop(const SimulationScene& scene, const numeric::Body& 
           .velocity = {.normal = start.velocity.z(), .tangential = start.velocity.x(), .angular = scene.spin},
           .gravity = scene.options.gravity,
           .law = law};
+}
+
+analytic::PlanarBody nominal_body(const SimulationScene& scene) {
+  const BodyScene& body = scene.body;
+  switch (body.shape) {
+    case BodyScene::Shape::rod:
+      return analytic::make_rod({.mass = body.mass, .length = body.length, .radius = body.radius});
+    case BodyScene::Shape::box:
+      return analytic::make_box({.mass = body.mass, .length = body.size.x(), .width = body.size.y(),
+                                 .thickness = body.size.z()});
+    case BodyScene::Shape::mesh: break;
+  }
+  return planar_body(scene.make_body());
+}
+
+analytic::Drop impact_drop(const SimulationScene& scene, const analytic::PlanarBody& body) {
+  if (scene.tilt_deg != 0) outside("drop.tilt_deg turns the body out of it");
+  const analytic::Angle inclination = analytic::Angle::from_degrees(scene.angle_deg);
+  const double gravity = scene.options.gravity;
+  const double speed = scene.height ? fallen_speed(*scene.height, gravity, body, inclination) : scene.speed;
+  return {.body = body,
+          .inclination = inclination,
+          .velocity = {.normal = -speed, .tangential = scene.tangential_velocity, .angular = scene.spin},
+          .gravity = gravity,
+          .law = impact_law(scene.impact)};
 }
 
 }  // namespace clatter::validation

@@ -18,4 +18,13 @@ namespace clatter::validation {
 /// @throws analytic::OutsideModelError as planar_body, and for a tilted drop or regularised friction.
 [[nodiscard]] analytic::Drop discrete_drop(const SimulationScene& scene, const numeric::Body& body);
 
+/// The body of `scene` by its sizes alone, as `clatter sequence` has it: a rod is a cylinder (radius 0: a thin rod), a
+/// box its outline; a mesh as planar_body.  @throws as planar_body and numeric::Body.
+[[nodiscard]] analytic::PlanarBody nominal_body(const SimulationScene& scene);
+
+/// The drop of `scene` with restitution and friction as its impact.* keys give them.
+/// @throws analytic::OutsideModelError for a tilted drop; BadInput if drop.height is not above the centre of mass at the
+///         touch.
+[[nodiscard]] analytic::Drop impact_drop(const SimulationScene& scene, const analytic::PlanarBody& body);
+
 }  // namespace clatter::validation

@@ -22,6 +22,20 @@ const char* mode_name(analytic::ImpactMode mode) {
   return "";
 }
 
+const char* outcome_name(analytic::Outcome outcome) {
+  switch (outcome) {
+    case analytic::Outcome::no_further_impact:
+      return "no-further-impact";
+    case analytic::Outcome::impact_limit:
+      return "impact-limit";
+    case analytic::Outcome::at_rest:
+      return "at-rest";
+    case analytic::Outcome::sustained_contact:
+      return "sustained-contact";
+  }
+  return "";
+}
+
 const char* outcome_name(Outcome outcome) {
   switch (outcome) {
     case Outcome::no_further_impact:

@@ -1,5 +1,6 @@
 #include "validation/output/number.hpp"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,6 +31,20 @@ bool read_number(std::string_view text, double& value) {
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value, std::chars_format::general);
   return error == std::errc() && stop == end && std::isfinite(value);
+}
+
+double clean_step(double from, double step, long long i) {
+  const double value = from + static_cast<double>(i) * step;
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 15).ptr;
+  double rounded = 0;
+  return read_number({text, end}, rounded) ? rounded : value;
+}
+
+void append_number(std::string& out, double value) {
+  if (!std::isfinite(value)) return;
+  char text[32];
+  out.append(text, fmt::format_to(text, FMT_COMPILE("{}"), value + 0.0));
 }
 
 bool read_integer(std::string_view text, long long& value) {

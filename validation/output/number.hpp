@@ -20,6 +20,12 @@ namespace clatter::validation {
 /// @returns false if it is not one.
 [[nodiscard]] bool read_number(std::string_view text, double& value);
 
+/// from + i·step rounded to 15 digits, so that steps that are decimal fractions give clean decimals.
+[[nodiscard]] double clean_step(double from, double step, long long i);
+
+/// Appends shortest(value), or nothing if it is not finite.
+void append_number(std::string& out, double value);
+
 /// Reads a whole text as a decimal integer.
 [[nodiscard]] bool read_integer(std::string_view text, long long& value);
 

@@ -187,6 +187,8 @@ bool SceneValues::truth(const std::string& key, bool fallback) const {
   if (!has(key)) return fallback;
   const Entry& entry = at(key);
   if (const auto* truth = std::get_if<bool>(&entry.value)) return *truth;
+  const auto* const words = std::get_if<std::string>(&entry.value);
+  if (entry.is_flag && (*words == "true" || *words == "false")) return *words == "true";
   refuse(key, "true or false");
 }
 

@@ -29,6 +29,7 @@ constexpr Range any{-largest, largest, false, "finite"};
 constexpr Range positive{0, largest, true, "greater than 0"};
 constexpr Range not_negative{0, largest, false, "at least 0"};
 constexpr Range size_range{1e-100, 1e100, false, "from 1e-100 to 1e100"};
+constexpr Range thin_range{0, 1e100, false, "from 0 to 1e100"};
 constexpr Range mass_range{1e-100, 1e100, false, "from 1e-100 to 1e100"};
 constexpr Range speed_range{0, 1e9, true, "greater than 0 and at most 1e9"};
 constexpr Range velocity_range{-1e9, 1e9, false, "from -1e9 to 1e9"};
@@ -73,9 +74,9 @@ int count(const SceneValues& values, const std::string& key, int fallback, int l
   return static_cast<int>(values.integer(key, fallback, low, 100'000));
 }
 
-void read_rod(const SceneValues& values, BodyScene& body) {
+void read_rod(const SceneValues& values, BodyScene& body, Model model) {
   body.length = values.number("body.length", body.length, size_range);
-  body.radius = values.number("body.radius", body.radius, size_range);
+  body.radius = values.number("body.radius", body.radius, model == Model::discrete ? thin_range : size_range);
   body.sectors = count(values, "body.mesh.sectors", body.sectors, 3);
   body.rings = count(values, "body.mesh.rings", body.rings, 1);
   body.layers = count(values, "body.mesh.layers", body.layers, 1);
@@ -111,13 +112,15 @@ void read_mesh(const SceneValues& values, BodyScene& body) {
 }
 
 void refuse_both(const std::vector<SceneOverride>& overrides, const char* first, const char* second) {
-  const auto given = [&](const char* flag) {
-    return std::any_of(overrides.begin(), overrides.end(), [&](const SceneOverride& o) { return o.flag == flag; });
+  const auto of = [&](const char* key) {
+    return std::find_if(overrides.begin(), overrides.end(), [&](const SceneOverride& o) { return o.key == key; });
   };
-  if (given(first) && given(second)) throw BadInput(fmt::format("{} and {}: give one of them, not both", first, second));
+  const auto one = of(first), other = of(second);
+  if (one == overrides.end() || other == overrides.end()) return;
+  throw BadInput(fmt::format("{} and {}: give one of them, not both", one->flag, other->flag));
 }
 
-BodyScene read_body(const SceneValues& values) {
+BodyScene read_body(const SceneValues& values, Model model) {
   BodyScene body;
   body.shape = static_cast<BodyScene::Shape>(values.name("body.shape", 0, shape_names));
   body.mass = values.number("body.mass", body.mass, mass_range);
@@ -132,15 +135,15 @@ BodyScene read_body(const SceneValues& values) {
     only_for(values, {"body.mesh.file", "body.mesh.unit", "body.mesh.density", "body.inertia", "body.centre"}, "a mesh");
   }
   switch (body.shape) {
-    case BodyScene::Shape::rod: read_rod(values, body); break;
+    case BodyScene::Shape::rod: read_rod(values, body, model); break;
     case BodyScene::Shape::box: read_box(values, body); break;
     case BodyScene::Shape::mesh: read_mesh(values, body); break;
   }
   return body;
 }
 
-numeric::Ground read_ground(const SceneValues& values) {
-  values.require("ground.stiffness", "k_G in N/m3");
+numeric::Ground read_ground(const SceneValues& values, Model model) {
+  if (model == Model::continuous) values.require("ground.stiffness", "k_G in N/m3");
   numeric::Ground ground;
   ground.stiffness = values.number("ground.stiffness", 0, positive);
   ground.damping = values.number("ground.damping", 0, not_negative);
@@ -315,18 +318,15 @@ std::vector<double> SceneSweep::values() const {
   std::vector<double> values;
   const auto last = static_cast<long long>(std::floor((to - from) / step * (1 + 1e-12) + 1e-12));
   for (long long i = 0; i <= last; ++i) {
-    double rounded = 0;
-    // Steps that are decimal fractions give clean decimals.
-    static_cast<void>(read_number(fmt::format("{:.15g}", from + static_cast<double>(i) * step), rounded));
-    values.push_back(std::min(rounded, to));
+    values.push_back(std::min(clean_step(from, step, i), to));
   }
   return values;
 }
 
 namespace {
 
-SimulationScene read_values(SceneValues values, const std::vector<SceneOverride>& overrides) {
-  refuse_both(overrides, "--speed", "--height");
+SimulationScene read_values(SceneValues values, const std::vector<SceneOverride>& overrides, Model model) {
+  refuse_both(overrides, "drop.speed", "drop.height");
   for (const SceneOverride& flag : overrides) {
     if (flag.key == "drop.speed") values.drop("drop.height");
     if (flag.key == "drop.height") values.drop("drop.speed");
@@ -342,11 +342,11 @@ SimulationScene read_values(SceneValues values, const std::vector<SceneOverride>
   scene.options = read_options(values);
   read_drop(values, scene);
   scene.impact = read_impact(values);
-  scene.body = read_body(values);
+  scene.body = read_body(values, model);
   if (scene.sweep && scene.sweep->quantity == SceneSweep::Quantity::friction) {
     only_for(values, {"ground.static_friction", "ground.sliding_friction"}, "a scene that does not sweep it");
   }
-  scene.ground = read_ground(values);
+  scene.ground = read_ground(values, model);
   if (values.has("run.history")) scene.history = values.text("run.history");
   if (scene.sweep && !scene.history.empty()) values.refuse("run.history", "left out in a sweep");
   return scene;
@@ -355,12 +355,21 @@ SimulationScene read_values(SceneValues values, const std::vector<SceneOverride>
 }  // namespace
 
 SimulationScene read_simulation_scene(const std::string& path, const std::vector<SceneOverride>& overrides) {
-  return read_values(SceneValues(path, known_keys), overrides);
+  return read_values(SceneValues(path, known_keys), overrides, Model::continuous);
+}
+
+const std::vector<std::string>& scene_keys() { return known_keys; }
+
+SceneValues read_scene_values(const std::string& path) { return {path, known_keys}; }
+
+SimulationScene read_simulation_scene(const SceneValues& values, const std::vector<SceneOverride>& overrides,
+                                      Model model) {
+  return read_values(values, overrides, model);
 }
 
 SimulationScene case_scene(const std::string& name, const std::vector<SceneOverride>& overrides) {
   const std::string path = "validation/cases/" + name + ".toml";
-  return read_values(SceneValues(path, embedded_text(path), known_keys), overrides);
+  return read_values(SceneValues(path, embedded_text(path), known_keys), overrides, Model::continuous);
 }
 
 SimulationScene SimulationScene::at(double value) const {
@@ -410,7 +419,7 @@ Json SimulationScene::json() const {
             {"impact", {{"restitution", impact.restitution}, {"law", impact.law},
                         {"impulse_ratio", or_null(impact.impulse_ratio)}, {"friction", or_null(impact.friction)}}},
             {"body", body_json(body)},
-            {"ground", {{"stiffness", ground.stiffness}, {"damping", ground.damping},
+            {"ground", {{"stiffness", ground.stiffness > 0 ? Json(ground.stiffness) : Json(nullptr)}, {"damping", ground.damping},
                         {"static_friction", ground.static_friction}, {"sliding_friction", ground.sliding_friction},
                         {"area", area_names[static_cast<std::size_t>(ground.area)]},
                         {"friction_law", friction_law_names[static_cast<std::size_t>(ground.friction)]},

@@ -7,6 +7,7 @@
 
 #include "numeric/simulate.hpp"
 #include "validation/output/json.hpp"
+#include "validation/scene/scene_values.hpp"
 
 namespace clatter::validation {
 
@@ -45,6 +46,9 @@ struct SceneSweep {
   [[nodiscard]] std::vector<double> values() const;
 };
 
+/// The model that a scene is read for.  The discrete one needs no ground, and its rod may be thin (body.radius = 0).
+enum class Model { discrete, continuous };
+
 /// A checked scene.
 struct SimulationScene {
   std::string path;
@@ -55,7 +59,7 @@ struct SimulationScene {
   double spin = 0;                 ///< [rad/s]
   DiscreteImpact impact;
   BodyScene body;
-  numeric::Ground ground;
+  numeric::Ground ground;          ///< stiffness 0: none given, for the discrete model
   numeric::Options options;
   std::string history;             ///< file for the time history; empty: none
   std::optional<SceneSweep> sweep;
@@ -75,6 +79,13 @@ struct SimulationScene {
 /// @throws BadInput with one line "file:line:column: key ..." or "--flag ...".
 [[nodiscard]] SimulationScene read_simulation_scene(const std::string& path,
                                                     const std::vector<SceneOverride>& overrides);
+
+/// The keys that a scene file may have.
+[[nodiscard]] const std::vector<std::string>& scene_keys();
+/// The values of a scene file, to be read with one set of overrides after another.  @throws BadInput as SceneValues.
+[[nodiscard]] SceneValues read_scene_values(const std::string& path);
+[[nodiscard]] SimulationScene read_simulation_scene(const SceneValues& values,
+                                                    const std::vector<SceneOverride>& overrides, Model model);
 
 /// The scene of validation/cases/NAME.toml, from the program itself.  @throws std::out_of_range if there is none.
 [[nodiscard]] SimulationScene case_scene(const std::string& name, const std::vector<SceneOverride>& overrides = {});

@@ -1,0 +1,340 @@
+// Sweeps: values of the scenes, order of the rows, and what a run finds of an earlier one.
+#include <boost/test/unit_test.hpp>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "validation/scene/bad_input.hpp"
+#include "validation/scene/number_keys.hpp"
+#include "validation/sweep/counter_random.hpp"
+#include "validation/sweep/grid.hpp"
+#include "validation/sweep/sweep_file.hpp"
+#include "validation/sweep/sweep_run.hpp"
+
+namespace {
+
+using namespace clatter::validation;
+
+auto says(const std::string& part) {
+  return [part](const std::exception& error) { return std::string(error.what()).find(part) != std::string::npos; };
+}
+
+std::vector<double> values_of(const SweepPoints& points, long long point) {
+  std::vector<double> values;
+  points.at(point, values);
+  return values;
+}
+
+/// A folder that goes away with its files.
+class Folder {
+ public:
+  Folder() : path_(std::filesystem::temp_directory_path() / ("clatter_sweep_test." + std::to_string(getpid()))) {
+    std::filesystem::create_directories(path_);
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  [[nodiscard]] std::string at(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+void write_text(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+
+std::string text_of(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+const SweepFileForm one_row{.head = "# head\nindex,x\n", .scenes = 10, .one_row_per_scene = true};
+const SweepFileForm rows{.head = "# head\nindex,x\n", .scenes = 10, .one_row_per_scene = false};
+
+/// What a new run finds in a part with this text: the scenes that are done and what is left of the text.
+std::pair<long long, std::string> taken_up(const std::string& text, const SweepFileForm& form, bool restart = false) {
+  const Folder folder;
+  const std::string path = folder.at("out.csv");
+  write_text(path + ".part", text);
+  const SweepFile file(path, form, restart);
+  return {file.scenes(), text_of(path + ".part")};
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(philox_gives_the_known_answers_of_its_authors) {
+  using Words = std::array<std::uint32_t, 4>;
+  const auto gives = [](const Words& counter, std::array<std::uint32_t, 2> key, const Words& answer) {
+    return philox(counter, key) == answer;
+  };
+  BOOST_TEST(gives({0, 0, 0, 0}, {0, 0}, {0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
+  BOOST_TEST(gives({~0U, ~0U, ~0U, ~0U}, {~0U, ~0U}, {0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
+  BOOST_TEST(gives({0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}, {0xa4093822, 0x299f31d0},
+                   {0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
+}
+
+BOOST_AUTO_TEST_CASE(a_grid_has_clean_decimals_and_both_its_ends) {
+  const SweepAxis up = read_grid_axis("k", "0:1:0.1", false);
+  BOOST_TEST(up.count == 11);
+  for (int i = 0; i <= 10; ++i) BOOST_TEST(up.at(i) == std::stod(std::to_string(i / 10) + "." + std::to_string(i % 10)));
+  const SweepAxis down = read_grid_axis("k", "3:-2.5:-1", false);
+  BOOST_TEST(down.count == 6);
+  BOOST_TEST(down.at(5) == -2);
+  BOOST_TEST(down.last == -2);
+  BOOST_TEST(read_grid_axis("k", "5:5:1", false).count == 1);
+  // The first value is the one given, to its last digit.
+  BOOST_TEST(read_grid_axis("k", "0.12345678901234568:1:0.5", false).at(0) == 0.12345678901234568);
+}
+
+BOOST_AUTO_TEST_CASE(the_last_axis_of_a_grid_varies_fastest) {
+  const SweepPoints points({read_grid_axis("a", "1:3:1", false), read_grid_axis("b", "10:40:10", false)});
+  BOOST_TEST(points.count() == 12);
+  BOOST_TEST(values_of(points, 0) == (std::vector<double>{1, 10}));
+  BOOST_TEST(values_of(points, 1) == (std::vector<double>{1, 20}));
+  BOOST_TEST(values_of(points, 4) == (std::vector<double>{2, 10}));
+  BOOST_TEST(values_of(points, 11) == (std::vector<double>{3, 40}));
+  BOOST_TEST(SweepPoints(std::vector<SweepAxis>{}).count() == 1);
+}
+
+BOOST_AUTO_TEST_CASE(axes_that_make_no_sense_are_refused_by_name) {
+  const auto refused = [](const char* text, const char* why, bool whole = false) {
+    BOOST_CHECK_EXCEPTION(static_cast<void>(read_grid_axis("key", text, whole)), BadInput, says(why));
+    BOOST_CHECK_EXCEPTION(static_cast<void>(read_grid_axis("key", text, whole)), BadInput, says("--set key="));
+  };
+  refused("1:2", "FROM:TO:STEP");
+  refused("1:2:3:4", "FROM:TO:STEP");
+  refused("1:2:0", "STEP must not be 0");
+  refused("1:2:-1", "sign");
+  refused("2:1:1", "sign");
+  refused("nan:2:1", "FROM");
+  refused("1:inf:1", "TO");
+  refused("1::1", "TO");
+  refused("1:2:", "STEP");
+  refused("0:1:1e-10", "more than 1000000000 scenes");
+  refused("-1e308:1e308:1", "more than");
+  refused("1:2:0.5", "whole", true);
+  const auto refused_range = [](const char* text, const char* why, bool whole = false) {
+    BOOST_CHECK_EXCEPTION(static_cast<void>(read_random_axis("key", text, whole)), BadInput, says(why));
+  };
+  refused_range("1:2:3", "LOW:HIGH");
+  refused_range("2:1", "greater");
+  refused_range("0:1:log", "greater than 0");
+  refused_range("1:2:log", "whole", true);
+  refused_range("nan:1", "LOW");
+  const SweepAxis wide = read_grid_axis("key", "1:100000:1", false);
+  BOOST_CHECK_EXCEPTION(SweepPoints({wide, wide}), BadInput, says("more than 1000000000 scenes"));
+}
+
+BOOST_AUTO_TEST_CASE(random_values_depend_on_seed_and_scene_alone) {
+  const std::vector<SweepAxis> axes{read_random_axis("a", "-1:3", false), read_random_axis("b", "1e-3:1e3:log", false),
+                                    read_random_axis("c", "2:4", true)};
+  const SweepPoints many(axes, 1000, 7), few(axes, 10, 7), other(axes, 1000, 8);
+  std::set<double> first;
+  for (long long i = 999; i >= 0; --i) {  // backwards: no scene knows of another
+    const std::vector<double> values = values_of(many, i);
+    if (i < 10) BOOST_TEST(values == values_of(few, i));
+    BOOST_TEST(values != values_of(other, i));
+    BOOST_TEST((values[0] >= -1 && values[0] <= 3));
+    BOOST_TEST((values[1] >= 1e-3 && values[1] <= 1e3));
+    BOOST_TEST((values[2] == 2 || values[2] == 3 || values[2] == 4));
+    first.insert(values[0]);
+  }
+  BOOST_TEST(first.size() == 1000u);
+  // Another axis leaves the ones before it as they are.
+  const SweepPoints fewer_axes({axes[0]}, 1000, 7);
+  BOOST_TEST(values_of(fewer_axes, 5)[0] == values_of(many, 5)[0]);
+}
+
+/// Means of n uniform numbers have the deviation (high − low)/√(12 n); five of them are allowed.
+BOOST_AUTO_TEST_CASE(random_values_fill_their_ranges_evenly) {
+  constexpr int n = 100'000;
+  const double allowed = 5 / std::sqrt(12.0 * n);
+  const SweepPoints points({read_random_axis("a", "-1:3", false), read_random_axis("b", "1e-3:1e3:log", false)}, n, 1);
+  double mean = 0, mean_of_log = 0, product = 0;
+  std::vector<double> values;
+  for (long long i = 0; i < n; ++i) {
+    points.at(i, values);
+    mean += values[0] / n;
+    mean_of_log += std::log10(values[1]) / n;
+    product += (values[0] - 1) * std::log10(values[1]) / n;
+  }
+  BOOST_TEST(std::fabs(mean - 1) <= 4 * allowed);
+  BOOST_TEST(std::fabs(mean_of_log) <= 6 * allowed);
+  BOOST_TEST(std::fabs(product) <= 4 * 6 * allowed);  // the axes do not know of each other
+}
+
+/// What a number put into a scene does is what the reader does with the same number in the file.
+BOOST_AUTO_TEST_CASE(every_number_of_a_scene_can_be_put_where_the_reader_puts_it) {
+  const std::string drop = "[drop]\nangle_deg = 10\n[ground]\nstiffness = 1e8\nsliding_friction = 0\nstatic_friction = 0.1\n";
+  const std::vector<std::string> shapes{
+      "[body]\nshape = 'rod'\n", "[body]\nshape = 'box'\nsize = [1, 1, 1]\n",
+      "[body]\nshape = 'mesh'\nmesh = { file = 'a.msh' }\n"};
+  int put = 0;
+  for (const std::string& key : scene_keys()) {
+    const NumberKey* const number = find_number_key(key);
+    if (number == nullptr) continue;
+    const std::string text = number->whole ? "5" : "0.0625";
+    const std::vector<SceneOverride> overrides{{key, "--set", text}};
+    bool read = false;
+    for (const std::string& shape : shapes) {
+      const SceneValues values("scene.toml", drop + shape, scene_keys());
+      try {
+        const SimulationScene expected = read_simulation_scene(values, overrides, Model::continuous);
+        SimulationScene scene = read_simulation_scene(values, {{key, "--set", number->whole ? "4" : "0.03125"}}, Model::continuous);
+        BOOST_TEST(scene.json() != expected.json(), key);
+        number->put(scene, std::stod(text));
+        BOOST_TEST(scene.json() == expected.json(), key);
+        read = true;
+      } catch (const BadInput&) {  // a key of another shape
+      }
+    }
+    BOOST_TEST(read, key);
+    ++put;
+  }
+  // All keys but names, texts, truths, lists and the file's own sweep.
+  const std::set<std::string> others{"impact.law", "body.shape", "body.size", "body.merge", "body.inertia", "body.centre",
+                                     "body.mesh.file", "ground.area", "ground.friction_law", "run.method", "run.history",
+                                     "run.planar", "run.errors", "run.amplification"};
+  const auto is_other = [&](const std::string& key) { return others.contains(key) || key.starts_with("sweep."); };
+  BOOST_TEST(put == scene_keys().size() - std::count_if(scene_keys().begin(), scene_keys().end(), is_other));
+}
+
+BOOST_AUTO_TEST_CASE(only_the_discrete_model_takes_a_scene_without_ground_or_a_thin_rod) {
+  const SceneValues bare("scene.toml", "[drop]\nangle_deg = 10\n", scene_keys());
+  BOOST_CHECK_EXCEPTION(static_cast<void>(read_simulation_scene(bare, {}, Model::continuous)), BadInput,
+                        says("ground.stiffness: required"));
+  BOOST_TEST(read_simulation_scene(bare, {}, Model::discrete).json()["ground"]["stiffness"].is_null());
+  const std::vector<SceneOverride> thin{{"body.radius", "--set body.radius", "0"}};
+  BOOST_TEST(read_simulation_scene(bare, thin, Model::discrete).body.radius == 0);
+  const SceneValues grounded("scene.toml", "[drop]\nangle_deg = 10\n[ground]\nstiffness = 1\n", scene_keys());
+  BOOST_CHECK_EXCEPTION(static_cast<void>(read_simulation_scene(grounded, thin, Model::continuous)), BadInput,
+                        says("--set body.radius '0'"));
+}
+
+BOOST_AUTO_TEST_CASE(rows_that_come_in_any_order_are_taken_in_that_of_their_scenes) {
+  RangeQueue queue({3, 25}, 10);
+  const SceneRange a = *queue.hand_out(), b = *queue.hand_out(), c = *queue.hand_out();
+  BOOST_TEST(c.first == 23);
+  BOOST_TEST(c.count == 5);
+  BOOST_TEST(queue.all_handed_out());
+  BOOST_TEST(!queue.hand_out());
+  queue.add(c, {"c", 5});
+  queue.add(b, {"b", 10});
+  BOOST_TEST(!queue.take());
+  queue.add(a, {"a", 10});
+  for (const char* const text : {"a", "b", "c"}) BOOST_TEST(queue.take()->text == text);
+  BOOST_TEST(queue.is_complete());
+}
+
+BOOST_AUTO_TEST_CASE(nothing_is_taken_after_a_range_that_was_stopped) {
+  RangeQueue queue({0, 20}, 10);
+  const SceneRange a = *queue.hand_out(), b = *queue.hand_out();
+  queue.add(a, {"a", 4});
+  queue.add(b, {"b", 10});
+  BOOST_TEST(queue.take()->text == "a");
+  BOOST_TEST(!queue.take());
+  BOOST_TEST(queue.taken() == 4);
+  BOOST_TEST(!queue.is_complete());
+}
+
+BOOST_AUTO_TEST_CASE(nothing_is_handed_out_while_too_many_rows_wait_for_a_slow_scene) {
+  RangeQueue queue({0, 1000}, 1);
+  const SceneRange slow = *queue.hand_out();
+  int ahead = 0;
+  while (const auto range = queue.hand_out()) {
+    queue.add(*range, {std::string(1 << 20, 'x'), 1});
+    ++ahead;
+  }
+  BOOST_TEST((ahead >= 64 && ahead <= 66));
+  queue.add(slow, {"slow", 1});
+  while (queue.take()) continue;
+  BOOST_TEST(queue.hand_out().has_value());
+}
+
+BOOST_AUTO_TEST_CASE(any_number_of_threads_writes_the_same_and_what_they_throw_is_thrown_on) {
+  const auto written = [](int threads) {
+    RangeQueue queue({0, 1000}, 7);
+    std::string text;
+    const SweepHooks hooks{[&](const RangeRows& rows) { text += rows.text; }, [] {}, [] { return false; }};
+    run_on_threads(queue, threads, [](const auto&) {
+      return [](const SceneRange& range) {
+        RangeRows rows;
+        for (; rows.scenes < range.count; ++rows.scenes) rows.text += std::to_string(range.first + rows.scenes) + "\n";
+        return rows;
+      };
+    }, hooks);
+    return text;
+  };
+  std::string expected;
+  for (int i = 0; i < 1000; ++i) expected += std::to_string(i) + "\n";
+  for (const int threads : {1, 2, 3, 16}) BOOST_TEST(written(threads) == expected);
+
+  RangeQueue queue({0, 1000}, 7);
+  const SweepHooks hooks{[](const RangeRows&) {}, [] {}, [] { return false; }};
+  const MakeCompute fails = [](const auto&) {
+    return [](const SceneRange& range) -> RangeRows {
+      if (range.first >= 70) throw std::runtime_error("no");
+      return {"", range.count};
+    };
+  };
+  BOOST_CHECK_EXCEPTION(run_on_threads(queue, 3, fails, hooks), std::runtime_error, says("no"));
+}
+
+BOOST_AUTO_TEST_CASE(a_run_goes_on_after_the_last_complete_scene) {
+  const std::string& head = one_row.head;
+  using Found = std::pair<long long, std::string>;
+  const auto found = [](const Found& is, long long scenes, const std::string& text) {
+    BOOST_TEST(is.first == scenes);
+    BOOST_TEST(is.second == text);
+  };
+  found(taken_up("", one_row), 0, head);
+  found(taken_up("# he", one_row), 0, head);
+  found(taken_up(head, one_row), 0, head);
+  found(taken_up(head + "0,1\n1,1\n", one_row), 2, head + "0,1\n1,1\n");
+  found(taken_up(head + "0,1\n1,1\n2,", one_row), 2, head + "0,1\n1,1\n");
+  found(taken_up(head + "0,1\n1,1\n2", one_row), 2, head + "0,1\n1,1\n");
+  // Scene 1 may lack rows, whole as its last one is.
+  found(taken_up(head + "0,1\n0,2\n1,1\n1,2\n", rows), 1, head + "0,1\n0,2\n");
+  found(taken_up(head + "0,1\n0,2\n1,1\n2,", rows), 1, head + "0,1\n0,2\n");
+  found(taken_up(head + "0,1\n0,2", rows), 0, head);
+  found(taken_up(head + "0,1\n", one_row, true), 0, head);
+  found(taken_up("another thing\n", one_row, true), 0, head);
+}
+
+BOOST_AUTO_TEST_CASE(a_part_of_another_sweep_or_a_damaged_one_is_refused_and_kept) {
+  const std::string& head = one_row.head;
+  const auto refused = [](const std::string& text, const char* why) {
+    const Folder folder;
+    write_text(folder.at("x.part"), text);
+    BOOST_CHECK_EXCEPTION(SweepFile(folder.at("x"), one_row, false), BadInput, says(why));
+    BOOST_TEST(text_of(folder.at("x.part")) == text);
+  };
+  refused("# other\nindex,x\n0,1\n", "its line 1 differs");
+  refused("# head\nindex,y\n0,1\n", "its line 2 differs");
+  refused(head + "0,1\n2,1\n", "damaged after 1 rows");
+  refused(head + "0,1\n0,1\n", "damaged");
+  refused(head + "1,1\n", "damaged after 0 rows");
+  refused(head + "x\n", "damaged");
+  refused(head + "0\n", "damaged");
+  refused(head + "0,1\n1,1\n2,1\n3,1\n4,1\n5,1\n6,1\n7,1\n8,1\n9,1\n10,1\n", "damaged after 10 rows");
+}
+
+BOOST_AUTO_TEST_CASE(a_part_takes_its_name_at_the_end_and_belongs_to_one_run) {
+  const Folder folder;
+  const std::string path = folder.at("out.csv");
+  write_text(path, "old");
+  {
+    SweepFile file(path, one_row, false);
+    file.write("0,1\n");
+    file.flush();
+    BOOST_CHECK_EXCEPTION(SweepFile(path, one_row, false), BadInput, says("another run"));
+    BOOST_TEST(text_of(path) == "old");
+    file.commit();
+  }
+  BOOST_TEST(text_of(path) == one_row.head + "0,1\n");
+  BOOST_TEST(!std::filesystem::exists(path + ".part"));
+}

@@ -1,0 +1,199 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "validation/cli/commands.hpp"
+#include "validation/cli/options.hpp"
+#include "validation/cli/progress.hpp"
+#include "validation/output/interrupt.hpp"
+#include "validation/output/sink.hpp"
+#include "validation/scene/bad_input.hpp"
+#include "validation/sweep/ranks.hpp"
+#include "validation/sweep/scene_runner.hpp"
+#include "validation/sweep/sweep_file.hpp"
+#include "validation/sweep/sweep_plan.hpp"
+
+namespace clatter::validation {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct SweepInput {
+  SweepRequest request;
+  std::optional<std::string> output, threads;
+  bool restart = false;
+};
+
+/// Scenes handed out at a time: some milliseconds' work.
+long long range_size(const SweepPlan& plan) {
+  if (plan.model == Model::continuous) return 1;
+  return std::clamp(4096 / plan.scene.options.impacts, 1, 512);
+}
+
+std::string time_left(double seconds) {
+  if (seconds < 100) return fmt::format("{:.0f} s left", std::ceil(seconds));
+  if (seconds < 6000) return fmt::format("{:.0f} min left", std::ceil(seconds / 60));
+  return fmt::format("{:.0f} h left", std::ceil(seconds / 3600));
+}
+
+/// How far the sweep is, five times a second.
+class SweepProgress {
+ public:
+  SweepProgress(long long first, long long scenes) : first_(first), scenes_(scenes), done_(first) {}
+
+  void add(long long scenes) { done_ += scenes; }
+
+  void tick() {
+    const Clock::time_point now = Clock::now();
+    if (now - shown_ < std::chrono::milliseconds(200)) return;
+    shown_ = now;
+    std::string text = progress_bar(static_cast<std::size_t>(done_), static_cast<std::size_t>(scenes_));
+    if (done_ > first_) {
+      const double per_scene = std::chrono::duration<double>(now - begin_).count() / static_cast<double>(done_ - first_);
+      text += ", " + time_left(per_scene * static_cast<double>(scenes_ - done_));
+    }
+    progress_.show(text);
+  }
+
+ private:
+  long long first_, scenes_, done_;
+  Clock::time_point begin_ = Clock::now(), shown_ = begin_;
+  Progress progress_;
+};
+
+/// Where the rows go: a file that can be taken up again, or stdout.
+class SweepOutput {
+ public:
+  SweepOutput(const SweepInput& input, const SweepPlan& plan) : stdout_("") {
+    const std::string head = plan.head();
+    if (input.output) {
+      file_.emplace(*input.output, SweepFileForm{head, plan.points.count(), plan.rows == RowKind::scene}, input.restart);
+    } else {
+      stdout_.write(head);
+    }
+  }
+
+  [[nodiscard]] long long first() const { return file_ ? file_->scenes() : 0; }
+  void write(const std::string& rows) { file_ ? file_->write(rows) : stdout_.write(rows); }
+
+  void commit() { file_ ? file_->commit() : stdout_.commit(); }
+
+  /// @param words how far it came; a part says that by itself
+  void leave(const std::string& words) {
+    if (file_) return file_->flush();
+    stdout_.write(fmt::format("# {}\n", words));
+    stdout_.commit();
+  }
+
+ private:
+  Sink stdout_;
+  std::optional<SweepFile> file_;
+};
+
+int read_threads(const SweepInput& input, const Ranks& ranks) {
+  if (!input.threads) return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int threads = read_integer_option("--threads", *input.threads, 1, 1024);
+  if (!ranks.several()) return threads;
+  throw BadInput(fmt::format("--threads {}: must be left out under mpirun, where each process is one thread", threads));
+}
+
+void check_output(const SweepInput& input) {
+  const std::string& scene = input.request.file;
+  if (!input.output) {
+    if (input.restart) throw BadInput("--restart: needs --output, there is nothing to go on with");
+  } else if (*input.output == scene || *input.output + ".part" == scene) {
+    throw BadInput(fmt::format("--output {}: is the scene file", *input.output));
+  }
+}
+
+/// The part of the process that writes.
+int run_sweep(const SweepInput& input, const SweepPlan& plan, const SweepBody& body, int threads, Ranks& ranks) {
+  const CooperativeInterrupt interrupt;
+  SweepOutput output(input, plan);
+  const long long scenes = plan.points.count();
+  RangeQueue queue({output.first(), scenes - output.first()}, range_size(plan));
+  {
+    SweepProgress progress(output.first(), scenes);
+    const SweepHooks hooks{.write = [&](const RangeRows& rows) {
+                             output.write(rows.text);
+                             progress.add(rows.scenes);
+                           },
+                           .tick = [&] {
+                             output.write("");
+                             progress.tick();
+                           },
+                           .stop = [&] { return interrupt.requested(); }};
+    const MakeCompute make = [&](std::function<bool()> stop) -> ComputeRange {
+      const auto runner = std::make_shared<SceneRunner>(plan, body, std::move(stop));
+      return [runner](const SceneRange& range) { return (*runner)(range); };
+    };
+    if (ranks.several()) ranks.hand_out(queue, hooks);
+    else run_on_threads(queue, threads, make, hooks);
+  }
+  if (queue.is_complete()) {
+    output.commit();
+    return 0;
+  }
+  const std::string words = fmt::format("interrupted after {} of {} scenes", queue.taken(), scenes);
+  output.leave(words);
+  if (input.output) fmt::print(stderr, "clatter: {}; the same command goes on\n", words);
+  return interrupted_status;
+}
+
+int serve(const SweepPlan& plan, const SweepBody& body, Ranks& ranks) {
+  const CooperativeInterrupt interrupt;
+  SceneRunner runner(plan, body, [&] { return interrupt.requested(); });
+  ranks.serve([&](const SceneRange& range) { return runner(range); });
+  return interrupt.requested() ? interrupted_status : 0;
+}
+
+int run_command(const SweepInput& input, Ranks& ranks) {
+  const SweepPlan plan = read_sweep_plan(input.request);
+  const int threads = read_threads(input, ranks);
+  check_output(input);
+  // A body that cannot be made is bad input, but a row's where it is swept.
+  const SweepBody body = plan.body_axes.empty() ? make_sweep_body(plan, plan.scene) : SweepBody{};
+  return ranks.writes() ? run_sweep(input, plan, body, threads, ranks) : serve(plan, body, ranks);
+}
+
+/// Of several processes only the one that writes has something to say.
+int run_processes(const SweepInput& input) {
+  Ranks ranks;
+  try {
+    return run_command(input, ranks);
+  } catch (const std::exception&) {
+    if (ranks.writes()) throw;
+    return 2;
+  }
+}
+
+}  // namespace
+
+Action add_sweep_command(CLI::App& app) {
+  auto input = std::make_shared<SweepInput>();
+  CLI::App* command = app.add_subcommand("sweep", "many scenes: a grid or random values of keys, rows as CSV");
+  SweepRequest& request = input->request;
+  command->add_option("SCENE", request.file, "scene file (TOML)")->required()->type_name("FILE");
+  command->add_option("--set", request.sets, "values of a key of the scene file; may be repeated, the last varies fastest")
+      ->type_name("KEY=VALUE|FROM:TO:STEP")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_text(*command, "--random", request.random, "N", "N scenes with random values, --set KEY=LOW:HIGH or LOW:HIGH:log");
+  add_text(*command, "--seed", request.seed, "S", "of the random values (1)");
+  add_text(*command, "--model", request.model, "discrete|continuous", "(continuous if the scene has a ground)");
+  add_text(*command, "--rows", request.rows, "scene|impact", "one row per scene or per impact (scene)");
+  add_text(*command, "--output", input->output, "FILE", "write there; until it is complete the rows are in FILE.part");
+  command->add_flag("--restart", input->restart, "begin anew where FILE.part is there, instead of going on");
+  add_text(*command, "--threads", input->threads, "N", "computing threads (all cores)");
+  command->footer(
+      "Example: clatter sweep validation/cases/phone-damped.toml --set drop.angle_deg=5:85:5 "
+      "--set ground.damping=0:2e7:1e6 --set run.impacts=2 --output phone.csv\n"
+      "An interrupted sweep goes on when the same command is given again. The discrete model takes the impact.* keys.\n"
+      "A scene that is refused or fails is a row with its outcome: refused, outside-model or not-computed.");
+  return [input] { return run_processes(*input); };
+}
+
+}  // namespace clatter::validation

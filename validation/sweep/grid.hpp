@@ -1,0 +1,56 @@
+// The values of the swept keys: a grid, or numbers drawn from ranges.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace clatter::validation {
+
+/// Most scenes of a sweep.
+inline constexpr long long most_scenes = 1'000'000'000;
+
+/// The values that one key takes.
+struct SweepAxis {
+  std::string key;
+  double first = 0, last = 0;  ///< of the grid, both taken; or the ends of the range
+  double step = 0;             ///< of the grid; 0: a range
+  long long count = 1;         ///< of the grid's values
+  bool logarithmic = false;    ///< a range whose logarithm is uniform
+  bool whole = false;          ///< only whole numbers
+
+  /// Value i of the grid, i from 0; rounded to 15 digits, so that steps that are decimal fractions give clean decimals.
+  [[nodiscard]] double at(long long i) const;
+  /// The value at `part` of the range, part in [0, 1).
+  [[nodiscard]] double drawn(double part) const;
+};
+
+/// FROM:TO:STEP, the values from FROM by STEP as far as TO.  STEP has the sign of TO − FROM.
+/// @throws BadInput naming the key, what was given and what is allowed.
+[[nodiscard]] SweepAxis read_grid_axis(const std::string& key, const std::string& text, bool whole);
+/// LOW:HIGH or LOW:HIGH:log.  @throws BadInput likewise.
+[[nodiscard]] SweepAxis read_random_axis(const std::string& key, const std::string& text, bool whole);
+
+/// The points of a sweep, counted from 0.
+class SweepPoints {
+ public:
+  SweepPoints() = default;
+  /// The product of the axes, the last one varying fastest; one point without axes.
+  /// @throws BadInput if there are more than most_scenes.
+  explicit SweepPoints(std::vector<SweepAxis> grid);
+  /// Points drawn from the ranges: each depends on the seed and its own number alone.
+  SweepPoints(std::vector<SweepAxis> ranges, long long count, std::uint64_t seed);
+
+  [[nodiscard]] long long count() const { return count_; }
+  [[nodiscard]] const std::vector<SweepAxis>& axes() const { return axes_; }
+  /// Puts the values of a point into `values`, one for each axis.
+  void at(long long point, std::vector<double>& values) const;
+
+ private:
+  std::vector<SweepAxis> axes_;
+  long long count_ = 1;
+  bool random_ = false;
+  std::uint64_t seed_ = 0;
+};
+
+}  // namespace clatter::validation

@@ -1,0 +1,112 @@
+#include <mpi.h>
+
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "validation/sweep/ranks.hpp"
+
+namespace clatter::validation {
+namespace {
+
+/// To process 0: ready for a range; the rows of one; this process ends.  From it: a range, with no scenes the last one.
+enum Tag : int { ready, rows, gone, range };
+
+using RangeMessage = std::array<long long, 2>;
+
+/// Asked for often enough, and seldom enough to leave the processor to the others.
+constexpr std::chrono::microseconds between_looks{100};
+
+void send_range(int to, const SceneRange& one) {
+  const RangeMessage message{one.first, one.count};
+  MPI_Send(message.data(), 2, MPI_LONG_LONG, to, range, MPI_COMM_WORLD);
+}
+
+void send_rows(const SceneRange& one, const RangeRows& result) {
+  const std::array<long long, 3> numbers{one.first, one.count, result.scenes};
+  std::vector<char> message(sizeof numbers + result.text.size());
+  std::memcpy(message.data(), numbers.data(), sizeof numbers);
+  std::memcpy(message.data() + sizeof numbers, result.text.data(), result.text.size());
+  MPI_Send(message.data(), static_cast<int>(message.size()), MPI_CHAR, 0, rows, MPI_COMM_WORLD);
+}
+
+void add_rows(const std::vector<char>& message, RangeQueue& queue) {
+  std::array<long long, 3> numbers{};
+  std::memcpy(numbers.data(), message.data(), sizeof numbers);
+  queue.add({numbers[0], numbers[1]}, {std::string(message.begin() + sizeof numbers, message.end()), numbers[2]});
+}
+
+/// Receives a message from anybody, if there is one.
+bool receive(MPI_Status& status, std::vector<char>& message) {
+  int there = 0, size = 0;
+  MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &status);
+  if (there == 0) return false;
+  MPI_Get_count(&status, MPI_CHAR, &size);
+  message.resize(static_cast<std::size_t>(size));
+  MPI_Recv(message.data(), size, MPI_CHAR, status.MPI_SOURCE, status.MPI_TAG, MPI_COMM_WORLD, &status);
+  return true;
+}
+
+}  // namespace
+
+Ranks::Ranks() {
+  MPI_Init(nullptr, nullptr);
+  MPI_Comm_size(MPI_COMM_WORLD, &count_);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+  if (writes()) working_ = count_ - 1;
+}
+
+Ranks::~Ranks() {
+  MPI_Status status;
+  std::vector<char> message;
+  for (const int process : idle_) send_range(process, {});
+  while (working_ > 0) {  // an exception ended process 0
+    if (!receive(status, message)) std::this_thread::sleep_for(between_looks);
+    else if (status.MPI_TAG != gone) send_range(status.MPI_SOURCE, {});
+    else --working_;
+  }
+  if (!writes()) MPI_Send(nullptr, 0, MPI_CHAR, 0, gone, MPI_COMM_WORLD);
+  MPI_Finalize();
+}
+
+void Ranks::hand_out(RangeQueue& queue, const SweepHooks& hooks) {
+  MPI_Status status;
+  std::vector<char> message;
+  while (working_ > 0) {
+    if (!receive(status, message)) {
+      std::this_thread::sleep_for(between_looks);
+    } else {
+      if (status.MPI_TAG == rows) add_rows(message, queue);
+      if (status.MPI_TAG == gone) --working_;
+      else idle_.push_back(status.MPI_SOURCE);
+    }
+    while (const auto next = queue.take()) hooks.write(*next);
+    hooks.tick();
+    std::erase_if(idle_, [&](int process) {
+      const bool stop = hooks.stop();
+      const auto next = stop ? std::nullopt : queue.hand_out();
+      const bool over = stop || queue.all_handed_out();
+      if (next || over) send_range(process, next.value_or(SceneRange{}));
+      return next || over;
+    });
+  }
+  if (!hooks.stop() && !queue.is_complete()) {
+    throw std::runtime_error("the other processes of the sweep ended before its scenes were done");
+  }
+}
+
+void Ranks::serve(const ComputeRange& compute) {
+  MPI_Send(nullptr, 0, MPI_CHAR, 0, ready, MPI_COMM_WORLD);
+  for (;;) {
+    RangeMessage message{};
+    MPI_Recv(message.data(), 2, MPI_LONG_LONG, 0, range, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    const SceneRange one{message[0], message[1]};
+    if (one.count == 0) return;
+    send_rows(one, compute(one));
+  }
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,51 @@
+// Scenes of a sweep computed one after the other.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "analytic/planar_body.hpp"
+#include "numeric/body.hpp"
+#include "validation/sweep/sweep_plan.hpp"
+#include "validation/sweep/sweep_run.hpp"
+
+namespace clatter::validation {
+
+/// The body as the sweep's model wants it.
+struct SweepBody {
+  analytic::PlanarBody planar;
+  std::shared_ptr<const numeric::Body> solid;
+};
+/// The body of one scene of the plan, swept sizes and all.  @throws as SimulationScene::make_body and nominal_body.
+[[nodiscard]] SweepBody make_sweep_body(const SweepPlan& plan, const SimulationScene& scene);
+
+/// One thread's part in a sweep.  A scene that the model refuses or cannot compute is a row whose outcome is "refused"
+/// (speed and spin do not bring the contact down, a size is out of range, ...), "outside-model" (jamming, a body that is
+/// not planar, ...) or "not-computed".
+class SceneRunner {
+ public:
+  /// @param body of all scenes, where no key of the body is swept
+  /// @param stop ends the run when it returns true; asked before each scene and during long ones
+  SceneRunner(const SweepPlan& plan, const SweepBody& body, std::function<bool()> stop);
+  SceneRunner(const SceneRunner&) = delete;
+  SceneRunner& operator=(const SceneRunner&) = delete;
+
+  [[nodiscard]] RangeRows operator()(const SceneRange& range);
+
+ private:
+  /// False if it was stopped; then nothing is appended.
+  bool append_scene(long long index, std::string& out);
+  bool append_result(const std::string& prefix, std::string& out);
+  void renew_body();
+
+  const SweepPlan& plan_;
+  std::function<bool()> stop_;
+  SimulationScene scene_;
+  SweepBody body_;
+  std::vector<double> values_;
+  std::vector<double> body_values_;  ///< of the body axes that body_ was made with
+};
+
+}  // namespace clatter::validation

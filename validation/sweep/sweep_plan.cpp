@@ -1,0 +1,166 @@
+#include "validation/sweep/sweep_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "validation/cli/version.hpp"
+#include "validation/output/number.hpp"
+#include "validation/scene/bad_input.hpp"
+#include "validation/sweep/rows.hpp"
+
+namespace clatter::validation {
+namespace {
+
+const char* const static_friction = "ground.static_friction";
+const char* const sliding_friction = "ground.sliding_friction";
+
+const std::vector<std::string> model_names{"discrete", "continuous"};
+const std::vector<std::string> row_names{"scene", "impact"};
+
+/// One --set KEY=TEXT.
+struct Setting {
+  std::string key, text;
+  const NumberKey* number = nullptr;
+  std::optional<SweepAxis> axis;  ///< none: one value
+};
+
+std::vector<std::string> settable_keys() {
+  std::vector<std::string> keys;
+  for (const std::string& key : scene_keys()) {
+    if (!key.starts_with("sweep.") && key != "run.history") keys.push_back(key);
+  }
+  return keys;
+}
+
+Setting read_setting(const std::string& given, bool random) {
+  const std::size_t equal = given.find('=');
+  if (equal == std::string::npos) throw BadInput(fmt::format("--set '{}': must be KEY=VALUE or KEY=FROM:TO:STEP", given));
+  Setting setting{.key = given.substr(0, equal), .text = given.substr(equal + 1), .axis = {}};
+  const std::vector<std::string> keys = settable_keys();
+  if (std::find(keys.begin(), keys.end(), setting.key) == keys.end()) {
+    throw BadInput(fmt::format("--set {}: unknown key; did you mean {}?", setting.key, nearest_name(setting.key, keys)));
+  }
+  setting.number = find_number_key(setting.key);
+  if (setting.number == nullptr || setting.text.find(':') == std::string::npos) return setting;
+  setting.axis = random ? read_random_axis(setting.key, setting.text, setting.number->whole)
+                        : read_grid_axis(setting.key, setting.text, setting.number->whole);
+  return setting;
+}
+
+bool sets(const std::vector<Setting>& settings, const std::string& key) {
+  return std::any_of(settings.begin(), settings.end(), [&](const Setting& setting) { return setting.key == key; });
+}
+
+std::vector<Setting> read_settings(const std::vector<std::string>& given, bool random) {
+  std::vector<Setting> settings;
+  for (const std::string& text : given) {
+    Setting setting = read_setting(text, random);
+    if (sets(settings, setting.key)) throw BadInput(fmt::format("--set {}: given twice", setting.key));
+    settings.push_back(std::move(setting));
+  }
+  return settings;
+}
+
+std::string end_text(const SweepAxis& axis, double value) {
+  return axis.whole ? fmt::format("{:.0f}", value) : shortest(value);
+}
+
+/// The settings at one end of their axes, as flags that override the file.
+std::vector<SceneOverride> overrides_at(const std::vector<Setting>& settings, double SweepAxis::*end) {
+  std::vector<SceneOverride> overrides;
+  for (const Setting& setting : settings) {
+    const std::string text = setting.axis ? end_text(*setting.axis, *setting.axis.*end) : setting.text;
+    overrides.push_back({setting.key, "--set " + setting.key, text});
+  }
+  return overrides;
+}
+
+/// What a setting replaces in the file beyond its own key.
+void make_room(SceneValues& values, const std::vector<Setting>& settings) {
+  if (!sets(settings, sliding_friction)) return;
+  if (!sets(settings, static_friction)) values.drop(static_friction);
+  for (const char* key : {".from", ".to", ".step"}) values.drop(std::string("sweep.sliding_friction") + key);
+}
+
+void put_both_frictions(SimulationScene& scene, double value) {
+  scene.ground.static_friction = scene.ground.sliding_friction = value;
+}
+
+bool is_both_frictions(const Setting& setting, const SceneValues& values, const std::vector<Setting>& settings) {
+  if (setting.key == sliding_friction) return !sets(settings, static_friction);
+  return setting.key == static_friction && !sets(settings, sliding_friction) && !values.has(sliding_friction);
+}
+
+Model read_model(const SweepRequest& request, const SceneValues& values, const std::vector<Setting>& settings) {
+  if (request.model) return static_cast<Model>(read_name_option("--model", *request.model, model_names));
+  const bool ground = values.has_table("ground") || std::any_of(settings.begin(), settings.end(), [](const Setting& one) {
+                        return one.key.starts_with("ground.");
+                      });
+  return ground ? Model::continuous : Model::discrete;
+}
+
+void read_scene(const SweepRequest& request, const std::vector<Setting>& settings, SceneValues& values, SweepPlan& plan) {
+  make_room(values, settings);
+  plan.model = read_model(request, values, settings);
+  plan.scene = read_simulation_scene(values, overrides_at(settings, &SweepAxis::first), plan.model);
+  static_cast<void>(read_simulation_scene(values, overrides_at(settings, &SweepAxis::last), plan.model));
+  if (plan.scene.sweep) {
+    throw BadInput(fmt::format("{}: sweep: must be left out here; give --set drop.angle_deg=FROM:TO:STEP", request.file));
+  }
+  if (!plan.scene.history.empty()) values.refuse("run.history", "left out in a sweep");
+  // No row holds error estimates, and a scene's row no amplification.
+  plan.scene.options.error_estimates = false;
+  if (plan.rows == RowKind::scene) plan.scene.options.amplification = false;
+}
+
+void read_points(const SweepRequest& request, const std::vector<Setting>& settings, SweepPlan& plan) {
+  std::vector<SweepAxis> axes;
+  for (const Setting& setting : settings) {
+    if (setting.axis) axes.push_back(*setting.axis);
+  }
+  if (!request.random) {
+    if (request.seed) throw BadInput(fmt::format("--seed {}: is for --random N", *request.seed));
+    plan.points = SweepPoints(std::move(axes));
+    plan.words.push_back(fmt::format("scenes: {}", plan.points.count()));
+    return;
+  }
+  if (axes.empty()) throw BadInput(fmt::format("--random {}: needs a --set KEY=LOW:HIGH", *request.random));
+  const int count = read_integer_option("--random", *request.random, 1, most_scenes);
+  const int seed = request.seed ? read_integer_option("--seed", *request.seed, 0, std::numeric_limits<int>::max()) : 1;
+  plan.points = SweepPoints(std::move(axes), count, static_cast<std::uint64_t>(seed));
+  plan.words.push_back(fmt::format("scenes: {} random ones, seed {}", count, seed));
+}
+
+void choose_setters(const SceneValues& values, const std::vector<Setting>& settings, SweepPlan& plan) {
+  for (const Setting& setting : settings) {
+    if (!setting.axis) continue;
+    if (setting.number->is_of_body()) plan.body_axes.push_back(plan.put.size());
+    plan.put.push_back(is_both_frictions(setting, values, settings) ? put_both_frictions : setting.number->put);
+  }
+}
+
+}  // namespace
+
+SweepPlan read_sweep_plan(const SweepRequest& request) {
+  SweepPlan plan;
+  SceneValues values = read_scene_values(request.file);
+  const std::vector<Setting> settings = read_settings(request.sets, request.random.has_value());
+  if (request.rows) plan.rows = static_cast<RowKind>(read_name_option("--rows", *request.rows, row_names));
+  read_scene(request, settings, values, plan);
+  for (const Setting& setting : settings) plan.words.push_back(fmt::format("set: {} = {}", setting.key, setting.text));
+  read_points(request, settings, plan);
+  choose_setters(values, settings, plan);
+  return plan;
+}
+
+std::string SweepPlan::head() const {
+  std::string head = fmt::format("# clatter {}, sweep: {} model, one row per {}\n# scene: {}\n", version,
+                                 model_names[static_cast<std::size_t>(model)], row_names[static_cast<std::size_t>(rows)],
+                                 scene.json().dump());
+  for (const std::string& line : words) head += "# " + line + "\n";
+  return head + column_names(*this) + "\n";
+}
+
+}  // namespace clatter::validation

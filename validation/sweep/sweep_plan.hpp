@@ -1,0 +1,44 @@
+// What a sweep computes: scenes that differ in the values of a few keys.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/scene/number_keys.hpp"
+#include "validation/scene/simulation_scene.hpp"
+#include "validation/sweep/grid.hpp"
+
+namespace clatter::validation {
+
+/// What was typed, empty where not given.
+struct SweepRequest {
+  std::string file;
+  std::vector<std::string> sets;
+  std::optional<std::string> random, seed, model, rows;
+};
+
+enum class RowKind { scene, impact };
+
+struct SweepPlan {
+  SimulationScene scene;  ///< the swept keys have their first values
+  Model model = Model::discrete;
+  RowKind rows = RowKind::scene;
+  SweepPoints points;
+  /// What puts the value of each axis into a scene.
+  std::vector<void (*)(SimulationScene&, double)> put;
+  /// Axes that make the body another one.
+  std::vector<std::size_t> body_axes;
+  /// How it was asked for: the values set, and how many scenes there are.
+  std::vector<std::string> words;
+
+  /// The first lines of the output, each with its end; the last one names the columns.  Equal for equal sweeps.
+  [[nodiscard]] std::string head() const;
+};
+
+/// A scene with a ground is for the continuous model unless the other one is named.  As in scene files, one coefficient
+/// of the ground's friction is both: a sliding one that is set replaces the file's static one too, unless both are set.
+/// @throws BadInput with one line; both ends of every axis are checked like keys of the scene file.
+[[nodiscard]] SweepPlan read_sweep_plan(const SweepRequest& request);
+
+}  // namespace clatter::validation
