@@ -80,7 +80,8 @@ BOOST_AUTO_TEST_CASE(philox_gives_the_known_answers_of_its_authors) {
 BOOST_AUTO_TEST_CASE(a_grid_has_clean_decimals_and_both_its_ends) {
   const SweepAxis up = read_grid_axis("k", "0:1:0.1", false);
   BOOST_TEST(up.count == 11);
-  for (int i = 0; i <= 10; ++i) BOOST_TEST(up.at(i) == std::stod(std::to_string(i / 10) + "." + std::to_string(i % 10)));
+  for (int i = 0; i <= 10; ++i)
+    BOOST_TEST(up.at(i) == std::stod(std::to_string(i / 10) + "." + std::to_string(i % 10)));
   const SweepAxis down = read_grid_axis("k", "3:-2.5:-1", false);
   BOOST_TEST(down.count == 6);
   BOOST_TEST(down.at(5) == -2);
@@ -169,10 +170,10 @@ BOOST_AUTO_TEST_CASE(random_values_fill_their_ranges_evenly) {
 
 /// What a number put into a scene does is what the reader does with the same number in the file.
 BOOST_AUTO_TEST_CASE(every_number_of_a_scene_can_be_put_where_the_reader_puts_it) {
-  const std::string drop = "[drop]\nangle_deg = 10\n[ground]\nstiffness = 1e8\nsliding_friction = 0\nstatic_friction = 0.1\n";
-  const std::vector<std::string> shapes{
-      "[body]\nshape = 'rod'\n", "[body]\nshape = 'box'\nsize = [1, 1, 1]\n",
-      "[body]\nshape = 'mesh'\nmesh = { file = 'a.msh' }\n"};
+  const std::string drop =
+      "[drop]\nangle_deg = 10\n[ground]\nstiffness = 1e8\nsliding_friction = 0\nstatic_friction = 0.1\n";
+  const std::vector<std::string> shapes{"[body]\nshape = 'rod'\n", "[body]\nshape = 'box'\nsize = [1, 1, 1]\n",
+                                        "[body]\nshape = 'mesh'\nmesh = { file = 'a.msh' }\n"};
   int put = 0;
   for (const std::string& key : scene_keys()) {
     const NumberKey* const number = find_number_key(key);
@@ -184,7 +185,8 @@ BOOST_AUTO_TEST_CASE(every_number_of_a_scene_can_be_put_where_the_reader_puts_it
       const SceneValues values("scene.toml", drop + shape, scene_keys());
       try {
         const SimulationScene expected = read_simulation_scene(values, overrides, Model::continuous);
-        SimulationScene scene = read_simulation_scene(values, {{key, "--set", number->whole ? "4" : "0.03125"}}, Model::continuous);
+        SimulationScene scene =
+            read_simulation_scene(values, {{key, "--set", number->whole ? "4" : "0.03125"}}, Model::continuous);
         BOOST_TEST(scene.json() != expected.json(), key);
         number->put(scene, std::stod(text));
         BOOST_TEST(scene.json() == expected.json(), key);
@@ -196,9 +198,10 @@ BOOST_AUTO_TEST_CASE(every_number_of_a_scene_can_be_put_where_the_reader_puts_it
     ++put;
   }
   // All keys but names, texts, truths, lists and the file's own sweep.
-  const std::set<std::string> others{"impact.law", "body.shape", "body.size", "body.merge", "body.inertia", "body.centre",
-                                     "body.mesh.file", "ground.area", "ground.friction_law", "run.method", "run.history",
-                                     "run.planar", "run.errors", "run.amplification"};
+  const std::set<std::string> others{"impact.law",          "body.shape",       "body.size",      "body.merge",
+                                     "body.inertia",        "body.centre",      "body.mesh.file", "ground.area",
+                                     "ground.friction_law", "run.method",       "run.history",    "run.planar",
+                                     "run.errors",          "run.amplification"};
   const auto is_other = [&](const std::string& key) { return others.contains(key) || key.starts_with("sweep."); };
   BOOST_TEST(put == scene_keys().size() - std::count_if(scene_keys().begin(), scene_keys().end(), is_other));
 }
@@ -260,13 +263,17 @@ BOOST_AUTO_TEST_CASE(any_number_of_threads_writes_the_same_and_what_they_throw_i
     RangeQueue queue({0, 1000}, 7);
     std::string text;
     const SweepHooks hooks{[&](const RangeRows& rows) { text += rows.text; }, [] {}, [] { return false; }};
-    run_on_threads(queue, threads, [](const auto&) {
-      return [](const SceneRange& range) {
-        RangeRows rows;
-        for (; rows.scenes < range.count; ++rows.scenes) rows.text += std::to_string(range.first + rows.scenes) + "\n";
-        return rows;
-      };
-    }, hooks);
+    run_on_threads(
+        queue, threads,
+        [](const auto&) {
+          return [](const SceneRange& range) {
+            RangeRows rows;
+            for (; rows.scenes < range.count; ++rows.scenes)
+              rows.text += std::to_string(range.first + rows.scenes) + "\n";
+            return rows;
+          };
+        },
+        hooks);
     return text;
   };
   std::string expected;

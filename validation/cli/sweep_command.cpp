@@ -29,6 +29,14 @@ struct SweepInput {
   bool restart = false;
 };
 
+/// What is computed, by whom, and what ends it.
+struct SweepWork {
+  const SweepPlan& plan;
+  const SweepBody& body;
+  int threads;
+  const CooperativeInterrupt& interrupt;
+};
+
 /// Scenes handed out at a time: some milliseconds' work.
 long long range_size(const SweepPlan& plan) {
   if (plan.model == Model::continuous) return 1;
@@ -54,7 +62,8 @@ class SweepProgress {
     shown_ = now;
     std::string text = progress_bar(static_cast<std::size_t>(done_), static_cast<std::size_t>(scenes_));
     if (done_ > first_) {
-      const double per_scene = std::chrono::duration<double>(now - begin_).count() / static_cast<double>(done_ - first_);
+      const double per_scene =
+          std::chrono::duration<double>(now - begin_).count() / static_cast<double>(done_ - first_);
       text += ", " + time_left(per_scene * static_cast<double>(scenes_ - done_));
     }
     progress_.show(text);
@@ -72,7 +81,8 @@ class SweepOutput {
   SweepOutput(const SweepInput& input, const SweepPlan& plan) : stdout_("") {
     const std::string head = plan.head();
     if (input.output) {
-      file_.emplace(*input.output, SweepFileForm{head, plan.points.count(), plan.rows == RowKind::scene}, input.restart);
+      file_.emplace(*input.output, SweepFileForm{head, plan.points.count(), plan.rows == RowKind::scene},
+                    input.restart);
     } else {
       stdout_.write(head);
     }
@@ -111,30 +121,37 @@ void check_output(const SweepInput& input) {
   }
 }
 
+MakeCompute runners_of(const SweepPlan& plan, const SweepBody& body) {
+  return [&plan, &body](std::function<bool()> stop) -> ComputeRange {
+    const auto runner = std::make_shared<SceneRunner>(plan, body, std::move(stop));
+    return [runner](const SceneRange& range) { return (*runner)(range); };
+  };
+}
+
+/// Computes what the output lacks, as far as it comes.
+void fill(SweepOutput& output, RangeQueue& queue, const SweepWork& what, Ranks& ranks) {
+  SweepProgress progress(queue.taken(), what.plan.points.count());
+  SweepHooks hooks;
+  hooks.write = [&](const RangeRows& rows) {
+    output.write(rows.text);
+    progress.add(rows.scenes);
+  };
+  hooks.tick = [&] {
+    output.write("");
+    progress.tick();
+  };
+  hooks.stop = [&] { return what.interrupt.requested(); };
+  if (ranks.several()) ranks.hand_out(queue, hooks);
+  else run_on_threads(queue, what.threads, runners_of(what.plan, what.body), hooks);
+}
+
 /// The part of the process that writes.
 int run_sweep(const SweepInput& input, const SweepPlan& plan, const SweepBody& body, int threads, Ranks& ranks) {
   const CooperativeInterrupt interrupt;
   SweepOutput output(input, plan);
   const long long scenes = plan.points.count();
   RangeQueue queue({output.first(), scenes - output.first()}, range_size(plan));
-  {
-    SweepProgress progress(output.first(), scenes);
-    const SweepHooks hooks{.write = [&](const RangeRows& rows) {
-                             output.write(rows.text);
-                             progress.add(rows.scenes);
-                           },
-                           .tick = [&] {
-                             output.write("");
-                             progress.tick();
-                           },
-                           .stop = [&] { return interrupt.requested(); }};
-    const MakeCompute make = [&](std::function<bool()> stop) -> ComputeRange {
-      const auto runner = std::make_shared<SceneRunner>(plan, body, std::move(stop));
-      return [runner](const SceneRange& range) { return (*runner)(range); };
-    };
-    if (ranks.several()) ranks.hand_out(queue, hooks);
-    else run_on_threads(queue, threads, make, hooks);
-  }
+  fill(output, queue, {plan, body, threads, interrupt}, ranks);
   if (queue.is_complete()) {
     output.commit();
     return 0;
@@ -179,9 +196,13 @@ Action add_sweep_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("sweep", "many scenes: a grid or random values of keys, rows as CSV");
   SweepRequest& request = input->request;
   command->add_option("SCENE", request.file, "scene file (TOML)")->required()->type_name("FILE");
-  command->add_option("--set", request.sets, "values of a key of the scene file; may be repeated, the last varies fastest")
-      ->type_name("KEY=VALUE|FROM:TO:STEP")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  add_text(*command, "--random", request.random, "N", "N scenes with random values, --set KEY=LOW:HIGH or LOW:HIGH:log");
+  command
+      ->add_option("--set", request.sets, "values of a key of the scene file; may be repeated, the last varies fastest")
+      ->type_name("KEY=VALUE|FROM:TO:STEP")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_text(*command, "--random", request.random, "N",
+           "N scenes with random values, --set KEY=LOW:HIGH or LOW:HIGH:log");
   add_text(*command, "--seed", request.seed, "S", "of the random values (1)");
   add_text(*command, "--model", request.model, "discrete|continuous", "(continuous if the scene has a ground)");
   add_text(*command, "--rows", request.rows, "scene|impact", "one row per scene or per impact (scene)");

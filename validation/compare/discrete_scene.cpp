@@ -85,7 +85,8 @@ analytic::ImpactLaw impact_law(const DiscreteImpact& impact) {
 }
 
 /// Downward speed at the touch, of a centre of mass that fell from `height`.
-double fallen_speed(double height, double gravity, const analytic::PlanarBody& body, const analytic::Angle& inclination) {
+double fallen_speed(double height, double gravity, const analytic::PlanarBody& body,
+                    const analytic::Angle& inclination) {
   const double touch = analytic::BodyMotion(body, inclination, {}, 0).centre_height();
   if (!(height > touch)) {
     throw BadInput(fmt::format("drop.height = {}: must be greater than {} m, the height of the centre of mass at the "

@@ -23,8 +23,8 @@ namespace clatter::validation {
 [[nodiscard]] analytic::PlanarBody nominal_body(const SimulationScene& scene);
 
 /// The drop of `scene` with restitution and friction as its impact.* keys give them.
-/// @throws analytic::OutsideModelError for a tilted drop; BadInput if drop.height is not above the centre of mass at the
-///         touch.
+/// @throws analytic::OutsideModelError for a tilted drop; BadInput if drop.height is not above the centre of mass at
+///         the touch.
 [[nodiscard]] analytic::Drop impact_drop(const SimulationScene& scene, const analytic::PlanarBody& body);
 
 }  // namespace clatter::validation

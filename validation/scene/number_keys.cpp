@@ -49,7 +49,8 @@ constexpr NumberKey keys[] = {
 bool NumberKey::is_of_body() const { return std::string_view(name).starts_with("body."); }
 
 const NumberKey* find_number_key(const std::string& name) {
-  const auto found = std::find_if(std::begin(keys), std::end(keys), [&](const NumberKey& key) { return key.name == name; });
+  const auto found =
+      std::find_if(std::begin(keys), std::end(keys), [&](const NumberKey& key) { return key.name == name; });
   return found == std::end(keys) ? nullptr : found;
 }
 

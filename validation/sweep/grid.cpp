@@ -64,7 +64,8 @@ double SweepAxis::drawn(double part) const {
 SweepAxis read_grid_axis(const std::string& key, const std::string& text, bool whole) {
   const AxisText given(key, text, whole);
   if (given.parts().size() != 3) given.refuse("must be VALUE or FROM:TO:STEP");
-  SweepAxis axis{.key = key, .first = given.number(0, "FROM"), .last = 0, .step = given.number(2, "STEP"), .whole = whole};
+  SweepAxis axis{
+      .key = key, .first = given.number(0, "FROM"), .last = 0, .step = given.number(2, "STEP"), .whole = whole};
   const double to = given.number(1, "TO");
   if (axis.step == 0) given.refuse("STEP must not be 0");
   const double steps = (to - axis.first) / axis.step;
@@ -83,7 +84,10 @@ SweepAxis read_random_axis(const std::string& key, const std::string& text, bool
   if (parts < 2 || parts > 3 || (parts == 3 && given.parts()[2] != "log")) {
     given.refuse("must be VALUE, LOW:HIGH or LOW:HIGH:log with --random");
   }
-  const SweepAxis axis{.key = key, .first = given.number(0, "LOW"), .last = given.number(1, "HIGH"), .logarithmic = parts == 3,
+  const SweepAxis axis{.key = key,
+                       .first = given.number(0, "LOW"),
+                       .last = given.number(1, "HIGH"),
+                       .logarithmic = parts == 3,
                        .whole = whole};
   if (!(axis.first <= axis.last)) given.refuse("LOW must not be greater than HIGH");
   if (axis.logarithmic && whole) given.refuse("a key of whole numbers has no logarithmic range");

@@ -7,8 +7,8 @@
 
 namespace clatter::validation {
 
-/// This process among those of a sweep.  Process 0 writes; the others compute what it hands out to them, one thread each.
-/// Whatever ends process 0 early lets the others end, too.
+/// This process among those of a sweep.  Process 0 writes; the others compute what it hands out to them, one thread
+/// each. Whatever ends process 0 early lets the others end, too.
 class Ranks {
  public:
   Ranks();

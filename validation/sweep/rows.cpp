@@ -87,12 +87,18 @@ void append_tail(std::string& out, const std::string& prefix, const analytic::Ta
   out += prefix;
   Cells cells(out);
   for_each_entry(analytic::ImpactRow{}, 1, 0, [&](std::string_view name, const auto& value) {
-    if (name == "n") cells.add("tail");
-    else if (name == "start") cells.add(tail.end_time);
-    else if (name == "end") cells.add(analytic::PlanarBody::vertex_set_name(tail.vertices));
-    else if (name == "impulse_normal") cells.add(tail.normal_impulse);
-    else if (name == "impulse_tangential") cells.add(tail.tangential_impulse);
-    else cells.add_empty(std::is_same_v<decltype(value), const EntryVector&> ? 3 : 1);
+    if (name == "n")
+      cells.add("tail");
+    else if (name == "start")
+      cells.add(tail.end_time);
+    else if (name == "end")
+      cells.add(analytic::PlanarBody::vertex_set_name(tail.vertices));
+    else if (name == "impulse_normal")
+      cells.add(tail.normal_impulse);
+    else if (name == "impulse_tangential")
+      cells.add(tail.tangential_impulse);
+    else
+      cells.add_empty(std::is_same_v<decltype(value), const EntryVector&> ? 3 : 1);
   });
   cells.add_all(nullptr, outcome);
   out += '\n';

@@ -39,9 +39,10 @@ void SceneRunner::renew_body() {
 bool SceneRunner::append_result(const std::string& prefix, std::string& out) {
   renew_body();
   if (plan_.model == Model::discrete) {
-    const analytic::Sequence sequence = analytic::impact_sequence(
-        impact_drop(scene_, body_.planar), {.impacts = scene_.options.impacts, .digits = scene_.options.digits,
-                                            .amplification = scene_.options.amplification});
+    const analytic::Sequence sequence =
+        analytic::impact_sequence(impact_drop(scene_, body_.planar), {.impacts = scene_.options.impacts,
+                                                                      .digits = scene_.options.digits,
+                                                                      .amplification = scene_.options.amplification});
     append_rows(out, prefix, plan_.rows, sequence, scene_.angle_deg);
     return true;
   }

@@ -22,8 +22,8 @@ struct SweepBody {
 [[nodiscard]] SweepBody make_sweep_body(const SweepPlan& plan, const SimulationScene& scene);
 
 /// One thread's part in a sweep.  A scene that the model refuses or cannot compute is a row whose outcome is "refused"
-/// (speed and spin do not bring the contact down, a size is out of range, ...), "outside-model" (jamming, a body that is
-/// not planar, ...) or "not-computed".
+/// (speed and spin do not bring the contact down, a size is out of range, ...), "outside-model" (jamming, a body that
+/// is not planar, ...) or "not-computed".
 class SceneRunner {
  public:
   /// @param body of all scenes, where no key of the body is swept

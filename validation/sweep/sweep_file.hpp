@@ -9,9 +9,9 @@ namespace clatter::validation {
 
 /// What the file of a sweep must be.
 struct SweepFileForm {
-  std::string head;                 ///< its first lines
-  long long scenes = 0;             ///< how many it will hold
-  bool one_row_per_scene = true;    ///< else a scene's last row is known by the next scene's first
+  std::string head;               ///< its first lines
+  long long scenes = 0;           ///< how many it will hold
+  bool one_row_per_scene = true;  ///< else a scene's last row is known by the next scene's first
 };
 
 /// FILE.part, which grows by whole scenes and takes the name FILE in commit().  Whatever ends the program leaves the

@@ -36,11 +36,13 @@ std::vector<std::string> settable_keys() {
 
 Setting read_setting(const std::string& given, bool random) {
   const std::size_t equal = given.find('=');
-  if (equal == std::string::npos) throw BadInput(fmt::format("--set '{}': must be KEY=VALUE or KEY=FROM:TO:STEP", given));
+  if (equal == std::string::npos)
+    throw BadInput(fmt::format("--set '{}': must be KEY=VALUE or KEY=FROM:TO:STEP", given));
   Setting setting{.key = given.substr(0, equal), .text = given.substr(equal + 1), .axis = {}};
   const std::vector<std::string> keys = settable_keys();
   if (std::find(keys.begin(), keys.end(), setting.key) == keys.end()) {
-    throw BadInput(fmt::format("--set {}: unknown key; did you mean {}?", setting.key, nearest_name(setting.key, keys)));
+    throw BadInput(
+        fmt::format("--set {}: unknown key; did you mean {}?", setting.key, nearest_name(setting.key, keys)));
   }
   setting.number = find_number_key(setting.key);
   if (setting.number == nullptr || setting.text.find(':') == std::string::npos) return setting;
@@ -95,19 +97,21 @@ bool is_both_frictions(const Setting& setting, const SceneValues& values, const 
 
 Model read_model(const SweepRequest& request, const SceneValues& values, const std::vector<Setting>& settings) {
   if (request.model) return static_cast<Model>(read_name_option("--model", *request.model, model_names));
-  const bool ground = values.has_table("ground") || std::any_of(settings.begin(), settings.end(), [](const Setting& one) {
-                        return one.key.starts_with("ground.");
-                      });
+  const bool ground =
+      values.has_table("ground") ||
+      std::any_of(settings.begin(), settings.end(), [](const Setting& one) { return one.key.starts_with("ground."); });
   return ground ? Model::continuous : Model::discrete;
 }
 
-void read_scene(const SweepRequest& request, const std::vector<Setting>& settings, SceneValues& values, SweepPlan& plan) {
+void read_scene(const SweepRequest& request, const std::vector<Setting>& settings, SceneValues& values,
+                SweepPlan& plan) {
   make_room(values, settings);
   plan.model = read_model(request, values, settings);
   plan.scene = read_simulation_scene(values, overrides_at(settings, &SweepAxis::first), plan.model);
   static_cast<void>(read_simulation_scene(values, overrides_at(settings, &SweepAxis::last), plan.model));
   if (plan.scene.sweep) {
-    throw BadInput(fmt::format("{}: sweep: must be left out here; give --set drop.angle_deg=FROM:TO:STEP", request.file));
+    throw BadInput(
+        fmt::format("{}: sweep: must be left out here; give --set drop.angle_deg=FROM:TO:STEP", request.file));
   }
   if (!plan.scene.history.empty()) values.refuse("run.history", "left out in a sweep");
   // No row holds error estimates, and a scene's row no amplification.
@@ -157,8 +161,8 @@ SweepPlan read_sweep_plan(const SweepRequest& request) {
 
 std::string SweepPlan::head() const {
   std::string head = fmt::format("# clatter {}, sweep: {} model, one row per {}\n# scene: {}\n", version,
-                                 model_names[static_cast<std::size_t>(model)], row_names[static_cast<std::size_t>(rows)],
-                                 scene.json().dump());
+                                 model_names[static_cast<std::size_t>(model)],
+                                 row_names[static_cast<std::size_t>(rows)], scene.json().dump());
   for (const std::string& line : words) head += "# " + line + "\n";
   return head + column_names(*this) + "\n";
 }

@@ -24,7 +24,8 @@ struct RangeRows {
 class RangeQueue {
  public:
   /// @param size scenes of a range, >= 1
-  RangeQueue(const SceneRange& all, long long size) : all_(all), size_(size), handed_out_(all.first), taken_(all.first) {}
+  RangeQueue(const SceneRange& all, long long size)
+      : all_(all), size_(size), handed_out_(all.first), taken_(all.first) {}
 
   /// The next range; none if all are handed out, or too many rows wait.
   [[nodiscard]] std::optional<SceneRange> hand_out();

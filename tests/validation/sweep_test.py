@@ -1,0 +1,365 @@
+#!/usr/bin/python3
+"""`clatter sweep` as its users meet it: the same file however it came about, rows as the other commands have them."""
+
+import csv
+import io
+import os
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+PROGRAM = os.environ["CLATTER_PROGRAM"]
+CASES = os.path.join(os.environ["CLATTER_ROOT"], "validation", "cases")
+MPIEXEC = os.environ.get("CLATTER_MPIEXEC", "")
+
+THIN_ROD = "[drop]\nangle_deg = 10\n[world]\ngravity = 9.81\n[body]\nradius = 0\n[run]\nimpacts = 4\n"
+PHONE = os.path.join(CASES, "phone-damped.toml")
+QUICK_PHONE = ["--set", "run.impacts=2", "--set", "run.digits=4"]
+
+# What --set is given, and what the line must say.
+BAD_SETTINGS = {
+    "drop.angle=1:2:1": "did you mean drop.angle_deg?",
+    "drop.angle_deg": "KEY=VALUE",
+    "drop.angle_deg=": "drop.angle_deg ''",
+    "drop.angle_deg=nan": "nan",
+    "drop.angle_deg=inf:1:1": "FROM",
+    "drop.angle_deg=1:1e400:1": "TO",
+    "drop.angle_deg=1:2:0": "STEP",
+    "drop.angle_deg=2:1:1": "sign",
+    "drop.angle_deg=1:2": "FROM:TO:STEP",
+    "drop.angle_deg=80:100:10": "'100': must be from 0 to 90",
+    "drop.angle_deg=0:90:1e-9": "more than 1000000000 scenes",
+    "run.impacts=1:2:0.5": "whole",
+    "impact.restitution=0.5:1.5:0.5": "from 0 to 1",
+    "impact.law=newtn": "did you mean newton?",
+    "body.size=1x1x1": "only for a box",
+    "sweep.angle_deg.from=1": "unknown key",
+    "run.history=h.csv": "unknown key",
+    "=1": "unknown key",
+}
+BAD_OPTIONS = {
+    "--set drop.spin=1 --set drop.spin=2": "twice",
+    "--set drop.speed=1 --set drop.height=1:2:1": "not both",
+    "--random 5": "LOW:HIGH",
+    "--random 0 --set drop.angle_deg=10:20": "--random '0'",
+    "--random 1000000001 --set drop.angle_deg=10:20": "1000000000",
+    "--random x --set drop.angle_deg=10:20": "--random",
+    "--random 5 --seed -1 --set drop.angle_deg=10:20": "--seed",
+    "--random 5 --set drop.angle_deg=20:10": "LOW",
+    "--random 5 --set drop.angle_deg=0:10:log": "greater than 0",
+    "--random 5 --set drop.angle_deg=1:10:2": "LOW:HIGH",
+    "--seed 5": "--random",
+    "--model discreet": "did you mean discrete?",
+    "--rows impacts": "did you mean impact?",
+    "--rows scene --rows scene": "twice",
+    "--threads 0": "--threads",
+    "--threads nan": "--threads",
+    "--restart": "--output",
+    "--output /dev/null": "regular",
+    "--output /no/such/folder/x": "/no/such/folder/x",
+}
+
+
+def records(text):
+    """Rows of a CSV text without its head."""
+    return list(csv.DictReader(io.StringIO("".join(l for l in text.splitlines(True) if not l.startswith("#")))))
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.scene = self.write("rod.toml", THIN_ROD)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+        return self.path(name)
+
+    def read(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+    def run_program(self, *arguments, **options):
+        return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=120, **options)
+
+    def sweep(self, *arguments):
+        result = self.run_program("sweep", *arguments)
+        self.assertEqual((result.returncode, result.stderr), (0, ""), arguments)
+        return result.stdout
+
+    def refuse(self, *arguments):
+        before = sorted(os.listdir(self.folder))
+        result = self.run_program("sweep", *arguments)
+        self.assertEqual((result.returncode, result.stdout), (2, ""), (arguments, result.stderr))
+        self.assertEqual(result.stderr.count("\n"), 1, (arguments, result.stderr))
+        self.assertEqual(sorted(os.listdir(self.folder)), before, arguments)
+        return result.stderr
+
+
+class SameAsTheOtherCommands(Folder):
+    def check(self, swept, single, swept_key, value):
+        rows = [row for row in swept if float(row[swept_key]) == value]
+        self.assertEqual(len(rows), len(single))
+        for row, expected in zip(rows, single):
+            self.assertEqual({name: row[name] for name in expected}, expected)
+
+    def test_impacts_of_the_discrete_model_are_those_of_sequence(self):
+        for flags, sets in (([], []), (["--restitution", "0.7"], ["--set", "impact.restitution=0.7"]),
+                            (["--friction", "0.3", "--restitution-law", "stronge", "--restitution", "0.9"],
+                             ["--set", "impact.friction=0.3", "--set", "impact.law=stronge",
+                              "--set", "impact.restitution=0.9"]),
+                            (["--impulse-ratio", "0.1"], ["--set", "impact.impulse_ratio=0.1"]),
+                            (["--height", "1"], ["--set", "drop.height=1"]),
+                            (["--radius", "0.02", "--mass", "2", "--length", "0.5"],
+                             ["--set", "body.radius=0.02", "--set", "body.mass=2", "--set", "body.length=0.5"])):
+            swept = records(self.sweep(self.scene, "--set", "drop.angle_deg=0:40:10", "--rows", "impact", *sets))
+            for angle in (0, 10, 40):
+                one = self.run_program("sequence", "--angle", str(angle), "--gravity", "9.81", "--impacts", "4",
+                                       "--format", "csv", *flags)
+                self.assertEqual(one.returncode, 0)
+                self.check(swept, records(one.stdout), "drop.angle_deg", angle)
+
+    def test_the_sum_of_infinitely_many_impacts_is_a_row_as_in_sequence(self):
+        sets = ["--set", "impact.restitution=0.5", "--set", "run.impacts=50"]
+        swept = records(self.sweep(self.scene, "--set", "drop.angle_deg=0:10:10", "--rows", "impact", *sets))
+        one = self.run_program("sequence", "--angle", "10", "--gravity", "9.81", "--impacts", "50",
+                               "--restitution", "0.5", "--format", "csv")
+        self.assertIn("tail", one.stdout)
+        self.check(swept, records(one.stdout), "drop.angle_deg", 10)
+
+    def test_a_box_is_that_of_sequence(self):
+        swept = records(self.sweep(PHONE, "--model", "discrete", "--set", "drop.angle_deg=10:20:10",
+                                   "--rows", "impact"))
+        one = self.run_program("sequence", "--angle", "20", "--gravity", "9.81", "--height", "1", "--body", "box",
+                               "--size", "0.10566x0.04394x0.01905", "--mass", "0.08814", "--format", "csv")
+        self.check(swept, records(one.stdout), "drop.angle_deg", 20)
+
+    def test_impacts_of_the_continuous_model_are_those_of_simulate(self):
+        swept = records(self.sweep(PHONE, "--set", "drop.angle_deg=10:30:20", "--rows", "impact", *QUICK_PHONE))
+        for angle in (10, 30):
+            one = self.run_program("simulate", PHONE, "--angle", str(angle), "--impacts", "2", "--digits", "4",
+                                   "--format", "csv")
+            self.check(swept, records(one.stdout), "drop.angle_deg", angle)
+
+    def test_rows_of_scenes_sum_up_those_of_impacts(self):
+        arguments = [PHONE, "--set", "drop.angle_deg=10:30:10", *QUICK_PHONE]
+        scenes = records(self.sweep(*arguments))
+        impacts = records(self.sweep(*arguments, "--rows", "impact"))
+        self.assertEqual([row["index"] for row in scenes], ["0", "1", "2"])
+        for row in scenes:
+            own = [impact for impact in impacts if impact["index"] == row["index"]]
+            peaks = [float(impact["peak_force"]) for impact in own]
+            self.assertEqual(int(row["impacts"]), len(own))
+            self.assertEqual(row["outcome"], own[0]["outcome"])
+            self.assertEqual(float(row["first_peak_force"]), peaks[0])
+            self.assertEqual(float(row["largest_peak_force"]), max(peaks))
+            self.assertEqual(row["last_start"], own[-1]["start"])
+            # Sums of two doubles: one rounding.
+            for total, part in (("total_normal_impulse", "impulse_normal"), ("energy_loss", "energy_loss")):
+                self.assertAlmostEqual(float(row[total]), sum(float(impact[part]) for impact in own), delta=1e-15)
+
+    def test_a_body_that_is_swept_is_the_body_of_each_scene(self):
+        rod = os.path.join(CASES, "rod-at-1ms.toml")
+        sets = ["--set", "run.impacts=1", "--set", "run.digits=4"]
+        swept = records(self.sweep(rod, "--set", "body.length=0.5:1:0.5", "--set", "body.mass=1:2:1",
+                                   "--rows", "impact", *sets))
+        for n, (length, mass) in enumerate((("0.5", "1"), ("0.5", "2"), ("1", "1"), ("1", "2"))):
+            one = self.run_program("simulate", rod, "--length", length, "--mass", mass, "--impacts", "1",
+                                   "--digits", "4", "--format", "csv")
+            expected = records(one.stdout)[0]
+            self.assertEqual({name: swept[n][name] for name in expected}, expected)
+
+
+class Scenes(Folder):
+    def test_the_last_set_varies_fastest_and_one_value_is_no_column(self):
+        text = self.sweep(self.scene, "--set", "drop.angle_deg=10:20:10", "--set", "drop.speed=2",
+                          "--set", "drop.spin=0:0.2:0.1")
+        rows = records(text)
+        self.assertEqual([(row["drop.angle_deg"], row["drop.spin"]) for row in rows],
+                         [(a, s) for a in ("10", "20") for s in ("0", "0.1", "0.2")])
+        self.assertNotIn("drop.speed", rows[0])
+        head = text[:text.index("index,")]
+        for part in ("# clatter ", '"speed":2.0', "# set: drop.spin = 0:0.2:0.1\n", "# scenes: 6\n"):
+            self.assertIn(part, head)
+
+    def test_a_ground_makes_the_model_continuous_unless_another_is_named(self):
+        self.assertIn("discrete model", self.sweep(self.scene))
+        self.assertIn("continuous model", self.sweep(PHONE, *QUICK_PHONE))
+        self.assertIn("discrete model", self.sweep(PHONE, "--model", "discrete"))
+        thick = ["--set", "body.radius=0.01", "--set", "run.impacts=1", "--set", "run.digits=3"]
+        self.assertIn("continuous model", self.sweep(self.scene, "--set", "ground.stiffness=1e8", *thick))
+        self.assertIn("ground.stiffness: required", self.refuse(self.scene, "--model", "continuous", *thick))
+
+    def test_scenes_without_numbers_are_rows_with_their_outcome(self):
+        # Spin lifts end a; an impulse ratio jams; a tilt leaves the plane.
+        spun = records(self.sweep(self.scene, "--set", "drop.spin=0:20:10", "--set", "drop.angle_deg=30"))
+        self.assertEqual([row["outcome"] for row in spun][1:], ["refused", "refused"])
+        self.assertEqual([row["impacts"] for row in spun][1:], ["", ""])
+        self.assertEqual(spun[1]["total_normal_impulse"], "")
+        jammed = records(self.sweep(self.scene, "--set", "impact.impulse_ratio=0:1.5:1.5",
+                                    "--set", "drop.angle_deg=63.4"))
+        self.assertEqual([row["outcome"] for row in jammed], ["impact-limit", "outside-model"])
+        tilted = records(self.sweep(self.scene, "--set", "drop.tilt_deg=0:1:1", "--rows", "impact"))
+        self.assertEqual((tilted[-1]["outcome"], tilted[-1]["n"], tilted[-1]["energy_loss"]), ("outside-model", "", ""))
+        low = records(self.sweep(PHONE, "--set", "drop.height=0.001:1.001:1", *QUICK_PHONE))
+        self.assertEqual([row["outcome"] for row in low], ["refused", "impact-limit"])
+        self.assertEqual(low[0]["first_peak_force"], "")
+        ended = records(self.sweep(PHONE, "--set", "run.evaluation_limit=20:20020:20000", *QUICK_PHONE))
+        self.assertEqual([(row["impacts"], row["outcome"]) for row in ended],
+                         [("0", "evaluation-limit"), ("2", "impact-limit")])
+
+    def test_sliding_friction_takes_the_static_one_along(self):
+        swept = records(self.sweep(PHONE, "--set", "ground.sliding_friction=0:0.4:0.4", "--rows", "impact",
+                                   *QUICK_PHONE))
+        one = self.run_program("simulate", PHONE, "--static-friction", "0.4", "--sliding-friction", "0.4",
+                               "--impacts", "2", "--digits", "4", "--format", "csv")
+        self.assertEqual([row["impulse_tangential"] for row in swept[2:]],
+                         [row["impulse_tangential"] for row in records(one.stdout)])
+
+    def test_random_scenes_depend_on_the_seed_and_their_number_alone(self):
+        arguments = [self.scene, "--set", "drop.angle_deg=5:60", "--set", "drop.speed=0.1:10:log"]
+        ten = records(self.sweep(*arguments, "--random", "10", "--seed", "4"))
+        hundred = records(self.sweep(*arguments, "--random", "100", "--seed", "4"))
+        self.assertEqual(ten, hundred[:10])
+        self.assertNotEqual(ten, records(self.sweep(*arguments, "--random", "10", "--seed", "5")))
+        self.assertEqual(ten[0].keys() & {"drop.angle_deg", "drop.speed"}, {"drop.angle_deg", "drop.speed"})
+
+
+class BadInput(Folder):
+    def test_settings_that_cannot_be_are_one_line(self):
+        for setting, why in BAD_SETTINGS.items():
+            self.assertIn(why, self.refuse(self.scene, "--set", setting, "--output", self.path("out")), setting)
+
+    def test_options_that_cannot_be_are_one_line(self):
+        for line, why in BAD_OPTIONS.items():
+            self.assertIn(why, self.refuse(self.scene, *line.split()), line)
+        self.assertIn("scene file", self.refuse(self.scene, "--output", self.scene))
+
+    def test_a_sweep_in_the_scene_file_is_refused_unless_it_is_set(self):
+        path = os.path.join(CASES, "phone-sweep.toml")
+        self.assertIn("--set", self.refuse(path))
+        self.assertEqual(len(records(self.sweep(path, "--set", "drop.angle_deg=10:20:10", "--set", "run.digits=3"))), 2)
+
+    def test_a_body_that_cannot_be_made_is_bad_input(self):
+        path = self.write("mesh.toml", "[drop]\nangle_deg = 10\n[body]\nshape = 'mesh'\nmass = 1\ninertia = [1, 1, 1]\n"
+                          "mesh = { file = 'none.stl' }\n[ground]\nstiffness = 1e8\n")
+        self.assertIn("none.stl", self.refuse(path, "--set", "drop.angle_deg=10:20:10"))
+
+
+class SameBytes(Folder):
+    def test_the_file_does_not_depend_on_the_number_of_threads(self):
+        for arguments in ([self.scene, "--set", "drop.angle_deg=0.01:60:0.01"],
+                          [self.scene, "--set", "drop.angle_deg=0.1:60:0.1", "--rows", "impact"],
+                          [self.scene, "--set", "drop.angle_deg=1:60", "--set", "body.length=0.1:3:log",
+                           "--random", "3000"],
+                          [PHONE, "--set", "drop.angle_deg=3:89:2", *QUICK_PHONE]):
+            texts = {self.sweep(*arguments, "--threads", threads) for threads in ("1", "2", "3")}
+            self.assertEqual(len(texts), 1, arguments)
+            self.assertEqual(self.sweep(*arguments, "--output", self.path("out.csv")), "")
+            self.assertEqual({self.read("out.csv").decode()}, texts)
+            self.assertEqual(sorted(os.listdir(self.folder)), ["out.csv", "rod.toml"])
+
+    def interrupt(self, number, arguments):
+        """Starts the sweep, stops it when its part has rows and returns whether it was stopped before its end."""
+        process = subprocess.Popen([PROGRAM, "sweep", *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   text=True)
+        part = self.path("out.csv.part")
+        size = os.path.getsize(part) if os.path.exists(part) else 0
+        while process.poll() is None and not (os.path.exists(part) and os.path.getsize(part) > size + 2000):
+            time.sleep(0.005)
+        process.send_signal(number)
+        message = process.communicate(timeout=60)[1]
+        if process.returncode == 0:
+            return False
+        if number == signal.SIGKILL:
+            self.assertEqual(process.returncode, -signal.SIGKILL)
+        else:
+            self.assertEqual(process.returncode, 130)
+            self.assertRegex(message, r"^clatter: interrupted after \d+ of \d+ scenes; the same command goes on\n$")
+        self.assertTrue(os.path.exists(part))
+        self.assertFalse(os.path.exists(self.path("out.csv")))
+        return True
+
+    def test_an_interrupted_sweep_goes_on_to_the_same_bytes(self):
+        for arguments in ([self.scene, "--set", "drop.angle_deg=0.0004:60:0.0004"],
+                          [self.scene, "--set", "drop.angle_deg=0.004:60:0.004", "--rows", "impact"],
+                          [PHONE, "--set", "drop.angle_deg=3:89:0.05", "--rows", "impact", *QUICK_PHONE]):
+            self.sweep(*arguments, "--output", self.path("whole.csv"))
+            arguments = [*arguments, "--output", self.path("out.csv")]
+            stopped = [self.interrupt(number, arguments) for number in (signal.SIGINT, signal.SIGKILL, signal.SIGTERM)]
+            self.assertTrue(stopped[0], "too short a sweep to interrupt")
+            if not os.path.exists(self.path("out.csv")):
+                self.sweep(*arguments)
+            self.assertEqual(self.read("out.csv"), self.read("whole.csv"))
+            self.assertFalse(os.path.exists(self.path("out.csv.part")))
+            os.remove(self.path("out.csv"))
+
+    def test_a_sweep_goes_on_wherever_its_part_was_cut(self):
+        arguments = [self.scene, "--set", "drop.angle_deg=10:30:5", "--rows", "impact"]
+        whole = self.sweep(*arguments).encode()
+        for cut in range(0, len(whole) + 1, 211):
+            with open(self.path("out.csv.part"), "wb") as file:
+                file.write(whole[:cut])
+            self.sweep(*arguments, "--output", self.path("out.csv"))
+            self.assertEqual(self.read("out.csv"), whole, cut)
+
+    def test_a_part_of_another_sweep_is_refused_and_restart_begins_anew(self):
+        arguments = [self.scene, "--set", "drop.angle_deg=10:30:5"]
+        part = self.sweep(self.scene, "--set", "drop.angle_deg=10:30:4")
+        path = self.write("out.csv.part", part)
+        self.assertIn("--restart", self.refuse(*arguments, "--output", self.path("out.csv")))
+        self.assertEqual(self.read("out.csv.part").decode(), part)
+        self.sweep(*arguments, "--output", self.path("out.csv"), "--restart")
+        self.assertEqual(self.read("out.csv").decode(), self.sweep(*arguments))
+        self.assertFalse(os.path.exists(path))
+
+    def test_an_interrupt_ends_stdout_with_whole_rows_and_a_word(self):
+        process = subprocess.Popen([PROGRAM, "sweep", self.scene, "--set", "drop.angle_deg=0.000001:60:0.000001"],
+                                   stdout=subprocess.PIPE, text=True)
+        lines = [process.stdout.readline() for _ in range(1000)]
+        process.send_signal(signal.SIGINT)
+        lines += process.stdout.read().splitlines(keepends=True)
+        process.stdout.close()
+        self.assertEqual(process.wait(timeout=60), 130)
+        rows = [line for line in lines if line[0].isdigit()]
+        self.assertEqual(lines[-1], f"# interrupted after {len(rows)} of 60000000 scenes\n")
+        self.assertEqual([int(row[:row.index(",")]) for row in rows], list(range(len(rows))))
+        self.assertTrue(all(row.count(",") == 6 for row in rows))
+
+    @unittest.skipUnless(MPIEXEC, "a build without MPI")
+    def test_several_processes_write_the_same_bytes(self):
+        command = [MPIEXEC, "--allow-run-as-root", "--oversubscribe", "-n"]
+        for arguments in ([self.scene, "--set", "drop.angle_deg=0.01:60:0.01"],
+                          [PHONE, "--set", "drop.angle_deg=3:89:2", "--rows", "impact", *QUICK_PHONE]):
+            for count in ("2", "3"):
+                sweep = [PROGRAM, "sweep", *arguments, "--output", self.path("out.csv")]
+                result = subprocess.run([*command, count, *sweep], capture_output=True, text=True, timeout=120,
+                                        check=False)
+                self.assertEqual((result.returncode, result.stdout), (0, ""), result.stderr)
+                self.assertEqual(self.read("out.csv").decode(), self.sweep(*arguments), count)
+        bad = subprocess.run([*command, "3", PROGRAM, "sweep", self.scene, "--set", "drop.angle=1:2:1"],
+                             capture_output=True, text=True, timeout=120, check=False)
+        self.assertNotEqual(bad.returncode, 0)
+        self.assertEqual(bad.stderr.count("did you mean"), 1)
+
+
+class Manners(Folder):
+    def test_help_has_an_example(self):
+        result = self.run_program("sweep", "--help")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertIn("Example: clatter sweep", result.stdout)
+
+    def test_the_scene_may_come_after_the_settings(self):
+        self.assertEqual(self.sweep("--set", "drop.angle_deg=10:20:5", "--set", "drop.spin=0", self.scene),
+                         self.sweep(self.scene, "--set", "drop.angle_deg=10:20:5", "--set", "drop.spin=0"))
+
+
+if __name__ == "__main__":
+    unittest.main()
