@@ -22,7 +22,7 @@ QUICK_PHONE = ["--set", "run.impacts=2", "--set", "run.digits=4"]
 BAD_SETTINGS = {
     "drop.angle=1:2:1": "did you mean drop.angle_deg?",
     "drop.angle_deg": "KEY=VALUE",
-    "drop.angle_deg=": "drop.angle_deg ''",
+    "drop.angle_deg=": "empty",
     "drop.angle_deg=nan": "nan",
     "drop.angle_deg=inf:1:1": "FROM",
     "drop.angle_deg=1:1e400:1": "TO",
@@ -35,6 +35,7 @@ BAD_SETTINGS = {
     "impact.restitution=0.5:1.5:0.5": "from 0 to 1",
     "impact.law=newtn": "did you mean newton?",
     "body.size=1x1x1": "only for a box",
+    "body.size.width=1:2:1": "body.size: required",
     "sweep.angle_deg.from=1": "unknown key",
     "run.history=h.csv": "unknown key",
     "=1": "unknown key",
@@ -175,6 +176,13 @@ class SameAsTheOtherCommands(Folder):
                                    "--digits", "4", "--format", "csv")
             expected = records(one.stdout)[0]
             self.assertEqual({name: swept[n][name] for name in expected}, expected)
+
+    def test_a_side_of_a_box_may_be_swept(self):
+        swept = records(self.sweep(PHONE, "--set", "body.size.thickness=0.01:0.02:0.01", "--rows", "impact",
+                                   *QUICK_PHONE))
+        one = self.run_program("simulate", PHONE, "--size", "0.10566x0.04394x0.02", "--impacts", "2", "--digits", "4",
+                               "--format", "csv")
+        self.check(swept, records(one.stdout), "body.size.thickness", 0.02)
 
 
 class Scenes(Folder):

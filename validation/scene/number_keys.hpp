@@ -1,4 +1,5 @@
-// The keys of scene files whose values are numbers, and how they enter a scene that was read already.
+// The keys of scene files whose values are numbers, with the sides of a box as body.size.length, body.size.width and
+// body.size.thickness, and how they enter a scene that was read already.
 #pragma once
 
 #include <string>

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "validation/cli/version.hpp"
@@ -15,6 +16,8 @@ namespace {
 
 const char* const static_friction = "ground.static_friction";
 const char* const sliding_friction = "ground.sliding_friction";
+const char* const box_size = "body.size";
+const std::vector<std::string> box_sides{"body.size.length", "body.size.width", "body.size.thickness"};
 
 const std::vector<std::string> model_names{"discrete", "continuous"};
 const std::vector<std::string> row_names{"scene", "impact"};
@@ -27,7 +30,7 @@ struct Setting {
 };
 
 std::vector<std::string> settable_keys() {
-  std::vector<std::string> keys;
+  std::vector<std::string> keys = box_sides;
   for (const std::string& key : scene_keys()) {
     if (!key.starts_with("sweep.") && key != "run.history") keys.push_back(key);
   }
@@ -44,6 +47,7 @@ Setting read_setting(const std::string& given, bool random) {
     throw BadInput(
         fmt::format("--set {}: unknown key; did you mean {}?", setting.key, nearest_name(setting.key, keys)));
   }
+  if (setting.text.empty()) throw BadInput(fmt::format("--set {}: the value is empty", setting.key));
   setting.number = find_number_key(setting.key);
   if (setting.number == nullptr || setting.text.find(':') == std::string::npos) return setting;
   setting.axis = random ? read_random_axis(setting.key, setting.text, setting.number->whole)
@@ -62,6 +66,11 @@ std::vector<Setting> read_settings(const std::vector<std::string>& given, bool r
     if (sets(settings, setting.key)) throw BadInput(fmt::format("--set {}: given twice", setting.key));
     settings.push_back(std::move(setting));
   }
+  for (const std::string& side : box_sides) {
+    if (sets(settings, side) && sets(settings, box_size)) {
+      throw BadInput(fmt::format("--set {} and --set {}: give one of them, not both", box_size, side));
+    }
+  }
   return settings;
 }
 
@@ -69,13 +78,30 @@ std::string end_text(const SweepAxis& axis, double value) {
   return axis.whole ? fmt::format("{:.0f}", value) : shortest(value);
 }
 
+/// The sides of the box as one value of body.size; those that are not set are the file's.
+SceneOverride size_override(const SceneValues& values, const std::array<std::string, 3>& sides) {
+  const Range any{-std::numeric_limits<double>::max(), std::numeric_limits<double>::max(), false, ""};
+  std::array<std::string, 3> texts = sides;
+  if (std::any_of(sides.begin(), sides.end(), [](const std::string& side) { return side.empty(); })) {
+    values.require(box_size, "as not all of its sides are set");
+    const std::vector<double> given = values.numbers(box_size, {3}, any, "three lengths in m");
+    for (std::size_t i = 0; i < 3; ++i) texts[i] = sides[i].empty() ? shortest(given[i]) : sides[i];
+  }
+  return {box_size, "--set body.size", fmt::format("{}", fmt::join(texts, "x"))};
+}
+
 /// The settings at one end of their axes, as flags that override the file.
-std::vector<SceneOverride> overrides_at(const std::vector<Setting>& settings, double SweepAxis::*end) {
+std::vector<SceneOverride> overrides_at(const SceneValues& values, const std::vector<Setting>& settings,
+                                        double SweepAxis::*end) {
   std::vector<SceneOverride> overrides;
+  std::array<std::string, 3> sides;
   for (const Setting& setting : settings) {
     const std::string text = setting.axis ? end_text(*setting.axis, *setting.axis.*end) : setting.text;
-    overrides.push_back({setting.key, "--set " + setting.key, text});
+    const auto side = std::find(box_sides.begin(), box_sides.end(), setting.key);
+    if (side == box_sides.end()) overrides.push_back({setting.key, "--set " + setting.key, text});
+    else sides[static_cast<std::size_t>(side - box_sides.begin())] = text;
   }
+  if (sides != std::array<std::string, 3>{}) overrides.push_back(size_override(values, sides));
   return overrides;
 }
 
@@ -107,8 +133,8 @@ void read_scene(const SweepRequest& request, const std::vector<Setting>& setting
                 SweepPlan& plan) {
   make_room(values, settings);
   plan.model = read_model(request, values, settings);
-  plan.scene = read_simulation_scene(values, overrides_at(settings, &SweepAxis::first), plan.model);
-  static_cast<void>(read_simulation_scene(values, overrides_at(settings, &SweepAxis::last), plan.model));
+  plan.scene = read_simulation_scene(values, overrides_at(values, settings, &SweepAxis::first), plan.model);
+  static_cast<void>(read_simulation_scene(values, overrides_at(values, settings, &SweepAxis::last), plan.model));
   if (plan.scene.sweep) {
     throw BadInput(
         fmt::format("{}: sweep: must be left out here; give --set drop.angle_deg=FROM:TO:STEP", request.file));
