@@ -49,7 +49,8 @@ class Run {
  public:
   Run(const Body& body, const Ground& ground, const MotionState& start, const Options& options,
       const Accuracy& accuracy, const RunExtras& extras)
-      : body_(body), options_(options), extras_(extras), system_(body, ground, options.gravity, options.planar),
+      : body_(body), options_(options), extras_(extras), contact_gravity_(options.gravity_in_contact ? options.gravity : 0),
+        system_(body, ground, contact_gravity_, options.planar),
         stepper_(make_stepper(accuracy.method)), contact_(system_, *stepper_), state_(options.planar ? in_plane(start) : start),
         growth_(body, start, options.gravity, options.planar), history_(body, options.gravity, extras.history) {
     control_.tolerance = accuracy.tolerance;
@@ -120,7 +121,7 @@ class Run {
     n.approach_speed = -point_velocity(state_, point).z();
     n.restitution = contact.touches > 1 ? std::numeric_limits<double>::quiet_NaN()
                                         : point_velocity(after, point).z() / n.approach_speed;
-    n.impulse = body_.mass() * (after.velocity - state_.velocity + Vector3(0, 0, g * contact.duration));
+    n.impulse = body_.mass() * (after.velocity - state_.velocity + Vector3(0, 0, contact_gravity_ * contact.duration));
     n.peak_force = contact.peak_force;
     n.peak_time = contact.peak_time;
     n.velocity_after = after.velocity;
@@ -160,6 +161,7 @@ class Run {
   const Body& body_;
   const Options& options_;
   const RunExtras& extras_;
+  double contact_gravity_;
   ContactSystem system_;
   std::unique_ptr<Stepper> stepper_;
   ContactRun contact_;

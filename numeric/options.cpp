@@ -8,12 +8,15 @@ void Options::validate() const {
   using detail::require;
   require(step >= 0, "run.step", step, "finite and at least 0");
   require(digits >= 2 && digits <= 12, "run.digits", digits, "from 2 to 12");
+  require(tolerance == 0 || (tolerance >= least_tolerance && tolerance <= 0.1), "run.tolerance", tolerance,
+          "0 or from 5e-14 to 0.1");
   require(impacts >= 1, "run.impacts", impacts, "at least 1");
   require(gravity >= 0, "world.gravity", gravity, "finite and at least 0");
   require(evaluation_limit >= 1, "run.evaluation_limit", static_cast<double>(evaluation_limit), "at least 1");
   if (step > 0) {
     require(method == Method::automatic || method == Method::tvd_rk3, "run.step", step,
             "left out for an adaptive method, which chooses its own");
+    require(tolerance == 0, "run.tolerance", tolerance, "left out for a fixed step");
   }
 }
 

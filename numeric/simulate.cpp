@@ -40,7 +40,8 @@ Accuracy accuracy_for(const Options& options) {
   accuracy.method = options.method;
   if (options.method == Method::automatic) accuracy.method = chosen_method(options);
   accuracy.step = options.step;
-  accuracy.tolerance = std::max(std::pow(10.0, -options.digits - 4), 5e-14);
+  accuracy.tolerance = options.tolerance > 0 ? options.tolerance
+                                             : std::max(std::pow(10.0, -options.digits - 4), least_tolerance);
   accuracy.steps_per_contact = 10 * std::pow(10.0, std::min(options.digits, 9) / 3.0);
   return accuracy;
 }

@@ -267,7 +267,7 @@ test_two_launches_at_once_build_once() {
 }
 
 test_running_program_does_not_hold_up_a_build() {
-  echo 5 >"$settings/program_takes"
+  echo 60 >"$settings/program_takes"
   with_stubs "$tree/clatter" >"$settings/one" 2>/dev/null </dev/null &
   wait_for "$settings/running"
   rm "$settings/program_takes"

@@ -40,6 +40,7 @@ constexpr Flag flags[] = {
     {"--impacts", "run.impacts", "N", "most impacts to report"},
     {"--digits", "run.digits", "N", "significant digits, 2 to 12"},
     {"--method", "run.method", "NAME", "auto, tvd-rk3, rk4, rkf45, rkck or rk8pd"},
+    {"--tolerance", "run.tolerance", "TOL", "relative local error per step of an adaptive method"},
     {"--step", "run.step", "S", "of tvd-rk3"},
     {"--history", "run.history", "FILE", "time history as CSV"},
 };
@@ -54,6 +55,7 @@ void add_scene_flags(CLI::App& command, SceneFlags& given) {
     add_text(command, flags[i].name, given.texts[i], flags[i].type, flags[i].help)->group(group);
   }
   command.add_flag("--planar", given.planar, "keep the motion in its plane")->group(group);
+  command.add_flag("--no-contact-gravity", given.no_contact_gravity, "let gravity act in flight only")->group(group);
 }
 
 SimulationScene read_scene_flags(const SceneFlags& given) {
@@ -63,6 +65,7 @@ SimulationScene read_scene_flags(const SceneFlags& given) {
   }
   SimulationScene scene = read_simulation_scene(given.file, overrides);
   if (given.planar) scene.options.planar = true;
+  if (given.no_contact_gravity) scene.options.gravity_in_contact = false;
   return scene;
 }
 

@@ -193,7 +193,7 @@ int run_processes(const SweepInput& input) {
 
 Action add_sweep_command(CLI::App& app) {
   auto input = std::make_shared<SweepInput>();
-  CLI::App* command = app.add_subcommand("sweep", "many scenes: a grid or random values of keys, rows as CSV");
+  CLI::App* command = app.add_subcommand("sweep", "many scenes: grids or random values, rows as CSV");
   SweepRequest& request = input->request;
   command->add_option("SCENE", request.file, "scene file (TOML)")->required()->type_name("FILE");
   command

@@ -16,7 +16,7 @@ namespace {
 const char* const what_it_is = "cost against true error";
 
 std::string setting_words(const TradePoint& point) {
-  if (point.digits > 0) return fmt::format("{} digits", point.digits);
+  if (point.tolerance > 0) return significant(point.tolerance, 1);
   if (point.step > 0) return fmt::format("{} s", significant(point.step, 2));
   return "";
 }
@@ -39,7 +39,7 @@ std::vector<const TradePoint*> front_of(const Tradeoff& tradeoff) {
 Json point_json(const TradePoint& point) {
   return {{"model", rung_name(point.rung)},
           {"method", point.method.empty() ? Json(nullptr) : Json(point.method)},
-          {"digits", point.digits > 0 ? Json(point.digits) : Json(nullptr)},
+          {"tolerance", point.tolerance > 0 ? Json(point.tolerance) : Json(nullptr)},
           {"step", point.step > 0 ? Json(point.step) : Json(nullptr)},
           {"mesh", point.mesh.empty() ? Json(nullptr) : Json(point.mesh)},
           {"seconds", point.failure.empty() ? number_or_null(point.seconds) : Json(nullptr)},

@@ -53,7 +53,8 @@ const std::vector<std::string> known_keys{
     "body.mesh.file", "body.mesh.unit", "body.mesh.density",
     "ground.stiffness", "ground.damping", "ground.static_friction", "ground.sliding_friction", "ground.area",
     "ground.friction_law", "ground.regularisation_speed",
-    "run.impacts", "run.digits", "run.method", "run.step", "run.history", "run.planar", "run.evaluation_limit",
+    "run.impacts", "run.digits", "run.method", "run.tolerance", "run.step", "run.history", "run.planar",
+    "run.contact_gravity", "run.evaluation_limit",
     "run.errors", "run.amplification",
     "sweep.angle_deg.from", "sweep.angle_deg.to", "sweep.angle_deg.step",
     "sweep.sliding_friction.from", "sweep.sliding_friction.to", "sweep.sliding_friction.step"};
@@ -174,7 +175,12 @@ numeric::Options read_options(const SceneValues& values) {
   if (values.has("run.step") && !takes_step) {
     values.refuse("run.step", fmt::format("left out: {} chooses its own", method_name(options.method)));
   }
+  options.tolerance = values.number("run.tolerance", 0, {numeric::least_tolerance, 0.1, false, "from 5e-14 to 0.1"});
+  if (values.has("run.tolerance") && (options.step > 0 || options.method == Method::tvd_rk3)) {
+    values.refuse("run.tolerance", "left out: a fixed step has none");
+  }
   options.planar = values.truth("run.planar", false);
+  options.gravity_in_contact = values.truth("run.contact_gravity", true);
   options.evaluation_limit = values.integer("run.evaluation_limit", options.evaluation_limit, 1, 1'000'000'000'000);
   options.error_estimates = values.truth("run.errors", true);
   options.amplification = values.truth("run.amplification", true);
@@ -330,7 +336,9 @@ SimulationScene read_values(SceneValues values, const std::vector<SceneOverride>
   for (const SceneOverride& flag : overrides) {
     if (flag.key == "drop.speed") values.drop("drop.height");
     if (flag.key == "drop.height") values.drop("drop.speed");
-    if (flag.key == "run.method" && flag.text != "tvd-rk3") values.drop("run.step");
+    if (flag.key == "run.method") values.drop(flag.text == "tvd-rk3" ? "run.tolerance" : "run.step");
+    if (flag.key == "run.step") values.drop("run.tolerance");
+    if (flag.key == "run.tolerance") values.drop("run.step");
     if (flag.key == "drop.angle_deg") {
       for (const char* key : {".from", ".to", ".step"}) values.drop(std::string("sweep.angle_deg") + key);
     }
@@ -425,8 +433,10 @@ Json SimulationScene::json() const {
                         {"friction_law", friction_law_names[static_cast<std::size_t>(ground.friction)]},
                         {"regularisation_speed", ground.regularisation_speed}}},
             {"run", {{"impacts", options.impacts}, {"digits", options.digits}, {"method", method_name(options.method)},
+                     {"tolerance", options.tolerance > 0 ? Json(options.tolerance) : Json(nullptr)},
                      {"step", options.step > 0 ? Json(options.step) : Json(nullptr)},
                      {"history", history.empty() ? Json(nullptr) : Json(history)}, {"planar", options.planar},
+                     {"contact_gravity", options.gravity_in_contact},
                      {"evaluation_limit", options.evaluation_limit}, {"errors", options.error_estimates},
                      {"amplification", options.amplification}}}};
   if (sweep) {

@@ -5,24 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "validation/scene/simulation_scene.hpp"
+#include "validation/plan/ladder.hpp"
 
 namespace clatter::validation {
-
-/// The models, from the cheapest to the one that leaves nothing out.
-enum class Rung {
-  closed_form,  ///< Eqs. 9 and 12: thin rod, no gravity, friction or damping; at most three impacts
-  discrete,     ///< instantaneous impacts at the real corners, flights between them
-  planar,       ///< continuous contact, kept in its plane
-  spatial,      ///< continuous contact in three dimensions
-};
-[[nodiscard]] const char* rung_name(Rung rung);
 
 /// One model with one setting on the scene.
 struct TradePoint {
   Rung rung = Rung::spatial;
   std::string method;    ///< of the continuous models; empty otherwise
-  int digits = 0;        ///< asked of an adaptive method; 0: fixed step or no method
+  double tolerance = 0;  ///< relative, per step, of an adaptive method; 0: fixed step or no method
   double step = 0;       ///< of tvd-rk3 [s]; 0: none
   std::string mesh;      ///< "paper's", "8 sectors", "4 x 4 x 4 unmerged" …
   double seconds = 0;    ///< least wall time of the repeated runs [s]
@@ -47,10 +38,14 @@ struct TradeoffOptions {
   std::function<bool(std::size_t, std::size_t)> progress = nullptr;
 };
 
-/// The scene through every rung; the continuous ones with five methods over eleven tolerances or steps each, and over
-/// mesh densities.  True values: the planar model (the spatial one for a tilted drop) by rk8pd at 12 digits; impacts
-/// whose errors have grown beyond 1e-6 by then are left out.
+/// Tolerances of the adaptive methods.
+inline constexpr int tolerance_count = 13;
+[[nodiscard]] double trade_tolerance(int index);  ///< 10^(−1 − index), at least the smallest that is allowed
+
+/// The scene through every rung; the continuous ones with four adaptive methods over thirteen tolerances and the
+/// paper's over eleven steps, and over mesh densities.  True values: see true_values().
 /// Methods that fail are points with their reason.
+/// @throws std::domain_error if the scene has no impact with a reference that can be trusted.
 [[nodiscard]] Tradeoff measure_tradeoff(const SimulationScene& scene, const TradeoffOptions& options);
 
 }  // namespace clatter::validation

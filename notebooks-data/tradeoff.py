@@ -1,0 +1,87 @@
+#!/usr/bin/python3
+"""Measures cost against true error on eight scenes: tradeoff.csv, tradeoff.md and figures/tradeoff.svg.
+
+    notebooks-data/tradeoff.py PROGRAM
+
+The program carries tradeoff.csv: `clatter plan` predicts costs and errors from its counts of evaluations and its errors,
+never from its times, which are those of the machine that measured them.
+"""
+
+import csv
+import io
+import subprocess
+import sys
+from pathlib import Path
+
+DATA = Path(__file__).resolve().parent
+ROOT = DATA.parent
+SCENES = {"rod-10": "rod 10°", "rod-45": "rod 45°", "rod-friction-03": "rod with friction", "rod-damped": "rod with damping",
+          "phone-elastic": "phone elastic", "phone-damped": "phone damped", "phone-corner": "phone on a corner",
+          "box-flat": "flat landing"}
+PICTURED = "phone-damped"
+COMMAND = "notebooks-data/tradeoff.py build/release/validation/clatter"
+
+
+def case(scene):
+    return f"validation/cases/{scene}.toml"
+
+
+def measured(program, scene):
+    """Header comments and rows of one scene."""
+    run = subprocess.run([program, "tradeoff", case(scene), "--format", "csv"], capture_output=True, text=True,
+                         check=True, cwd=ROOT)
+    lines = run.stdout.splitlines()
+    return ([line for line in lines if line.startswith("#")],
+            list(csv.DictReader(line for line in lines if not line.startswith("#"))))
+
+
+def write_csv(table):
+    text = io.StringIO()
+    text.write(f"# Cost against true error on eight scenes: {COMMAND}\n")
+    for scene, (comments, _) in table.items():
+        text.writelines(f"# {scene}: {line[2:]}\n" for line in comments if "reference" in line or "error" in line)
+    names = ["scene", *next(iter(table.values()))[1][0]]
+    writer = csv.DictWriter(text, names, lineterminator="\n")
+    writer.writeheader()
+    for scene, (_, rows) in table.items():
+        # Commas would split the words for readers that know no quotes.
+        writer.writerows({"scene": scene} | {name: value.replace(",", ";") for name, value in row.items()} for row in rows)
+    (DATA / "tradeoff.csv").write_text(text.getvalue())
+
+
+def setting(row):
+    how = row["tolerance"] and f"tolerance {float(row['tolerance']):.0e}" or row["step"] and f"step {float(row['step']):.1e} s"
+    return " ".join(part for part in (row["method"], how, row["mesh"]) if part)
+
+
+def front(rows):
+    return sorted((row for row in rows if row["front"] == "true"), key=lambda row: float(row["seconds"]))
+
+
+def write_page(table):
+    lines = ["# Cost against true error", "", f"Made by `{COMMAND}`, from tradeoff.csv beside it. Of every model, method,",
+             "tolerance, step and mesh these are the ones that no other beats in both cost and error. Cost is the least",
+             "wall time of repeated runs in milliseconds on the machine that measured them; the error is the largest over",
+             "all impacts and numbers, relative to the sequence's sizes."]
+    for scene, (_, rows) in table.items():
+        failed = sum(1 for row in rows if row["failure"])
+        lines += ["", f"## {SCENES[scene]} (`{case(scene)}`)", "",
+                  f"{len(rows)} points, {failed} of them without an error (the CSV says why).", "",
+                  "| model | setting | cost [ms] | evaluations | error |", "|---|---|---|---|---|"]
+        lines += [f"| {row['model']} | {setting(row)} | {1e3 * float(row['seconds']):.2g} | {row['force_evaluations']} | "
+                  f"{float(row['error']):.1e} |" for row in front(rows)]
+    (DATA / "tradeoff.md").write_text("\n".join(lines) + "\n")
+
+
+def main():
+    program = str(Path(sys.argv[1]).resolve())
+    table = {scene: measured(program, scene) for scene in SCENES}
+    write_csv(table)
+    write_page(table)
+    picture = DATA / "figures" / "tradeoff.svg"
+    subprocess.run([program, "tradeoff", case(PICTURED), "--plot", str(picture)], check=True, cwd=ROOT,
+                   stdout=subprocess.DEVNULL)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,77 @@
+// A random scene, its plan, and whether the plan was right.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include "validation/compare/random_scenes.hpp"
+#include "validation/plan/plan.hpp"
+
+namespace clatter::validation {
+
+struct PlannedScene {
+  int digits = 0;
+  bool judged = false;    ///< the true values are known ten times better than what was asked
+  bool promised = false;  ///< the plan said that its choice serves
+  bool met = false;       ///< it does
+  double error = 0, predicted = 0;
+  double cost_ratio = 0;      ///< evaluations of the choice over those of the cheapest setting that serves
+  double planning_ratio = 0;  ///< evaluations of the pilots over those of the choice
+  std::string choice;
+};
+
+/// Evaluations of the cheapest of all rungs, four methods and half-decade tolerances that serves; infinite: none does.
+inline double cheapest_that_serves(const Ladder& ladder, const Truth& truth, double asked) {
+  using numeric::Method;
+  const int impacts = static_cast<int>(truth.rows.size());
+  const auto serves = [&](const RungResult& result) { return distance(result.rows, truth.rows, truth.sizes) <= asked; };
+  for (const Rung rung : {Rung::closed_form, Rung::discrete}) {
+    if (ladder.against(rung).empty() && serves(ladder.run({.rung = rung}, impacts))) return 0;
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (const Method method : {Method::rkck, Method::rk8pd, Method::rkf45, Method::rk4}) {
+    for (int i = 2; i <= 26; ++i) {
+      const double tolerance = std::max(std::pow(10.0, -0.5 * i), numeric::least_tolerance);
+      const RungSetting setting{.rung = ladder.full(), .method = method, .tolerance = tolerance};
+      const RungResult result = ladder.run(setting, impacts);
+      const auto evaluations = static_cast<double>(result.evaluations);
+      if (evaluations < least && serves(result)) least = evaluations;
+      if (evaluations > 3 * least) break;  // tighter ones cost more
+    }
+  }
+  return least;
+}
+
+/// Scene `index` of family `seed`, 2 to 9 digits of its first three impacts asked for.
+inline PlannedScene plan_and_judge(std::uint64_t seed, int index) {
+  SimulationScene scene = random_scene(seed, index);
+  scene.options.impacts = 3;
+  scene.options.evaluation_limit = 300'000;
+  PlannedScene result;
+  result.digits = 2 + index % 8;
+  const Plan plan = make_plan(scene, {.digits = result.digits});
+  result.promised = plan.serves;
+  const Truth truth = true_values(Ladder(scene));
+  result.judged = !truth.rows.empty() && static_cast<int>(truth.rows.size()) == plan.known_impacts &&
+                  truth.error <= plan.asked / 10;
+  if (!result.judged || !result.promised) return result;
+  const Ladder chosen(plan.scene);
+  const RungResult run = chosen.run(plan.choice, plan.known_impacts);
+  result.error = distance(run.rows, truth.rows, truth.sizes);
+  result.predicted = plan.error;
+  result.met = result.error <= plan.asked;
+  const double evaluations = is_continuous(plan.choice.rung) ? static_cast<double>(run.evaluations) : 0;
+  const double cheapest = cheapest_that_serves(Ladder(scene), truth, plan.asked);
+  result.cost_ratio = evaluations == cheapest ? 1 : evaluations / cheapest;
+  result.planning_ratio = static_cast<double>(plan.pilot_evaluations) / std::max(evaluations, 1.0);
+  result.choice = fmt::format("{} {} {:.0e}", rung_name(plan.choice.rung), method_name(plan.choice.method),
+                              plan.choice.tolerance);
+  return result;
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,163 @@
+#include "validation/plan/ladder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analytic/contact_angles.hpp"
+#include "analytic/errors.hpp"
+#include "validation/compare/discrete_scene.hpp"
+#include "validation/output/names.hpp"
+#include "validation/plan/symmetry.hpp"
+
+namespace clatter::validation {
+namespace {
+
+using numeric::Method;
+using numeric::Simulation;
+
+constexpr double trusted = 1e-6;  // relative: rows of the reference that are known better than this
+
+std::size_t index(Rung rung) { return static_cast<std::size_t>(rung); }
+
+}  // namespace
+
+const char* rung_name(Rung rung) {
+  switch (rung) {
+    case Rung::closed_form: return "closed form";
+    case Rung::discrete: return "discrete";
+    case Rung::planar: return "planar";
+    case Rung::spatial: return "spatial";
+  }
+  return "";
+}
+
+const char* rung_assumption(Rung rung) {
+  switch (rung) {
+    case Rung::closed_form: return "the rod is thin, and nothing strikes after the third impact";
+    case Rung::discrete: return "contacts take no time and no depth";
+    case Rung::planar: return "the body stays in the plane of its motion";
+    case Rung::spatial: return "the body is rigid, the ground a bed of springs and dampers";
+  }
+  return "";
+}
+
+const char* part_name(Part part) {
+  switch (part) {
+    case Part::friction: return "friction";
+    case Part::damping: return "damping";
+    case Part::gravity_in_contact: return "gravity during contact";
+    case Part::unmerged_faces: return "elements of flat faces";
+  }
+  return "";
+}
+
+bool has_part(const SimulationScene& scene, Part part) {
+  switch (part) {
+    case Part::friction: return scene.ground.has_friction();
+    case Part::damping: return scene.ground.damping > 0;
+    case Part::gravity_in_contact: return scene.options.gravity > 0 && scene.options.gravity_in_contact;
+    case Part::unmerged_faces: return !scene.body.merge;
+  }
+  return false;
+}
+
+SimulationScene without(SimulationScene scene, Part part) {
+  switch (part) {
+    case Part::friction: scene.ground.static_friction = scene.ground.sliding_friction = 0; break;
+    case Part::damping: scene.ground.damping = 0; break;
+    case Part::gravity_in_contact: scene.options.gravity_in_contact = false; break;
+    case Part::unmerged_faces: scene.body.merge = true; break;
+  }
+  return scene;
+}
+
+Ladder::Ladder(SimulationScene scene)
+    : scene_(std::move(scene)), body_(scene_.make_body()), start_(scene_.start(body_)) {
+  try {
+    drop_ = discrete_drop(scene_, body_);
+  } catch (const analytic::OutsideModelError& error) {
+    against_[index(Rung::discrete)] = error.what();
+  }
+  against_[index(Rung::closed_form)] = reason_against_closed_form();
+  against_[index(Rung::planar)] = reason_against_planar();
+}
+
+std::string Ladder::reason_against_closed_form() const {
+  if (scene_.body.shape != BodyScene::Shape::rod) return "it is for a rod";
+  if (scene_.ground.has_friction() || scene_.ground.damping > 0) return "it has no friction and no damping";
+  if (scene_.tangential_velocity != 0 || scene_.spin != 0 || scene_.tilt_deg != 0)
+    return "it starts from a straight fall";
+  return scene_.angle_deg == 0 ? "one end strikes first in it" : "";
+}
+
+std::string Ladder::reason_against_planar() const {
+  if (scene_.options.planar || is_mirror_image(body_, start_)) return "";
+  return "the body is not its own mirror image in the plane of its motion";
+}
+
+std::vector<MotionNumbers> Ladder::closed_form(int impacts) const {
+  const double speed = -start_.velocity.z(), length = scene_.body.length, mass = scene_.body.mass;
+  const analytic::Angle theta = analytic::Angle::from_degrees(scene_.angle_deg);
+  if (impacts == 1) {  // Eq. 9 alone
+    const analytic::PlanarBody rod = analytic::make_rod({.mass = mass, .length = length, .radius = 0});
+    const analytic::ContactPoint end = rod.contact_point(0, std::sin(theta.radians), std::cos(theta.radians));
+    const analytic::Impact impact = analytic::strike(rod, {.normal = -speed}, end, {});
+    return {{0, scene_.angle_deg, 0, 0, impact.normal_impulse, 0, 0, impact.after.normal, 0, impact.after.angular, 0}};
+  }
+  const analytic::ContactAngles at =
+      contact_angles(theta, {.gravity_number = scene_.options.gravity * length / (speed * speed)});
+  const double time[] = {0, at.beta.time, at.beta.time + at.gamma.time};
+  const double angle[] = {theta.radians, at.beta.angle, at.gamma.angle};
+  std::vector<MotionNumbers> rows;
+  for (int i = 0; i < std::min(at.impacts(), impacts); ++i) {
+    rows.push_back({time[i] * length / speed, angle[i] * analytic::degrees_per_radian, 0, 0,
+                    at.impulse[i] * mass * speed, 0, 0, at.velocity[i] * speed, 0, at.angular[i] * speed / length, 0});
+  }
+  return rows;
+}
+
+Simulation Ladder::simulate(const RungSetting& setting, int impacts) const {
+  numeric::Options options = scene_.options;
+  options.method = setting.method;
+  options.tolerance = setting.step > 0 ? 0 : setting.tolerance;
+  options.step = setting.step;
+  options.impacts = impacts;
+  options.planar = setting.rung == Rung::planar;
+  options.error_estimates = options.amplification = false;
+  options.history = nullptr;
+  return numeric::simulate(body_, scene_.ground, start_, options);
+}
+
+RungResult Ladder::run(const RungSetting& setting, int impacts) const {
+  if (setting.rung == Rung::closed_form) return {closed_form(impacts), 0, "nothing strikes after the third impact"};
+  if (setting.rung == Rung::discrete) {
+    const analytic::Sequence sequence = impact_sequence(*drop_, {.impacts = impacts, .amplification = false});
+    return {motion_rows(sequence), sequence.root_evaluations, sequence.message};
+  }
+  const Simulation run = simulate(setting, impacts);
+  return {motion_rows(run), run.force_evaluations, std::string(outcome_name(run.outcome)) + ": " + run.message};
+}
+
+Truth true_values(const Ladder& ladder) {
+  Truth truth;
+  truth.setting = {.rung = ladder.full(), .method = Method::rk8pd, .tolerance = numeric::least_tolerance};
+  const int impacts = ladder.scene().options.impacts;
+  const Simulation run = ladder.simulate(truth.setting, impacts);
+  if (run.impacts.empty()) return truth;
+  RungSetting coarser = truth.setting;
+  coarser.tolerance *= 30;
+  const Simulation other = ladder.simulate(coarser, impacts);
+  truth.sizes = motion_sizes(run, run.impacts.size(), ladder.body());
+  truth.contact_time = run.impacts[0].value.duration;
+  const auto rows = motion_rows(run), others = motion_rows(other);
+  for (std::size_t i = 0; i < std::min(rows.size(), others.size()); ++i) {
+    const double error = row_distance(rows[i], others[i], truth.sizes);
+    if (!(error <= trusted) || run.impacts[i].end != other.impacts[i].end) break;
+    truth.error = std::max(truth.error, error);
+    truth.rows.push_back(rows[i]);
+  }
+  if (!truth.rows.empty()) truth.sizes = motion_sizes(run, truth.rows.size(), ladder.body());
+  return truth;
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,97 @@
+// The ladder of models: from a formula to the body in space, each rung under one interface.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/plan/motion_numbers.hpp"
+#include "validation/scene/simulation_scene.hpp"
+
+namespace clatter::validation {
+
+/// The models, from the cheapest to the one that leaves nothing out.
+enum class Rung {
+  closed_form,  ///< Eqs. 9 and 12: thin rod that falls straight, without friction or damping; at most three impacts
+  discrete,     ///< instantaneous impacts at the real corners, flights between them
+  planar,       ///< continuous contact, kept in its plane
+  spatial,      ///< continuous contact in three dimensions
+};
+inline constexpr Rung all_rungs[] = {Rung::closed_form, Rung::discrete, Rung::planar, Rung::spatial};
+
+[[nodiscard]] const char* rung_name(Rung rung);
+/// What a rung takes for granted, in which the rung above it does not follow.
+[[nodiscard]] const char* rung_assumption(Rung rung);
+[[nodiscard]] inline bool is_continuous(Rung rung) { return rung == Rung::planar || rung == Rung::spatial; }
+
+/// What a continuous run can leave out of a scene that has it.
+enum class Part {
+  friction,            ///< μ_s = μ_k = 0
+  damping,             ///< c_G = 0
+  gravity_in_contact,  ///< g acts in flight only
+  unmerged_faces,      ///< coplanar elements become one facet; the result is the same
+};
+inline constexpr Part all_parts[] = {Part::friction, Part::damping, Part::gravity_in_contact, Part::unmerged_faces};
+[[nodiscard]] const char* part_name(Part part);
+/// Whether the scene has it, so that something is left out without it.
+[[nodiscard]] bool has_part(const SimulationScene& scene, Part part);
+/// The scene without it.
+[[nodiscard]] SimulationScene without(SimulationScene scene, Part part);
+
+/// How a rung is run.  Method, tolerance and step are for the continuous rungs.
+struct RungSetting {
+  Rung rung = Rung::spatial;
+  numeric::Method method = numeric::Method::rk8pd;
+  double tolerance = 0;  ///< relative, per step, of an adaptive method
+  double step = 0;       ///< of tvd-rk3 [s]
+};
+
+/// What a rung says of a scene.
+struct RungResult {
+  std::vector<MotionNumbers> rows;
+  long evaluations = 0;  ///< of the contact force; of height functions for the rungs without
+  std::string ending;    ///< how it ended, in words
+};
+
+/// A scene with what its rungs share.
+class Ladder {
+ public:
+  /// @throws as SimulationScene::make_body and start.
+  explicit Ladder(SimulationScene scene);
+
+  [[nodiscard]] const SimulationScene& scene() const { return scene_; }
+  [[nodiscard]] const numeric::Body& body() const { return body_; }
+  /// Why the rung does not apply to the scene; empty: it does.
+  [[nodiscard]] const std::string& against(Rung rung) const { return against_[static_cast<std::size_t>(rung)]; }
+  /// The lowest rung that leaves nothing out of this scene: a body that is symmetric about the plane of its motion
+  /// stays in it, so that the planar rung is the spatial one.
+  [[nodiscard]] Rung full() const { return against(Rung::planar).empty() ? Rung::planar : Rung::spatial; }
+
+  /// The first `impacts` impacts by a rung that applies.
+  [[nodiscard]] RungResult run(const RungSetting& setting, int impacts) const;
+  /// The same of a continuous rung with all its numbers; neither error estimates nor amplification.
+  [[nodiscard]] numeric::Simulation simulate(const RungSetting& setting, int impacts) const;
+
+ private:
+  [[nodiscard]] std::string reason_against_closed_form() const;
+  [[nodiscard]] std::string reason_against_planar() const;
+  [[nodiscard]] std::vector<MotionNumbers> closed_form(int impacts) const;
+
+  SimulationScene scene_;
+  numeric::Body body_;
+  numeric::MotionState start_;
+  std::optional<analytic::Drop> drop_;
+  std::string against_[4];
+};
+
+/// Reference values of a scene: the full rung by rk8pd at the smallest tolerance.
+struct Truth {
+  RungSetting setting;
+  std::vector<MotionNumbers> rows;  ///< those whose estimated relative error is at most 1e-6
+  MotionNumbers sizes{};
+  double error = 0;         ///< largest of these estimates
+  double contact_time = 0;  ///< duration of the first contact [s]
+};
+[[nodiscard]] Truth true_values(const Ladder& ladder);
+
+}  // namespace clatter::validation

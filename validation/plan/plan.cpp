@@ -1,0 +1,283 @@
+#include "validation/plan/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "validation/compare/discrete_scene.hpp"
+#include "validation/compare/prediction.hpp"
+#include "validation/output/number.hpp"
+#include "validation/plan/cost_table.hpp"
+#include "validation/plan/tolerance_search.hpp"
+
+namespace clatter::validation {
+namespace {
+
+using numeric::Method;
+using numeric::Simulation;
+using Rows = std::vector<MotionNumbers>;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double finest_pilot_tolerance = 1e-8;
+constexpr double share_of_parts = 0.25;  // of what is asked, for all that is left out
+constexpr double margin = 1.5;           // what an error measured against a finer run may be wrong by
+constexpr long evaluations_per_run = 2'000'000;
+
+double seconds_of(const std::function<void()>& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+double least_seconds_of(int repeats, const std::function<void()>& work) {
+  double least = infinity;
+  for (int i = 0; i < repeats; ++i) least = std::min(least, seconds_of(work));
+  return least;
+}
+
+SimulationScene limited(SimulationScene scene) {
+  scene.options.evaluation_limit = std::min(scene.options.evaluation_limit, evaluations_per_run);
+  return scene;
+}
+
+/// The same sizes for the numbers that the discrete model's account of itself has.
+Quantities planar_sizes(const MotionNumbers& sizes) {
+  return {sizes[0], sizes[1], sizes[4], sizes[2], sizes[7], sizes[5], sizes[9]};
+}
+
+/// One plan in the making.
+class Planner {
+ public:
+  Planner(const SimulationScene& scene, const PlanTarget& target)
+      : target_(target), ladder_(limited(without(scene, Part::unmerged_faces))), full_(ladder_.full()) {
+    plan_.asked = std::pow(10.0, -target.digits);
+    plan_.impacts = scene.options.impacts;
+    plan_.scene = scene;
+  }
+
+  Plan make() {
+    run_pilots();
+    if (truth_.empty()) return std::move(plan_);
+    weigh_parts();
+    weigh_continuous();
+    weigh_the_rest();
+    choose();
+    return std::move(plan_);
+  }
+
+ private:
+  [[nodiscard]] int impacts() const { return static_cast<int>(truth_.size()); }
+
+  void run_pilots() {
+    const int wanted = plan_.impacts;
+    Simulation finest;
+    plan_.pilot_seconds = seconds_of([&] {
+      finest = ladder_.simulate({.rung = full_, .method = Method::rkck, .tolerance = finest_pilot_tolerance}, wanted);
+    });
+    plan_.pilot_evaluations = finest.force_evaluations;
+    seconds_per_evaluation_ = plan_.pilot_seconds / static_cast<double>(finest.force_evaluations);
+    if (finest.impacts.empty()) return;
+    truth_ = motion_rows(finest);
+    sizes_ = motion_sizes(finest, finest.impacts.size(), ladder_.body());
+    for (const numeric::ImpactRecord& row : finest.impacts) contact_times_.push_back(row.value.duration);
+    const RungResult loose = pilot(CostTable::loose_tolerance), middle = pilot(CostTable::pilot_tolerance);
+    pilot_base_ = static_cast<double>(middle.evaluations);
+    const double error = distance(middle.rows, truth_, sizes_), loose_error = distance(loose.rows, truth_, sizes_);
+    plan_.error_constant = std::isfinite(loose_error) ? CostTable::error_constant(loose_error, error)
+                                                      : error / CostTable::pilot_tolerance;
+    watch_the_plane();
+  }
+
+  RungResult pilot(double tolerance) {
+    const RungResult result =
+        ladder_.run({.rung = full_, .method = Method::rkck, .tolerance = tolerance}, impacts());
+    plan_.pilot_evaluations += result.evaluations;
+    return result;
+  }
+
+  /// How long the planar rung's motion is that of a body in space.
+  void watch_the_plane() {
+    plan_.predictable_impacts = impacts();
+    if (full_ != Rung::planar || plan_.scene.options.planar) return;
+    numeric::Options options = ladder_.scene().options;
+    options.method = Method::rkck;
+    options.tolerance = CostTable::pilot_tolerance;
+    options.step = 0;
+    options.impacts = impacts();
+    options.error_estimates = false;
+    options.amplification = true;
+    options.history = nullptr;
+    const Simulation run =
+        numeric::simulate(ladder_.body(), ladder_.scene().ground, ladder_.scene().start(ladder_.body()), options);
+    plan_.pilot_evaluations += run.force_evaluations;
+    plan_.predictable_impacts = 0;
+    for (const numeric::ImpactRecord& row : run.impacts) {
+      plan_.growth_out_of_plane = row.amplification;
+      if (!(row.amplification * std::numeric_limits<double>::epsilon() <= plan_.asked)) break;
+      ++plan_.predictable_impacts;
+    }
+  }
+
+  /// Leaves out what changes little enough and saves evaluations.
+  void weigh_parts() {
+    double spent = 0;
+    for (const Part part : all_parts) {
+      if (!has_part(plan_.scene, part)) continue;
+      WeighedPart weighed{.part = part};
+      if (part == Part::unmerged_faces) {
+        weighed.left_out = true;
+      } else {
+        const Ladder reduced(without(ladder_.scene(), part));
+        const RungResult result = reduced.run(
+            {.rung = full_, .method = Method::rkck, .tolerance = finest_pilot_tolerance}, impacts());
+        plan_.pilot_evaluations += result.evaluations;
+        weighed.error = distance(result.rows, truth_, sizes_);
+        const double known_to = weighed.error + plan_.error_constant * finest_pilot_tolerance;
+        weighed.left_out = part != Part::gravity_in_contact && spent + known_to <= share_of_parts * plan_.asked;
+        if (weighed.left_out) spent += known_to;
+      }
+      if (weighed.left_out) plan_.scene = without(plan_.scene, part);
+      plan_.parts.push_back(weighed);
+    }
+    budget_ = plan_.asked - spent;
+    ladder_ = Ladder(limited(plan_.scene));
+  }
+
+  void weigh_continuous() {
+    WeighedRung weighed{.rung = full_};
+    ToleranceSearch search(ladder_, full_, impacts(), sizes_, plan_.error_constant, pilot_base_);
+    const FoundSetting found = search.cheapest(budget_ / margin);
+    plan_.pilot_evaluations += search.evaluations_spent();
+    truth_ = found.reference;
+    plan_.known_impacts = known_impacts(found);
+    weighed.setting = found.setting;
+    weighed.error = found.error;
+    weighed.evaluations = static_cast<double>(found.evaluations);
+    weighed.serves = found.serves;
+    weighed.seconds = weighed.evaluations * seconds_per_evaluation_;
+    continuous_ = weighed;
+  }
+
+  [[nodiscard]] int known_impacts(const FoundSetting& found) const {
+    int count = 0;
+    for (std::size_t i = 0; i < found.errors.size() && found.errors[i] <= plan_.asked; ++i) ++count;
+    return count;
+  }
+
+  void weigh_the_rest() {
+    for (const Rung rung : all_rungs) {
+      WeighedRung weighed{.rung = rung};
+      weighed.against = ladder_.against(rung);
+      weighed.setting = {.rung = rung};
+      if (rung == full_) weighed = continuous_;
+      else if (weighed.against.empty()) run_rung(weighed);
+      if (weighed.against.empty()) weigh_assumption(weighed);
+      plan_.rungs.push_back(weighed);
+    }
+  }
+
+  void run_rung(WeighedRung& weighed) {
+    if (is_continuous(weighed.rung)) {
+      weighed.setting = continuous_.setting;
+      weighed.setting.rung = weighed.rung;
+    }
+    RungResult result;
+    const double seconds =
+        least_seconds_of(is_continuous(weighed.rung) ? 1 : 5, [&] { result = ladder_.run(weighed.setting, impacts()); });
+    weighed.error = distance(result.rows, truth_, sizes_);
+    weighed.evaluations = is_continuous(weighed.rung) ? static_cast<double>(result.evaluations) : 0;
+    weighed.seconds = is_continuous(weighed.rung) ? weighed.evaluations * seconds_per_evaluation_ : seconds;
+    weighed.serves = margin * weighed.error <= budget_;
+    if (is_continuous(weighed.rung)) plan_.pilot_evaluations += result.evaluations;
+    if (weighed.rung == Rung::discrete) discrete_rows_ = result.rows;
+    if (weighed.rung == Rung::closed_form) closed_form_rows_ = result.rows;
+  }
+
+  void weigh_assumption(WeighedRung& weighed) const {
+    weighed.assumption_words = rung_assumption(weighed.rung);
+    if (weighed.rung == Rung::closed_form) weighed.assumption_error = thinness();
+    if (weighed.rung == Rung::discrete) weighed.assumption_error = contact_effects();
+    if (weighed.rung == Rung::planar) {
+      weighed.assumption_error = plan_.growth_out_of_plane * std::numeric_limits<double>::epsilon();
+    }
+  }
+
+  /// What the rod's radius changes: closed form against the discrete rung at the rod's real corners.
+  [[nodiscard]] double thinness() const {
+    const analytic::Drop drop = discrete_drop(ladder_.scene(), ladder_.body());
+    return distance(closed_form_rows_,
+                    motion_rows(impact_sequence(drop, {.impacts = impacts(), .amplification = false})), sizes_);
+  }
+
+  /// What gravity, turning, indentation and delay of the contacts change, carried on by the discrete model.
+  [[nodiscard]] double contact_effects() const {
+    const analytic::Drop drop = discrete_drop(ladder_.scene(), ladder_.body());
+    const analytic::Sequence sequence = impact_sequence(drop, {.impacts = impacts(), .amplification = false});
+    const Quantities sizes = planar_sizes(sizes_);
+    double worst = 0;
+    for (const PredictedSize& row : predicted_sizes(drop, sequence, contact_times_)) {
+      const Quantities total = row.total();
+      for (std::size_t q = 0; q < quantity_count; ++q) worst = std::max(worst, total[q] / sizes[q]);
+    }
+    return worst;
+  }
+
+  [[nodiscard]] bool fits(double seconds) const { return !target_.within_ms || 1e3 * seconds <= *target_.within_ms; }
+  [[nodiscard]] bool allowed(Rung rung) const { return !target_.continuous_only || is_continuous(rung); }
+
+  void take(const WeighedRung& weighed) {
+    plan_.choice = weighed.setting;
+    plan_.error = weighed.error;
+    plan_.evaluations = weighed.evaluations;
+    plan_.seconds = weighed.seconds;
+    plan_.serves = weighed.serves;
+  }
+
+  void choose() {
+    for (const WeighedRung& weighed : plan_.rungs) {
+      if (allowed(weighed.rung) && weighed.serves && fits(weighed.seconds)) return take(weighed);
+    }
+    if (target_.within_ms) choose_most_accurate();
+    else take(continuous_);
+  }
+
+  /// Of all that fits into the time, by the table.
+  void choose_most_accurate() {
+    WeighedRung best;
+    for (const WeighedRung& weighed : plan_.rungs) {
+      const bool better = std::isnan(best.error) || weighed.error < best.error;
+      if (weighed.against.empty() && allowed(weighed.rung) && fits(weighed.seconds) && better) best = weighed;
+    }
+    const CostTable& table = CostTable::measured();
+    for (const Method method : {Method::rkck, Method::rk8pd}) {
+      for (int i = 0; i < tolerance_steps; ++i) {
+        WeighedRung weighed{.rung = full_};
+        weighed.setting = {.rung = full_, .method = method, .tolerance = half_decade(i)};
+        weighed.error = plan_.error_constant * half_decade(i) * table.error(method, half_decade(i));
+        weighed.evaluations = pilot_base_ * table.evaluations(method, half_decade(i));
+        weighed.seconds = weighed.evaluations * seconds_per_evaluation_;
+        weighed.serves = margin * weighed.error <= budget_;
+        if (fits(weighed.seconds) && (std::isnan(best.error) || weighed.error < best.error)) best = weighed;
+      }
+    }
+    take(best);
+  }
+
+  PlanTarget target_;
+  Ladder ladder_;
+  Rung full_;
+  Plan plan_;
+  Rows truth_, discrete_rows_, closed_form_rows_;
+  MotionNumbers sizes_{};
+  std::vector<double> contact_times_;
+  double pilot_base_ = 0, seconds_per_evaluation_ = 0, budget_ = 0;
+  WeighedRung continuous_;
+};
+
+}  // namespace
+
+Plan make_plan(const SimulationScene& scene, const PlanTarget& target) { return Planner(scene, target).make(); }
+
+}  // namespace clatter::validation

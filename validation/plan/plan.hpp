@@ -1,0 +1,76 @@
+// The smallest model, and the loosest setting of it, that gives the digits asked for.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/plan/ladder.hpp"
+
+namespace clatter::validation {
+
+/// What is asked for.
+struct PlanTarget {
+  /// Of every time, angle, impulse and velocity of every impact, relative to the sequence's sizes (motion_sizes):
+  /// error <= 10^−digits.
+  int digits = 6;
+  /// The run may take this long [ms]; the most accurate that fits is chosen if the digits do not fit.
+  std::optional<double> within_ms = std::nullopt;
+  bool continuous_only = false;  ///< for a run that must have forces and durations
+};
+
+/// One rung as it was weighed: how it would be run, what that costs and delivers.
+struct WeighedRung {
+  Rung rung = Rung::spatial;
+  std::string against = {};  ///< why it does not apply; empty: it does
+  RungSetting setting = {};
+  double error = std::numeric_limits<double>::quiet_NaN();  ///< relative; NaN: not known
+  double evaluations = 0;                                   ///< of the contact force
+  double seconds = 0;
+  /// What the rung's assumption brings, by the model's own account, relative; NaN: no account.
+  double assumption_error = std::numeric_limits<double>::quiet_NaN();
+  std::string assumption_words = {};
+  bool serves = false;
+};
+
+/// A part of the scene that could be left out.
+struct WeighedPart {
+  Part part = Part::friction;
+  double error = 0;  ///< what leaving it out changes, relative; infinite: too much to be tried
+  bool left_out = false;
+};
+
+struct Plan {
+  double asked = 0;            ///< relative error
+  SimulationScene scene;       ///< without what is left out
+  RungSetting choice;
+  bool serves = false;         ///< whether the choice is expected to meet what was asked
+  double error = 0;            ///< predicted, relative
+  double evaluations = 0;
+  double seconds = 0;
+  int impacts = 0;             ///< of the scene
+  int known_impacts = 0;       ///< the first impacts, which can be had to what was asked by the full rung
+  int predictable_impacts = 0; ///< those before which errors out of the plane have not outgrown what was asked
+  double growth_out_of_plane = std::numeric_limits<double>::quiet_NaN();  ///< of a small error, until the last impact
+  double error_constant = 0;   ///< error over tolerance of rkck, from the pilot runs
+  std::vector<WeighedRung> rungs;
+  std::vector<WeighedPart> parts;
+  long pilot_evaluations = 0;
+  double pilot_seconds = 0;
+};
+
+/// Plans the scene.
+///
+/// Pilot runs of the full rung with rkck at tolerances 1e-4, 1e-6 and 1e-8 give the impacts, the evaluations that they
+/// take and the scene's error constant C (error over tolerance); with the measured table (CostTable) these give error
+/// and evaluations of every method and tolerance.  The rungs without contact times are run, which is cheap, and
+/// compared with the pilot.  The setting of the continuous rung is then checked against a finer run and moved by half
+/// decades of the tolerance until its error lies just below what is asked.
+/// Only counts decide, never times, unless `within_ms` is given: the plan is the same on every machine.
+[[nodiscard]] Plan make_plan(const SimulationScene& scene, const PlanTarget& target);
+
+/// The command line that runs the plan's choice.
+[[nodiscard]] std::string command_line(const Plan& plan);
+
+}  // namespace clatter::validation

@@ -1,0 +1,96 @@
+#include "validation/plan/tolerance_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "validation/plan/cost_table.hpp"
+
+namespace clatter::validation {
+namespace {
+
+using numeric::Method;
+
+constexpr Method methods[] = {Method::rkck, Method::rk8pd};
+constexpr double guess_margin = 3;         // the table's medians are off by this on many scenes
+constexpr double worth_trying = 2;         // a method predicted to cost this much more than the other is left
+constexpr int finer_steps = 4;             // the reference is two decades of tolerance finer
+
+std::size_t index_of(Method method) { return method == Method::rkck ? 0 : 1; }
+
+}  // namespace
+
+double half_decade(int index) { return std::max(1e-4 * std::pow(10.0, -0.5 * index), numeric::least_tolerance); }
+
+ToleranceSearch::ToleranceSearch(const Ladder& ladder, Rung rung, int impacts, const MotionNumbers& sizes,
+                                 double error_constant, double pilot_evaluations)
+    : ladder_(ladder), rung_(rung), impacts_(impacts), sizes_(sizes), error_constant_(error_constant),
+      pilot_evaluations_(pilot_evaluations) {}
+
+ToleranceSearch::Start ToleranceSearch::predict(Method method, double asked) const {
+  const CostTable& table = CostTable::measured();
+  int index = 0;
+  const auto error = [&](int i) { return error_constant_ * half_decade(i) * table.error(method, half_decade(i)); };
+  while (index < tolerance_steps - 1 && !(guess_margin * error(index) <= asked)) ++index;
+  return {method, index, pilot_evaluations_ * table.evaluations(method, half_decade(index))};
+}
+
+/// The finer run; at least as fine as any trial.
+void ToleranceSearch::find_reference(double asked, int index) {
+  const int finest = tolerance_steps - 1;
+  const Start start = predict(Method::rk8pd, asked / 100);
+  const RungSetting setting{.rung = rung_, .method = Method::rk8pd,
+                            .tolerance = half_decade(std::min(finest, std::max(start.index, index + finer_steps)))};
+  const RungResult result = ladder_.run(setting, impacts_);
+  spent_ += result.evaluations;
+  reference_ = result.rows;
+}
+
+ToleranceSearch::Trial& ToleranceSearch::trial(Method method, int index) {
+  Trial& trial = trials_[index_of(method)][index];
+  if (trial.known) return trial;
+  trial.result = ladder_.run({.rung = rung_, .method = method, .tolerance = half_decade(index)}, impacts_);
+  trial.error = distance(trial.result.rows, reference_, sizes_);
+  trial.known = true;
+  spent_ += trial.result.evaluations;
+  return trial;
+}
+
+void ToleranceSearch::take(Method method, int index, double asked, FoundSetting& best) {
+  const Trial& found = trial(method, index);
+  const bool serves = found.error <= asked;
+  const bool better = serves ? !best.serves || found.result.evaluations < best.evaluations
+                             : !best.serves && (best.evaluations == 0 || found.error < best.error);
+  if (!better) return;
+  best.setting = {.rung = rung_, .method = method, .tolerance = half_decade(index)};
+  best.error = found.error;
+  best.evaluations = found.result.evaluations;
+  best.serves = serves;
+  best.errors.clear();
+  for (std::size_t i = 0; i < std::min(found.result.rows.size(), reference_.size()); ++i) {
+    best.errors.push_back(row_distance(found.result.rows[i], reference_[i], sizes_));
+  }
+}
+
+/// From the predicted tolerance to tighter ones until it serves, or to looser ones as long as it does.
+void ToleranceSearch::descend(const Start& start, double asked, FoundSetting& best) {
+  int index = start.index;
+  while (!(trial(start.method, index).error <= asked) && index < tolerance_steps - 2) ++index;
+  take(start.method, index, asked, best);
+  while (index > 0 && trial(start.method, index - 1).error <= asked) take(start.method, --index, asked, best);
+}
+
+FoundSetting ToleranceSearch::cheapest(double asked) {
+  Start starts[] = {predict(methods[0], asked), predict(methods[1], asked)};
+  find_reference(asked, std::max(starts[0].index, starts[1].index));
+  if (starts[1].evaluations < starts[0].evaluations) std::swap(starts[0], starts[1]);
+  FoundSetting best;
+  descend(starts[0], asked, best);
+  if (!best.serves || starts[1].evaluations <= worth_trying * static_cast<double>(best.evaluations)) {
+    descend(starts[1], asked, best);
+  }
+  best.reference = reference_;
+  return best;
+}
+
+}  // namespace clatter::validation

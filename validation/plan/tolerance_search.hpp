@@ -1,0 +1,63 @@
+// The loosest tolerance of a continuous rung that keeps to an error.
+#pragma once
+
+#include <vector>
+
+#include "validation/plan/ladder.hpp"
+
+namespace clatter::validation {
+
+/// Tolerances are tried by half decades: 1e-4, 3e-5, … down to the smallest allowed.  Above 1e-4 a run is not cheaper:
+/// events cost the most.
+inline constexpr int tolerance_steps = 20;
+[[nodiscard]] double half_decade(int index);
+
+struct FoundSetting {
+  RungSetting setting;
+  double error = 0;             ///< against the reference, relative
+  long evaluations = 0;
+  bool serves = false;          ///< error <= what was asked
+  std::vector<MotionNumbers> reference;  ///< rows of the finest run
+  std::vector<double> errors;   ///< of each row; where nothing serves, of the finest setting
+};
+
+/// Finds it by trial: the measured table says where to begin, runs against a finer one where to stop.
+class ToleranceSearch {
+ public:
+  /// @param error_constant error over tolerance of rkck
+  /// @param pilot_evaluations of rkck at CostTable::pilot_tolerance
+  ToleranceSearch(const Ladder& ladder, Rung rung, int impacts, const MotionNumbers& sizes, double error_constant,
+                  double pilot_evaluations);
+
+  /// The cheapest setting with error <= asked.
+  [[nodiscard]] FoundSetting cheapest(double asked);
+  [[nodiscard]] long evaluations_spent() const { return spent_; }
+
+ private:
+  struct Trial {
+    RungResult result;
+    double error = 0;
+    bool known = false;
+  };
+  struct Start {
+    numeric::Method method;
+    int index;
+    double evaluations;
+  };
+  [[nodiscard]] Start predict(numeric::Method method, double asked) const;
+  void find_reference(double asked, int index);
+  Trial& trial(numeric::Method method, int index);
+  void descend(const Start& start, double asked, FoundSetting& best);
+  void take(numeric::Method method, int index, double asked, FoundSetting& best);
+
+  const Ladder& ladder_;
+  Rung rung_;
+  int impacts_;
+  MotionNumbers sizes_;
+  double error_constant_, pilot_evaluations_;
+  std::vector<MotionNumbers> reference_;
+  Trial trials_[2][tolerance_steps];
+  long spent_ = 0;
+};
+
+}  // namespace clatter::validation
