@@ -49,6 +49,7 @@ int parse_and_run(const std::vector<std::string>& given) {
   actions["sweep"] = add_sweep_command(app);
   actions["verify"] = add_verify_command(app);
   actions["figures"] = add_figures_command(app);
+  actions["plan"] = add_plan_command(app);
   actions["tradeoff"] = add_tradeoff_command(app);
   actions["completion"] = add_completion_command(app);
   actions["man"] = add_man_command(app);

@@ -19,21 +19,20 @@ using numeric::Method;
 using numeric::Simulation;
 using Rows = std::vector<MotionNumbers>;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double finest_pilot_tolerance = 1e-8;
 constexpr double share_of_parts = 0.25;  // of what is asked, for all that is left out
-constexpr double margin = 1.5;           // what an error measured against a finer run may be wrong by
+constexpr double margin = 1.1;           // what an error measured against a run two decades finer may be wrong by
 constexpr long evaluations_per_run = 2'000'000;
-
-double seconds_of(const std::function<void()>& work) {
-  const auto begin = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
+constexpr int timings = 2;               // of a continuous run; the first one also warms up
+constexpr int timings_of_a_formula = 5;
 
 double least_seconds_of(int repeats, const std::function<void()>& work) {
-  double least = infinity;
-  for (int i = 0; i < repeats; ++i) least = std::min(least, seconds_of(work));
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < repeats; ++i) {
+    const auto begin = std::chrono::steady_clock::now();
+    work();
+    least = std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  }
   return least;
 }
 
@@ -51,7 +50,8 @@ Quantities planar_sizes(const MotionNumbers& sizes) {
 class Planner {
  public:
   Planner(const SimulationScene& scene, const PlanTarget& target)
-      : target_(target), ladder_(limited(without(scene, Part::unmerged_faces))), full_(ladder_.full()) {
+      : ladder_(limited(without(scene, Part::unmerged_faces))), full_(ladder_.full()) {
+    plan_.target = target;
     plan_.asked = std::pow(10.0, -target.digits);
     plan_.impacts = scene.options.impacts;
     plan_.scene = scene;
@@ -73,11 +73,11 @@ class Planner {
   void run_pilots() {
     const int wanted = plan_.impacts;
     Simulation finest;
-    plan_.pilot_seconds = seconds_of([&] {
-      finest = ladder_.simulate({.rung = full_, .method = Method::rkck, .tolerance = finest_pilot_tolerance}, wanted);
-    });
-    plan_.pilot_evaluations = finest.force_evaluations;
-    seconds_per_evaluation_ = plan_.pilot_seconds / static_cast<double>(finest.force_evaluations);
+    const RungSetting setting{.rung = full_, .method = Method::rkck, .tolerance = finest_pilot_tolerance};
+    const double seconds = least_seconds_of(timings, [&] { finest = ladder_.simulate(setting, wanted); });
+    plan_.planning_evaluations = timings * finest.force_evaluations;
+    plan_.pilot_ending = finest.message;
+    seconds_per_evaluation_ = seconds / static_cast<double>(finest.force_evaluations);
     if (finest.impacts.empty()) return;
     truth_ = motion_rows(finest);
     sizes_ = motion_sizes(finest, finest.impacts.size(), ladder_.body());
@@ -93,7 +93,7 @@ class Planner {
   RungResult pilot(double tolerance) {
     const RungResult result =
         ladder_.run({.rung = full_, .method = Method::rkck, .tolerance = tolerance}, impacts());
-    plan_.pilot_evaluations += result.evaluations;
+    plan_.planning_evaluations += result.evaluations;
     return result;
   }
 
@@ -111,7 +111,7 @@ class Planner {
     options.history = nullptr;
     const Simulation run =
         numeric::simulate(ladder_.body(), ladder_.scene().ground, ladder_.scene().start(ladder_.body()), options);
-    plan_.pilot_evaluations += run.force_evaluations;
+    plan_.planning_evaluations += run.force_evaluations;
     plan_.predictable_impacts = 0;
     for (const numeric::ImpactRecord& row : run.impacts) {
       plan_.growth_out_of_plane = row.amplification;
@@ -132,7 +132,7 @@ class Planner {
         const Ladder reduced(without(ladder_.scene(), part));
         const RungResult result = reduced.run(
             {.rung = full_, .method = Method::rkck, .tolerance = finest_pilot_tolerance}, impacts());
-        plan_.pilot_evaluations += result.evaluations;
+        plan_.planning_evaluations += result.evaluations;
         weighed.error = distance(result.rows, truth_, sizes_);
         const double known_to = weighed.error + plan_.error_constant * finest_pilot_tolerance;
         weighed.left_out = part != Part::gravity_in_contact && spent + known_to <= share_of_parts * plan_.asked;
@@ -149,7 +149,7 @@ class Planner {
     WeighedRung weighed{.rung = full_};
     ToleranceSearch search(ladder_, full_, impacts(), sizes_, plan_.error_constant, pilot_base_);
     const FoundSetting found = search.cheapest(budget_ / margin);
-    plan_.pilot_evaluations += search.evaluations_spent();
+    plan_.planning_evaluations += search.evaluations_spent();
     truth_ = found.reference;
     plan_.known_impacts = known_impacts(found);
     weighed.setting = found.setting;
@@ -184,15 +184,14 @@ class Planner {
       weighed.setting.rung = weighed.rung;
     }
     RungResult result;
-    const double seconds =
-        least_seconds_of(is_continuous(weighed.rung) ? 1 : 5, [&] { result = ladder_.run(weighed.setting, impacts()); });
+    weighed.seconds = least_seconds_of(is_continuous(weighed.rung) ? timings : timings_of_a_formula,
+                                       [&] { result = ladder_.run(weighed.setting, impacts()); });
     weighed.error = distance(result.rows, truth_, sizes_);
-    weighed.evaluations = is_continuous(weighed.rung) ? static_cast<double>(result.evaluations) : 0;
-    weighed.seconds = is_continuous(weighed.rung) ? weighed.evaluations * seconds_per_evaluation_ : seconds;
     weighed.serves = margin * weighed.error <= budget_;
-    if (is_continuous(weighed.rung)) plan_.pilot_evaluations += result.evaluations;
-    if (weighed.rung == Rung::discrete) discrete_rows_ = result.rows;
     if (weighed.rung == Rung::closed_form) closed_form_rows_ = result.rows;
+    if (!is_continuous(weighed.rung)) return;
+    weighed.evaluations = static_cast<double>(result.evaluations);
+    plan_.planning_evaluations += timings * result.evaluations;
   }
 
   void weigh_assumption(WeighedRung& weighed) const {
@@ -224,8 +223,7 @@ class Planner {
     return worst;
   }
 
-  [[nodiscard]] bool fits(double seconds) const { return !target_.within_ms || 1e3 * seconds <= *target_.within_ms; }
-  [[nodiscard]] bool allowed(Rung rung) const { return !target_.continuous_only || is_continuous(rung); }
+  [[nodiscard]] bool fits(double seconds) const { return !plan_.target.within_ms || 1e3 * seconds <= *plan_.target.within_ms; }
 
   void take(const WeighedRung& weighed) {
     plan_.choice = weighed.setting;
@@ -237,9 +235,9 @@ class Planner {
 
   void choose() {
     for (const WeighedRung& weighed : plan_.rungs) {
-      if (allowed(weighed.rung) && weighed.serves && fits(weighed.seconds)) return take(weighed);
+      if (!plan_.target.most_accurate && weighed.serves && fits(weighed.seconds)) return take(weighed);
     }
-    if (target_.within_ms) choose_most_accurate();
+    if (plan_.target.within_ms) choose_most_accurate();
     else take(continuous_);
   }
 
@@ -248,7 +246,7 @@ class Planner {
     WeighedRung best;
     for (const WeighedRung& weighed : plan_.rungs) {
       const bool better = std::isnan(best.error) || weighed.error < best.error;
-      if (weighed.against.empty() && allowed(weighed.rung) && fits(weighed.seconds) && better) best = weighed;
+      if (weighed.against.empty() && fits(weighed.seconds) && better) best = weighed;
     }
     const CostTable& table = CostTable::measured();
     for (const Method method : {Method::rkck, Method::rk8pd}) {
@@ -265,11 +263,10 @@ class Planner {
     take(best);
   }
 
-  PlanTarget target_;
   Ladder ladder_;
   Rung full_;
   Plan plan_;
-  Rows truth_, discrete_rows_, closed_form_rows_;
+  Rows truth_, closed_form_rows_;
   MotionNumbers sizes_{};
   std::vector<double> contact_times_;
   double pilot_base_ = 0, seconds_per_evaluation_ = 0, budget_ = 0;
@@ -279,5 +276,18 @@ class Planner {
 }  // namespace
 
 Plan make_plan(const SimulationScene& scene, const PlanTarget& target) { return Planner(scene, target).make(); }
+
+std::string command_line(const Plan& plan) {
+  const SimulationScene& scene = plan.scene;
+  std::string line = fmt::format("clatter {} {}", is_continuous(plan.choice.rung) ? "simulate" : "compare", scene.path);
+  if (!is_continuous(plan.choice.rung)) return line;
+  line += fmt::format(" --method {} --tolerance {}", method_name(plan.choice.method), shortest(plan.choice.tolerance));
+  if (plan.choice.rung == Rung::planar && !scene.options.planar) line += " --planar";
+  for (const WeighedPart& part : plan.parts) {
+    if (part.left_out && part.part == Part::friction) line += " --static-friction 0 --sliding-friction 0";
+    if (part.left_out && part.part == Part::damping) line += " --damping 0";
+  }
+  return line;
+}
 
 }  // namespace clatter::validation

@@ -17,7 +17,7 @@ struct PlanTarget {
   int digits = 6;
   /// The run may take this long [ms]; the most accurate that fits is chosen if the digits do not fit.
   std::optional<double> within_ms = std::nullopt;
-  bool continuous_only = false;  ///< for a run that must have forces and durations
+  bool most_accurate = false;  ///< choose that in any case; needs within_ms
 };
 
 /// One rung as it was weighed: how it would be run, what that costs and delivers.
@@ -42,11 +42,12 @@ struct WeighedPart {
 };
 
 struct Plan {
+  PlanTarget target;
   double asked = 0;            ///< relative error
   SimulationScene scene;       ///< without what is left out
   RungSetting choice;
   bool serves = false;         ///< whether the choice is expected to meet what was asked
-  double error = 0;            ///< predicted, relative
+  double error = std::numeric_limits<double>::quiet_NaN();  ///< predicted, relative; NaN: nothing could be planned
   double evaluations = 0;
   double seconds = 0;
   int impacts = 0;             ///< of the scene
@@ -56,8 +57,8 @@ struct Plan {
   double error_constant = 0;   ///< error over tolerance of rkck, from the pilot runs
   std::vector<WeighedRung> rungs;
   std::vector<WeighedPart> parts;
-  long pilot_evaluations = 0;
-  double pilot_seconds = 0;
+  long planning_evaluations = 0;  ///< of all runs of the planning
+  std::string pilot_ending;       ///< how the finest pilot run ended
 };
 
 /// Plans the scene.

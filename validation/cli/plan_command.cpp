@@ -1,0 +1,73 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "validation/cli/commands.hpp"
+#include "validation/cli/options.hpp"
+#include "validation/cli/plan_report.hpp"
+#include "validation/cli/scene_flags.hpp"
+#include "validation/scene/bad_input.hpp"
+
+namespace clatter::validation {
+namespace {
+
+constexpr int not_computed = 3;
+
+struct PlanInput {
+  SceneFlags scene;
+  std::optional<std::string> within;
+  OutputTexts output;
+};
+
+PlanTarget read_target(const PlanInput& input, const SimulationScene& scene) {
+  PlanTarget target{.digits = scene.options.digits};
+  if (!input.within) return target;
+  target.within_ms = read_number_option("--within", *input.within, {0, 1e9, true, "greater than 0"});
+  target.most_accurate = !is_given(input.scene, "--digits");
+  return target;
+}
+
+void refuse_what_it_plans(const PlanInput& input) {
+  for (const char* name : {"--method", "--tolerance", "--step"}) {
+    if (is_given(input.scene, name)) throw BadInput(fmt::format("{}: left out here: the plan chooses it", name));
+  }
+  if (is_given(input.scene, "--history")) throw BadInput("--history: plan writes none; clatter simulate does");
+}
+
+int run_plan(const PlanInput& input) {
+  const SimulationScene scene = read_scene_flags(input.scene);
+  const OutputChoice choice = read_output(input.output);
+  const PlanTarget target = read_target(input, scene);
+  refuse_what_it_plans(input);
+  refuse_scene_file(input.scene, "--output", choice.path);
+  if (scene.sweep) {
+    throw BadInput(fmt::format("{}: a sweep has no plan; give --angle or leave out [sweep]", scene.path));
+  }
+  const Plan plan = make_plan(scene, target);
+  switch (choice.style.format) {
+    case Format::json: write_out(choice, json_text(plan_json(scene, plan))); break;
+    case Format::csv: write_out(choice, table_text(plan_records(scene, plan), choice.style)); break;
+    default: write_out(choice, table_text(plan_table(scene, plan), choice.style));
+  }
+  const std::string shortfall = plan_shortfall(plan);
+  if (shortfall.empty()) return 0;
+  fmt::print(stderr, "clatter: {}\n", shortfall);
+  return not_computed;
+}
+
+}  // namespace
+
+Action add_plan_command(CLI::App& app) {
+  auto input = std::make_shared<PlanInput>();
+  CLI::App* command = app.add_subcommand("plan", "the smallest model that serves, and its cost");
+  add_scene_flags(*command, input->scene);
+  add_text(*command, "--within", input->within, "MS", "the run may take this long; without --digits: as accurate as fits");
+  add_output_options(*command, input->output);
+  command->footer(
+      "Example: clatter plan validation/cases/phone-damped.toml --digits 4\n"
+      "Exit status 3 if no model gives the digits asked for; the best is shown all the same.");
+  return [input] { return run_plan(*input); };
+}
+
+}  // namespace clatter::validation
