@@ -16,6 +16,11 @@ struct HistorySample {
   double energy_potential = 0;               ///< m g z [J]
   double energy_ground = 0;                  ///< stored in the ground's springs [J]
   bool in_contact = false;
+
+  /// Of body and ground together [J]; only dampers, friction and release change it.
+  [[nodiscard]] double energy_total() const {
+    return energy_translation + energy_rotation + energy_potential + energy_ground;
+  }
 };
 
 /// Takes the samples in the order of time: every accepted step of a contact, its ends and peak, and points of each

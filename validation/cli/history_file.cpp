@@ -20,12 +20,11 @@ HistoryFile::HistoryFile(const std::string& path, const std::vector<std::string>
 void HistoryFile::record(const HistorySample& s) {
   const Eigen::Quaterniond& beta = s.state.attitude;
   const Vector3 omega = beta * s.state.angular_velocity;
-  const double total = s.energy_translation + s.energy_rotation + s.energy_potential + s.energy_ground;
   const std::array<double, 25> numbers{
       s.time, s.state.centre.x(), s.state.centre.y(), s.state.centre.z(), beta.w(), beta.x(), beta.y(), beta.z(),
       s.state.velocity.x(), s.state.velocity.y(), s.state.velocity.z(), omega.x(), omega.y(), omega.z(),
       s.force.x(), s.force.y(), s.force.z(), s.point_velocity.x(), s.point_velocity.y(), s.point_velocity.z(),
-      s.energy_translation, s.energy_rotation, s.energy_potential, s.energy_ground, total};
+      s.energy_translation, s.energy_rotation, s.energy_potential, s.energy_ground, s.energy_total()};
   std::string line;
   for (const double number : numbers) line += shortest(number) + ",";
   sink_.write(line + (s.in_contact ? "1\n" : "0\n"));

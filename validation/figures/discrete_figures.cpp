@@ -13,7 +13,6 @@ namespace {
 using analytic::Angle;
 using analytic::ContactAngles;
 using analytic::degrees_per_radian;
-using analytic::NextImpact;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double last_angle = 60;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "validation/verify/laboratory.hpp"
@@ -16,13 +17,16 @@ struct FigureColumn {
   std::string quantity;  ///< what it is, one line
 };
 
+/// Only the rows in which this column has this value; none: all.
+using RowFilter = std::optional<std::pair<std::string, double>>;
+
 /// One line or set of points of a plot.
 struct FigureCurve {
   enum class Style { line, thin_line, points, bars };
   std::string x, y;  ///< names of columns
   std::string legend;
   Style style = Style::line;
-  std::optional<std::pair<std::string, double>> where;  ///< only the rows in which this column has this value
+  RowFilter where;
 };
 
 struct Range2 {

@@ -7,6 +7,7 @@
 #include "analytic/sequence.hpp"
 #include "validation/compare/discrete_scene.hpp"
 #include "validation/figures/figures.hpp"
+#include "validation/figures/history_panels.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -29,14 +30,10 @@ PhoneCase phone_case(bool damped) {
           {.digits = 9, .planar = true}};
 }
 
-double total(const numeric::HistorySample& s) {
-  return s.energy_translation + s.energy_rotation + s.energy_potential + s.energy_ground;
-}
-
-FigurePlot over_time(const std::string& title, const std::string& label, Range2 times) {
+FigurePlot over_time(const std::string& title, Range2 times) {
   return {.title = title,
           .x_label = "time since the first touch-down [s]",
-          .y_label = label,
+          .y_label = "",
           .curves = {},
           .x = times,
           .y = {}};
@@ -55,30 +52,14 @@ Figure figure_phone_history(Laboratory& laboratory, bool damped) {
   Figure figure{.number = damped ? 21 : 19,
                 .title = fmt::format("impacts of the {} phone over time", damped ? "damped" : "elastic"),
                 .scene = phone.scene,
-                .columns = {{"time", "s", "since the first touch-down"},
-                            {"Fn", "N", "normal contact force"},
-                            {"E", "J", "total energy"},
-                            {"E_kinetic", "J", "kinetic energy"},
-                            {"E_potential", "J", "potential energy"}},
+                .columns = {},
                 .rows = {},
                 .plots = {}};
+  add_history_columns(figure);
   const RecordedRun& recorded = laboratory.history(phone.name, phone.options);
-  for (const numeric::HistorySample& s : recorded.samples) {
-    figure.rows.push_back(
-        {s.time, s.force.z(), total(s), s.energy_translation + s.energy_rotation, s.energy_potential});
-  }
-  for (const bool zoomed : {false, true}) {
-    const Range2 times = zoomed ? first_two(recorded.run) : Range2{};
-    const std::string title = zoomed ? "first two impacts" : "all impacts";
-    FigurePlot force = over_time(title, "normal contact force [N]", times);
-    force.curves = {{.x = "time", .y = "Fn", .legend = "", .where = {}}};
-    FigurePlot energy = over_time(title, "energy [J]", times);
-    energy.y = {0, none};
-    energy.curves = {{.x = "time", .y = "E", .legend = "total", .where = {}},
-                     {.x = "time", .y = "E_kinetic", .legend = "kinetic", .where = {}},
-                     {.x = "time", .y = "E_potential", .legend = "potential", .where = {}}};
-    figure.plots.insert(figure.plots.end(), {force, energy});
-  }
+  for (const numeric::HistorySample& s : recorded.samples) add_history_row(figure, {}, s);
+  add_history_panels(figure, over_time("all impacts", {}));
+  add_history_panels(figure, over_time("first two impacts", first_two(recorded.run)));
   return figure;
 }
 
@@ -134,15 +115,11 @@ Figure figure_phone_energies(Laboratory& laboratory) {
   const Range2 times = first_two(recorded.run);
   for (const numeric::HistorySample& s : recorded.samples) {
     if (s.time < 0 || s.time > times.high) continue;
-    figure.rows.push_back({s.time, total(s), s.energy_translation, s.energy_rotation, s.energy_potential});
+    figure.rows.push_back({s.time, s.energy_total(), s.energy_translation, s.energy_rotation, s.energy_potential});
   }
-  FigurePlot plot = over_time("", "energy [J]", times);
-  plot.y = {0, none};
-  plot.curves = {{.x = "time", .y = "E", .legend = "total", .where = {}},
-                 {.x = "time", .y = "E_translation", .legend = "translation", .where = {}},
-                 {.x = "time", .y = "E_rotation", .legend = "rotation", .where = {}},
-                 {.x = "time", .y = "E_potential", .legend = "potential", .where = {}}};
-  figure.plots = {plot};
+  figure.plots = {energy_panel(
+      over_time("", times),
+      {{"E", "total"}, {"E_translation", "translation"}, {"E_rotation", "rotation"}, {"E_potential", "potential"}})};
   return figure;
 }
 
@@ -173,18 +150,20 @@ Figure figure_phone_over_angle(Laboratory& laboratory) {
     figure.rows.push_back({swept.value, n.velocity_after.z(), n.angular_velocity_after.y(), n.peak_force, n.energy_loss,
                            static_cast<double>(first.touches), discrete.after.normal, discrete.after.angular});
   }
-  const std::pair<const char*, const char*> panels[] = {{"Vn", "post-impact Vₙ [m/s]"},
-                                                        {"Omega", "post-impact Ω [rad/s]"},
-                                                        {"peak_force", "peak normal force [N]"},
-                                                        {"loss", "energy loss [J]"}};
-  for (const auto& [column, label] : panels) {
+  struct Panel {
+    std::string continuous, discrete, label;  // no discrete column: empty
+  };
+  const Panel panels[] = {{"Vn", "Vn_discrete", "post-impact Vₙ [m/s]"},
+                          {"Omega", "Omega_discrete", "post-impact Ω [rad/s]"},
+                          {"peak_force", "", "peak normal force [N]"},
+                          {"loss", "", "energy loss [J]"}};
+  for (const auto& [continuous, discrete, label] : panels) {
     FigurePlot plot{
         .title = "", .x_label = "impact contact angle θ [°]", .y_label = label, .curves = {}, .x = {0, 90}, .y = {}};
-    const std::string discrete = std::string(column) + "_discrete";
-    if (std::string(column) == "Vn" || std::string(column) == "Omega") {
+    if (!discrete.empty()) {
       plot.curves.push_back({.x = "theta", .y = discrete, .legend = "discrete, corner", .where = {}});
     }
-    plot.curves.push_back({.x = "theta", .y = column, .legend = "continuous", .style = Style::points, .where = {}});
+    plot.curves.push_back({.x = "theta", .y = continuous, .legend = "continuous", .style = Style::points, .where = {}});
     figure.plots.push_back(plot);
   }
   return figure;

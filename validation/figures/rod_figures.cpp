@@ -8,6 +8,7 @@
 #include "analytic/sequence.hpp"
 #include "validation/compare/discrete_scene.hpp"
 #include "validation/figures/figures.hpp"
+#include "validation/figures/history_panels.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -88,10 +89,6 @@ void add_row(Figure& figure, double x, const std::vector<ShownNumber>& numbers,
 const RunOptions smooth{.digits = 9};
 
 const std::vector<double> contact_frictions{0.1, 0.3, 0.5, 0.7};
-
-double sum_of_energies(const numeric::HistorySample& s) {
-  return s.energy_translation + s.energy_rotation + s.energy_potential + s.energy_ground;
-}
 
 }  // namespace
 
@@ -192,33 +189,19 @@ Figure figure_rod_sequence(Laboratory& laboratory) {
   Figure figure{.number = 17,
                 .title = "several impacts of the damped rod with friction, by the text and by the caption",
                 .scene = "validation/cases/rod-at-1ms.toml (text, v_n = -1), rod-from-2m.toml (caption, z_c = 2)",
-                .columns = {{"variant", "1", "1: the text's 1 m/s; 2: the caption's drop from 2 m"},
-                            {"time", "s", "since the first touch-down"},
-                            {"Fn", "N", "normal contact force"},
-                            {"E", "J", "total energy"},
-                            {"E_kinetic", "J", "kinetic energy"},
-                            {"E_potential", "J", "potential energy"}},
+                .columns = {{"variant", "1", "1: the text's 1 m/s; 2: the caption's drop from 2 m"}},
                 .rows = {},
                 .plots = {}};
+  add_history_columns(figure);
   const std::pair<const char*, const char*> variants[] = {{"rod-at-1ms", "1 m/s (text)"},
                                                           {"rod-from-2m", "from 2 m (caption)"}};
   double variant = 1;
   for (const auto& [name, words] : variants) {
     for (const numeric::HistorySample& s : laboratory.history(name, smooth).samples) {
-      figure.rows.push_back({variant, s.time, s.force.z(), sum_of_energies(s), s.energy_translation + s.energy_rotation,
-                             s.energy_potential});
+      add_history_row(figure, {variant}, s);
     }
-    FigurePlot force{
-        .title = words, .x_label = "time [s]", .y_label = "normal contact force [N]", .curves = {}, .x = {}, .y = {}};
-    force.curves.push_back({.x = "time", .y = "Fn", .legend = "", .where = {{"variant", variant}}});
-    FigurePlot energy{
-        .title = words, .x_label = "time [s]", .y_label = "energy [J]", .curves = {}, .x = {}, .y = {0, none}};
-    for (const auto& [column, legend] :
-         {std::pair{"E", "total"}, {"E_kinetic", "kinetic"}, {"E_potential", "potential"}}) {
-      energy.curves.push_back({.x = "time", .y = column, .legend = legend, .where = {{"variant", variant}}});
-    }
-    figure.plots.push_back(force);
-    figure.plots.push_back(energy);
+    add_history_panels(figure, {.title = words, .x_label = "time [s]", .y_label = "", .curves = {}},
+                       {{"variant", variant}});
     ++variant;
   }
   return figure;

@@ -90,17 +90,13 @@ Measured figure_16(Laboratory& laboratory) {
   return {peak, worst, Answer::holds, "largest normal force for μ up to 0.5"};
 }
 
-double total(const HistorySample& s) {
-  return s.energy_translation + s.energy_rotation + s.energy_potential + s.energy_ground;
-}
-
 /// Energy of the history at its ends against the works booked in between.
 Measured energy_over_history(const RecordedRun& recorded) {
   double booked = 0;
   for (const auto& impact : recorded.run.impacts) {
     booked += impact.value.work_damping + impact.value.work_friction + impact.value.work_released;
   }
-  const double begin = total(recorded.samples.front()), end = total(recorded.samples.back());
+  const double begin = recorded.samples.front().energy_total(), end = recorded.samples.back().energy_total();
   return {(begin - end) / begin, std::fabs(begin - end - booked) / begin, Answer::holds,
           fmt::format("of the energy lost by the end of impact {}; dampers, friction and release account for it",
                       recorded.run.impacts.size())};
@@ -115,7 +111,9 @@ Measured figure_23(Laboratory& laboratory) {
 Measured figure_19(Laboratory& laboratory) {
   const auto& samples = laboratory.history("phone-elastic", {.planar = true}).samples;
   double worst = 0;
-  for (const HistorySample& s : samples) worst = std::max(worst, std::fabs(total(s) / total(samples.front()) - 1));
+  for (const HistorySample& s : samples) {
+    worst = std::max(worst, std::fabs(s.energy_total() / samples.front().energy_total() - 1));
+  }
   return {static_cast<double>(samples.size()), worst, Answer::holds,
           "instants, with the energy of the ground's springs"};
 }

@@ -1,0 +1,26 @@
+// What the figures of forces and energies over time share.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "validation/figures/figure.hpp"
+
+namespace clatter::validation {
+
+/// A column and its name in the legend.
+using EnergyCurve = std::pair<const char*, const char*>;
+
+/// `axes` with these energies of the figure over its column "time", from 0 on.
+[[nodiscard]] FigurePlot energy_panel(FigurePlot axes, const std::vector<EnergyCurve>& energies,
+                                      const RowFilter& where = {});
+
+/// Adds columns for time, normal force and energies: total, kinetic, potential.
+void add_history_columns(Figure& figure);
+/// Adds a row: `front`, then the values of those columns.
+void add_history_row(Figure& figure, std::vector<double> front, const numeric::HistorySample& sample);
+/// Adds two panels with the title and the times of `axes`: force and energies.
+void add_history_panels(Figure& figure, const FigurePlot& axes, const RowFilter& where = {});
+
+}  // namespace clatter::validation
