@@ -23,16 +23,9 @@ struct CompareInput {
 
 int compare_one(const SimulationScene& scene, const OutputChoice& choice) {
   const Comparison comparison = compare_models(scene, scene.make_body());
-  switch (choice.style.format) {
-    case Format::json:
-      write_out(choice, json_text(comparison_json(scene, comparison)));
-      break;
-    case Format::csv:
-      write_out(choice, table_text(comparison_records(scene, comparison), choice.style));
-      break;
-    default:
-      write_out(choice, table_text(comparison_table(scene, comparison), choice.style));
-  }
+  write_report(
+      choice, [&] { return comparison_json(scene, comparison); }, [&] { return comparison_records(scene, comparison); },
+      [&] { return comparison_table(scene, comparison); });
   if (!comparison.agrees()) return check_failed;
   if (comparison.has_content()) return 0;
   fmt::print(stderr, "clatter: nothing could be compared: {}\n",
@@ -53,16 +46,9 @@ int compare_swept(const SimulationScene& scene, const OutputChoice& choice) {
       swept.push_back({value, compare_models(scene.at(value), body)});
     }
   }
-  switch (choice.style.format) {
-    case Format::json:
-      write_out(choice, json_text(swept_comparison_json(scene, swept)));
-      break;
-    case Format::csv:
-      write_out(choice, table_text(swept_comparison_records(scene, swept), choice.style));
-      break;
-    default:
-      write_out(choice, table_text(swept_comparison_table(scene, swept), choice.style));
-  }
+  write_report(
+      choice, [&] { return swept_comparison_json(scene, swept); },
+      [&] { return swept_comparison_records(scene, swept); }, [&] { return swept_comparison_table(scene, swept); });
   if (swept.size() < values.size()) return interrupted_status;
   const bool agree =
       std::all_of(swept.begin(), swept.end(), [](const SweptComparison& one) { return one.comparison.agrees(); });

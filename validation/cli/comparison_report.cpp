@@ -8,6 +8,7 @@
 
 #include "validation/cli/impact_records.hpp"
 #include "validation/cli/options.hpp"
+#include "validation/cli/swept_column.hpp"
 #include "validation/cli/version.hpp"
 #include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
@@ -215,10 +216,6 @@ void add_swept_reasons(const std::vector<SweptComparison>& swept, Table& table) 
   }
 }
 
-const char* sweep_name(const SimulationScene& scene) {
-  return scene.sweep->quantity == SceneSweep::Quantity::angle_deg ? "angle_deg" : "sliding_friction";
-}
-
 }  // namespace
 
 Table comparison_table(const SimulationScene& scene, const Comparison& comparison) {
@@ -257,9 +254,8 @@ Table comparison_records(const SimulationScene& scene, const Comparison& compari
 }
 
 Table swept_comparison_table(const SimulationScene& scene, const std::vector<SweptComparison>& swept) {
-  const bool over_angle = scene.sweep->quantity == SceneSweep::Quantity::angle_deg;
   Table table{.head = head_of(scene), .columns = {}, .rows = {}, .notes = {}};
-  table.columns = {{"value", over_angle ? "angle" : "μₖ", over_angle ? "°" : ""},
+  table.columns = {swept_column(*scene.sweep),
                    {"n", "n", ""},
                    {"end", "end", ""},
                    {"deviation", "deviation", "of all"},
@@ -289,8 +285,7 @@ Table swept_comparison_table(const SimulationScene& scene, const std::vector<Swe
       std::count_if(swept.begin(), swept.end(), [](const SweptComparison& one) { return one.comparison.agrees(); });
   table.notes.push_back(fmt::format("{} of {} values agree.", agreeing, swept.size()));
   add_swept_reasons(swept, table);
-  const std::size_t values = scene.sweep->values().size();
-  if (swept.size() < values) table.notes.push_back(fmt::format("interrupted: {} of {} values", swept.size(), values));
+  add_interruption(*scene.sweep, swept.size(), table);
   return table;
 }
 
@@ -298,7 +293,7 @@ Json swept_comparison_json(const SimulationScene& scene, const std::vector<Swept
   Json json = head_json(scene);
   json["runs"] = Json::array();
   for (const auto& [value, comparison] : swept) {
-    Json one{{sweep_name(scene), value}};
+    Json one{{scene.sweep->name(), value}};
     one.update(result_json(comparison));
     json["runs"].push_back(one);
   }
@@ -309,7 +304,7 @@ Json swept_comparison_json(const SimulationScene& scene, const std::vector<Swept
 
 Table swept_comparison_records(const SimulationScene& scene, const std::vector<SweptComparison>& swept) {
   Table table = records_table(scene);
-  table.columns.insert(table.columns.begin(), {sweep_name(scene), sweep_name(scene), ""});
+  table.columns.insert(table.columns.begin(), swept_record_column(*scene.sweep));
   for (const auto& [value, comparison] : swept) add_records(comparison, {Cell(value, 17)}, table);
   return table;
 }

@@ -66,6 +66,15 @@ void write_out(const OutputChoice& choice, const std::string& text) {
   sink.commit();
 }
 
+void write_report(const OutputChoice& choice, const std::function<Json()>& json, const std::function<Table()>& records,
+                  const std::function<Table()>& table) {
+  switch (choice.style.format) {
+    case Format::json: write_out(choice, json_text(json())); break;
+    case Format::csv: write_out(choice, table_text(records(), choice.style)); break;
+    default: write_out(choice, table_text(table(), choice.style));
+  }
+}
+
 void add_sweep_options(CLI::App& command, SweepTexts& t, const std::string& what) {
   add_text(command, "--from", t.from, "X", "first " + what)->group("Range");
   add_text(command, "--to", t.to, "X", "last " + what)->group("Range");

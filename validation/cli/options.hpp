@@ -2,9 +2,11 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <optional>
 #include <string>
 
+#include "validation/output/json.hpp"
 #include "validation/output/table.hpp"
 #include "validation/scene/scene.hpp"
 
@@ -35,6 +37,11 @@ CLI::Option* add_text(CLI::App& command, const std::string& name, std::optional<
 
 /// Writes a finished text whole.
 void write_out(const OutputChoice& choice, const std::string& text);
+
+/// Makes and writes what the format asks for: `json` for JSON, `records` for CSV, `table` for the formats that people
+/// read.
+void write_report(const OutputChoice& choice, const std::function<Json()>& json, const std::function<Table()>& records,
+                  const std::function<Table()>& table);
 
 /// From, to and step or count of a swept quantity.
 struct SweepTexts {

@@ -20,13 +20,9 @@ int run_sequence(const SequenceInput& input) {
   const analytic::Sequence sequence = analytic::impact_sequence(
       scene.drop(), {.impacts = scene.impacts, .digits = scene.digits});
   for (const std::string& warning : sequence.warnings) fmt::print(stderr, "clatter: {}\n", warning);
-  switch (choice.style.format) {
-    case Format::json: write_out(choice, json_text(sequence_json(scene, sequence))); break;
-    case Format::csv:
-      write_out(choice, table_text(sequence_records(scene, sequence), choice.style));
-      break;
-    default: write_out(choice, table_text(sequence_table(scene, sequence), choice.style));
-  }
+  write_report(choice, [&] { return sequence_json(scene, sequence); },
+               [&] { return sequence_records(scene, sequence); },
+               [&] { return sequence_table(scene, sequence); });
   return 0;
 }
 

@@ -41,15 +41,6 @@ Simulation run_scene(const SimulationScene& scene, const numeric::Body& body, co
   return numeric::simulate(body, scene.ground, start, options);
 }
 
-void print(const OutputChoice& choice, const std::function<Json()>& json, const std::function<Table()>& records,
-           const std::function<Table()>& table) {
-  switch (choice.style.format) {
-    case Format::json: write_out(choice, json_text(json())); break;
-    case Format::csv: write_out(choice, table_text(records(), choice.style)); break;
-    default: write_out(choice, table_text(table(), choice.style));
-  }
-}
-
 /// 3 if there is no number at all because of what the run met.
 int status_of(const Simulation& run) {
   switch (run.outcome) {
@@ -81,8 +72,8 @@ int run_single(const SimulationScene& scene, const numeric::Body& body, const Ou
     run = run_scene(scene, body, interrupt, show, history ? &*history : nullptr);
   }
   if (history) history->commit();
-  print(choice, [&] { return simulation_json(scene, run); }, [&] { return simulation_records(scene, run); },
-        [&] { return simulation_table(scene, run); });
+  write_report(choice, [&] { return simulation_json(scene, run); }, [&] { return simulation_records(scene, run); },
+               [&] { return simulation_table(scene, run); });
   return status_of(run);
 }
 
@@ -101,8 +92,8 @@ int run_sweep(const SimulationScene& scene, const numeric::Body& body, const Out
       runs.push_back(std::move(swept));
     }
   }
-  print(choice, [&] { return sweep_json(scene, runs); }, [&] { return sweep_records(scene, runs); },
-        [&] { return sweep_table(scene, runs); });
+  write_report(choice, [&] { return sweep_json(scene, runs); }, [&] { return sweep_records(scene, runs); },
+               [&] { return sweep_table(scene, runs); });
   if (runs.size() < values.size()) return interrupted_status;
   const bool any = std::any_of(runs.begin(), runs.end(), [](const SweptRun& swept) { return !swept.run.impacts.empty(); });
   if (any) return 0;

@@ -8,6 +8,7 @@
 
 #include "validation/cli/impact_records.hpp"
 #include "validation/cli/options.hpp"
+#include "validation/cli/swept_column.hpp"
 #include "validation/cli/version.hpp"
 #include "validation/output/impact_entries.hpp"
 #include "validation/output/names.hpp"
@@ -109,13 +110,8 @@ Cell loss_cell(const SimulationScene& scene, const Simulation& run, const Impact
   return known(scene, row.value.energy_loss * percent, row.error.energy_loss * percent, trusted);
 }
 
-void add_interruption(const SimulationScene& scene, const std::vector<SweptRun>& runs, Table& table) {
-  const std::size_t values = scene.sweep->values().size();
-  if (runs.size() < values) table.notes.push_back(fmt::format("interrupted: {} of {} values", runs.size(), values));
-}
-
 Json quantity_json(const SimulationScene& scene, const SweptRun& swept) {
-  Json json{{scene.sweep->quantity == SceneSweep::Quantity::angle_deg ? "angle_deg" : "sliding_friction", swept.value},
+  Json json{{scene.sweep->name(), swept.value},
             {"outcome", outcome_name(swept.run.outcome)},
             {"message", swept.run.message}};
   json["impacts"] = Json::array();
@@ -177,9 +173,8 @@ Table simulation_records(const SimulationScene& scene, const Simulation& run) {
 }
 
 Table sweep_table(const SimulationScene& scene, const std::vector<SweptRun>& runs) {
-  const bool over_angle = scene.sweep->quantity == SceneSweep::Quantity::angle_deg;
   Table table{.head = head_of(scene, "first impacts, continuous contact"), .columns = {}, .rows = {}, .notes = {}};
-  table.columns = {{"value", over_angle ? "angle" : "μₖ", over_angle ? "°" : ""},
+  table.columns = {swept_column(*scene.sweep),
                    {"touches", "touches", ""}, {"impulse_normal", "Pₙ", "N·s"}, {"impulse_ratio", "Pₜ/Pₙ", ""},
                    {"velocity_after_x", "Vₜ", "m/s"}, {"velocity_after_z", "Vₙ", "m/s"},
                    {"angular_velocity_after_y", "Ω", "rad/s"}, {"peak_force", "peak Fₙ", "N"},
@@ -204,7 +199,7 @@ Table sweep_table(const SimulationScene& scene, const std::vector<SweptRun>& run
     row.push_back(loss_cell(scene, swept.run, first));
   }
   if (!runs.empty()) table.notes.push_back(method_words(runs.back().run) + " (the last row's)");
-  add_interruption(scene, runs, table);
+  add_interruption(*scene.sweep, runs.size(), table);
   fit_columns(table, scene.options.digits, {2});
   return table;
 }
@@ -233,9 +228,8 @@ Table sweep_records(const SimulationScene& scene, const std::vector<SweptRun>& r
                                         swept.run.message));
     }
   }
-  add_interruption(scene, runs, table);
-  const char* name = scene.sweep->quantity == SceneSweep::Quantity::angle_deg ? "angle_deg" : "sliding_friction";
-  table.columns.insert(table.columns.begin(), Column{name, name, ""});
+  add_interruption(*scene.sweep, runs.size(), table);
+  table.columns.insert(table.columns.begin(), swept_record_column(*scene.sweep));
   return table;
 }
 

@@ -46,17 +46,6 @@ std::string selection_words(const VerifyInput& input, std::size_t count) {
   return fmt::format("{} set: {} checks of {}", input.quick ? "quick" : "full", count, all_checks().size());
 }
 
-std::string report(const OutputChoice& choice, const std::vector<CheckResult>& results, const std::string& selection) {
-  switch (choice.style.format) {
-    case Format::json:
-      return json_text(verify_json(results, selection));
-    case Format::csv:
-      return table_text(verify_records(results, selection), choice.style);
-    default:
-      return table_text(verify_table(results, selection, choice.style.format), choice.style);
-  }
-}
-
 int run_verify(const VerifyInput& input) {
   const std::vector<const Check*> checks = chosen(input);
   const OutputChoice choice = read_output(input.output);
@@ -79,7 +68,9 @@ int run_verify(const VerifyInput& input) {
       return !interrupt.requested();
     });
   }
-  write_out(choice, report(choice, results, selection));
+  write_report(
+      choice, [&] { return verify_json(results, selection); }, [&] { return verify_records(results, selection); },
+      [&] { return verify_table(results, selection, choice.style.format); });
   if (page && !interrupt.requested()) {
     page->write(verify_page(results, selection, laboratory));
     page->commit();

@@ -329,6 +329,8 @@ std::vector<double> SceneSweep::values() const {
   return values;
 }
 
+const std::string& SceneSweep::name() const { return sweep_names[static_cast<std::size_t>(quantity)]; }
+
 namespace {
 
 SimulationScene read_values(SceneValues values, const std::vector<SceneOverride>& overrides, Model model) {
@@ -440,8 +442,7 @@ Json SimulationScene::json() const {
                      {"evaluation_limit", options.evaluation_limit}, {"errors", options.error_estimates},
                      {"amplification", options.amplification}}}};
   if (sweep) {
-    json["sweep"][sweep_names[static_cast<std::size_t>(sweep->quantity)]] = {
-        {"from", sweep->from}, {"to", sweep->to}, {"step", sweep->step}};
+    json["sweep"][sweep->name()] = {{"from", sweep->from}, {"to", sweep->to}, {"step", sweep->step}};
   }
   return json;
 }

@@ -44,6 +44,8 @@ struct SceneSweep {
   enum class Quantity { angle_deg, friction } quantity = Quantity::angle_deg;
   double from = 0, to = 0, step = 1;
   [[nodiscard]] std::vector<double> values() const;
+  /// Key of the scene file under "sweep", and the quantity's name in JSON and CSV.
+  [[nodiscard]] const std::string& name() const;
 };
 
 /// The model that a scene is read for.  The discrete one needs no ground, and its rod may be thin (body.radius = 0).

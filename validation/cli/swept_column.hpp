@@ -1,0 +1,19 @@
+// What tables over a scene's sweep share.
+#pragma once
+
+#include <cstddef>
+
+#include "validation/output/table.hpp"
+#include "validation/scene/simulation_scene.hpp"
+
+namespace clatter::validation {
+
+/// Column of the swept values for readers: the quantity's sign and unit.
+[[nodiscard]] Column swept_column(const SceneSweep& sweep);
+/// The same for CSV: the name of the quantity.
+[[nodiscard]] Column swept_record_column(const SceneSweep& sweep);
+
+/// Adds a note if fewer values than the sweep has are done.
+void add_interruption(const SceneSweep& sweep, std::size_t done, Table& table);
+
+}  // namespace clatter::validation
