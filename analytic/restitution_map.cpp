@@ -1,27 +1,24 @@
 #include "analytic/restitution_map.hpp"
 
 #include <boost/math/special_functions/lambert_w.hpp>
-#include <boost/math/special_functions/log1p.hpp>
 #include <cmath>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
 
+#include "analytic/detail/log1p_minus.hpp"
 #include "analytic/detail/root_finder.hpp"
 
 namespace clatter::analytic {
 namespace {
+
+using detail::log1p_minus;
 
 [[noreturn]] void refuse(const char* field, double value, const char* allowed) {
   std::ostringstream text;
   text.precision(17);
   text << field << " = " << value << ": must be " << allowed;
   throw std::domain_error(text.str());
-}
-
-/// ln(1+x) − x: by Boost's series where the difference would cancel.  Accuracy: 2 ulp.
-double log1p_minus(double x) {
-  return std::fabs(x) < 0.5 ? boost::math::log1pmx(x) : std::log1p(x) - x;
 }
 
 /// atanh(s) − s by its series for 0 <= s <= 1/2.

@@ -1,14 +1,14 @@
 #include "analytic/viscoelastic_contact.hpp"
 
-#include <boost/math/special_functions/log1p.hpp>
 #include <cmath>
 #include <limits>
+
+#include "analytic/detail/log1p_minus.hpp"
 
 namespace clatter::analytic {
 namespace {
 
-/// ln(1+x) − x, by Boost's series where the difference would cancel.
-double log1p_minus(double x) { return std::fabs(x) < 0.5 ? boost::math::log1pmx(x) : std::log1p(x) - x; }
+using detail::log1p_minus;
 
 /// ψ(x) = −x − ln(1−x), x²/2 for small x.
 double psi(double x) { return -log1p_minus(-x); }
