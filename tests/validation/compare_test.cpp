@@ -191,7 +191,7 @@ BOOST_AUTO_TEST_CASE(a_limit_that_misses_the_discrete_value_is_found) {
 
 /// Another family than that of clatter verify.
 BOOST_AUTO_TEST_CASE(the_limits_of_200_random_scenes_lie_within_honest_error_bars) {
-  const RandomScenesResult result = run_random_scenes(77, 0, random_scene_count, 2);
+  const RandomScenesResult result = run_random_scenes({.seed = 77, .count = random_scene_count, .impacts = 2});
   BOOST_TEST(result.with_limit >= random_scene_count * 19 / 20);
   BOOST_TEST(result.covered >= 0.95);
   BOOST_TEST(result.median_bar <= 10);

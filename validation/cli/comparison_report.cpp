@@ -183,7 +183,7 @@ Table records_table(const SimulationScene& scene) {
 
 /// The number of an impact that deviates most for its size: deviation over scale, and what was predicted of it.
 struct Worst {
-  double deviation = 0, predicted = 0, miss = 0, allowance = 0;
+  double deviation = 0, predicted = 0, miss = 0, bar = 0;
 };
 Worst worst_number(const Comparison& comparison, const ComparedImpact& impact) {
   Worst worst;
@@ -199,7 +199,7 @@ Worst worst_number(const Comparison& comparison, const ComparedImpact& impact) {
     if (impact.has_landing() && std::fabs(pair.miss()) / pair.allowance() > largest_miss) {
       largest_miss = std::fabs(pair.miss()) / pair.allowance();
       worst.miss = std::fabs(pair.miss()) / scale;
-      worst.allowance = pair.bar() / scale;
+      worst.bar = pair.bar() / scale;
     }
   }
   return worst;
@@ -273,7 +273,7 @@ Table swept_comparison_table(const SimulationScene& scene, const std::vector<Swe
         row.insert(row.end(), {Cell(worst.deviation, 2), Cell(worst.predicted, 2)});
       else
         row.insert(row.end(), {Cell("–"), Cell()});
-      if (impact.has_landing()) row.insert(row.end(), {Cell(worst.miss, 2), Cell(worst.allowance, 2)});
+      if (impact.has_landing()) row.insert(row.end(), {Cell(worst.miss, 2), Cell(worst.bar, 2)});
       row.resize(7);
       row.emplace_back(landing_word(impact));
       table.rows.push_back(std::move(row));

@@ -17,7 +17,6 @@ namespace {
 
 using analytic::ImpactMode;
 using analytic::ImpactRow;
-using numeric::ContactEnd;
 using numeric::ImpactRecord;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -42,10 +41,15 @@ bool jams(const Comparison& comparison, const ImpactRow& row) {
   return comparison.drop.law.friction_value >= std::fabs(limit);
 }
 
-/// Whether an impact ended in stick in one model and not in the other.
+/// Whether an impact ended in stick.
 bool sticks(ImpactMode mode) { return mode == ImpactMode::stick || mode == ImpactMode::slip_stick; }
 bool sticks(numeric::FrictionMode mode) {
   return mode == numeric::FrictionMode::stick || mode == numeric::FrictionMode::slip_stick;
+}
+
+/// Whether an impact sticks in one model alone because the discrete one has no static coefficient of its own.
+bool sticks_in_one_model(const numeric::Ground& ground, ImpactMode discrete, numeric::FrictionMode continuous) {
+  return ground.static_friction != ground.sliding_friction && sticks(discrete) != sticks(continuous);
 }
 
 /// The body lies flat or stands upright as it lands.
@@ -63,12 +67,11 @@ bool is_open_face(const ImpactRow& row) {
 /// Why row i cannot be compared at any stiffness; empty if it can.
 std::string reason_in_principle(const Comparison& comparison, std::size_t i) {
   const auto& rows = comparison.sequence.rows;
-  if (i < rows.size() && is_open_face(rows[i])) {
+  if (i >= rows.size()) return "";
+  if (is_open_face(rows[i])) {
     return "a whole face lands turning or sliding: its rebound depends on where along it the ground presses";
   }
-  const auto landed = std::find_if(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(std::min(i, rows.size())),
-                                   [](const ImpactRow& row) { return is_face(row); });
-  if (i < rows.size() && landed != rows.begin() + static_cast<std::ptrdiff_t>(i)) {
+  if (std::any_of(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(i), is_face)) {
     return "follows the landing of a whole face: rounding decides how it lands again";
   }
   return "";
@@ -93,8 +96,7 @@ std::string reason_against(const Comparison& comparison, const SimulationScene& 
   if (jams(comparison, rows[i])) return "jamming: friction beyond Painlevé's limit drives the contact into the ground";
   if (end != end_name(record.end))
     return fmt::format("end {} strikes in one model, end {} in the other", end, end_name(record.end));
-  if (scene.ground.static_friction != scene.ground.sliding_friction &&
-      sticks(rows[i].impact.mode) != sticks(record.mode)) {
+  if (sticks_in_one_model(scene.ground, rows[i].impact.mode, record.mode)) {
     return "static and sliding friction differ; the discrete model has one coefficient";
   }
   const Quantities size = comparison.impacts[i].predicted.total();
@@ -150,8 +152,8 @@ void drop_unlike_limits(Comparison& comparison, const SimulationScene& scene) {
   bool alike = true;
   for (std::size_t i = 0; i < comparison.impacts.size(); ++i) {
     ComparedImpact& impact = comparison.impacts[i];
-    if (impact.limit && (scene.ground.static_friction != scene.ground.sliding_friction &&
-                         sticks(comparison.sequence.rows[i].impact.mode) != sticks(impact.limit->mode))) {
+    if (impact.limit &&
+        sticks_in_one_model(scene.ground, comparison.sequence.rows[i].impact.mode, impact.limit->mode)) {
       alike = false;
     }
     if (!alike) impact.limit.reset();

@@ -6,10 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "analytic/errors.hpp"
 #include "analytic/restitution_map.hpp"
 #include "validation/compare/comparison.hpp"
-#include "validation/output/number.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -49,6 +47,22 @@ bool counts(const ComparedImpact& impact, std::size_t q) {
   return (*impact.discrete)[q] != 0;
 }
 
+void summarise(RandomScenesResult& result) {
+  std::vector<double> ratios;
+  std::size_t covered = 0;
+  for (const LimitSample& sample : result.samples) {
+    if (sample.gap <= sample.bar) ++covered;
+    if (sample.gap > 0) ratios.push_back(sample.bar / sample.gap);
+    result.farthest = std::max(result.farthest, sample.gap / sample.bar);
+  }
+  if (result.samples.empty()) return;
+  result.covered = static_cast<double>(covered) / static_cast<double>(result.samples.size());
+  if (ratios.empty()) return;
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  result.median_bar = *middle;
+}
+
 }  // namespace
 
 SimulationScene random_scene(std::uint64_t seed, int index) {
@@ -71,34 +85,13 @@ SimulationScene random_scene(std::uint64_t seed, int index) {
   return scene;
 }
 
-void summarise(RandomScenesResult& result) {
-  std::vector<double> ratios;
-  std::size_t covered = 0;
-  double farthest = 1;
-  result.worst = "none outside";
-  for (const LimitSample& sample : result.samples) {
-    if (sample.gap <= sample.bar) ++covered;
-    if (sample.gap > 0) ratios.push_back(sample.bar / sample.gap);
-    if (!(sample.gap <= farthest * sample.bar)) {
-      farthest = sample.gap / sample.bar;
-      result.worst = fmt::format("scene {}, impact {}, {}: {} times its bar", sample.scene, sample.impact,
-                                 quantity_names[sample.quantity].name, significant(farthest, 2));
-    }
-  }
-  if (result.samples.empty()) return;
-  result.covered = static_cast<double>(covered) / static_cast<double>(result.samples.size());
-  if (ratios.empty()) return;
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  result.median_bar = *middle;
-}
-
-RandomScenesResult run_random_scenes(std::uint64_t seed, int first, int count, int impacts) {
+RandomScenesResult run_random_scenes(const RandomScenes& scenes) {
   RandomScenesResult result;
-  result.scenes = count;
-  for (int index = first; index < first + count; ++index) {
-    SimulationScene scene = random_scene(seed, index);
-    scene.options.impacts = impacts;
+  for (int index = 0; index < scenes.count; ++index) {
+    result.complete = scenes.goes_on();
+    if (!result.complete) break;
+    SimulationScene scene = random_scene(scenes.seed, index);
+    scene.options.impacts = scenes.impacts;
     scene.options.error_estimates = false;
     scene.options.evaluation_limit = 100'000;  // soft grounds may hold a body for thousands of oscillations
     const Comparison comparison = compare_models(scene, scene.make_body());
@@ -109,7 +102,7 @@ RandomScenesResult run_random_scenes(std::uint64_t seed, int first, int count, i
       for (std::size_t q = 0; q < quantity_count; ++q) {
         if (!counts(impact, q)) continue;
         const double gap = std::fabs(impact.limit->value[q] - (*impact.discrete)[q]);
-        result.samples.push_back({index, impact.n, q, gap, impact.limit->error[q]});
+        result.samples.push_back({gap, impact.limit->error[q]});
       }
     }
     result.with_limit += any ? 1 : 0;

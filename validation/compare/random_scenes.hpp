@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "validation/scene/simulation_scene.hpp"
@@ -14,25 +13,29 @@ namespace clatter::validation {
 /// speed of the drop), μ, angle, spin, tangential velocity and gravity.  The same on every machine.
 [[nodiscard]] SimulationScene random_scene(std::uint64_t seed, int index);
 
+/// Which scenes of a family to run.
+struct RandomScenes {
+  std::uint64_t seed = 0;
+  int count = 0;                                        ///< scenes 0 to count − 1
+  int impacts = 0;                                      ///< of each
+  std::function<bool()> goes_on = [] { return true; };  ///< asked before each scene; false ends the run
+};
+
 /// One number of one impact: how far the limit is from the discrete value, and its error bar.
 struct LimitSample {
-  int scene = 0, impact = 0;
-  std::size_t quantity = 0;
   double gap = 0, bar = 0;
 };
 
 struct RandomScenesResult {
-  int scenes = 0;
-  int with_limit = 0;  ///< that have a limit to hold against a discrete impact
+  bool complete = true;  ///< false: ended by `goes_on`, and the numbers are those of the scenes before
+  int with_limit = 0;    ///< scenes that have a limit to hold against a discrete impact
   std::vector<LimitSample> samples;
   double covered = 0;     ///< share of the samples whose gap lies within the bar
   double median_bar = 0;  ///< of bar/gap
-  std::string worst;      ///< the sample farthest outside, in words
+  double farthest = 0;    ///< largest gap/bar
 };
 
 /// Numbers that are equal by construction (the first start and angle) or zero in the discrete model are no samples.
-[[nodiscard]] RandomScenesResult run_random_scenes(std::uint64_t seed, int first, int count, int impacts);
-/// Statistics over the samples of several parts.
-void summarise(RandomScenesResult& result);
+[[nodiscard]] RandomScenesResult run_random_scenes(const RandomScenes& scenes);
 
 }  // namespace clatter::validation

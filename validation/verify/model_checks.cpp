@@ -55,20 +55,12 @@ Measured of_sweep(Laboratory& laboratory, const char* name) {
 
 constexpr std::uint64_t family = 1;
 constexpr int random_impacts = 2;
-constexpr int scenes_at_once = 10;  // between two looks for an interrupt
 
 Measured random_scenes(Laboratory& laboratory, int count) {
-  RandomScenesResult result;
-  for (int first = 0; first < count; first += scenes_at_once) {
-    if (!laboratory.goes_on()) throw Laboratory::Interrupted{};
-    const RandomScenesResult part = run_random_scenes(family, first, std::min(scenes_at_once, count - first), random_impacts);
-    result.with_limit += part.with_limit;
-    result.samples.insert(result.samples.end(), part.samples.begin(), part.samples.end());
-  }
-  summarise(result);
-  double farthest = 0;
-  for (const LimitSample& sample : result.samples) farthest = std::max(farthest, sample.gap / sample.bar);
-  return {100 * result.covered, farthest,
+  const RandomScenesResult result =
+      run_random_scenes({.seed = family, .count = count, .impacts = random_impacts, .goes_on = laboratory.goes_on});
+  if (!result.complete) throw Laboratory::Interrupted{};
+  return {100 * result.covered, result.farthest,
           result.covered >= 0.95 && result.median_bar <= 10 ? Answer::holds : Answer::refuted,
           fmt::format("% of {} numbers of {} scenes lie within their bars; bars are {} times the gap in the median",
                       result.samples.size(), result.with_limit, significant(result.median_bar, 2))};
