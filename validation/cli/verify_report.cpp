@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "validation/cli/impact_records.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/version.hpp"
@@ -41,10 +39,7 @@ std::string marked_answer(const CheckResult& result) {
 std::string answer_word(const CheckResult& result) { return result.done ? answer_name(result.measured.answer) : ""; }
 
 /// The number to four digits; a whole one has no zeros behind its point.
-Cell number_cell(double number) {
-  const bool whole = number == std::round(number) && std::fabs(number) < 1e5;
-  return whole ? Cell(shortest(number)) : Cell(number, 4);
-}
+Cell number_cell(double number) { return is_short_whole(number) ? Cell(shortest(number)) : Cell(number, 4); }
 
 Json check_json(const CheckResult& result) {
   const Check& check = *result.check;

@@ -20,6 +20,8 @@ std::string significant(double value, int digits) {
   return fmt::format("{:.{}f}", value, std::max(digits - 1 - exponent, 0));
 }
 
+bool is_short_whole(double value) { return value == std::round(value) && std::fabs(value) < 1e5; }
+
 int known_digits(double value, double error) {
   if (!(error > 0) || value == 0) return 17;
   const double digits = std::floor(std::log10(std::fabs(value) / error));

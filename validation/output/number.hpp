@@ -13,6 +13,9 @@ namespace clatter::validation {
 /// to below 1e7, else with an exponent.  0 prints as "0".
 [[nodiscard]] std::string significant(double value, int digits);
 
+/// Whether a number is whole and below 1e5 in magnitude, so that shortest() shows it best.
+[[nodiscard]] bool is_short_whole(double value);
+
 /// Significant digits of `value` that an absolute error leaves, in [1, 17]; 17 without error.
 [[nodiscard]] int known_digits(double value, double error);
 

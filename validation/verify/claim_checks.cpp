@@ -51,6 +51,9 @@ double peak(const Simulation& run, std::size_t impact) { return run.impacts.at(i
 
 const RunOptions two_impacts{.impacts = 2};
 
+/// The rod of Fig. 16 by growing friction, μ = 0.1, 0.3, 0.5, 0.7.
+constexpr const char* friction_cases[] = {"rod-friction-01", "rod-friction-03", "rod-friction-05", "rod-friction-07"};
+
 Measured second_is_twice(Laboratory&) {
   const ContactAngles at = elastic(1e-6);
   const double ratio = at.impulse[1] / at.impulse[0];
@@ -186,7 +189,7 @@ Measured friction_plateau(Laboratory& laboratory) {
 
 Measured contact_point_course(Laboratory& laboratory) {
   double end = 0, slide = 0, error = 0;
-  for (const char* name : {"rod-friction-01", "rod-friction-03", "rod-friction-05", "rod-friction-07"}) {
+  for (const char* name : friction_cases) {
     const RecordedRun& recorded = laboratory.history(name);
     double last = 0, largest = 0;
     for (const numeric::HistorySample& s : recorded.samples) {
@@ -207,7 +210,7 @@ Measured contact_point_course(Laboratory& laboratory) {
 
 Measured friction_and_force(Laboratory& laboratory) {
   std::vector<double> normal, tangential;
-  for (const char* name : {"rod-friction-01", "rod-friction-03", "rod-friction-05", "rod-friction-07"}) {
+  for (const char* name : friction_cases) {
     double largest = 0;
     for (const numeric::HistorySample& s : laboratory.history(name).samples)
       largest = std::max(largest, std::fabs(s.force.x()));

@@ -78,8 +78,11 @@ Measured largest_second_impulse(Laboratory&) {
   double low = 40, high = 54;
   while (high - low > 1e-6) {  // P₂ is unimodal there
     const double third = (high - low) / 3;
-    (impulse(low + third) < impulse(high - third) ? low : high) =
-        impulse(low + third) < impulse(high - third) ? low + third : high - third;
+    const double left = low + third, right = high - third;
+    if (impulse(left) < impulse(right))
+      low = left;
+    else
+      high = right;
   }
   const double largest = impulse(low);
   return {largest, std::fabs(largest - 1.04540), Answer::holds, fmt::format("at θ = {}°", significant(low, 5))};

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <set>
 
 #include "validation/cli/verify_report.hpp"
@@ -75,8 +74,8 @@ std::string row_of(const CheckResult& result) {
   const Measured& m = result.measured;
   const std::string answer = result.done ? answer_name(m.answer) : "";
   const char* verdict = !result.done ? "not run" : result.passed() ? "passed" : "failed";
-  const bool whole = m.number == std::round(m.number) && std::fabs(m.number) < 1e5;
-  const std::string number = (whole ? shortest(m.number) : significant(m.number, 6)) + (check.unit.empty() ? "" : " " + check.unit);
+  const std::string number = (is_short_whole(m.number) ? shortest(m.number) : significant(m.number, 6)) +
+                             (check.unit.empty() ? "" : " " + check.unit);
   return fmt::format(
       "<tr id=\"{}\"><td><b>{}</b></td><td>{}<br><span class=\"pale\">{}</span><br><code>{}</code></td><td "
       "class=\"{}\">{}</td>"
