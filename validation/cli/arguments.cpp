@@ -30,7 +30,7 @@ const CLI::App* find_command(const CLI::App& app, const std::string& name) {
 const CLI::Option& find_option(const CLI::App& command, const std::string& name) {
   const std::vector<std::string> names = option_names(command);
   if (std::find(names.begin(), names.end(), name) != names.end()) return *command.get_option(name);
-  static const std::set<std::string> of_simulator{"--method", "--step", "--history"};
+  static const std::set<std::string> of_simulator{"--tolerance", "--step", "--history"};
   if (command.get_name() == "sequence" && of_simulator.contains(name)) {
     throw BadInput(fmt::format("{}: the discrete model takes no time steps and has no such option", name));
   }

@@ -45,11 +45,9 @@ int run_plan(const PlanInput& input) {
     throw BadInput(fmt::format("{}: a sweep has no plan; give --angle or leave out [sweep]", scene.path));
   }
   const Plan plan = make_plan(scene, target);
-  switch (choice.style.format) {
-    case Format::json: write_out(choice, json_text(plan_json(scene, plan))); break;
-    case Format::csv: write_out(choice, table_text(plan_records(scene, plan), choice.style)); break;
-    default: write_out(choice, table_text(plan_table(scene, plan), choice.style));
-  }
+  write_report(
+      choice, [&] { return plan_json(scene, plan); }, [&] { return plan_records(scene, plan); },
+      [&] { return plan_table(scene, plan); });
   const std::string shortfall = plan_shortfall(plan);
   if (shortfall.empty()) return 0;
   fmt::print(stderr, "clatter: {}\n", shortfall);

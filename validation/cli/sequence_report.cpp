@@ -81,6 +81,25 @@ bool loses_energy(const Sequence& sequence) {
   });
 }
 
+/// Largest relative bound on rounding of the rows' numbers; infinite: the growth of errors is not known.
+double largest_rounding(const Sequence& sequence) {
+  double worst = 0;
+  int n = 0;
+  for (const ImpactRow& row : sequence.rows) {
+    if (std::isnan(row.amplification)) return std::numeric_limits<double>::infinity();
+    worst = std::max(worst, rounding_error(row, ++n, 1));
+  }
+  return worst;
+}
+
+/// What was asked against what rounding leaves.
+std::string accuracy_words(const Scene& scene, const Sequence& sequence) {
+  const double rounding = largest_rounding(sequence);
+  if (!std::isfinite(rounding)) return "";
+  return fmt::format("asked {} digits, achieved {:.1f}: what rounding leaves", scene.digits,
+                     std::max(-std::log10(rounding), 0.0));
+}
+
 std::vector<std::string> closing_notes(const Scene& scene, const Sequence& sequence) {
   std::vector<std::string> notes;
   if (sequence.tail) {
@@ -95,6 +114,8 @@ std::vector<std::string> closing_notes(const Scene& scene, const Sequence& seque
   }
   notes.push_back(fmt::format("Sum of normal impulses: {} N·s",
                               significant(sequence.total_normal_impulse, scene.digits)));
+  const std::string accuracy = accuracy_words(scene, sequence);
+  if (!accuracy.empty()) notes.push_back(accuracy);
   notes.push_back(fmt::format("{}: {}", outcome_name(sequence.outcome), sequence.message));
   if (sequence.outcome == analytic::Outcome::no_further_impact &&
       std::isfinite(sequence.near_miss.clearance)) {
@@ -164,6 +185,7 @@ Json sequence_json(const Scene& scene, const Sequence& sequence) {
                          {"margin", sequence.near_miss.margin},
                          {"within_margin", sequence.near_miss.within_margin()}};
   }
+  json["accuracy"] = {{"asked", std::pow(10.0, -scene.digits)}, {"achieved", number_or_null(largest_rounding(sequence))}};
   json["total_normal_impulse"] = number_or_null(sequence.total_normal_impulse);
   json["cost"] = {{"force_evaluations", 0}, {"root_evaluations", sequence.root_evaluations}};
   return json;

@@ -13,6 +13,7 @@
 #include "validation/cli/simulation_report.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/names.hpp"
+#include "validation/plan/planned_run.hpp"
 #include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {
@@ -28,7 +29,7 @@ struct SimulateInput {
 
 constexpr long evaluations_before_progress = 200'000;
 
-Simulation run_scene(const SimulationScene& scene, const numeric::Body& body, const CooperativeInterrupt& interrupt,
+PlannedRun run_scene(const SimulationScene& scene, const numeric::Body& body, const CooperativeInterrupt& interrupt,
                      const std::function<void(int, long)>& show, numeric::HistoryRecorder* history) {
   numeric::Options options = scene.options;
   options.history = history;
@@ -38,7 +39,7 @@ Simulation run_scene(const SimulationScene& scene, const numeric::Body& body, co
   };
   const numeric::MotionState start = scene.start(body);
   if (history && scene.height) record_fall(*history, start, body.mass(), options.gravity, 20);
-  return numeric::simulate(body, scene.ground, start, options);
+  return run_to_digits(body, scene.ground, start, options);
 }
 
 /// 3 if there is no number at all because of what the run met.
@@ -62,19 +63,19 @@ int run_single(const SimulationScene& scene, const numeric::Body& body, const Ou
     history.emplace(scene.history, std::vector<std::string>{headline("simulate", "time history"),
                                                             "scene: " + scene.json().dump()});
   }
-  Simulation run;
+  PlannedRun planned;
   {
     Progress progress;
     const auto show = [&](int impacts, long evaluations) {
       progress.show(fmt::format("{} force evaluations, {}", evaluations,
                                 progress_bar(static_cast<std::size_t>(impacts), static_cast<std::size_t>(scene.options.impacts))));
     };
-    run = run_scene(scene, body, interrupt, show, history ? &*history : nullptr);
+    planned = run_scene(scene, body, interrupt, show, history ? &*history : nullptr);
   }
   if (history) history->commit();
-  write_report(choice, [&] { return simulation_json(scene, run); }, [&] { return simulation_records(scene, run); },
-               [&] { return simulation_table(scene, run); });
-  return status_of(run);
+  write_report(choice, [&] { return simulation_json(scene, planned); }, [&] { return simulation_records(scene, planned); },
+               [&] { return simulation_table(scene, planned); });
+  return status_of(planned.run);
 }
 
 int run_sweep(const SimulationScene& scene, const numeric::Body& body, const OutputChoice& choice) {
@@ -87,7 +88,7 @@ int run_sweep(const SimulationScene& scene, const numeric::Body& body, const Out
       if (interrupt.requested()) break;
       if (runs.size() % 10 == 0) progress.show(progress_bar(runs.size(), values.size()));
       SweptRun swept{value, scene.at(value), {}};
-      swept.run = run_scene(swept.scene, body, interrupt, [](int, long) {}, nullptr);
+      swept.run = run_scene(swept.scene, body, interrupt, [](int, long) {}, nullptr).run;
       if (swept.run.outcome == Outcome::interrupted) break;
       runs.push_back(std::move(swept));
     }

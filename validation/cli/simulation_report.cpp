@@ -40,7 +40,8 @@ Json impact_json(const ImpactRecord& row, int n) {
 
 /// Whether rounding or the method's error has outgrown the row by itself; what follows such a row is no better.
 bool doubtful(const SimulationScene& scene, const ImpactRecord& row) {
-  if (!row.predictable || !(std::fabs(row.ledger_gap) <= 1e-6)) return true;
+  const double gap_of_method = std::max(1e-6, std::pow(10.0, -scene.options.digits));
+  if (!row.predictable || !(std::fabs(row.ledger_gap) <= gap_of_method)) return true;
   if (!scene.options.error_estimates) return false;
   return !(row.error.impulse.norm() <= 0.05 * row.value.impulse.norm());
 }
@@ -57,7 +58,7 @@ Cell known(const SimulationScene& scene, double value, double error, bool truste
 std::string method_words(const Simulation& run) {
   const std::string how = run.tolerance > 0 ? fmt::format("tolerance {} per step", significant(run.tolerance, 2))
                                             : fmt::format("steps of {} s", significant(run.step, 4));
-  return fmt::format("{}, {}; {} force evaluations, with those for the error estimates", method_name(run.method), how,
+  return fmt::format("{}, {}; {} force evaluations, with those for plan and error estimates", method_name(run.method), how,
                      run.force_evaluations);
 }
 
@@ -80,7 +81,21 @@ std::string trust_words(const SimulationScene& scene, const Simulation& run) {
                            : fmt::format("?: trust ends with impact {}: {}", last_trusted, growth);
 }
 
-std::vector<std::string> notes_of(const SimulationScene& scene, const Simulation& run) {
+/// What was asked against what came out, by the estimates.
+std::string accuracy_words(const SimulationScene& scene, const PlannedRun& planned) {
+  if (std::isnan(planned.achieved)) return "";
+  const int known = planned.known_impacts, impacts = static_cast<int>(planned.run.impacts.size());
+  const std::string of = known < impacts ? fmt::format(" of the first {} impacts", known) : "";
+  if (!std::isfinite(planned.achieved)) {
+    return fmt::format("asked {} digits{}: a second run goes another way", scene.options.digits, of);
+  }
+  return fmt::format("asked {} digits, achieved {:.1f}{}: largest estimated error {} of the sequence's sizes",
+                     scene.options.digits, std::max(-std::log10(planned.achieved), 0.0), of,
+                     significant(planned.achieved, 1));
+}
+
+std::vector<std::string> notes_of(const SimulationScene& scene, const PlannedRun& planned) {
+  const Simulation& run = planned.run;
   std::vector<std::string> notes;
   const std::string trust = trust_words(scene, run);
   if (!trust.empty()) notes.push_back(trust);
@@ -91,6 +106,8 @@ std::vector<std::string> notes_of(const SimulationScene& scene, const Simulation
                                 significant(run.total_normal_impulse(), scene.options.digits), significant(gap, 1)));
   }
   notes.push_back(method_words(run));
+  const std::string accuracy = accuracy_words(scene, planned);
+  if (!accuracy.empty()) notes.push_back(accuracy);
   notes.push_back(fmt::format("{}: {}", outcome_name(run.outcome), run.message));
   return notes;
 }
@@ -122,10 +139,11 @@ Json quantity_json(const SimulationScene& scene, const SweptRun& swept) {
 
 }  // namespace
 
-Table simulation_table(const SimulationScene& scene, const Simulation& run) {
+Table simulation_table(const SimulationScene& scene, const PlannedRun& planned) {
+  const Simulation& run = planned.run;
   const bool friction = scene.ground.has_friction();
   const bool loses = friction || scene.ground.damping > 0;
-  Table table{.head = head_of(scene, what_it_is), .columns = {}, .rows = {}, .notes = notes_of(scene, run)};
+  Table table{.head = head_of(scene, what_it_is), .columns = {}, .rows = {}, .notes = notes_of(scene, planned)};
   table.columns = {{"n", "n", ""}, {"end", "end", ""}, {"start", "t", "s"}, {"duration", "contact", "s", !friction},
                    {"contact_angle_deg", "angle", "°"}, {"impulse_normal", "Pₙ", "N·s"},
                    {"impulse_tangential", "Pₜ", "N·s", friction}, {"peak_force", "peak Fₙ", "N"},
@@ -149,7 +167,8 @@ Table simulation_table(const SimulationScene& scene, const Simulation& run) {
   return table;
 }
 
-Json simulation_json(const SimulationScene& scene, const Simulation& run) {
+Json simulation_json(const SimulationScene& scene, const PlannedRun& planned) {
+  const Simulation& run = planned.run;
   Json json{{"clatter", version}, {"model", "continuous"}, {"scene", scene.json()}, {"impacts", Json::array()}};
   int n = 0;
   for (const ImpactRecord& row : run.impacts) json["impacts"].push_back(impact_json(row, ++n));
@@ -158,16 +177,18 @@ Json simulation_json(const SimulationScene& scene, const Simulation& run) {
   json["method"] = method_name(run.method);
   json["tolerance"] = run.tolerance > 0 ? Json(run.tolerance) : Json(nullptr);
   json["step"] = run.step > 0 ? Json(run.step) : Json(nullptr);
+  json["accuracy"] = {{"asked", planned.asked}, {"achieved", number_or_null(planned.achieved)},
+                      {"known_impacts", planned.known_impacts}, {"planned", planned.planned}};
   json["total_normal_impulse"] = number_or_null(run.total_normal_impulse());
   json["energy_start"] = number_or_null(run.energy_start);
   json["cost"] = {{"force_evaluations", run.force_evaluations}, {"root_evaluations", run.root_evaluations}};
   return json;
 }
 
-Table simulation_records(const SimulationScene& scene, const Simulation& run) {
-  const Json json = simulation_json(scene, run);
+Table simulation_records(const SimulationScene& scene, const PlannedRun& planned) {
+  const Json json = simulation_json(scene, planned);
   Table table{.head = {headline("simulate", what_it_is), "scene: " + json["scene"].dump()}, .columns = {}, .rows = {},
-              .notes = notes_of(scene, run)};
+              .notes = notes_of(scene, planned)};
   add_impact_records(table, json["impacts"]);
   return table;
 }

@@ -3,17 +3,17 @@
 
 #include <vector>
 
-#include "numeric/simulate.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/table.hpp"
+#include "validation/plan/planned_run.hpp"
 #include "validation/scene/simulation_scene.hpp"
 
 namespace clatter::validation {
 
-[[nodiscard]] Table simulation_table(const SimulationScene& scene, const numeric::Simulation& run);
-[[nodiscard]] Json simulation_json(const SimulationScene& scene, const numeric::Simulation& run);
+[[nodiscard]] Table simulation_table(const SimulationScene& scene, const PlannedRun& planned);
+[[nodiscard]] Json simulation_json(const SimulationScene& scene, const PlannedRun& planned);
 /// One row per impact with the JSON's names as columns.
-[[nodiscard]] Table simulation_records(const SimulationScene& scene, const numeric::Simulation& run);
+[[nodiscard]] Table simulation_records(const SimulationScene& scene, const PlannedRun& planned);
 
 /// A sweep: the scene with its value and its run, one after the other.
 struct SweptRun {

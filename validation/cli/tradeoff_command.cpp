@@ -21,17 +21,6 @@ struct TradeoffInput {
   OutputTexts output;
 };
 
-std::string report(const OutputChoice& choice, const SimulationScene& scene, const Tradeoff& tradeoff) {
-  switch (choice.style.format) {
-    case Format::json:
-      return json_text(tradeoff_json(scene, tradeoff));
-    case Format::csv:
-      return table_text(tradeoff_records(scene, tradeoff), choice.style);
-    default:
-      return table_text(tradeoff_table(scene, tradeoff), choice.style);
-  }
-}
-
 int run_tradeoff(const TradeoffInput& input) {
   const SimulationScene scene = read_scene_flags(input.scene);
   const OutputChoice choice = read_output(input.output);
@@ -60,7 +49,9 @@ int run_tradeoff(const TradeoffInput& input) {
     plot->write(draw(tradeoff_figure(scene, tradeoff)).at(0));
     plot->commit();
   }
-  write_out(choice, report(choice, scene, tradeoff));
+  write_report(
+      choice, [&] { return tradeoff_json(scene, tradeoff); }, [&] { return tradeoff_records(scene, tradeoff); },
+      [&] { return tradeoff_table(scene, tradeoff); });
   return interrupt.requested() ? interrupted_status : 0;
 }
 

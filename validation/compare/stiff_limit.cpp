@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 
 #include "numeric/simulate.hpp"
+#include "validation/compare/motion_numbers.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -106,17 +107,6 @@ Eigen::Vector3d limit_weights(const Eigen::Vector3d& x, const Powers& powers) {
   return weights / weights.sum();
 }
 
-/// The sizes that the numbers of a row are made of.
-Quantities sizes(const Simulation& run, std::size_t row, double radius, double mass) {
-  double speed = 0;
-  for (std::size_t i = 0; i <= row; ++i) {
-    const numeric::ImpactNumbers& n = run.impacts[i].value;
-    speed = std::max({speed, n.velocity_after.norm(), n.approach_speed, n.angular_velocity_after.norm() * radius});
-  }
-  const double time = std::max(run.impacts[row].value.start, radius / speed);
-  return {time, 90, mass * speed, mass * speed, speed, speed, speed / radius};
-}
-
 /// By what a relative error of the state has grown at a row: with the lever by which each contact arises.
 double growth(const Simulation& run, std::size_t row) {
   double grown = 1;
@@ -151,7 +141,7 @@ LimitRow extrapolate(const std::vector<Simulation>& ladder, std::size_t row, con
   const Eigen::Vector3d weights[] = {limit_weights(x.segment<3>(0), powers), limit_weights(x.segment<3>(1), powers),
                                      limit_weights(x.segment<3>(2), powers)};
   const double expected = std::pow(x[3] / x[4], powers.third);
-  const Quantities size = sizes(ladder.back(), row, body.radius(), body.mass());
+  const Quantities size = in_plane(motion_sizes(ladder.back(), row + 1, body));
   const double rounding = weights[2].cwiseAbs().sum() * run_error * growth(ladder.back(), row);
   LimitRow limit{.end = ladder.back().impacts[row].end, .mode = ladder.back().impacts[row].mode};
   for (std::size_t q = 0; q < quantity_count; ++q) {

@@ -1,12 +1,11 @@
 #include "validation/plan/ladder.hpp"
 
 #include <algorithm>
-#include <cmath>
 
-#include "analytic/contact_angles.hpp"
 #include "analytic/errors.hpp"
 #include "validation/compare/discrete_scene.hpp"
 #include "validation/output/names.hpp"
+#include "validation/plan/closed_form.hpp"
 #include "validation/plan/symmetry.hpp"
 
 namespace clatter::validation {
@@ -78,42 +77,26 @@ Ladder::Ladder(SimulationScene scene)
   } catch (const analytic::OutsideModelError& error) {
     against_[index(Rung::discrete)] = error.what();
   }
-  against_[index(Rung::closed_form)] = reason_against_closed_form();
+  against_[index(Rung::closed_form)] = find_closed_form();
   against_[index(Rung::planar)] = reason_against_planar();
 }
 
-std::string Ladder::reason_against_closed_form() const {
-  if (scene_.body.shape != BodyScene::Shape::rod) return "it is for a rod";
-  if (scene_.ground.has_friction() || scene_.ground.damping > 0) return "it has no friction and no damping";
-  if (scene_.tangential_velocity != 0 || scene_.spin != 0 || scene_.tilt_deg != 0)
-    return "it starts from a straight fall";
-  return scene_.angle_deg == 0 ? "one end strikes first in it" : "";
+/// The same rod without its radius.
+std::string Ladder::find_closed_form() {
+  if (scene_.body.shape != BodyScene::Shape::rod) return "it is for a thin rod";
+  if (!drop_) return against(Rung::discrete);
+  if (scene_.ground.has_friction()) return "it has no friction";
+  analytic::Drop thin = *drop_;
+  thin.body = analytic::make_rod({.mass = scene_.body.mass, .length = scene_.body.length, .radius = 0});
+  if (scene_.ground.damping == 0) thin.law = {};
+  const std::string reason = reason_against_closed_form(thin);
+  if (reason.empty()) thin_rod_ = thin;
+  return reason;
 }
 
 std::string Ladder::reason_against_planar() const {
   if (scene_.options.planar || is_mirror_image(body_, start_)) return "";
   return "the body is not its own mirror image in the plane of its motion";
-}
-
-std::vector<MotionNumbers> Ladder::closed_form(int impacts) const {
-  const double speed = -start_.velocity.z(), length = scene_.body.length, mass = scene_.body.mass;
-  const analytic::Angle theta = analytic::Angle::from_degrees(scene_.angle_deg);
-  if (impacts == 1) {  // Eq. 9 alone
-    const analytic::PlanarBody rod = analytic::make_rod({.mass = mass, .length = length, .radius = 0});
-    const analytic::ContactPoint end = rod.contact_point(0, std::sin(theta.radians), std::cos(theta.radians));
-    const analytic::Impact impact = analytic::strike(rod, {.normal = -speed}, end, {});
-    return {{0, scene_.angle_deg, 0, 0, impact.normal_impulse, 0, 0, impact.after.normal, 0, impact.after.angular, 0}};
-  }
-  const analytic::ContactAngles at =
-      contact_angles(theta, {.gravity_number = scene_.options.gravity * length / (speed * speed)});
-  const double time[] = {0, at.beta.time, at.beta.time + at.gamma.time};
-  const double angle[] = {theta.radians, at.beta.angle, at.gamma.angle};
-  std::vector<MotionNumbers> rows;
-  for (int i = 0; i < std::min(at.impacts(), impacts); ++i) {
-    rows.push_back({time[i] * length / speed, angle[i] * analytic::degrees_per_radian, 0, 0,
-                    at.impulse[i] * mass * speed, 0, 0, at.velocity[i] * speed, 0, at.angular[i] * speed / length, 0});
-  }
-  return rows;
 }
 
 Simulation Ladder::simulate(const RungSetting& setting, int impacts) const {
@@ -129,7 +112,10 @@ Simulation Ladder::simulate(const RungSetting& setting, int impacts) const {
 }
 
 RungResult Ladder::run(const RungSetting& setting, int impacts) const {
-  if (setting.rung == Rung::closed_form) return {closed_form(impacts), 0, "nothing strikes after the third impact"};
+  if (setting.rung == Rung::closed_form) {
+    const analytic::Sequence sequence = closed_form_sequence(*thin_rod_, impacts);
+    return {motion_rows(sequence), 0, sequence.message};
+  }
   if (setting.rung == Rung::discrete) {
     const analytic::Sequence sequence = impact_sequence(*drop_, {.impacts = impacts, .amplification = false});
     return {motion_rows(sequence), sequence.root_evaluations, sequence.message};

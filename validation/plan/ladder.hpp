@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/plan/motion_numbers.hpp"
+#include "validation/compare/motion_numbers.hpp"
 #include "validation/scene/simulation_scene.hpp"
 
 namespace clatter::validation {
@@ -73,14 +73,13 @@ class Ladder {
   [[nodiscard]] numeric::Simulation simulate(const RungSetting& setting, int impacts) const;
 
  private:
-  [[nodiscard]] std::string reason_against_closed_form() const;
+  [[nodiscard]] std::string find_closed_form();
   [[nodiscard]] std::string reason_against_planar() const;
-  [[nodiscard]] std::vector<MotionNumbers> closed_form(int impacts) const;
 
   SimulationScene scene_;
   numeric::Body body_;
   numeric::MotionState start_;
-  std::optional<analytic::Drop> drop_;
+  std::optional<analytic::Drop> drop_, thin_rod_;
   std::string against_[4];
 };
 

@@ -41,11 +41,6 @@ SimulationScene limited(SimulationScene scene) {
   return scene;
 }
 
-/// The same sizes for the numbers that the discrete model's account of itself has.
-Quantities planar_sizes(const MotionNumbers& sizes) {
-  return {sizes[0], sizes[1], sizes[4], sizes[2], sizes[7], sizes[5], sizes[9]};
-}
-
 /// One plan in the making.
 class Planner {
  public:
@@ -214,7 +209,7 @@ class Planner {
   [[nodiscard]] double contact_effects() const {
     const analytic::Drop drop = discrete_drop(ladder_.scene(), ladder_.body());
     const analytic::Sequence sequence = impact_sequence(drop, {.impacts = impacts(), .amplification = false});
-    const Quantities sizes = planar_sizes(sizes_);
+    const Quantities sizes = in_plane(sizes_);
     double worst = 0;
     for (const PredictedSize& row : predicted_sizes(drop, sequence, contact_times_)) {
       const Quantities total = row.total();

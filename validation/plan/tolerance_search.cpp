@@ -22,23 +22,29 @@ std::size_t index_of(Method method) { return method == Method::rkck ? 0 : 1; }
 
 double half_decade(int index) { return std::max(1e-4 * std::pow(10.0, -0.5 * index), numeric::least_tolerance); }
 
+PredictedSetting predicted_setting(Method method, double error_constant, double asked) {
+  const CostTable& table = CostTable::measured();
+  int index = 0;
+  const auto error = [&](int i) { return error_constant * half_decade(i) * table.error(method, half_decade(i)); };
+  while (index < tolerance_steps - 1 && !(guess_margin * error(index) <= asked)) ++index;
+  return {method, index, table.evaluations(method, half_decade(index))};
+}
+
+PredictedSetting cheapest_by_table(double error_constant, double asked) {
+  const PredictedSetting low = predicted_setting(methods[0], error_constant, asked);
+  const PredictedSetting high = predicted_setting(methods[1], error_constant, asked);
+  return high.evaluations < low.evaluations ? high : low;
+}
+
 ToleranceSearch::ToleranceSearch(const Ladder& ladder, Rung rung, int impacts, const MotionNumbers& sizes,
                                  double error_constant, double pilot_evaluations)
     : ladder_(ladder), rung_(rung), impacts_(impacts), sizes_(sizes), error_constant_(error_constant),
       pilot_evaluations_(pilot_evaluations) {}
 
-ToleranceSearch::Start ToleranceSearch::predict(Method method, double asked) const {
-  const CostTable& table = CostTable::measured();
-  int index = 0;
-  const auto error = [&](int i) { return error_constant_ * half_decade(i) * table.error(method, half_decade(i)); };
-  while (index < tolerance_steps - 1 && !(guess_margin * error(index) <= asked)) ++index;
-  return {method, index, pilot_evaluations_ * table.evaluations(method, half_decade(index))};
-}
-
 /// The finer run; at least as fine as any trial.
 void ToleranceSearch::find_reference(double asked, int index) {
   const int finest = tolerance_steps - 1;
-  const Start start = predict(Method::rk8pd, asked / 100);
+  const PredictedSetting start = predicted_setting(Method::rk8pd, error_constant_, asked / 100);
   const RungSetting setting{.rung = rung_, .method = Method::rk8pd,
                             .tolerance = half_decade(std::min(finest, std::max(start.index, index + finer_steps)))};
   const RungResult result = ladder_.run(setting, impacts_);
@@ -73,7 +79,7 @@ void ToleranceSearch::take(Method method, int index, double asked, FoundSetting&
 }
 
 /// From the predicted tolerance to tighter ones until it serves, or to looser ones as long as it does.
-void ToleranceSearch::descend(const Start& start, double asked, FoundSetting& best) {
+void ToleranceSearch::descend(const PredictedSetting& start, double asked, FoundSetting& best) {
   int index = start.index;
   while (!(trial(start.method, index).error <= asked) && index < tolerance_steps - 2) ++index;
   take(start.method, index, asked, best);
@@ -81,12 +87,13 @@ void ToleranceSearch::descend(const Start& start, double asked, FoundSetting& be
 }
 
 FoundSetting ToleranceSearch::cheapest(double asked) {
-  Start starts[] = {predict(methods[0], asked), predict(methods[1], asked)};
+  PredictedSetting starts[] = {predicted_setting(methods[0], error_constant_, asked),
+                               predicted_setting(methods[1], error_constant_, asked)};
   find_reference(asked, std::max(starts[0].index, starts[1].index));
   if (starts[1].evaluations < starts[0].evaluations) std::swap(starts[0], starts[1]);
   FoundSetting best;
   descend(starts[0], asked, best);
-  if (!best.serves || starts[1].evaluations <= worth_trying * static_cast<double>(best.evaluations)) {
+  if (!best.serves || pilot_evaluations_ * starts[1].evaluations <= worth_trying * static_cast<double>(best.evaluations)) {
     descend(starts[1], asked, best);
   }
   best.reference = reference_;

@@ -12,6 +12,18 @@ namespace clatter::validation {
 inline constexpr int tolerance_steps = 20;
 [[nodiscard]] double half_decade(int index);
 
+/// A method and tolerance that the measured table predicts to serve.
+struct PredictedSetting {
+  numeric::Method method = numeric::Method::rkck;
+  int index = 0;           ///< of half_decade
+  double evaluations = 0;  ///< over those of rkck at CostTable::pilot_tolerance
+};
+/// The loosest tolerance of a method whose predicted error is a third of `asked`, or the smallest tolerance.
+/// @param error_constant of the scene: error over tolerance of rkck
+[[nodiscard]] PredictedSetting predicted_setting(numeric::Method method, double error_constant, double asked);
+/// The cheaper one of rkck and rk8pd.
+[[nodiscard]] PredictedSetting cheapest_by_table(double error_constant, double asked);
+
 struct FoundSetting {
   RungSetting setting;
   double error = 0;             ///< against the reference, relative
@@ -39,15 +51,9 @@ class ToleranceSearch {
     double error = 0;
     bool known = false;
   };
-  struct Start {
-    numeric::Method method;
-    int index;
-    double evaluations;
-  };
-  [[nodiscard]] Start predict(numeric::Method method, double asked) const;
   void find_reference(double asked, int index);
   Trial& trial(numeric::Method method, int index);
-  void descend(const Start& start, double asked, FoundSetting& best);
+  void descend(const PredictedSetting& start, double asked, FoundSetting& best);
   void take(numeric::Method method, int index, double asked, FoundSetting& best);
 
   const Ladder& ladder_;

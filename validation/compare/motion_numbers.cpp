@@ -1,4 +1,4 @@
-#include "validation/plan/motion_numbers.hpp"
+#include "validation/compare/motion_numbers.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -62,6 +62,8 @@ MotionNumbers motion_sizes(const analytic::Sequence& sequence, const analytic::P
   const double time = std::max(sequence.rows.back().start, body.reach() / speed);
   return sizes_of(time, speed, body.reach(), body.mass);
 }
+
+Quantities in_plane(const MotionNumbers& n) { return {n[0], n[1], n[4], n[2], n[7], n[5], n[9]}; }
 
 double row_distance(const MotionNumbers& row, const MotionNumbers& other, const MotionNumbers& sizes) {
   double worst = 0;

@@ -6,6 +6,7 @@
 
 #include "analytic/sequence.hpp"
 #include "numeric/simulate.hpp"
+#include "validation/compare/quantities.hpp"
 
 namespace clatter::validation {
 
@@ -23,6 +24,9 @@ using MotionNumbers = std::array<double, motion_number_count>;
 /// the largest speed v of the centre or the tips, m v, and v over the body's radius.
 [[nodiscard]] MotionNumbers motion_sizes(const numeric::Simulation& run, std::size_t count, const numeric::Body& body);
 [[nodiscard]] MotionNumbers motion_sizes(const analytic::Sequence& sequence, const analytic::PlanarBody& body);
+
+/// Those of the numbers that motion in the plane has.
+[[nodiscard]] Quantities in_plane(const MotionNumbers& numbers);
 
 /// Largest distance of a row's numbers, relative to `sizes`; infinite if one is no number.
 [[nodiscard]] double row_distance(const MotionNumbers& row, const MotionNumbers& other, const MotionNumbers& sizes);

@@ -1,0 +1,132 @@
+#include "validation/plan/planned_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "validation/compare/motion_numbers.hpp"
+#include "validation/plan/cost_table.hpp"
+#include "validation/plan/tolerance_search.hpp"
+
+namespace clatter::validation {
+namespace {
+
+using numeric::Method;
+using numeric::Options;
+using numeric::Outcome;
+using numeric::Simulation;
+
+constexpr int most_repeats = 3;
+constexpr long evaluations_of_a_pilot = 200'000;
+constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+constexpr double estimate_margin = 5;  // error estimates err on the large side; a first run that they accept is cheaper
+constexpr double different_ways = 0.1;
+constexpr double usual_error_constant = 1;  // median over many scenes, for one whose pilots go different ways
+
+/// Fills in what was achieved.
+void judge(const numeric::Body& body, PlannedRun& planned) {
+  const std::vector<numeric::ImpactRecord>& rows = planned.run.impacts;
+  const auto last = std::find_if(rows.begin(), rows.end(), [&](const numeric::ImpactRecord& row) {
+    return rounding * row.amplification > planned.asked;
+  });
+  const auto count = static_cast<std::size_t>(last - rows.begin());
+  planned.known_impacts = static_cast<int>(count);
+  planned.achieved = std::numeric_limits<double>::quiet_NaN();
+  if (count == 0 || std::isnan(rows[0].error.impulse.z())) return;
+  const MotionNumbers sizes = motion_sizes(planned.run, count, body);
+  planned.achieved = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    planned.achieved = std::max(planned.achieved, row_distance(motion_numbers(rows[i].error), {}, sizes));
+  }
+}
+
+/// One run after another of the same drop.
+class Runner {
+ public:
+  Runner(const numeric::Body& body, const numeric::Ground& ground, const numeric::MotionState& start,
+         const Options& options)
+      : body_(body), ground_(ground), start_(start), options_(options) {}
+
+  PlannedRun run() {
+    Options options = options_;
+    options.history = nullptr;
+    take_cheapest(options);
+    PlannedRun planned{.run = {}, .planned = true, .asked = std::pow(10.0, -options.digits)};
+    for (int repeat = 0;; ++repeat) {
+      planned.run = simulate(options);
+      judge(body_, planned);
+      const bool serves = std::isnan(planned.achieved) || planned.achieved <= planned.asked;
+      if (serves || repeat == most_repeats || options.tolerance == numeric::least_tolerance) break;
+      const double part = std::clamp(0.5 * planned.asked / planned.achieved, 1e-3, 0.3);
+      options.tolerance = std::max(part * options.tolerance, numeric::least_tolerance);
+    }
+    if (options_.history && planned.run.outcome != Outcome::interrupted) {
+      options.history = options_.history;
+      planned.run = simulate(options);
+    }
+    planned.run.force_evaluations = evaluations_;
+    return planned;
+  }
+
+ private:
+  Simulation simulate(const Options& options) {
+    Simulation run = numeric::simulate(body_, ground_, start_, options);
+    evaluations_ += run.force_evaluations;
+    return run;
+  }
+
+  Simulation pilot(double tolerance) {
+    Options options = options_;
+    options.history = nullptr;
+    options.error_estimates = options.amplification = false;
+    options.method = Method::rkck;
+    options.tolerance = tolerance;
+    options.evaluation_limit = std::min(options.evaluation_limit, evaluations_of_a_pilot);
+    return simulate(options);
+  }
+
+  /// Over the impacts before the runs go different ways.
+  [[nodiscard]] double common_distance(const Simulation& run, const Simulation& finer) const {
+    const MotionNumbers sizes = motion_sizes(finer, finer.impacts.size(), body_);
+    double worst = 0;
+    for (std::size_t i = 0; i < std::min(run.impacts.size(), finer.impacts.size()); ++i) {
+      const double apart = row_distance(motion_numbers(run.impacts[i].value), motion_numbers(finer.impacts[i].value), sizes);
+      if (!(apart <= different_ways)) break;
+      worst = std::max(worst, apart);
+    }
+    return worst;
+  }
+
+  void take_cheapest(Options& options) {
+    const Simulation loose = pilot(CostTable::loose_tolerance), finer = pilot(CostTable::pilot_tolerance);
+    double constant = usual_error_constant;
+    if (!finer.impacts.empty()) {
+      const double error = common_distance(loose, finer);
+      if (error > 0) constant = error / CostTable::loose_tolerance;
+    }
+    const PredictedSetting setting = cheapest_by_table(constant, std::pow(10.0, -options.digits) / estimate_margin);
+    options.method = setting.method;
+    options.tolerance = half_decade(setting.index);
+  }
+
+  const numeric::Body& body_;
+  const numeric::Ground& ground_;
+  const numeric::MotionState& start_;
+  const Options& options_;
+  long evaluations_ = 0;
+};
+
+}  // namespace
+
+PlannedRun run_to_digits(const numeric::Body& body, const numeric::Ground& ground, const numeric::MotionState& start,
+                         const Options& options) {
+  const bool plans = options.method == Method::automatic && options.step == 0 && options.tolerance == 0;
+  if (plans) return Runner(body, ground, start, options).run();
+  PlannedRun planned{.run = numeric::simulate(body, ground, start, options),
+                     .planned = false,
+                     .asked = std::pow(10.0, -options.digits)};
+  judge(body, planned);
+  return planned;
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,28 @@
+// A run of the continuous model whose method and tolerance follow from the digits asked for.
+#pragma once
+
+#include "validation/scene/simulation_scene.hpp"
+
+namespace clatter::validation {
+
+struct PlannedRun {
+  numeric::Simulation run;
+  bool planned = false;  ///< method and tolerance were chosen here
+  double asked = 0;      ///< relative error, 10^−digits
+  /// Largest estimated error of the motion's numbers (MotionNumbers) over `known_impacts`, relative to the sequence's
+  /// sizes; NaN: there is no estimate, infinite: a second run goes another way.
+  double achieved = 0;
+  /// The first impacts, before rounding errors have grown beyond what is asked.
+  int known_impacts = 0;
+};
+
+/// Runs the scene.  With `run.method = "auto"`, no step and no tolerance, two pilot runs with rkck (at 1e-4 and 1e-6)
+/// give the scene's error constant, the measured table (CostTable) the cheapest method and tolerance for the digits;
+/// if the estimated errors are then larger than asked, the run is repeated with a tighter tolerance, at most thrice.
+/// The count of evaluations includes all of these.  Otherwise as numeric::simulate with the scene's options.
+/// `options.history` takes the last run only.
+/// @throws as numeric::simulate.
+[[nodiscard]] PlannedRun run_to_digits(const numeric::Body& body, const numeric::Ground& ground,
+                                       const numeric::MotionState& start, const numeric::Options& options);
+
+}  // namespace clatter::validation
