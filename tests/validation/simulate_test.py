@@ -345,7 +345,7 @@ class Output(Folder):
         result = self.json(self.scene(), "--step", "1e-5", "--impacts", "1")
         self.assertEqual((result["method"], result["step"], result["tolerance"]), ("tvd-rk3", 1e-5, None))
         result = self.json(self.scene(), "--impacts", "1")
-        self.assertEqual(result["method"], "rk8pd")
+        self.assertIn(result["method"], ("rkck", "rk8pd"))
         self.assertGreater(result["tolerance"], 0)
 
     def test_a_step_too_long_for_the_contact_knows_few_digits(self):
@@ -362,7 +362,7 @@ class History(Folder):
         return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(rows)]
 
     def test_time_runs_on_and_the_energy_of_an_elastic_drop_stays(self):
-        rows = self.history(os.path.join(CASES, "phone-elastic.toml"), "--impacts", "2")
+        rows = self.history(os.path.join(CASES, "phone-elastic.toml"), "--impacts", "2", "--digits", "9")
         times = [row["t"] for row in rows]
         self.assertEqual(times, sorted(times))
         self.assertLess(times[0], 0)

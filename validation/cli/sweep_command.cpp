@@ -213,6 +213,7 @@ Action add_sweep_command(CLI::App& app) {
       "Example: clatter sweep validation/cases/phone-damped.toml --set drop.angle_deg=5:85:5 "
       "--set ground.damping=0:2e7:1e6 --set run.impacts=2 --output phone.csv\n"
       "An interrupted sweep goes on when the same command is given again. The discrete model takes the impact.* keys.\n"
+      "Continuous scenes are planned for run.digits, without the error estimates that clatter simulate makes.\n"
       "A scene that is refused or fails is a row with its outcome: refused, outside-model or not-computed.");
   return [input] { return run_processes(*input); };
 }

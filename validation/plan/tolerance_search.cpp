@@ -11,9 +11,11 @@ namespace {
 
 using numeric::Method;
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Method methods[] = {Method::rkck, Method::rk8pd};
 constexpr double guess_margin = 3;         // the table's medians are off by this on many scenes
 constexpr double worth_trying = 2;         // a method predicted to cost this much more than the other is left
+constexpr double decades_apart = 1.5;      // of tolerance, to see how an error falls with it
 constexpr int finer_steps = 4;             // the reference is two decades of tolerance finer
 
 std::size_t index_of(Method method) { return method == Method::rkck ? 0 : 1; }
@@ -50,13 +52,31 @@ void ToleranceSearch::find_reference(double asked, int index) {
   const RungResult result = ladder_.run(setting, impacts_);
   spent_ += result.evaluations;
   reference_ = result.rows;
+  reference_errors_.assign(reference_.size(), 0);
+  if (setting.tolerance > half_decade(finest)) return;
+  // There is none two decades finer than the finest trial, so the reference's own error counts too.
+  RungSetting coarser = setting;
+  coarser.tolerance *= std::pow(10.0, decades_apart);
+  const RungResult other = ladder_.run(coarser, impacts_);
+  spent_ += other.evaluations;
+  for (std::size_t i = 0; i < reference_.size(); ++i) {
+    const bool is_there = i < other.rows.size();
+    const double apart = is_there ? row_distance(other.rows[i], reference_[i], sizes_) : infinity;
+    reference_errors_[i] = guess_margin * apart / std::pow(10.0, decades_apart);
+  }
 }
 
 ToleranceSearch::Trial& ToleranceSearch::trial(Method method, int index) {
   Trial& trial = trials_[index_of(method)][index];
   if (trial.known) return trial;
   trial.result = ladder_.run({.rung = rung_, .method = method, .tolerance = half_decade(index)}, impacts_);
-  trial.error = distance(trial.result.rows, reference_, sizes_);
+  const std::vector<MotionNumbers>& rows = trial.result.rows;
+  trial.error = reference_.empty() ? infinity : 0;
+  for (std::size_t i = 0; i < reference_.size(); ++i) {
+    const double apart = i < rows.size() ? row_distance(rows[i], reference_[i], sizes_) : infinity;
+    trial.errors.push_back(apart + reference_errors_[i]);
+    trial.error = std::max(trial.error, trial.errors.back());
+  }
   trial.known = true;
   spent_ += trial.result.evaluations;
   return trial;
@@ -72,10 +92,7 @@ void ToleranceSearch::take(Method method, int index, double asked, FoundSetting&
   best.error = found.error;
   best.evaluations = found.result.evaluations;
   best.serves = serves;
-  best.errors.clear();
-  for (std::size_t i = 0; i < std::min(found.result.rows.size(), reference_.size()); ++i) {
-    best.errors.push_back(row_distance(found.result.rows[i], reference_[i], sizes_));
-  }
+  best.errors = found.errors;
 }
 
 /// From the predicted tolerance to tighter ones until it serves, or to looser ones as long as it does.

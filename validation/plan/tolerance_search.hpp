@@ -49,6 +49,7 @@ class ToleranceSearch {
   struct Trial {
     RungResult result;
     double error = 0;
+    std::vector<double> errors;
     bool known = false;
   };
   void find_reference(double asked, int index);
@@ -62,6 +63,7 @@ class ToleranceSearch {
   MotionNumbers sizes_;
   double error_constant_, pilot_evaluations_;
   std::vector<MotionNumbers> reference_;
+  std::vector<double> reference_errors_;  ///< of each row, where no run is two decades finer than the trials
   Trial trials_[2][tolerance_steps];
   long spent_ = 0;
 };

@@ -42,6 +42,7 @@ constexpr NumberKey keys[] = {
      [](Scene& scene, double value) { scene.ground.regularisation_speed = value; }},
     {"run.impacts", true, [](Scene& scene, double value) { scene.options.impacts = static_cast<int>(value); }},
     {"run.digits", true, [](Scene& scene, double value) { scene.options.digits = static_cast<int>(value); }},
+    {"run.tolerance", false, [](Scene& scene, double value) { scene.options.tolerance = value; }},
     {"run.step", false, [](Scene& scene, double value) { scene.options.step = value; }},
     {"run.evaluation_limit", true,
      [](Scene& scene, double value) { scene.options.evaluation_limit = static_cast<long>(value); }},

@@ -335,6 +335,7 @@ namespace {
 
 SimulationScene read_values(SceneValues values, const std::vector<SceneOverride>& overrides, Model model) {
   refuse_both(overrides, "drop.speed", "drop.height");
+  refuse_both(overrides, "run.tolerance", "run.step");
   for (const SceneOverride& flag : overrides) {
     if (flag.key == "drop.speed") values.drop("drop.height");
     if (flag.key == "drop.height") values.drop("drop.speed");

@@ -6,6 +6,7 @@
 #include "analytic/errors.hpp"
 #include "numeric/errors.hpp"
 #include "validation/compare/discrete_scene.hpp"
+#include "validation/plan/planned_run.hpp"
 #include "validation/scene/bad_input.hpp"
 #include "validation/sweep/rows.hpp"
 
@@ -47,7 +48,7 @@ bool SceneRunner::append_result(const std::string& prefix, std::string& out) {
     return true;
   }
   const numeric::Simulation run =
-      numeric::simulate(*body_.solid, scene_.ground, scene_.start(*body_.solid), scene_.options);
+      run_to_digits(*body_.solid, scene_.ground, scene_.start(*body_.solid), scene_.options).run;
   if (run.outcome == numeric::Outcome::interrupted) return false;
   append_rows(out, prefix, plan_.rows, run);
   return true;

@@ -82,6 +82,9 @@ void add_model_measures(Measures& measures) {
   measures["M11"] = [](Laboratory& laboratory) { return of_case(laboratory, "phone-damped"); };
   measures["M12"] = [](Laboratory& laboratory) { return of_sweep(laboratory, "phone-sweep"); };
   measures["M13"] = [](Laboratory& laboratory) { return of_case(laboratory, "every-key"); };
+  measures["M14"] = [](Laboratory& laboratory) { return of_case(laboratory, "rod-10"); };
+  measures["M15"] = [](Laboratory& laboratory) { return of_case(laboratory, "rod-damped"); };
+  measures["M16"] = [](Laboratory& laboratory) { return of_case(laboratory, "box-flat"); };
   measures["R1"] = [](Laboratory& laboratory) { return random_scenes(laboratory, 20); };
   measures["R2"] = [](Laboratory& laboratory) { return random_scenes(laboratory, 200); };
 }

@@ -1,0 +1,186 @@
+// Plans keep their word.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <vector>
+
+#include "tests/validation/planned_scene.hpp"
+#include "validation/cli/plan_report.hpp"
+#include "validation/plan/cost_table.hpp"
+#include "validation/plan/planned_run.hpp"
+
+using namespace clatter;
+using namespace clatter::validation;
+
+namespace {
+
+#ifdef CLATTER_TEST_SLOW_BUILD
+constexpr int random_scenes = 16;
+#else
+constexpr int random_scenes = 120;
+#endif
+
+/// Slope of the least-squares line through (x, y).
+double slope(const std::vector<double>& x, const std::vector<double>& y) {
+  const auto n = static_cast<double>(x.size());
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    sx += x[i];
+    sy += y[i];
+    sxx += x[i] * x[i];
+    sxy += x[i] * y[i];
+  }
+  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+/// The scene's plane and its first impacts.
+SimulationScene planar_case(const char* name, int impacts) {
+  SimulationScene scene = case_scene(name);
+  scene.options.impacts = impacts;
+  scene.options.planar = true;
+  return scene;
+}
+
+double true_error(const SimulationScene& scene, const numeric::Simulation& run) {
+  const Truth truth = true_values(Ladder(scene));
+  return distance(motion_rows(run), truth.rows, truth.sizes);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(plans_of_random_scenes_keep_their_word_and_are_hardly_dearer_than_the_cheapest) {
+  int judged = 0, met = 0, cheap = 0;
+  for (int i = 0; i < random_scenes; ++i) {
+    const PlannedScene planned = plan_and_judge(71, i);
+    if (!planned.judged || !planned.promised) continue;
+    ++judged;
+    met += planned.met ? 1 : 0;
+    cheap += planned.met && planned.cost_ratio <= 1.5 ? 1 : 0;
+  }
+  fmt::print("{} plans of {}: {} gave the digits, {} cost at most 1.5 times the cheapest\n", judged, random_scenes, met,
+             cheap);
+  BOOST_TEST(judged >= 0.9 * random_scenes);
+  BOOST_TEST(met >= 0.99 * judged);
+  BOOST_TEST(cheap >= 0.9 * judged);
+}
+
+BOOST_AUTO_TEST_CASE(true_error_falls_with_the_tolerance_over_six_decades) {
+  using numeric::Method;
+  for (const char* name : {"rod-damped", "phone-damped"}) {
+    const SimulationScene scene = planar_case(name, 3);
+    const Ladder ladder(scene);
+    const Truth truth = true_values(ladder);
+    for (const Method method : {Method::rkf45, Method::rkck, Method::rk8pd}) {
+      std::vector<double> asked, achieved;
+      for (double decade = -5; decade >= -11; decade -= 0.5) {
+        const RungSetting setting{.rung = Rung::planar, .method = method, .tolerance = std::pow(10, decade)};
+        asked.push_back(decade);
+        achieved.push_back(std::log10(distance(ladder.run(setting, 3).rows, truth.rows, truth.sizes)));
+      }
+      const double found = slope(asked, achieved);
+      fmt::print("{}, {}: slope of true error over tolerance {:.3f}\n", name, method_name(method), found);
+      BOOST_TEST(found >= 0.8);
+      BOOST_TEST(found <= 1.2);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(true_error_of_a_planned_run_falls_with_the_digits_asked_over_six_decades) {
+  std::vector<double> asked, achieved;
+  for (const char* name : {"rod-10", "rod-damped", "rod-friction-03", "phone-damped"}) {
+    SimulationScene scene = planar_case(name, std::min(case_scene(name).options.impacts, 3));
+    const numeric::Body body = scene.make_body();
+    for (int digits = 3; digits <= 9; ++digits) {
+      scene.options.digits = digits;
+      const PlannedRun planned = run_to_digits(body, scene.ground, scene.start(body), scene.options);
+      const double error = true_error(scene, planned.run);
+      BOOST_TEST(error <= planned.asked, name << ", " << digits << " digits: " << error);
+      BOOST_TEST(error <= planned.achieved);
+      asked.push_back(-digits);
+      achieved.push_back(std::log10(error));
+    }
+  }
+  const double found = slope(asked, achieved);
+  fmt::print("planned runs: slope of true error over error asked {:.3f}\n", found);
+  BOOST_TEST(found >= 0.8);
+  BOOST_TEST(found <= 1.2);
+}
+
+BOOST_AUTO_TEST_CASE(plan_takes_the_discrete_model_on_a_stiff_ground_and_leaves_it_for_more_digits) {
+  const SimulationScene scene = case_scene("rod-45", {{"ground.stiffness", "--stiffness", "1e15"}});
+  BOOST_TEST((make_plan(scene, {.digits = 2}).choice.rung == Rung::discrete));
+  BOOST_TEST((make_plan(scene, {.digits = 6}).choice.rung == Rung::planar));
+  const SimulationScene thin = case_scene("rod-45", {{"ground.stiffness", "--stiffness", "1e18"},
+                                                     {"body.radius", "--radius", "1e-4"}});
+  BOOST_TEST((make_plan(thin, {.digits = 2}).choice.rung == Rung::closed_form));
+}
+
+BOOST_AUTO_TEST_CASE(plan_leaves_out_what_changes_less_than_asked) {
+  const SimulationScene scene = case_scene("rod-45", {{"ground.sliding_friction", "--sliding-friction", "1e-9"},
+                                                      {"ground.damping", "--damping", "1"}});
+  const Plan plan = make_plan(scene, {.digits = 5});
+  BOOST_TEST(!plan.scene.ground.has_friction());
+  BOOST_TEST(plan.scene.ground.damping == 0);
+  BOOST_TEST(plan.serves);
+  BOOST_TEST(true_error(scene, Ladder(plan.scene).simulate(plan.choice, 1)) <= 1e-5);
+  const Plan strict = make_plan(scene, {.digits = 10});
+  BOOST_TEST(strict.scene.ground.has_friction());
+}
+
+BOOST_AUTO_TEST_CASE(plan_within_a_time_takes_the_most_accurate_that_fits) {
+  const SimulationScene scene = case_scene("phone-damped", {{"run.impacts", "--impacts", "2"}});
+  const Plan ample = make_plan(scene, {.digits = 6, .within_ms = 1e6, .most_accurate = true});
+  const Plan hasty = make_plan(scene, {.digits = 6, .within_ms = 0.1, .most_accurate = true});
+  BOOST_TEST(ample.error < 1e-9);
+  BOOST_TEST(1e3 * hasty.seconds <= 0.1);
+  BOOST_TEST((hasty.choice.rung == Rung::discrete));
+  BOOST_TEST(plan_shortfall(hasty).empty());
+}
+
+BOOST_AUTO_TEST_CASE(plan_says_what_cannot_be_had) {
+  const SimulationScene scene = case_scene("phone-elastic");
+  const Plan plan = make_plan(scene, {.digits = 12});
+  BOOST_TEST(!plan.serves);
+  BOOST_TEST(!plan_shortfall(plan).empty());
+  BOOST_TEST(plan.known_impacts < 6);
+  BOOST_TEST(plan.predictable_impacts <= 2);  // out of its plane the phone's spin is unstable
+}
+
+BOOST_AUTO_TEST_CASE(same_plan_again) {
+  const SimulationScene scene = case_scene("phone-corner");
+  const Plan first = make_plan(scene, {.digits = 5}), second = make_plan(scene, {.digits = 5});
+  BOOST_TEST(command_line(first) == command_line(second));
+  BOOST_TEST(first.error == second.error);
+}
+
+BOOST_AUTO_TEST_CASE(command_line_of_a_plan_names_what_it_leaves_out) {
+  const SimulationScene scene = case_scene("rod-45", {{"ground.sliding_friction", "--sliding-friction", "1e-9"}});
+  const std::string line = command_line(make_plan(scene, {.digits = 5}));
+  BOOST_TEST(line.find("--sliding-friction 0") != std::string::npos);
+  BOOST_TEST(line.find("--planar") != std::string::npos);
+  BOOST_TEST(line.find("--tolerance") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(table_of_costs_is_read_and_refused) {
+  const CostTable& table = CostTable::measured();
+  using numeric::Method;
+  BOOST_TEST(table.evaluations(Method::rkck, CostTable::pilot_tolerance) == 1);
+  for (const Method method : {Method::rk4, Method::rkf45, Method::rkck, Method::rk8pd}) {
+    BOOST_TEST(table.evaluations(method, 1e-12) > table.evaluations(method, 1e-6));
+  }
+  BOOST_TEST(table.evaluations(Method::rk8pd, 1e-12) < table.evaluations(Method::rkck, 1e-12));
+  BOOST_CHECK_THROW(CostTable("scene,model\na,b\n"), std::runtime_error);
+  BOOST_CHECK_THROW(CostTable(""), std::runtime_error);
+}
+
+BOOST_AUTO_TEST_CASE(run_with_a_method_given_is_left_alone) {
+  SimulationScene scene = case_scene("rod-45");
+  scene.options.method = numeric::Method::rkf45;
+  const numeric::Body body = scene.make_body();
+  const PlannedRun planned = run_to_digits(body, scene.ground, scene.start(body), scene.options);
+  BOOST_TEST(!planned.planned);
+  BOOST_TEST((planned.run.method == numeric::Method::rkf45));
+  BOOST_TEST(planned.run.tolerance == 1e-10);
+}

@@ -1,0 +1,109 @@
+"""clatter plan, and the runs that follow it."""
+
+import json
+import os
+import re
+import subprocess
+import unittest
+
+PROGRAM = os.environ["CLATTER_PROGRAM"]
+CASES = os.path.join(os.environ["CLATTER_ROOT"], "validation", "cases")
+SCENES = ("rod-10", "rod-45", "rod-friction-03", "rod-damped", "phone-elastic", "phone-damped", "phone-corner", "box-flat")
+
+
+def case(name):
+    return os.path.join(CASES, name + ".toml")
+
+
+def run(*arguments):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True)
+
+
+def parsed(*arguments):
+    done = run(*arguments, "--format", "json")
+    return json.loads(done.stdout)
+
+
+class Plan(unittest.TestCase):
+    def test_every_scene_of_the_measured_table_has_a_plan_that_fits_80_columns(self):
+        for scene in SCENES:
+            done = run("plan", case(scene), "--digits", "4")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            # A path is not broken: it would no longer be one.
+            long = [line for line in done.stdout.splitlines() if len(line) > 80 and CASES not in line]
+            self.assertEqual(long, [], scene)
+            self.assertIn("Choice: ", done.stdout)
+            self.assertIn("chosen", done.stdout)
+
+    def test_command_of_the_plan_gives_the_digits(self):
+        for scene, digits in (("rod-10", 5), ("phone-damped", 4), ("phone-corner", 6)):
+            plan = parsed("plan", case(scene), "--digits", str(digits))
+            command = plan["choice"]["command"].split()
+            self.assertEqual(command[0], "clatter")
+            result = parsed(*command[1:])
+            self.assertLessEqual(plan["choice"]["error"], 10.0**-digits)
+            impacts = len(result["impacts"])
+            self.assertEqual(impacts, plan["impacts"])
+            # True values by another method at a much smaller tolerance.
+            extra = ["--planar"] if "--planar" in command else []
+            true = parsed("simulate", case(scene), "--method", "rkf45", "--tolerance", "1e-13", *extra)
+            for row, expected in zip(result["impacts"], true["impacts"]):
+                speed = max(abs(v) for r in true["impacts"] for v in r["velocity_after"] + [r["approach_speed"]])
+                for value, correct in zip(row["velocity_after"], expected["velocity_after"]):
+                    self.assertLessEqual(abs(value - correct), 10.0**-digits * 3 * speed)
+
+    def test_simulate_reports_achieved_against_asked(self):
+        for digits in ("3", "6", "9"):
+            result = parsed("simulate", case("rod-10"), "--digits", digits)
+            self.assertTrue(result["accuracy"]["planned"])
+            self.assertEqual(result["accuracy"]["asked"], float("1e-" + digits))
+            self.assertLessEqual(result["accuracy"]["achieved"], result["accuracy"]["asked"])
+        self.assertRegex(run("simulate", case("rod-10")).stdout, r"asked 6 digits, achieved \d+\.\d")
+        self.assertRegex(run("sequence", "--angle", "10").stdout, r"asked 6 digits, achieved 1\d\.\d")
+
+    def test_simulate_with_a_method_does_as_told(self):
+        result = parsed("simulate", case("rod-10"), "--method", "rkf45", "--tolerance", "1e-7")
+        self.assertEqual((result["method"], result["tolerance"], result["accuracy"]["planned"]), ("rkf45", 1e-7, False))
+
+    def test_sequence_by_the_closed_form_is_the_discrete_one(self):
+        arguments = ("sequence", "--angle", "10", "--gravity", "9.81", "--impacts", "3")
+        formula, model = parsed(*arguments, "--method", "closed-form"), parsed(*arguments, "--method", "discrete")
+        for row, other in zip(formula["impacts"], model["impacts"], strict=True):
+            for name in ("start", "contact_angle_deg", "impulse_normal", "energy_after", "inclination_deg"):
+                self.assertAlmostEqual(row[name], other[name], delta=1e-13 * max(1, abs(other[name])))
+
+    def test_digits_out_of_reach_are_said_to_be(self):
+        done = run("plan", case("phone-elastic"), "--digits", "12")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("12 digits", done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1)
+        self.assertIn("Not as asked", done.stdout)
+
+    def test_within_a_time(self):
+        plan = parsed("plan", case("phone-damped"), "--within", "1000")
+        self.assertLessEqual(plan["choice"]["seconds"], 1)
+        self.assertLess(plan["choice"]["error"], 1e-6)
+        done = run("plan", case("phone-damped"), "--within", "0.02", "--digits", "9")
+        self.assertEqual(done.returncode, 3, done.stdout)
+
+    def test_csv_has_a_row_for_every_rung(self):
+        lines = [line for line in run("plan", case("rod-45"), "--format", "csv").stdout.splitlines() if line[0] != "#"]
+        self.assertEqual([line.split(",")[0] for line in lines], ["model", "closed form", "discrete", "planar", "spatial"])
+
+    def test_bad_input_is_one_line(self):
+        for arguments in (["--digits", "1"], ["--within", "0"], ["--within", "nan"], ["--method", "rk4"], ["--step", "1e-6"],
+                          ["--tolerance", "1e-6"], ["--history", "x.csv"]):
+            done = run("plan", case("rod-45"), *arguments)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), arguments)
+            self.assertRegex(done.stderr, r"\Aclatter: [^\n]+\n\Z")
+        for arguments in (["plan", case("rod-sweep")], ["sequence", "--angle", "10", "--method", "closed"],
+                          ["sequence", "--angle", "10", "--spin", "1", "--method", "closed-form"],
+                          ["simulate", case("rod-45"), "--tolerance", "1"],
+                          ["simulate", case("rod-45"), "--tolerance", "1e-6", "--step", "1e-6"]):
+            done = run(*arguments)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), arguments)
+            self.assertTrue(re.fullmatch(r"clatter: [^\n]+\n", done.stderr), done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
