@@ -10,10 +10,10 @@
 program_packages=(cmake ninja-build g++ libgsl-dev libboost-dev libeigen3-dev libcli11-dev
                   nlohmann-json3-dev libfmt-dev libtomlplusplus-dev gnuplot-nox)
 # Without the shells and groff the tests of completion and man page would be skipped;
-# Chromium opens the page that clatter verify writes.
+# Chromium opens the page that clatter verify writes; OpenMPI shares a sweep among processes.
 # shellcheck disable=SC2034
 test_packages=(libgmsh-dev libboost-test-dev libbenchmark-dev python3 zsh fish groff-base
-               chromium chromium-driver)
+               chromium chromium-driver libopenmpi-dev openmpi-bin)
 
 say() { printf '%s: %s\n' "$speaker" "$*" >&2; }
 
