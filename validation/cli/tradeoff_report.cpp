@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "validation/cli/impact_records.hpp"
@@ -23,6 +24,15 @@ std::string setting_words(const TradePoint& point) {
 
 std::string name_of(const TradePoint& point) {
   return point.method.empty() ? rung_name(point.rung) : fmt::format("{} {}", rung_name(point.rung), point.method);
+}
+
+/// Where the planar rung applies, the spatial one is the same but for rounding, and one set of points.
+std::string curve_of(const Tradeoff& tradeoff, const TradePoint& point) {
+  const bool is_twofold = point.rung == Rung::spatial &&
+                          std::any_of(tradeoff.points.begin(), tradeoff.points.end(), [](const TradePoint& other) {
+                            return other.rung == Rung::planar && other.failure.empty();
+                          });
+  return is_twofold ? "spatial, all methods" : name_of(point);
 }
 
 /// The points of the front, the cheapest first.
@@ -122,25 +132,29 @@ Figure tradeoff_figure(const SimulationScene& scene, const Tradeoff& tradeoff) {
                 .plots = {}};
   FigurePlot plot{.title = "",
                   .x_label = "cost [ms]",
-                  .y_label = "true error",
+                  .y_label = "largest true error, relative",
                   .curves = {},
                   .x = {},
                   .y = {},
                   .logarithmic = true};
   std::map<std::string, double> curves;
+  double cheapest = std::numeric_limits<double>::infinity(), dearest = 0;
   for (const TradePoint& point : tradeoff.points) {
     if (!point.failure.empty() || !point.mesh.empty() || !(point.error > 0)) continue;
-    const auto [place, is_new] = curves.try_emplace(name_of(point), static_cast<double>(curves.size()));
+    const std::string name = curve_of(tradeoff, point);
+    const auto [place, is_new] = curves.try_emplace(name, static_cast<double>(curves.size()));
     figure.rows.push_back({place->second, 1e3 * point.seconds, point.error});
+    cheapest = std::min(cheapest, 1e3 * point.seconds);
+    dearest = std::max(dearest, 1e3 * point.seconds);
     if (!is_new) continue;
-    const bool single = point.method.empty();
-    plot.curves.push_back(
-        {.x = "cost",
-         .y = "error",
-         .legend = name_of(point),
-         .style = single || point.rung == Rung::spatial ? FigureCurve::Style::points : FigureCurve::Style::line,
-         .where = {{"curve", place->second}}});
+    plot.curves.push_back({.x = "cost",
+                           .y = "error",
+                           .legend = name,
+                           .style = point.method.empty() || name == "spatial, all methods" ? FigureCurve::Style::points
+                                                                                           : FigureCurve::Style::line,
+                           .where = {{"curve", place->second}}});
   }
+  plot.x = {cheapest / 3, 3 * dearest};  // a point on the frame is hard to see
   figure.plots = {plot};
   return figure;
 }
