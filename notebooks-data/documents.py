@@ -4,9 +4,11 @@
     notebooks-data/documents.py PROGRAM            writes them
     notebooks-data/documents.py PROGRAM --check    says which are not what PROGRAM prints, and changes nothing
 
-A block of README.md stands between "<!-- output: COMMAND -->" (or "<!-- verdicts -->") and "<!-- end -->".
+A block of README.md stands between "<!-- output: COMMAND -->", "<!-- verdicts -->" or "<!-- costs -->" and
+"<!-- end -->".  The costs are those of tradeoff.csv, which tradeoff.py measures.
 """
 
+import csv
 import itertools
 import json
 import re
@@ -18,7 +20,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 README = ROOT / "README.md"
 VERIFICATION = ROOT / "notebooks-data" / "verification.md"
-BLOCK = re.compile(r"(<!-- (output: (?P<command>[^>]+?)|verdicts) -->\n).*?(<!-- end -->)", re.DOTALL)
+TRADEOFF = ROOT / "notebooks-data" / "tradeoff.csv"
+BLOCK = re.compile(r"(<!-- ((?P<kind>output|verdicts|costs)(: (?P<command>[^>]+?))?) -->\n).*?(?P<end><!-- end -->)", re.DOTALL)
 GROUPS = {"C": "Claims of the paper", "E": "Errata", "F": "Figures", "X": "Exact results",
           "M": "Both models over every scene", "R": "Random scenes"}
 
@@ -66,6 +69,31 @@ def verdicts(checks):
     return "\n".join(lines) + "\n"
 
 
+def cheapest(points, digits):
+    """The cheapest point of a scene that gives the digits, as words."""
+    serving = [p for p in points if p["error"] and float(p["error"]) <= 10.0**-digits and not p["mesh"]]
+    if not serving:
+        return "–"
+    best = min(serving, key=lambda p: float(p["seconds"]))
+    setting = f"{float(best['tolerance']):.0e}" if best["tolerance"] else ""
+    how = " ".join(part for part in (best["method"], setting) if part) or best["model"]
+    return f"{how}, {1e3 * float(best['seconds']):.2g} ms"
+
+
+def costs():
+    """A scene a row: what the models without contact times miss, and the cheapest setting for some digits."""
+    lines = TRADEOFF.read_text(encoding="utf-8").splitlines()
+    points = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+    rows = ["| scene (`validation/cases/`) | error of the discrete model | 3 digits | 6 digits | 9 digits |",
+            "|---|---|---|---|---|"]
+    for scene, of_scene in itertools.groupby(points, key=lambda p: p["scene"]):
+        own = list(of_scene)
+        discrete = next(p for p in own if p["model"] == "discrete")
+        miss = f"{float(discrete['error']):.1g}" if discrete["error"] else "does not apply"
+        rows.append(f"| `{scene}` | {miss} | {' | '.join(cheapest(own, digits) for digits in (3, 6, 9))} |")
+    return "\n".join(rows) + "\n"
+
+
 def verification(result):
     lines = [f"# What `clatter verify` found (clatter {result['clatter']})", "",
              "Written by `notebooks-data/documents.py`.  `clatter verify --html FILE` draws the figures too.",
@@ -84,9 +112,12 @@ def verification(result):
 
 def readme(program, text, checks):
     def block(found):
-        command = found.group("command")
-        content = verdicts(checks) if command is None else f"```\n{printed(program, shlex.split(command)[1:])}```\n"
-        return found.group(1) + content + found.group(4)
+        kind = found.group("kind")
+        if kind == "output":
+            content = f"```\n{printed(program, shlex.split(found.group('command'))[1:])}```\n"
+        else:
+            content = verdicts(checks) if kind == "verdicts" else costs()
+        return found.group(1) + content + found.group("end")
     return BLOCK.sub(block, text)
 
 
