@@ -161,9 +161,12 @@ Flight BodyMotion::fly() {
   time_ += arrival.time;
   remainder_.normal -= gravity_ * arrival.time;
   if (arrival.time > 0 && arrival.inclination != inclination_) {
-    inclination_ = std::remainder(arrival.inclination, 2 * pi);
     sine_ = std::sin(arrival.inclination);
     cosine_ = std::cos(arrival.inclination);
+    // Whole turns go by way of sine and cosine: the double next to 2π, taken off k times, would leave an inclination
+    // that is off from them by k ulp, and the next flight would be put together from the two.
+    const bool turned_over = std::fabs(arrival.inclination) > pi;
+    inclination_ = turned_over ? std::atan2(sine_, cosine_) : arrival.inclination;
   }
   centre_height_ = -contact_point(arrival.vertex).normal;
   return flight;
