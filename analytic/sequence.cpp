@@ -37,6 +37,18 @@ void validate(const Drop& drop) {
           "finite");
   require(std::isfinite(drop.velocity.angular), "spin", drop.velocity.angular, "finite");
   require(drop.body.vertex_count >= 1, "vertex count", drop.body.vertex_count, "at least 1");
+  // k² of lengths beyond 1e±150 m overflows or loses its digits.
+  require(std::isnormal(drop.body.gyration_square) && drop.body.gyration_square > 0, "gyration radius squared",
+          drop.body.gyration_square, "a positive double that is not subnormal");
+}
+
+/// In units of its own length and speed, gravity and the other speeds must still be numbers.
+void require_representable(const Drop& drop, const Drop& internal) {
+  const PlanarVelocity& v = internal.velocity;
+  const bool keeps_gravity = std::isfinite(internal.gravity) && (internal.gravity > 0) == (drop.gravity > 0);
+  if (keeps_gravity && std::isfinite(v.tangential) && std::isfinite(v.angular)) return;
+  throw NumericalError("the ratio of the downward speed to gravity, tangential velocity or spin is beyond double "
+                       "precision");
 }
 
 /// The loop of impacts, in internal units.
@@ -210,10 +222,26 @@ class Run {
   int first_creating_ = 0;
 };
 
+/// Impulses and velocities that leave the doubles on the way back to SI units.
+void require_representable(const Sequence& sequence) {
+  for (const ImpactRow& row : sequence.rows) {
+    const PlanarVelocity& v = row.impact.after;
+    if (std::isfinite(row.start) && std::isfinite(row.impact.normal_impulse) &&
+        std::isfinite(row.impact.tangential_impulse) && std::isfinite(v.normal) && std::isfinite(v.tangential) &&
+        std::isfinite(v.angular)) {
+      continue;
+    }
+    throw NumericalError("a time, impulse or velocity of the sequence is beyond the largest double");
+  }
+}
+
 Sequence internal_sequence(const Drop& drop, const SequenceOptions& options, const Units& units) {
-  Run run(units.to_internal(drop), options);
+  const Drop internal = units.to_internal(drop);
+  require_representable(drop, internal);
+  Run run(internal, options);
   Sequence sequence = run.run();
   units.to_si(sequence);
+  require_representable(sequence);
   if (run.first_creating() > 0) {
     std::ostringstream text;
     text.precision(6);

@@ -93,7 +93,9 @@ struct Sequence {
 /// one vertex, accepted when its error estimate meets `digits`; there is no velocity threshold.
 /// Results scale exactly with powers of two of every unit.
 /// @throws std::domain_error for a drop whose first contact does not approach the ground, or whose
-///         parameters are out of range; OutsideModelError for jamming.
+///         parameters are out of range; OutsideModelError for jamming; NumericalError if gravity, tangential
+///         velocity or spin in units of the body's length and downward speed, or results in SI units, are beyond the
+///         doubles, or a flight is so long that its end has no digit.
 [[nodiscard]] Sequence impact_sequence(const Drop& drop, const SequenceOptions& options);
 
 }  // namespace clatter::analytic

@@ -7,6 +7,7 @@
 #include "analytic/angle.hpp"
 #include "analytic/detail/root_finder.hpp"
 #include "analytic/detail/small_angle.hpp"
+#include "analytic/errors.hpp"
 #include "analytic/flight.hpp"
 
 namespace clatter::analytic {
@@ -277,8 +278,15 @@ FirstRoot first_root(const VertexHeight& height, double end) {
   const double clear = centre.clear_for_good();
   const double limit = std::min({end, certain, turn > 1e6 * clear ? clear : never});
   Search search(height, found);
-  if (search.window(0, std::min(turn, limit))) return found;
+  if (search.window(0, std::min(turn, limit)) || !(turn < limit)) return found;
   double start = second_window(centre, turn);
+  // The centre comes down, but when and at which phase no double can say.  (The pieces of a turn must also be longer
+  // than the steps between doubles there, or the search would stand still.)
+  const bool comes_down = centre.gravity > 0 || certain < never;
+  const bool told = turn > 8 * epsilon * start && start < certain;
+  if (start <= end && comes_down && !told) {
+    throw NumericalError("the flight is so long that double precision leaves the phase at its end no digit");
+  }
   // The vertex points straight down once in this turn, with the centre no higher than its reach; the
   // second turn is for rounding.
   for (int i = 0; i < 2 && start < limit; ++i, start += turn) {

@@ -36,7 +36,10 @@ void run(const Drop& drop, Counts& counts) {
     ++counts.refusals;
   } catch (const NumericalError& error) {
     ++counts.refusals;
-    BOOST_REQUIRE_MESSAGE(std::string(error.what()).starts_with("the impulse overflows") && drop.law.friction_value > 1e100,
+    const std::string what = error.what();
+    const bool jams = drop.law.friction == FrictionKind::impulse_ratio;  // or nearly, and is thrown up without end
+    BOOST_REQUIRE_MESSAGE((what.starts_with("the impulse overflows") && drop.law.friction_value > 1e100) ||
+                              (what.starts_with("the flight is so long") && drop.gravity > 0 && jams),
                           "numerical error at inclination " << drop.inclination.degrees << ", gravity " << drop.gravity << ": " << error.what());
   }
 }

@@ -239,3 +239,26 @@ BOOST_AUTO_TEST_CASE(an_elastic_rod_keeps_its_energy_over_10000_impacts_however_
     }
   }
 }
+
+/// These were called "nothing reaches the ground any more", whatever the gravity, or ran for ever.
+BOOST_AUTO_TEST_CASE(a_fall_whose_end_no_double_can_tell_is_refused_and_not_called_the_last) {
+  const auto refused = [](double speed, double gravity, double angular) {
+    Drop drop = rod_drop(20);
+    drop.velocity = {.normal = -speed, .tangential = 0, .angular = angular};
+    drop.gravity = gravity;
+    BOOST_CHECK_THROW(static_cast<void>(impact_sequence(drop, {})), NumericalError);
+  };
+  for (const double speed : {1e-300, 1e-200, 1e12, 1e100, 1e200, 1e300}) refused(speed, 9.81, 0);
+  for (const double gravity : {5e-324, 1e-300, 1e-100, 1e-30}) refused(1, gravity, 0);
+  refused(1, 9.81, -2e9);  // 10¹⁸ turns
+}
+
+/// Their k² overflows or vanishes; the rows had wrong impulses and energies that are no numbers.
+BOOST_AUTO_TEST_CASE(a_body_whose_inertia_is_no_double_is_refused) {
+  for (const double length : {1e-170, 1e-160, 1e160, 1e300}) {
+    Drop drop = rod_drop(20);
+    drop.body = make_rod({.length = length, .radius = length / 100});
+    drop.velocity.normal = -length;
+    BOOST_CHECK_THROW(static_cast<void>(impact_sequence(drop, {})), std::domain_error);
+  }
+}
