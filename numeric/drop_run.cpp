@@ -16,6 +16,10 @@ namespace {
 /// Rounding errors of double precision, so grown, spoil the second digit.
 constexpr double predictable_growth = 0.01 / std::numeric_limits<double>::epsilon();
 
+/// A contact must go this much deeper than the height at its touch-down is uncertain: the springs would otherwise start
+/// with more than a millionth of the energy.
+constexpr double least_depth = 1e3;
+
 Outcome outcome_of(ContactEnding ending) {
   switch (ending) {
     case ContactEnding::at_rest: return Outcome::at_rest;
@@ -90,6 +94,8 @@ class Run {
       if (extras_.amplification) growth_.fly(state_, down.time);
       time_ += down.time;
     }
+    const double fallen = std::fabs(state_.velocity.z()) * down.time + options_.gravity / 2 * down.time * down.time;
+    placement_ = first ? 0 : std::numeric_limits<double>::epsilon() * fallen;
     state_ = flight.at(down.time);
     if (first) result_.energy_start = mechanical_energy(body_, state_, options_.gravity);
     return true;
@@ -103,6 +109,7 @@ class Run {
     if (contact.ending != ContactEnding::lift_off && contact.ending != ContactEnding::at_rest) {
       return end(outcome_of(contact.ending));
     }
+    if (!(contact.scales.depth > least_depth * placement_)) return end(Outcome::not_representable);
     result_.impacts.push_back(record(contact, point));
     if (extras_.amplification) note_growth(contact);
     state_ = options_.planar ? in_plane(contact.after) : contact.after;
@@ -170,6 +177,7 @@ class Run {
   ErrorGrowth growth_;
   HistoryWriter history_;
   double time_ = 0;
+  double placement_ = 0;  ///< rounding error of the height at the touch-down, from the flight's length [m]
   long observed_ = 0;
   DropRun result_;
 };
