@@ -1,0 +1,96 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "validation/cli/commands.hpp"
+#include "validation/cli/extremes_report.hpp"
+#include "validation/cli/options.hpp"
+#include "validation/cli/progress.hpp"
+#include "validation/output/interrupt.hpp"
+#include "validation/output/sink.hpp"
+#include "validation/scene/bad_input.hpp"
+
+namespace clatter::validation {
+namespace {
+
+struct ExtremesInput {
+  std::vector<std::string> only;
+  bool quick = false;
+  std::optional<std::string> seed, plot;
+  OutputTexts output;
+};
+
+std::vector<std::string> axis_names() {
+  std::vector<std::string> names;
+  for (const MapAxis& axis : map_axes()) names.push_back(axis.name);
+  return names;
+}
+
+ExtremesOptions read_options(const ExtremesInput& input) {
+  if (input.quick && !input.only.empty()) throw BadInput("--quick: excludes --only; give one of them, not both");
+  for (const std::string& name : input.only) static_cast<void>(read_name_option("--only", name, axis_names()));
+  ExtremesOptions options;
+  options.axes = input.only;
+  options.long_runs = !input.quick;
+  if (input.seed)
+    options.runs.seed = static_cast<std::uint64_t>(read_integer_option("--seed", *input.seed, 0, 2147483647));
+  return options;
+}
+
+std::string report(const OutputChoice& choice, const ExtremesMap& map) {
+  switch (choice.style.format) {
+    case Format::json:
+      return json_text(extremes_json(map));
+    case Format::csv:
+      return table_text(extremes_records(map), choice.style);
+    default:
+      return table_text(extremes_table(map, choice.style.format), choice.style);
+  }
+}
+
+int run_extremes(const ExtremesInput& input) {
+  ExtremesOptions options = read_options(input);
+  const OutputChoice choice = read_output(input.output);
+  if (input.plot && *input.plot == choice.path)
+    throw BadInput(fmt::format("--plot {}: must be another file than --output's", *input.plot));
+  std::optional<Sink> plot;
+  if (input.plot) plot.emplace(*input.plot, "--plot");
+  const CooperativeInterrupt interrupt;
+  ExtremesMap map;
+  {
+    Progress progress;
+    options.progress = [&](std::size_t done, std::size_t of) {
+      progress.show(progress_bar(done, of));
+      return !interrupt.requested();
+    };
+    map = measure_extremes(options);
+  }
+  if (plot && map.complete) {
+    plot->write(extremes_picture(map));
+    plot->commit();
+  }
+  write_out(choice, report(choice, map));
+  return map_status(map);
+}
+
+}  // namespace
+
+Action add_extremes_command(CLI::App& app) {
+  auto input = std::make_shared<ExtremesInput>();
+  CLI::App* command = app.add_subcommand("extremes", "the map of what holds, to every quantity's ends");
+  command->add_option("--only", input->only, "these quantities, such as angle speed")->type_name("AXIS");
+  command->add_flag("--quick", input->quick, "without the long runs (impacts, random scenes)");
+  add_text(*command, "--seed", input->seed, "S", "of the random scenes (1)");
+  add_text(*command, "--plot", input->plot, "FILE", "also a picture (SVG)");
+  add_output_options(*command, input->output);
+  command->footer(
+      "Example: clatter extremes --only angle restitution --plot extremes.svg\n"
+      "Quantities: angle, stiffness, damping, restitution, ratio, friction, speed,\n"
+      "gravity, size, mass, turns, impacts, long.\n"
+      "The table has one row per region, --format csv and json all cells. Each cell\n"
+      "ends within a second with a number and its error or with a typed refusal;\n"
+      "exit status 1 if one does not, or if an error is beyond its bound.");
+  return [input] { return run_extremes(*input); };
+}
+
+}  // namespace clatter::validation

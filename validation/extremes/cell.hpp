@@ -1,0 +1,107 @@
+// One cell of the map of extremes: a model at one value of one quantity.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+namespace clatter::validation {
+
+enum class MapModel {
+  closed_form,  ///< Eqs. 9 and 12: the thin rod's first three impacts
+  discrete,     ///< instantaneous impacts, flights between them
+  planar,       ///< continuous contact, kept in its plane
+  spatial,      ///< continuous contact in three dimensions
+};
+[[nodiscard]] const char* map_model_name(MapModel model);
+
+/// What became of a cell.
+enum class CellVerdict {
+  number,         ///< there is a number, and its error
+  bad_input,      ///< the model refuses the value: outside its domain
+  outside_model,  ///< the value is possible, but the model does not represent what happens, such as jamming
+  not_computed,   ///< a number could not be had to the accuracy promised
+  ended_early,    ///< the run's own outcome says why: step-too-small, evaluation-limit, …
+  time_limit,     ///< the run was stopped, so that the cell ends within its second
+  broken,         ///< none of these: a number that is none, or an error without a type
+};
+[[nodiscard]] const char* verdict_name(CellVerdict verdict);
+
+/// The numbers that a cell came to.
+struct CellMeasure {
+  double error = 0;      ///< worst relative error against the oracle
+  double bound = 0;      ///< what it may be at most
+  std::string oracle;    ///< what the number was held against
+  std::string outcome;   ///< how the run ended
+  long evaluations = 0;  ///< of contact forces, of height functions; 0: none to count
+  double seconds = 0;    ///< wall time of the model alone [s]
+};
+
+struct ExtremeCell {
+  std::string axis;
+  double value = 0;
+  std::string label;  ///< the value for a reader
+  MapModel model = MapModel::discrete;
+  CellVerdict verdict = CellVerdict::broken;
+  CellMeasure measure;    ///< if there is a number; the outcome also if the run ended early
+  std::string reason;     ///< of a refusal, one line
+  double seconds = 0;     ///< wall time of all of it, the oracle included [s]
+  bool long_run = false;  ///< many scenes in one cell: no limit of a second
+
+  [[nodiscard]] bool has_number() const { return verdict == CellVerdict::number; }
+  /// Whether the error says something of digits: not where faults are counted and none is allowed.
+  [[nodiscard]] bool has_digits() const { return has_number() && measure.bound > 0; }
+  /// Digits that are right: −log₁₀ of the error, from 0 to 16.
+  [[nodiscard]] double digits() const;
+};
+
+/// The time that a cell has.
+class CellClock {
+ public:
+  using Clock = std::chrono::steady_clock;
+  explicit CellClock(double limit) : limit_(limit) {}
+  [[nodiscard]] double elapsed() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
+  /// Whether less than this share of the limit has gone.
+  [[nodiscard]] bool within(double share) const { return elapsed() < share * limit_; }
+
+ private:
+  Clock::time_point begin_ = Clock::now();
+  double limit_;
+};
+
+/// A run that ended before it had the numbers asked for.
+class EndedEarly : public std::runtime_error {
+ public:
+  EndedEarly(CellVerdict as, std::string ending, const std::string& reason)
+      : std::runtime_error(reason), verdict(as), outcome(std::move(ending)) {}
+  CellVerdict verdict;
+  std::string outcome;
+};
+
+/// What a cell does.  `work` returns a number or throws: the models' own errors, or EndedEarly.
+struct Probe {
+  std::string axis;
+  double value = 0;
+  std::string label;
+  MapModel model = MapModel::discrete;
+  std::function<CellMeasure(const CellClock&)> work;
+  bool long_run = false;
+};
+
+/// Runs a probe and puts whatever comes of it into a cell; throws nothing that `work` throws.
+[[nodiscard]] ExtremeCell fill_cell(const Probe& probe, double seconds);
+
+/// Why a cell does not hold what the map promises: no number and no typed refusal, an error beyond its bound (or NaN),
+/// more than `seconds`.  Empty: it holds.
+[[nodiscard]] std::string cell_failure(const ExtremeCell& cell, double seconds);
+
+/// Wall time of `work` [s].
+template <class Work>
+[[nodiscard]] double timed(const Work& work) {
+  const auto begin = CellClock::Clock::now();
+  work();
+  return std::chrono::duration<double>(CellClock::Clock::now() - begin).count();
+}
+
+}  // namespace clatter::validation

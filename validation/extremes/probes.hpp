@@ -1,0 +1,29 @@
+// What each cell of the map runs, and how its number is judged.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "validation/extremes/axes.hpp"
+#include "validation/extremes/cell.hpp"
+
+namespace clatter::validation {
+
+/// Cells of the closed form and of the discrete model on an axis; none if it has no such quantity.
+[[nodiscard]] std::vector<Probe> discrete_probes(const MapAxis& axis);
+/// Cells of the continuous model, planar and spatial.
+[[nodiscard]] std::vector<Probe> continuous_probes(const MapAxis& axis);
+/// All models' cells on the axis "turns".
+[[nodiscard]] std::vector<Probe> turn_probes(const MapAxis& axis);
+
+/// Runs longer than a second, one cell each.
+struct LongRuns {
+  int impacts = 10'000;           ///< of the elastic phone, planar and spatial
+  int discrete_scenes = 100'000;  ///< random ones
+  int continuous_scenes = 1'000;
+  std::uint64_t seed = 1;  ///< of the random scenes
+};
+/// @param goes_on asked now and then; false ends the cell early
+[[nodiscard]] std::vector<Probe> long_probes(const LongRuns& runs, const std::function<bool()>& goes_on);
+
+}  // namespace clatter::validation

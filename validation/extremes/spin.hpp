@@ -1,0 +1,41 @@
+// Torque-free rotation over very many turns, from one turn integrated in extended precision.
+#pragma once
+
+#include <array>
+
+#include "numeric/motion/rotation.hpp"
+
+namespace clatter::validation {
+
+/// A freely turning body whose momentum is not along an axis of inertia.
+///
+/// Its angular velocity is periodic, and over each period T the attitude turns about the fixed momentum by the same
+/// angle ψ.  One period, integrated by Taylor series in long double, gives T and ψ to about 1e-18, and with them the
+/// attitude after any number of periods.  Nothing of the models' code is used.
+class PeriodicSpin {
+ public:
+  /// `moments` along the body's axes, `angular_velocity` with no component along axis 2 and some along 1 and 3.
+  PeriodicSpin(const std::array<double, 3>& moments, const std::array<double, 3>& angular_velocity);
+
+  [[nodiscard]] long double period() const { return period_; }
+  /// Largest difference of a component of the attitude's Euler parameters and of ω/|ω| from the exact ones at `time`.
+  [[nodiscard]] double error(const numeric::Rotation& rotation, double time) const;
+
+ private:
+  using Vector = std::array<long double, 3>;
+  struct State {
+    Vector omega{};
+    std::array<long double, 4> attitude{1, 0, 0, 0};  ///< w, x, y, z
+  };
+  [[nodiscard]] State step(const State& state, long double h) const;
+  [[nodiscard]] State advance(State state, long double time) const;
+  void find_period();
+  void find_angle();
+
+  Vector moments_;
+  State start_;
+  Vector axis_{};  ///< of the momentum, world
+  long double longest_step_ = 0, period_ = 0, angle_ = 0;
+};
+
+}  // namespace clatter::validation
