@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Writes what the documents show of the program's output: blocks of README.md, verification.md, the figures' data,
-extremes.md with extremes.svg.
+extremes.md with figures/extremes.svg.
 
     notebooks-data/documents.py PROGRAM            writes them
     notebooks-data/documents.py PROGRAM --check    says which are not what PROGRAM prints, and changes nothing
@@ -24,6 +24,7 @@ VERIFICATION = ROOT / "notebooks-data" / "verification.md"
 TRADEOFF = ROOT / "notebooks-data" / "tradeoff.csv"
 BLOCK = re.compile(r"(<!-- ((?P<kind>output|verdicts|costs)(: (?P<command>[^>]+?))?) -->\n).*?(?P<end><!-- end -->)", re.DOTALL)
 EXTREMES = ROOT / "notebooks-data" / "extremes.md"
+FIGURES = ROOT / "notebooks-data" / "figures"
 GROUPS = {"C": "Claims of the paper", "E": "Errata", "F": "Figures", "X": "Exact results",
           "M": "Both models over every scene", "R": "Random scenes"}
 
@@ -127,11 +128,11 @@ def digits(region):
 def extremes(result):
     """Without costs, which no two runs share."""
     lines = [f"# What holds at the extremes (clatter {result['clatter']})", "",
-             "Written by `notebooks-data/documents.py` from `clatter extremes --format json --plot notebooks-data/extremes.svg`;",
+             "Written by `notebooks-data/documents.py` from `clatter extremes --format json --plot notebooks-data/figures/extremes.svg`;",
              "no test compares it, since digits near rounding differ from machine to machine.  Costs are left out.",
              "F2 and F3 are the folds at 58.488442288312° and 27.577809606636°; long: 10⁴ impacts (hits), random scenes (sc).", "",
              f"{result['message'][0].upper() + result['message'][1:]}.", "",
-             "![digits of each model over each quantity](extremes.svg)", "",
+             "![digits of each model over each quantity](figures/extremes.svg)", "",
              "| quantity | model | values | right digits | outcome, or why there is no number |", "|---|---|---|---|---|"]
     for region in result["regions"]:
         outcome = region["outcome"] or region["verdict"]
@@ -167,8 +168,8 @@ def main():
         return 1 if stale else 0
     for path in stale:
         path.write_text(wanted[path], encoding="utf-8")
-    printed(program, ["figures", "--output", str(ROOT / "notebooks-data" / "figures")])
-    map_of_extremes = printed(program, ["extremes", "--format", "json", "--plot", str(EXTREMES.with_suffix(".svg"))])
+    printed(program, ["figures", "--output", str(FIGURES)])
+    map_of_extremes = printed(program, ["extremes", "--format", "json", "--plot", str(FIGURES / "extremes.svg")])
     EXTREMES.write_text(extremes(json.loads(map_of_extremes)), encoding="utf-8")
     return 0
 

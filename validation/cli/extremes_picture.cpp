@@ -11,7 +11,7 @@
 namespace clatter::validation {
 namespace {
 
-constexpr double left = 150, strip = 780, right = 20, row_height = 15, axis_gap = 27, top = 112;
+constexpr double left = 150, strip = 780, right = 20, row_height = 15, axis_gap = 36, top = 118;
 
 std::string escaped(const std::string& text) {
   std::string out;
@@ -149,6 +149,7 @@ std::string extremes_picture(const ExtremesMap& map) {
     }
     if (last.empty()) continue;
     body += text(12, begin + 10.5, "font-size=\"12\" font-weight=\"bold\"", axis.symbol);
+    body += text(left, begin - 3, "font-size=\"9\" fill=\"#555555\"", axis.what);
     body += scale_of(last, y + 8);
     y += axis_gap;
   }

@@ -145,7 +145,7 @@ class Planner {
     ToleranceSearch search(ladder_, full_, impacts(), sizes_, plan_.error_constant, pilot_base_);
     const FoundSetting found = search.cheapest(budget_ / margin);
     plan_.planning_evaluations += search.evaluations_spent();
-    truth_ = found.reference;
+    if (found.reference.size() == truth_.size()) truth_ = found.reference;  // else it ended early, and nothing serves
     plan_.known_impacts = known_impacts(found);
     weighed.setting = found.setting;
     weighed.error = found.error;

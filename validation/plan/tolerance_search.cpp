@@ -71,7 +71,7 @@ ToleranceSearch::Trial& ToleranceSearch::trial(Method method, int index) {
   if (trial.known) return trial;
   trial.result = ladder_.run({.rung = rung_, .method = method, .tolerance = half_decade(index)}, impacts_);
   const std::vector<MotionNumbers>& rows = trial.result.rows;
-  trial.error = reference_.empty() ? infinity : 0;
+  trial.error = reference_.size() < static_cast<std::size_t>(impacts_) ? infinity : 0;  // the reference ended early
   for (std::size_t i = 0; i < reference_.size(); ++i) {
     const double apart = i < rows.size() ? row_distance(rows[i], reference_[i], sizes_) : infinity;
     trial.errors.push_back(apart + reference_errors_[i]);
