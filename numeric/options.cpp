@@ -13,6 +13,7 @@ void Options::validate() const {
   require(impacts >= 1, "run.impacts", impacts, "at least 1");
   require(gravity >= 0, "world.gravity", gravity, "finite and at least 0");
   require(evaluation_limit >= 1, "run.evaluation_limit", static_cast<double>(evaluation_limit), "at least 1");
+  if (method == Method::tvd_rk3) require(tolerance == 0, "run.tolerance", tolerance, "left out for a fixed step");
   if (step > 0) {
     require(method == Method::automatic || method == Method::tvd_rk3, "run.step", step,
             "left out for an adaptive method, which chooses its own");

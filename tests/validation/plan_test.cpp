@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <vector>
 
 #include "tests/validation/planned_scene.hpp"
@@ -146,6 +147,40 @@ BOOST_AUTO_TEST_CASE(plan_says_what_cannot_be_had) {
   BOOST_TEST(!plan_shortfall(plan).empty());
   BOOST_TEST(plan.known_impacts < 6);
   BOOST_TEST(plan.predictable_impacts <= 2);  // out of its plane the phone's spin is unstable
+}
+
+// The finer run that judges the others once ended before its first impact, and the plan with an exception.
+BOOST_AUTO_TEST_CASE(plan_says_so_if_its_runs_end_early) {
+  for (const char* limit : {"20", "300", "1000", "2500", "4000"}) {
+    SimulationScene scene = case_scene("phone-damped");
+    scene.options.evaluation_limit = std::atol(limit);
+    const Plan plan = make_plan(scene, {.digits = 6});
+    BOOST_TEST(plan.serves == plan_shortfall(plan).empty());
+    BOOST_TEST(!plan.serves);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(discrete_models_own_account_of_its_error_is_not_far_off) {
+  int there = 0, covered = 0;
+  std::vector<double> ratios;
+  for (int i = 0; i < random_scenes; ++i) {
+    SimulationScene scene = random_scene(19, i);
+    scene.options.impacts = 2;
+    scene.options.evaluation_limit = 100'000;
+    const Plan plan = make_plan(scene, {.digits = 3});
+    for (const WeighedRung& rung : plan.rungs) {
+      if (rung.rung != Rung::discrete || !std::isfinite(rung.assumption_error) || !(rung.error > 0)) continue;
+      ++there;
+      covered += rung.error <= 3 * rung.assumption_error ? 1 : 0;
+      ratios.push_back(rung.assumption_error / rung.error);
+    }
+  }
+  std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2), ratios.end());
+  fmt::print("discrete model: own account over true error {:.2g} (median of {}), at least a third in {:.0f} %\n",
+             ratios[ratios.size() / 2], there, 100.0 * covered / there);
+  BOOST_TEST(there >= random_scenes / 2);
+  // First-order effects of contact time: sizes, not bounds (a second corner may come down within the contact).
+  BOOST_TEST(covered >= 0.9 * there);
 }
 
 BOOST_AUTO_TEST_CASE(same_plan_again) {
