@@ -55,7 +55,7 @@ BOOST_AUTO_TEST_CASE(plans_of_random_scenes_keep_their_word_and_are_hardly_deare
   int judged = 0, met = 0, cheap = 0;
   for (int i = 0; i < random_scenes; ++i) {
     const PlannedScene planned = plan_and_judge(71, i);
-    if (!planned.judged || !planned.promised) continue;
+    if (!planned.judged) continue;
     ++judged;
     met += planned.met ? 1 : 0;
     cheap += planned.met && planned.cost_ratio <= 1.5 ? 1 : 0;

@@ -16,7 +16,7 @@ namespace {
 struct ExtremesInput {
   std::vector<std::string> only;
   bool quick = false;
-  std::optional<std::string> seed, plot;
+  std::optional<std::string> seed, seconds, plot;
   OutputTexts output;
 };
 
@@ -32,20 +32,12 @@ ExtremesOptions read_options(const ExtremesInput& input) {
   ExtremesOptions options;
   options.axes = input.only;
   options.long_runs = !input.quick;
+  if (input.seconds) {
+    options.cell_seconds = read_number_option("--seconds", *input.seconds, {0, 3600, true, "greater than 0, at most 3600"});
+  }
   if (input.seed)
     options.runs.seed = static_cast<std::uint64_t>(read_integer_option("--seed", *input.seed, 0, 2147483647));
   return options;
-}
-
-std::string report(const OutputChoice& choice, const ExtremesMap& map) {
-  switch (choice.style.format) {
-    case Format::json:
-      return json_text(extremes_json(map));
-    case Format::csv:
-      return table_text(extremes_records(map), choice.style);
-    default:
-      return table_text(extremes_table(map, choice.style.format), choice.style);
-  }
 }
 
 int run_extremes(const ExtremesInput& input) {
@@ -69,7 +61,9 @@ int run_extremes(const ExtremesInput& input) {
     plot->write(extremes_picture(map));
     plot->commit();
   }
-  write_out(choice, report(choice, map));
+  write_report(
+      choice, [&] { return extremes_json(map); }, [&] { return extremes_records(map); },
+      [&] { return extremes_table(map, choice.style.format); });
   return map_status(map);
 }
 
@@ -81,6 +75,7 @@ Action add_extremes_command(CLI::App& app) {
   command->add_option("--only", input->only, "these quantities, such as angle speed")->type_name("AXIS");
   command->add_flag("--quick", input->quick, "without the long runs (impacts, random scenes)");
   add_text(*command, "--seed", input->seed, "S", "of the random scenes (1)");
+  add_text(*command, "--seconds", input->seconds, "S", "that a cell may take (1)");
   add_text(*command, "--plot", input->plot, "FILE", "also a picture (SVG)");
   add_output_options(*command, input->output);
   command->footer(

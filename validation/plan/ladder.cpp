@@ -14,8 +14,6 @@ namespace {
 using numeric::Method;
 using numeric::Simulation;
 
-constexpr double trusted = 1e-6;  // relative: rows of the reference that are known better than this
-
 std::size_t index(Rung rung) { return static_cast<std::size_t>(rung); }
 
 }  // namespace
@@ -67,6 +65,12 @@ SimulationScene without(SimulationScene scene, Part part) {
     case Part::gravity_in_contact: scene.options.gravity_in_contact = false; break;
     case Part::unmerged_faces: scene.body.merge = true; break;
   }
+  return scene;
+}
+
+SimulationScene limited(SimulationScene scene) {
+  constexpr long evaluations_per_run = 2'000'000;
+  scene.options.evaluation_limit = std::min(scene.options.evaluation_limit, evaluations_per_run);
   return scene;
 }
 
@@ -124,7 +128,7 @@ RungResult Ladder::run(const RungSetting& setting, int impacts) const {
   return {motion_rows(run), run.force_evaluations, std::string(outcome_name(run.outcome)) + ": " + run.message};
 }
 
-Truth true_values(const Ladder& ladder) {
+Truth true_values(const Ladder& ladder, double trusted) {
   Truth truth;
   truth.setting = {.rung = ladder.full(), .method = Method::rk8pd, .tolerance = numeric::least_tolerance};
   const int impacts = ladder.scene().options.impacts;

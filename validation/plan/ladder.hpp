@@ -38,6 +38,9 @@ inline constexpr Part all_parts[] = {Part::friction, Part::damping, Part::gravit
 /// The scene without it.
 [[nodiscard]] SimulationScene without(SimulationScene scene, Part part);
 
+/// The scene with no more evaluations than a run of a plan or a measurement may take, 2 million.
+[[nodiscard]] SimulationScene limited(SimulationScene scene);
+
 /// How a rung is run.  Method, tolerance and step are for the continuous rungs.
 struct RungSetting {
   Rung rung = Rung::spatial;
@@ -86,11 +89,11 @@ class Ladder {
 /// Reference values of a scene: the full rung by rk8pd at the smallest tolerance.
 struct Truth {
   RungSetting setting;
-  std::vector<MotionNumbers> rows;  ///< those whose estimated relative error is at most 1e-6
+  std::vector<MotionNumbers> rows;  ///< those whose estimated relative error is at most `trusted`
   MotionNumbers sizes{};
   double error = 0;         ///< largest of these estimates
   double contact_time = 0;  ///< duration of the first contact [s]
 };
-[[nodiscard]] Truth true_values(const Ladder& ladder);
+[[nodiscard]] Truth true_values(const Ladder& ladder, double trusted = 1e-6);
 
 }  // namespace clatter::validation

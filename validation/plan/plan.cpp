@@ -22,7 +22,6 @@ using Rows = std::vector<MotionNumbers>;
 constexpr double finest_pilot_tolerance = 1e-8;
 constexpr double share_of_parts = 0.25;  // of what is asked, for all that is left out
 constexpr double margin = 1.1;           // what an error measured against a run two decades finer may be wrong by
-constexpr long evaluations_per_run = 2'000'000;
 constexpr int timings = 2;               // of a continuous run; the first one also warms up
 constexpr int timings_of_a_formula = 5;
 
@@ -36,11 +35,6 @@ double least_seconds_of(int repeats, const std::function<void()>& work) {
   return least;
 }
 
-SimulationScene limited(SimulationScene scene) {
-  scene.options.evaluation_limit = std::min(scene.options.evaluation_limit, evaluations_per_run);
-  return scene;
-}
-
 /// One plan in the making.
 class Planner {
  public:
@@ -48,7 +42,6 @@ class Planner {
       : ladder_(limited(without(scene, Part::unmerged_faces))), full_(ladder_.full()) {
     plan_.target = target;
     plan_.asked = std::pow(10.0, -target.digits);
-    plan_.impacts = scene.options.impacts;
     plan_.scene = scene;
   }
 
@@ -66,7 +59,7 @@ class Planner {
   [[nodiscard]] int impacts() const { return static_cast<int>(truth_.size()); }
 
   void run_pilots() {
-    const int wanted = plan_.impacts;
+    const int wanted = ladder_.scene().options.impacts;
     Simulation finest;
     const RungSetting setting{.rung = full_, .method = Method::rkck, .tolerance = finest_pilot_tolerance};
     const double seconds = least_seconds_of(timings, [&] { finest = ladder_.simulate(setting, wanted); });
@@ -75,6 +68,7 @@ class Planner {
     seconds_per_evaluation_ = seconds / static_cast<double>(finest.force_evaluations);
     if (finest.impacts.empty()) return;
     truth_ = motion_rows(finest);
+    plan_.impacts = impacts();
     sizes_ = motion_sizes(finest, finest.impacts.size(), ladder_.body());
     for (const numeric::ImpactRecord& row : finest.impacts) contact_times_.push_back(row.value.duration);
     const RungResult loose = pilot(CostTable::loose_tolerance), middle = pilot(CostTable::pilot_tolerance);

@@ -50,7 +50,7 @@ struct Plan {
   double error = std::numeric_limits<double>::quiet_NaN();  ///< predicted, relative; NaN: nothing could be planned
   double evaluations = 0;
   double seconds = 0;
-  int impacts = 0;             ///< of the scene
+  int impacts = 0;             ///< that happen, at most as many as the scene asks for
   int known_impacts = 0;       ///< the first impacts, which can be had to what was asked by the full rung
   int predictable_impacts = 0; ///< those before which errors out of the plane have not outgrown what was asked
   double growth_out_of_plane = std::numeric_limits<double>::quiet_NaN();  ///< of a small error, until the last impact

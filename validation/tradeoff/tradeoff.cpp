@@ -18,7 +18,6 @@ constexpr int first_steps_per_contact = 8;  // tvd-rk3: contact time over 8, 16,
 constexpr int step_halvings = 11;
 constexpr double tolerance_of_meshes = 1e-10;
 constexpr int mesh_factors[] = {1, 2, 4, 8};
-constexpr long evaluations_per_run = 2'000'000;
 
 /// Runs `work` until it has been repeated often and long enough; least time.
 template <class Work>
@@ -34,11 +33,6 @@ void time_it(const TradeoffOptions& options, TradePoint& point, const Work& work
     total += seconds;
     ++point.repeats;
   }
-}
-
-SimulationScene limited(SimulationScene scene) {
-  scene.options.evaluation_limit = std::min(scene.options.evaluation_limit, evaluations_per_run);
-  return scene;
 }
 
 /// The bench: the scene, its truth, and the points so far.
