@@ -3,7 +3,10 @@
 import json
 import os
 import re
+import shlex
+import shutil
 import subprocess
+import tempfile
 import unittest
 
 PROGRAM = os.environ["CLATTER_PROGRAM"]
@@ -38,7 +41,7 @@ class Plan(unittest.TestCase):
     def test_command_of_the_plan_gives_the_digits(self):
         for scene, digits in (("rod-10", 5), ("phone-damped", 4), ("phone-corner", 6)):
             plan = parsed("plan", case(scene), "--digits", str(digits))
-            command = plan["choice"]["command"].split()
+            command = shlex.split(plan["choice"]["command"])
             self.assertEqual(command[0], "clatter")
             result = parsed(*command[1:])
             self.assertLessEqual(plan["choice"]["error"], 10.0**-digits)
@@ -51,6 +54,14 @@ class Plan(unittest.TestCase):
                 speed = max(abs(v) for r in true["impacts"] for v in r["velocity_after"] + [r["approach_speed"]])
                 for value, correct in zip(row["velocity_after"], expected["velocity_after"]):
                     self.assertLessEqual(abs(value - correct), 10.0**-digits * 3 * speed)
+
+    def test_command_of_the_plan_can_be_typed_whatever_the_file_is_called(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "the user's scene;1.toml")
+            shutil.copy(case("rod-45"), path)
+            command = shlex.split(parsed("plan", path, "--digits", "4")["choice"]["command"])
+            self.assertEqual(command[2], path)
+            self.assertEqual(run(*command[1:]).returncode, 0)
 
     def test_simulate_reports_achieved_against_asked(self):
         for digits in ("3", "6", "9"):

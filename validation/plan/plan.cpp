@@ -266,9 +266,26 @@ class Planner {
 
 Plan make_plan(const SimulationScene& scene, const PlanTarget& target) { return Planner(scene, target).make(); }
 
+namespace {
+
+/// A file name as a shell takes it.
+std::string quoted(const std::string& name) {
+  const char* const plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./+,@%";
+  if (!name.empty() && name.find_first_not_of(plain) == std::string::npos) return name;
+  std::string text = "'";
+  for (const char c : name) {
+    if (c == '\'') text += "'\\''";
+    else text += c;
+  }
+  return text + "'";
+}
+
+}  // namespace
+
 std::string command_line(const Plan& plan) {
   const SimulationScene& scene = plan.scene;
-  std::string line = fmt::format("clatter {} {}", is_continuous(plan.choice.rung) ? "simulate" : "compare", scene.path);
+  std::string line = fmt::format("clatter {} {}", is_continuous(plan.choice.rung) ? "simulate" : "compare",
+                                 quoted(scene.path));
   if (!is_continuous(plan.choice.rung)) return line;
   line += fmt::format(" --method {} --tolerance {}", method_name(plan.choice.method), shortest(plan.choice.tolerance));
   if (plan.choice.rung == Rung::planar && !scene.options.planar) line += " --planar";
