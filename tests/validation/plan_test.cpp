@@ -63,8 +63,9 @@ BOOST_AUTO_TEST_CASE(plans_of_random_scenes_keep_their_word_and_are_hardly_deare
   fmt::print("{} plans of {}: {} gave the digits, {} cost at most 1.5 times the cheapest\n", judged, random_scenes, met,
              cheap);
   BOOST_TEST(judged >= 0.9 * random_scenes);
-  BOOST_TEST(met >= 0.99 * judged);
-  BOOST_TEST(cheap >= 0.9 * judged);
+  // 99 and 90 in a hundred; of a few scenes one may be the one of the hundred.
+  BOOST_TEST(judged - met <= std::max(1.0, 0.01 * judged));
+  BOOST_TEST(judged - cheap <= std::max(2.0, 0.1 * judged));
 }
 
 BOOST_AUTO_TEST_CASE(true_error_falls_with_the_tolerance_over_six_decades) {
@@ -157,6 +158,22 @@ BOOST_AUTO_TEST_CASE(plan_says_so_if_its_runs_end_early) {
     const Plan plan = make_plan(scene, {.digits = 6});
     BOOST_TEST(plan.serves == plan_shortfall(plan).empty());
     BOOST_TEST(!plan.serves);
+  }
+}
+
+// With rkck the switch to stick of this scene's first contact is met in a step that cannot be made small enough, at three
+// tolerances of four; the plan once said that nothing could be computed.
+BOOST_AUTO_TEST_CASE(plan_and_run_get_past_a_step_that_gets_too_small) {
+  SimulationScene scene = random_scene(71, 9);
+  scene.options.impacts = 3;
+  const numeric::Body body = scene.make_body();
+  const Plan plan = make_plan(scene, {.digits = 3});
+  BOOST_TEST(plan.serves);
+  BOOST_TEST(plan.impacts == 3);
+  for (int digits = 2; digits <= 8; ++digits) {
+    scene.options.digits = digits;
+    const PlannedRun planned = run_to_digits(body, scene.ground, scene.start(body), scene.options);
+    BOOST_TEST(planned.run.impacts.size() == 3u, digits << " digits: " << planned.run.message);
   }
 }
 

@@ -60,11 +60,11 @@ Action add_plan_command(CLI::App& app) {
   auto input = std::make_shared<PlanInput>();
   CLI::App* command = app.add_subcommand("plan", "the smallest model that serves, and its cost");
   add_scene_flags(*command, input->scene);
-  add_text(*command, "--within", input->within, "MS", "the run may take this long; without --digits: as accurate as fits");
+  add_text(*command, "--within", input->within, "MS", "that the run may take; alone: as accurate as fits");
   add_output_options(*command, input->output);
   command->footer(
       "Example: clatter plan validation/cases/phone-damped.toml --digits 4\n"
-      "Exit status 3 if no model gives the digits asked for; the best is shown all the same.");
+      "Exit status 3 if no model gives the digits; the best is shown all the same.");
   return [input] { return run_plan(*input); };
 }
 

@@ -18,7 +18,7 @@ struct Flag {
 constexpr Flag flags[] = {
     {"--angle", "drop.angle_deg", "DEG", "inclination at the first impact, end a low"},
     {"--tilt", "drop.tilt_deg", "DEG", "rotation about the body's long axis before that"},
-    {"--speed", "drop.speed", "M/S", "downward speed of the centre of mass at the first touch"},
+    {"--speed", "drop.speed", "M/S", "downward, of the centre of mass at first touch"},
     {"--height", "drop.height", "M", "or its height at release from rest"},
     {"--tangential-velocity", "drop.tangential_velocity", "M/S", "of the centre of mass, to the right"},
     {"--spin", "drop.spin", "RAD/S", "clockwise, as Omega in Eq. 8"},
@@ -40,7 +40,7 @@ constexpr Flag flags[] = {
     {"--impacts", "run.impacts", "N", "most impacts to report"},
     {"--digits", "run.digits", "N", "significant digits, 2 to 12"},
     {"--method", "run.method", "NAME", "auto, tvd-rk3, rk4, rkf45, rkck or rk8pd"},
-    {"--tolerance", "run.tolerance", "TOL", "relative local error per step of an adaptive method"},
+    {"--tolerance", "run.tolerance", "TOL", "local error per step of an adaptive method"},
     {"--step", "run.step", "S", "of tvd-rk3"},
     {"--history", "run.history", "FILE", "time history as CSV"},
 };

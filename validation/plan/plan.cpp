@@ -61,7 +61,12 @@ class Planner {
   void run_pilots() {
     const int wanted = ladder_.scene().options.impacts;
     Simulation finest;
-    const RungSetting setting{.rung = full_, .method = Method::rkck, .tolerance = finest_pilot_tolerance};
+    RungSetting setting{.rung = full_, .method = Method::rkck, .tolerance = finest_pilot_tolerance};
+    // A switch between slip and stick may be met in a step that cannot be made small enough; another method meets it
+    // at another place.
+    if (ladder_.simulate(setting, wanted).outcome == numeric::Outcome::step_too_small) {
+      setting = {.rung = full_, .method = Method::rk8pd, .tolerance = finest_pilot_tolerance / 10};
+    }
     const double seconds = least_seconds_of(timings, [&] { finest = ladder_.simulate(setting, wanted); });
     plan_.planning_evaluations = timings * finest.force_evaluations;
     plan_.pilot_ending = finest.message;

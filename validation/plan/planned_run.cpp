@@ -55,6 +55,11 @@ class Runner {
     for (int repeat = 0;; ++repeat) {
       planned.run = simulate(options);
       judge(body_, planned);
+      if (planned.run.outcome == Outcome::step_too_small && repeat < most_repeats) {  // as in Planner::run_pilots
+        options.method = Method::rk8pd;
+        options.tolerance = std::max(0.01 * options.tolerance, numeric::least_tolerance);
+        continue;
+      }
       const bool serves = std::isnan(planned.achieved) || planned.achieved <= planned.asked;
       if (serves || repeat == most_repeats || options.tolerance == numeric::least_tolerance) break;
       const double part = std::clamp(0.5 * planned.asked / planned.achieved, 1e-3, 0.3);
