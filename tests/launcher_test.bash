@@ -74,8 +74,9 @@ printf 'in %s\n' "$PWD"
 printf '<%s>\n' "$@"
 cat
 [[ ! -e $SETTINGS/program_takes ]] || {
+  takes=$(<"$SETTINGS/program_takes")  # before the test, which waits for `running`, removes it
   touch "$SETTINGS/running"
-  exec sleep "$(<"$SETTINGS/program_takes")"
+  exec sleep "$takes"
 }
 exit "$(cat "$SETTINGS/exit_status")"
 END
