@@ -36,7 +36,7 @@ const ExtremesMap& whole_map() {
 }
 
 Probe probe(std::function<CellMeasure(const CellClock&)> work) {
-  return {"angle", 1, "1", MapModel::discrete, std::move(work)};
+  return {"angle", 1, "1", Rung::discrete, std::move(work)};
 }
 
 CellMeasure measured(double error, double bound) {
@@ -72,8 +72,8 @@ BOOST_AUTO_TEST_CASE(every_cell_ends_with_a_number_and_its_error_or_a_typed_refu
 
 BOOST_AUTO_TEST_CASE(every_axis_has_cells_of_both_continuous_models_and_of_the_discrete_one_where_it_has_the_quantity) {
   for (const MapAxis& axis : map_axes()) {
-    for (const MapModel model : {MapModel::discrete, MapModel::planar, MapModel::spatial}) {
-      if (axis.name == "ratio" && model != MapModel::discrete) continue;
+    for (const Rung model : {Rung::discrete, Rung::planar, Rung::spatial}) {
+      if (axis.name == "ratio" && model != Rung::discrete) continue;
       const auto& cells = whole_map().cells;
       const auto here = std::count_if(cells.begin(), cells.end(), [&](const ExtremeCell& cell) {
         return cell.axis == axis.name && cell.model == model;

@@ -49,7 +49,7 @@ std::string tooltip(const ExtremeCell& cell) {
   const std::string what = cell.has_number()
                                ? fmt::format("{} digits, {}", significant(cell.digits(), 3), cell.measure.outcome)
                                : fmt::format("{}: {}", verdict_name(cell.verdict), cell.reason);
-  return escaped(fmt::format("{} {}, {}: {}", cell.axis, cell.label, map_model_name(cell.model), what));
+  return escaped(fmt::format("{} {}, {}: {}", cell.axis, cell.label, rung_name(cell.model), what));
 }
 
 std::string text(double x, double y, const std::string& attributes, const std::string& words) {
@@ -122,7 +122,7 @@ std::string scale_of(const std::vector<const ExtremeCell*>& cells, double y) {
   return out;
 }
 
-std::vector<const ExtremeCell*> cells_of(const ExtremesMap& map, const std::string& axis, MapModel model) {
+std::vector<const ExtremeCell*> cells_of(const ExtremesMap& map, const std::string& axis, Rung model) {
   std::vector<const ExtremeCell*> cells;
   for (const ExtremeCell& cell : map.cells) {
     if (cell.axis == axis && cell.model == model) cells.push_back(&cell);
@@ -139,10 +139,10 @@ std::string extremes_picture(const ExtremesMap& map) {
     if (axis.name == "long") continue;
     std::vector<const ExtremeCell*> last;
     const double begin = y;
-    for (const MapModel model : {MapModel::closed_form, MapModel::discrete, MapModel::planar, MapModel::spatial}) {
+    for (const Rung model : {Rung::closed_form, Rung::discrete, Rung::planar, Rung::spatial}) {
       const auto cells = cells_of(map, axis.name, model);
       if (cells.empty()) continue;
-      body += text(left - 6, y + 10.5, "text-anchor=\"end\" font-size=\"11\"", map_model_name(model));
+      body += text(left - 6, y + 10.5, "text-anchor=\"end\" font-size=\"11\"", rung_name(model));
       body += strip_of(cells, y);
       last = cells;
       y += row_height;

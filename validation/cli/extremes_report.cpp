@@ -46,7 +46,7 @@ std::string cost_words(double seconds) {
   return ms < 9.95 ? fmt::format("{:.2g}", ms) : fmt::format("{:.0f}", ms);
 }
 
-std::string model_word(MapModel model) { return model == MapModel::closed_form ? "closed" : map_model_name(model); }
+std::string model_word(Rung model) { return model == Rung::closed_form ? "closed" : rung_name(model); }
 
 /// "number" is left out: the outcome says more.
 std::string what_happened(const ExtremeCell& cell) {
@@ -90,7 +90,7 @@ std::string slowest_words(const ExtremesMap& map) {
   const ExtremeCell* slowest = slowest_cell(map);
   if (!slowest) return "";
   return fmt::format("slowest cell: {} {}, {}: {} s, its oracle included", slowest->axis, slowest->label,
-                     map_model_name(slowest->model), significant(slowest->seconds, 2));
+                     rung_name(slowest->model), significant(slowest->seconds, 2));
 }
 
 void add_notes(const ExtremesMap& map, const Legend& reasons, const Legend& oracles, Table& table) {
@@ -117,7 +117,7 @@ Json cell_json(const ExtremeCell& cell) {
   const CellMeasure& m = cell.measure;
   const auto text = [](const std::string& words) { return words.empty() ? Json(nullptr) : Json(words); };
   return {{"axis", cell.axis},
-          {"model", map_model_name(cell.model)},
+          {"model", rung_name(cell.model)},
           {"value", cell.value},
           {"label", cell.label},
           {"verdict", verdict_name(cell.verdict)},
@@ -171,7 +171,7 @@ Json extremes_json(const ExtremesMap& map) {
   for (const MapRegion& region : map.regions) {
     const ExtremeCell &first = map.cells[region.first], &last = map.cells[region.last];
     json["regions"].push_back({{"axis", first.axis},
-                               {"model", map_model_name(first.model)},
+                               {"model", rung_name(first.model)},
                                {"from", first.value},
                                {"to", last.value},
                                {"labels", {first.label, last.label}},

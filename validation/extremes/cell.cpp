@@ -46,20 +46,6 @@ void run(const Probe& probe, const CellClock& clock, ExtremeCell& cell) {
 
 }  // namespace
 
-const char* map_model_name(MapModel model) {
-  switch (model) {
-    case MapModel::closed_form:
-      return "closed form";
-    case MapModel::discrete:
-      return "discrete";
-    case MapModel::planar:
-      return "planar";
-    case MapModel::spatial:
-      return "spatial";
-  }
-  return "";
-}
-
 const char* verdict_name(CellVerdict verdict) {
   switch (verdict) {
     case CellVerdict::number:

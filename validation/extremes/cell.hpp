@@ -6,15 +6,9 @@
 #include <stdexcept>
 #include <string>
 
-namespace clatter::validation {
+#include "validation/plan/ladder.hpp"
 
-enum class MapModel {
-  closed_form,  ///< Eqs. 9 and 12: the thin rod's first three impacts
-  discrete,     ///< instantaneous impacts, flights between them
-  planar,       ///< continuous contact, kept in its plane
-  spatial,      ///< continuous contact in three dimensions
-};
-[[nodiscard]] const char* map_model_name(MapModel model);
+namespace clatter::validation {
 
 /// What became of a cell.
 enum class CellVerdict {
@@ -42,7 +36,7 @@ struct ExtremeCell {
   std::string axis;
   double value = 0;
   std::string label;  ///< the value for a reader
-  MapModel model = MapModel::discrete;
+  Rung model = Rung::discrete;
   CellVerdict verdict = CellVerdict::broken;
   CellMeasure measure;    ///< if there is a number; the outcome also if the run ended early
   std::string reason;     ///< of a refusal, one line
@@ -84,7 +78,7 @@ struct Probe {
   std::string axis;
   double value = 0;
   std::string label;
-  MapModel model = MapModel::discrete;
+  Rung model = Rung::discrete;
   std::function<CellMeasure(const CellClock&)> work;
   bool long_run = false;
 };

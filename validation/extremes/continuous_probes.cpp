@@ -141,10 +141,10 @@ std::vector<Probe> continuous_probes(const MapAxis& axis) {
   std::vector<Probe> probes;
   ContinuousCase any;
   if (!case_on_axis(axis.name, 1, any)) return probes;
-  for (const MapModel model : {MapModel::planar, MapModel::spatial}) {
+  for (const Rung model : {Rung::planar, Rung::spatial}) {
     for (const AxisValue& at : axis.values) {
       probes.push_back({axis.name, at.value, at.label, model,
-                        [name = axis.name, value = at.value, planar = model == MapModel::planar](
+                        [name = axis.name, value = at.value, planar = model == Rung::planar](
                             const CellClock& clock) { return continuous_cell(name, value, planar, clock); }});
     }
   }

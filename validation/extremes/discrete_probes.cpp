@@ -183,7 +183,7 @@ std::vector<Probe> discrete_probes(const MapAxis& axis) {
   RodStart any;
   if (rod_on_axis(axis.name, 1, any)) {
     for (const AxisValue& at : axis.values) {
-      probes.push_back({axis.name, at.value, at.label, MapModel::closed_form,
+      probes.push_back({axis.name, at.value, at.label, Rung::closed_form,
                         [name = axis.name, value = at.value](const CellClock&) {
                           RodStart start;
                           rod_on_axis(name, value, start);
@@ -192,7 +192,7 @@ std::vector<Probe> discrete_probes(const MapAxis& axis) {
     }
   }
   for (const AxisValue& at : axis.values) {
-    probes.push_back({axis.name, at.value, at.label, MapModel::discrete,
+    probes.push_back({axis.name, at.value, at.label, Rung::discrete,
                       [name = axis.name, value = at.value](const CellClock&) { return discrete_cell(name, value); }});
   }
   return probes;

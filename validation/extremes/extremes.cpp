@@ -84,7 +84,7 @@ std::vector<std::string> map_failures(const ExtremesMap& map) {
   for (const ExtremeCell& cell : map.cells) {
     const std::string why = cell_failure(cell, map.cell_seconds);
     if (!why.empty())
-      failures.push_back(fmt::format("{} {}, {}: {}", cell.axis, cell.label, map_model_name(cell.model), why));
+      failures.push_back(fmt::format("{} {}, {}: {}", cell.axis, cell.label, rung_name(cell.model), why));
   }
   return failures;
 }

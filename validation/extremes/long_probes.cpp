@@ -227,13 +227,13 @@ CellMeasure marathon(bool planar, int impacts, const std::function<bool()>& goes
 
 std::vector<Probe> long_probes(const LongRuns& runs, const std::function<bool()>& goes_on) {
   std::vector<Probe> probes;
-  for (const MapModel model : {MapModel::planar, MapModel::spatial}) {
+  for (const Rung model : {Rung::planar, Rung::spatial}) {
     probes.push_back({"long", static_cast<double>(runs.impacts), count_label(runs.impacts) + " hits", model,
-                      [=](const CellClock&) { return marathon(model == MapModel::planar, runs.impacts, goes_on); },
+                      [=](const CellClock&) { return marathon(model == Rung::planar, runs.impacts, goes_on); },
                       true});
   }
   probes.push_back(
-      {"long", static_cast<double>(runs.discrete_scenes), count_label(runs.discrete_scenes) + " sc", MapModel::discrete,
+      {"long", static_cast<double>(runs.discrete_scenes), count_label(runs.discrete_scenes) + " sc", Rung::discrete,
        [=](const CellClock&) {
          CellMeasure measure = run_scenes(runs.discrete_scenes, 0, goes_on,
                                           [&](int i, Tally& tally) { run_discrete(Draw(runs.seed, i), i, tally); });
@@ -242,7 +242,7 @@ std::vector<Probe> long_probes(const LongRuns& runs, const std::function<bool()>
        },
        true});
   probes.push_back({"long", static_cast<double>(runs.continuous_scenes), count_label(runs.continuous_scenes) + " sc",
-                    MapModel::spatial,
+                    Rung::spatial,
                     [=](const CellClock&) {
                       CellMeasure measure =
                           run_scenes(runs.continuous_scenes, ledger_bound, goes_on,

@@ -98,11 +98,11 @@ CellMeasure continuous_turns(double turns, bool planar) {
 
 std::vector<Probe> turn_probes(const MapAxis& axis) {
   std::vector<Probe> probes;
-  for (const MapModel model : {MapModel::discrete, MapModel::planar, MapModel::spatial}) {
+  for (const Rung model : {Rung::discrete, Rung::planar, Rung::spatial}) {
     for (const AxisValue& at : axis.values) {
       probes.push_back({axis.name, at.value, at.label, model, [model, value = at.value](const CellClock&) {
-                          return model == MapModel::discrete ? discrete_turns(value)
-                                                             : continuous_turns(value, model == MapModel::planar);
+                          return model == Rung::discrete ? discrete_turns(value)
+                                                             : continuous_turns(value, model == Rung::planar);
                         }});
     }
   }

@@ -64,6 +64,8 @@ class Ladder {
 
   [[nodiscard]] const SimulationScene& scene() const { return scene_; }
   [[nodiscard]] const numeric::Body& body() const { return body_; }
+  /// As the discrete rung has it, if it applies.
+  [[nodiscard]] const std::optional<analytic::Drop>& drop() const { return drop_; }
   /// Why the rung does not apply to the scene; empty: it does.
   [[nodiscard]] const std::string& against(Rung rung) const { return against_[static_cast<std::size_t>(rung)]; }
   /// The lowest rung that leaves nothing out of this scene: a body that is symmetric about the plane of its motion

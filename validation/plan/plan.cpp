@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "validation/compare/discrete_scene.hpp"
 #include "validation/compare/prediction.hpp"
 #include "validation/output/number.hpp"
 #include "validation/plan/cost_table.hpp"
@@ -62,12 +61,14 @@ class Planner {
     const int wanted = ladder_.scene().options.impacts;
     Simulation finest;
     RungSetting setting{.rung = full_, .method = Method::rkck, .tolerance = finest_pilot_tolerance};
+    const auto run_finest = [&] { finest = ladder_.simulate(setting, wanted); };
+    double seconds = least_seconds_of(timings, run_finest);
     // A switch between slip and stick may be met in a step that cannot be made small enough; another method meets it
     // at another place.
-    if (ladder_.simulate(setting, wanted).outcome == numeric::Outcome::step_too_small) {
+    if (finest.outcome == numeric::Outcome::step_too_small) {
       setting = {.rung = full_, .method = Method::rk8pd, .tolerance = finest_pilot_tolerance / 10};
+      seconds = least_seconds_of(timings, run_finest);
     }
-    const double seconds = least_seconds_of(timings, [&] { finest = ladder_.simulate(setting, wanted); });
     plan_.planning_evaluations = timings * finest.force_evaluations;
     plan_.pilot_ending = finest.message;
     seconds_per_evaluation_ = seconds / static_cast<double>(finest.force_evaluations);
@@ -199,14 +200,12 @@ class Planner {
 
   /// What the rod's radius changes: closed form against the discrete rung at the rod's real corners.
   [[nodiscard]] double thinness() const {
-    const analytic::Drop drop = discrete_drop(ladder_.scene(), ladder_.body());
-    return distance(closed_form_rows_,
-                    motion_rows(impact_sequence(drop, {.impacts = impacts(), .amplification = false})), sizes_);
+    return distance(closed_form_rows_, ladder_.run({.rung = Rung::discrete}, impacts()).rows, sizes_);
   }
 
   /// What gravity, turning, indentation and delay of the contacts change, carried on by the discrete model.
   [[nodiscard]] double contact_effects() const {
-    const analytic::Drop drop = discrete_drop(ladder_.scene(), ladder_.body());
+    const analytic::Drop& drop = *ladder_.drop();
     const analytic::Sequence sequence = impact_sequence(drop, {.impacts = impacts(), .amplification = false});
     const Quantities sizes = in_plane(sizes_);
     double worst = 0;
