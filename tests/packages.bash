@@ -11,9 +11,11 @@ program_packages=(cmake ninja-build g++ libgsl-dev libboost-dev libeigen3-dev li
                   nlohmann-json3-dev libfmt-dev libtomlplusplus-dev gnuplot-nox)
 # Without the shells and groff the tests of completion and man page would be skipped;
 # Chromium opens the page that clatter verify writes; OpenMPI shares a sweep among processes.
+# The Python module, the figures and the notebooks take the line of Python packages.
 # shellcheck disable=SC2034
 test_packages=(libgmsh-dev libboost-test-dev libbenchmark-dev python3 zsh fish groff-base
-               chromium chromium-driver libopenmpi-dev openmpi-bin)
+               chromium chromium-driver libopenmpi-dev openmpi-bin
+               pybind11-dev python3-dev python3-numpy python3-matplotlib jupyter-nbconvert python3-ipykernel)
 
 say() { printf '%s: %s\n' "$speaker" "$*" >&2; }
 
