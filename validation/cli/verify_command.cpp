@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 
 #include "validation/cli/commands.hpp"
@@ -12,6 +11,7 @@
 #include "validation/output/sink.hpp"
 #include "validation/scene/bad_input.hpp"
 #include "validation/verify/page.hpp"
+#include "validation/verify/selection.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -23,31 +23,8 @@ struct VerifyInput {
   OutputTexts output;
 };
 
-std::vector<std::string> ids() {
-  std::vector<std::string> names;
-  for (const Check& check : all_checks()) names.push_back(check.id);
-  return names;
-}
-
-/// The checks asked for, in the order of the table.
-std::vector<const Check*> chosen(const VerifyInput& input) {
-  if (input.quick && !input.only.empty()) throw BadInput("--quick: excludes --only; give one of them, not both");
-  for (const std::string& id : input.only) static_cast<void>(read_name_option("--only", id, ids()));
-  std::vector<const Check*> checks;
-  for (const Check& check : all_checks()) {
-    const bool named = std::find(input.only.begin(), input.only.end(), check.id) != input.only.end();
-    if (input.only.empty() ? check.quick || !input.quick : named) checks.push_back(&check);
-  }
-  return checks;
-}
-
-std::string selection_words(const VerifyInput& input, std::size_t count) {
-  if (!input.only.empty()) return fmt::format("{} checks by name", count);
-  return fmt::format("{} set: {} checks of {}", input.quick ? "quick" : "full", count, all_checks().size());
-}
-
 int run_verify(const VerifyInput& input) {
-  const std::vector<const Check*> checks = chosen(input);
+  const CheckSelection selection = select_checks(input.quick, input.only);
   const OutputChoice choice = read_output(input.output);
   if (input.html && *input.html == choice.path)
     throw BadInput(fmt::format("--html {}: must be another file than --output's", *input.html));
@@ -56,23 +33,22 @@ int run_verify(const VerifyInput& input) {
     require_gnuplot();
     page.emplace(*input.html, "--html");
   }
-  const std::string selection = selection_words(input, checks.size());
   const CooperativeInterrupt interrupt;
   Laboratory laboratory;
   laboratory.goes_on = [&] { return !interrupt.requested(); };
   std::vector<CheckResult> results;
   {
     Progress progress;
-    results = verify(checks, laboratory, [&](std::size_t done, std::size_t of, const std::string& id) {
+    results = verify(selection.checks, laboratory, [&](std::size_t done, std::size_t of, const std::string& id) {
       progress.show(fmt::format("{} {}", progress_bar(done, of), id));
       return !interrupt.requested();
     });
   }
   write_report(
-      choice, [&] { return verify_json(results, selection); }, [&] { return verify_records(results, selection); },
-      [&] { return verify_table(results, selection, choice.style.format); });
+      choice, [&] { return verify_json(results, selection.words); }, [&] { return verify_records(results, selection.words); },
+      [&] { return verify_table(results, selection.words, choice.style.format); });
   if (page && !interrupt.requested()) {
-    page->write(verify_page(results, selection, laboratory));
+    page->write(verify_page(results, selection.words, laboratory));
     page->commit();
   }
   return verify_status(summary_of(results));

@@ -8,33 +8,11 @@
 #include "validation/cli/version.hpp"
 #include "validation/figures/drawing.hpp"
 #include "validation/figures/figure.hpp"
+#include "validation/output/html.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation {
 namespace {
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 const char* const style = R"css(
 :root { --ink: #1c2430; --pale: #667; --line: #d8dce2; --good: #0a7d4f; --bad: #b3261e; --open: #a15c00; }
@@ -82,10 +60,10 @@ std::string row_of(const CheckResult& result) {
       "<td class=\"number\"><span class=\"pale\">{}</span><br>{}</td><td>{}<br><span class=\"pale\">{}</span></td><td "
       "class=\"number\">{}</td>"
       "<td class=\"number\" title=\"{}\">{}</td><td class=\"{}\">{}{}</td><td class=\"number\">{:.2f}</td></tr>\n",
-      check.id, check.id, escaped(check.claim), escaped(m.found), escaped(check.command), answer, answer,
-      escaped(check.number), escaped(number), escaped(check.oracle), escaped(check.error), significant(m.error, 2),
-      escaped(check.reason), significant(check.tolerance, 2), verdict, verdict,
-      result.failure.empty() ? "" : ": " + escaped(result.failure), result.seconds);
+      check.id, check.id, html_escaped(check.claim), html_escaped(m.found), html_escaped(check.command), answer, answer,
+      html_escaped(check.number), html_escaped(number), html_escaped(check.oracle), html_escaped(check.error), significant(m.error, 2),
+      html_escaped(check.reason), significant(check.tolerance, 2), verdict, verdict,
+      result.failure.empty() ? "" : ": " + html_escaped(result.failure), result.seconds);
 }
 
 std::string group_html(const Group& group, const std::vector<CheckResult>& results) {
@@ -106,9 +84,9 @@ std::string group_html(const Group& group, const std::vector<CheckResult>& resul
 std::string figure_html(const Figure& figure) {
   std::string html =
       fmt::format("<h2 id=\"figure{}\">Figure {}: {}</h2>\n<p class=\"pale\">Scene: {}</p>\n<div class=\"plots\">\n",
-                  figure.number, figure.number, escaped(figure.title), escaped(figure.scene));
+                  figure.number, figure.number, html_escaped(figure.title), html_escaped(figure.scene));
   for (const std::string& picture : draw(figure)) html += picture + "\n";
-  return html + fmt::format("</div>\n<p><code>{}</code></p>\n", escaped(figure.command()));
+  return html + fmt::format("</div>\n<p><code>{}</code></p>\n", html_escaped(figure.command()));
 }
 
 /// The figures that a check among the results belongs to; with a whole set, all.
@@ -132,8 +110,8 @@ std::string verify_page(const std::vector<CheckResult>& results, const std::stri
       "<h1>clatter {}: verification</h1>\n<p class=\"{}\">{}</p>\n<p class=\"pale\">{}.  Reproduce: <code>clatter "
       "verify{} --html FILE</code></p>\n<p class=\"pale\">A tolerance is at most five times the error seen when it was set; "
       "its reason, shown when you point at it, says what that error is made of.</p>\n<nav>",
-      version, style, version, summary.failed == 0 ? "passed" : "failed", escaped(summary_words(summary)),
-      escaped(selection), selection.starts_with("quick") ? " --quick" : "");
+      version, style, version, summary.failed == 0 ? "passed" : "failed", html_escaped(summary_words(summary)),
+      html_escaped(selection), selection.starts_with("quick") ? " --quick" : "");
   for (const Group& group : groups) {
     const std::string part = group_html(group, results);
     if (!part.empty()) html += fmt::format("<a href=\"#{}\">{}</a>", group.letter, group.title);

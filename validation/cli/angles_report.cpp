@@ -1,0 +1,156 @@
+#include "validation/cli/angles_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include "validation/cli/options.hpp"
+#include "validation/cli/rod_options.hpp"
+#include "validation/cli/version.hpp"
+#include "validation/output/number.hpp"
+
+namespace clatter::validation {
+namespace {
+
+using analytic::degrees_per_radian;
+using analytic::NextImpact;
+
+constexpr std::size_t plain_columns = 17, all_columns = plain_columns + 2, impacts_column = 16;
+
+using Row = std::array<double, all_columns>;
+
+double angle_or_missing(const analytic::ContactAngle& angle) {
+  return angle.next == NextImpact::other_end ? angle.angle * degrees_per_radian : NAN;
+}
+
+std::size_t column_count(const AnglesRequest& request) { return request.as_printed ? all_columns : plain_columns; }
+
+std::vector<std::string> notes_of(const AnglesRequest& request) {
+  if (!request.as_printed) return {"An empty cell: that impact does not happen with β, γ ≤ 90°."};
+  return {
+      "β: with the gravity term − (g/vₙ²)(…)²(θ+β)²; printed: with the paper's + (g/2vₙ²)(…)²(θ+β)²,"
+      " whose sign and factor are wrong, for g of either sign. An empty cell: no impact."};
+}
+
+}  // namespace
+
+std::vector<Column> angles_columns(const AnglesRequest& request) {
+  const bool p = request.as_printed;
+  std::vector<Column> columns{{"theta_deg", "θ", "°"},
+                              {"beta_deg", "β", "°"},
+                              {"gamma_deg", "γ", "°", !p},
+                              {"P1", "P₁", "", !p},
+                              {"P2", "P₂", "", !p},
+                              {"P3", "P₃", "", !p},
+                              {"V1", "V₁", "", false},
+                              {"Omega1", "Ω₁", "", false},
+                              {"V2", "V₂", "", false},
+                              {"Omega2", "Ω₂", "", false},
+                              {"V3", "V₃", "", false},
+                              {"Omega3", "Ω₃", "", false},
+                              {"T1", "T₁", "", false},
+                              {"T2", "T₂", "", false},
+                              {"gamma_minus_theta_deg", "γ − θ", "°", false},
+                              {"impulse_deficit", "2 − ΣP", "", !p},
+                              {"impacts", "impacts", ""},
+                              {"beta_printed_deg", "β printed, g > 0", "°", p},
+                              {"beta_printed_negative_g_deg", "β printed, g < 0", "°", p}};
+  columns.resize(column_count(request));
+  return columns;
+}
+
+void angles_row(const AnglesRequest& request, long long i, double* row) {
+  const double theta = request.theta(i);
+  const analytic::Angle angle = analytic::Angle::from_degrees(theta);
+  const analytic::ContactAngles a = analytic::contact_angles(angle, request.rod);
+  const double beta = angle_or_missing(a.beta);
+  const double gamma = angle_or_missing(a.gamma);
+  const std::array<double, plain_columns> plain{theta,
+                                                beta,
+                                                gamma,
+                                                a.impulse[0],
+                                                a.impulse[1],
+                                                a.impulse[2],
+                                                a.velocity[0],
+                                                a.angular[0],
+                                                a.velocity[1],
+                                                a.angular[1],
+                                                a.velocity[2],
+                                                a.angular[2],
+                                                std::isnan(beta) ? NAN : a.beta.time,
+                                                std::isnan(gamma) ? NAN : a.gamma.time,
+                                                a.gamma_minus_theta * degrees_per_radian,
+                                                a.impulse_deficit,
+                                                static_cast<double>(a.impacts())};
+  std::copy(plain.begin(), plain.end(), row);
+  if (!request.as_printed) return;
+  const double g = request.rod.gravity_number;
+  row[plain_columns] = angle_or_missing(analytic::contact_angle_as_printed(angle, g));
+  row[plain_columns + 1] = angle_or_missing(analytic::contact_angle_as_printed(angle, -g));
+}
+
+Table angles_frame(const AnglesRequest& request) {
+  const std::string range = request.count == 0 ? "no θ"
+                                               : fmt::format("θ from {}° to {}°, {} values", shortest(request.theta(0)),
+                                                             shortest(request.theta(request.count - 1)), request.count);
+  return {.head = {headline("angles", "contact angles of the first three impacts"),
+                   rod_summary(request.rod) + "; " + range},
+          .columns = angles_columns(request),
+          .rows = {},
+          .notes = notes_of(request)};
+}
+
+Table angles_table(const AnglesRequest& request) {
+  Table table = angles_frame(request);
+  for (long long i = 0; i < request.count; ++i) {
+    Row row;
+    angles_row(request, i, row.data());
+    auto& cells = table.rows.emplace_back();
+    for (std::size_t k = 0; k < column_count(request); ++k) {
+      cells.push_back(std::isnan(row[k]) ? Cell() : Cell(row[k], request.digits));
+    }
+    cells[impacts_column] = Cell(std::to_string(static_cast<int>(row[impacts_column])));
+    cells[0] = Cell(shortest(row[0]));
+  }
+  return table;
+}
+
+Json angles_json(const AnglesRequest& request) {
+  const std::vector<Column> columns = angles_columns(request);
+  Json rows = Json::array();
+  for (long long i = 0; i < request.count; ++i) {
+    Row row;
+    angles_row(request, i, row.data());
+    Json item = Json::object();
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      item[columns[k].name] = k == impacts_column ? Json(static_cast<int>(row[k])) : number_or_null(row[k]);
+    }
+    rows.push_back(item);
+  }
+  return {{"clatter", version},
+          {"model", "discrete"},
+          {"parameters",
+           {{"gravity_number", request.rod.gravity_number},
+            {"restitution", request.rod.restitution},
+            {"impulse_ratio", request.rod.impulse_ratio}}},
+          {"rows", rows}};
+}
+
+std::string angles_csv_rows(const AnglesRequest& request, long long begin, long long end) {
+  fmt::memory_buffer out;
+  for (long long i = begin; i < end; ++i) {
+    Row row;
+    angles_row(request, i, row.data());
+    for (std::size_t k = 0; k < column_count(request); ++k) {
+      if (k > 0) out.push_back(',');
+      if (!std::isnan(row[k])) fmt::format_to(std::back_inserter(out), "{}", row[k] + 0.0);
+    }
+    out.push_back('\n');
+  }
+  return fmt::to_string(out);
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,35 @@
+// Contact angles and impulses of the thin rod's first three impacts, an angle θ a row.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "analytic/contact_angles.hpp"
+#include "validation/output/json.hpp"
+#include "validation/output/table.hpp"
+
+namespace clatter::validation {
+
+/// What is asked for.
+struct AnglesRequest {
+  std::function<double(long long)> theta;  ///< of row i [°]
+  long long count = 0;
+  analytic::RodParameters rod;
+  bool as_printed = false;  ///< also β by the paper's printed gravity term
+  int digits = 6;           ///< shown in tables
+};
+
+/// Names, headings and units of a row's numbers.
+[[nodiscard]] std::vector<Column> angles_columns(const AnglesRequest& request);
+/// Row i in the order of the columns; NaN for what does not happen with β, γ ≤ 90°.
+void angles_row(const AnglesRequest& request, long long i, double* row);
+
+/// Head, columns and notes; no rows.
+[[nodiscard]] Table angles_frame(const AnglesRequest& request);
+[[nodiscard]] Table angles_table(const AnglesRequest& request);
+[[nodiscard]] Json angles_json(const AnglesRequest& request);
+/// CSV of the rows from `begin` up to `end`; empty fields for what does not happen.
+[[nodiscard]] std::string angles_csv_rows(const AnglesRequest& request, long long begin, long long end);
+
+}  // namespace clatter::validation

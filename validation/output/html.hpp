@@ -1,0 +1,16 @@
+// Tables for web pages and notebooks.
+#pragma once
+
+#include <string>
+
+#include "validation/output/table.hpp"
+
+namespace clatter::validation {
+
+/// With &, <, > and " as entities.
+[[nodiscard]] std::string html_escaped(const std::string& text);
+
+/// The shown columns as a `table` between paragraphs with head and notes; numbers to the right.
+[[nodiscard]] std::string html_table(const Table& table);
+
+}  // namespace clatter::validation
