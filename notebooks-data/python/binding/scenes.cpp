@@ -1,0 +1,141 @@
+#include <pybind11/stl.h>
+
+#include <map>
+#include <memory>
+#include <tuple>
+
+#include "history.hpp"
+#include "interruptible.hpp"
+#include "report.hpp"
+#include "runs.hpp"
+#include "validation/cli/comparison_report.hpp"
+#include "validation/cli/history_file.hpp"
+#include "validation/cli/simulation_report.hpp"
+#include "validation/embedded/embedded.hpp"
+#include "validation/plan/planned_run.hpp"
+
+namespace clatter::python {
+namespace {
+
+namespace py = pybind11;
+using validation::Comparison;
+using validation::PlannedRun;
+using validation::SceneOverride;
+using validation::SimulationScene;
+
+/// Key of the scene file, name of the argument, its text.
+using Overrides = std::vector<std::tuple<std::string, std::string, std::string>>;
+
+/// `text`: the scene file's content, `name` what messages call it; without a text the file `name` is read.
+SimulationScene read_scene(const std::string& name, const std::optional<std::string>& text, const Overrides& given) {
+  std::vector<SceneOverride> overrides;
+  for (const auto& [key, argument, value] : given) overrides.push_back({key, argument, value});
+  const validation::SceneValues values =
+      text ? validation::SceneValues(name, *text, validation::scene_keys()) : validation::read_scene_values(name);
+  return read_simulation_scene(values, overrides, validation::Model::continuous);
+}
+
+PlannedRun run_scene(const SimulationScene& scene, const std::function<bool()>& goes_on,
+                     numeric::HistoryRecorder* history) {
+  const numeric::Body body = scene.make_body();
+  numeric::Options options = scene.options;
+  options.history = history;
+  options.progress = [&](int, long) { return goes_on(); };
+  const numeric::MotionState start = scene.start(body);
+  if (history && scene.height) validation::record_fall(*history, start, body.mass(), options.gravity, 20);
+  return validation::run_to_digits(body, scene.ground, start, options);
+}
+
+struct ContinuousRun {
+  SimulationScene scene;
+  PlannedRun planned;
+};
+
+struct SweptRuns {
+  SimulationScene scene;
+  std::vector<validation::SweptRun> runs;
+};
+
+Report single_report(SimulationScene scene, PlannedRun planned) {
+  const auto run = std::make_shared<const ContinuousRun>(ContinuousRun{std::move(scene), std::move(planned)});
+  return {.json = [run] { return validation::simulation_json(run->scene, run->planned); },
+          .table = [run] { return validation::simulation_table(run->scene, run->planned); },
+          .records = [run] { return validation::simulation_records(run->scene, run->planned); }};
+}
+
+Report swept_report(const SimulationScene& scene, const std::function<bool()>& goes_on) {
+  SweptRuns swept{scene, {}};
+  for (const double value : scene.sweep->values()) {
+    if (!goes_on()) break;
+    const SimulationScene one = scene.at(value);
+    swept.runs.push_back({value, one, run_scene(one, goes_on, nullptr).run});
+  }
+  const auto run = std::make_shared<const SweptRuns>(std::move(swept));
+  return {.json = [run] { return validation::sweep_json(run->scene, run->runs); },
+          .table = [run] { return validation::sweep_table(run->scene, run->runs); },
+          .records = [run] { return validation::sweep_records(run->scene, run->runs); }};
+}
+
+/// (report, history or None)
+py::tuple simulate(const std::string& name, const std::optional<std::string>& text, const Overrides& overrides,
+                   bool with_history) {
+  const SimulationScene scene = read_scene(name, text, overrides);
+  History history;
+  Report report = run_interruptible([&](const std::function<bool()>& goes_on) {
+    if (scene.sweep) return swept_report(scene, goes_on);
+    return single_report(scene, run_scene(scene, goes_on, with_history ? &history : nullptr));
+  });
+  return py::make_tuple(std::move(report), with_history && !scene.sweep ? py::object(history.arrays()) : py::none());
+}
+
+struct ComparedScene {
+  SimulationScene scene;
+  std::vector<validation::SweptComparison> values;  ///< one, or one per swept value
+};
+
+Report compare(const std::string& name, const std::optional<std::string>& text, const Overrides& overrides) {
+  const SimulationScene scene = read_scene(name, text, overrides);
+  ComparedScene compared{scene, {}};
+  run_interruptible([&](const std::function<bool()>& goes_on) {
+    const numeric::Body body = scene.make_body();
+    if (!scene.sweep) compared.values.push_back({0, compare_models(scene, body)});
+    for (const double value : scene.sweep ? scene.sweep->values() : std::vector<double>{}) {
+      if (!goes_on()) break;
+      compared.values.push_back({value, compare_models(scene.at(value), body)});
+    }
+    return true;
+  });
+  const auto run = std::make_shared<const ComparedScene>(std::move(compared));
+  if (scene.sweep) {
+    return {.json = [run] { return validation::swept_comparison_json(run->scene, run->values); },
+            .table = [run] { return validation::swept_comparison_table(run->scene, run->values); },
+            .records = [run] { return validation::swept_comparison_records(run->scene, run->values); }};
+  }
+  return {.json = [run] { return validation::comparison_json(run->scene, run->values[0].comparison); },
+          .table = [run] { return validation::comparison_table(run->scene, run->values[0].comparison); },
+          .records = [run] { return validation::comparison_records(run->scene, run->values[0].comparison); }};
+}
+
+/// Name to text of the scene files that the program carries.
+std::map<std::string, std::string> cases() {
+  constexpr std::string_view folder = "validation/cases/", extension = ".toml";
+  std::map<std::string, std::string> texts;
+  for (const validation::EmbeddedFile& file : validation::embedded_files()) {
+    if (!file.name.starts_with(folder)) continue;
+    const std::string_view name = file.name.substr(folder.size());
+    texts.emplace(name.substr(0, name.size() - extension.size()), file.text);
+  }
+  return texts;
+}
+
+}  // namespace
+
+void add_scene_functions(py::module_& module) {
+  module.def("simulate", &simulate, py::arg("name"), py::arg("text"), py::arg("overrides"), py::arg("history"),
+             "Drop of any body, continuous contact.");
+  module.def("compare", &compare, py::arg("name"), py::arg("text"), py::arg("overrides"),
+             "Both models over the same scene.");
+  module.def("cases", &cases, "Texts of the scene files that the program carries, by name.");
+}
+
+}  // namespace clatter::python

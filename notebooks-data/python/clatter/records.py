@@ -1,0 +1,113 @@
+"""Small objects over the program's JSON: each name of the JSON is an attribute."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+JsonObject = Mapping[str, Any]
+
+
+def as_array(values: list[Any]) -> np.ndarray:
+    """Numbers as an array with NaN for None; vectors as rows."""
+    wide = next((len(value) for value in values if isinstance(value, list)), None)
+    if wide is not None:
+        return np.array([[np.nan] * wide if value is None else value for value in values], dtype=float)
+    if any(isinstance(value, (str, bool)) for value in values):
+        return np.array(values)
+    return np.array([np.nan if value is None else value for value in values], dtype=float)
+
+
+class Record(Mapping[str, Any]):
+    """Values by name, as `record.name` or `record["name"]`; vectors are arrays, what a model has no value for is None."""
+
+    def __init__(self, data: JsonObject) -> None:
+        self._data = {name: self._converted(value) for name, value in data.items()}
+
+    @staticmethod
+    def _converted(value: Any) -> Any:
+        if isinstance(value, dict):
+            return Record(value)
+        if isinstance(value, list) and value and all(isinstance(item, (int, float)) for item in value):
+            return np.array(value, dtype=float)
+        return value
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        try:
+            return self._data[name]
+        except KeyError:
+            raise AttributeError(f"no '{name}' here; there are {', '.join(self._data)}") from None
+
+    def __getitem__(self, name: str) -> Any:
+        return self._data[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._data)
+
+    def __len__(self) -> int:
+        return len(self._data)
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._data]
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in self._data.items())})"
+
+
+class Impact(Record):
+    """One impact, SI units, world frame (x right, z up).
+
+    n, start, duration, end ("a", "b", "both" ...), inclination_deg, contact_angle_deg, approach_speed, restitution,
+    impulse_normal, impulse_tangential, impulse_ratio, mode, peak_force, peak_time, velocity_after (3),
+    angular_velocity_after (3), energy_before, energy_after, energy_loss, error_estimate (a record), amplification;
+    from the continuous model also touches, impulse (3), work_damping, work_friction, work_released, energy_stored,
+    ledger_gap, predictable.
+    """
+
+    def __repr__(self) -> str:
+        return (f"Impact {self.n}: end {self.end} at {self.start:.6g} s, {self.contact_angle_deg:.6g}°, "
+                f"P = {self.impulse_normal:.6g} N·s")
+
+
+class History:
+    """Time history of a run: one array a quantity, a sample a row, in the order of time.
+
+    time [s] after the first touch, centre (n, 3) [m], attitude (n, 4) Euler parameters, velocity (n, 3) [m/s],
+    angular_velocity (n, 3) [rad/s], force (n, 3) of contact [N], point_velocity (n, 3) of the contact point (else of
+    the lowest vertex) [m/s], energy_translation, energy_rotation, energy_potential, energy_ground, energy_total [J],
+    in_contact.  World frame.
+    """
+
+    time: np.ndarray
+    centre: np.ndarray
+    attitude: np.ndarray
+    velocity: np.ndarray
+    angular_velocity: np.ndarray
+    force: np.ndarray
+    point_velocity: np.ndarray
+    energy_translation: np.ndarray
+    energy_rotation: np.ndarray
+    energy_potential: np.ndarray
+    energy_ground: np.ndarray
+    energy_total: np.ndarray
+    in_contact: np.ndarray
+
+    def __init__(self, arrays: Mapping[str, np.ndarray]) -> None:
+        for name, array in arrays.items():
+            array.flags.writeable = False
+            setattr(self, name, array)
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    def __repr__(self) -> str:
+        if not len(self):
+            return "History of 0 samples"
+        return f"History of {len(self)} samples, {self.time[0]:.6g} s to {self.time[-1]:.6g} s"
+
+    def between(self, start: float, end: float) -> "History":
+        """The samples with start <= time <= end."""
+        chosen = (self.time >= start) & (self.time <= end)
+        return History({name: array[chosen] for name, array in vars(self).items()})

@@ -1,0 +1,214 @@
+"""What the functions of clatter return."""
+
+from collections.abc import Iterator
+from typing import Any, overload
+
+import numpy as np
+
+from clatter._clatter import Report
+from clatter.records import History, Impact, Record, as_array
+
+
+class Result:
+    """A result that shows itself as the program's table: as text, and in a notebook as HTML."""
+
+    def __init__(self, report: Report) -> None:
+        self._report = report
+        self._data = report.data()
+
+    @property
+    def scene(self) -> dict[str, Any]:
+        """Everything that was computed with, defaults included, under the names of scene files."""
+        return dict(self._data["scene"])
+
+    @property
+    def message(self) -> str:
+        """How it ended, in words."""
+        return str(self._data["message"])
+
+    def to_dict(self) -> dict[str, Any]:
+        """The program's JSON as dicts and lists."""
+        return self._report.data()
+
+    def to_text(self, format: str = "table", *, ascii: bool = False) -> str:
+        """What the program prints with --format `format`: table, csv, json, markdown or latex."""
+        return self._report.text(format, ascii)
+
+    def __repr__(self) -> str:
+        return self.to_text().rstrip("\n")
+
+    def _repr_html_(self) -> str:
+        return self._report.html()
+
+
+class Run(Result):
+    """A sequence of impacts: len(run), run[0], for impact in run."""
+
+    def __init__(self, report: Report) -> None:
+        super().__init__(report)
+        self.impacts = [Impact(impact) for impact in self._data["impacts"]]
+
+    @property
+    def outcome(self) -> str:
+        """no-further-impact, impact-limit, at-rest, sustained-contact, evaluation-limit ..."""
+        return str(self._data["outcome"])
+
+    @property
+    def total_normal_impulse(self) -> float:
+        """[N·s]"""
+        return float(self._data["total_normal_impulse"])
+
+    @property
+    def cost(self) -> Record:
+        """force_evaluations, root_evaluations."""
+        return Record(self._data["cost"])
+
+    @property
+    def accuracy(self) -> Record:
+        """Relative error asked and achieved."""
+        return Record(self._data["accuracy"])
+
+    def column(self, name: str) -> np.ndarray:
+        """One value of each impact, vectors as rows; NaN where there is none."""
+        return as_array([impact[name] for impact in self._data["impacts"]])
+
+    def __len__(self) -> int:
+        return len(self.impacts)
+
+    def __iter__(self) -> Iterator[Impact]:
+        return iter(self.impacts)
+
+    @overload
+    def __getitem__(self, index: int) -> Impact: ...
+    @overload
+    def __getitem__(self, index: slice) -> list[Impact]: ...
+    def __getitem__(self, index: int | slice) -> Impact | list[Impact]:
+        return self.impacts[index]
+
+
+class Sequence(Run):
+    """An impact sequence of the discrete model."""
+
+    @property
+    def tail(self) -> Record | None:
+        """The infinitely many impacts that follow the last one, summed up; None if there are none."""
+        return Record(self._data["tail"]) if "tail" in self._data else None
+
+
+class Simulation(Run):
+    """A run of the continuous model."""
+
+    def __init__(self, report: Report, history: History | None) -> None:
+        super().__init__(report)
+        self._history = history
+
+    @property
+    def history(self) -> History:
+        """@raise AttributeError: the run was not asked for one."""
+        if self._history is None:
+            raise AttributeError("no history was kept; call simulate(..., history=True)")
+        return self._history
+
+    @property
+    def method(self) -> str:
+        """That was used: rkf45, tvd-rk3 ..."""
+        return str(self._data["method"])
+
+    @property
+    def energy_start(self) -> float:
+        """At the first touch [J]."""
+        return float(self._data["energy_start"])
+
+
+class Sweep(Result):
+    """A scene for each value of one quantity."""
+
+    def __init__(self, report: Report) -> None:
+        super().__init__(report)
+        self.quantity = next(iter(self._data["scene"]["sweep"]))
+        self.runs = [Record(run) for run in self._data["runs"]]
+        self.values = as_array([run[self.quantity] for run in self._data["runs"]])
+
+    def __len__(self) -> int:
+        return len(self.runs)
+
+    def column(self, name: str, impact: int = 1) -> np.ndarray:
+        """A value of impact number `impact` of each run; NaN where a run has no such impact."""
+        rows = [run["impacts"] for run in self._data["runs"]]
+        return as_array([row[impact - 1][name] if len(row) >= impact else None for row in rows])
+
+
+class Comparison(Result):
+    """Both models over one scene.
+
+    impacts: records with n, comparable, reason, discrete_end, continuous_end, contact_time, limit_is_discrete and
+    numbers: by quantity (start, contact_angle_deg, impulse_normal ...) discrete, continuous, deviation, predicted, limit,
+    limit_error, allowance.
+    """
+
+    def __init__(self, report: Report) -> None:
+        super().__init__(report)
+        self.impacts = [Record(impact) for impact in self._data["impacts"]]
+
+    @property
+    def agrees(self) -> bool:
+        """No limit of the stiffer and stiffer ground misses the discrete value."""
+        return bool(self._data["agrees"])
+
+    def __len__(self) -> int:
+        return len(self.impacts)
+
+    def column(self, quantity: str, name: str) -> np.ndarray:
+        """One number of each impact: column("impulse_normal", "deviation")."""
+        return as_array([impact["numbers"].get(quantity, {}).get(name) for impact in self._data["impacts"]])
+
+
+class ComparisonSweep(Result):
+    """A comparison for each value of one quantity; `runs` holds a record for each."""
+
+    def __init__(self, report: Report) -> None:
+        super().__init__(report)
+        self.quantity = next(iter(self._data["scene"]["sweep"]))
+        self.runs = [Record(run) for run in self._data["runs"]]
+        self.values = as_array([run[self.quantity] for run in self._data["runs"]])
+
+    @property
+    def agrees(self) -> bool:
+        """All of them agree."""
+        return bool(self._data["agrees"])
+
+    def __len__(self) -> int:
+        return len(self.runs)
+
+
+class Verification(Result):
+    """Checks with their verdicts; `checks` holds a record for each: id, claim, answer, number, tolerance, verdict ..."""
+
+    def __init__(self, report: Report) -> None:
+        super().__init__(report)
+        self.checks = [Record(check) for check in self._data["checks"]]
+
+    @property
+    def scene(self) -> dict[str, Any]:
+        """@raise AttributeError: each check has a scene of its own."""
+        raise AttributeError("a verification has no scene; each check's command tells its own")
+
+    @property
+    def passed(self) -> int:
+        """Number of checks that passed."""
+        return int(self._data["passed"])
+
+    @property
+    def failed(self) -> int:
+        """Number of checks that failed."""
+        return int(self._data["failed"])
+
+    def __len__(self) -> int:
+        return len(self.checks)
+
+    def __getitem__(self, name: str) -> Record:
+        """A check by its id: verification["C1"]."""
+        for check in self.checks:
+            if check["id"] == name:
+                return check
+        raise KeyError(name)
