@@ -243,10 +243,13 @@ void ContactRun::look_for_peak(const ContactInstant& next) {
   const double top = now_.diagnosis.load.force + s * (slope + s * (b + s * a));
   if (!(top > 0.9 * result_.peak_force) || !try_step(now_, s * h, probe_)) return;
   note(probe_);
+  peak_ = probe_;
   const double at_probe = h * probe_.diagnosis.force_rate;
   const double other_s = at_probe > 0 ? 1 : 0, other = at_probe > 0 ? end_slope : slope;
   const double better = s - at_probe * (other_s - s) / (other - at_probe);
   if (better > 0 && better < 1 && try_step(now_, better * h, probe_)) note(probe_);
+  if (probe_.time == result_.peak_time) peak_ = probe_;
+  if (control_->observe && peak_.time == result_.peak_time) control_->observe(peak_);
 }
 
 double ContactRun::slip_forward(const ContactInstant& at) const {

@@ -26,7 +26,7 @@ struct ContactControl {
   double first_step = 0;     ///< length of the first fixed step [s], at most `step`; 0: as the others
   double steps_per_contact = 300;
   long evaluation_limit = 0;  ///< of the system's count, at which the run stops
-  /// Called after every accepted step; return false to stop.
+  /// Called after every accepted step, and before that with a peak of the force inside it; return false to stop.
   std::function<bool(const ContactInstant&)> observe = nullptr;
 };
 
@@ -94,7 +94,7 @@ class ContactRun {
   const ContactControl* control_ = nullptr;
   ContactScales scales_;
   ContactState weights_, error_;
-  ContactInstant now_, trial_, probe_;
+  ContactInstant now_, trial_, probe_, peak_;
   ContactResult result_;
   std::vector<PhaseLog> phases_;  ///< of friction that mattered, in their order
   double phase_start_ = 0, phase_work_ = 0;  ///< time and work of friction when the current phase began

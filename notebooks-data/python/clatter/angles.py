@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from clatter import _clatter
+from clatter.records import Array
 from clatter.scenes import called, texts_of
 
 _MOST_ROWS_SHOWN = 200
@@ -19,27 +20,27 @@ class Angles:
     free of cancellation; impacts: how many there are; as printed: beta_printed_deg, beta_printed_negative_g_deg [°].
     """
 
-    theta_deg: np.ndarray
-    beta_deg: np.ndarray
-    gamma_deg: np.ndarray
-    P1: np.ndarray
-    P2: np.ndarray
-    P3: np.ndarray
-    V1: np.ndarray
-    Omega1: np.ndarray
-    V2: np.ndarray
-    Omega2: np.ndarray
-    V3: np.ndarray
-    Omega3: np.ndarray
-    T1: np.ndarray
-    T2: np.ndarray
-    gamma_minus_theta_deg: np.ndarray
-    impulse_deficit: np.ndarray
-    impacts: np.ndarray
-    beta_printed_deg: np.ndarray
-    beta_printed_negative_g_deg: np.ndarray
+    theta_deg: Array
+    beta_deg: Array
+    gamma_deg: Array
+    P1: Array
+    P2: Array
+    P3: Array
+    V1: Array
+    Omega1: Array
+    V2: Array
+    Omega2: Array
+    V3: Array
+    Omega3: Array
+    T1: Array
+    T2: Array
+    gamma_minus_theta_deg: Array
+    impulse_deficit: Array
+    impacts: Array
+    beta_printed_deg: Array
+    beta_printed_negative_g_deg: Array
 
-    def __init__(self, report: _clatter.Report, arrays: dict[str, np.ndarray]) -> None:
+    def __init__(self, report: _clatter.Report, arrays: dict[str, Array]) -> None:
         self._report = report
         self._names = list(arrays)
         for name, array in arrays.items():
@@ -49,10 +50,10 @@ class Angles:
     def __len__(self) -> int:
         return len(self.theta_deg)
 
-    def __getitem__(self, name: str) -> np.ndarray:
+    def __getitem__(self, name: str) -> Array:
         if name not in self._names:
             raise KeyError(name)
-        array: np.ndarray = getattr(self, name)
+        array: Array = getattr(self, name)
         return array
 
     def to_dict(self) -> dict[str, Any]:

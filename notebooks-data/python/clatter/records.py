@@ -4,11 +4,13 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+Array = NDArray[Any]
 JsonObject = Mapping[str, Any]
 
 
-def as_array(values: list[Any]) -> np.ndarray:
+def as_array(values: list[Any]) -> Array:
     """Numbers as an array with NaN for None; vectors as rows."""
     wide = next((len(value) for value in values if isinstance(value, list)), None)
     if wide is not None:
@@ -80,21 +82,21 @@ class History:
     in_contact.  World frame.
     """
 
-    time: np.ndarray
-    centre: np.ndarray
-    attitude: np.ndarray
-    velocity: np.ndarray
-    angular_velocity: np.ndarray
-    force: np.ndarray
-    point_velocity: np.ndarray
-    energy_translation: np.ndarray
-    energy_rotation: np.ndarray
-    energy_potential: np.ndarray
-    energy_ground: np.ndarray
-    energy_total: np.ndarray
-    in_contact: np.ndarray
+    time: Array
+    centre: Array
+    attitude: Array
+    velocity: Array
+    angular_velocity: Array
+    force: Array
+    point_velocity: Array
+    energy_translation: Array
+    energy_rotation: Array
+    energy_potential: Array
+    energy_ground: Array
+    energy_total: Array
+    in_contact: Array
 
-    def __init__(self, arrays: Mapping[str, np.ndarray]) -> None:
+    def __init__(self, arrays: Mapping[str, Array]) -> None:
         for name, array in arrays.items():
             array.flags.writeable = False
             setattr(self, name, array)

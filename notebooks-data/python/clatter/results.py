@@ -3,10 +3,8 @@
 from collections.abc import Iterator
 from typing import Any, overload
 
-import numpy as np
-
 from clatter._clatter import Report
-from clatter.records import History, Impact, Record, as_array
+from clatter.records import Array, History, Impact, Record, as_array
 
 
 class Result:
@@ -68,7 +66,7 @@ class Run(Result):
         """Relative error asked and achieved."""
         return Record(self._data["accuracy"])
 
-    def column(self, name: str) -> np.ndarray:
+    def column(self, name: str) -> Array:
         """One value of each impact, vectors as rows; NaN where there is none."""
         return as_array([impact[name] for impact in self._data["impacts"]])
 
@@ -132,7 +130,7 @@ class Sweep(Result):
     def __len__(self) -> int:
         return len(self.runs)
 
-    def column(self, name: str, impact: int = 1) -> np.ndarray:
+    def column(self, name: str, impact: int = 1) -> Array:
         """A value of impact number `impact` of each run; NaN where a run has no such impact."""
         rows = [run["impacts"] for run in self._data["runs"]]
         return as_array([row[impact - 1][name] if len(row) >= impact else None for row in rows])
@@ -158,7 +156,7 @@ class Comparison(Result):
     def __len__(self) -> int:
         return len(self.impacts)
 
-    def column(self, quantity: str, name: str) -> np.ndarray:
+    def column(self, quantity: str, name: str) -> Array:
         """One number of each impact: column("impulse_normal", "deviation")."""
         return as_array([impact["numbers"].get(quantity, {}).get(name) for impact in self._data["impacts"]])
 

@@ -36,7 +36,7 @@ class SceneText(NamedTuple):
     text: str | None
 
 
-def text_of(name: str, value: Value) -> str:
+def text_of(name: str, value: Any) -> str:
     """The argument as it would be typed; numbers keep all their bits."""
     if isinstance(value, str):
         return value
@@ -46,10 +46,9 @@ def text_of(name: str, value: Value) -> str:
         return str(int(value))
     if isinstance(value, Real):
         return repr(float(value))
-    try:
+    if isinstance(value, Iterable):
         return "x".join(repr(float(part)) for part in value)
-    except TypeError:
-        raise BadInput(f"{name} {value!r}: must be a number, a text or a list of numbers") from None
+    raise BadInput(f"{name} {value!r}: must be a number, a text or a list of numbers")
 
 
 def texts_of(arguments: Mapping[str, Value | None]) -> dict[str, str]:

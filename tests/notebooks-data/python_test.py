@@ -1,0 +1,350 @@
+"""The Python module gives what the program gives, in Python's terms.
+
+PYTHONPATH holds the built package, CLATTER_PROGRAM the program, CLATTER_ROOT the source tree.
+"""
+
+import ast
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import tomllib
+import unittest
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+import clatter
+
+PROGRAM = os.environ["CLATTER_PROGRAM"]
+ROOT = Path(os.environ["CLATTER_ROOT"])
+CASES = sorted((ROOT / "validation" / "cases").glob("*.toml"))
+
+# Twenty drops of the discrete model: every option, both bodies, folds, accumulation, a flat and an upright landing.
+DROPS = [
+    {"angle": 10}, {"angle": 0}, {"angle": 90}, {"angle": 27.577809606636}, {"angle": 58.488442288312},
+    {"angle": 1 / 3, "gravity": 9.81}, {"angle": 20, "gravity": 9.81, "height": 0.5},
+    {"angle": 45, "impulse_ratio": 0.3}, {"angle": 45, "friction": 0.7}, {"angle": 45, "friction": 0.2, "restitution": 0.6},
+    {"angle": 30, "restitution": 0.5, "restitution_law": "stronge", "friction": 0.4, "tangential_velocity": -0.7},
+    {"angle": 30, "restitution": 0.5, "restitution_law": "poisson", "friction": 0.4, "spin": -1.5},
+    {"angle": 0, "gravity": 9.81, "restitution": 0.8, "impacts": 60},
+    {"angle": 5, "gravity": 9.81, "restitution": 0.7, "impacts": 200},
+    {"angle": 12, "mass": 0.1, "length": 0.15, "radius": 0.01, "gravity": 9.81},
+    {"angle": 10, "body": "box", "size": (0.10566, 0.04394, 0.01905), "mass": 0.08814, "gravity": 9.81, "speed": 4.4},
+    {"angle": 70, "body": "box", "size": (0.2, 0.1, 0.05), "friction": 0.3, "gravity": 9.81, "restitution": 0.9},
+    {"angle": 10, "method": "closed-form"}, {"angle": 25, "digits": 12, "method": "discrete"},
+    {"angle": 40, "speed": 1e-3, "gravity": 1e-6, "impacts": 2},
+]
+
+
+def typed(arguments):
+    """The arguments as the command line has them."""
+    words = []
+    for name, value in arguments.items():
+        text = "x".join(map(repr, value)) if isinstance(value, tuple) else str(value)
+        words += ["--" + name.replace("_", "-"), text]
+    return words
+
+
+def printed(*arguments):
+    done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, cwd=ROOT)
+    assert done.returncode in (0, 1), done.stderr
+    return done.stdout
+
+
+def quietly(function, *arguments, **named):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", clatter.ClatterWarning)
+        return function(*arguments, **named)
+
+
+class TheSameBits(unittest.TestCase):
+    """Numbers are compared with ==: shortest round-trip texts give back every bit."""
+
+    def test_sequences_of_twenty_drops_are_the_programs(self):
+        for drop in DROPS:
+            with self.subTest(drop=drop):
+                result = quietly(clatter.sequence, **drop)
+                self.assertEqual(result.to_dict(), json.loads(printed("sequence", *typed(drop), "--format", "json")))
+                for form in ("table", "csv", "markdown", "latex", "json"):
+                    self.assertEqual(result.to_text(form), printed("sequence", *typed(drop), "--format", form))
+
+    def test_runs_of_all_scene_files_are_the_programs(self):
+        for case in CASES:
+            with self.subTest(case=case.name):
+                path = str(case.relative_to(ROOT))
+                result = quietly(clatter.simulate, case.stem, impacts=2)
+                self.assertEqual(result.to_dict(),
+                                 json.loads(printed("simulate", path, "--impacts", "2", "--format", "json")))
+
+    def test_changes_are_the_flags(self):
+        result = clatter.simulate("rod-45", angle=30, stiffness=1e9, damping=1e7, sliding_friction=0.2,
+                                  static_friction=0.25, method="tvd-rk3", step=2e-5, impacts=1, planar=True, gravity=1.5,
+                                  contact_gravity=False)
+        self.assertEqual(result.to_dict(), json.loads(printed(
+            "simulate", "validation/cases/rod-45.toml", "--angle", "30", "--stiffness", "1e9", "--damping", "1e7",
+            "--sliding-friction", "0.2", "--static-friction", "0.25", "--method", "tvd-rk3", "--step", "2e-5",
+            "--impacts", "1", "--planar", "--gravity", "1.5", "--no-contact-gravity", "--format", "json")))
+
+    def test_every_flag_of_the_program_is_an_argument(self):
+        flags = {word.strip(",") for word in printed("simulate", "--help").split() if word.startswith("--")}
+        others = {"--help", "--format", "--output", "--ascii", "--history", "--no-contact-gravity", "--plot", "--plot-script"}
+        arguments = {"--" + name.replace("_", "-") for name in clatter.scenes.CHANGES}
+        self.assertEqual(flags - others - arguments, set())
+
+    def test_comparisons_are_the_programs(self):
+        for name in ("rod-45", "phone-damped", "rod-friction-sweep"):
+            with self.subTest(case=name):
+                result = clatter.compare(name, impacts=1)
+                text = printed("compare", f"validation/cases/{name}.toml", "--impacts", "1", "--format", "json")
+                self.assertEqual(result.to_dict(), json.loads(text))
+
+    def test_verification_is_the_programs(self):
+        def without_time(data):
+            checks = [{key: value for key, value in check.items() if key != "seconds"} for check in data["checks"]]
+            return checks, data["passed"], data["failed"]
+        mine = clatter.verify(["C1", "E2", "X1"])
+        program = json.loads(printed("verify", "--only", "C1", "E2", "X1", "--format", "json"))
+        self.assertEqual(without_time(mine.to_dict()), without_time(program))
+        self.assertEqual((mine.passed, mine.failed, mine["E2"].answer), (3, 0, "holds"))
+
+    def test_angles_are_the_programs(self):
+        for given, flags in (({"step": 2.5}, ["--step", "2.5"]), ({"count": 7, "start": 1, "stop": 60}, ["--count", "7", "--from", "1", "--to", "60"]),
+                             ({"gravity": 9.81, "as_printed": True, "restitution": 0.9}, ["--gravity", "9.81", "--as-printed", "--restitution", "0.9"])):
+            with self.subTest(given=given):
+                rows = json.loads(printed("angles", *flags, "--format", "json"))["rows"]
+                result = clatter.angles(**given)
+                for name in rows[0]:
+                    expected = np.array([np.nan if row[name] is None else row[name] for row in rows])
+                    np.testing.assert_array_equal(result[name], expected)
+
+    def test_angles_of_an_array_are_those_of_each_angle(self):
+        theta = np.array([[1.0, 27.5], [58.4, 0.1]])
+        result = clatter.angles(theta)
+        self.assertEqual(result.beta_deg.tolist(), [clatter.angles(value).beta_deg[0] for value in theta.ravel()])
+
+
+class ClosedForms(unittest.TestCase):
+    """What a user reads off a result, against formulas."""
+
+    def test_attributes_of_a_sequence(self):
+        run = clatter.sequence(angle=10)
+        cosine = np.cos(np.radians(10))
+        self.assertAlmostEqual(run[0].impulse_normal, 2 / (1 + 3 * cosine**2), delta=4e-16)
+        self.assertEqual([impact.end for impact in run], ["a", "b", "a"])
+        self.assertEqual((len(run), run.outcome, run[-1].n, len(run[:2])), (3, "no-further-impact", 3, 2))
+        np.testing.assert_allclose(run.column("impulse_normal").sum(), run.total_normal_impulse, rtol=1e-15)
+        self.assertEqual(run.column("velocity_after").shape, (3, 3))
+        self.assertTrue(np.isnan(run.column("peak_force")).all())
+        self.assertIsNone(run[0].peak_force)
+
+    def test_tail_of_infinitely_many_impacts(self):
+        run = clatter.sequence(angle=0, gravity=9.81, restitution=0.5, impacts=20)
+        self.assertAlmostEqual(run.tail.end_time, 2 * 0.5 / (9.81 * 0.5), delta=1e-12)
+        self.assertIsNone(clatter.sequence(angle=10).tail)
+
+    def test_history_keeps_the_laws(self):
+        run = clatter.simulate("phone-damped", impacts=2, history=True, digits=8)
+        past = run.history
+        mass, gravity = run.scene["body"]["mass"], run.scene["world"]["gravity"]
+        self.assertEqual(past.centre.shape, (len(past), 3))
+        self.assertEqual(past.attitude.shape, (len(past), 4))
+        self.assertTrue((np.diff(past.time) >= 0).all())
+        np.testing.assert_allclose(np.linalg.norm(past.attitude, axis=1), 1, atol=1e-14)
+        np.testing.assert_allclose(past.energy_potential, mass * gravity * past.centre[:, 2], rtol=1e-12)
+        np.testing.assert_allclose(past.energy_translation, mass / 2 * (past.velocity**2).sum(axis=1), rtol=1e-12)
+        parts = past.energy_translation + past.energy_rotation + past.energy_potential + past.energy_ground
+        np.testing.assert_allclose(past.energy_total, parts, rtol=1e-14)
+        self.assertTrue((past.force[~past.in_contact] == 0).all())
+        first = past.between(run[0].start, run[0].start + run[0].duration)
+        self.assertEqual(first.force[:, 2].max(), run[0].peak_force)
+        self.assertTrue(first.in_contact[1:-1].all())
+        lost = past.energy_total[0] - past.energy_total[-1]
+        self.assertAlmostEqual(lost, sum(impact.energy_loss for impact in run), delta=1e-6 * past.energy_total[0])
+
+    def test_a_sweep_holds_a_run_per_value(self):
+        sweep = clatter.simulate("rod-sweep")
+        self.assertEqual((sweep.quantity, len(sweep), sweep.values[10]), ("angle_deg", 91, 10))
+        impulses = sweep.column("impulse_normal")
+        # Flat and upright the rod bounces back as a whole: P = 2 m v, whatever the radius and the contact's duration.
+        np.testing.assert_allclose(impulses[[0, 90]], 2, rtol=1e-6)
+        # Elastic and frictionless, so V = P - 1 and (V^2 + I Omega^2)/2 stays 1/2, I = (3 r^2 + L^2)/12 = 0.0834 kg m^2.
+        speeds = sweep.column("velocity_after")[:, 2]
+        np.testing.assert_allclose(speeds, impulses - 1, atol=1e-9)
+        spins = sweep.column("angular_velocity_after")[:, 1]
+        np.testing.assert_allclose(speeds**2 + (3e-4 + 1) / 12 * spins**2, 1, rtol=2e-3)
+        self.assertTrue(np.isnan(sweep.column("impulse_normal", impact=2)).all())
+
+
+class Forms(unittest.TestCase):
+    def test_a_scene_may_be_a_file_a_case_or_a_dict(self):
+        path = ROOT / "validation" / "cases" / "rod-45.toml"
+        one, two, three = (clatter.simulate(scene, impacts=1).to_dict()
+                           for scene in ("rod-45", path, tomllib.loads(path.read_text(encoding="utf-8"))))
+        self.assertEqual(one["impacts"], two["impacts"])
+        self.assertEqual(one["impacts"], three["impacts"])
+
+    def test_the_scene_of_a_result_gives_the_result_again(self):
+        for case in ("every-key", "rod-10", "phone-corner", "box-flat"):
+            with self.subTest(case=case):
+                run = clatter.simulate(case, impacts=1)
+                self.assertEqual(clatter.simulate(run.scene).to_dict()["impacts"], run.to_dict()["impacts"])
+
+    def test_a_case_is_a_dict_of_its_own(self):
+        scene = clatter.case("rod-45")
+        scene["ground"]["stiffness"] = 1e9
+        self.assertEqual(clatter.simulate(scene, impacts=1).scene["ground"]["stiffness"], 1e9)
+        self.assertEqual(clatter.case("rod-45")["ground"]["stiffness"], 1e11)
+        self.assertEqual(set(clatter.cases()), {case.stem for case in CASES})
+
+    def test_texts_survive_the_way_into_a_scene(self):
+        scene = clatter.case("rod-45")
+        scene["run"]["history"] = 'a "quoted" \\ name\nwith\tall — of it.csv'
+        self.assertEqual(clatter.simulate(scene, impacts=1).scene["run"]["history"], scene["run"]["history"])
+        self.assertFalse(Path(scene["run"]["history"]).exists())
+
+    def test_numpy_numbers_are_numbers(self):
+        self.assertEqual(clatter.sequence(np.float64(10), impacts=np.int64(2)).to_dict(),
+                         clatter.sequence(10, impacts=2).to_dict())
+
+    def test_results_show_themselves(self):
+        run = clatter.sequence(angle=10)
+        self.assertEqual(repr(run) + "\n", run.to_text())
+        html = run._repr_html_()
+        self.assertEqual(html.count("<tr>"), 1 + len(run))
+        self.assertIn("0.511569", html)
+        self.assertIn("Impact 2: end b", repr(run[1]))
+        self.assertEqual(run.to_text(ascii=True).encode("ascii").decode(), run.to_text(ascii=True))
+        self.assertIn("1000 values", repr(clatter.angles(count=1000)))
+
+    def test_arrays_cannot_be_changed_by_accident(self):
+        with self.assertRaises(ValueError):
+            clatter.angles().beta_deg[0] = 1
+
+
+class Errors(unittest.TestCase):
+    def refused(self, words, function, *arguments, **named):
+        with self.assertRaises(clatter.BadInput) as caught:
+            function(*arguments, **named)
+        self.assertIn(words, str(caught.exception))
+        self.assertNotIn("--", str(caught.exception))
+
+    def test_bad_input_names_the_argument(self):
+        self.refused("angle '95': must be from 0 to 90 degrees", clatter.sequence, 95)
+        self.refused("angle 'nan'", clatter.sequence, float("nan"))
+        self.refused("impulse_ratio 0.1 and friction 0.2", clatter.sequence, 10, impulse_ratio=0.1, friction=0.2)
+        self.refused("height 2: needs gravity", clatter.sequence, 10, height=2)
+        self.refused("restitution_law 'newtn'", clatter.sequence, 10, restitution_law="newtn")
+        self.refused("impacts '2.5'", clatter.sequence, 10, impacts=2.5)
+        self.refused("closed_form: does not apply".replace("_", "-"), clatter.sequence, 10, friction=0.1, method="closed-form")
+        self.refused("theta 91", clatter.angles, [10, 91])
+        self.refused("theta nan", clatter.angles, [float("nan")])
+        self.refused("excludes start", clatter.angles, [10], start=1)
+        self.refused("did you mean angle?", clatter.simulate, "rod-45", anle=3)
+        self.refused("did you mean 'rod-45'?", clatter.simulate, "rod-46")
+        self.refused("did you mean ground.stiffness?", clatter.simulate, {"ground": {"stifness": 1}})
+        self.refused("ground.stiffness: required", clatter.simulate, {"drop": {"angle_deg": 45}})
+        self.refused("digits '33'", clatter.compare, "rod-45", digits=33)
+        self.refused("no-such.toml", clatter.simulate, "no-such.toml")
+        self.refused("did you mean C1?", clatter.verify, ["C1x"])
+        self.refused("format 'xml'", clatter.sequence(10).to_text, "xml")
+        self.assertTrue(issubclass(clatter.BadInput, ValueError))
+
+    def test_a_file_is_named_with_the_place(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "bad.toml"
+            path.write_text("[drop]\nangle_deg = 91\n[ground]\nstiffness = 1e9\n", encoding="utf-8")
+            self.refused(f"{path}:2:13: drop.angle_deg = 91", clatter.simulate, path)
+
+    def test_outside_the_model_and_not_computed_have_their_own_types(self):
+        with self.assertRaisesRegex(clatter.OutsideModel, "jam"):
+            clatter.sequence(np.degrees(np.arctan(2)), impulse_ratio=4 / 3)
+        with self.assertRaisesRegex(clatter.NotComputed, "evaluation-limit"):
+            clatter.simulate("rod-45", evaluation_limit=10)
+
+    def test_reservations_are_warnings(self):
+        with self.assertWarnsRegex(clatter.ClatterWarning, "energy"):
+            clatter.sequence(45, impulse_ratio=0.7)
+
+    def test_no_history_unless_asked(self):
+        with self.assertRaisesRegex(AttributeError, "history=True"):
+            clatter.simulate("rod-45", impacts=1).history
+
+    def test_an_unknown_name_of_an_impact_lists_the_known(self):
+        with self.assertRaisesRegex(AttributeError, "impulse_normal"):
+            clatter.sequence(10)[0].impulse
+
+
+class LongCalls(unittest.TestCase):
+    def test_other_threads_run_meanwhile(self):
+        """A thread counts while another simulates; with the lock held it could not."""
+        counted, done = [0], threading.Event()
+
+        def count():
+            while not done.is_set():
+                counted[0] += 1
+                time.sleep(0)
+        counter = threading.Thread(target=count)
+        counter.start()
+        before = counted[0]
+        clatter.simulate("phone-elastic", digits=11, impacts=4)
+        after = counted[0]
+        done.set()
+        counter.join()
+        self.assertGreater(after - before, 20)
+
+    def test_calls_from_several_threads_agree(self):
+        expected = clatter.simulate("phone-damped", impacts=2).to_dict()
+        results = [None] * 4
+
+        def run(index):
+            results[index] = clatter.simulate("phone-damped", impacts=2).to_dict()
+        threads = [threading.Thread(target=run, args=(index,)) for index in range(len(results))]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(results, [expected] * len(results))
+
+    def test_ctrl_c_ends_a_long_call(self):
+        script = ("import clatter\nprint('ready', flush=True)\n"
+                  "try:\n  clatter.simulate('rod-45', method='tvd-rk3', step=1e-12, evaluation_limit=10**12)\n"
+                  "except KeyboardInterrupt:\n  print('interrupted', flush=True)\n")
+        with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True) as child:
+            self.assertEqual(child.stdout.readline(), "ready\n")
+            time.sleep(0.5)
+            child.send_signal(signal.SIGINT)
+            self.assertEqual(child.stdout.readline(), "interrupted\n")
+
+
+class Documentation(unittest.TestCase):
+    def test_everything_public_is_documented(self):
+        for name in clatter.__all__:
+            self.assertTrue((getattr(clatter, name).__doc__ or "").strip(), name)
+
+    def test_types_are_sound(self):
+        folder = str(Path(clatter.__file__).resolve().parent.parent)
+        with tempfile.TemporaryDirectory() as cache:
+            done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", cache, "-p", "clatter"],
+                                  capture_output=True, text=True, cwd=cache, env=dict(os.environ, MYPYPATH=folder))
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_the_stub_names_what_the_compiled_part_has(self):
+        compiled = clatter._clatter
+        stub = ast.parse(Path(clatter.__file__).with_name("_clatter.pyi").read_text(encoding="utf-8"))
+        functions = {node.name: [argument.arg for argument in node.args.args]
+                     for node in stub.body if isinstance(node, ast.FunctionDef)}
+        # pybind11 writes the signature as the first line of the docstring.
+        there = {name: re.findall(r"(\w+): ", getattr(compiled, name).__doc__.splitlines()[0])
+                 for name in dir(compiled) if callable(getattr(compiled, name)) and name != "Report"}
+        self.assertEqual(functions, there)
+
+
+if __name__ == "__main__":
+    unittest.main()
