@@ -17,6 +17,7 @@
 #include "validation/cli/sequence_report.hpp"
 #include "validation/plan/sequence_method.hpp"
 #include "validation/scene/bad_input.hpp"
+#include "validation/scene/named_texts.hpp"
 
 namespace clatter::python {
 namespace {
@@ -25,32 +26,13 @@ namespace py = pybind11;
 using validation::AnglesRequest;
 using validation::RodTexts;
 using validation::Scene;
-using validation::SceneTexts;
 using validation::SweepTexts;
 
-using Given = std::map<std::string, std::string>;
+using Given = validation::NamedTexts;
 template <class Texts>
 using Members = std::map<std::string, std::optional<std::string> Texts::*>;
 
 // By the names of the flags, with "_" for "-".
-const Members<SceneTexts> scene_members{{"angle", &SceneTexts::angle},
-                                        {"speed", &SceneTexts::speed},
-                                        {"height", &SceneTexts::height},
-                                        {"tangential_velocity", &SceneTexts::tangential_velocity},
-                                        {"spin", &SceneTexts::spin},
-                                        {"gravity", &SceneTexts::gravity},
-                                        {"restitution", &SceneTexts::restitution},
-                                        {"restitution_law", &SceneTexts::restitution_law},
-                                        {"impulse_ratio", &SceneTexts::impulse_ratio},
-                                        {"friction", &SceneTexts::friction},
-                                        {"body", &SceneTexts::body},
-                                        {"mass", &SceneTexts::mass},
-                                        {"length", &SceneTexts::length},
-                                        {"radius", &SceneTexts::radius},
-                                        {"size", &SceneTexts::size},
-                                        {"impacts", &SceneTexts::impacts},
-                                        {"digits", &SceneTexts::digits}};
-
 const Members<SweepTexts> range_members{
     {"from", &SweepTexts::from}, {"to", &SweepTexts::to}, {"step", &SweepTexts::step}, {"count", &SweepTexts::count}};
 const Members<RodTexts> rod_members{{"gravity_number", &RodTexts::gravity_number},
@@ -73,7 +55,7 @@ struct DiscreteRun {
 };
 
 Report sequence(const Given& given, const std::string& method) {
-  const Scene scene = validation::read_scene(texts_of(given, scene_members));
+  const Scene scene = validation::read_scene(validation::scene_texts(given));
   const py::gil_scoped_release release;
   const auto run = std::make_shared<const DiscreteRun>(
       DiscreteRun{scene, validation::sequence_by_method(scene, validation::read_sequence_method(method))});

@@ -2,7 +2,6 @@
 
 #include <map>
 #include <memory>
-#include <tuple>
 
 #include "history.hpp"
 #include "interruptible.hpp"
@@ -13,26 +12,21 @@
 #include "validation/cli/simulation_report.hpp"
 #include "validation/embedded/embedded.hpp"
 #include "validation/plan/planned_run.hpp"
+#include "validation/scene/named_texts.hpp"
 
 namespace clatter::python {
 namespace {
 
 namespace py = pybind11;
-using validation::Comparison;
+using validation::NamedTexts;
 using validation::PlannedRun;
-using validation::SceneOverride;
 using validation::SimulationScene;
 
-/// Key of the scene file, name of the argument, its text.
-using Overrides = std::vector<std::tuple<std::string, std::string, std::string>>;
-
 /// `text`: the scene file's content, `name` what messages call it; without a text the file `name` is read.
-SimulationScene read_scene(const std::string& name, const std::optional<std::string>& text, const Overrides& given) {
-  std::vector<SceneOverride> overrides;
-  for (const auto& [key, argument, value] : given) overrides.push_back({key, argument, value});
+SimulationScene read_scene(const std::string& name, const std::optional<std::string>& text, const NamedTexts& given) {
   const validation::SceneValues values =
       text ? validation::SceneValues(name, *text, validation::scene_keys()) : validation::read_scene_values(name);
-  return read_simulation_scene(values, overrides, validation::Model::continuous);
+  return read_simulation_scene(values, validation::scene_overrides(given), validation::Model::continuous);
 }
 
 PlannedRun run_scene(const SimulationScene& scene, const std::function<bool()>& goes_on,
@@ -77,9 +71,9 @@ Report swept_report(const SimulationScene& scene, const std::function<bool()>& g
 }
 
 /// (report, history or None)
-py::tuple simulate(const std::string& name, const std::optional<std::string>& text, const Overrides& overrides,
+py::tuple simulate(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes,
                    bool with_history) {
-  const SimulationScene scene = read_scene(name, text, overrides);
+  const SimulationScene scene = read_scene(name, text, changes);
   History history;
   Report report = run_interruptible([&](const std::function<bool()>& goes_on) {
     if (scene.sweep) return swept_report(scene, goes_on);
@@ -93,8 +87,8 @@ struct ComparedScene {
   std::vector<validation::SweptComparison> values;  ///< one, or one per swept value
 };
 
-Report compare(const std::string& name, const std::optional<std::string>& text, const Overrides& overrides) {
-  const SimulationScene scene = read_scene(name, text, overrides);
+Report compare(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes) {
+  const SimulationScene scene = read_scene(name, text, changes);
   ComparedScene compared{scene, {}};
   run_interruptible([&](const std::function<bool()>& goes_on) {
     const numeric::Body body = scene.make_body();
@@ -131,9 +125,9 @@ std::map<std::string, std::string> cases() {
 }  // namespace
 
 void add_scene_functions(py::module_& module) {
-  module.def("simulate", &simulate, py::arg("name"), py::arg("text"), py::arg("overrides"), py::arg("history"),
+  module.def("simulate", &simulate, py::arg("name"), py::arg("text"), py::arg("changes"), py::arg("history"),
              "Drop of any body, continuous contact.");
-  module.def("compare", &compare, py::arg("name"), py::arg("text"), py::arg("overrides"),
+  module.def("compare", &compare, py::arg("name"), py::arg("text"), py::arg("changes"),
              "Both models over the same scene.");
   module.def("cases", &cases, "Texts of the scene files that the program carries, by name.");
 }

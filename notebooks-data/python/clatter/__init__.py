@@ -19,7 +19,7 @@ from clatter.angles import Angles, angles
 from clatter.errors import BadInput, ClatterWarning, Error, NotComputed, OutsideModel
 from clatter.records import History, Impact, Record
 from clatter.results import Comparison, ComparisonSweep, Result, Run, Sequence, Simulation, Sweep, Verification
-from clatter.scenes import Scene, Value, called, case, cases, changes_of, scene_text, texts_of
+from clatter.scenes import Scene, Value, called, case, cases, scene_text, texts_of
 
 __version__ = _clatter.version
 __all__ = [
@@ -97,7 +97,7 @@ def simulate(scene: Scene, *, history: bool = False, **changes: Value | None) ->
 
     >>> clatter.simulate("rod-45", stiffness=1e9, impacts=1)
     """
-    report, arrays = called(_clatter.simulate, *scene_text(scene), changes_of(changes), history)
+    report, arrays = called(_clatter.simulate, *scene_text(scene), texts_of(changes), history)
     if "runs" in report.data():
         return Sweep(report)
     run = Simulation(report, None if arrays is None else History(arrays))
@@ -117,7 +117,7 @@ def compare(scene: Scene, **changes: Value | None) -> Comparison | ComparisonSwe
     >>> clatter.compare("phone-damped", impacts=2).agrees
     True
     """
-    report = called(_clatter.compare, *scene_text(scene), changes_of(changes))
+    report = called(_clatter.compare, *scene_text(scene), texts_of(changes))
     return ComparisonSweep(report) if "runs" in report.data() else Comparison(report)
 
 

@@ -15,20 +15,6 @@ Value = str | float | bool | Iterable[float]
 Scene = str | os.PathLike[str] | Mapping[str, Any]
 Returned = TypeVar("Returned")
 
-CHANGES = {
-    "angle": "drop.angle_deg", "tilt": "drop.tilt_deg", "speed": "drop.speed", "height": "drop.height",
-    "tangential_velocity": "drop.tangential_velocity", "spin": "drop.spin", "gravity": "world.gravity",
-    "restitution": "impact.restitution", "restitution_law": "impact.law", "impulse_ratio": "impact.impulse_ratio",
-    "friction": "impact.friction", "body": "body.shape", "mass": "body.mass", "length": "body.length",
-    "radius": "body.radius", "size": "body.size", "stiffness": "ground.stiffness", "damping": "ground.damping",
-    "static_friction": "ground.static_friction", "sliding_friction": "ground.sliding_friction", "area": "ground.area",
-    "impacts": "run.impacts", "digits": "run.digits", "method": "run.method", "tolerance": "run.tolerance",
-    "step": "run.step", "planar": "run.planar", "contact_gravity": "run.contact_gravity",
-    "errors": "run.errors", "amplification": "run.amplification", "evaluation_limit": "run.evaluation_limit",
-}
-"""Arguments of simulate() and compare(), and the keys of the scene file whose place they take."""
-
-
 class SceneText(NamedTuple):
     """A scene for the compiled part: a file's name, or a text with the name that messages call it."""
 
@@ -54,15 +40,6 @@ def text_of(name: str, value: Any) -> str:
 def texts_of(arguments: Mapping[str, Value | None]) -> dict[str, str]:
     """Without those that were not given."""
     return {name: text_of(name, value) for name, value in arguments.items() if value is not None}
-
-
-def changes_of(arguments: Mapping[str, Value | None]) -> list[tuple[str, str, str]]:
-    """(key, argument, text) of each.  @raise BadInput: an unknown one, with the nearest."""
-    for name in arguments:
-        if name not in CHANGES:
-            near = difflib.get_close_matches(name, CHANGES, 1, 0)[0]
-            raise BadInput(f"{name}: unknown argument; did you mean {near}?")
-    return [(CHANGES[name], name, text) for name, text in texts_of(arguments).items()]
 
 
 def toml_value(key: str, value: Any) -> str:

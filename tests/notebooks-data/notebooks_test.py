@@ -1,0 +1,113 @@
+"""The notebooks as committed: what a reader on the web sees, and the numbers of the solutions against other oracles.
+
+That the outputs are those of the program is judged by notebooks.py --check, which runs the cells.
+"""
+
+import os
+import re
+import unittest
+from pathlib import Path
+
+import nbformat
+
+from oracles import ORACLES
+
+FOLDER = Path(os.environ["CLATTER_ROOT"]) / "notebooks-data" / "notebooks"
+LECTURES = sorted(FOLDER.glob("[0-9]*.ipynb"))
+SOLUTIONS = FOLDER / "solutions.ipynb"
+LARGEST = 400_000  # bytes of a notebook
+NUMBER = re.compile(r"\*\*(-?[0-9][^*]*)\*\*")
+
+
+def cells(path, kind):
+    return [cell for cell in nbformat.read(path, as_version=4).cells if cell.cell_type == kind]
+
+
+def headings(path):
+    """(level, text) of each."""
+    return [(len(found[1]), found[2]) for cell in cells(path, "markdown")
+            for found in re.finditer(r"(?m)^(#+) (.*)$", cell.source)]
+
+
+def printed(cell):
+    return "".join(output.text for output in cell.outputs if output.output_type == "stream" and output.name == "stdout")
+
+
+def solutions():
+    """Exercise to (numbers in bold, numbers printed), as texts with units."""
+    found = {}
+    for cell in nbformat.read(SOLUTIONS, as_version=4).cells:
+        heading = re.match(r"## (\d\.\d)", cell.source)
+        if cell.cell_type == "markdown" and heading:
+            found[heading[1]] = (NUMBER.findall(cell.source), [])
+        if cell.cell_type == "code":
+            for exercise, number in re.findall(r"(?m)^(\d\.\d): (.*)$", printed(cell)):
+                found[exercise][1].append(number)
+    return found
+
+
+class Lectures(unittest.TestCase):
+    def test_there_are_eight_and_each_has_its_parts(self):
+        self.assertEqual([path.name[0] for path in LECTURES], list("12345678"))
+        for path in LECTURES:
+            with self.subTest(notebook=path.name):
+                found = headings(path)
+                self.assertEqual(found[0][0], 1)
+                self.assertTrue(found[0][1].startswith(path.name[0] + ". "))
+                sections = [text for level, text in found if level == 2]
+                self.assertEqual(sections[0], "Predict first")
+                self.assertEqual(sections[-2:], ["What we have seen", "Exercises"])
+
+    def test_they_are_executed_without_errors_or_complaints(self):
+        for path in [*LECTURES, SOLUTIONS]:
+            with self.subTest(notebook=path.name):
+                code = cells(path, "code")
+                self.assertEqual([cell.execution_count for cell in code], list(range(1, len(code) + 1)))
+                for output in (output for cell in code for output in cell.outputs):
+                    self.assertNotEqual(output.output_type, "error")
+                    self.assertNotEqual(output.get("name"), "stderr", output.get("text"))
+
+    def test_they_are_small_and_have_pictures(self):
+        for path in [*LECTURES, SOLUTIONS]:
+            self.assertLess(path.stat().st_size, LARGEST, path.name)
+        for path in LECTURES:
+            with self.subTest(notebook=path.name):
+                pictures = [output.data["image/svg+xml"] for cell in cells(path, "code") for output in cell.outputs
+                            if "image/svg+xml" in output.get("data", {})]
+                self.assertGreaterEqual(len(pictures), 2)
+                for picture in pictures:  # text stays text: the axes have names and something tells the curves apart
+                    self.assertGreaterEqual(picture.count("<text"), 6)
+
+    def test_they_name_no_place_of_a_machine(self):
+        for path in [*LECTURES, SOLUTIONS]:
+            self.assertNotRegex(path.read_text(encoding="utf-8"), r"/(home|tmp|work|root)/", path.name)
+
+
+class Solutions(unittest.TestCase):
+    def test_every_exercise_has_a_solution_and_an_oracle(self):
+        exercises = {number for path in LECTURES for cell in cells(path, "markdown")
+                     for number in re.findall(r"\*\*(\d\.\d)", cell.source)}
+        self.assertEqual(len(exercises), 3 * len(LECTURES))
+        self.assertEqual(set(solutions()), exercises)
+        self.assertEqual(set(ORACLES), exercises)
+
+    def test_the_prose_says_what_the_code_prints(self):
+        for exercise, (prose, code) in solutions().items():
+            with self.subTest(exercise=exercise):
+                self.assertTrue(code)
+                self.assertEqual(prose, code)
+
+    def test_the_numbers_are_right(self):
+        for exercise, (_, code) in solutions().items():
+            expected, tolerance = ORACLES[exercise]
+            numbers = [float(text.split()[0]) for text in code]
+            values = expected()
+            with self.subTest(exercise=exercise):
+                self.assertEqual(len(numbers), len(values))
+                for number, value in zip(numbers, values):
+                    error = abs(number - value)
+                    self.assertTrue(error <= tolerance * abs(value), f"{number} against {value}")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,86 @@
+#include "validation/scene/named_texts.hpp"
+
+#include <fmt/format.h>
+
+#include "validation/scene/bad_input.hpp"
+
+namespace clatter::validation {
+namespace {
+
+using Member = std::optional<std::string> SceneTexts::*;
+
+const std::map<std::string, Member> members{{"angle", &SceneTexts::angle},
+                                            {"speed", &SceneTexts::speed},
+                                            {"height", &SceneTexts::height},
+                                            {"tangential_velocity", &SceneTexts::tangential_velocity},
+                                            {"spin", &SceneTexts::spin},
+                                            {"gravity", &SceneTexts::gravity},
+                                            {"restitution", &SceneTexts::restitution},
+                                            {"restitution_law", &SceneTexts::restitution_law},
+                                            {"impulse_ratio", &SceneTexts::impulse_ratio},
+                                            {"friction", &SceneTexts::friction},
+                                            {"body", &SceneTexts::body},
+                                            {"mass", &SceneTexts::mass},
+                                            {"length", &SceneTexts::length},
+                                            {"radius", &SceneTexts::radius},
+                                            {"size", &SceneTexts::size},
+                                            {"impacts", &SceneTexts::impacts},
+                                            {"digits", &SceneTexts::digits}};
+
+const std::map<std::string, std::string> keys{{"angle", "drop.angle_deg"},
+                                              {"tilt", "drop.tilt_deg"},
+                                              {"speed", "drop.speed"},
+                                              {"height", "drop.height"},
+                                              {"tangential_velocity", "drop.tangential_velocity"},
+                                              {"spin", "drop.spin"},
+                                              {"gravity", "world.gravity"},
+                                              {"restitution", "impact.restitution"},
+                                              {"restitution_law", "impact.law"},
+                                              {"impulse_ratio", "impact.impulse_ratio"},
+                                              {"friction", "impact.friction"},
+                                              {"body", "body.shape"},
+                                              {"mass", "body.mass"},
+                                              {"length", "body.length"},
+                                              {"radius", "body.radius"},
+                                              {"size", "body.size"},
+                                              {"stiffness", "ground.stiffness"},
+                                              {"damping", "ground.damping"},
+                                              {"static_friction", "ground.static_friction"},
+                                              {"sliding_friction", "ground.sliding_friction"},
+                                              {"area", "ground.area"},
+                                              {"impacts", "run.impacts"},
+                                              {"digits", "run.digits"},
+                                              {"method", "run.method"},
+                                              {"tolerance", "run.tolerance"},
+                                              {"step", "run.step"},
+                                              {"planar", "run.planar"},
+                                              {"contact_gravity", "run.contact_gravity"},
+                                              {"errors", "run.errors"},
+                                              {"amplification", "run.amplification"},
+                                              {"evaluation_limit", "run.evaluation_limit"}};
+
+/// What stands under `name`.
+template <class Value>
+const Value& known(const std::map<std::string, Value>& table, const std::string& name) {
+  const auto found = table.find(name);
+  if (found != table.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& entry : table) names.push_back(entry.first);
+  throw BadInput(fmt::format("{}: unknown argument; did you mean {}?", name, nearest_name(name, names)));
+}
+
+}  // namespace
+
+SceneTexts scene_texts(const NamedTexts& given) {
+  SceneTexts texts;
+  for (const auto& [name, text] : given) texts.*known(members, name) = text;
+  return texts;
+}
+
+std::vector<SceneOverride> scene_overrides(const NamedTexts& given) {
+  std::vector<SceneOverride> overrides;
+  for (const auto& [name, text] : given) overrides.push_back({known(keys, name), name, text});
+  return overrides;
+}
+
+}  // namespace clatter::validation
