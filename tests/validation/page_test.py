@@ -107,7 +107,7 @@ class Page(unittest.TestCase):
 
     def test_every_figure_is_drawn_with_its_command(self):
         figures = {check["figure"] for check in self.results["checks"] if check["figure"]}
-        self.assertEqual(len(figures), 15)
+        self.assertEqual(len(figures), 16)
         text = self.driver.run("return document.body.innerText")
         for number in figures:
             self.assertIn(f"clatter figures --only {number} ", text)

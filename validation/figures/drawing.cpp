@@ -64,7 +64,12 @@ std::string data_block(const Figure& figure, const FigurePlot& plot, const Figur
     if (!std::isfinite(row[x]) || !within(row[x], plot.x)) continue;
     const bool gap = y >= row.size() || !std::isfinite(row[y]);
     if (gap && curve.style != FigureCurve::Style::points) text += "\n";
-    if (!gap) text += shortest(row[x]) + " " + shortest(row[y]) + "\n";
+    if (gap) continue;
+    text += shortest(row[x]) + " " + shortest(row[y]);
+    if (curve.style == FigureCurve::Style::segments) {
+      text += " " + shortest(row[figure.column(curve.x_end)]) + " " + shortest(row[figure.column(curve.y_end)]);
+    }
+    text += "\n";
   }
   return text + "END\n";
 }
@@ -79,8 +84,14 @@ std::string style(const FigureCurve& curve, const char* colour) {
       return fmt::format("with points pt 6 ps 0.6 lc rgb '{}'", colour);
     case FigureCurve::Style::bars:
       return fmt::format("with boxes fs solid 0.6 lc rgb '{}'", colour);
+    case FigureCurve::Style::segments:
+      return fmt::format("with vectors nohead lw 2 lc rgb '{}'", colour);
   }
   return "";
+}
+
+const char* columns(const FigureCurve& curve) {
+  return curve.style == FigureCurve::Style::segments ? "1:2:($3-$1):($4-$2)" : "1:2";
 }
 
 /// Points take the colour of the line before them if they have no name of their own.
@@ -92,7 +103,7 @@ std::string plot_command(const FigurePlot& plot) {
     if (i > 0 && !curve.legend.empty()) ++colour;
     const bool unnamed_points = curve.legend.empty() && curve.style == FigureCurve::Style::points;
     const std::string title = curve.legend.empty() ? "notitle" : fmt::format("title '{}'", curve.legend);
-    command += fmt::format("{}$d{} using 1:2 {} {}", i > 0 ? ", \\\n  " : "", i,
+    command += fmt::format("{}$d{} using {} {} {}", i > 0 ? ", \\\n  " : "", i, columns(curve),
                            style(curve, unnamed_points ? point_colour : colours[colour % colours.size()]), title);
   }
   return command + "\n";
@@ -108,6 +119,7 @@ std::string script(const Figure& figure, const FigurePlot& plot, std::size_t ind
       figure.number, index, plot.x_label, plot.y_label);
   if (!plot.title.empty()) text += fmt::format("set title '{}'\n", plot.title);
   text += fmt::format("set xrange {}\nset yrange {}\nset offsets 0, 0, graph 0.05, 0\n", range(plot.x), range(plot.y));
+  if (plot.equal_scales) text += "set size ratio -1\nset offsets 0, 0, 0, 0\n";
   if (plot.logarithmic) text += "set logscale xy\nset format '10^{%T}'\nset offsets 0, 0, 0, 0\n";
   for (std::size_t i = 0; i < plot.curves.size(); ++i) text += data_block(figure, plot, plot.curves[i], i);
   return text + plot_command(plot);

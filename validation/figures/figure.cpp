@@ -23,7 +23,7 @@ std::string Figure::command() const { return fmt::format("clatter figures --only
 std::string Figure::file_name() const { return fmt::format("figure_{:02}.csv", number); }
 
 const std::vector<int>& figure_numbers() {
-  static const std::vector<int> numbers{7, 9, 10, 11, 12, 14, 15, 16, 17, 19, 20, 21, 22, 23, 24};
+  static const std::vector<int> numbers{7, 8, 9, 10, 11, 12, 14, 15, 16, 17, 19, 20, 21, 22, 23, 24};
   return numbers;
 }
 
@@ -31,6 +31,8 @@ Figure make_figure(int number, Laboratory& laboratory) {
   switch (number) {
     case 7:
       return figure_second_angle();
+    case 8:
+      return figure_rod_positions();
     case 9:
       return figure_two_impulses();
     case 10:

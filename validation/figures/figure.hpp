@@ -22,11 +22,12 @@ using RowFilter = std::optional<std::pair<std::string, double>>;
 
 /// One line or set of points of a plot.
 struct FigureCurve {
-  enum class Style { line, thin_line, points, bars };
+  enum class Style { line, thin_line, points, bars, segments };
   std::string x, y;  ///< names of columns
   std::string legend;
   Style style = Style::line;
   RowFilter where;
+  std::string x_end = {}, y_end = {};  ///< columns of the other end of each segment
 };
 
 struct Range2 {
@@ -42,6 +43,7 @@ struct FigurePlot {
   Range2 x = {};
   Range2 y = {};
   bool logarithmic = false;  ///< both axes
+  bool equal_scales = false;  ///< a metre is as long on both axes
 };
 
 struct Figure {
@@ -59,7 +61,7 @@ struct Figure {
   [[nodiscard]] std::string file_name() const;
 };
 
-/// 7, 9 to 12, 14 to 17, 19 to 24.
+/// 7 to 12, 14 to 17, 19 to 24.
 [[nodiscard]] const std::vector<int>& figure_numbers();
 /// @throws std::out_of_range for a number that is not among them.
 [[nodiscard]] Figure make_figure(int number, Laboratory& laboratory);

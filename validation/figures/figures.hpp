@@ -5,6 +5,9 @@
 
 namespace clatter::validation {
 
+/// Positions of the rod in its first flight (Fig. 8).
+[[nodiscard]] Figure figure_rod_positions();
+
 /// β(θ) (Fig. 7); P₁, P₂ (Fig. 9); β, γ (Fig. 10); the same with gravity (Figs. 11, 12).
 [[nodiscard]] Figure figure_second_angle();
 [[nodiscard]] Figure figure_two_impulses();

@@ -45,6 +45,24 @@ Measured figure_10(Laboratory& laboratory) { return points_on_lines(10, laborato
 Measured figure_11(Laboratory& laboratory) { return points_on_lines(11, laboratory); }
 Measured figure_12(Laboratory& laboratory) { return points_on_lines(12, laboratory); }
 
+/// V² + Ω²/12 is 1 at every instant, before and after the second impact; at that impact end b is on the ground, and at
+/// all instants both ends are on it or above.
+Measured figure_8(Laboratory& laboratory) {
+  const Figure figure = make_figure(8, laboratory);
+  const auto value = [&](const std::vector<double>& row, const char* name) { return row[figure.column(name)]; };
+  double worst = 0, least = 0, most = 0;
+  for (const auto& row : figure.rows) {
+    const double velocity = value(row, "V_centre"), omega = value(row, "Omega");
+    const double below = -std::min(value(row, "z_a"), value(row, "z_b"));
+    const double gap = value(row, "impacts") > 1 ? std::fabs(value(row, "z_b")) : 0;
+    worst = std::max({worst, std::fabs(velocity * velocity + omega * omega / 12 - 1), below, gap});
+    if (value(row, "panel") == 1) least = std::min(least, velocity);
+    if (value(row, "panel") == 2 && value(row, "impacts") == 1) most = velocity;
+  }
+  return {most, worst, Answer::holds,
+          fmt::format("the centre moves up after impact 1 at 56.5°, with {} |vₙ| down at 45°", number(-least))};
+}
+
 /// ½mV² + ½IΩ² after the impact is ½mv² before it: from the velocities alone.
 Measured figure_14(Laboratory& laboratory) {
   const SimulationScene scene = laboratory_scene("rod-sweep", {});
@@ -163,6 +181,7 @@ Measured figure_24(Laboratory& laboratory) {
 
 void add_figure_measures(Measures& measures) {
   measures["F7"] = figure_7;
+  measures["F8"] = figure_8;
   measures["F9"] = figure_9;
   measures["F10"] = figure_10;
   measures["F11"] = figure_11;
