@@ -1,0 +1,106 @@
+#!/usr/bin/python3
+"""Draws every figure of the paper from the program's own numbers, and pictures that the paper lacks.
+
+    figures.py PROGRAM                   renews the data of the extra pictures and writes all SVG files
+    figures.py PROGRAM --check           says which are not what it would write, and changes nothing
+    figures.py PROGRAM --only 7 regimes  these alone
+
+In a notebook: `%matplotlib inline`, then figures.draw(10) or figures.draw("regimes"); figures.names() lists them.
+The data of the paper's figures, figures/figure_NN.csv, are those of `clatter figures`; documents.py renews them.
+"""
+
+import argparse
+import subprocess
+import sys
+from pathlib import Path
+
+from paper_figures import PANELS, draw_panels, draw_positions
+from pictures import PICTURES
+from plotting import Table, svg, with_look
+
+DATA = Path(__file__).resolve().parent
+FIGURES = DATA / "figures"
+
+
+def names():
+    """Numbers of the paper's figures and names of the extra pictures."""
+    return sorted([8, *PANELS]) + list(PICTURES)
+
+
+def table(number):
+    """The data of a figure of the paper."""
+    return Table.read(FIGURES / f"figure_{number:02}.csv")
+
+
+@with_look
+def draw(name):
+    """A matplotlib figure: the paper's by its number, another picture by its name."""
+    if name in PICTURES:
+        return PICTURES[name].draw(DATA)
+    if name not in names():
+        raise ValueError(f"no picture {name!r}; there are {', '.join(map(str, names()))}")
+    return draw_positions(table(name)) if name == 8 else draw_panels(name, table(name))
+
+
+def path(name):
+    """The SVG file of a picture."""
+    if name in PICTURES:
+        return DATA / PICTURES[name].file
+    return FIGURES / f"figure_{name:02}.svg"
+
+
+class Arguments(argparse.ArgumentParser):
+    def error(self, message):
+        self.exit(2, f"figures.py: {message}\n")
+
+
+def arguments():
+    parser = Arguments(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", metavar="PROGRAM", help="the program clatter")
+    parser.add_argument("--check", action="store_true", help="write nothing; status 1 if a file is not what would be written")
+    parser.add_argument("--only", nargs="+", metavar="NAME", help=f"of {', '.join(map(str, names()))}")
+    given = parser.parse_args()
+    by_text = {str(name): name for name in names()}
+    unknown = [name for name in given.only or [] if name not in by_text]
+    if unknown:
+        parser.error(f"--only {unknown[0]}: no such picture; there are {', '.join(by_text)}")
+    given.names = [by_text[name] for name in given.only or by_text]
+    return given
+
+
+def stale(given):
+    """Data and pictures that are not what the program and this module would write, as a table of file and text."""
+    texts = {}
+    for name in given.names:
+        if name in PICTURES:
+            texts |= PICTURES[name].renewed(given.program, DATA, given.check)
+    return texts
+
+
+def main():
+    given = arguments()
+    try:
+        data = stale(given)
+    except (OSError, subprocess.CalledProcessError) as error:
+        print(f"figures.py: {given.program}: {error}", file=sys.stderr)
+        return 2
+    old = list(data)
+    if not given.check:
+        for file, text in data.items():
+            file.write_text(text, encoding="utf-8")
+    for name in given.names:
+        text = svg(draw(name))
+        if path(name).exists() and path(name).read_text(encoding="utf-8") == text:
+            continue
+        old.append(path(name))
+        if not given.check:
+            path(name).write_text(text, encoding="utf-8")
+    if not given.check:
+        return 0
+    for file in old:
+        print(f"{file.relative_to(DATA.parent)} is not what would be written; run notebooks-data/figures.py")
+    return 1 if old else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
