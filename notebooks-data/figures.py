@@ -68,38 +68,33 @@ def arguments():
     return given
 
 
-def stale(given):
-    """Data and pictures that are not what the program and this module would write, as a table of file and text."""
-    texts = {}
-    for name in given.names:
-        if name in PICTURES:
-            texts |= PICTURES[name].renewed(given.program, DATA, given.check)
-    return texts
+def written(texts, check):
+    """The files that do not hold these texts; they then do, unless this is a check."""
+    old = [file for file, text in texts.items() if not file.exists() or file.read_text(encoding="utf-8") != text]
+    for file in [] if check else old:
+        file.write_text(texts[file], encoding="utf-8")
+    return old
+
+
+def renewed(name, program, check):
+    """Data and picture of this name that are, or were, not what is to be written."""
+    data = PICTURES[name].renewed(program, DATA, check) if name in PICTURES else {}
+    return written(data, check) + written({path(name): svg(draw(name))}, check)
 
 
 def main():
     given = arguments()
     try:
-        data = stale(given)
-    except (OSError, subprocess.CalledProcessError) as error:
-        print(f"figures.py: {given.program}: {error}", file=sys.stderr)
+        old = [file for name in given.names for file in renewed(name, given.program, given.check)]
+    except OSError as error:
+        print(f"figures.py: {error.filename}: {error.strerror}", file=sys.stderr)
         return 2
-    old = list(data)
-    if not given.check:
-        for file, text in data.items():
-            file.write_text(text, encoding="utf-8")
-    for name in given.names:
-        text = svg(draw(name))
-        if path(name).exists() and path(name).read_text(encoding="utf-8") == text:
-            continue
-        old.append(path(name))
-        if not given.check:
-            path(name).write_text(text, encoding="utf-8")
-    if not given.check:
-        return 0
-    for file in old:
+    except subprocess.CalledProcessError as error:
+        print(f"figures.py: {' '.join(map(str, error.cmd))}: {(error.stderr or 'failed').strip()}", file=sys.stderr)
+        return 3
+    for file in old if given.check else []:
         print(f"{file.relative_to(DATA.parent)} is not what would be written; run notebooks-data/figures.py")
-    return 1 if old else 0
+    return 1 if given.check and old else 0
 
 
 if __name__ == "__main__":

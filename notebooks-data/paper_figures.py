@@ -131,7 +131,7 @@ def draw_panels(number, table):
         draw_panel(axes, table, panel)
     names = [set(axes.get_legend_handles_labels()[1]) for axes in drawn]
     if len(panels) > 1 and all(own <= names[0] for own in names):
-        common_legend(figure, drawn[0], 4)
+        common_legend(figure, drawn[0].get_legend_handles_labels(), 4)
     else:
         for axes, panel in zip(drawn, panels):
             panel_legend(axes, panel.legend)
@@ -156,7 +156,7 @@ def draw_positions(table):
                  ylabel=f"z [{table.unit('z_a')}]")
         axes.set_title(f"{letter} θ = {round(flight['theta'][0], 3):g}°:  {',  '.join(speeds)}", loc="left")
         if panel == 1:
-            common_legend(figure, axes, 3)
+            common_legend(figure, axes.get_legend_handles_labels(), 3)
     return figure
 
 

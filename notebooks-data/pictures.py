@@ -1,1 +1,225 @@
-PICTURES = {}
+"""Pictures that the paper lacks: contact angles and regimes at a glance, the fold, cost against error, the extremes."""
+
+import itertools
+from dataclasses import dataclass
+from typing import Callable
+
+import matplotlib
+import numpy as np
+from matplotlib.patches import Patch
+
+from plotting import BLUE, GREY, INK, PALETTE, RED, STYLES, Table, common_legend, logarithmic, new_figure, panel_legend
+from sources import Source
+
+
+@dataclass(frozen=True)
+class Picture:
+    file: str  # in notebooks-data
+    draw: Callable  # from that folder to a figure
+    sources: tuple = ()
+
+    def renewed(self, program, data, check):
+        """Data files that do not hold what the program prints, with what it prints."""
+        return {path: text for source in self.sources for path, text in source.renewed(program, data / "figures", check).items()}
+
+
+def contact_angles(data):
+    """β and γ over θ with and without gravity, and where each ends."""
+    table = Table.read(data / "figures" / "figure_11.csv")
+    figure = new_figure(6.4, 4.2)
+    axes = figure.subplots()
+    axes.plot([0, 90], [0, 90], color=GREY, linewidth=0.8, label="equal to θ")
+    for name, sign, colour in (("beta", "β", BLUE), ("gamma", "γ", RED)):
+        for suffix, words, style in (("", "no gravity", "line"), ("_G0_1", "G = 0.1", "dashed")):
+            axes.plot(table["theta"], table[name + suffix], color=colour, label=f"{sign}, {words}", **STYLES[style])
+        there = np.isfinite(table[f"{name}_continuous"])
+        axes.plot(table["theta"][there], table[f"{name}_continuous"][there], color=colour,
+                  label="continuous model" if name == "gamma" else None, **STYLES["points"])
+        last = np.flatnonzero(np.isfinite(table[name]))[-1]
+        x, y = table["theta"][last], table[name][last]
+        axes.annotate(f"{x:.2f}°", (x, y), (-6, 0), textcoords="offset points", ha="right", va="center", color=colour)
+    equal = np.degrees(np.arccos(1 / np.sqrt(3)))
+    axes.annotate(f"β = θ = {equal:.2f}°", (equal, equal), (-12, 14), textcoords="offset points", ha="right",
+                  arrowprops={"arrowstyle": "-", "color": GREY})
+    axes.set(xlim=(0, 60), ylim=(0, 90), xlabel="contact angle θ of the first impact [°]",
+             ylabel="contact angle β of the second, γ of the third [°]")
+    panel_legend(axes, {"loc": "upper left"})
+    return figure
+
+
+THETA_2, THETA_3 = "theta_2_deg", "theta_3_deg"
+REGIMES = (Source("regimes_restitution.csv",
+                  ("regimes", "--over", "restitution", "--from", "0.01", "--to", "1", "--step", "0.01"),
+                  ("restitution", THETA_2, "kind_2", THETA_3)),
+           Source("regimes_gravity.csv",
+                  ("regimes", "--over", "gravity-number", "--from", "0.001", "--to", "100", "--count", "101", "--log"),
+                  ("gravity-number", THETA_2, "kind_2", THETA_3)))
+KINDS = {"fold": ("end b grazes", "line"), "upright": ("β reaches 90°", "dashed"), "order": ("end a comes first", "dotted")}
+
+
+def regimes(data):
+    """How many impacts, with β and γ up to 90°: over restitution and over gravity."""
+    figure = new_figure(8.4, 4)
+    panels = figure.subplots(1, 2, sharey=True)
+    for axes, source, label in zip(panels, REGIMES, ("restitution coefficient e [–]", "gravity number G = g L/vₙ² [–]")):
+        table = Table.read(data / "figures" / source.file)
+        x, second, third = table[source.columns[0]], table[THETA_2], np.nan_to_num(table[THETA_3])
+        for low, high, colour, name in ((0, third, "#fbd9bd", "three impacts"), (third, second, "#bfdcee", "two impacts"),
+                                        (second, 90, "#eeeeee", "one impact")):
+            axes.fill_between(x, low, high, color=colour, linewidth=0, label=name)
+        for kind, (words, style) in KINDS.items():
+            axes.plot(x, np.where(table["kind_2"] == kind, second, np.nan), color=BLUE, label=f"θ₂: {words}", **STYLES[style])
+        axes.plot(x, np.where(third < second, third, np.nan), color=RED, label="θ₃: no third impact above")
+        axes.set(xlim=(x[0], x[-1]), ylim=(0, 90), xlabel=label, ylabel="contact angle θ of the first impact [°]")
+        axes.label_outer()
+    logarithmic(panels[1].xaxis)
+    panels[0].set_title("(a) no gravity", loc="left")
+    panels[1].set_title("(b) e = 1", loc="left")
+    common_legend(figure, panels[1].get_legend_handles_labels(), 4)
+    return figure
+
+
+def slope(theta):
+    """K of Eq. 12."""
+    return (1 - 3 * np.cos(theta)**2) / (6 * np.cos(theta))
+
+
+def height(theta, beta):
+    """f(θ + β) of Eq. 12: twice the height of end b over the rod's length when its contact angle is β [rad]."""
+    return np.sin(theta) + slope(theta) * (theta + beta) - np.sin(beta)
+
+
+def bisected(function, low, high):
+    """Where a function changes its sign."""
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if (function(middle) > 0) == (function(low) > 0) else (low, middle)
+    return low
+
+
+def fold(_):
+    """Why the second impact ends, and why a bracket from 0° to 90° misses some of the last ones."""
+    low, high = np.radians([50, 60])
+    # The lowest point of end b is at cos β = K; the fold is where it is on the ground.
+    end = bisected(lambda theta: height(theta, np.arccos(slope(theta))), low, high)
+    upright = bisected(lambda theta: height(theta, np.pi / 2), low, high)
+    half = (end - upright) / 2
+    figure = new_figure(8.4, 4.6)
+    left, right = figure.subplots(1, 2)
+    draw_heights(left, {np.radians(56): "", np.radians(57.5): "", end: "fold", np.radians(60): "no root"})
+    left.set(xlim=(30, 120), ylim=(-0.08, 0.25))
+    left.set_title("(a)", loc="left")
+    draw_heights(right, {upright - half: "sign changes", upright: "f = 0 at 90°", upright + half: "root, no change",
+                         end: "fold", end + half: "no root"})
+    right.set(xlim=(76, 97), ylim=(-0.003, 0.005))
+    right.set_title("(b) near the fold", loc="left")
+    return figure
+
+
+def draw_heights(axes, thetas):
+    """f over β for each θ, with its first root, which is the second impact."""
+    beta = np.radians(np.linspace(30, 120, 361))
+    axes.axhline(0, color=INK, linewidth=1)
+    for (theta, note), colour in zip(thetas.items(), PALETTE):
+        label = f"θ = {round(np.degrees(theta), 3):g}°" + (f": {note}" if note else "")
+        axes.plot(np.degrees(beta), height(theta, beta), color=colour, label=label)
+        lowest = np.arccos(slope(theta))
+        if note != "no root":
+            root = lowest if note == "fold" else bisected(lambda b, at=theta: height(at, b), 0, lowest)
+            axes.plot(np.degrees(root), 0, color=colour, **STYLES["points"] | {"markerfacecolor": colour, "markersize": 5})
+    axes.plot([], [], color=GREY, label="second impact", **STYLES["points"] | {"markerfacecolor": GREY, "markersize": 5})
+    axes.axvline(90, color=GREY, label="end of the bracket", **STYLES["dotted"])
+    axes.set(xlabel="contact angle β = φ − θ [°]", ylabel="f(φ), Eq. 12: 2 z/L of end b [–]")
+    panel_legend(axes, {"loc": "upper left", "bbox_to_anchor": (0, -0.16), "ncols": 2})
+
+
+METHODS = ("tvd-rk3", "rk4", "rkf45", "rkck", "rk8pd")
+
+
+def error_against_cost(data):
+    """Cost and true error of every model, method and tolerance, a panel for each scene."""
+    table = Table.read(data / "tradeoff.csv")
+    table = table.where((table["mesh"] == "") & (np.nan_to_num(table["error"]) > 0))
+    scenes = list(dict.fromkeys(table["scene"]))
+    figure = new_figure(9.6, 5.4)
+    panels = figure.subplots(2, 4, sharex=True, sharey=True)
+    for axes, scene in zip(panels.flat, scenes):
+        draw_costs(axes, table.where(table["scene"] == scene))
+        axes.set_title(scene, loc="left")
+        axes.set(xlabel="cost [ms]", ylabel="largest relative error [–]", ylim=(1e-14, 10))
+        axes.label_outer()
+    logarithmic(axes.xaxis)
+    logarithmic(axes.yaxis, 5)
+    common_legend(figure, panels[0, 0].get_legend_handles_labels(), 9)
+    return figure
+
+
+def draw_costs(axes, table):
+    for method, colour in zip(METHODS, PALETTE):
+        for model, style in (("planar", "line"), ("spatial", "dashed")):
+            rows = table.where((table["method"] == method) & (table["model"] == model))
+            axes.plot(1e3 * rows["seconds"], rows["error"], color=colour, label=method if model == "planar" else None,
+                      **STYLES[style] | {"linewidth": 1})
+    axes.plot([], [], color=INK, label="planar model")
+    axes.plot([], [], color=INK, label="spatial model", **STYLES["dashed"])
+    for model, marker in (("discrete", "D"), ("closed form", "x")):
+        rows = table.where(table["model"] == model)
+        axes.plot(1e3 * rows["seconds"], rows["error"], color=INK, marker=marker, markersize=4, linestyle="none",
+                  label=f"{model} model" if model == "discrete" else model)
+
+
+EXTREMES = Source("extremes.csv", ("extremes", "--quick"), ("axis", "model", "label", "verdict", "digits"), same_everywhere=False)
+MODELS = ("closed form", "discrete", "planar", "spatial")
+AXES = {"angle": "θ [°]", "stiffness": "k_G [N/m³]", "damping": "c_G [N·s/m⁴]", "restitution": "e [–]", "ratio": "μᵢ [–]",
+        "friction": "μ [–]", "speed": "speed [m/s]", "gravity": "g [m/s²]", "size": "size [× L]", "mass": "mass [× m]",
+        "turns": "turns in a flight [–]", "impacts": "impacts in a run [–]"}
+DIGITS = (0, 3, 6, 9, 12, 17)  # bounds of the classes
+HATCHES = {"bad-input": ("////", "bad input"), "ended-early": ("---", "run ends early"), "not-computed": ("\\\\\\\\", "not computed"),
+           "outside-model": ("xxx", "outside the model")}
+
+
+def extremes_map(data):
+    """Right digits of each model from the low to the high end of each quantity; hatched where there is no number."""
+    table = Table.read(data / "figures" / EXTREMES.file)
+    shades = matplotlib.colormaps["viridis"](np.linspace(0, 1, len(DIGITS) - 1))
+    figure = new_figure(9.6, 4.8)
+    panels = figure.subplots(1, len(MODELS), sharey=True)
+    names = []
+    for place, (axis, words) in enumerate(AXES.items()):
+        rows = table.where(table["axis"] == axis)
+        names.append(f"{words}: {rows['label'][0]} … {rows['label'][-1]}")
+        for axes, model in zip(panels, MODELS):
+            draw_strip(axes, place, rows.where(rows["model"] == model), shades)
+    for axes, model in zip(panels, MODELS):
+        axes.set_title(model, loc="left")
+        axes.set(xlim=(0, 1), ylim=(len(AXES) - 0.4, -0.6), xticks=(0, 1), xticklabels=("low", "high"), xlabel="rank of the value [–]")
+        axes.grid(False)
+    panels[0].set_yticks(range(len(AXES)), names)
+    panels[0].set_ylabel("quantity, its ends [unit]")
+    classes = [Patch(facecolor=shade, label=f"{low}–{min(high, 16)} digits") for shade, low, high in zip(shades, DIGITS, DIGITS[1:])]
+    refusals = [Patch(facecolor="white", edgecolor=GREY, hatch=hatch, label=words) for hatch, words in HATCHES.values()]
+    refusals.append(Patch(facecolor="none", label="blank: does not apply"))
+    common_legend(figure, (classes + refusals, [patch.get_label() for patch in classes + refusals]), 5)
+    return figure
+
+
+def draw_strip(axes, place, rows, shades):
+    """A strip from left to right; neighbours of one class are one box."""
+    def kind(i):
+        verdict = rows["verdict"][i]
+        return verdict if verdict in HATCHES else np.searchsorted(DIGITS, rows["digits"][i], side="right") - 1
+
+    count = len(rows["axis"])
+    for what, run in itertools.groupby(range(count), key=kind):
+        run = list(run)
+        refused = what in HATCHES
+        axes.broken_barh([(run[0] / count, len(run) / count)], (place - 0.38, 0.76),
+                         facecolor="white" if refused else shades[what], edgecolor=GREY if refused else "none", linewidth=0.4,
+                         hatch=HATCHES[what][0] if refused else None)
+
+
+PICTURES = {"contact_angles": Picture("contact_angles.svg", contact_angles),
+            "regimes": Picture("figures/regimes.svg", regimes, REGIMES),
+            "fold": Picture("figures/fold.svg", fold),
+            "error_against_cost": Picture("figures/error_against_cost.svg", error_against_cost),
+            "extremes_map": Picture("figures/extremes_map.svg", extremes_map, (EXTREMES,))}

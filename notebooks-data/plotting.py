@@ -9,7 +9,7 @@ import matplotlib
 import numpy as np
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 #: Colours that colour-blind eyes can tell apart.
 BLUE, RED, GREEN, PINK, ORANGE, SKY = PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
@@ -147,9 +147,9 @@ def panel_legend(axes, options=None):
     axes.legend(**(options or {"loc": "lower right", "bbox_to_anchor": (1, 1), "ncols": count}))
 
 
-def common_legend(figure, axes, columns):
-    """What `axes` show, below all panels."""
-    handles, labels = axes.get_legend_handles_labels()
+def common_legend(figure, handles_labels, columns):
+    """One legend below all panels."""
+    handles, labels = handles_labels
     inches = 0.08 + 0.18 * -(-len(labels) // columns)
     bottom = inches / figure.get_figheight()
     figure.get_layout_engine().set(rect=(0, bottom, 1, 1 - bottom))
@@ -167,7 +167,7 @@ def logarithmic(axis, ticks=6):
     axis.axes.set(**{f"{axis.axis_name}scale": "log"})
     axis.set_major_locator(LogLocator(numticks=ticks))
     axis.set_major_formatter(FuncFormatter(superscript))
-    axis.set_minor_formatter(NullFormatter())
+    axis.set_minor_locator(NullLocator())
 
 
 def with_look(draw):
@@ -186,7 +186,7 @@ def svg(figure):
     """The figure as the text of an SVG file: the same bytes for the same data."""
     text = io.StringIO()
     FigureCanvasSVG(figure).print_svg(text, metadata={"Date": None, "Creator": None})
-    return re.sub(r"<[^>]*>", lambda tag: shortened(tag[0]), re.sub(r"\n *(<!--.*?-->)?", "\n", text.getvalue()))
+    return re.sub(r"<[^>]*>", lambda tag: shortened(tag[0]), re.sub(r" *\n *(<!--.*?-->)?", "\n", text.getvalue()))
 
 
 def shortened(tag):
