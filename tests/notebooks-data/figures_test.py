@@ -1,0 +1,327 @@
+#!/usr/bin/python3
+"""The pictures show the program's numbers, with names and units, and their files are the same every time."""
+
+import csv
+import math
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(os.environ["CLATTER_ROOT"])
+PROGRAM = os.environ["CLATTER_PROGRAM"]
+DATA = ROOT / "notebooks-data"
+sys.path.insert(0, str(DATA))
+
+import figures  # noqa: E402: it is in the folder just named
+import plotting  # noqa: E402
+
+MODELS = ("", "_continuous")
+GRAVITIES = ("", "_G0_1", "_G9_81")
+ENERGIES = ["E", "E_kinetic", "E_potential"]
+FRICTIONS = (0.1, 0.3, 0.5, 0.7)
+FOLD, FOLD_BETA = 58.488442288312, 86.701384197437  # erratum E5
+THIRD_FOLD = 27.577809606636  # erratum E6
+EQUAL = math.degrees(math.acos(1 / math.sqrt(3)))
+
+
+def each(columns, suffixes):
+    return [column + suffix for suffix in suffixes for column in columns]
+
+
+def sources(numbers, suffixes):
+    return [[f"{number}_{suffix}" for suffix in suffixes] for number in numbers]
+
+
+def rows_where(name, value):
+    return lambda row: row[name] == value
+
+
+# The columns that the panels of each figure show, in order: first all lines, then all points of the continuous model.
+COLUMNS = {
+    7: [each(["beta"], MODELS)],
+    9: [each(["P1", "P2"], MODELS)],
+    10: [each(["beta", "gamma"], MODELS)],
+    11: [each([name + gravity for name in ("beta", "gamma") for gravity in GRAVITIES], MODELS)],
+    12: [each(["P1"] + [name + gravity for name in ("P2", "P3") for gravity in GRAVITIES], MODELS)],
+    14: sources(("Vn", "Omega", "Pn", "loss"), ("thin", "rim", "continuous")),
+    15: sources(("Vn", "Omega", "Vt", "Pn", "loss"), ("eq9", "coulomb", "continuous")),
+    16: [[(name, rows_where("mu", mu)) for mu in FRICTIONS] for name in ("point_vn", "point_vt", "Fn", "Ft")],
+    17: [[(name, rows_where("variant", variant)) for name in names] for variant in (1, 2) for names in (["Fn"], ENERGIES)],
+    19: [["Fn"], ENERGIES],
+    20: [["peak_force"], ["start"]],
+    21: [["Fn"], ENERGIES],
+    22: [["peak_force"], ["start"]],
+    23: [["E", "E_translation", "E_rotation", "E_potential"]],
+    24: [lines + [(name, rows_where("touches", touches)) for touches in (1, 2)]
+         for name, lines in (("Vn", ["Vn_discrete"]), ("Omega", ["Omega_discrete"]), ("peak_force", []), ("loss", []))],
+}
+
+
+def rows_of(number):
+    with open(DATA / "figures" / f"figure_{number:02}.csv", encoding="utf-8") as file:
+        return [{name: float(cell) if cell else math.nan for name, cell in row.items()}
+                for row in csv.DictReader(line for line in file if not line.startswith("#"))]
+
+
+def finite(values):
+    return [value for value in values if math.isfinite(value)]
+
+
+def drawn_values(axes):
+    """y of each curve, or the heights of the bars."""
+    if axes.containers:
+        return [[bar.get_height() for bar in axes.containers[0]]]
+    return [finite(line.get_ydata()) for line in axes.lines]
+
+
+def line_named(axes, name):
+    return next(line for line in axes.lines if line.get_label() == name)
+
+
+def crossing(x, difference):
+    """Where the difference of two curves changes its sign, between two of their points."""
+    i = next(i for i in range(len(x) - 1) if difference[i] * difference[i + 1] < 0)
+    return x[i] - difference[i] * (x[i + 1] - x[i]) / (difference[i + 1] - difference[i])
+
+
+class Drawn(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.all = {name: figures.draw(name) for name in figures.names()}
+
+    def test_all_figures_with_data_and_the_extra_pictures_are_there(self):
+        self.assertEqual([name for name in self.all if isinstance(name, int)],
+                         [7, 8, 9, 10, 11, 12, 14, 15, 16, 17, 19, 20, 21, 22, 23, 24])
+        self.assertEqual([name for name in self.all if isinstance(name, str)],
+                         ["contact_angles", "regimes", "fold", "error_against_cost", "extremes_map"])
+
+    def test_every_axis_of_every_panel_has_a_name_and_a_unit(self):
+        """Unless it takes its numbers, and so its name, from the panel beside or below."""
+        for name, figure in self.all.items():
+            named = 0
+            for axis in (axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)):
+                if axis.get_major_ticks()[0].label1.get_visible():
+                    self.assertRegex(axis.get_label_text(), r"^\S.* \[[^]]+\]$", name)
+                    named += 1
+            self.assertGreaterEqual(named, 2 * len(figure.axes) if isinstance(name, int) else 2, name)
+
+    def test_every_picture_has_a_legend_that_names_what_each_panel_shows(self):
+        for name, figure in self.all.items():
+            common = {text.get_text() for legend in figure.legends for text in legend.get_texts()}
+            for axes in figure.axes:
+                own = {text.get_text() for text in axes.get_legend().get_texts()} if axes.get_legend() else set()
+                self.assertTrue(common | own, name)
+                self.assertLessEqual(set(axes.get_legend_handles_labels()[1]), common | own, name)
+
+    def test_curves_are_the_columns_of_the_data(self):
+        self.assertEqual(set(COLUMNS), {name for name in self.all if isinstance(name, int)} - {8})
+        for number, panels in COLUMNS.items():
+            rows = rows_of(number)
+            self.assertEqual(len(self.all[number].axes), len(panels), number)
+            for axes, columns in zip(self.all[number].axes, panels):
+                expected = []
+                for column in columns:
+                    column, chosen = column if isinstance(column, tuple) else (column, lambda row: True)
+                    expected.append(finite(row[column] for row in rows if chosen(row)))
+                self.assertEqual(drawn_values(axes), expected, (number, axes.get_ylabel()))
+
+    def test_units_are_those_of_the_head_but_for_milliseconds(self):
+        self.assertEqual(self.all[14].axes[1].get_ylabel(), "post-impact Ω [rad/s]")
+        self.assertEqual(self.all[9].axes[0].get_ylabel(), "normal impulse P₁, P₂ [m |vₙ|]")
+        for number in (16, 23):
+            line = self.all[number].axes[0].lines[0]
+            self.assertEqual(self.all[number].axes[0].get_xlabel(), "time [ms]")
+            self.assertAlmostEqual(line.get_xdata()[1], 1e3 * rows_of(number)[1]["time"], delta=1e-12)
+
+    def test_no_peak_is_left_out_of_the_file(self):
+        """Files leave out points that cannot be told apart; the highest point of Fig. 19(a) stays."""
+        axes = self.all[19].axes[0]
+        text = plotting.svg(self.all[19])
+        top = self.all[19].get_figheight() * 72 - axes.transData.transform(
+            (0, max(row["Fn"] for row in rows_of(19))))[1] * 72 / self.all[19].dpi
+        curve = re.search(r'<path d="([^"]*)"[^>]*stroke: #0072b2', text)[1]
+        heights = [float(y) for y in re.findall(r"L [\d.]+ ([\d.]+)", curve)]
+        self.assertLess(len(heights), len(rows_of(19)))
+        self.assertAlmostEqual(min(heights), top, delta=0.02)
+
+    def test_the_zoom_windows_show_the_first_two_impacts(self):
+        for number, windows in {17: [0, 0, 0, 0], 19: [1, 0], 21: [1, 1]}.items():
+            self.assertEqual([len(axes.child_axes) for axes in self.all[number].axes], windows, number)
+        for number, ratio in ((19, 2.26), (21, 2.29)):
+            window = self.all[number].axes[0].child_axes[0]
+            x, y = (np.asarray(values) for values in window.lines[0].get_data())
+            first, second = y[x < 0.0025].max(), y[x > 0.0025].max()
+            self.assertAlmostEqual(second / first, ratio, delta=0.01)
+            self.assertEqual(second, max(row["Fn"] for row in rows_of(number)))
+
+
+class SpotValues(unittest.TestCase):
+    def test_figure_7_ends_at_the_fold(self):
+        line = line_named(figures.draw(7).axes[0], "β, discrete model")
+        last = np.flatnonzero(np.isfinite(line.get_ydata()))[-1]
+        self.assertAlmostEqual(line.get_xdata()[last], FOLD, delta=2e-6)
+        self.assertAlmostEqual(line.get_ydata()[last], FOLD_BETA, delta=0.02)
+
+    def test_figure_9_crosses_at_equal_impulses(self):
+        axes = figures.draw(9).axes[0]
+        first, second = (line_named(axes, f"{sign}, discrete model") for sign in ("P₁", "P₂"))
+        at = crossing(first.get_xdata(), first.get_ydata() - second.get_ydata())
+        self.assertAlmostEqual(at, EQUAL, delta=2e-3)
+
+    def test_figure_10_ends_at_both_folds(self):
+        axes = figures.draw(10).axes[0]
+        for sign, end in (("β", FOLD), ("γ", THIRD_FOLD)):
+            line = line_named(axes, f"{sign}, discrete model")
+            self.assertAlmostEqual(line.get_xdata()[np.isfinite(line.get_ydata())].max(), end, delta=2e-6)
+
+    def test_figure_15_has_its_plateau_above_0_6(self):
+        axes = figures.draw(15).axes[0]
+        values = line_named(axes, "continuous").get_ydata()[line_named(axes, "continuous").get_xdata() > 0.62]
+        self.assertLess(np.ptp(values), 1e-6)
+        self.assertGreater(np.ptp(line_named(axes, "Eq. 9").get_ydata()[-4:]), 0.1)
+
+
+class Positions(unittest.TestCase):
+    """Fig. 8."""
+
+    def setUp(self):
+        self.panels = figures.draw(8).axes
+        # Each rod is drawn as one line of two ends.
+        self.rods = [[(line.get_xdata(), line.get_ydata()) for line in axes.lines if line.get_linestyle() == "-"
+                      and len(line.get_xdata()) == 2 and line.get_xdata()[0] != 0] for axes in self.panels]
+
+    def test_rods_have_length_1_and_stay_above_the_ground(self):
+        for rods in self.rods:
+            self.assertEqual(len(rods), 9)
+            for x, z in rods:
+                self.assertAlmostEqual(math.hypot(x[1] - x[0], z[1] - z[0]), 1, delta=1e-14)
+                self.assertGreater(min(z), -1e-15)
+
+    def test_the_first_three_end_on_the_ground_and_the_last_takes_off(self):
+        for rods, ends_at in zip(self.rods, (0, 0, 0, 0.3)):
+            self.assertAlmostEqual(min(rods[0][1]), 0, delta=1e-15)
+            self.assertAlmostEqual(min(rods[-1][1]), ends_at, delta=0.02 if ends_at else 1e-12)
+
+    def test_at_the_fold_end_b_touches_at_86_70_degrees_with_no_speed(self):
+        x, z = self.rods[2][-1]
+        self.assertAlmostEqual(math.degrees(math.atan2(z[0] - z[1], x[1] - x[0])), FOLD_BETA, delta=1e-4)
+        touching = [row for row in rows_of(8) if row["panel"] == 3 and abs(row["z_b"]) < 1e-12]
+        self.assertEqual([row["impacts"] for row in touching], [1, 2])
+        for row in touching:
+            self.assertAlmostEqual(row["V_b"], 0, delta=1e-6)
+
+    def test_the_centre_moves_down_below_54_74_degrees_only(self):
+        for rods, theta in zip(self.rods, (45, 56.5, FOLD, 65)):
+            (_, before), (_, after) = rods[0], rods[-1]
+            self.assertEqual(sum(after) > sum(before), theta > EQUAL)
+        c = math.cos(math.radians(56.5))
+        self.assertIn(f"V₁ = {(1 - 3 * c * c) / (1 + 3 * c * c):+.2f} |vₙ|", self.panels[1].get_title(loc="left"))
+
+
+class ExtraPictures(unittest.TestCase):
+    def test_contact_angles_are_the_data(self):
+        axes = figures.draw("contact_angles").axes[0]
+        rows = rows_of(11)
+        for name, column in (("β, no gravity", "beta"), ("γ, G = 0.1", "gamma_G0_1")):
+            self.assertEqual(finite(line_named(axes, name).get_ydata()), finite(row[column] for row in rows))
+        self.assertEqual({text.get_text() for text in axes.texts}, {"58.49°", "27.58°", "β = θ = 54.74°"})
+
+    def test_regimes_start_and_end_at_the_folds_of_the_elastic_rod(self):
+        over_restitution, over_gravity = figures.draw("regimes").axes
+        for axes, at in ((over_restitution, -1), (over_gravity, 0)):
+            for name, fold in (("θ₂: end b grazes", FOLD), ("θ₃: no third impact above", THIRD_FOLD)):
+                delta = 1e-9 if at else 0.03  # the map over gravity begins at G = 0.001
+                self.assertAlmostEqual(line_named(axes, name).get_ydata()[at], fold, delta=delta)
+
+    def test_the_roots_of_the_fold_are_the_contact_angles(self):
+        left, right = figures.draw("fold").axes
+        beta = {row["theta"]: row["beta"] for row in rows_of(7)}
+        roots = [line.get_xdata()[0] for line in left.lines if len(line.get_xdata()) == 1]
+        self.assertEqual(len(roots), 3)
+        for root, expected in zip(roots, (beta[56], beta[57.5], FOLD_BETA)):
+            self.assertAlmostEqual(root, expected, delta=1e-6)
+        trap = next(line for line in right.lines if line.get_label() == "θ = 58.473°: root, no change")
+        at_right_angle = np.interp(90, trap.get_xdata(), trap.get_ydata())
+        self.assertGreater(at_right_angle, 0)
+        self.assertLess(trap.get_ydata().min(), 0)
+
+    def test_costs_have_a_panel_for_each_scene_and_a_line_for_each_method(self):
+        figure = figures.draw("error_against_cost")
+        with open(DATA / "tradeoff.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        self.assertEqual([axes.get_title(loc="left") for axes in figure.axes], list(dict.fromkeys(row["scene"] for row in rows)))
+        expected = [float(row["error"]) for row in rows if (row["scene"], row["model"], row["method"], row["mesh"]) ==
+                    ("rod-45", "planar", "rkck", "") and row["error"]]
+        self.assertEqual(list(line_named(figure.axes[1], "rkck").get_ydata()), expected)
+
+    def test_the_map_of_extremes_hatches_what_has_no_number(self):
+        with open(DATA / "figures" / "extremes.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        self.assertEqual({row["verdict"] for row in rows} - {"number", "bad-input", "ended-early", "not-computed", "outside-model"},
+                         set())
+        for axes in figures.draw("extremes_map").axes:
+            own = [row for row in rows if row["model"] == axes.get_title(loc="left")]
+            widths = {False: 0, True: 0}
+            for strip in axes.collections:
+                for path in strip.get_paths():
+                    widths[bool(strip.get_hatch())] += path.get_extents().width
+            per_axis = {}
+            for row in own:
+                per_axis.setdefault(row["axis"], []).append(row["verdict"] != "number")
+            self.assertAlmostEqual(widths[True], sum(sum(part) / len(part) for part in per_axis.values()), delta=1e-9)
+            self.assertAlmostEqual(widths[True] + widths[False], len(per_axis), delta=1e-9)
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.data = Path(folder.name) / "notebooks-data"
+        shutil.copytree(DATA, self.data, ignore=shutil.ignore_patterns("__pycache__"))
+
+    def run_program(self, *arguments):
+        return subprocess.run(["/usr/bin/python3", "-B", str(self.data / "figures.py"), *arguments], capture_output=True, text=True)
+
+    def test_files_are_small_text_of_one_kind_without_a_date(self):
+        for name in figures.names():
+            text = figures.path(name).read_text(encoding="utf-8")
+            self.assertLess(len(text.encode()), 60000, name)
+            self.assertIn("<text", text)
+            self.assertNotIn("date", text)
+
+    def test_a_check_names_the_files_that_differ_and_a_run_mends_them(self):
+        picture, data = self.data / "figures" / "figure_07.svg", self.data / "figures" / "regimes_restitution.csv"
+        kept = picture.read_text(encoding="utf-8"), data.read_text(encoding="utf-8")
+        picture.write_text(kept[0].replace("86", "87", 1), encoding="utf-8")
+        data.write_text(kept[1].replace("58.488", "58.588"), encoding="utf-8")
+        run = self.run_program(PROGRAM, "--check", "--only", "7", "9", "regimes")
+        self.assertEqual(run.returncode, 1)
+        self.assertEqual([line.split()[0] for line in run.stdout.splitlines()],
+                         [f"notebooks-data/figures/{name}" for name in ("figure_07.svg", "regimes_restitution.csv", "regimes.svg")])
+        self.assertEqual(self.run_program(PROGRAM, "--only", "7", "regimes").returncode, 0)
+        self.assertEqual((picture.read_text(encoding="utf-8"), data.read_text(encoding="utf-8")), kept)
+        self.assertEqual(self.run_program(PROGRAM, "--check", "--only", "7", "regimes").stdout, "")
+
+    def test_bad_arguments_have_one_line_and_status_2(self):
+        for arguments in ([], [PROGRAM, "--only", "13"], [PROGRAM, "--fast"], ["/no/such/program", "--only", "regimes"]):
+            run = self.run_program(*arguments)
+            self.assertEqual((run.returncode, run.stdout, len(run.stderr.splitlines())), (2, "", 1), run.stderr)
+
+    def test_a_program_that_fails_is_named_with_status_3(self):
+        run = self.run_program("/bin/false", "--only", "regimes")
+        self.assertEqual((run.returncode, len(run.stderr.splitlines())), (3, 1))
+
+    def test_an_unknown_picture_is_refused(self):
+        with self.assertRaisesRegex(ValueError, "no picture 13; there are 7, 8"):
+            figures.draw(13)
+
+
+if __name__ == "__main__":
+    unittest.main()
