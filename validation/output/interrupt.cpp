@@ -14,13 +14,20 @@ namespace {
 
 std::atomic<bool> requested_flag{false};
 std::atomic<bool> cooperative{false};
-std::array<char, 4096> doomed{};
-std::atomic<bool> has_doomed{false};
+
+/// A file to remove; a fixed array, since a signal handler may not allocate.
+struct Doomed {
+  std::array<char, 4096> path{};
+  std::atomic<bool> is_set{false};
+};
+std::array<Doomed, 8> doomed;
 
 extern "C" void on_signal(int) {
   const bool again = requested_flag.exchange(true);
   if (cooperative && !again) return;
-  if (has_doomed) unlink(doomed.data());
+  for (const Doomed& file : doomed) {
+    if (file.is_set) unlink(file.path.data());
+  }
   _exit(interrupted_status);
 }
 
@@ -46,10 +53,16 @@ bool shows_progress() {
 }
 
 void remove_on_interrupt(const std::string& path) {
-  has_doomed = false;
-  if (path.empty() || path.size() >= doomed.size()) return;
-  *std::copy(path.begin(), path.end(), doomed.begin()) = '\0';
-  has_doomed = true;
+  const auto file = std::find_if(doomed.begin(), doomed.end(), [](const Doomed& one) { return !one.is_set; });
+  if (file == doomed.end() || path.size() >= file->path.size()) return;
+  *std::copy(path.begin(), path.end(), file->path.begin()) = '\0';
+  file->is_set = true;
+}
+
+void keep_on_interrupt(const std::string& path) {
+  for (Doomed& file : doomed) {
+    if (file.is_set && path == file.path.data()) file.is_set = false;
+  }
 }
 
 }  // namespace clatter::validation

@@ -16,8 +16,9 @@ class CooperativeInterrupt {
   [[nodiscard]] bool requested() const;
 };
 
-/// A file that the handler removes; empty: none.
+/// The handler removes this file, until it is told to keep it.  It knows up to eight.
 void remove_on_interrupt(const std::string& path);
+void keep_on_interrupt(const std::string& path);
 
 /// Whether progress may be shown: stderr is a terminal that moves its cursor, and NO_COLOR is not set.
 [[nodiscard]] bool shows_progress();

@@ -38,7 +38,7 @@ Sink::~Sink() {
   if (temporary_.empty()) return;
   if (stream_ != nullptr) std::fclose(stream_);
   unlink(temporary_.c_str());
-  remove_on_interrupt("");
+  keep_on_interrupt(temporary_);
 }
 
 void Sink::fail(const char* what) const {
@@ -60,8 +60,8 @@ void Sink::commit() {
   if (fsync(fileno(stream_)) != 0) fail("cannot be written");
   if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot be put in place");
   std::fclose(stream_);
+  keep_on_interrupt(temporary_);
   temporary_.clear();
-  remove_on_interrupt("");
 }
 
 }  // namespace clatter::validation
