@@ -65,7 +65,7 @@ class Tradeoff(unittest.TestCase):
     def test_the_picture_is_svg(self):
         with open(self.plot, encoding="utf-8") as file:
             text = file.read()
-        self.assertTrue(text.startswith("<svg"))
+        self.assertTrue(text.startswith("<?xml"))
         self.assertIn("rk8pd", text)
 
     def test_bad_arguments_have_one_line_and_status_2(self):

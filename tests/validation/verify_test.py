@@ -124,8 +124,8 @@ class Verify(unittest.TestCase):
             path = os.path.join(folder, "page.html")
             run = subprocess.run([PROGRAM, "verify", "--only", "C1", "--html", path], capture_output=True, text=True,
                                  env={**os.environ, "PATH": "/nonexistent"})
-            self.assertEqual(run.returncode, 3)
-            self.assertIn("gnuplot", run.stderr)
+            self.assertEqual(run.returncode, 2)
+            self.assertRegex(run.stderr, r"\Aclatter: --html [^\n]*gnuplot-nox\n\Z")
             self.assertEqual(os.listdir(folder), [])
 
 

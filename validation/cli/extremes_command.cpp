@@ -76,7 +76,7 @@ Action add_extremes_command(CLI::App& app) {
   command->add_flag("--quick", input->quick, "without the long runs (impacts, random scenes)");
   add_text(*command, "--seed", input->seed, "S", "of the random scenes (1)");
   add_text(*command, "--seconds", input->seconds, "S", "that a cell may take (1)");
-  add_text(*command, "--plot", input->plot, "FILE", "also a picture (SVG)");
+  add_text(*command, "--plot", input->plot, "FILE", "also a picture, .svg");
   add_output_options(*command, input->output);
   command->footer(
       "Example: clatter extremes --only angle restitution --plot extremes.svg\n"

@@ -4,12 +4,11 @@
 
 #include "validation/cli/commands.hpp"
 #include "validation/cli/options.hpp"
+#include "validation/cli/plot_options.hpp"
 #include "validation/cli/progress.hpp"
 #include "validation/cli/scene_flags.hpp"
 #include "validation/cli/tradeoff_report.hpp"
-#include "validation/figures/drawing.hpp"
 #include "validation/output/interrupt.hpp"
-#include "validation/output/sink.hpp"
 #include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {
@@ -17,8 +16,8 @@ namespace {
 
 struct TradeoffInput {
   SceneFlags scene;
-  std::optional<std::string> plot;
   OutputTexts output;
+  PlotTexts plot;
 };
 
 int run_tradeoff(const TradeoffInput& input) {
@@ -27,13 +26,7 @@ int run_tradeoff(const TradeoffInput& input) {
   refuse_scene_file(input.scene, "--output", choice.path);
   if (scene.sweep)
     throw BadInput(fmt::format("{}: a sweep has no tradeoff; give --angle or leave out [sweep]", scene.path));
-  if (input.plot && *input.plot == choice.path)
-    throw BadInput(fmt::format("--plot {}: must be another file than --output's", *input.plot));
-  std::optional<Sink> plot;
-  if (input.plot) {
-    refuse_scene_file(input.scene, "--plot", *input.plot);
-    plot.emplace(*input.plot, "--plot");
-  }
+  PlotFile plot(input.plot, {{"--output", choice.path}, {"the scene file", input.scene.file}});
   const CooperativeInterrupt interrupt;
   Tradeoff tradeoff;
   {
@@ -45,14 +38,15 @@ int run_tradeoff(const TradeoffInput& input) {
     };
     tradeoff = measure_tradeoff(scene, options);
   }
-  if (plot && !interrupt.requested()) {
-    plot->write(draw(tradeoff_figure(scene, tradeoff)).at(0));
-    plot->commit();
-  }
   write_report(
       choice, [&] { return tradeoff_json(scene, tradeoff); }, [&] { return tradeoff_records(scene, tradeoff); },
       [&] { return tradeoff_table(scene, tradeoff); });
-  return interrupt.requested() ? interrupted_status : 0;
+  if (interrupt.requested()) {
+    plot.leave_out("interrupted");
+    return interrupted_status;
+  }
+  plot.write(tradeoff_picture(scene, tradeoff), run_words("tradeoff", "cost against true error", scene.json()));
+  return 0;
 }
 
 }  // namespace
@@ -61,8 +55,8 @@ Action add_tradeoff_command(CLI::App& app) {
   auto input = std::make_shared<TradeoffInput>();
   CLI::App* command = app.add_subcommand("tradeoff", "what accuracy costs: models, methods, tolerances");
   add_scene_flags(*command, input->scene);
-  add_text(*command, "--plot", input->plot, "FILE", "also a picture (SVG)");
   add_output_options(*command, input->output);
+  add_plot_options(*command, input->plot);
   command->footer(
       "Example: clatter tradeoff validation/cases/rod-45.toml --plot tradeoff.svg\n"
       "The table shows the front, --format csv all points.");

@@ -121,42 +121,37 @@ Json tradeoff_json(const SimulationScene& scene, const Tradeoff& tradeoff) {
   return json;
 }
 
-Figure tradeoff_figure(const SimulationScene& scene, const Tradeoff& tradeoff) {
-  Figure figure{.number = 0,
-                .title = what_it_is,
-                .scene = scene.path,
-                .columns = {{"curve", "1", "number of the model and method"},
-                            {"cost", "ms", "least wall time"},
-                            {"error", "1", "true error"}},
-                .rows = {},
-                .plots = {}};
-  FigurePlot plot{.title = "",
-                  .x_label = "cost [ms]",
-                  .y_label = "largest true error, relative",
-                  .curves = {},
-                  .x = {},
-                  .y = {},
-                  .logarithmic = true};
+Picture tradeoff_picture(const SimulationScene& scene, const Tradeoff& tradeoff) {
+  PicturePanel panel{.columns = {{"curve", "1", "number of the model and method"},
+                                 {"cost", "ms", "least wall time"},
+                                 {"error", "1", "true error"}},
+                     .rows = {},
+                     .plot = {.title = "",
+                              .x_label = "cost [ms]",
+                              .y_label = "largest true error, relative",
+                              .curves = {},
+                              .x = {},
+                              .y = {},
+                              .logarithmic_x = true,
+                              .logarithmic_y = true}};
   std::map<std::string, double> curves;
   double cheapest = std::numeric_limits<double>::infinity(), dearest = 0;
   for (const TradePoint& point : tradeoff.points) {
     if (!point.failure.empty() || !point.mesh.empty() || !(point.error > 0)) continue;
     const std::string name = curve_of(tradeoff, point);
     const auto [place, is_new] = curves.try_emplace(name, static_cast<double>(curves.size()));
-    figure.rows.push_back({place->second, 1e3 * point.seconds, point.error});
+    panel.rows.push_back({place->second, 1e3 * point.seconds, point.error});
     cheapest = std::min(cheapest, 1e3 * point.seconds);
     dearest = std::max(dearest, 1e3 * point.seconds);
     if (!is_new) continue;
-    plot.curves.push_back({.x = "cost",
-                           .y = "error",
-                           .legend = name,
-                           .style = point.method.empty() || name == "spatial, all methods" ? FigureCurve::Style::points
-                                                                                           : FigureCurve::Style::line,
-                           .where = {{"curve", place->second}}});
+    const auto style = point.method.empty()             ? FigureCurve::Style::marks
+                       : name == "spatial, all methods" ? FigureCurve::Style::points
+                                                        : FigureCurve::Style::line_points;
+    panel.plot.curves.push_back(
+        {.x = "cost", .y = "error", .legend = name, .style = style, .where = {{"curve", place->second}}});
   }
-  plot.x = {cheapest / 3, 3 * dearest};  // a point on the frame is hard to see
-  figure.plots = {plot};
-  return figure;
+  panel.plot.x = {cheapest / 3, 3 * dearest};  // a point on the frame is hard to see
+  return {.what = "Cost against true error of models, methods and tolerances", .scene = scene.summary(), .panels = {panel}};
 }
 
 }  // namespace clatter::validation

@@ -1,7 +1,7 @@
 // Cost against error as a table, as JSON, as a picture.
 #pragma once
 
-#include "validation/figures/figure.hpp"
+#include "validation/figures/picture.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/table.hpp"
 #include "validation/tradeoff/tradeoff.hpp"
@@ -14,6 +14,6 @@ namespace clatter::validation {
 [[nodiscard]] Table tradeoff_records(const SimulationScene& scene, const Tradeoff& tradeoff);
 [[nodiscard]] Json tradeoff_json(const SimulationScene& scene, const Tradeoff& tradeoff);
 /// Error over cost, one curve for each model and method.
-[[nodiscard]] Figure tradeoff_figure(const SimulationScene& scene, const Tradeoff& tradeoff);
+[[nodiscard]] Picture tradeoff_picture(const SimulationScene& scene, const Tradeoff& tradeoff);
 
 }  // namespace clatter::validation

@@ -6,7 +6,7 @@
 #include "validation/cli/options.hpp"
 #include "validation/cli/progress.hpp"
 #include "validation/cli/verify_report.hpp"
-#include "validation/figures/drawing.hpp"
+#include "validation/figures/gnuplot.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/scene/bad_input.hpp"
@@ -30,7 +30,7 @@ int run_verify(const VerifyInput& input) {
     throw BadInput(fmt::format("--html {}: must be another file than --output's", *input.html));
   std::optional<Sink> page;
   if (input.html) {  // what is missing is found before the work
-    require_gnuplot();
+    require_gnuplot("--html " + *input.html);
     page.emplace(*input.html, "--html");
   }
   const CooperativeInterrupt interrupt;

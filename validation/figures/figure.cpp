@@ -11,7 +11,7 @@
 
 namespace clatter::validation {
 
-std::size_t Figure::column(const std::string& name) const {
+std::size_t column_index(const std::vector<FigureColumn>& columns, const std::string& name) {
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (columns[i].name == name) return i;
   }

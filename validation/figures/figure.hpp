@@ -22,12 +22,15 @@ using RowFilter = std::optional<std::pair<std::string, double>>;
 
 /// One line or set of points of a plot.
 struct FigureCurve {
-  enum class Style { line, thin_line, points, bars, segments };
+  /// marks: large points, each curve with a shape of its own; sticks: from zero up; area: between `y_low` and `y`;
+  /// segments: each row from (x, y) to (x_end, y_end).
+  enum class Style { line, thin_line, points, bars, line_points, marks, sticks, area, segments };
   std::string x, y;  ///< names of columns
   std::string legend;
   Style style = Style::line;
   RowFilter where;
-  std::string x_end = {}, y_end = {};  ///< columns of the other end of each segment
+  std::string y_low = {};  ///< name of a column; of areas only
+  std::string x_end = {}, y_end = {};  ///< names of columns; of segments only
 };
 
 struct Range2 {
@@ -42,9 +45,14 @@ struct FigurePlot {
   std::vector<FigureCurve> curves;
   Range2 x = {};
   Range2 y = {};
-  bool logarithmic = false;  ///< both axes
+  bool logarithmic_x = false;
+  bool logarithmic_y = false;
+  bool whole_x = false;  ///< x counts something: no fractions on its axis
   bool equal_scales = false;  ///< a metre is as long on both axes
 };
+
+/// Index of the column of this name.  @throws std::out_of_range if there is none.
+[[nodiscard]] std::size_t column_index(const std::vector<FigureColumn>& columns, const std::string& name);
 
 struct Figure {
   int number = 0;  ///< of the paper
@@ -54,7 +62,6 @@ struct Figure {
   std::vector<std::vector<double>> rows;  ///< NaN: no value
   std::vector<FigurePlot> plots;
 
-  [[nodiscard]] std::size_t column(const std::string& name) const;
   /// "clatter figures --only N --output DIR".
   [[nodiscard]] std::string command() const;
   /// "figure_07.csv".

@@ -1,0 +1,87 @@
+#include "validation/cli/plot_options.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "validation/cli/options.hpp"
+#include "validation/figures/gnuplot.hpp"
+#include "validation/scene/bad_input.hpp"
+
+namespace clatter::validation {
+namespace {
+
+using std::filesystem::path;
+
+const char* const script_option = "--plot-script";
+
+PictureFormat format_of(const std::string& file) {
+  const std::string extension = path(file).extension().string();
+  if (extension == ".svg") return PictureFormat::svg;
+  if (extension == ".png") return PictureFormat::png;
+  throw BadInput(fmt::format("--plot {}: the name must end in .svg or .png", file));
+}
+
+bool is_same_file(const std::string& one, const std::string& other) {
+  std::error_code error;
+  if (std::filesystem::equivalent(one, other, error)) return true;
+  const auto whole = [&](const std::string& file) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(file, error), error);
+  };
+  return whole(one) == whole(other);
+}
+
+}  // namespace
+
+void add_plot_options(CLI::App& command, PlotTexts& texts) {
+  add_text(command, "--plot", texts.plot, "FILE", "also a picture, .svg or .png (needs gnuplot)")->group("Output");
+  command.add_flag(script_option, texts.script, "and beside it the gnuplot script that draws it")->group("Output");
+}
+
+std::vector<std::string> run_words(const std::string& command, const std::string& what, const Json& scene) {
+  return {headline(command, what), "scene: " + scene.dump()};
+}
+
+void refuse_same_file(const RunFile& file, const RunFile& other) {
+  if (file.path.empty() || other.path.empty() || !is_same_file(file.path, other.path)) return;
+  throw BadInput(fmt::format("{} {}: must be another file than {}", file.option, file.path, other.option));
+}
+
+PlotFile::PlotFile(const PlotTexts& texts, const std::vector<RunFile>& others) {
+  if (!texts.plot) {
+    if (texts.script)
+      throw BadInput(fmt::format("{}: needs --plot FILE, beside which the script is kept", script_option));
+    return;
+  }
+  path_ = *texts.plot;
+  format_ = format_of(path_);
+  if (texts.script) script_path_ = path(path_).replace_extension(".gnuplot").string();
+  for (const RunFile& other : others) {
+    refuse_same_file({"--plot", path_}, other);
+    refuse_same_file({script_option, script_path_}, other);
+  }
+  picture_.emplace(path_, "--plot");
+  if (texts.script) script_.emplace(script_path_, script_option);
+  require_gnuplot("--plot " + path_, terminal_name(format_));
+}
+
+void PlotFile::write(const Picture& picture, const std::vector<std::string>& head) {
+  if (!picture_) return;
+  picture_->write(run_gnuplot(picture_script(picture, format_, "")));
+  if (script_) {
+    std::string text;
+    for (const std::string& line : head) text += "# " + line + "\n";
+    const std::string name = path(path_).filename().string();
+    text +=
+        fmt::format("# `gnuplot {}` in this folder writes {} again.\n", path(script_path_).filename().string(), name);
+    script_->write(text + picture_script(picture, format_, name));
+    script_->commit();
+  }
+  picture_->commit();
+}
+
+void PlotFile::leave_out(const std::string& reason) const {
+  if (picture_) fmt::print(stderr, "clatter: --plot {}: no picture: {}\n", path_, reason);
+}
+
+}  // namespace clatter::validation
