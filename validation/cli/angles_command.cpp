@@ -6,9 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "validation/cli/angles_picture.hpp"
 #include "validation/cli/angles_report.hpp"
 #include "validation/cli/commands.hpp"
 #include "validation/cli/options.hpp"
+#include "validation/cli/plot_options.hpp"
 #include "validation/cli/rod_options.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/sink.hpp"
@@ -20,9 +22,16 @@ struct AnglesInput {
   SweepTexts sweep;
   RodTexts rod;
   OutputTexts output;
+  PlotTexts plot;
   std::optional<std::string> digits;
   bool as_printed = false;
 };
+
+std::vector<std::string> script_head(const AnglesRequest& request) {
+  std::vector<std::string> head = angles_frame(request).head;
+  head.push_back("parameters: " + rod_json(request.rod).dump());
+  return head;
+}
 
 void show_progress(long long done, long long count) {
   fmt::print(stderr, "\rclatter: {} of {} rows{}", done, count, done == count ? "\n" : "");
@@ -65,9 +74,18 @@ int run_angles(const AnglesInput& input) {
       .as_printed = input.as_printed,
       .digits = input.digits ? read_integer_option("--digits", *input.digits, 1, 17) : 6};
   const OutputChoice choice = read_output(input.output);
-  if (choice.style.format == Format::csv) return write_csv(request, choice);
-  write_out(choice, choice.style.format == Format::json ? json_text(angles_json(request))
-                                                        : table_text(angles_table(request), choice.style));
+  PlotFile plot(input.plot, {{"--output", choice.path}});
+  if (choice.style.format == Format::csv) {
+    const int status = write_csv(request, choice);
+    if (status != 0) {
+      plot.leave_out("interrupted");
+      return status;
+    }
+  } else {
+    write_out(choice, choice.style.format == Format::json ? json_text(angles_json(request))
+                                                          : table_text(angles_table(request), choice.style));
+  }
+  if (plot.is_wanted()) plot.write(angles_picture(request), script_head(request));
   return 0;
 }
 
@@ -81,6 +99,7 @@ Action add_angles_command(CLI::App& app) {
   command->add_flag("--as-printed", input->as_printed,
                     "beta by the paper's printed gravity term beside the corrected one")->group("Rod");
   add_output_options(*command, input->output);
+  add_plot_options(*command, input->plot);
   add_text(*command, "--digits", input->digits, "N", "significant digits in tables (6)")->group("Output");
   command->footer("Example: clatter angles --from 0 --to 60 --step 2.5 --gravity-number 0.1");
   return [input] { return run_angles(*input); };

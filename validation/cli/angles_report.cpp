@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
@@ -18,15 +17,15 @@ namespace {
 using analytic::degrees_per_radian;
 using analytic::NextImpact;
 
-constexpr std::size_t plain_columns = 17, all_columns = plain_columns + 2, impacts_column = 16;
-
-using Row = std::array<double, all_columns>;
+constexpr std::size_t plain_columns = 17, impacts_column = 16;
 
 double angle_or_missing(const analytic::ContactAngle& angle) {
   return angle.next == NextImpact::other_end ? angle.angle * degrees_per_radian : NAN;
 }
 
-std::size_t column_count(const AnglesRequest& request) { return request.as_printed ? all_columns : plain_columns; }
+std::size_t column_count(const AnglesRequest& request) {
+  return request.as_printed ? std::tuple_size_v<AnglesRow> : plain_columns;
+}
 
 std::vector<std::string> notes_of(const AnglesRequest& request) {
   if (!request.as_printed) return {"An empty cell: that impact does not happen with β, γ ≤ 90°."};
@@ -62,34 +61,36 @@ std::vector<Column> angles_columns(const AnglesRequest& request) {
   return columns;
 }
 
-void angles_row(const AnglesRequest& request, long long i, double* row) {
+AnglesRow angles_row(const AnglesRequest& request, long long i) {
   const double theta = request.theta(i);
   const analytic::Angle angle = analytic::Angle::from_degrees(theta);
   const analytic::ContactAngles a = analytic::contact_angles(angle, request.rod);
   const double beta = angle_or_missing(a.beta);
   const double gamma = angle_or_missing(a.gamma);
-  const std::array<double, plain_columns> plain{theta,
-                                                beta,
-                                                gamma,
-                                                a.impulse[0],
-                                                a.impulse[1],
-                                                a.impulse[2],
-                                                a.velocity[0],
-                                                a.angular[0],
-                                                a.velocity[1],
-                                                a.angular[1],
-                                                a.velocity[2],
-                                                a.angular[2],
-                                                std::isnan(beta) ? NAN : a.beta.time,
-                                                std::isnan(gamma) ? NAN : a.gamma.time,
-                                                a.gamma_minus_theta * degrees_per_radian,
-                                                a.impulse_deficit,
-                                                static_cast<double>(a.impacts())};
-  std::copy(plain.begin(), plain.end(), row);
-  if (!request.as_printed) return;
+  AnglesRow row{theta,
+                beta,
+                gamma,
+                a.impulse[0],
+                a.impulse[1],
+                a.impulse[2],
+                a.velocity[0],
+                a.angular[0],
+                a.velocity[1],
+                a.angular[1],
+                a.velocity[2],
+                a.angular[2],
+                std::isnan(beta) ? NAN : a.beta.time,
+                std::isnan(gamma) ? NAN : a.gamma.time,
+                a.gamma_minus_theta * degrees_per_radian,
+                a.impulse_deficit,
+                static_cast<double>(a.impacts()),
+                NAN,
+                NAN};
+  if (!request.as_printed) return row;
   const double g = request.rod.gravity_number;
   row[plain_columns] = angle_or_missing(analytic::contact_angle_as_printed(angle, g));
   row[plain_columns + 1] = angle_or_missing(analytic::contact_angle_as_printed(angle, -g));
+  return row;
 }
 
 Table angles_frame(const AnglesRequest& request) {
@@ -106,8 +107,7 @@ Table angles_frame(const AnglesRequest& request) {
 Table angles_table(const AnglesRequest& request) {
   Table table = angles_frame(request);
   for (long long i = 0; i < request.count; ++i) {
-    Row row;
-    angles_row(request, i, row.data());
+    const AnglesRow row = angles_row(request, i);
     auto& cells = table.rows.emplace_back();
     for (std::size_t k = 0; k < column_count(request); ++k) {
       cells.push_back(std::isnan(row[k]) ? Cell() : Cell(row[k], request.digits));
@@ -122,28 +122,20 @@ Json angles_json(const AnglesRequest& request) {
   const std::vector<Column> columns = angles_columns(request);
   Json rows = Json::array();
   for (long long i = 0; i < request.count; ++i) {
-    Row row;
-    angles_row(request, i, row.data());
+    const AnglesRow row = angles_row(request, i);
     Json item = Json::object();
     for (std::size_t k = 0; k < columns.size(); ++k) {
       item[columns[k].name] = k == impacts_column ? Json(static_cast<int>(row[k])) : number_or_null(row[k]);
     }
     rows.push_back(item);
   }
-  return {{"clatter", version},
-          {"model", "discrete"},
-          {"parameters",
-           {{"gravity_number", request.rod.gravity_number},
-            {"restitution", request.rod.restitution},
-            {"impulse_ratio", request.rod.impulse_ratio}}},
-          {"rows", rows}};
+  return {{"clatter", version}, {"model", "discrete"}, {"parameters", rod_json(request.rod)}, {"rows", rows}};
 }
 
 std::string angles_csv_rows(const AnglesRequest& request, long long begin, long long end) {
   fmt::memory_buffer out;
   for (long long i = begin; i < end; ++i) {
-    Row row;
-    angles_row(request, i, row.data());
+    const AnglesRow row = angles_row(request, i);
     for (std::size_t k = 0; k < column_count(request); ++k) {
       if (k > 0) out.push_back(',');
       if (!std::isnan(row[k])) fmt::format_to(std::back_inserter(out), "{}", row[k] + 0.0);

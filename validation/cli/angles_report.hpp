@@ -1,6 +1,7 @@
 // Contact angles and impulses of the thin rod's first three impacts, an angle θ a row.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -22,8 +23,10 @@ struct AnglesRequest {
 
 /// Names, headings and units of a row's numbers.
 [[nodiscard]] std::vector<Column> angles_columns(const AnglesRequest& request);
-/// Row i in the order of the columns; NaN for what does not happen with β, γ ≤ 90°.
-void angles_row(const AnglesRequest& request, long long i, double* row);
+/// The numbers of a row in the order of the columns, the printed forms last.
+using AnglesRow = std::array<double, 19>;
+/// Row i; NaN for what does not happen with β, γ ≤ 90° and for what was not asked for.
+[[nodiscard]] AnglesRow angles_row(const AnglesRequest& request, long long i);
 
 /// Head, columns and notes; no rows.
 [[nodiscard]] Table angles_frame(const AnglesRequest& request);

@@ -7,6 +7,8 @@
 #include "analytic/contact_angles.hpp"
 #include "validation/cli/commands.hpp"
 #include "validation/cli/options.hpp"
+#include "validation/cli/plot_options.hpp"
+#include "validation/cli/regimes_picture.hpp"
 #include "validation/cli/rod_options.hpp"
 #include "validation/cli/version.hpp"
 #include "validation/output/number.hpp"
@@ -27,12 +29,14 @@ struct RegimesInput {
   bool logarithmic = false;
   RodTexts rod;
   OutputTexts output;
+  PlotTexts plot;
 };
 
 /// A quantity to vary.
 struct Quantity {
   const char* name;
   const char* heading;
+  const char* words;  ///< for an axis of a picture
   double RodParameters::*member;
   std::vector<double> values;  ///< without a range given
   Range range;
@@ -40,11 +44,11 @@ struct Quantity {
 
 const std::vector<Quantity>& all_quantities() {
   static const std::vector<Quantity> all{
-      {"gravity-number", "G", &RodParameters::gravity_number, {0, 0.001, 0.01, 0.1, 1, 10},
+      {"gravity-number", "G", "gravity number G = g L/vₙ²", &RodParameters::gravity_number, {0, 0.001, 0.01, 0.1, 1, 10},
        {0, 1e300, false, "at least 0"}},
-      {"restitution", "e", &RodParameters::restitution, {0.25, 0.5, 0.75, 0.9, 1},
+      {"restitution", "e", "coefficient of restitution e", &RodParameters::restitution, {0.25, 0.5, 0.75, 0.9, 1},
        {0, 1, false, "from 0 to 1"}},
-      {"impulse-ratio", "μᵢ", &RodParameters::impulse_ratio, {-0.2, -0.1, 0, 0.1, 0.2, 0.3},
+      {"impulse-ratio", "μᵢ", "impulse ratio μᵢ", &RodParameters::impulse_ratio, {-0.2, -0.1, 0, 0.1, 0.2, 0.3},
        {-1e300, 1e300, false, "a finite number"}}};
   return all;
 }
@@ -75,11 +79,6 @@ const char* kind_name(BoundaryKind kind) {
   }
   return "";
 }
-
-struct Regimes {
-  double value;
-  RegimeBoundary second, third;
-};
 
 Cell angle_cell(double radians, int digits) {
   return std::isnan(radians) ? Cell() : Cell(radians * degrees_per_radian, digits);
@@ -123,9 +122,35 @@ Json json_of(const std::vector<Regimes>& all, const Quantity& quantity, const Ro
                     {"third", boundary_json(third)}});
   }
   return {{"clatter", version}, {"model", "discrete"}, {"over", quantity.name},
-          {"parameters", {{"gravity_number", rod.gravity_number}, {"restitution", rod.restitution},
-                          {"impulse_ratio", rod.impulse_ratio}}},
+          {"parameters", rod_json(rod)},
           {"rows", rows}};
+}
+
+/// Two decades or more between positive values: on a linear axis most of them would lie on one another.
+bool spans_decades(const std::vector<double>& values) {
+  double least = INFINITY, greatest = 0;
+  for (const double value : values) {
+    if (value > 0) least = std::fmin(least, value);
+    greatest = std::fmax(greatest, value);
+  }
+  return greatest >= 100 * least;
+}
+
+/// The parameters that all rows share.
+std::string rod_words(const RegimesInput& input, const Quantity& quantity) {
+  RodParameters rod = read_rod(input.rod);
+  std::string words = "thin rod, m = L = |vₙ| = 1";
+  for (const Quantity& other : all_quantities()) {
+    if (&other != &quantity) words += fmt::format(", {} = {}", other.heading, shortest(rod.*other.member));
+  }
+  return words;
+}
+
+std::vector<std::string> script_head(const RegimesInput& input, const Quantity& quantity,
+                                     const std::vector<double>& values) {
+  return {headline("regimes", "how many impacts, and where that changes"),
+          fmt::format("{}; {} from {} to {}, {} values", rod_words(input, quantity), quantity.heading,
+                      shortest(values.front()), shortest(values.back()), values.size())};
 }
 
 int run_regimes(const RegimesInput& input) {
@@ -136,19 +161,23 @@ int run_regimes(const RegimesInput& input) {
   RodParameters rod = read_rod(input.rod);
   const int digits = input.digits ? read_integer_option("--digits", *input.digits, 1, 17) : 8;
   const OutputChoice choice = read_output(input.output);
+  const std::vector<double> values = values_of(input, quantity);
+  PlotFile plot(input.plot, {{"--output", choice.path}});
   std::vector<Regimes> all;
-  for (const double value : values_of(input, quantity)) {
+  for (const double value : values) {
     rod.*quantity.member = value;
     all.push_back({value, analytic::regime_boundary(ImpactNumber::second, rod),
                    analytic::regime_boundary(ImpactNumber::third, rod)});
   }
-  if (choice.style.format == Format::json) {
-    write_out(choice, json_text(json_of(all, quantity, rod)));
-    return 0;
+  const std::string summary = rod_summary(read_rod(input.rod)) + ", but for the first column";
+  write_out(choice, choice.style.format == Format::json
+                        ? json_text(json_of(all, quantity, rod))
+                        : table_text(table_of(all, quantity, summary, digits), choice.style));
+  if (plot.is_wanted()) {
+    const bool logarithmic = input.logarithmic || (quantity.member == &RodParameters::gravity_number && spans_decades(values));
+    plot.write(regimes_picture(all, {quantity.name, quantity.words, logarithmic}, rod_words(input, quantity)),
+               script_head(input, quantity, values));
   }
-  const RodParameters fixed = read_rod(input.rod);
-  write_out(choice, table_text(table_of(all, quantity, rod_summary(fixed) + ", but for the first column",
-                                        digits), choice.style));
   return 0;
 }
 
@@ -163,6 +192,7 @@ Action add_regimes_command(CLI::App& app) {
   command->add_flag("--log", input->logarithmic, "values in geometric progression")->group("Range");
   add_rod_options(*command, input->rod);
   add_output_options(*command, input->output);
+  add_plot_options(*command, input->plot);
   add_text(*command, "--digits", input->digits, "N", "significant digits in tables (8)")->group("Output");
   command->footer("Example: clatter regimes --over restitution --from 0.2 --to 1 --step 0.1");
   return [input] { return run_regimes(*input); };

@@ -48,6 +48,10 @@ analytic::RodParameters read_rod(const RodTexts& t) {
   return rod;
 }
 
+Json rod_json(const analytic::RodParameters& p) {
+  return {{"gravity_number", p.gravity_number}, {"restitution", p.restitution}, {"impulse_ratio", p.impulse_ratio}};
+}
+
 std::string rod_summary(const analytic::RodParameters& p) {
   return fmt::format("thin rod, m = L = |v_n| = 1, G = {}, e = {}, μᵢ = {}", shortest(p.gravity_number),
                      shortest(p.restitution), shortest(p.impulse_ratio));

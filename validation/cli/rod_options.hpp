@@ -6,6 +6,7 @@
 #include <string>
 
 #include "analytic/contact_angles.hpp"
+#include "validation/output/json.hpp"
 
 namespace clatter::validation {
 
@@ -15,6 +16,8 @@ struct RodTexts {
 void add_rod_options(CLI::App& command, RodTexts& texts);
 /// @throws BadInput as read_scene().
 [[nodiscard]] analytic::RodParameters read_rod(const RodTexts& texts);
+/// The parameters under their names in JSON.
+[[nodiscard]] Json rod_json(const analytic::RodParameters& parameters);
 /// "thin rod, G = …, e = …, μᵢ = …".
 [[nodiscard]] std::string rod_summary(const analytic::RodParameters& parameters);
 

@@ -4,6 +4,8 @@
 
 #include "validation/cli/commands.hpp"
 #include "validation/cli/options.hpp"
+#include "validation/cli/plot_options.hpp"
+#include "validation/cli/sequence_picture.hpp"
 #include "validation/cli/sequence_report.hpp"
 #include "validation/plan/sequence_method.hpp"
 
@@ -14,17 +16,22 @@ struct SequenceInput {
   SceneTexts scene;
   std::optional<std::string> method;
   OutputTexts output;
+  PlotTexts plot;
 };
 
 int run_sequence(const SequenceInput& input) {
   const Scene scene = read_scene(input.scene);
   const OutputChoice choice = read_output(input.output);
   const SequenceMethod method = read_sequence_method(input.method.value_or("auto"));
+  PlotFile plot(input.plot, {{"--output", choice.path}});
   const analytic::Sequence sequence = sequence_by_method(scene, method);
   for (const std::string& warning : sequence.warnings) fmt::print(stderr, "clatter: {}\n", warning);
   write_report(choice, [&] { return sequence_json(scene, sequence); },
                [&] { return sequence_records(scene, sequence); },
                [&] { return sequence_table(scene, sequence); });
+  if (plot.is_wanted()) {
+    plot.write(sequence_picture(scene, sequence), run_words("sequence", "impact sequence, discrete model", scene.json()));
+  }
   return 0;
 }
 
@@ -37,6 +44,7 @@ Action add_sequence_command(CLI::App& app) {
   add_text(*command, "--method", input->method, "NAME", "auto, closed-form (Eqs. 9 and 12) or discrete (auto)")
       ->group("Scene");
   add_output_options(*command, input->output);
+  add_plot_options(*command, input->plot);
   command->footer("Example: clatter sequence --angle 10 --gravity 9.81 --restitution 0.8 --impacts 20");
   return [input] { return run_sequence(*input); };
 }

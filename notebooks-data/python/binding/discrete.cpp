@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <map>
 #include <memory>
 
@@ -99,7 +99,8 @@ std::vector<double> rows_of(const AnglesRequest& request, std::size_t width) {
   return run_interruptible([&](const std::function<bool()>& goes_on) {
     std::vector<double> rows(static_cast<std::size_t>(request.count) * width);
     for (long long i = 0; i < request.count && goes_on(); ++i) {
-      validation::angles_row(request, i, rows.data() + static_cast<std::size_t>(i) * width);
+      const validation::AnglesRow row = validation::angles_row(request, i);
+      std::copy_n(row.begin(), width, rows.begin() + i * static_cast<long long>(width));
     }
     return rows;
   });

@@ -1,0 +1,13 @@
+// An impact sequence as a picture.
+#pragma once
+
+#include "analytic/sequence.hpp"
+#include "validation/figures/picture.hpp"
+#include "validation/scene/scene.hpp"
+
+namespace clatter::validation {
+
+/// Heights of both ends over time, each flight in closed form, and the normal impulse of each impact at its time.
+[[nodiscard]] Picture sequence_picture(const Scene& scene, const analytic::Sequence& sequence);
+
+}  // namespace clatter::validation
