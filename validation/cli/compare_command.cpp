@@ -4,8 +4,10 @@
 #include <memory>
 
 #include "validation/cli/commands.hpp"
+#include "validation/cli/comparison_picture.hpp"
 #include "validation/cli/comparison_report.hpp"
 #include "validation/cli/options.hpp"
+#include "validation/cli/plot_options.hpp"
 #include "validation/cli/progress.hpp"
 #include "validation/cli/scene_flags.hpp"
 #include "validation/output/interrupt.hpp"
@@ -15,17 +17,23 @@ namespace clatter::validation {
 namespace {
 
 constexpr int check_failed = 1, outside_model = 4;
+const char* const what_it_is = "discrete and continuous model, impact by impact";
 
 struct CompareInput {
   SceneFlags scene;
   OutputTexts output;
+  PlotTexts plot;
 };
 
-int compare_one(const SimulationScene& scene, const OutputChoice& choice) {
+int compare_one(const SimulationScene& scene, const OutputChoice& choice, PlotFile& plot) {
   const Comparison comparison = compare_models(scene, scene.make_body());
   write_report(
       choice, [&] { return comparison_json(scene, comparison); }, [&] { return comparison_records(scene, comparison); },
       [&] { return comparison_table(scene, comparison); });
+  if (comparison.impacts.empty())
+    plot.leave_out("no impact");
+  else if (plot.is_wanted())
+    plot.write(comparison_picture(scene, comparison), run_words("compare", what_it_is, scene.json()));
   if (!comparison.agrees()) return check_failed;
   if (comparison.has_content()) return 0;
   fmt::print(stderr, "clatter: nothing could be compared: {}\n",
@@ -33,7 +41,7 @@ int compare_one(const SimulationScene& scene, const OutputChoice& choice) {
   return outside_model;
 }
 
-int compare_swept(const SimulationScene& scene, const OutputChoice& choice) {
+int compare_swept(const SimulationScene& scene, const OutputChoice& choice, PlotFile& plot) {
   const CooperativeInterrupt interrupt;
   const std::vector<double> values = scene.sweep->values();
   const numeric::Body body = scene.make_body();
@@ -49,7 +57,13 @@ int compare_swept(const SimulationScene& scene, const OutputChoice& choice) {
   write_report(
       choice, [&] { return swept_comparison_json(scene, swept); },
       [&] { return swept_comparison_records(scene, swept); }, [&] { return swept_comparison_table(scene, swept); });
-  if (swept.size() < values.size()) return interrupted_status;
+  if (swept.size() < values.size()) {
+    plot.leave_out("interrupted");
+    return interrupted_status;
+  }
+  if (plot.is_wanted()) {
+    plot.write(swept_comparison_picture(scene, swept), run_words("compare", what_it_is, scene.json()));
+  }
   const bool agree =
       std::all_of(swept.begin(), swept.end(), [](const SweptComparison& one) { return one.comparison.agrees(); });
   return agree ? 0 : check_failed;
@@ -60,7 +74,8 @@ int run_compare(const CompareInput& input) {
   const OutputChoice choice = read_output(input.output);
   if (is_given(input.scene, "--history")) throw BadInput("--history: compare writes none; clatter simulate does");
   refuse_scene_file(input.scene, "--output", choice.path);
-  return scene.sweep ? compare_swept(scene, choice) : compare_one(scene, choice);
+  PlotFile plot(input.plot, {{"--output", choice.path}, {"the scene file", input.scene.file}});
+  return scene.sweep ? compare_swept(scene, choice, plot) : compare_one(scene, choice, plot);
 }
 
 }  // namespace
@@ -70,6 +85,7 @@ Action add_compare_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("compare", "both models side by side, and why they differ");
   add_scene_flags(*command, input->scene);
   add_output_options(*command, input->output);
+  add_plot_options(*command, input->plot);
   command->footer(
       "Example: clatter compare validation/cases/phone-damped.toml --impacts 2\n"
       "Exit status 1 if the stiff limit of the continuous model misses the discrete value,\n"

@@ -181,12 +181,21 @@ Table records_table(const SimulationScene& scene) {
   return table;
 }
 
-/// The number of an impact that deviates most for its size: deviation over scale, and what was predicted of it.
-struct Worst {
-  double deviation = 0, predicted = 0, miss = 0, bar = 0;
-};
-Worst worst_number(const Comparison& comparison, const ComparedImpact& impact) {
-  Worst worst;
+/// How often first impacts are not compared (–), by reason.
+void add_swept_reasons(const std::vector<SweptComparison>& swept, Table& table) {
+  std::map<std::string, int> counts;
+  for (const auto& [value, comparison] : swept) {
+    if (!comparison.impacts.empty() && !comparison.impacts[0].reason.empty()) ++counts[comparison.impacts[0].reason];
+  }
+  for (const auto& [reason, count] : counts) {
+    table.notes.push_back(fmt::format("–: not compared at this stiffness, {} of {} values: {}", count, swept.size(), reason));
+  }
+}
+
+}  // namespace
+
+WorstNumber worst_number(const Comparison& comparison, const ComparedImpact& impact) {
+  WorstNumber worst;
   double largest = -1, largest_miss = -1;
   for (std::size_t q = 0; q < quantity_count; ++q) {
     const NumberPair pair{impact, q};
@@ -204,19 +213,6 @@ Worst worst_number(const Comparison& comparison, const ComparedImpact& impact) {
   }
   return worst;
 }
-
-/// How often first impacts are not compared (–), by reason.
-void add_swept_reasons(const std::vector<SweptComparison>& swept, Table& table) {
-  std::map<std::string, int> counts;
-  for (const auto& [value, comparison] : swept) {
-    if (!comparison.impacts.empty() && !comparison.impacts[0].reason.empty()) ++counts[comparison.impacts[0].reason];
-  }
-  for (const auto& [reason, count] : counts) {
-    table.notes.push_back(fmt::format("–: not compared at this stiffness, {} of {} values: {}", count, swept.size(), reason));
-  }
-}
-
-}  // namespace
 
 Table comparison_table(const SimulationScene& scene, const Comparison& comparison) {
   Table table{.head = head_of(scene), .columns = {}, .rows = {}, .notes = {}};
@@ -266,7 +262,7 @@ Table swept_comparison_table(const SimulationScene& scene, const std::vector<Swe
   for (const auto& [value, comparison] : swept) {
     for (const ComparedImpact& impact : comparison.impacts) {
       if (!impact.discrete) continue;
-      const Worst worst = worst_number(comparison, impact);
+      const WorstNumber worst = worst_number(comparison, impact);
       std::vector<Cell> row{impact.n == 1 ? Cell(value, 6) : Cell(), Cell(std::to_string(impact.n)),
                             Cell(impact.discrete_end)};
       if (impact.reason.empty())

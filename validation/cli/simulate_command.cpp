@@ -8,8 +8,10 @@
 #include "validation/cli/commands.hpp"
 #include "validation/cli/history_file.hpp"
 #include "validation/cli/options.hpp"
+#include "validation/cli/plot_options.hpp"
 #include "validation/cli/progress.hpp"
 #include "validation/cli/scene_flags.hpp"
+#include "validation/cli/simulation_picture.hpp"
 #include "validation/cli/simulation_report.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/names.hpp"
@@ -25,6 +27,7 @@ using numeric::Simulation;
 struct SimulateInput {
   SceneFlags scene;
   OutputTexts output;
+  PlotTexts plot;
 };
 
 constexpr long evaluations_before_progress = 200'000;
@@ -56,13 +59,27 @@ int status_of(const Simulation& run) {
   }
 }
 
-int run_single(const SimulationScene& scene, const numeric::Body& body, const OutputChoice& choice) {
+/// The history's picture, unless there is none to draw.
+void draw(const SimulationScene& scene, const Simulation& run, const PictureHistory& history, PlotFile& plot) {
+  if (run.outcome == Outcome::interrupted)
+    plot.leave_out("interrupted");
+  else if (run.impacts.empty())
+    plot.leave_out("no impact was computed");
+  else if (plot.is_wanted())
+    plot.write(simulation_picture(scene, run, history), run_words("simulate", "impact sequence, continuous contact", scene.json()));
+}
+
+int run_single(const SimulationScene& scene, const numeric::Body& body, const OutputChoice& choice, PlotFile& plot) {
   const CooperativeInterrupt interrupt;
   std::optional<HistoryFile> history;
   if (!scene.history.empty()) {
     history.emplace(scene.history, std::vector<std::string>{headline("simulate", "time history"),
                                                             "scene: " + scene.json().dump()});
   }
+  PictureHistory picture(body);
+  HistoryFan recorders;
+  if (history) recorders.add(*history);
+  if (plot.is_wanted()) recorders.add(picture);
   PlannedRun planned;
   {
     Progress progress;
@@ -70,15 +87,16 @@ int run_single(const SimulationScene& scene, const numeric::Body& body, const Ou
       progress.show(fmt::format("{} force evaluations, {}", evaluations,
                                 progress_bar(static_cast<std::size_t>(impacts), static_cast<std::size_t>(scene.options.impacts))));
     };
-    planned = run_scene(scene, body, interrupt, show, history ? &*history : nullptr);
+    planned = run_scene(scene, body, interrupt, show, recorders.is_empty() ? nullptr : &recorders);
   }
   if (history) history->commit();
   write_report(choice, [&] { return simulation_json(scene, planned); }, [&] { return simulation_records(scene, planned); },
                [&] { return simulation_table(scene, planned); });
+  draw(scene, planned.run, picture, plot);
   return status_of(planned.run);
 }
 
-int run_sweep(const SimulationScene& scene, const numeric::Body& body, const OutputChoice& choice) {
+int run_sweep(const SimulationScene& scene, const numeric::Body& body, const OutputChoice& choice, PlotFile& plot) {
   const CooperativeInterrupt interrupt;
   const std::vector<double> values = scene.sweep->values();
   std::vector<SweptRun> runs;
@@ -95,9 +113,18 @@ int run_sweep(const SimulationScene& scene, const numeric::Body& body, const Out
   }
   write_report(choice, [&] { return sweep_json(scene, runs); }, [&] { return sweep_records(scene, runs); },
                [&] { return sweep_table(scene, runs); });
-  if (runs.size() < values.size()) return interrupted_status;
+  if (runs.size() < values.size()) {
+    plot.leave_out("interrupted");
+    return interrupted_status;
+  }
   const bool any = std::any_of(runs.begin(), runs.end(), [](const SweptRun& swept) { return !swept.run.impacts.empty(); });
-  if (any) return 0;
+  if (any) {
+    if (plot.is_wanted()) {
+      plot.write(sweep_picture(scene, runs), run_words("simulate", "first impacts, continuous contact", scene.json()));
+    }
+    return 0;
+  }
+  plot.leave_out("no impact was computed");
   fmt::print(stderr, "clatter: no impact could be computed: {}\n", runs.back().run.message);
   return 3;
 }
@@ -110,8 +137,10 @@ int run_simulate(const SimulateInput& input) {
   }
   refuse_scene_file(input.scene, "--history", scene.history);
   refuse_scene_file(input.scene, "--output", choice.path);
+  PlotFile plot(input.plot,
+                {{"--output", choice.path}, {"--history", scene.history}, {"the scene file", input.scene.file}});
   const numeric::Body body = scene.make_body();
-  return scene.sweep ? run_sweep(scene, body, choice) : run_single(scene, body, choice);
+  return scene.sweep ? run_sweep(scene, body, choice, plot) : run_single(scene, body, choice, plot);
 }
 
 }  // namespace
@@ -121,6 +150,7 @@ Action add_simulate_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("simulate", "drop of any body, continuous contact");
   add_scene_flags(*command, input->scene);
   add_output_options(*command, input->output);
+  add_plot_options(*command, input->plot);
   command->footer(
       "Example: clatter simulate validation/cases/phone-damped.toml --digits 8\n"
       "validation/cases/every-key.toml explains the keys of scene files.");

@@ -11,6 +11,14 @@ Column swept_column(const SceneSweep& sweep) {
 
 Column swept_record_column(const SceneSweep& sweep) { return {sweep.name(), sweep.name(), ""}; }
 
+std::string swept_words(const SceneSweep& sweep) {
+  return sweep.quantity == SceneSweep::Quantity::angle_deg ? "contact angle θ" : "friction coefficient μ";
+}
+
+Range2 swept_range(double first, double last) {
+  return first < last ? Range2{first, last} : Range2{first - 0.5, last + 0.5};
+}
+
 void add_interruption(const SceneSweep& sweep, std::size_t done, Table& table) {
   const std::size_t values = sweep.values().size();
   if (done < values) table.notes.push_back(fmt::format("interrupted: {} of {} values", done, values));

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "validation/figures/figure.hpp"
 #include "validation/output/table.hpp"
 #include "validation/scene/simulation_scene.hpp"
 
@@ -12,6 +13,11 @@ namespace clatter::validation {
 [[nodiscard]] Column swept_column(const SceneSweep& sweep);
 /// The same for CSV: the name of the quantity.
 [[nodiscard]] Column swept_record_column(const SceneSweep& sweep);
+
+/// The same in words, for an axis of a picture, without the unit.
+[[nodiscard]] std::string swept_words(const SceneSweep& sweep);
+/// Range of such an axis from the first to the last value; around a single one.
+[[nodiscard]] Range2 swept_range(double first, double last);
 
 /// Adds a note if fewer values than the sweep has are done.
 void add_interruption(const SceneSweep& sweep, std::size_t done, Table& table);

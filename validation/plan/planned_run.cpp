@@ -66,8 +66,8 @@ class Runner {
       options.tolerance = std::max(part * options.tolerance, numeric::least_tolerance);
     }
     if (options_.history && planned.run.outcome != Outcome::interrupted) {
-      options.history = options_.history;
-      planned.run = simulate(options);
+      options.history = options_.history;  // the same run again; what recording costs does not count
+      planned.run = numeric::simulate(body_, ground_, start_, options);
     }
     planned.run.force_evaluations = evaluations_;
     return planned;

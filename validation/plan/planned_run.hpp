@@ -20,7 +20,7 @@ struct PlannedRun {
 /// give the scene's error constant, the measured table (CostTable) the cheapest method and tolerance for the digits;
 /// if the estimated errors are then larger than asked, the run is repeated with a tighter tolerance, at most thrice.
 /// The count of evaluations includes all of these.  Otherwise as numeric::simulate with the scene's options.
-/// `options.history` takes the last run only.
+/// `options.history` takes the last run only, by a repetition that does not count.
 /// @throws as numeric::simulate.
 [[nodiscard]] PlannedRun run_to_digits(const numeric::Body& body, const numeric::Ground& ground,
                                        const numeric::MotionState& start, const numeric::Options& options);

@@ -1,0 +1,406 @@
+"""--plot and --plot-script: the pictures, the scripts that draw them, and what is refused."""
+
+import csv
+import io
+import json
+import math
+import os
+import re
+import shutil
+import signal
+import struct
+import subprocess
+import tempfile
+import time
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+PROGRAM = os.environ["CLATTER_PROGRAM"]
+CASES = os.path.join(os.environ["CLATTER_ROOT"], "validation", "cases")
+
+
+def case(name):
+    return os.path.join(CASES, name + ".toml")
+
+
+# For each command: arguments, axis names, legends.
+COMMANDS = {
+    "sequence": (["sequence", "--angle", "10", "--gravity", "9.81", "--restitution", "0.8", "--impacts", "20"],
+                 ["time since the first impact [s]", "lowest point [m]", "normal impulse [N·s]"],
+                 ["end a", "end b", "at end a", "at end b"]),
+    "angles": (["angles", "--step", "2"],
+               ["contact angle θ of the first impact [°]", "contact angle [°]", "normal impulse [m|vₙ|]"],
+               ["β, second impact", "γ, third impact", "P₁", "P₂", "P₃"]),
+    "regimes": (["regimes", "--over", "restitution"],
+                ["coefficient of restitution e", "contact angle θ of the first impact [°]"],
+                ["one impact", "two impacts", "three impacts", "θ₂", "θ₃"]),
+    "simulate": (["simulate", case("phone-damped"), "--impacts", "3"],
+                 ["time since the first touch-down [s]", "height [m]", "force [N]", "energy [J]"],
+                 ["mass centre", "lowest point", "normal contact force", "translation", "rotation", "potential", "ground",
+                  "total"]),
+    "simulate, swept": (["simulate", case("rod-friction-sweep")],
+                        ["friction coefficient μ", "velocity [m/s]", "Ω [rad/s]", "impulse [N·s]", "energy [J]"],
+                        ["normal velocity after the impact, Vₙ", "angular velocity after the impact, Ω",
+                         "normal impulse, Pₙ", "energy lost"]),
+    "compare": (["compare", case("rod-10")],
+                ["number of the impact", "normal impulse [N·s]", "largest deviation, relative"],
+                ["discrete", "continuous", "limit on stiff ground", "|continuous − discrete|", "predicted size",
+                 "|limit − discrete|"]),
+    "compare, swept": (["compare", case("rod-friction-sweep")],
+                       ["friction coefficient μ", "normal impulse [N·s]", "largest deviation, relative"],
+                       ["discrete", "continuous", "limit on stiff ground", "|continuous − discrete|"]),
+    "tradeoff": (["tradeoff", case("rod-45")], ["cost [ms]", "largest true error, relative"],
+                 ["closed form", "discrete", "planar rk8pd", "spatial, all methods"]),
+}
+QUICK = [name for name in COMMANDS if name != "tradeoff"]  # which measures for seconds, and prints what it has measured
+
+
+def run(*arguments, **options):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=300, **options)
+
+
+def blocks(script):
+    """The data blocks of a script: name -> rows of numbers."""
+    found = {}
+    for name, body in re.findall(r"^\$(\w+) << END\n(.*?)^END$", script, re.M | re.S):
+        lines = [line for line in body.splitlines() if line and not line.startswith("#")]
+        found[name] = [[float(word) for word in line.split()] for line in lines]
+    return found
+
+
+def csv_rows(text):
+    return list(csv.DictReader(io.StringIO("".join(line for line in text.splitlines(True) if line[0] != "#"))))
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def read(self, name):
+        with open(self.path(name), encoding="utf-8") as file:
+            return file.read()
+
+    def plotted(self, *arguments):
+        """What a run prints, and the data that its script draws."""
+        done = run(*arguments, "--plot", self.path("p.svg"), "--plot-script")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout, blocks(self.read("p.gnuplot"))
+
+
+class Pictures(InFolder):
+    def test_svg_has_axes_units_and_legends_and_its_script_draws_it_again(self):
+        for name, (arguments, axes, legends) in COMMANDS.items():
+            with self.subTest(name):
+                self.plotted(*arguments)
+                root = ElementTree.fromstring(self.read("p.svg"))
+                texts = ["".join(text.itertext()).strip() for text in root.iter("{http://www.w3.org/2000/svg}text")]
+                for words in axes + legends:
+                    self.assertIn(words, texts)
+                script = self.read("p.gnuplot")
+                self.assertRegex(script, r"\A# clatter \d+\.\d+\.\d+, " + arguments[0])
+                again = self.path("again")
+                shutil.rmtree(again, ignore_errors=True)
+                os.mkdir(again)
+                shutil.copy(self.path("p.gnuplot"), again)
+                drawn = subprocess.run(["gnuplot", "p.gnuplot"], cwd=again, capture_output=True, text=True)
+                self.assertEqual((drawn.returncode, drawn.stdout, drawn.stderr), (0, "", ""))
+                self.assertEqual(self.read("again/p.svg"), self.read("p.svg"))
+
+    def test_png_is_one_of_a_sensible_size(self):
+        for name in QUICK:
+            with self.subTest(name):
+                done = run(*COMMANDS[name][0], "--plot", self.path("p.png"))
+                self.assertEqual(done.returncode, 0, done.stderr)
+                with open(self.path("p.png"), "rb") as file:
+                    picture = file.read()
+                self.assertEqual(picture[:8], b"\x89PNG\r\n\x1a\n")
+                self.assertEqual(picture[-8:-4], b"IEND")
+                width, height = struct.unpack(">II", picture[16:24])
+                self.assertEqual(width, 1120)
+                self.assertTrue(500 < height < 1600, height)
+                self.assertGreater(len(picture), 20000)
+                self.assertEqual(os.listdir(self.folder), ["p.png"])
+
+    def test_standard_output_is_the_same_with_and_without(self):
+        for name in QUICK:
+            for form in ("table", "csv", "json"):
+                arguments = [*COMMANDS[name][0], "--format", form]
+                plain = run(*arguments)
+                self.assertEqual(run(*arguments, "--plot", self.path("p.svg")).stdout, plain.stdout, (name, form))
+
+    def test_whole_scene_stands_in_the_script(self):
+        self.plotted(*COMMANDS["simulate"][0], "--spin", "0.125")
+        line = [line for line in self.read("p.gnuplot").splitlines() if line.startswith("# scene: ")][0]
+        self.assertEqual(json.loads(line[len("# scene: "):])["drop"]["spin"], 0.125)
+
+    def test_names_are_quoted(self):
+        name = "it's `touch x` $HOME"
+        done = run("sequence", "--angle", "10", "--plot", self.path(name + ".svg"), "--plot-script")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        first = self.read(name + ".svg")
+        os.remove(self.path(name + ".svg"))
+        subprocess.run(["gnuplot", name + ".gnuplot"], cwd=self.folder, check=True)
+        self.assertEqual(self.read(name + ".svg"), first)
+        self.assertEqual(sorted(os.listdir(self.folder)), [name + ".gnuplot", name + ".svg"])
+
+    def test_a_single_row_gives_a_picture(self):
+        for arguments in (["angles", "--from", "10", "--to", "10"], ["sequence", "--angle", "70"],
+                          ["regimes", "--from", "0.1", "--to", "0.1", "--count", "1"], ["sequence", "--angle", "0"],
+                          ["regimes", "--from", "0", "--to", "0", "--count", "1"], ["compare", case("rod-45")],
+                          ["simulate", case("rod-45")], ["sequence", "--angle", "90", "--restitution", "0"]):
+            done = run(*arguments, "--plot", self.path("p.svg"))
+            self.assertEqual((done.returncode, done.stderr), (0, ""), arguments)
+            ElementTree.fromstring(self.read("p.svg"))
+
+
+class Data(InFolder):
+    def test_sequence_draws_the_impulses_that_it_prints(self):
+        out, drawn = self.plotted(*COMMANDS["sequence"][0], "--format", "json")
+        impacts = json.loads(out)["impacts"]
+        for block, end in (("panel2_0", "a"), ("panel2_1", "b")):
+            expected = [[i["start"], i["impulse_normal"]] for i in impacts if i["end"] == end]
+            self.assertGreater(len(expected), 3)
+            self.assertEqual(drawn[block], expected)
+
+    def test_sequence_draws_ends_that_touch_the_ground_at_their_impacts_only(self):
+        out, drawn = self.plotted(*COMMANDS["sequence"][0], "--format", "json")
+        impacts = json.loads(out)["impacts"]
+        for block, end in (("panel1_0", "a"), ("panel1_1", "b")):
+            times = [i["start"] for i in impacts if i["end"] == end]
+            down = {t for t, height in drawn[block] if abs(height) < 1e-12 and t <= impacts[-1]["start"]}
+            self.assertTrue(set(times) <= down)
+            self.assertTrue(all(any(abs(t - s) < 1e-12 for s in times) for t in down))
+            self.assertGreater(min(height for _, height in drawn[block]), -1e-8)
+        at_start = [height for t, height in drawn["panel1_1"] if t == 0]
+        self.assertAlmostEqual(at_start[0], math.sin(math.radians(10)), delta=1e-15)
+
+    def test_flat_bouncing_is_drawn_as_parabolas_up_to_its_end(self):
+        out, drawn = self.plotted("sequence", "--angle", "0", "--gravity", "9.81", "--restitution", "0.8", "--impacts", "60",
+                                  "--format", "json")
+        result = json.loads(out)
+        first, second = result["impacts"][:2]
+        flight = [(t, height) for t, height in drawn["panel1_0"] if 0 <= t <= second["start"]]
+        self.assertGreaterEqual(len(flight), 60)
+        for t, height in flight:
+            self.assertAlmostEqual(height, first["velocity_after"][2] * t - 9.81 / 2 * t * t, delta=1e-15)
+        self.assertEqual({t for t, _ in drawn["panel1_2"]}, {result["tail"]["end_time"]})
+        self.assertEqual(drawn["panel2_3"], [[result["tail"]["end_time"], result["tail"]["impulse_normal"]]])
+
+    def test_two_hundred_accumulating_impacts_stay_a_small_picture(self):
+        _, drawn = self.plotted("sequence", "--angle", "10", "--gravity", "9.81", "--restitution", "0.8", "--impacts", "200")
+        self.assertLess(os.path.getsize(self.path("p.svg")), 300_000)
+        self.assertLess(len(drawn["panel1_0"]), 5000)
+
+    def test_angles_draws_the_rows_that_it_prints(self):
+        out, drawn = self.plotted(*COMMANDS["angles"][0], "--format", "csv")
+        rows = csv_rows(out)
+        for block, column in (("panel1_0", "beta_deg"), ("panel1_1", "gamma_deg"), ("panel2_0", "P1"), ("panel2_1", "P2"),
+                              ("panel2_2", "P3")):
+            expected = [[float(row["theta_deg"]), float(row[column])] for row in rows if row[column]]
+            self.assertGreater(len(expected), 10)
+            self.assertEqual(drawn[block], expected)
+
+    def test_angles_draws_both_printed_forms(self):
+        out, drawn = self.plotted("angles", "--step", "5", "--gravity-number", "0.5", "--as-printed", "--format", "csv")
+        for i, column in enumerate(("beta_deg", "beta_printed_deg", "beta_printed_negative_g_deg")):
+            expected = [[float(row["theta_deg"]), float(row[column])] for row in csv_rows(out) if row[column]]
+            self.assertEqual(drawn[f"panel1_{i}"], expected)
+
+    def test_of_very_many_angles_some_thousand_are_drawn_and_the_ends_of_branches_stay(self):
+        out, drawn = self.plotted("angles", "--count", "100001", "--gravity-number", "0.5", "--format", "csv")
+        rows = [(float(row["theta_deg"]), row) for row in csv_rows(out)]
+        for block, column in (("panel1_0", "beta_deg"), ("panel1_1", "gamma_deg")):
+            self.assertLess(len(drawn[block]), 5000)
+            self.assertGreater(len(drawn[block]), 1000)
+            values = [float(row[column]) if row[column] else None for _, row in rows]
+            inside = range(1, len(values) - 1)
+            ends = [i for i in inside if values[i] is not None and None in (values[i - 1], values[i + 1])]
+            self.assertGreater(len(ends), 1)
+            shown = {tuple(point) for point in drawn[block]}
+            for i in ends:
+                self.assertIn((rows[i][0], values[i]), shown)
+            self.assertTrue(shown <= {(theta, value) for (theta, _), value in zip(rows, values)})
+
+    def test_regimes_draws_the_boundaries_that_it_prints(self):
+        out, drawn = self.plotted(*COMMANDS["regimes"][0], "--format", "json")
+        rows = json.loads(out)["rows"]
+        second = [[row["restitution"], row["second"]["theta_deg"]] for row in rows]
+        third = [[row["restitution"], row["third"]["theta_deg"]] for row in rows]
+        self.assertEqual((drawn["panel1_3"], drawn["panel1_4"]), (second, third))
+        self.assertEqual(drawn["panel1_1"], [[x, low, high] for (x, low), (_, high) in zip(third, second)])
+
+    def test_gravity_numbers_over_decades_get_a_logarithmic_axis(self):
+        self.plotted("regimes")
+        self.assertRegex(self.read("p.gnuplot"), r"(?m)^set logscale x")
+        self.assertIn("0 lies off this axis", self.read("p.gnuplot"))
+        self.plotted("regimes", "--from", "0", "--to", "1", "--step", "0.25")
+        self.assertNotRegex(self.read("p.gnuplot"), r"(?m)^set logscale")
+        self.plotted("regimes", "--over", "restitution", "--from", "0.5", "--to", "1", "--count", "5", "--log")
+        self.assertRegex(self.read("p.gnuplot"), r"(?m)^set logscale x")
+
+    def test_simulate_draws_the_history_that_it_writes_beside_it(self):
+        out, drawn = self.plotted(*COMMANDS["simulate"][0], "--history", self.path("h.csv"), "--format", "json")
+        peaks = [[i["start"] + i["peak_time"], i["peak_force"]] for i in json.loads(out)["impacts"]]
+        force = [point for point in drawn["panel2_0"] if point not in peaks]
+        self.assertEqual(len(drawn["panel2_0"]) - len(force), 3)
+        self.assertEqual(drawn["panel2_0"], sorted(drawn["panel2_0"]))
+        drawn["panel2_0"] = force
+        history = [row for row in csv_rows(self.read("h.csv")) if float(row["t"]) >= 0]
+        for block, column in (("panel1_0", "z"), ("panel2_0", "fz"), ("panel3_0", "energy_translation"),
+                              ("panel3_1", "energy_rotation"), ("panel3_2", "energy_potential"),
+                              ("panel3_3", "energy_ground"), ("panel3_4", "energy_total")):
+            self.assertEqual(drawn[block], [[float(row["t"]), float(row[column])] for row in history])
+        self.assertLess(abs(drawn["panel1_1"][0][1]), 1e-12)  # it touches
+        for (_, centre), (_, lowest) in zip(drawn["panel1_0"], drawn["panel1_1"]):
+            self.assertTrue(0.0095 <= centre - lowest <= 0.0576, (centre, lowest))  # between half thickness and radius
+
+    def test_a_long_history_is_thinned_and_keeps_its_peaks(self):
+        out, drawn = self.plotted("simulate", case("rod-10"), "--method", "tvd-rk3", "--step", "2e-7", "--history",
+                                  self.path("h.csv"), "--format", "json")
+        history = [(float(row["t"]), float(row["fz"])) for row in csv_rows(self.read("h.csv"))]
+        peaks = [(i["start"] + i["peak_time"], i["peak_force"]) for i in json.loads(out)["impacts"]]
+        shown = [tuple(point) for point in drawn["panel2_0"]]
+        self.assertGreater(len(history), 10_000)
+        self.assertLess(len(shown), 5000)
+        self.assertTrue(set(shown) <= set(history) | set(peaks))
+        self.assertTrue(set(peaks) <= set(shown))
+        self.assertEqual((shown[0], shown[-1]), (history[0], history[-1]))
+
+    def test_swept_simulate_draws_the_first_impacts(self):
+        out, drawn = self.plotted(*COMMANDS["simulate, swept"][0], "--format", "csv")
+        rows = [row for row in csv_rows(out) if row["n"] == "1"]
+        for i, column in enumerate(("velocity_after_z", "angular_velocity_after_y", "impulse_normal", "energy_loss")):
+            self.assertEqual(drawn[f"panel{i + 1}_0"], [[float(row["sliding_friction"]), float(row[column])] for row in rows])
+
+    def test_compare_draws_the_impulses_and_deviations_that_it_prints(self):
+        out, drawn = self.plotted(*COMMANDS["compare"][0], "--format", "json")
+        impacts = json.loads(out)["impacts"]
+        for i, name in enumerate(("discrete", "continuous", "limit")):
+            self.assertEqual(drawn[f"panel1_{i}"], [[k["n"], k["numbers"]["impulse_normal"][name]] for k in impacts])
+        # Scales of the numbers: time and speed at large (1 m/s falls, nothing is faster but an end), mass 1 kg, 1 radian.
+        for k, (n, deviation), (_, miss) in zip(impacts, drawn["panel2_0"], drawn["panel2_2"]):
+            self.assertEqual(k["n"], n)
+            impulse = abs(k["numbers"]["impulse_normal"]["deviation"])
+            self.assertGreaterEqual(deviation, impulse / 2)
+            self.assertLess(deviation, 0.1)
+            self.assertLess(miss, 1e-6)
+
+    def test_swept_compare_draws_the_first_impacts(self):
+        out, drawn = self.plotted(*COMMANDS["compare, swept"][0], "--format", "json")
+        runs = json.loads(out)["runs"]
+        for i, name in enumerate(("discrete", "continuous", "limit")):
+            expected = [[one["sliding_friction"], one["impacts"][0]["numbers"]["impulse_normal"][name]] for one in runs]
+            self.assertEqual(drawn[f"panel1_{i}"], expected)
+
+    def test_tradeoff_draws_the_points_that_it_prints(self):
+        out, drawn = self.plotted(*COMMANDS["tradeoff"][0], "--format", "json")
+        points = [p for p in json.loads(out)["points"] if not p["failure"] and not p["mesh"] and p["error"] > 0]
+        expected = sorted((1e3 * p["seconds"], p["error"]) for p in points)
+        self.assertGreater(len(expected), 80)
+        self.assertEqual(sorted(tuple(point) for rows in drawn.values() for point in rows), expected)
+
+
+class Refused(InFolder):
+    def refused(self, arguments, words, **options):
+        before = sorted(os.listdir(self.folder))
+        done = run(*arguments, cwd=self.folder, **options)
+        self.assertEqual((done.returncode, done.stdout), (2, ""), (arguments, done.stderr))
+        self.assertRegex(done.stderr, r"\Aclatter: [^\n]+\n\Z")
+        self.assertIn(words, done.stderr)
+        self.assertEqual(sorted(os.listdir(self.folder)), before)
+
+    def test_what_is_wrong_is_one_line_and_nothing_is_written(self):
+        for name, (arguments, _, _) in COMMANDS.items():
+            with self.subTest(name):
+                for wrong in ("p.pdf", "p", "p.svg.gz", ".svg"):
+                    self.refused([*arguments, "--plot", wrong], "must end in .svg or .png")
+                self.refused([*arguments, "--plot", "no/p.svg"], "--plot no/p.svg")
+                self.refused([*arguments, "--plot-script"], "--plot-script: needs --plot")
+                self.refused([*arguments, "--plot", "p.svg", "--output", "./p.svg"], "must be another file than --output")
+                self.refused([*arguments, "--plot", "p.svg", "--plot-script", "--output", "p.gnuplot"],
+                             "must be another file than --output")
+
+    def test_without_gnuplot_the_package_is_named(self):
+        os.mkdir(self.path("empty"))
+        for name, (arguments, _, _) in COMMANDS.items():
+            for picture in ("p.svg", "p.png"):
+                self.refused([*arguments, "--plot", picture], "install the package gnuplot-nox",
+                             env={**os.environ, "PATH": self.path("empty")})
+
+    def test_scene_and_history_are_not_overwritten(self):
+        for command in ("simulate", "compare", "tradeoff"):
+            for scene in ("scene.svg", "scene.gnuplot"):
+                shutil.copy(case("rod-45"), self.path(scene))
+                self.refused([command, scene, "--plot", "scene.svg", "--plot-script"], "must be another file than the scene file")
+                os.remove(self.path(scene))
+        for history in ("p.svg", "p.gnuplot"):
+            self.refused(["simulate", case("rod-45"), "--plot", "p.svg", "--plot-script", "--history", history],
+                         "must be another file than --history")
+
+
+class WithoutPicture(InFolder):
+    def test_an_interrupted_run_writes_none(self):
+        with open(self.path("rows.csv"), "wb") as rows:
+            running = subprocess.Popen([PROGRAM, "angles", "--count", "50000000", "--format", "csv", "--plot",
+                                        self.path("p.svg"), "--plot-script"], stdout=rows, stderr=subprocess.PIPE, text=True)
+            while os.path.getsize(self.path("rows.csv")) < 1000:
+                time.sleep(0.01)
+            running.send_signal(signal.SIGINT)
+            _, complaint = running.communicate(timeout=60)
+        self.assertEqual(running.returncode, 130)
+        self.assertRegex(complaint, r"\Aclatter: --plot [^\n]+: no picture: interrupted\n\Z")
+        self.assertEqual(os.listdir(self.folder), ["rows.csv"])
+
+    def test_killed_at_once_it_leaves_no_file_behind(self):
+        running = subprocess.Popen([PROGRAM, "angles", "--count", "50000000", "--format", "csv", "--output",
+                                    self.path("rows.csv"), "--plot", self.path("p.svg"), "--plot-script"])
+        while len(os.listdir(self.folder)) < 3:
+            time.sleep(0.01)
+        time.sleep(0.2)
+        running.send_signal(signal.SIGTERM)
+        running.send_signal(signal.SIGINT)  # of two interrupts the second does not wait
+        self.assertEqual(running.wait(timeout=60), 130)
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_a_run_without_a_row_writes_none_and_says_so(self):
+        with open(case("rod-45"), encoding="utf-8") as file:
+            text = file.read()
+        with open(self.path("scene.toml"), "w", encoding="utf-8") as file:
+            file.write(text.replace("[run]", "[run]\nevaluation_limit = 10"))
+        done = run("simulate", self.path("scene.toml"), "--method", "rk4", "--tolerance", "1e-6", "--plot",
+                   self.path("p.svg"))
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("no picture: no impact was computed", done.stderr)
+        self.assertEqual(os.listdir(self.folder), ["scene.toml"])
+
+    def test_a_run_that_ends_early_draws_its_rows(self):
+        with open(case("phone-damped"), encoding="utf-8") as file:
+            text = file.read()
+        with open(self.path("scene.toml"), "w", encoding="utf-8") as file:
+            file.write(text.replace("[run]", "[run]\nevaluation_limit = 1000"))
+        out, drawn = self.plotted("simulate", self.path("scene.toml"), "--method", "rk8pd", "--tolerance", "1e-8", "--format",
+                                  "json")
+        result = json.loads(out)
+        self.assertEqual(result["outcome"], "evaluation-limit")
+        self.assertGreater(len(result["impacts"]), 0)
+        peak = max(force for _, force in drawn["panel2_0"])
+        self.assertAlmostEqual(peak, max(i["peak_force"] for i in result["impacts"]), delta=1e-12 * peak)
+
+
+class Options(unittest.TestCase):
+    def test_help_completion_and_man_page_list_them(self):
+        for arguments, _, _ in COMMANDS.values():
+            self.assertRegex(run(arguments[0], "--help").stdout, r"--plot FILE[^-]*--plot-script")
+            for shell in ("bash", "zsh", "fish"):
+                self.assertIn("plot-script", run("completion", shell).stdout)
+        page = run("man").stdout
+        self.assertEqual(page.count("\\fB\\-\\-plot\\-script\\fR"), 6)
+
+
+if __name__ == "__main__":
+    unittest.main()
