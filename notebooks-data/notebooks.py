@@ -30,6 +30,18 @@ def prepare_kernel(scratch):
     os.environ["PYTHONPATH"] = os.pathsep.join(path for path in search if path)
 
 
+def joined(outputs):
+    """Text that the kernel sent in several pieces, cut anywhere, as one output."""
+    whole = []
+    for output in outputs:
+        last = whole[-1] if whole else None
+        if last and last.output_type == output.output_type == "stream" and last.name == output.name:
+            last.text += output.text
+        else:
+            whole.append(output)
+    return whole
+
+
 def executed(notebook):
     """The notebook with new outputs, without what changes from run to run.  @raise CellExecutionError"""
     ExecutePreprocessor(timeout=SECONDS_PER_CELL, kernel_name="python3").preprocess(notebook, {"metadata": {"path": str(FOLDER)}})
@@ -38,6 +50,8 @@ def executed(notebook):
     for number, cell in enumerate(notebook.cells, 1):
         cell.id = f"cell-{number}"
         cell.metadata = {}
+        if cell.cell_type == "code":
+            cell.outputs = joined(cell.outputs)
         for output in cell.get("outputs", []):
             output.pop("execution_count", None)
             if output.output_type == "execute_result":
