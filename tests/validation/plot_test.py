@@ -398,6 +398,9 @@ class Options(unittest.TestCase):
             self.assertRegex(run(arguments[0], "--help").stdout, r"--plot FILE[^-]*--plot-script")
             for shell in ("bash", "zsh", "fish"):
                 self.assertIn("plot-script", run("completion", shell).stdout)
+        self.assertRegex(run("completion", "bash").stdout, r"(?m)^ +\S*--plot\S*\) COMPREPLY=\(\$\(compgen -f ")
+        self.assertRegex(run("completion", "zsh").stdout, r"'--plot\[[^\]]*\]:file:_files'")
+        self.assertRegex(run("completion", "fish").stdout, r"-l plot -r -F ")
         page = run("man").stdout
         self.assertEqual(page.count("\\fB\\-\\-plot\\-script\\fR"), 6)
 

@@ -32,6 +32,21 @@ std::vector<std::string> choices(const CLI::Option& option) {
   return list;
 }
 
+bool is_file(const CLI::Option& option) { return option.get_type_name() == "FILE"; }
+
+/// Options of any command that take a file, each once.
+std::vector<std::string> file_options(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : commands_of(app)) {
+    for (const CLI::Option* option : command->get_options()) {
+      const std::string name = long_name(*option);
+      if (name.empty() || !is_file(*option) || std::find(names.begin(), names.end(), name) != names.end()) continue;
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
 std::string words(const CLI::App& command) {
   std::string all;
   for (const CLI::Option* option : command.get_options()) {
@@ -63,7 +78,8 @@ std::string bash_completion(const CLI::App& app) {
                          fmt::join(list, " "));
     }
   }
-  out += "    --output) COMPREPLY=($(compgen -f -- \"$word\")); return ;;\n  esac\n";
+  out += fmt::format("    {}) COMPREPLY=($(compgen -f -- \"$word\")); return ;;\n  esac\n",
+                     fmt::join(file_options(app), "|"));
   out += fmt::format("  if ((COMP_CWORD == 1)); then list=\"{} --help --version\"; else\n"
                      "    case \"${{COMP_WORDS[1]}}\" in\n", command_words(app));
   for (const CLI::App* command : commands_of(app)) {
@@ -94,7 +110,7 @@ std::string zsh_completion(const CLI::App& app) {
       if (name.empty()) continue;
       const auto list = choices(*option);
       const std::string value = option->get_items_expected_max() == 0 ? ""
-                                : list.empty() ? (name == "--output" ? ":file:_files" : ":value: ")
+                                : list.empty() ? (is_file(*option) ? ":file:_files" : ":value: ")
                                                : fmt::format(":value:({})", fmt::join(list, " "));
       out += fmt::format(" \\\n      '{}[{}]{}'", name, plain(option->get_description()), value);
     }
@@ -113,7 +129,7 @@ std::string fish_completion(const CLI::App& app) {
       if (name.empty()) continue;
       const auto list = choices(*option);
       const std::string value = option->get_items_expected_max() == 0 ? ""
-                                : list.empty() ? (name == "--output" ? " -r -F" : " -x")
+                                : list.empty() ? (is_file(*option) ? " -r -F" : " -x")
                                                : fmt::format(" -x -a '{}'", fmt::join(list, " "));
       out += fmt::format("complete -c clatter -n '__fish_seen_subcommand_from {}' -l {}{} -d '{}'\n",
                          command->get_name(), name.substr(2), value, plain(option->get_description()));
