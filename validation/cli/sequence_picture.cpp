@@ -58,7 +58,7 @@ class HeightCurve {
  public:
   HeightCurve(const Scene& scene, const Sequence& sequence)
       : body_(scene.body()), gravity_(scene.gravity), rows_(sequence.rows), whole_(whole_time(sequence)) {
-    add_part(flight(rows_.front(), rows_.front().before), -0.1 * whole_);
+    add_part(flight(rows_.front(), rows_.front().before), -approach());
     std::reverse(samples_.begin(), samples_.end());
     for (std::size_t i = 0; i + 1 < rows_.size(); ++i) {
       add_whole(flight(rows_[i], rows_[i].impact.after), rows_[i + 1].start - rows_[i].start);
@@ -82,6 +82,12 @@ class HeightCurve {
     return 5 * reach /
            std::max({std::fabs(row.before.normal), std::fabs(row.impact.after.normal),
                      reach * std::fabs(row.impact.after.angular)});
+  }
+
+  /// What is shown of the fall to the first impact: at most from its release on.
+  [[nodiscard]] double approach() const {
+    const double speed = -rows_.front().before.normal;
+    return gravity_ > 0 && speed > 0 ? std::min(0.1 * whole_, speed / gravity_) : 0.1 * whole_;
   }
 
   /// Points for the share of the picture's width, more for a body that spins.
@@ -208,8 +214,10 @@ Picture sequence_picture(const Scene& scene, const Sequence& sequence) {
   const auto& samples = picture.panels[0].rows;
   const auto [first, last] = std::minmax_element(samples.begin(), samples.end(),
                                                  [](const auto& one, const auto& other) { return one[0] < other[0]; });
-  const double beyond = sequence.tail ? 0.02 * ((*last)[0] - (*first)[0]) : 0;  // the end is not on the frame
-  for (PicturePanel& panel : picture.panels) panel.plot.x = {(*first)[0], (*last)[0] + beyond};
+  // The last impact, or the end of infinitely many, is not on the frame.
+  const double end = sequence.tail ? sequence.tail->end_time : sequence.rows.back().start;
+  const double room = 0.02 * ((*last)[0] - (*first)[0]);
+  for (PicturePanel& panel : picture.panels) panel.plot.x = {(*first)[0], std::max((*last)[0], end + room)};
   return picture;
 }
 

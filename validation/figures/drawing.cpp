@@ -18,7 +18,8 @@ std::string script(const Figure& figure, const FigurePlot& plot, std::size_t ind
              "set border 3 lc rgb '#444444'\nset tics nomirror\nset grid lc rgb '#dddddd' lt 1\nset key outside top "
              "center horizontal samplen 1.5\nset boxwidth 0.6\n",
              figure.number, index) +
-         axes_text(data, plot) + data_blocks(data, plot, "$d") + plot_command(data, plot, "$d");
+         fmt::format("set ylabel {}\n", gnuplot_quoted(plot.y_label)) + axes_text(data, plot) +
+         data_blocks(data, plot, "$d") + plot_command(data, plot, "$d");
 }
 
 /// Without the declarations that only a file of its own may have.

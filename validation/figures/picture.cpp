@@ -14,7 +14,7 @@ namespace clatter::validation {
 namespace {
 
 // Lengths in units of the SVG's pixel.
-constexpr double width = 800, left = 92, right = 20, top = 8, line_height = 19, bottom = 60;
+constexpr double width = 800, left = 100, right = 20, top = 8, line_height = 19, bottom = 60;
 constexpr double key_line = 19, above_panel = 11, character = 8.4, key_sample = 62;
 constexpr std::array<double, 4> panel_heights{380, 250, 200, 160};  // with one, two, three, or more panels
 constexpr std::size_t title_columns = 112;
@@ -99,6 +99,9 @@ std::string panel_text(const PicturePanel& panel, const Layout& layout, std::siz
                                  1 - layout.tops[i] / layout.height,
                                  1 - (layout.tops[i] + layout.panel) / layout.height, Key(panel.plot).columns);
   text += axes_text(data, panel.plot);
+  // As a label, so that the names stand in line and wide numbers do not push them off the page.
+  text += fmt::format("set label 10 {} at screen {}, graph 0.5 center rotate by 90\n",
+                      gnuplot_quoted(panel.plot.y_label), 14 / width);
   if (panel.plot.x_label.empty()) text += "set format x ''\n";
   if (panel.plot.whole_x && panel.plot.x.high - panel.plot.x.low <= most_whole_tics) text += "set xtics 1\n";
   const std::string name = fmt::format("$panel{}_", i + 1);

@@ -178,8 +178,7 @@ std::string axes_text(const PlotData& data, const FigurePlot& plot) {
     if (!is_given(x)) x = {0, 1};
     if (!is_given(y)) y = {0, 1};
   }
-  std::string text =
-      fmt::format("set xlabel {}\nset ylabel {}\n", gnuplot_quoted(plot.x_label), gnuplot_quoted(plot.y_label));
+  std::string text = fmt::format("set xlabel {}\n", gnuplot_quoted(plot.x_label));
   if (!plot.title.empty()) text += fmt::format("set title {}\n", gnuplot_quoted(plot.title));
   const bool logarithmic = plot.logarithmic_x || plot.logarithmic_y;
   text += fmt::format("set xrange {}\nset yrange {}\nset offsets 0, 0, {}, 0\n", range(x), range(y),

@@ -19,7 +19,7 @@ struct PlotData {
 /// those that are not positive.
 [[nodiscard]] std::string data_blocks(const PlotData& data, const FigurePlot& plot, const std::string& name);
 
-/// Title, labels, ranges and kinds of the axes.
+/// Title, name of the x axis, ranges and kinds of the axes.
 [[nodiscard]] std::string axes_text(const PlotData& data, const FigurePlot& plot);
 
 /// Points take the colour of the line before them if they have no name of their own.  Without any number to draw, the
