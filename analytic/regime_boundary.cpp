@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -26,9 +27,10 @@ BoundaryKind kind_of(const ContactAngle& below, const ContactAngle& above) {
   return above.next == NextImpact::beyond_upright ? BoundaryKind::upright : BoundaryKind::order;
 }
 
-/// Rounding margin of the clearance over the rate at which it opens with θ.
+/// Rounding margin of the clearance over the rate at which it opens with θ; not finite at the upright, beyond which there
+/// is nothing to see.
 double fold_uncertainty(double theta, ImpactNumber impact, const RodParameters& parameters) {
-  const double apart = 1e-6;
+  const double apart = std::min(1e-6, (pi / 2 - theta) / 2);
   const auto clearance_at = [&](double t) {
     return angle_of(contact_angles(Angle::from_radians(t), parameters), impact).clearance;
   };
@@ -41,14 +43,13 @@ RegimeBoundary describe(const Sides& sides, ImpactNumber impact, const RodParame
   const ContactAngle& below = angle_of(sides.below, impact);
   const ContactAngle& above = angle_of(sides.above, impact);
   const double theta = sides.below.theta.radians;
-  RegimeBoundary boundary{.kind = kind_of(below, above), .theta = theta, .gamma = missing};
+  RegimeBoundary boundary{.kind = kind_of(below, above), .theta = theta, .gamma = missing, .uncertainty = missing};
   // At a fold the angle of closest approach is the double root itself, free of its square root error.
   const double angle = boundary.kind == BoundaryKind::fold ? above.closest_angle : below.angle;
   boundary.beta = impact == ImpactNumber::second ? angle : sides.above.beta.angle;
   if (impact == ImpactNumber::third) boundary.gamma = angle;
-  boundary.uncertainty = boundary.kind == BoundaryKind::fold
-                             ? fold_uncertainty(theta, impact, parameters)
-                             : sides.above.theta.radians - theta;
+  if (boundary.kind == BoundaryKind::fold) boundary.uncertainty = fold_uncertainty(theta, impact, parameters);
+  if (!(boundary.uncertainty >= 0 && boundary.uncertainty < 1)) boundary.uncertainty = sides.above.theta.radians - theta;
   return boundary;
 }
 

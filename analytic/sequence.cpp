@@ -245,7 +245,8 @@ Sequence internal_sequence(const Drop& drop, const SequenceOptions& options, con
   if (run.first_creating() > 0) {
     std::ostringstream text;
     text.precision(6);
-    text << "the impulse ratio creates energy: " << units.energy(run.created())
+    const bool coulomb = drop.law.friction == FrictionKind::coulomb;
+    text << (coulomb ? "the law of restitution, with friction," : "the impulse ratio") << " creates energy: " << units.energy(run.created())
          << " J in all, from impact " << run.first_creating() << " on";
     sequence.warnings.push_back(text.str());
   }

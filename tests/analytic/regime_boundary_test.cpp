@@ -67,6 +67,13 @@ BOOST_AUTO_TEST_CASE(with_strong_gravity_the_second_impact_ends_upright) {
   BOOST_TEST(std::fabs(degrees(b.beta) - 90) <= 1e-9);
 }
 
+// V_1 = -3 c²/(1 + 3 c²) |v_n| < 0 below the upright: the rod goes on falling and lands on its other end.
+BOOST_AUTO_TEST_CASE(without_rebound_there_is_a_second_impact_up_to_the_upright) {
+  const RegimeBoundary boundary = regime_boundary(ImpactNumber::second, {.restitution = 0});
+  BOOST_TEST(std::fabs(boundary.theta - pi / 2) <= 1e-7);
+  BOOST_TEST(boundary.uncertainty >= 0);
+}
+
 BOOST_AUTO_TEST_CASE(the_impact_happens_just_below_a_boundary_and_not_just_above) {
   for (const double g : {0.0, 0.03, 0.5, 2.0, 20.0}) {
     const RodParameters rod{.gravity_number = g};

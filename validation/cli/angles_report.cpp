@@ -28,10 +28,10 @@ std::size_t column_count(const AnglesRequest& request) {
 }
 
 std::vector<std::string> notes_of(const AnglesRequest& request) {
-  if (!request.as_printed) return {"An empty cell: that impact does not happen with β, γ ≤ 90°."};
+  if (!request.as_printed) return {"An empty cell: that impact does not happen, comes with β, γ > 90°, or after another one."};
   return {
       "β: with the gravity term − (g/vₙ²)(…)²(θ+β)²; printed: with the paper's + (g/2vₙ²)(…)²(θ+β)²,"
-      " whose sign and factor are wrong, for g of either sign. An empty cell: no impact."};
+      " whose sign and factor are wrong, for g of either sign. An empty cell: no such impact."};
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ void draw(const SimulationScene& scene, const Simulation& run, const PictureHist
   else if (run.impacts.empty())
     plot.leave_out("no impact was computed");
   else if (plot.is_wanted())
-    plot.write(simulation_picture(scene, run, history), run_words("simulate", "impact sequence, continuous contact", scene.json()));
+    plot.write(simulation_picture(scene, history), run_words("simulate", "impact sequence, continuous contact", scene.json()));
 }
 
 int run_single(const SimulationScene& scene, const numeric::Body& body, const OutputChoice& choice, PlotFile& plot) {

@@ -47,17 +47,6 @@ PicturePanel history_panel(const PictureHistory& history, const std::string& lab
                    .y = {}}};
 }
 
-/// Adds the instants of largest force, where they are not among the rows.
-void add_peaks(const numeric::Simulation& run, std::vector<std::vector<double>>& rows) {
-  for (const numeric::ImpactRecord& impact : run.impacts) {
-    const double time = impact.value.start + impact.value.peak_time;
-    const auto next = std::lower_bound(rows.begin(), rows.end(), time,
-                                       [](const std::vector<double>& row, double at) { return row[0] < at; });
-    if (next != rows.end() && (*next)[0] == time) continue;
-    rows.insert(next, {time, none, none, impact.value.peak_force});
-  }
-}
-
 /// At least one per cent of the energy to both sides, so that what is lost to rounding alone looks like nothing.
 Range2 loss_range(const std::vector<SweptRun>& runs) {
   double energy = 0, loss = 0;
@@ -77,8 +66,7 @@ void PictureHistory::record(const numeric::HistorySample& s) {
                    s.energy_rotation, s.energy_potential, s.energy_ground, s.energy_total()});
 }
 
-Picture simulation_picture(const SimulationScene& scene, const numeric::Simulation& run,
-                           const PictureHistory& history) {
+Picture simulation_picture(const SimulationScene& scene, const PictureHistory& history) {
   Picture picture{.what = "Impact sequence, continuous contact",
                   .scene = scene.summary(),
                   .panels = {history_panel(history, "height [m]",
@@ -88,7 +76,6 @@ Picture simulation_picture(const SimulationScene& scene, const numeric::Simulati
                                            {over_time("translation", "translation"), over_time("rotation", "rotation"),
                                             over_time("potential", "potential"), over_time("ground", "ground"),
                                             over_time("total", "total")})}};
-  add_peaks(run, picture.panels[1].rows);
   for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) picture.panels[i].plot.y = {0, none};
   picture.panels.back().plot.x_label = "time since the first touch-down [s]";
   return picture;

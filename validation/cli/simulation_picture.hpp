@@ -35,10 +35,8 @@ class HistoryFan : public numeric::HistoryRecorder {
   std::vector<numeric::HistoryRecorder*> recorders_;
 };
 
-/// Heights, contact force and energies over time.  The force has the peak of each impact besides the history's samples,
-/// which are as far apart as the steps.
-[[nodiscard]] Picture simulation_picture(const SimulationScene& scene, const numeric::Simulation& run,
-                                         const PictureHistory& history);
+/// Heights, contact force and energies over time.
+[[nodiscard]] Picture simulation_picture(const SimulationScene& scene, const PictureHistory& history);
 
 /// What the first impact of each value left: normal velocity, angular velocity, impulse, energy loss.
 [[nodiscard]] Picture sweep_picture(const SimulationScene& scene, const std::vector<SweptRun>& runs);

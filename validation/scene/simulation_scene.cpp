@@ -449,6 +449,7 @@ Json SimulationScene::json() const {
 }
 
 std::vector<std::string> SimulationScene::summary() const {
+  const bool sweeps_friction = sweep && sweep->quantity == SceneSweep::Quantity::friction;
   std::string drop = sweep && sweep->quantity == SceneSweep::Quantity::angle_deg
                          ? fmt::format("drop: {}° to {}°", shortest(sweep->from), shortest(sweep->to))
                          : fmt::format("drop: {}°", shortest(angle_deg));
@@ -460,7 +461,8 @@ std::vector<std::string> SimulationScene::summary() const {
   return {body_words(body), drop,
           fmt::format("ground: k = {} N/m³, c = {} N·s/m⁴ over the {} area, {}", in_powers(ground.stiffness),
                       in_powers(ground.damping), area_names[static_cast<std::size_t>(ground.area)],
-                      friction_words(ground))};
+                      sweeps_friction ? fmt::format("friction μ = {} to {}", shortest(sweep->from), shortest(sweep->to))
+                                      : friction_words(ground))};
 }
 
 }  // namespace clatter::validation
