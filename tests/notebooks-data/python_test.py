@@ -248,6 +248,7 @@ class Errors(unittest.TestCase):
         self.refused("closed_form: does not apply".replace("_", "-"), clatter.sequence, 10, friction=0.1, method="closed-form")
         self.refused("theta 91", clatter.angles, [10, 91])
         self.refused("theta nan", clatter.angles, [float("nan")])
+        self.refused("start 5: must not be greater than stop 3", clatter.angles, start=5, stop=3)
         self.refused("excludes start", clatter.angles, [10], start=1)
         self.refused("did you mean angle?", clatter.simulate, "rod-45", anle=3)
         self.refused("did you mean 'rod-45'?", clatter.simulate, "rod-46")

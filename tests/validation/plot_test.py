@@ -246,10 +246,8 @@ class Data(InFolder):
     def test_simulate_draws_the_history_that_it_writes_beside_it(self):
         out, drawn = self.plotted(*COMMANDS["simulate"][0], "--history", self.path("h.csv"), "--format", "json")
         peaks = [[i["start"] + i["peak_time"], i["peak_force"]] for i in json.loads(out)["impacts"]]
-        force = [point for point in drawn["panel2_0"] if point not in peaks]
-        self.assertEqual(len(drawn["panel2_0"]) - len(force), 3)
-        self.assertEqual(drawn["panel2_0"], sorted(drawn["panel2_0"]))
-        drawn["panel2_0"] = force
+        for time, force in peaks:
+            self.assertTrue(any(abs(t - time) <= 1e-15 and f == force for t, f in drawn["panel2_0"]), (time, force))
         history = [row for row in csv_rows(self.read("h.csv")) if float(row["t"]) >= 0]
         for block, column in (("panel1_0", "z"), ("panel2_0", "fz"), ("panel3_0", "energy_translation"),
                               ("panel3_1", "energy_rotation"), ("panel3_2", "energy_potential"),

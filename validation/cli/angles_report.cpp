@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <map>
+#include <optional>
 
 #include "validation/cli/options.hpp"
 #include "validation/cli/rod_options.hpp"
@@ -19,6 +21,53 @@ using analytic::NextImpact;
 
 constexpr std::size_t plain_columns = 17, impacts_column = 16;
 
+/// What may be given.
+struct AnglesTexts {
+  SweepTexts range;
+  RodTexts rod;
+  std::optional<std::string> digits, as_printed;
+};
+
+using AnglesText = std::optional<std::string>& (*)(AnglesTexts&);
+const std::map<std::string, AnglesText> members{{"from", [](AnglesTexts& texts) -> auto& {return texts.range.from;
+}  // namespace
+}  // namespace clatter::validation
+, {"to", [](AnglesTexts& texts) -> auto& {return texts.range.to;
+}
+}
+, {"step", [](AnglesTexts& texts) -> auto& {return texts.range.step;
+}
+}
+, {"count", [](AnglesTexts& texts) -> auto& {return texts.range.count;
+}
+}
+, {"gravity_number", [](AnglesTexts& texts) -> auto& {return texts.rod.gravity_number;
+}
+}
+, {"gravity", [](AnglesTexts& texts) -> auto& {return texts.rod.gravity;
+}
+}
+, {"length", [](AnglesTexts& texts) -> auto& {return texts.rod.length;
+}
+}
+, {"speed", [](AnglesTexts& texts) -> auto& {return texts.rod.speed;
+}
+}
+, {"restitution", [](AnglesTexts& texts) -> auto& {return texts.rod.restitution;
+}
+}
+, {"impulse_ratio", [](AnglesTexts& texts) -> auto& {return texts.rod.impulse_ratio;
+}
+}
+, {"digits", [](AnglesTexts& texts) -> auto& {return texts.digits;
+}
+}
+, {
+  "as_printed", [](AnglesTexts & texts) -> auto& { return texts.as_printed; }
+}
+}
+;
+
 double angle_or_missing(const analytic::ContactAngle& angle) {
   return angle.next == NextImpact::other_end ? angle.angle * degrees_per_radian : NAN;
 }
@@ -28,13 +77,25 @@ std::size_t column_count(const AnglesRequest& request) {
 }
 
 std::vector<std::string> notes_of(const AnglesRequest& request) {
-  if (!request.as_printed) return {"An empty cell: that impact does not happen, comes with β, γ > 90°, or after another one."};
+  if (!request.as_printed)
+    return {"An empty cell: that impact does not happen, comes with β, γ > 90°, or after another one."};
   return {
       "β: with the gravity term − (g/vₙ²)(…)²(θ+β)²; printed: with the paper's + (g/2vₙ²)(…)²(θ+β)²,"
       " whose sign and factor are wrong, for g of either sign. An empty cell: no such impact."};
 }
 
 }  // namespace
+
+AnglesRequest angles_request(const NamedTexts& given) {
+  AnglesTexts texts;
+  for (const auto& [name, text] : given) named(members, name)(texts) = text;
+  const Sweep sweep = read_sweep(texts.range, {0, 90, 5}, {0, 90, false, "from 0 to 90 degrees"});
+  return {.theta = [sweep](long long i) { return sweep.value(i); },
+          .count = sweep.count,
+          .rod = read_rod(texts.rod),
+          .as_printed = read_name_option("--as-printed", texts.as_printed.value_or("false"), {"false", "true"}) == 1,
+          .digits = texts.digits ? read_integer_option("--digits", *texts.digits, 1, 17) : 6};
+}
 
 std::vector<Column> angles_columns(const AnglesRequest& request) {
   const bool p = request.as_printed;

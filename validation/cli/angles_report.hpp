@@ -9,6 +9,7 @@
 #include "analytic/contact_angles.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/table.hpp"
+#include "validation/scene/named_texts.hpp"
 
 namespace clatter::validation {
 
@@ -20,6 +21,10 @@ struct AnglesRequest {
   bool as_printed = false;  ///< also β by the paper's printed gravity term
   int digits = 6;           ///< shown in tables
 };
+
+/// From the flags of `clatter angles` by name: from, to, step, count, gravity_number, …, digits, as_printed.
+/// @throws BadInput as the command.
+[[nodiscard]] AnglesRequest angles_request(const NamedTexts& given);
 
 /// Names, headings and units of a row's numbers.
 [[nodiscard]] std::vector<Column> angles_columns(const AnglesRequest& request);

@@ -1,9 +1,5 @@
 #include "validation/scene/named_texts.hpp"
 
-#include <fmt/format.h>
-
-#include "validation/scene/bad_input.hpp"
-
 namespace clatter::validation {
 namespace {
 
@@ -59,27 +55,17 @@ const std::map<std::string, std::string> keys{{"angle", "drop.angle_deg"},
                                               {"amplification", "run.amplification"},
                                               {"evaluation_limit", "run.evaluation_limit"}};
 
-/// What stands under `name`.
-template <class Value>
-const Value& known(const std::map<std::string, Value>& table, const std::string& name) {
-  const auto found = table.find(name);
-  if (found != table.end()) return found->second;
-  std::vector<std::string> names;
-  for (const auto& entry : table) names.push_back(entry.first);
-  throw BadInput(fmt::format("{}: unknown argument; did you mean {}?", name, nearest_name(name, names)));
-}
-
 }  // namespace
 
 SceneTexts scene_texts(const NamedTexts& given) {
   SceneTexts texts;
-  for (const auto& [name, text] : given) texts.*known(members, name) = text;
+  for (const auto& [name, text] : given) texts.*named(members, name) = text;
   return texts;
 }
 
 std::vector<SceneOverride> scene_overrides(const NamedTexts& given) {
   std::vector<SceneOverride> overrides;
-  for (const auto& [name, text] : given) overrides.push_back({known(keys, name), name, text});
+  for (const auto& [name, text] : given) overrides.push_back({named(keys, name), name, text});
   return overrides;
 }
 

@@ -5,12 +5,23 @@
 #include <string>
 #include <vector>
 
+#include "validation/scene/bad_input.hpp"
 #include "validation/scene/scene.hpp"
 #include "validation/scene/simulation_scene.hpp"
 
 namespace clatter::validation {
 
 using NamedTexts = std::map<std::string, std::string>;
+
+/// What stands in `table` under `name`.  @throws BadInput for an unknown name, with the nearest.
+template <class Value>
+[[nodiscard]] const Value& named(const std::map<std::string, Value>& table, const std::string& name) {
+  const auto found = table.find(name);
+  if (found != table.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& entry : table) names.push_back(entry.first);
+  throw BadInput(name + ": unknown argument; did you mean " + nearest_name(name, names) + "?");
+}
 
 /// Flags of `clatter sequence`.  @throws BadInput for an unknown name, with the nearest.
 [[nodiscard]] SceneTexts scene_texts(const NamedTexts& given);

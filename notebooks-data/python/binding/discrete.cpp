@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <memory>
 
 #include "analytic/sequence.hpp"
@@ -12,8 +11,6 @@
 #include "report.hpp"
 #include "runs.hpp"
 #include "validation/cli/angles_report.hpp"
-#include "validation/cli/options.hpp"
-#include "validation/cli/rod_options.hpp"
 #include "validation/cli/sequence_report.hpp"
 #include "validation/plan/sequence_method.hpp"
 #include "validation/scene/bad_input.hpp"
@@ -24,31 +21,9 @@ namespace {
 
 namespace py = pybind11;
 using validation::AnglesRequest;
-using validation::RodTexts;
 using validation::Scene;
-using validation::SweepTexts;
 
 using Given = validation::NamedTexts;
-template <class Texts>
-using Members = std::map<std::string, std::optional<std::string> Texts::*>;
-
-// By the names of the flags, with "_" for "-".
-const Members<SweepTexts> range_members{
-    {"from", &SweepTexts::from}, {"to", &SweepTexts::to}, {"step", &SweepTexts::step}, {"count", &SweepTexts::count}};
-const Members<RodTexts> rod_members{{"gravity_number", &RodTexts::gravity_number},
-                                    {"gravity", &RodTexts::gravity},
-                                    {"length", &RodTexts::length},
-                                    {"speed", &RodTexts::speed},
-                                    {"restitution", &RodTexts::restitution},
-                                    {"impulse_ratio", &RodTexts::impulse_ratio}};
-
-template <class Texts>
-Texts texts_of(const Given& given, const Members<Texts>& members) {
-  Texts texts;
-  for (const auto& [name, text] : given) texts.*members.at(name) = text;
-  return texts;
-}
-
 struct DiscreteRun {
   Scene scene;
   analytic::Sequence sequence;
@@ -72,21 +47,13 @@ void check_angle(double theta) {
   throw validation::BadInput(fmt::format("theta {}: must be from 0 to 90 degrees", theta));
 }
 
-AnglesRequest request_of(const std::optional<Numbers>& theta, const Given& range, Given rod, bool as_printed) {
-  AnglesRequest request;
-  request.as_printed = as_printed;
-  if (const auto digits = rod.extract("digits")) {
-    request.digits = validation::read_integer_option("--digits", digits.mapped(), 1, 17);
+/// The range of `given`, or these angles.
+AnglesRequest request_of(const std::optional<Numbers>& theta, const Given& given) {
+  AnglesRequest request = validation::angles_request(given);
+  if (!theta) return request;
+  for (const char* const name : {"from", "to", "step", "count"}) {
+    if (given.contains(name)) throw validation::BadInput("theta: excludes start, stop, step and count");
   }
-  request.rod = validation::read_rod(texts_of(rod, rod_members));
-  if (!theta) {
-    const validation::Sweep sweep =
-        validation::read_sweep(texts_of(range, range_members), {0, 90, 5}, {0, 90, false, "from 0 to 90 degrees"});
-    request.count = sweep.count;
-    request.theta = [sweep](long long i) { return sweep.value(i); };
-    return request;
-  }
-  if (!range.empty()) throw validation::BadInput("theta: excludes start, stop, step and count");
   std::vector<double> values(theta->data(), theta->data() + theta->size());
   for (const double value : values) check_angle(value);
   request.count = static_cast<long long>(values.size());
@@ -107,8 +74,8 @@ std::vector<double> rows_of(const AnglesRequest& request, std::size_t width) {
 }
 
 /// (report, column name to array)
-py::tuple angles(const std::optional<Numbers>& theta, const Given& range, const Given& rod, bool as_printed) {
-  const AnglesRequest request = request_of(theta, range, rod, as_printed);
+py::tuple angles(const std::optional<Numbers>& theta, const Given& given) {
+  const AnglesRequest request = request_of(theta, given);
   const std::vector<validation::Column> columns = validation::angles_columns(request);
   const std::vector<double> rows = rows_of(request, columns.size());
   py::dict arrays;
@@ -128,8 +95,7 @@ py::tuple angles(const std::optional<Numbers>& theta, const Given& range, const 
 
 void add_discrete_functions(py::module_& module) {
   module.def("sequence", &sequence, py::arg("options"), py::arg("method"), "Impact sequence of a rod or box.");
-  module.def("angles", &angles, py::arg("theta"), py::arg("range"), py::arg("rod"), py::arg("as_printed"),
-             "Contact angles of the thin rod.");
+  module.def("angles", &angles, py::arg("theta"), py::arg("options"), "Contact angles of the thin rod.");
 }
 
 }  // namespace clatter::python

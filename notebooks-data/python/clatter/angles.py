@@ -101,8 +101,8 @@ def angles(
     >>> clatter.angles([10]).beta_deg
     array([5.08198288])
     """
-    given = texts_of({"from": start, "to": stop, "step": step, "count": count})
-    rod = texts_of({"gravity_number": gravity_number, "gravity": gravity, "length": length, "speed": speed,
-                    "restitution": restitution, "impulse_ratio": impulse_ratio, "digits": digits})
+    given = texts_of({"from": start, "to": stop, "step": step, "count": count, "gravity_number": gravity_number,
+                      "gravity": gravity, "length": length, "speed": speed, "restitution": restitution,
+                      "impulse_ratio": impulse_ratio, "digits": digits, "as_printed": as_printed})
     values = None if theta is None else np.atleast_1d(np.asarray(theta, dtype=float)).ravel()
-    return Angles(*called(_clatter.angles, values, given, rod, as_printed))
+    return Angles(*called(_clatter.angles, values, given))

@@ -105,5 +105,6 @@ def called(function: Callable[..., Returned], *arguments: Any) -> Returned:
         return function(*arguments)
     except BadInput as error:
         words = re.sub(r"^scene(:\d+:\d+)?: ", "", str(error))
+        words = words.replace("--from ", "start ").replace("--to ", "stop ")
         words = re.sub(r"--([a-z][a-z-]*)", lambda flag: flag[1].replace("-", "_"), words)
         raise BadInput(words) from None
