@@ -4,7 +4,7 @@
     notebooks-data/notebooks.py [NOTEBOOK ...]           executes them (all of notebooks/) and writes what they show
     notebooks-data/notebooks.py --check [NOTEBOOK ...]   executes them, says where the outputs differ, changes nothing
 
-PYTHONPATH must hold the module clatter (build/dev/python).  Exit status 0, or 1 if a cell fails or an output differs.
+The module clatter comes from PYTHONPATH, or from build/dev/python without one.  Exit status 0, or 1 if a cell fails or an output differs.
 """
 
 import os
@@ -24,10 +24,10 @@ IMAGES = ("image/svg+xml", "image/png")
 def prepare_kernel(scratch):
     """Nothing of the user's own settings, nothing left behind."""
     os.environ.update(IPYTHONDIR=scratch, JUPYTER_CONFIG_DIR=scratch, JUPYTER_DATA_DIR=scratch, JUPYTER_RUNTIME_DIR=scratch,
-                      MPLCONFIGDIR=scratch, PYTHONDONTWRITEBYTECODE="1", PYDEVD_DISABLE_FILE_VALIDATION="1",
-                      PYTHONWARNINGS="default")
-    search = [str(FOLDER), str(FOLDER.parent), os.environ.get("PYTHONPATH", "")]
-    os.environ["PYTHONPATH"] = os.pathsep.join(path for path in search if path)
+                      MPLCONFIGDIR=scratch, PYTHONDONTWRITEBYTECODE="1", PYDEVD_DISABLE_FILE_VALIDATION="1")
+    given = os.environ.get("PYTHONPATH", "").split(os.pathsep)
+    search = [Path(path).resolve() for path in given if path] or [FOLDER.parent.parent / "build" / "dev" / "python"]
+    os.environ["PYTHONPATH"] = os.pathsep.join(map(str, search))  # the kernel starts in another folder
 
 
 def joined(outputs):
