@@ -21,6 +21,7 @@ using Action = std::function<int()>;
 [[nodiscard]] Action add_plan_command(CLI::App& app);
 [[nodiscard]] Action add_tradeoff_command(CLI::App& app);
 [[nodiscard]] Action add_extremes_command(CLI::App& app);
+[[nodiscard]] Action add_demo_command(CLI::App& app);
 [[nodiscard]] Action add_completion_command(CLI::App& app);
 [[nodiscard]] Action add_man_command(CLI::App& app);
 

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
 #include "validation/cli/sequence_report.hpp"
+#include "validation/cli/version.hpp"
 #include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
 
@@ -208,6 +210,33 @@ std::vector<Step> derive_impact(const Scene& scene, const analytic::Sequence& se
   Derivation derivation(scene, sequence);
   return static_cast<std::size_t>(n) <= sequence.rows.size() ? derivation.impact(n)
                                                              : derivation.missing(n);
+}
+
+Explanation explain_impact(Scene scene, int n) {
+  scene.impacts = std::max(scene.impacts, n);
+  const analytic::Sequence sequence =
+      analytic::impact_sequence(scene.drop(), {.impacts = n, .digits = scene.digits, .amplification = false});
+  return {.scene = scene, .impact = n, .steps = derive_impact(scene, sequence, n), .warnings = sequence.warnings};
+}
+
+Json explanation_json(const Explanation& explanation) {
+  Json steps = Json::array();
+  for (const Step& step : explanation.steps) {
+    Json equations = Json::array();
+    for (const Equation& e : step.equations) {
+      equations.push_back({{"name", e.name},
+                           {"symbolic", e.formula},
+                           {"numeric", e.numbers},
+                           {"value", number_or_null(e.value)},
+                           {"unit", e.unit}});
+    }
+    steps.push_back({{"title", step.title}, {"text", step.text}, {"equations", equations}});
+  }
+  return {{"clatter", version},
+          {"model", "discrete"},
+          {"scene", explanation.scene.json()},
+          {"impact", explanation.impact},
+          {"steps", steps}};
 }
 
 }  // namespace clatter::validation

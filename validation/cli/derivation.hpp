@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analytic/sequence.hpp"
+#include "validation/output/json.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
@@ -28,5 +29,15 @@ struct Step {
 /// Steps that lead to impact n of a sequence (counted from 1), or to the reason why it does not happen.
 [[nodiscard]] std::vector<Step> derive_impact(const Scene& scene, const analytic::Sequence& sequence,
                                               int n);
+
+/// How impact n of a scene came about.
+struct Explanation {
+  Scene scene;
+  int impact = 1;
+  std::vector<Step> steps;
+  std::vector<std::string> warnings;
+};
+[[nodiscard]] Explanation explain_impact(Scene scene, int n);
+[[nodiscard]] Json explanation_json(const Explanation& explanation);
 
 }  // namespace clatter::validation

@@ -6,7 +6,6 @@
 #include "validation/cli/commands.hpp"
 #include "validation/cli/derivation.hpp"
 #include "validation/cli/options.hpp"
-#include "validation/cli/version.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation {
@@ -112,20 +111,6 @@ std::string as_latex(const std::vector<std::string>& head, const std::vector<Ste
   return out;
 }
 
-Json as_json(const Scene& scene, const std::vector<Step>& steps, int n) {
-  Json list = Json::array();
-  for (const Step& step : steps) {
-    Json equations = Json::array();
-    for (const Equation& e : step.equations) {
-      equations.push_back({{"name", e.name}, {"symbolic", e.formula}, {"numeric", e.numbers},
-                           {"value", number_or_null(e.value)}, {"unit", e.unit}});
-    }
-    list.push_back({{"title", step.title}, {"text", step.text}, {"equations", equations}});
-  }
-  return {{"clatter", version}, {"model", "discrete"}, {"scene", scene.json()}, {"impact", n},
-          {"steps", list}};
-}
-
 Table as_table(const std::vector<std::string>& head, const std::vector<Step>& steps) {
   Table table{.head = head, .columns = {{"step", "", ""}, {"quantity", "", ""}, {"equation", "", ""},
                                         {"numbers", "", ""}, {"value", "", ""}, {"unit", "", ""}},
@@ -141,18 +126,16 @@ Table as_table(const std::vector<std::string>& head, const std::vector<Step>& st
 
 int run_explain(const ExplainInput& input) {
   const int n = read_integer_option("explain N", input.number, 1, 1000000);
-  Scene scene = read_scene(input.scene);
-  scene.impacts = std::max(scene.impacts, n);
+  const Scene scene = read_scene(input.scene);
   const OutputChoice choice = read_output(input.output);
-  const analytic::Sequence sequence = analytic::impact_sequence(
-      scene.drop(), {.impacts = n, .digits = scene.digits, .amplification = false});
-  for (const std::string& warning : sequence.warnings) fmt::print(stderr, "clatter: {}\n", warning);
-  const std::vector<Step> steps = derive_impact(scene, sequence, n);
+  const Explanation explanation = explain_impact(scene, n);
+  for (const std::string& warning : explanation.warnings) fmt::print(stderr, "clatter: {}\n", warning);
+  const std::vector<Step>& steps = explanation.steps;
   std::vector<std::string> head{headline("explain", fmt::format("impact {} step by step", n))};
-  for (const std::string& line : scene.summary()) head.push_back(line);
+  for (const std::string& line : explanation.scene.summary()) head.push_back(line);
   std::string text;
   switch (choice.style.format) {
-    case Format::json: text = json_text(as_json(scene, steps, n)); break;
+    case Format::json: text = json_text(explanation_json(explanation)); break;
     case Format::csv: text = table_text(as_table(head, steps), choice.style); break;
     case Format::markdown: text = as_markdown(head, steps, scene.digits); break;
     case Format::latex: text = as_latex(head, steps, scene.digits); break;

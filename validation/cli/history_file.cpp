@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 #include "validation/output/number.hpp"
 
 namespace clatter::validation {
@@ -11,23 +9,34 @@ namespace clatter::validation {
 using numeric::HistorySample;
 using numeric::Vector3;
 
-HistoryFile::HistoryFile(const std::string& path, const std::vector<std::string>& head) : sink_(path, "--history") {
-  for (const std::string& line : head) sink_.write("# " + line + "\n");
-  sink_.write("t,x,y,z,beta0,beta1,beta2,beta3,vx,vy,vz,wx,wy,wz,fx,fy,fz,point_vx,point_vy,point_vz,"
-              "energy_translation,energy_rotation,energy_potential,energy_ground,energy_total,in_contact\n");
+const std::vector<std::string>& history_names() {
+  static const std::vector<std::string> names{
+      "t",  "x",  "y",        "z",        "beta0",    "beta1",
+      "beta2", "beta3", "vx", "vy", "vz", "wx", "wy", "wz", "fx", "fy", "fz",
+      "point_vx", "point_vy", "point_vz", "energy_translation", "energy_rotation", "energy_potential",
+      "energy_ground", "energy_total", "in_contact"};
+  return names;
 }
 
-void HistoryFile::record(const HistorySample& s) {
+std::vector<double> history_numbers(const HistorySample& s) {
   const Eigen::Quaterniond& beta = s.state.attitude;
   const Vector3 omega = beta * s.state.angular_velocity;
-  const std::array<double, 25> numbers{
-      s.time, s.state.centre.x(), s.state.centre.y(), s.state.centre.z(), beta.w(), beta.x(), beta.y(), beta.z(),
-      s.state.velocity.x(), s.state.velocity.y(), s.state.velocity.z(), omega.x(), omega.y(), omega.z(),
-      s.force.x(), s.force.y(), s.force.z(), s.point_velocity.x(), s.point_velocity.y(), s.point_velocity.z(),
-      s.energy_translation, s.energy_rotation, s.energy_potential, s.energy_ground, s.energy_total()};
+  return {s.time, s.state.centre.x(), s.state.centre.y(), s.state.centre.z(), beta.w(), beta.x(), beta.y(), beta.z(),
+          s.state.velocity.x(), s.state.velocity.y(), s.state.velocity.z(), omega.x(), omega.y(), omega.z(),
+          s.force.x(), s.force.y(), s.force.z(), s.point_velocity.x(), s.point_velocity.y(), s.point_velocity.z(),
+          s.energy_translation, s.energy_rotation, s.energy_potential, s.energy_ground, s.energy_total(),
+          s.in_contact ? 1.0 : 0.0};
+}
+
+HistoryFile::HistoryFile(const std::string& path, const std::vector<std::string>& head) : sink_(path, "--history") {
+  for (const std::string& line : head) sink_.write("# " + line + "\n");
+  sink_.write(fmt::format("{}\n", fmt::join(history_names(), ",")));
+}
+
+void HistoryFile::record(const HistorySample& sample) {
   std::string line;
-  for (const double number : numbers) line += shortest(number) + ",";
-  sink_.write(line + (s.in_contact ? "1\n" : "0\n"));
+  for (const double number : history_numbers(sample)) line += (line.empty() ? "" : ",") + shortest(number);
+  sink_.write(line + "\n");
 }
 
 void record_fall(numeric::HistoryRecorder& recorder, const numeric::MotionState& touch, double mass, double gravity,

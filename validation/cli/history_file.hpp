@@ -2,11 +2,17 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "numeric/history.hpp"
 #include "validation/output/sink.hpp"
 
 namespace clatter::validation {
+
+/// Names of a sample's numbers: t, x, …, in_contact (0 or 1).
+[[nodiscard]] const std::vector<std::string>& history_names();
+/// The numbers in that order; SI, world frame.
+[[nodiscard]] std::vector<double> history_numbers(const numeric::HistorySample& sample);
 
 /// Streams samples into a file that appears whole or not at all.
 class HistoryFile : public numeric::HistoryRecorder {

@@ -52,6 +52,7 @@ int parse_and_run(const std::vector<std::string>& given) {
   actions["plan"] = add_plan_command(app);
   actions["tradeoff"] = add_tradeoff_command(app);
   actions["extremes"] = add_extremes_command(app);
+  actions["demo"] = add_demo_command(app);
   actions["completion"] = add_completion_command(app);
   actions["man"] = add_man_command(app);
   std::vector<std::string> arguments = checked_arguments(app, given);

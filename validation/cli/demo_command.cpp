@@ -1,0 +1,104 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include "validation/cli/commands.hpp"
+#include "validation/cli/options.hpp"
+#include "validation/cli/progress.hpp"
+#include "validation/demo/offline_page.hpp"
+#include "validation/demo/page.hpp"
+#include "validation/demo/server.hpp"
+#include "validation/output/interrupt.hpp"
+#include "validation/output/sink.hpp"
+#include "validation/scene/bad_input.hpp"
+
+namespace clatter::validation {
+namespace {
+
+constexpr int usual_port = 8318;
+
+struct DemoInput {
+  std::optional<std::string> port, file;
+  std::vector<std::string> scenes;
+};
+
+void require_page() {
+  if (!demo_page().empty()) return;
+  throw BadInput(
+      "demo: this build has no page; install nodejs and npm and build again (the log of the build says more)");
+}
+
+/// The port asked for; without one the usual port, so that links go on working, or any free one.
+void bind(DemoServer& server, const std::optional<std::string>& port) {
+  if (!port) {
+    if (server.bind(usual_port) || server.bind(0)) return;
+    throw std::runtime_error("no port is free");
+  }
+  const int number = read_integer_option("--port", *port, 1, 65535);
+  if (!server.bind(number)) throw BadInput(fmt::format("--port {}: is in use or not allowed", number));
+}
+
+int serve(const DemoInput& input) {
+  DemoServer server{std::string(demo_page())};
+  bind(server, input.port);
+  const CooperativeInterrupt interrupt;
+  std::atomic<bool> ended = false;
+  std::thread watch([&] {
+    while (!interrupt.requested() && !ended) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    server.stop();
+  });
+  fmt::print("clatter demo: http://127.0.0.1:{}/  (Ctrl-C ends it)\n", server.port());
+  std::fflush(stdout);
+  server.run();
+  ended = true;
+  watch.join();
+  return interrupt.requested() ? interrupted_status : 0;
+}
+
+int export_page(const DemoInput& input) {
+  const std::vector<std::string> known = offline_scenes();
+  for (const std::string& name : input.scenes) static_cast<void>(read_name_option("--scene", name, known));
+  Sink sink(*input.file, "--export");
+  const CooperativeInterrupt interrupt;
+  std::string page;
+  {
+    Progress progress;
+    page = offline_page(input.scenes.empty() ? known : input.scenes, [&](std::size_t done, std::size_t of) {
+      progress.show(progress_bar(done, of));
+      return !interrupt.requested();
+    });
+  }
+  if (interrupt.requested()) return interrupted_status;
+  sink.write(page);
+  sink.commit();
+  return 0;
+}
+
+int run_demo(const DemoInput& input) {
+  require_page();
+  if (!input.file) {
+    if (!input.scenes.empty()) throw BadInput(fmt::format("--scene {}: only with --export", input.scenes[0]));
+    return serve(input);
+  }
+  if (input.port) throw BadInput(fmt::format("--port {}: not with --export, which serves nothing", *input.port));
+  return export_page(input);
+}
+
+}  // namespace
+
+Action add_demo_command(CLI::App& app) {
+  auto input = std::make_shared<DemoInput>();
+  CLI::App* command = app.add_subcommand("demo", "a page to play with, in the browser");
+  add_text(*command, "--port", input->port, "N", fmt::format("of 127.0.0.1 ({}, or a free one)", usual_port));
+  add_text(*command, "--export", input->file, "FILE", "write a copy of the page that needs no program (HTML), and end");
+  command->add_option("--scene", input->scenes, "scenes of the copy (all)")->type_name("NAME");
+  command->footer("Example: clatter demo\nIt serves the page to this machine alone, until Ctrl-C.");
+  return [input] { return run_demo(*input); };
+}
+
+}  // namespace clatter::validation

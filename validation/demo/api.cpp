@@ -1,0 +1,204 @@
+#include "validation/demo/api.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <map>
+#include <regex>
+
+#include "analytic/errors.hpp"
+#include "numeric/errors.hpp"
+#include "validation/cli/angles_report.hpp"
+#include "validation/cli/comparison_report.hpp"
+#include "validation/cli/derivation.hpp"
+#include "validation/cli/history_file.hpp"
+#include "validation/cli/sequence_report.hpp"
+#include "validation/cli/simulation_report.hpp"
+#include "validation/embedded/embedded.hpp"
+#include "validation/output/number.hpp"
+#include "validation/plan/planned_run.hpp"
+#include "validation/plan/sequence_method.hpp"
+#include "validation/scene/bad_input.hpp"
+#include "validation/scene/named_texts.hpp"
+
+namespace clatter::validation {
+namespace {
+
+// A page shows no more than this, and nobody is to keep the server busy for long.
+constexpr long long most_impacts = 200, most_angles = 5000, most_evaluations = 3'000'000;
+
+std::string text_of(const std::string& name, const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
+  if (value.is_number_integer()) return value.dump();
+  if (value.is_number()) return shortest(value.get<double>());
+  if (!value.is_array()) throw BadInput(name + ": must be a number, a text, true, false or a list of numbers");
+  std::string text;
+  for (const Json& part : value) {
+    if (!part.is_number()) throw BadInput(name + ": must be a list of numbers");
+    text += (text.empty() ? "" : "x") + text_of(name, part);
+  }
+  return text;
+}
+
+NamedTexts texts_of(const std::string& body) {
+  const Json json = Json::parse(body, nullptr, false);
+  if (!json.is_object()) throw BadInput("the body: must be a JSON object of arguments");
+  NamedTexts texts;
+  for (const auto& [name, value] : json.items()) {
+    if (!value.is_null()) texts[name] = text_of(name, value);
+  }
+  return texts;
+}
+
+/// The argument, taken out; "" if it is not given.
+std::string taken(NamedTexts& texts, const std::string& name) {
+  const auto node = texts.extract(name);
+  return node ? node.mapped() : "";
+}
+
+void limit(const char* what, long long count, long long most) {
+  if (count <= most) return;
+  throw BadInput(fmt::format("{} {}: at most {} here; the command line has no such limit", what, count, most));
+}
+
+Scene discrete_scene(const NamedTexts& texts) {
+  Scene scene = read_scene(scene_texts(texts));
+  limit("impacts", scene.impacts, most_impacts);
+  return scene;
+}
+
+Json sequence(NamedTexts texts) {
+  const Scene scene = discrete_scene(texts);
+  return sequence_json(scene, sequence_by_method(scene, SequenceMethod::automatic));
+}
+
+Json explain(NamedTexts texts) {
+  const int n = read_integer_option("impact", taken(texts, "impact"), 1, most_impacts);
+  return explanation_json(explain_impact(discrete_scene(texts), n));
+}
+
+Json angles(NamedTexts texts) {
+  const AnglesRequest request = angles_request(texts);
+  limit("count", request.count, most_angles);
+  return angles_json(request);
+}
+
+/// A scene that comes with the program, or an empty one, with the arguments in it.
+SimulationScene continuous_scene(NamedTexts texts) {
+  const std::string name = taken(texts, "case");
+  std::string_view text;
+  if (!name.empty()) {
+    const std::string path = "validation/cases/" + name + ".toml";
+    for (const EmbeddedFile& file : embedded_files()) {
+      if (file.name == path) text = file.text;
+    }
+    if (text.empty()) throw BadInput(fmt::format("case '{}': there is none of this name", name));
+  }
+  const SceneValues values("scene", text, scene_keys());
+  SimulationScene scene = read_simulation_scene(values, scene_overrides(texts), Model::continuous);
+  if (scene.body.shape == BodyScene::Shape::mesh)
+    throw BadInput("body 'mesh': must be rod or box; a page can name no file");
+  if (scene.sweep) throw BadInput(fmt::format("case '{}': sweeps a quantity; give another", name));
+  limit("impacts", scene.options.impacts, most_impacts);
+  scene.options.evaluation_limit = std::min<long>(scene.options.evaluation_limit, most_evaluations);
+  return scene;
+}
+
+/// The time history, a column a name.
+class HistoryColumns : public numeric::HistoryRecorder {
+ public:
+  void record(const numeric::HistorySample& sample) override {
+    const std::vector<double> numbers = history_numbers(sample);
+    for (std::size_t i = 0; i < numbers.size(); ++i) columns_[i].push_back(numbers[i]);
+  }
+  [[nodiscard]] Json json() const {
+    Json json = Json::object();
+    for (std::size_t i = 0; i < columns_.size(); ++i) json[history_names()[i]] = columns_[i];
+    return json;
+  }
+
+ private:
+  std::vector<std::vector<double>> columns_{history_names().size()};
+};
+
+Json simulate(NamedTexts texts) {
+  const bool with_history = taken(texts, "history") == "true";
+  const SimulationScene scene = continuous_scene(std::move(texts));
+  const numeric::Body body = scene.make_body();
+  const numeric::MotionState start = scene.start(body);
+  HistoryColumns history;
+  numeric::Options options = scene.options;
+  if (with_history) options.history = &history;
+  if (with_history && scene.height) record_fall(history, start, body.mass(), options.gravity, 20);
+  const PlannedRun planned = run_to_digits(body, scene.ground, start, options);
+  Json json = simulation_json(scene, planned);
+  if (with_history) json["history"] = history.json();
+  return json;
+}
+
+Json compare(NamedTexts texts) {
+  const SimulationScene scene = continuous_scene(std::move(texts));
+  return comparison_json(scene, compare_models(scene, scene.make_body()));
+}
+
+using Answer = Json (*)(NamedTexts);
+const std::map<std::string, Answer> answers{{"/api/sequence", sequence},
+                                            {"/api/angles", angles},
+                                            {"/api/explain", explain},
+                                            {"/api/simulate", simulate},
+                                            {"/api/compare", compare}};
+
+constexpr int bad_input = 2, not_computed = 3, outside_model = 4;
+
+ApiAnswer refusal(int http_status, const std::exception& error, int exit_status) {
+  // Arguments have no dashes here, and an empty scene has no place in a file.
+  std::string words = std::regex_replace(std::string(error.what()), std::regex("^scene(:\\d+:\\d+)?: "), "");
+  const std::regex flag("--([a-z][a-z-]*)");
+  for (std::smatch found; std::regex_search(words, found, flag);) {
+    std::string name = found[1];
+    std::replace(name.begin(), name.end(), '-', '_');
+    words = found.prefix().str() + name + found.suffix().str();
+  }
+  return {http_status, error_json(words, exit_status)};
+}
+
+}  // namespace
+
+std::string error_json(const std::string& words, int exit_status) {
+  return json_text({{"error", words}, {"status", exit_status}});
+}
+
+std::string cases_json() {
+  constexpr std::string_view folder = "validation/cases/", extension = ".toml";
+  Json cases = Json::object();
+  for (const EmbeddedFile& file : embedded_files()) {
+    if (!file.name.starts_with(folder)) continue;
+    const std::string_view base = file.name.substr(folder.size());
+    const std::string name(base.substr(0, base.size() - extension.size()));
+    const SimulationScene scene = case_scene(name);
+    if (!scene.sweep) cases[name] = scene.json();
+  }
+  return json_text({{"cases", cases}});
+}
+
+ApiAnswer answer_request(const std::string& path, const std::string& body) {
+  const auto found = answers.find(path);
+  if (found == answers.end()) return {404, error_json("no such path: " + path, bad_input)};
+  try {
+    return {200, json_text(found->second(texts_of(body)))};
+  } catch (const BadInput& error) {
+    return refusal(400, error, bad_input);
+  } catch (const numeric::MeshError& error) {
+    return refusal(400, error, bad_input);
+  } catch (const analytic::OutsideModelError& error) {
+    return refusal(422, error, outside_model);
+  } catch (const std::logic_error& error) {  // a scene that the library refuses
+    return refusal(400, error, bad_input);
+  } catch (const std::exception& error) {
+    return refusal(422, error, not_computed);
+  }
+}
+
+}  // namespace clatter::validation

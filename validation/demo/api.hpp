@@ -1,0 +1,26 @@
+// What the page of `clatter demo` asks for, answered with the program's JSON.  No network here.
+#pragma once
+
+#include <string>
+
+namespace clatter::validation {
+
+struct ApiAnswer {
+  int status = 200;  ///< of HTTP: 200; 400 bad input; 404 no such path; 422 not computed or outside the model
+  std::string body;  ///< JSON
+};
+
+/// @param path "/api/sequence", "/api/angles", "/api/explain", "/api/simulate", "/api/compare"
+/// @param body a flat JSON object: flags of the command without dashes, "_" for "-"; simulate and compare also "case",
+/// a scene
+///             that comes with the program, simulate "history", explain "impact".  Nothing in it can name a file.
+/// Thread-safe.  Does not throw: what goes wrong is {"error": one line, "status": the program's exit status}.
+[[nodiscard]] ApiAnswer answer_request(const std::string& path, const std::string& body);
+
+/// {"cases": {NAME: scene, …}}, the scenes that come with the program.
+[[nodiscard]] std::string cases_json();
+
+/// {"error": words, "status": exit status}
+[[nodiscard]] std::string error_json(const std::string& words, int exit_status);
+
+}  // namespace clatter::validation

@@ -1,0 +1,62 @@
+#include "validation/demo/offline_page.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "validation/cli/version.hpp"
+#include "validation/demo/api.hpp"
+#include "validation/demo/page.hpp"
+#include "validation/output/json.hpp"
+
+namespace clatter::validation {
+namespace {
+
+Json known_scenes() { return Json::parse(demo_requests()).at("scenes"); }
+
+/// JSON that may stand inside a script element.
+std::string embeddable(const Json& json) {
+  std::string text = json.dump();
+  for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3) text.replace(at, 2, "<\\/");
+  return text;
+}
+
+/// @throws std::logic_error if the page's own request is refused.
+Json answered(const Json& request) {
+  const ApiAnswer answer = answer_request("/api/" + request.at("path").get<std::string>(), request.at("body").dump());
+  if (answer.status != 200) throw std::logic_error("the page's request for an offline copy: " + answer.body);
+  return Json::parse(answer.body);
+}
+
+}  // namespace
+
+std::vector<std::string> offline_scenes() {
+  std::vector<std::string> names;
+  for (const Json& scene : known_scenes()) names.push_back(scene.at("name"));
+  return names;
+}
+
+std::string offline_page(const std::vector<std::string>& scenes,
+                         const std::function<bool(std::size_t, std::size_t)>& progress) {
+  Json chosen = Json::array();
+  std::size_t count = 0, done = 0;
+  for (const Json& scene : known_scenes()) {
+    if (std::find(scenes.begin(), scenes.end(), scene.at("name")) == scenes.end()) continue;
+    chosen.push_back(scene);
+    count += scene.at("requests").size();
+  }
+  for (Json& scene : chosen) {
+    scene["answers"] = Json::object();
+    for (const Json& request : scene.at("requests")) {
+      if (!progress(done++, count)) return "";
+      scene["answers"][request.at("key").get<std::string>()] = answered(request);
+    }
+    scene.erase("requests");
+  }
+  std::string page(demo_page());
+  const std::string place = "id=\"precomputed\">{}<";
+  const std::size_t at = page.find(place);
+  if (at == std::string::npos) throw std::logic_error("the page has no place for precomputed scenes");
+  return page.replace(at + place.size() - 3, 2, embeddable({{"clatter", version}, {"scenes", chosen}}));
+}
+
+}  // namespace clatter::validation
