@@ -1,0 +1,159 @@
+// The force of the ground over time, and where the energy is.
+import uPlot from "uplot";
+import type { SimulateAnswer } from "./answers";
+import { COLOURS } from "./colours";
+import { byId, make } from "./dom";
+import { significant } from "./format";
+import type { Energies, Motion } from "./motion";
+
+export const FONT = "12px system-ui, sans-serif";
+
+/** Width that a chart has in its panel; its height is the same on all screens. */
+export function chartSize(box: HTMLElement, height: number): { width: number; height: number } {
+  return { width: Math.max(200, box.clientWidth), height };
+}
+
+export function axis(label: string, size: number): uPlot.Axis {
+  return {
+    label, labelSize: 22, size, font: FONT, labelFont: FONT, labelGap: 2, stroke: COLOURS.quiet,
+    grid: { stroke: COLOURS.grid, width: 1 }, ticks: { stroke: COLOURS.grid, width: 1, size: 5 },
+    values: (_plot, values) => values.map((value) => significant(value, 6)),
+  };
+}
+
+export function upright(plot: uPlot, x: number, colour: string, dash: number[], width = 1.5): void {
+  const { ctx, bbox } = plot;
+  const px = plot.valToPos(x, "x", true);
+  if (px < bbox.left || px > bbox.left + bbox.width) return;
+  ctx.save();
+  ctx.strokeStyle = colour;
+  ctx.lineWidth = width * devicePixelRatio;
+  ctx.setLineDash(dash.map((d) => d * devicePixelRatio));
+  ctx.beginPath();
+  ctx.moveTo(px, bbox.top);
+  ctx.lineTo(px, bbox.top + bbox.height);
+  ctx.stroke();
+  ctx.restore();
+}
+
+const HEIGHT = 220;
+
+export class ForceChart {
+  private readonly box = byId("force-chart");
+  private readonly whole = byId<HTMLInputElement>("force-whole");
+  private plot: uPlot | null = null;
+  private answer: SimulateAnswer | null = null;
+  private discreteStarts: number[] = [];
+  private chosen = 1;
+  private readonly now = make("div", { class: "now-line" });
+
+  constructor() {
+    new ResizeObserver(() => this.plot?.setSize(chartSize(this.box, HEIGHT))).observe(this.box);
+    this.whole.addEventListener("change", () => this.zoom());
+  }
+
+  show(answer: SimulateAnswer | null, discrete: Motion | null, chosen: number): void {
+    this.discreteStarts = discrete?.impacts.map(({ start }) => start * 1e3) ?? [];
+    this.chosen = chosen;
+    if (answer !== this.answer || !this.plot) this.rebuild(answer);
+    this.zoom();
+  }
+
+  setTime(time: number): void {
+    if (!this.plot) return;
+    const x = this.plot.valToPos(time * 1e3, "x");
+    const inside = x >= 0 && x <= this.plot.over.clientWidth;
+    this.now.hidden = !inside;
+    this.now.style.transform = `translateX(${x.toFixed(1)}px)`;
+  }
+
+  private rebuild(answer: SimulateAnswer | null): void {
+    this.answer = answer;
+    this.plot?.destroy();
+    this.plot = null;
+    if (!answer) return;
+    const { t, fx, fy, fz } = answer.history;
+    const tangential = fx.map((f, i) => Math.hypot(f, fy[i] ?? 0));
+    const rubs = tangential.some((f) => f > 1e-9);
+    const series: uPlot.Series[] = [
+      { label: "Time [ms]" }, { label: "Normal force", stroke: COLOURS.continuous, width: 2, points: { show: false } },
+    ];
+    const data: number[][] = [t.map((time) => time * 1e3), fz];
+    if (rubs) {
+      series.push({ label: "Friction", stroke: COLOURS.tangential, width: 2, dash: [6, 3], points: { show: false } });
+      data.push(tangential);
+    }
+    byId("force-friction").hidden = !rubs;
+    this.plot = new uPlot({
+      ...chartSize(this.box, HEIGHT), series, legend: { show: false }, cursor: { drag: { x: false, y: false } },
+      scales: { x: { time: false }, y: { range: (_plot, _low, high) => [0, Math.max(high, 1e-9) * 1.08] } },
+      axes: [axis("Time after the first touch [ms]", 34), axis("Force of the ground [N]", 58)],
+      hooks: { draw: [(plot) => this.discreteStarts.forEach((x) => upright(plot, x, COLOURS.discrete, [4, 4]))] },
+    }, data as uPlot.AlignedData, this.box);
+    this.plot.over.append(this.now);
+    const peaks = answer.impacts.map(({ n, peak_force }) => `impact ${n}: ${significant(peak_force, 3)} N`);
+    this.box.setAttribute("aria-label", `Force of the ground over time. Peaks, ${peaks.join("; ")}`);
+  }
+
+  private zoom(): void {
+    if (!this.plot || !this.answer) return;
+    const { impacts, history } = this.answer;
+    const impact = impacts[Math.min(this.chosen, impacts.length) - 1];
+    const all = this.whole.checked || !impact || impact.duration === 0;
+    const min = all ? 0 : (impact.start - 0.35 * impact.duration) * 1e3;
+    const max = all ? (history.t[history.t.length - 1] ?? 1) * 1e3 : (impact.start + 1.35 * impact.duration) * 1e3;
+    this.plot.setScale("x", { min, max });
+  }
+}
+
+type Part = keyof Energies;
+const PARTS: readonly { key: Part; title: string }[] = [
+  { key: "translation", title: "Translation" }, { key: "rotation", title: "Rotation" }, { key: "potential", title: "Height" },
+  { key: "ground", title: "Ground" }, { key: "lost", title: "Lost" },
+];
+
+/** One bar a model; its parts add up to the energy at the start. */
+export class EnergyBars {
+  private readonly bars = { discrete: bar("discrete"), continuous: bar("continuous") };
+
+  constructor() {
+    const head = make("tr", {}, make("th", { scope: "col" }, "Energy [J]"), make("th", { scope: "col" }, "discrete"),
+      make("th", { scope: "col" }, "continuous"));
+    const rows = PARTS.map(({ key, title }) => make("tr", {},
+      make("th", { scope: "row" }, make("span", { class: `swatch energy-${key}` }), title),
+      this.bars.discrete.cells[key], this.bars.continuous.cells[key]));
+    const total = make("tr", { class: "total" }, make("th", { scope: "row" }, "Total"), this.bars.discrete.total, this.bars.continuous.total);
+    byId("energy-bars").append(this.bars.discrete.element, this.bars.continuous.element);
+    byId("energy-table").append(make("thead", {}, head), make("tbody", {}, ...rows, total));
+  }
+
+  show(model: "discrete" | "continuous", energies: Energies | null): void {
+    const { element, parts, cells, total } = this.bars[model];
+    element.classList.toggle("empty", energies === null);
+    const sum = energies ? PARTS.reduce((all, { key }) => all + energies[key], 0) : 0;
+    for (const { key } of PARTS) {
+      // Rounding leaves losses such as −1e-16.
+      const value = energies ? Math.max(0, energies[key]) : 0;
+      parts[key].style.flexGrow = sum > 0 ? String(value / sum) : "0";
+      cells[key].textContent = energies ? amount(value, sum) : "–";
+    }
+    total.textContent = energies ? significant(sum, 4) : "–";
+  }
+}
+
+/** To the last place of the total, so that the parts visibly add up. */
+function amount(value: number, sum: number): string {
+  const places = sum > 0 ? Math.min(9, Math.max(0, 3 - Math.floor(Math.log10(sum)))) : 3;
+  return value.toFixed(places);
+}
+
+function bar(model: string): {
+  element: HTMLElement; parts: Record<Part, HTMLElement>; cells: Record<Part, HTMLElement>; total: HTMLElement;
+} {
+  const entries = <Made>(create: (key: Part) => Made): Record<Part, Made> =>
+    Object.fromEntries(PARTS.map(({ key }) => [key, create(key)])) as Record<Part, Made>;
+  const parts = entries((key) => make("span", { class: `energy-${key}` }));
+  const cells = entries(() => make("td"));
+  const strip = make("div", { class: "strip" }, ...Object.values(parts));
+  return { element: make("div", { class: `energy-bar ${model}` }, make("span", { class: "name" }, model), strip), parts, cells, total: make("td") };
+}

@@ -1,0 +1,105 @@
+// The continuous model between the samples of its time history: every step of a contact, some 20 of a flight.
+import type { Body } from "./body";
+import type { History, Impact } from "./answers";
+import { fallBefore, leadIn, rotate, type Energies, type Motion, type Pose, type Rotation, type Vector } from "./motion";
+
+export class ContinuousMotion implements Motion {
+  readonly begin: number;
+  readonly end: number;
+  private readonly total: number;
+
+  constructor(
+    readonly body: Body, readonly impacts: readonly Impact[], readonly history: History, private readonly gravity: number,
+  ) {
+    const speed = impacts[0]?.approach_speed ?? Math.abs(at(history.vz, 0));
+    this.begin = -leadIn(impacts, speed, gravity, body.length);
+    this.end = at(history.t, history.t.length - 1);
+    this.total = at(history.energy_total, 0);
+  }
+
+  pose(time: number): Pose {
+    if (time < 0) return fallBefore(this.sample(0, 0), this.gravity, time);
+    const row = rowBefore(this.history.t, time);
+    return this.sample(row, fraction(this.history.t, row, time));
+  }
+
+  energies(time: number): Energies {
+    if (time < 0) {
+      const potential = this.body.mass * this.gravity * this.pose(time).centre[2];
+      return { translation: this.total - potential, rotation: 0, potential, ground: 0, lost: 0 };
+    }
+    const { history } = this;
+    const row = rowBefore(history.t, time);
+    const part = fraction(history.t, row, time);
+    const value = (column: number[]): number => mix(at(column, row), at(column, row + 1), part);
+    const translation = value(history.energy_translation);
+    const rotation = value(history.energy_rotation);
+    const potential = value(history.energy_potential);
+    const ground = value(history.energy_ground);
+    return { translation, rotation, potential, ground, lost: this.total - value(history.energy_total) };
+  }
+
+  private sample(row: number, part: number): Pose {
+    const h = this.history;
+    const dt = at(h.t, row + 1) - at(h.t, row);
+    // Cubic in position with the velocities at both samples: exact on the parabola of a flight.
+    const place = (p: number[], v: number[]): number =>
+      hermite(at(p, row), at(v, row) * dt, at(p, row + 1), at(v, row + 1) * dt, part);
+    const value = (column: number[]): number => mix(at(column, row), at(column, row + 1), part);
+    const rotation = slerp(rotationAt(h, row), rotationAt(h, row + 1), part);
+    const [ax, , az] = rotate(rotation, [1, 0, 0]);
+    return {
+      centre: [place(h.x, h.vx), place(h.y, h.vy), place(h.z, h.vz)],
+      rotation, inclination: Math.atan2(az, ax),
+      velocity: [value(h.vx), value(h.vy), value(h.vz)],
+      spin: [value(h.wx), value(h.wy), value(h.wz)],
+      force: [value(h.fx), value(h.fy), value(h.fz)] as Vector,
+      inContact: at(h.in_contact, row) !== 0,
+    };
+  }
+}
+
+/** Column entry; past the last sample the last one goes on. */
+function at(column: number[], row: number): number {
+  return column[Math.min(row, column.length - 1)] ?? 0;
+}
+
+/** The last row that is not after a time. */
+function rowBefore(times: number[], time: number): number {
+  let low = 0;
+  let high = times.length - 1;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if ((times[middle] ?? 0) <= time) low = middle;
+    else high = middle;
+  }
+  return low;
+}
+
+function fraction(times: number[], row: number, time: number): number {
+  const span = at(times, row + 1) - at(times, row);
+  return span > 0 ? Math.min(1, Math.max(0, (time - at(times, row)) / span)) : 0;
+}
+
+function mix(a: number, b: number, part: number): number {
+  return a + (b - a) * part;
+}
+
+function hermite(p: number, v: number, q: number, w: number, s: number): number {
+  const r = 1 - s;
+  return p * (1 + 2 * s) * r * r + v * s * r * r + q * s * s * (1 + 2 * r) - w * s * s * r;
+}
+
+function rotationAt(h: History, row: number): Rotation {
+  return [at(h.beta0, row), at(h.beta1, row), at(h.beta2, row), at(h.beta3, row)];
+}
+
+function slerp(a: Rotation, b: Rotation, part: number): Rotation {
+  const dot = a.reduce((sum, value, i) => sum + value * (b[i] ?? 0), 0);
+  const angle = Math.acos(Math.min(1, Math.abs(dot)));
+  const [p, q] = angle < 1e-6 ? [1 - part, part] : [Math.sin((1 - part) * angle), Math.sin(part * angle)];
+  const sign = dot < 0 ? -1 : 1;
+  const mixed = a.map((value, i) => p * value + sign * q * (b[i] ?? 0)) as Rotation;
+  const norm = Math.hypot(...mixed);
+  return mixed.map((value) => value / norm) as Rotation;
+}

@@ -1,0 +1,214 @@
+// Sliders, number fields and choices of the situation.
+import { isOffline, offlineScenes, type ApiError } from "./api";
+import { BODIES, type BodyName } from "./body";
+import { byId, make } from "./dom";
+import { SCENES } from "./offline_scenes";
+import { SPECS, blamedQuantity, fieldText, fromSlider, sliderRange, toSlider, type QuantitySpec } from "./quantities";
+import { dampingOf } from "./restitution";
+import { QUANTITIES, isUsed, setBody, type Parameters, type Quantity, type State } from "./state";
+
+interface Row {
+  box: HTMLElement;
+  slider: HTMLInputElement;
+  field: HTMLInputElement;
+  error: HTMLElement;
+}
+
+/** Where each quantity stands; the sizes show only for a body of one's own. */
+const GROUPS: readonly { title: string; quantities: Quantity[] }[] = [
+  { title: "Drop", quantities: ["angle", "speed", "height", "gravity"] },
+  { title: "Body", quantities: ["mass", "length", "radius", "width", "thickness"] },
+  { title: "Contact", quantities: ["e", "friction", "stiffness", "damping"] },
+  { title: "Run", quantities: ["impacts"] },
+];
+
+export class Controls {
+  private readonly rows = new Map<Quantity, Row>();
+  private readonly scene = byId<HTMLSelectElement>("scene");
+  private readonly body = make("select", { id: "body" });
+  private readonly drop = make("select", { id: "drop" });
+  private readonly follow = make("input", { type: "checkbox", id: "follow" });
+  private readonly planar = make("input", { type: "checkbox", id: "planar" });
+  private readonly errors = new Map<string, ApiError>();
+
+  constructor(
+    private readonly state: State, private readonly onChange: () => void, private readonly onRelease: () => void,
+  ) {
+    this.buildScenes();
+    for (const group of GROUPS) byId("quantities").append(this.buildGroup(group.title, group.quantities));
+    this.refresh();
+  }
+
+  /** Shows the state: after a link, a scene or a click on the map changed it. */
+  refresh(): void {
+    const { parameters, lock } = this.state;
+    const offline = isOffline;
+    for (const [quantity, row] of this.rows) {
+      const shown = quantity === "damping" ? dampingOf(parameters) : parameters[quantity];
+      row.slider.value = String(this.sliderPosition(quantity, shown));
+      this.describe(row.slider, quantity, shown);
+      if (document.activeElement !== row.field) row.field.value = fieldText(shown);
+      row.box.hidden = !isUsed(parameters, quantity);
+      const followed = quantity === "damping" && parameters.follow;
+      const disabled = lock.includes(quantity) || followed || (offline && quantity !== "angle");
+      row.slider.disabled = disabled;
+      row.field.disabled = disabled || offline;
+    }
+    this.body.value = parameters.body;
+    this.drop.value = parameters.drop;
+    this.follow.checked = parameters.follow;
+    this.planar.checked = parameters.planar;
+    this.scene.value = sceneOf(parameters) ?? "";
+    this.scene.disabled = lock.includes("scene");
+    for (const choice of [this.body, this.drop, this.follow, this.planar]) {
+      choice.disabled = offline || lock.includes(choice.id);
+    }
+  }
+
+  /** Shows what a model says is wrong next to the control that it names, else below all of them. */
+  setError(model: string, error: ApiError | null): void {
+    if (error) this.errors.set(model, error);
+    else this.errors.delete(model);
+    const general = new Set<string>();
+    const blamed = new Map<Quantity, string>();
+    for (const { blames, message } of this.errors.values()) {
+      const quantity = blamedQuantity(blames);
+      if (quantity && !this.rows.get(quantity)?.box.hidden) blamed.set(quantity, message);
+      else general.add(message);
+    }
+    for (const [quantity, { error: line, field }] of this.rows) {
+      setText(line, blamed.get(quantity) ?? "");
+      field.toggleAttribute("aria-invalid", blamed.has(quantity));
+      if (blamed.has(quantity)) field.setAttribute("aria-invalid", "true");
+    }
+    setText(byId("error"), [...general].join("; "));
+  }
+
+  private buildScenes(): void {
+    const scenes = isOffline ? offlineScenes : SCENES;
+    if (!isOffline) this.scene.append(make("option", { value: "" }, "Your own"));
+    this.scene.append(...scenes.map(({ name, title }) => make("option", { value: name }, title)));
+    this.scene.addEventListener("change", () => {
+      const scene = scenes.find(({ name }) => name === this.scene.value);
+      if (!scene) return;
+      Object.assign(this.state.parameters, scene.parameters);
+      this.change();
+      this.onRelease();
+    });
+  }
+
+  private buildGroup(title: string, quantities: Quantity[]): HTMLElement {
+    const group = make("fieldset", {}, make("legend", {}, title));
+    if (title === "Body") group.append(this.buildBody());
+    for (const quantity of quantities) {
+      if (quantity === "speed") group.append(this.buildDrop());
+      group.append(this.buildRow(quantity));
+      if (quantity === "stiffness") group.append(this.check(this.follow, "Damping follows e", "follow"));
+    }
+    if (title === "Run") group.append(this.check(this.planar, "Keep the motion in its plane", "planar"));
+    return group;
+  }
+
+  private buildBody(): HTMLElement {
+    this.body.append(...Object.entries(BODIES).map(([name, { title }]) => make("option", { value: name }, title)));
+    this.body.addEventListener("change", () => {
+      setBody(this.state.parameters, this.body.value as BodyName);
+      this.change();
+      this.onRelease();
+    });
+    return make("p", { class: "choice" }, make("label", { for: "body" }, "Shape"), this.body);
+  }
+
+  private buildDrop(): HTMLElement {
+    this.drop.append(make("option", { value: "speed" }, "at a speed"), make("option", { value: "height" }, "from a height"));
+    this.drop.addEventListener("change", () => {
+      const { parameters } = this.state;
+      parameters.drop = this.drop.value as Parameters["drop"];
+      // Nothing falls from a height without gravity.
+      if (parameters.drop === "height" && parameters.gravity === 0) parameters.gravity = 9.81;
+      this.change();
+    });
+    return make("p", { class: "choice" }, make("label", { for: "drop" }, "Dropped"), this.drop);
+  }
+
+  private check(box: HTMLInputElement, text: string, key: "follow" | "planar"): HTMLElement {
+    box.addEventListener("change", () => {
+      const { parameters } = this.state;
+      if (key === "follow") parameters.damping = dampingOf(parameters);
+      parameters[key] = box.checked;
+      this.change();
+    });
+    return make("p", { class: "check" }, box, make("label", { for: box.id }, text));
+  }
+
+  private buildRow(quantity: Quantity): HTMLElement {
+    const spec = SPECS[quantity];
+    const name = spec.symbol ? `${spec.label} ${spec.symbol}` : spec.label;
+    const slider = make("input", { type: "range", id: `${quantity}-slider`, "aria-label": `${name}, slider`, ...sliderRange(spec) });
+    if (isOffline && quantity === "angle") Object.assign(slider, { min: "0", step: "1" });
+    const field = make("input", {
+      type: "number", id: quantity, step: "any", inputmode: "decimal", "aria-describedby": `${quantity}-error`,
+    });
+    const error = make("p", { class: "error", id: `${quantity}-error`, role: "alert", hidden: true });
+    const label = make("label", { for: quantity }, name);
+    const box = make("div", { class: "row" }, label, slider, field, make("span", { class: "unit" }, spec.unit), error);
+    if (spec.model) box.title = `Of the ${spec.model} model`;
+    slider.addEventListener("input", () => this.set(quantity, this.fromPosition(quantity, spec, Number(slider.value))));
+    slider.addEventListener("change", () => this.onRelease());
+    field.addEventListener("input", () => {
+      if (field.value !== "" && Number.isFinite(field.valueAsNumber)) this.set(quantity, field.valueAsNumber);
+    });
+    field.addEventListener("blur", () => this.refresh());
+    this.rows.set(quantity, { box, slider, field, error });
+    return box;
+  }
+
+  private set(quantity: Quantity, value: number): void {
+    this.state.parameters[quantity] = value;
+    this.change();
+  }
+
+  private change(): void {
+    this.refresh();
+    this.onChange();
+  }
+
+  /** Offline the angle slider has one position for each angle that was precomputed. */
+  private offlineAngles(): number[] {
+    return offlineScenes.find(({ name }) => name === sceneOf(this.state.parameters))?.angles ?? [];
+  }
+
+  private sliderPosition(quantity: Quantity, value: number): number {
+    if (!isOffline || quantity !== "angle") return toSlider(SPECS[quantity], value);
+    const angles = this.offlineAngles();
+    const row = this.rows.get(quantity);
+    if (row) row.slider.max = String(Math.max(0, angles.length - 1));
+    return Math.max(0, angles.indexOf(value));
+  }
+
+  private fromPosition(quantity: Quantity, spec: QuantitySpec, position: number): number {
+    return isOffline && quantity === "angle" ? (this.offlineAngles()[position] ?? 10) : fromSlider(spec, position);
+  }
+
+  private describe(slider: HTMLInputElement, quantity: Quantity, value: number): void {
+    slider.setAttribute("aria-valuetext", `${fieldText(value)} ${SPECS[quantity].unit}`.trim());
+  }
+}
+
+/** The scene that the parameters are, whatever the angle. */
+function sceneOf(parameters: Parameters): string | undefined {
+  const scenes = isOffline ? offlineScenes : SCENES;
+  const keys = ["body", "drop", "follow", "planar", ...QUANTITIES.filter((q) => q !== "angle")] as const;
+  const differs = (a: Parameters, b: Parameters): boolean =>
+    keys.some((key) => a[key] !== b[key] && (key !== "damping" || !a.follow) && (!isQuantity(key) || isUsed(a, key)));
+  return scenes.find((scene) => !differs(parameters, scene.parameters))?.name;
+}
+
+function isQuantity(key: string): key is Quantity {
+  return (QUANTITIES as readonly string[]).includes(key);
+}
+
+function setText(line: HTMLElement, text: string): void {
+  if (line.textContent !== text) line.textContent = text;
+  line.hidden = text === "";
+}

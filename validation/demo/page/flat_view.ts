@@ -1,0 +1,100 @@
+// The picture from the side, for browsers that have no graphics card to draw with.
+import { halfThickness, type Body } from "./body";
+import { COLOURS } from "./colours";
+import type { Arrow, Bounds, Frame, ModelName } from "./frame";
+import type { Pose, Vector } from "./motion";
+import type { Projection, View } from "./stage";
+
+export class FlatView implements View {
+  private readonly context: CanvasRenderingContext2D;
+  private size = { width: 1, height: 1 };
+  private bounds: Bounds = { left: -0.5, right: 0.5, top: 0.5 };
+
+  constructor(private readonly canvas: HTMLCanvasElement) {
+    const context = canvas.getContext("2d");
+    if (!context) throw new Error("the browser can draw neither in space nor in the plane");
+    this.context = context;
+  }
+
+  resize(width: number, height: number): void {
+    this.size = { width, height };
+    const ratio = Math.min(2, devicePixelRatio);
+    this.canvas.width = Math.round(width * ratio);
+    this.canvas.height = Math.round(height * ratio);
+    this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  }
+
+  setBounds(bounds: Bounds): void {
+    this.bounds = bounds;
+  }
+
+  draw(frame: Frame): void {
+    const { context } = this;
+    context.clearRect(0, 0, this.size.width, this.size.height);
+    for (const model of frame.side ? (["discrete", "continuous"] as const) : (["discrete"] as const)) this.ground(model, frame.side);
+    for (const { model, body, pose } of frame.figures) this.figure(model, body, pose, frame.side);
+    for (const arrow of frame.arrows) this.arrow(arrow, frame.side);
+  }
+
+  project(model: ModelName, [x, , z]: Vector, side: boolean): Projection {
+    const { left, right, top } = this.bounds;
+    const width = side ? this.size.width / 2 : this.size.width;
+    const scale = Math.min((0.86 * width) / (right - left), (0.72 * this.size.height) / top);
+    const offset = side && model === "continuous" ? width : 0;
+    return { x: offset + width / 2 + (x - (left + right) / 2) * scale, y: this.size.height * 0.86 - z * scale };
+  }
+
+  private ground(model: ModelName, side: boolean): void {
+    const { context } = this;
+    const { y } = this.project(model, [0, 0, 0], side);
+    const width = side ? this.size.width / 2 : this.size.width;
+    const left = side && model === "continuous" ? width : 0;
+    context.fillStyle = COLOURS.grid;
+    context.fillRect(left + 8, y, width - 16, 6);
+    context.fillStyle = COLOURS.quiet;
+    context.fillRect(left + 8, y, width - 16, 1);
+  }
+
+  private figure(model: ModelName, body: Body, pose: Pose, side: boolean): void {
+    const { context } = this;
+    const half = Math.max(halfThickness(body), 0.008 * body.length);
+    const c = Math.cos(pose.inclination);
+    const s = Math.sin(pose.inclination);
+    const corners = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([u = 0, v = 0]) => {
+      const along = (u * body.length) / 2;
+      const across = v * half;
+      return this.project(model, [pose.centre[0] + along * c - across * s, 0, pose.centre[2] + along * s + across * c], side);
+    });
+    context.beginPath();
+    for (const { x, y } of corners) context.lineTo(x, y);
+    context.closePath();
+    context.lineWidth = 2;
+    if (model === "discrete") {
+      context.fillStyle = COLOURS.discrete;
+      context.fill();
+    } else {
+      context.strokeStyle = COLOURS.continuous;
+      context.stroke();
+    }
+  }
+
+  private arrow({ model, kind, from, vector }: Arrow, side: boolean): void {
+    const start = this.project(model, from, side);
+    const tip = this.project(model, [from[0] + vector[0], 0, from[2] + vector[2]], side);
+    const length = Math.hypot(tip.x - start.x, tip.y - start.y);
+    if (length < 6) return;
+    const { context } = this;
+    const head = Math.min(10, 0.6 * length);
+    const angle = Math.atan2(tip.y - start.y, tip.x - start.x);
+    context.strokeStyle = context.fillStyle = kind === "speed" ? COLOURS.speed : COLOURS.blow[model];
+    context.lineWidth = kind === "blow" ? 4 : 2;
+    context.beginPath();
+    context.moveTo(start.x, start.y);
+    context.lineTo(tip.x - head * Math.cos(angle), tip.y - head * Math.sin(angle));
+    context.stroke();
+    context.beginPath();
+    context.moveTo(tip.x, tip.y);
+    for (const turn of [-0.4, 0.4]) context.lineTo(tip.x - head * 1.1 * Math.cos(angle + turn), tip.y - head * 1.1 * Math.sin(angle + turn));
+    context.fill();
+  }
+}

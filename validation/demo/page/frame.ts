@@ -1,0 +1,143 @@
+// What the picture shows at one time: the bodies of both models, the blow, and the speeds of the ends.
+import type { Impact } from "./answers";
+import { contactPoint, type Body } from "./body";
+import { significant } from "./format";
+import { endMotion, type Motion, type Pose, type Vector } from "./motion";
+
+export type ModelName = "discrete" | "continuous";
+
+export interface Arrow {
+  model: ModelName;
+  kind: "blow" | "speed";
+  from: Vector;
+  /** In metres of the picture. */
+  vector: Vector;
+}
+
+export interface Label {
+  model: ModelName;
+  kind: "blow" | "end";
+  place: Vector;
+  text: string;
+}
+
+export interface Frame {
+  side: boolean;
+  figures: { model: ModelName; body: Body; pose: Pose }[];
+  arrows: Arrow[];
+  labels: Label[];
+}
+
+export interface Bounds {
+  left: number;
+  right: number;
+  top: number;
+}
+
+export interface Motions {
+  discrete: Motion | null;
+  continuous: Motion | null;
+}
+
+/** Sizes that turn impulses, forces and speeds into lengths: the same for a whole run. */
+export interface Scales {
+  impulse: number;
+  force: number;
+  speed: number;
+}
+
+const BLOW_LENGTH = 0.3; // of the largest blow, in lengths of the body
+const SPEED_LENGTH = 0.22; // of the largest speed of an end
+
+export function scalesOf(motions: Motions): Scales {
+  const impacts = [motions.discrete, motions.continuous].flatMap((motion) => motion?.impacts ?? []);
+  const motion = motions.discrete ?? motions.continuous;
+  const length = motion?.body.length ?? 1;
+  const largest = (values: number[]): number => Math.max(1e-12, ...values.map(Math.abs));
+  const speeds = impacts.flatMap(({ velocity_after, angular_velocity_after, approach_speed }) =>
+    [approach_speed, Math.abs(velocity_after[2]) + (Math.abs(angular_velocity_after[1]) * length) / 2]);
+  return {
+    impulse: (BLOW_LENGTH * length) / largest(impacts.map((impact) => impact.impulse_normal)),
+    force: (BLOW_LENGTH * length) / largest(impacts.map((impact) => impact.peak_force ?? 0)),
+    speed: (SPEED_LENGTH * length) / largest(speeds),
+  };
+}
+
+/** What has to be in view. Rounded up, so that the picture does not breathe while a slider moves. */
+export function boundsOf(motions: Motions): Bounds {
+  const bounds = { left: 0, right: 0, top: 0 };
+  let length = 1;
+  for (const motion of [motions.discrete, motions.continuous]) {
+    if (!motion) continue;
+    length = motion.body.length;
+    for (let i = 0; i <= 60; i++) {
+      const { centre, inclination } = motion.pose(motion.begin + ((motion.end - motion.begin) * i) / 60);
+      const half = length / 2;
+      bounds.left = Math.min(bounds.left, centre[0] - half);
+      bounds.right = Math.max(bounds.right, centre[0] + half);
+      bounds.top = Math.max(bounds.top, centre[2] + half * Math.abs(Math.sin(inclination)));
+    }
+  }
+  const step = length / 4;
+  const outward = (value: number): number => Math.ceil(value / step - 1e-6) * step;
+  return { left: -outward(-bounds.left), right: outward(bounds.right), top: outward(Math.max(bounds.top, 0.5 * length)) };
+}
+
+/** The last impact that has begun at a time; null while the body still falls. */
+export function impactAt(impacts: readonly Impact[], time: number): Impact | null {
+  let last: Impact | null = null;
+  // A touch of rounding: a time that went through a link still belongs to the impact that it names.
+  for (const impact of impacts) if (impact.start <= time + 1e-9 * Math.max(1e-3, Math.abs(time))) last = impact;
+  return last;
+}
+
+export function frameAt(motions: Motions, time: number, scales: Scales, side: boolean): Frame {
+  const frame: Frame = { side, figures: [], arrows: [], labels: [] };
+  for (const model of ["continuous", "discrete"] as const) {
+    const motion = motions[model];
+    if (!motion) continue;
+    const pose = motion.pose(time);
+    frame.figures.push({ model, body: motion.body, pose });
+    // In the overlay two sets of speeds and names would lie on each other.
+    if (side || model === "discrete" || !motions.discrete) addEnds(frame, model, motion, pose, scales);
+    addBlow(frame, model, motion, pose, time, scales);
+  }
+  return frame;
+}
+
+function addEnds(frame: Frame, model: ModelName, motion: Motion, pose: Pose, scales: Scales): void {
+  for (const end of ["a", "b"] as const) {
+    const { place, velocity } = endMotion(motion.body, pose, end);
+    const vector = velocity.map((v) => v * scales.speed) as Vector;
+    frame.arrows.push({ model, kind: "speed", from: place, vector });
+    const [cx, cy, cz] = pose.centre;
+    const out = 1.07;
+    frame.labels.push({
+      model, kind: "end", text: end,
+      place: [cx + (place[0] - cx) * out, cy + (place[1] - cy) * out, cz + (place[2] - cz) * out],
+    });
+  }
+}
+
+function addBlow(frame: Frame, model: ModelName, motion: Motion, pose: Pose, time: number, scales: Scales): void {
+  const impact = impactAt(motion.impacts, time);
+  if (!impact) return;
+  const place = struckPoint(motion, impact);
+  const pressing = model === "continuous" && pose.inContact;
+  const [vector, text] = pressing
+    ? [pose.force.map((f) => f * scales.force) as Vector, `${significant(pose.force[2], 3)} N`]
+    : [[impact.impulse_tangential * scales.impulse, 0, impact.impulse_normal * scales.impulse] as Vector,
+      `${significant(impact.impulse_normal, 3)} N·s`];
+  frame.arrows.push({ model, kind: "blow", from: place, vector });
+  const above: Vector = [place[0] + vector[0], place[1] + vector[1], place[2] + vector[2]];
+  if (frame.side || model === "discrete" || pressing || !frame.figures.some((f) => f.model !== model)) {
+    frame.labels.push({ model, kind: "blow", place: above, text });
+  }
+}
+
+function struckPoint(motion: Motion, impact: Impact): Vector {
+  const pose = motion.pose(impact.start);
+  const [x, y] = pose.centre;
+  if (impact.end !== "a" && impact.end !== "b") return [x, y, 0];
+  return [x + contactPoint(motion.body, impact.end, pose.inclination)[0], y, 0];
+}

@@ -1,0 +1,173 @@
+// The map of contact angles: β and γ, at which the thin rod strikes again, over the first angle θ.
+import uPlot from "uplot";
+import type { AngleRow, AnglesAnswer } from "./answers";
+import { ask, isAvailable } from "./api";
+import { FONT, axis, chartSize, upright } from "./charts";
+import { COLOURS } from "./colours";
+import { byId } from "./dom";
+import { fixed } from "./format";
+import { MAP_RANGE } from "./map_range";
+import { anglesRequest, keyOf } from "./requests";
+
+type Curve = "beta_deg" | "gamma_deg";
+interface Fold {
+  curve: Curve;
+  theta: number;
+  value: number;
+  /** Distance to the next angle of the data, at which there is no such impact any more. */
+  resolution: number;
+}
+
+const HEIGHT = 300;
+const REFINED = 101;
+const RESOLVED = 1e-3; // degrees
+
+export class AngleMap {
+  private readonly box = byId("map-chart");
+  private readonly note = byId("map-folds");
+  private plot: uPlot | null = null;
+  private rows: AngleRow[] = [];
+  private folds: Fold[] = [];
+  private shown = "";
+  private theta = 0;
+
+  constructor(private readonly onChoose: (angle: number) => void) {
+    new ResizeObserver(() => this.plot?.setSize(chartSize(this.box, HEIGHT))).observe(this.box);
+  }
+
+  /** Asks for the map of another gravity number or coefficient of restitution, and then closer to its folds. */
+  async show(gravity: number, e: number): Promise<void> {
+    const { from, to, count } = MAP_RANGE;
+    const request = anglesRequest(gravity, e, from, to, count);
+    const key = keyOf(request);
+    if (key === this.shown || !Number.isFinite(gravity) || !isAvailable(request)) return;
+    this.shown = key;
+    const isNewest = (): boolean => key === this.shown;
+    try {
+      let { rows } = await ask<AnglesAnswer>(request);
+      if (!isNewest()) return;
+      this.draw(rows);
+      for (const curve of ["beta_deg", "gamma_deg"] as const) {
+        for (let fold = foldOf(rows, curve); fold && fold.resolution > RESOLVED; fold = foldOf(rows, curve)) {
+          const closer = anglesRequest(gravity, e, fold.theta, fold.theta + fold.resolution, REFINED);
+          if (!isAvailable(closer)) break;
+          const answer = await ask<AnglesAnswer>(closer);
+          if (!isNewest()) return;
+          rows = merge(rows, answer.rows);
+        }
+      }
+      this.draw(rows);
+    } catch {
+      // What is wrong with the situation is said next to the controls; the map keeps its last good state.
+      if (isNewest()) this.shown = "";
+    }
+  }
+
+  setAngle(theta: number): void {
+    this.theta = theta;
+    this.plot?.redraw(false);
+  }
+
+  private draw(rows: AngleRow[]): void {
+    this.rows = rows;
+    this.folds = (["beta_deg", "gamma_deg"] as const).flatMap((curve) => foldOf(rows, curve) ?? []);
+    const data = [rows.map((r) => r.theta_deg), rows.map((r) => r.beta_deg), rows.map((r) => r.gamma_deg)] as uPlot.AlignedData;
+    if (this.plot) this.plot.setData(data);
+    else this.plot = this.build(data);
+    this.note.textContent = this.folds.map(foldInWords).join(" ");
+    this.box.setAttribute("aria-label", `Contact angles over the first angle. ${this.note.textContent}`);
+  }
+
+  private build(data: uPlot.AlignedData): uPlot {
+    const degrees: uPlot.Axis["splits"] = () => [0, 15, 30, 45, 60, 75, 90];
+    const series = (label: string, stroke: string, dash: number[]): uPlot.Series =>
+      ({ label, stroke, width: 2.5, dash, points: { show: false }, spanGaps: false });
+    const plot = new uPlot({
+      ...chartSize(this.box, HEIGHT), legend: { show: false }, cursor: { drag: { x: false, y: false } },
+      series: [{ label: "θ" }, series("β", COLOURS.beta, []), series("γ", COLOURS.gamma, [8, 4])],
+      scales: { x: { time: false, range: [0, 90] }, y: { range: [0, 90] } },
+      axes: [{ ...axis("First angle θ [°]", 34), splits: degrees }, { ...axis("Angle of the next impacts [°]", 44), splits: degrees }],
+      hooks: { draw: [(drawn) => this.mark(drawn)] },
+    }, data, this.box);
+    plot.over.addEventListener("click", (event) => {
+      const x = event.clientX - plot.over.getBoundingClientRect().left;
+      this.onChoose(Math.min(90, Math.max(0, Math.round(plot.posToVal(x, "x") * 10) / 10)));
+    });
+    return plot;
+  }
+
+  private mark(plot: uPlot): void {
+    upright(plot, this.theta, COLOURS.ink, [], 1);
+    for (const curve of ["beta_deg", "gamma_deg"] as const) {
+      const value = valueAt(this.rows, curve, this.theta);
+      if (value !== null) dot(plot, this.theta, value, colourOf(curve), true);
+    }
+    for (const fold of this.folds) {
+      dot(plot, fold.theta, fold.value, colourOf(fold.curve), false);
+      write(plot, fold.theta, fold.value, `${fixed(fold.theta, decimalsOf(fold))}°`);
+    }
+  }
+}
+
+function colourOf(curve: Curve): string {
+  return curve === "beta_deg" ? COLOURS.beta : COLOURS.gamma;
+}
+
+/** Where a curve ends: its last angle with such an impact, if there are angles beyond it. */
+function foldOf(rows: AngleRow[], curve: Curve): Fold | null {
+  for (let i = rows.length - 2; i >= 0; i--) {
+    const row = rows[i];
+    const next = rows[i + 1];
+    if (!row || !next || row[curve] === null) continue;
+    if (next[curve] !== null) return null;
+    return { curve, theta: row.theta_deg, value: row[curve], resolution: next.theta_deg - row.theta_deg };
+  }
+  return null;
+}
+
+function decimalsOf({ resolution }: Fold): number {
+  return Math.max(0, Math.ceil(-Math.log10(resolution)) - 1);
+}
+
+function foldInWords(fold: Fold): string {
+  const which = fold.curve === "beta_deg" ? "second" : "third";
+  return `The last angle with a ${which} impact is ${fixed(fold.theta, decimalsOf(fold))}°.`;
+}
+
+function merge(rows: AngleRow[], more: AngleRow[]): AngleRow[] {
+  const all = new Map([...rows, ...more].map((row) => [row.theta_deg, row]));
+  return [...all.values()].sort((a, b) => a.theta_deg - b.theta_deg);
+}
+
+function valueAt(rows: AngleRow[], curve: Curve, theta: number): number | null {
+  const above = rows.findIndex((row) => row.theta_deg >= theta);
+  const high = rows[above];
+  const low = rows[Math.max(0, above - 1)];
+  const a = low?.[curve];
+  const b = high?.[curve];
+  if (!low || !high || a === null || a === undefined || b === null || b === undefined) return null;
+  return high === low ? b : a + ((b - a) * (theta - low.theta_deg)) / (high.theta_deg - low.theta_deg);
+}
+
+function dot(plot: uPlot, x: number, y: number, colour: string, filled: boolean): void {
+  const { ctx } = plot;
+  ctx.save();
+  ctx.beginPath();
+  ctx.arc(plot.valToPos(x, "x", true), plot.valToPos(y, "y", true), 5 * devicePixelRatio, 0, 2 * Math.PI);
+  ctx.fillStyle = filled ? colour : "#ffffff";
+  ctx.strokeStyle = colour;
+  ctx.lineWidth = 2 * devicePixelRatio;
+  ctx.fill();
+  ctx.stroke();
+  ctx.restore();
+}
+
+function write(plot: uPlot, x: number, y: number, text: string): void {
+  const { ctx } = plot;
+  ctx.save();
+  ctx.font = FONT.replace("12px", `${12 * devicePixelRatio}px`);
+  ctx.fillStyle = COLOURS.ink;
+  ctx.textBaseline = "middle";
+  ctx.fillText(text, plot.valToPos(x, "x", true) + 10 * devicePixelRatio, plot.valToPos(y, "y", true));
+  ctx.restore();
+}

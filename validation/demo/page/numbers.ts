@@ -1,0 +1,37 @@
+// The numbers of the picture: both models at the time that is shown, and what lies between them.
+import { byId, make } from "./dom";
+import { fixed } from "./format";
+import type { Motions } from "./frame";
+import { endMotion, type Motion } from "./motion";
+
+const QUANTITIES: readonly { title: string; unit: string; decimals: number; of: (motion: Motion, time: number) => number }[] = [
+  { title: "Height of the centre", unit: "mm", decimals: 2, of: (m, t) => m.pose(t).centre[2] * 1e3 },
+  { title: "Inclination", unit: "°", decimals: 3, of: (m, t) => (m.pose(t).inclination * 180) / Math.PI },
+  { title: "Velocity, up", unit: "m/s", decimals: 4, of: (m, t) => m.pose(t).velocity[2] },
+  { title: "Spin", unit: "rad/s", decimals: 4, of: (m, t) => m.pose(t).spin[1] },
+  { title: "Speed of end a", unit: "m/s", decimals: 4, of: (m, t) => Math.hypot(...endMotion(m.body, m.pose(t), "a").velocity) },
+  { title: "Speed of end b", unit: "m/s", decimals: 4, of: (m, t) => Math.hypot(...endMotion(m.body, m.pose(t), "b").velocity) },
+];
+
+export class Numbers {
+  private readonly cells = QUANTITIES.map(() => [make("td"), make("td"), make("td")] as const);
+
+  constructor() {
+    const head = ["Now", "discrete", "continuous", "difference"].map((title) => make("th", { scope: "col" }, title));
+    const rows = QUANTITIES.map(({ title, unit }, i) =>
+      make("tr", {}, make("th", { scope: "row" }, title, make("span", { class: "unit" }, unit)), ...(this.cells[i] ?? [])));
+    byId("numbers-table").append(make("thead", {}, make("tr", {}, ...head)), make("tbody", {}, ...rows));
+  }
+
+  show({ discrete, continuous }: Motions, time: number): void {
+    QUANTITIES.forEach(({ decimals, of }, i) => {
+      const a = discrete && of(discrete, time);
+      // Past the end of its history the continuous model has no numbers.
+      const b = continuous && time <= continuous.end ? of(continuous, time) : null;
+      const [first, second, third] = this.cells[i] ?? [];
+      if (first) first.textContent = a === null ? "–" : fixed(a, decimals);
+      if (second) second.textContent = b === null ? "–" : fixed(b, decimals);
+      if (third) third.textContent = a === null || b === null ? "–" : fixed(b - a, decimals);
+    });
+  }
+}

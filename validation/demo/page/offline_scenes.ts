@@ -1,0 +1,64 @@
+// The scenes of an offline copy and the requests whose answers it has to hold.
+import { type BodyName } from "./body";
+import { MAP_RANGE } from "./map_range";
+import { anglesRequest, canonical, explainRequest, gravityNumber, keyOf, sequenceRequest, simulateRequest } from "./requests";
+import { firstSpeed } from "./restitution";
+import { DEFAULT_PARAMETERS, setBody, type Parameters } from "./state";
+
+export interface Scene {
+  name: string;
+  title: string;
+  parameters: Parameters;
+}
+
+interface OfflineScene extends Scene {
+  angles: number[];
+  requests: { path: string; body: unknown; key: string }[];
+}
+
+function scene(name: string, title: string, body: BodyName, changes: Partial<Parameters>): Scene {
+  const parameters = { ...DEFAULT_PARAMETERS };
+  setBody(parameters, body);
+  return { name, title, parameters: Object.assign(parameters, changes) };
+}
+
+const PHONE: Partial<Parameters> = { drop: "height", height: 1, gravity: 9.81, stiffness: 1e8, follow: false };
+
+export const SCENES: readonly Scene[] = [
+  scene("rod", "Elastic rod, no gravity", "rod", {}),
+  scene("rod-gravity", "Rod with gravity, e = 0.8", "rod", { gravity: 9.81, e: 0.8 }),
+  scene("thick-rod", "Thick rod", "thick-rod", { gravity: 9.81, e: 0.9 }),
+  scene("phone-damped", "Phone on a damped ground", "phone", { ...PHONE, e: 0.75, friction: 0.075, damping: 1e7 }),
+  scene("phone-elastic", "Phone, elastic", "phone", { ...PHONE, damping: 0 }),
+];
+
+/** So much of a scene fits into an offline copy of 2 MB: a phone's contacts take many steps. */
+const OFFLINE_ANGLES: Readonly<Record<string, number[]>> = {
+  rod: [5, 10, 15, 20, 25, 30, 35, 40, 45, 50, 55, 60],
+  "rod-gravity": [5, 10, 15, 20, 25, 30, 35, 40, 45, 50, 55, 60],
+  "thick-rod": [5, 10, 20, 30, 45, 60],
+  "phone-damped": [10, 30],
+  "phone-elastic": [10, 30],
+};
+const OFFLINE_IMPACTS = 3;
+const EXPLAINED_IMPACTS = 2;
+
+export function offlineScenes(): OfflineScene[] {
+  return SCENES.map(({ name, title, parameters: online }) => {
+    const angles = OFFLINE_ANGLES[name] ?? [];
+    const parameters = { ...online, impacts: OFFLINE_IMPACTS };
+    const { from, to, count } = MAP_RANGE;
+    const all = [
+      anglesRequest(gravityNumber(parameters, firstSpeed(parameters)), parameters.e, from, to, count),
+      ...angles.flatMap((angle) => {
+        const at = { ...parameters, angle };
+        const explained = Array.from({ length: EXPLAINED_IMPACTS }, (_, i) => explainRequest(at, i + 1));
+        return [sequenceRequest(at), simulateRequest(at), ...explained];
+      }),
+    ];
+    const requests = all.map((request) => ({
+      path: request.path, body: JSON.parse(canonical(request.body)) as unknown, key: keyOf(request),
+    }));
+    return { name, title, parameters, angles, requests };
+  });
+}

@@ -1,0 +1,54 @@
+// Before the first answer: what does the reader expect? A guess that is tested teaches more than a table that is read.
+import type { Impact } from "./answers";
+import { byId } from "./dom";
+import { significant } from "./format";
+import { comparison } from "./words";
+
+type Guess = "harder" | "same" | "softer";
+
+/** Blows that differ by less are "about the same". */
+const ALIKE = 0.1;
+
+export class Prediction {
+  private readonly card = byId("prediction");
+  private readonly question = byId("prediction-question");
+  private readonly reveal = byId("prediction-reveal");
+
+  constructor(impacts: () => readonly Impact[], private readonly onAnswered: () => void) {
+    for (const button of this.card.querySelectorAll<HTMLButtonElement>("button[data-guess]")) {
+      button.addEventListener("click", () => {
+        this.reveal.textContent = revealed(button.dataset["guess"] as Guess, impacts());
+        this.close();
+      });
+    }
+    byId("prediction-skip").addEventListener("click", () => this.close());
+  }
+
+  get isOpen(): boolean {
+    return !this.card.hidden;
+  }
+
+  open(): void {
+    this.card.hidden = false;
+    this.question.hidden = false;
+    this.reveal.textContent = "";
+    document.body.classList.add("predicting");
+  }
+
+  private close(): void {
+    this.card.hidden = true;
+    document.body.classList.remove("predicting");
+    this.onAnswered();
+  }
+}
+
+function revealed(guess: Guess, impacts: readonly Impact[]): string {
+  const [first, second] = impacts;
+  if (!first) return "";
+  if (!second) return "There is no second blow: from this angle the other end never comes down.";
+  const ratio = second.impulse_normal / first.impulse_normal;
+  const truth: Guess = Math.abs(ratio - 1) < ALIKE ? "same" : ratio > 1 ? "harder" : "softer";
+  const verdict = guess === truth ? "You guessed it." : "A surprise:";
+  const numbers = `${significant(second.impulse_normal, 4)} N·s after ${significant(first.impulse_normal, 4)} N·s`;
+  return `${verdict} The second blow is ${comparison(ratio)}${comparison(ratio) === "about as hard" ? "" : " as the first"}: ${numbers}.`;
+}

@@ -1,0 +1,33 @@
+// Which damping of the ground gives a coefficient of restitution: the exact relation for one frictionless contact whose
+// depth is one number, s = (c_G/k_G) v, ln[(1 + s)/(1 − s e)] = s (1 + e).
+import { bodyOf, type Parameters } from "./state";
+import { centreHeight } from "./body";
+
+export function dampingFor(e: number, stiffness: number, speed: number): number {
+  if (!(e < 1) || !(speed > 0)) return 0;
+  // The relation has its root below 1/e; at e = 0 damping would have to be infinite.
+  const wanted = Math.max(e, 0.05);
+  let low = 1e-9;
+  let high = (1 - 1e-12) / wanted;
+  for (let i = 0; i < 100; i++) {
+    const s = (low + high) / 2;
+    const residual = Math.log1p(s) - Math.log1p(-s * wanted) - s * (1 + wanted);
+    // Negative between 0 and the root, positive beyond it.
+    if (residual < 0) low = s;
+    else high = s;
+  }
+  return Number(((low * stiffness) / speed).toPrecision(4));
+}
+
+/** Downward speed of the centre of mass at the first touch [m/s]; 0 if the body is not released above that. */
+export function firstSpeed(parameters: Parameters): number {
+  if (parameters.drop === "speed") return parameters.speed;
+  const fall = parameters.height - centreHeight(bodyOf(parameters), (parameters.angle * Math.PI) / 180);
+  return Math.sqrt(Math.max(0, 2 * parameters.gravity * fall));
+}
+
+/** Damping of the ground that the continuous model gets [N s/m⁴]. */
+export function dampingOf(parameters: Parameters): number {
+  if (!parameters.follow) return parameters.damping;
+  return dampingFor(parameters.e, parameters.stiffness, firstSpeed(parameters));
+}

@@ -1,0 +1,33 @@
+// Handing on what is shown, as a link.
+import { byId } from "./dom";
+import { addressOf, type State } from "./state";
+
+export function setUpSharing(state: State, sync: () => void, onAskFirst: (asks: boolean) => void): void {
+  const button = byId<HTMLButtonElement>("copy-link");
+  const done = byId("copied");
+  button.addEventListener("click", () => {
+    sync();
+    const link = addressOf(state);
+    void copy(link).then((copied) => {
+      done.textContent = copied ? "Link copied" : link;
+      setTimeout(() => { done.textContent = ""; }, copied ? 2500 : 20_000);
+    });
+  });
+  const askFirst = byId<HTMLInputElement>("ask-first");
+  askFirst.checked = state.predict;
+  askFirst.disabled = state.lock.includes("predict");
+  askFirst.addEventListener("change", () => {
+    state.predict = askFirst.checked;
+    onAskFirst(askFirst.checked);
+  });
+}
+
+/** Where a browser does not let a page write to the clipboard, the link is shown instead. */
+async function copy(text: string): Promise<boolean> {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    return false;
+  }
+}

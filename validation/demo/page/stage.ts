@@ -1,0 +1,67 @@
+// The picture and the labels over it.
+import { byId, make } from "./dom";
+import { FlatView } from "./flat_view";
+import type { Bounds, Frame, ModelName } from "./frame";
+import type { Vector } from "./motion";
+import { SpaceView } from "./view";
+
+/** Place in the picture, from its upper left corner [px]. */
+export interface Projection {
+  x: number;
+  y: number;
+}
+
+export interface View {
+  resize(width: number, height: number): void;
+  setBounds(bounds: Bounds): void;
+  draw(frame: Frame): void;
+  project(model: ModelName, point: Vector, side: boolean): Projection;
+}
+
+export class Stage {
+  private readonly box = byId("stage");
+  private readonly labels = byId("stage-labels");
+  private readonly view: View;
+  private frame: Frame | null = null;
+
+  constructor() {
+    this.view = this.createView();
+    new ResizeObserver(() => this.resize()).observe(this.box);
+    this.resize();
+  }
+
+  setBounds(bounds: Bounds): void {
+    this.view.setBounds(bounds);
+  }
+
+  draw(frame: Frame): void {
+    this.frame = frame;
+    this.view.draw(frame);
+    const { width } = this.box.getBoundingClientRect();
+    frame.labels.forEach((label, i) => {
+      const { x, y } = this.view.project(label.model, label.place, frame.side);
+      const element = (this.labels.children[i] ?? this.labels.appendChild(make("span"))) as HTMLElement;
+      element.className = `stage-label ${label.kind} ${label.model}`;
+      if (element.textContent !== label.text) element.textContent = label.text;
+      const margin = label.kind === "blow" ? 44 : 12;
+      element.style.transform = `translate(${Math.min(width - margin, Math.max(margin, x)).toFixed(1)}px, ${Math.max(14, y).toFixed(1)}px)`;
+    });
+    while (this.labels.children.length > frame.labels.length) this.labels.lastElementChild?.remove();
+  }
+
+  private createView(): View {
+    const canvas = make("canvas", { "aria-hidden": "true" });
+    this.box.prepend(canvas);
+    // A canvas that was asked for one kind of context gives no other: another one is asked first.
+    const inSpace = document.createElement("canvas").getContext("webgl2") !== null;
+    this.box.dataset["view"] = inSpace ? "space" : "flat";
+    return inSpace ? new SpaceView(canvas) : new FlatView(canvas);
+  }
+
+  private resize(): void {
+    const { width, height } = this.box.getBoundingClientRect();
+    if (width === 0 || height === 0) return;
+    this.view.resize(width, height);
+    if (this.frame) this.draw(this.frame);
+  }
+}

@@ -1,0 +1,76 @@
+// Play, pause, scrub, and step from impact to impact.
+import { byId, make } from "./dom";
+import { fixed } from "./format";
+import { RATES } from "./state";
+
+export interface TransportActions {
+  toggle(): void;
+  step(direction: 1 | -1): void;
+  scrub(progress: number): void;
+  setRate(rate: number): void;
+  setSlow(slow: boolean): void;
+}
+
+const SCRUBBER_STEPS = 1000;
+
+export class Transport {
+  private readonly play = byId<HTMLButtonElement>("play");
+  private readonly scrubber = byId<HTMLInputElement>("scrubber");
+  private readonly marks = byId("impact-marks");
+  private readonly time = byId("time");
+  private readonly rate = byId<HTMLSelectElement>("rate");
+  private readonly slow = byId<HTMLInputElement>("slow");
+
+  constructor(private readonly actions: TransportActions) {
+    this.rate.append(...RATES.map((rate) => make("option", { value: rate }, `${rate === 0.25 ? "¼" : rate === 0.5 ? "½" : rate}×`)));
+    this.play.addEventListener("click", () => actions.toggle());
+    byId("previous").addEventListener("click", () => actions.step(-1));
+    byId("next").addEventListener("click", () => actions.step(1));
+    this.scrubber.max = String(SCRUBBER_STEPS);
+    this.scrubber.addEventListener("input", () => actions.scrub(Number(this.scrubber.value) / SCRUBBER_STEPS));
+    this.rate.addEventListener("change", () => actions.setRate(Number(this.rate.value)));
+    this.slow.addEventListener("change", () => actions.setSlow(this.slow.checked));
+    document.addEventListener("keydown", (event) => this.onKey(event));
+  }
+
+  setSettings(rate: number, slow: boolean, lock: readonly string[]): void {
+    this.rate.value = String(rate);
+    this.slow.checked = slow;
+    this.rate.disabled = lock.includes("rate");
+    this.slow.disabled = lock.includes("slow");
+  }
+
+  setMarks(places: readonly number[]): void {
+    this.marks.replaceChildren(...places.map((place, i) => {
+      const mark = make("span", {}, String(i + 1));
+      mark.style.left = `${(100 * place).toFixed(2)}%`;
+      // Numbers of impacts that nearly coincide would cover each other.
+      if (i > 0 && place - (places[i - 1] ?? 0) < 0.025) mark.textContent = "";
+      return mark;
+    }));
+  }
+
+  show(time: number, progress: number, playing: boolean): void {
+    this.scrubber.value = String(Math.round(progress * SCRUBBER_STEPS));
+    this.scrubber.setAttribute("aria-valuetext", `${fixed(time * 1e3, 1)} ms`);
+    this.time.textContent = `${fixed(time * 1e3, Math.abs(time) < 0.1 ? 2 : 1)} ms`;
+    this.play.setAttribute("aria-label", playing ? "Pause" : "Play");
+    this.play.classList.toggle("playing", playing);
+  }
+
+  /** Space plays, arrows step, unless the key means something to the element that has the focus. */
+  private onKey(event: KeyboardEvent): void {
+    if (event.altKey || event.ctrlKey || event.metaKey) return;
+    const target = event.target as HTMLElement;
+    const takesKeys = /^(INPUT|SELECT|TEXTAREA)$/.test(target.tagName);
+    const isCheckbox = target instanceof HTMLInputElement && target.type === "checkbox";
+    const scrolls = target.getAttribute("tabindex") === "0";
+    if (event.key === " " && !/^(SELECT|BUTTON|SUMMARY|A)$/.test(target.tagName) && !isCheckbox) {
+      event.preventDefault();
+      this.actions.toggle();
+    } else if ((event.key === "ArrowRight" || event.key === "ArrowLeft") && (!takesKeys || isCheckbox) && !scrolls) {
+      event.preventDefault();
+      this.actions.step(event.key === "ArrowRight" ? 1 : -1);
+    }
+  }
+}

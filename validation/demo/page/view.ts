@@ -1,0 +1,240 @@
+// The picture in space, drawn by the graphics card.
+import {
+  AmbientLight, BoxGeometry, BufferGeometry, Color, ConeGeometry, CylinderGeometry, DirectionalLight, DoubleSide, EdgesGeometry,
+  Float32BufferAttribute, Group, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshLambertMaterial,
+  PerspectiveCamera, Quaternion, Scene, Vector3, WebGLRenderer, type Material,
+} from "three";
+import { LineMaterial } from "three/addons/lines/LineMaterial.js";
+import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
+import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
+import type { Body } from "./body";
+import { COLOURS } from "./colours";
+import type { Arrow, Bounds, Frame, ModelName } from "./frame";
+import type { Pose, Vector } from "./motion";
+import type { Projection, View } from "./stage";
+
+const MODELS: readonly ModelName[] = ["discrete", "continuous"];
+const FIELD_OF_VIEW = 24; // degrees, upright
+const ELEVATION = 0.16; // of the camera over the ground [rad]
+const AZIMUTH = -0.14;
+/** A rod without thickness still has to be seen. */
+const THINNEST = 0.008;
+
+interface Figure {
+  group: Group;
+  shadow: Group;
+  of: Body | null;
+}
+
+export class SpaceView implements View {
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.01, 100);
+  private readonly layers: Record<ModelName, Group> = { discrete: new Group(), continuous: new Group() };
+  private readonly figures: Record<ModelName, Figure>;
+  private readonly arrows: Record<ModelName, ArrowMesh[]> = { discrete: [], continuous: [] };
+  private ground: LineSegments | null = null;
+  private size = { width: 1, height: 1 };
+  private bounds: Bounds = { left: -0.5, right: 0.5, top: 0.5 };
+
+  constructor(canvas: HTMLCanvasElement) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.camera.up.set(0, 0, 1);
+    const sun = new DirectionalLight(0xffffff, 2.2);
+    sun.position.set(-1, -3, 4);
+    this.scene.add(new AmbientLight(0xffffff, 1.6), sun);
+    this.figures = { discrete: emptyFigure(), continuous: emptyFigure() };
+    for (const model of MODELS) {
+      const { group, shadow } = this.figures[model];
+      this.layers[model].add(group, shadow);
+      this.scene.add(this.layers[model]);
+    }
+  }
+
+  resize(width: number, height: number): void {
+    this.size = { width, height };
+    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+    this.renderer.setSize(width, height, false);
+  }
+
+  setBounds(bounds: Bounds): void {
+    if (this.ground && JSON.stringify(bounds) === JSON.stringify(this.bounds)) return;
+    this.bounds = bounds;
+    if (this.ground) this.scene.remove(this.ground);
+    this.ground = groundGrid(bounds);
+    this.scene.add(this.ground);
+  }
+
+  draw(frame: Frame): void {
+    for (const model of MODELS) {
+      const figure = frame.figures.find((f) => f.model === model);
+      this.layers[model].visible = figure !== undefined;
+      if (figure) this.place(model, figure.body, figure.pose);
+      this.placeArrows(model, frame.arrows.filter((arrow) => arrow.model === model));
+    }
+    this.renderer.setScissorTest(frame.side);
+    for (const part of this.parts(frame.side)) {
+      const { left, bottom, width, height } = part;
+      this.renderer.setViewport(left, bottom, width, height);
+      this.renderer.setScissor(left, bottom, width, height);
+      this.aim(width / height);
+      if (part.model) for (const model of MODELS) this.layers[model].visible = model === part.model && frame.figures.some((f) => f.model === model);
+      this.renderer.render(this.scene, this.camera);
+    }
+  }
+
+  project(model: ModelName, [x, y, z]: Vector, side: boolean): Projection {
+    const part = this.parts(side).find((p) => p.model === null || p.model === model);
+    const { left, bottom, width, height } = part ?? { left: 0, bottom: 0, ...this.size };
+    this.aim(width / height);
+    const point = new Vector3(x, y, z).project(this.camera);
+    return { x: left + ((point.x + 1) / 2) * width, y: this.size.height - bottom - ((point.y + 1) / 2) * height };
+  }
+
+  /** Side by side on a wide picture, one above the other on a narrow one. */
+  private parts(side: boolean): { model: ModelName | null; left: number; bottom: number; width: number; height: number }[] {
+    const { width, height } = this.size;
+    if (!side) return [{ model: null, left: 0, bottom: 0, width, height }];
+    if (width >= 600) {
+      return MODELS.map((model, i) => ({ model, left: (i * width) / 2, bottom: 0, width: width / 2, height }));
+    }
+    return MODELS.map((model, i) => ({ model, left: 0, bottom: ((1 - i) * height) / 2, width, height: height / 2 }));
+  }
+
+  private aim(aspect: number): void {
+    const { left, right, top } = this.bounds;
+    const margin = 1.16;
+    const half = Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
+    const tall = (top * margin) / 2;
+    const wide = ((right - left) * margin) / 2;
+    const distance = Math.max(tall / half, wide / (half * aspect)) + 0.15 * wide;
+    // Where width decides, the ground stays low in the picture instead of floating in its middle.
+    const centre = new Vector3((left + right) / 2, 0, Math.max(top * 0.47, 0.72 * distance * half));
+    const flat = Math.cos(ELEVATION) * distance;
+    this.camera.position.set(
+      centre.x + Math.sin(AZIMUTH) * flat, -Math.cos(AZIMUTH) * flat, centre.z + Math.sin(ELEVATION) * distance,
+    );
+    this.camera.aspect = aspect;
+    this.camera.near = distance / 50;
+    this.camera.far = distance * 10;
+    this.camera.lookAt(centre);
+    this.camera.updateProjectionMatrix();
+    this.camera.updateMatrixWorld();
+  }
+
+  private place(model: ModelName, body: Body, pose: Pose): void {
+    const figure = this.figures[model];
+    if (figure.of === null || JSON.stringify(figure.of) !== JSON.stringify(body)) {
+      figure.of = body;
+      rebuild(figure, model, body);
+    }
+    const [w, x, y, z] = pose.rotation;
+    figure.group.position.set(...pose.centre);
+    figure.group.quaternion.set(x, y, z, w);
+    const cast = figure.shadow.children[0];
+    if (cast) {
+      cast.position.set(...pose.centre);
+      cast.quaternion.set(x, y, z, w);
+    }
+  }
+
+  private placeArrows(model: ModelName, wanted: Arrow[]): void {
+    const meshes = this.arrows[model];
+    const { left, right } = this.bounds;
+    while (meshes.length < wanted.length) {
+      const mesh = new ArrowMesh();
+      meshes.push(mesh);
+      this.layers[model].add(mesh.group);
+    }
+    meshes.forEach((mesh, i) => mesh.set(wanted[i], (right - left) * 0.0055));
+  }
+}
+
+function emptyFigure(): Figure {
+  const shadow = new Group();
+  // Flattened on the ground: the shadow of light from straight above.
+  shadow.scale.set(1, 1, 1e-4);
+  return { group: new Group(), shadow, of: null };
+}
+
+function geometryOf(body: Body): BufferGeometry {
+  if (body.shape === "box") return new BoxGeometry(body.length, body.width, body.thickness);
+  const radius = Math.max(body.radius, THINNEST * body.length);
+  return new CylinderGeometry(radius, radius, body.length, 32).rotateZ(Math.PI / 2);
+}
+
+function rebuild(figure: Figure, model: ModelName, body: Body): void {
+  const geometry = geometryOf(body);
+  figure.group.clear();
+  figure.shadow.clear();
+  if (model === "discrete") {
+    figure.group.add(new Mesh(geometry, new MeshLambertMaterial({ color: COLOURS.discrete })));
+  } else {
+    const outline = new LineSegmentsGeometry().fromEdgesGeometry(new EdgesGeometry(outlineOf(body), 1));
+    figure.group.add(new LineSegments2(outline, new LineMaterial({ color: new Color(COLOURS.continuous).getHex(), linewidth: 2 })));
+  }
+  figure.shadow.add(new Mesh(geometry, shadowMaterial()));
+}
+
+/** Few sides: every edge of the outline is drawn. */
+function outlineOf(body: Body): BufferGeometry {
+  if (body.shape === "box") return geometryOf(body);
+  const radius = Math.max(body.radius, 1.4 * THINNEST * body.length);
+  return new CylinderGeometry(radius, radius, body.length, 6).rotateZ(Math.PI / 2);
+}
+
+function shadowMaterial(): Material {
+  return new MeshBasicMaterial({ color: 0x1b2430, transparent: true, opacity: 0.13, depthWrite: false, side: DoubleSide });
+}
+
+function groundGrid({ left, right }: Bounds): LineSegments {
+  const span = right - left;
+  const cell = span / 12;
+  const points: number[] = [];
+  const colours: number[] = [];
+  const middle = (left + right) / 2;
+  const fade = (x: number, y: number): number[] => {
+    const shade = 0.78 + 0.22 * Math.min(1, Math.hypot((x - middle) / (1.6 * span), y / (1.1 * span)));
+    return [shade, shade, Math.min(1, shade * 1.02)];
+  };
+  const line = (x: number, y: number, p: number, q: number): void => {
+    points.push(x, y, 0, p, q, 0);
+    colours.push(...fade(x, y), ...fade(p, q));
+  };
+  for (let i = -24; i < 24; i++) {
+    for (let j = -12; j <= 18; j++) {
+      line(middle + i * cell, j * cell, middle + (i + 1) * cell, j * cell);
+      if (j < 18) line(middle + i * cell, j * cell, middle + i * cell, (j + 1) * cell);
+    }
+  }
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new Float32BufferAttribute(points, 3));
+  geometry.setAttribute("color", new Float32BufferAttribute(colours, 3));
+  return new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true, toneMapped: false }));
+}
+
+class ArrowMesh {
+  readonly group = new Group();
+  private readonly material = new MeshBasicMaterial();
+  private readonly shaft = new Mesh(new CylinderGeometry(1, 1, 1, 12).translate(0, 0.5, 0), this.material);
+  private readonly head = new Mesh(new ConeGeometry(1, 1, 16).translate(0, -0.5, 0), this.material);
+
+  constructor() {
+    this.group.add(this.shaft, this.head);
+  }
+
+  set(arrow: Arrow | undefined, thickness: number): void {
+    const [x, y, z] = arrow?.vector ?? [0, 0, 0];
+    const length = Math.hypot(x, y, z);
+    this.group.visible = arrow !== undefined && length > 2 * thickness;
+    if (!arrow || !this.group.visible) return;
+    const radius = arrow.kind === "blow" ? thickness : 0.55 * thickness;
+    const head = Math.min(5 * radius, 0.6 * length);
+    this.material.color.set(arrow.kind === "speed" ? COLOURS.speed : COLOURS.blow[arrow.model]);
+    this.group.position.set(...arrow.from);
+    this.group.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), new Vector3(x, y, z).divideScalar(length)));
+    this.shaft.scale.set(radius, length - head, radius);
+    this.head.scale.set(2.6 * radius, head, 2.6 * radius);
+    this.head.position.set(0, length, 0);
+  }
+}

@@ -1,0 +1,38 @@
+// Impacts in words: the line below the picture, which a screen reader reads aloud.
+import type { Impact } from "./answers";
+import { significant } from "./format";
+
+/** How hard a blow is, compared with another. */
+export function comparison(ratio: number): string {
+  if (ratio > 0.95 && ratio < 1.05) return "about as hard";
+  if (ratio > 1.95 && ratio < 2.05) return "twice as hard";
+  if (ratio > 0.48 && ratio < 0.52) return "half as hard";
+  return `${significant(ratio, 2)} times as hard`;
+}
+
+export function endInWords(end: string): string {
+  if (end === "a" || end === "b") return `end ${end}`;
+  return end === "both" ? "both ends at once" : end;
+}
+
+export function impactInWords(impacts: readonly Impact[], n: number): string {
+  const impact = impacts[n - 1];
+  const first = impacts[0];
+  if (!impact || !first) return "";
+  const end = endInWords(impact.end);
+  const angle = `${significant(impact.contact_angle_deg, 3)}°`;
+  if (n === 1) return `Impact 1: ${end}, at ${angle}, impulse ${significant(impact.impulse_normal, 3)} N·s`;
+  const after = `${significant(impact.start - first.start, 2)} s after the first`;
+  return `Impact ${n}: ${end}, ${after}, ${comparison(impact.impulse_normal / first.impulse_normal)}`;
+}
+
+const OUTCOMES: Readonly<Record<string, string>> = {
+  "no-further-impact": "Nothing reaches the ground any more.",
+  "impact-limit": "More impacts may follow.",
+  "at-rest": "Then it comes to rest.",
+  "sustained-contact": "Then one end stays down while the body still turns.",
+};
+
+export function outcomeInWords(outcome: string): string {
+  return OUTCOMES[outcome] ?? outcome.replace(/-/g, " ");
+}
