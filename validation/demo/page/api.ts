@@ -61,20 +61,21 @@ export async function ask<Answer>(request: Request, signal?: AbortSignal): Promi
  * One kind of question, of which only the newest counts. A slider asks faster than answers come: while one question is
  * under way the next waits, and is replaced by one that is newer still, so that answers keep coming while it moves.
  */
-export class Latest<Answer> {
+export class Latest<Answer, Context> {
   private running: AbortController | null = null;
-  private waiting: Request | null = null;
+  private waiting: { request: Request; context: Context } | null = null;
   private timer = 0;
 
   constructor(
     private readonly delay: number,
-    private readonly onAnswer: (answer: Answer, request: Request) => void,
-    private readonly onError: (error: ApiError) => void,
+    private readonly onAnswer: (answer: Answer, context: Context) => void,
+    private readonly onError: (error: ApiError, context: Context) => void,
     private readonly onBusy: (busy: boolean) => void = () => undefined,
   ) {}
 
-  ask(request: Request): void {
-    this.waiting = request;
+  /** The context comes back with the answer: by then the page may have moved on. */
+  ask(request: Request, context: Context): void {
+    this.waiting = { request, context };
     this.onBusy(true);
     if (this.delay > 0) {
       // A slow model is not worth finishing for a situation that is gone.
@@ -84,27 +85,19 @@ export class Latest<Answer> {
     } else if (!this.running) void this.next();
   }
 
-  /** Forgets what was asked. */
-  cancel(): void {
-    clearTimeout(this.timer);
-    this.waiting = null;
-    this.running?.abort();
-    this.onBusy(false);
-  }
-
   private async next(): Promise<void> {
-    const request = this.waiting;
-    if (!request) return;
+    if (!this.waiting) return;
+    const { request, context } = this.waiting;
     this.waiting = null;
     const running = new AbortController();
     this.running = running;
     try {
       const answer = await ask<Answer>(request, running.signal);
-      if (!running.signal.aborted) this.onAnswer(answer, request);
+      if (!running.signal.aborted) this.onAnswer(answer, context);
     } catch (error) {
       if (!running.signal.aborted) {
         if (!(error instanceof ApiError)) throw error;
-        if (!this.waiting) this.onError(error);
+        if (!this.waiting) this.onError(error, context);
       }
     } finally {
       if (this.running === running) this.running = null;

@@ -19,11 +19,11 @@ export const CONTINUOUS_RADIUS = 0.01;
 export const BODIES: Readonly<Record<BodyName, { title: string; body: Body }>> = {
   rod: { title: "Thin rod, 1 m", body: { shape: "rod", mass: 1, length: 1, radius: 0, width: 0, thickness: 0 } },
   "thick-rod": {
-    title: "Thick rod, 1 m × 10 cm",
+    title: "Thick rod, 1 m",
     body: { shape: "rod", mass: 1, length: 1, radius: 0.05, width: 0, thickness: 0 },
   },
   phone: {
-    title: "Phone, 106 × 44 × 19 mm",
+    title: "Phone, 106 mm",
     body: { shape: "box", mass: 0.08814, length: 0.10566, radius: 0, width: 0.04394, thickness: 0.01905 },
   },
   "own-rod": {

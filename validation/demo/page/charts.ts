@@ -17,7 +17,7 @@ export function axis(label: string, size: number): uPlot.Axis {
   return {
     label, labelSize: 22, size, font: FONT, labelFont: FONT, labelGap: 2, stroke: COLOURS.quiet,
     grid: { stroke: COLOURS.grid, width: 1 }, ticks: { stroke: COLOURS.grid, width: 1, size: 5 },
-    values: (_plot, values) => values.map((value) => significant(value, 6)),
+    values: (_plot, values) => values.map((value) => String(Number(value.toPrecision(6))).replace("-", "−")),
   };
 }
 
@@ -36,7 +36,7 @@ export function upright(plot: uPlot, x: number, colour: string, dash: number[], 
   ctx.restore();
 }
 
-const HEIGHT = 220;
+const HEIGHT = 300;
 
 export class ForceChart {
   private readonly box = byId("force-chart");

@@ -1,42 +1,52 @@
 // The continuous model between the samples of its time history: every step of a contact, some 20 of a flight.
 import type { Body } from "./body";
 import type { History, Impact } from "./answers";
-import { fallBefore, leadIn, rotate, type Energies, type Motion, type Pose, type Rotation, type Vector } from "./motion";
+import { coast, leadIn, leadOut, rotate, type Energies, type Motion, type Pose, type Rotation, type Vector } from "./motion";
 
 export class ContinuousMotion implements Motion {
   readonly begin: number;
   readonly end: number;
   private readonly total: number;
+  private readonly touch: number;
+  private readonly last: number;
 
   constructor(
     readonly body: Body, readonly impacts: readonly Impact[], readonly history: History, private readonly gravity: number,
   ) {
-    const speed = impacts[0]?.approach_speed ?? Math.abs(at(history.vz, 0));
-    this.begin = -leadIn(impacts, speed, gravity, body.length);
-    this.end = at(history.t, history.t.length - 1);
+    const { t } = history;
+    // The history of a drop from a height begins with its fall, at a negative time.
+    this.touch = Math.max(0, t.findIndex((time) => time >= 0));
+    this.last = t.length - 1;
     this.total = at(history.energy_total, 0);
+    this.begin = -leadIn(impacts, impacts[0]?.approach_speed ?? Math.abs(at(history.vz, this.touch)), gravity, body.length);
+    const released = this.sample(this.last, 0);
+    const inPlane = Math.hypot(released.spin[0], released.spin[2]) < 1e-9 * Math.hypot(...released.spin);
+    // Past its history a body that tumbles in space has no simple motion, nor has one that still touches.
+    const canCoast = (inPlane || Math.hypot(...released.spin) === 0) && !released.inContact;
+    const stop = at(t, this.last);
+    this.end = canCoast ? leadOut(body, stop, this.begin, (time) => coast(released, gravity, time - stop)) : stop;
   }
 
   pose(time: number): Pose {
-    if (time < 0) return fallBefore(this.sample(0, 0), this.gravity, time);
-    const row = rowBefore(this.history.t, time);
-    return this.sample(row, fraction(this.history.t, row, time));
+    const { t } = this.history;
+    if (time < 0) return coast(this.sample(this.touch, 0), this.gravity, time);
+    if (time > at(t, this.last)) return coast(this.sample(this.last, 0), this.gravity, time - at(t, this.last));
+    const row = rowBefore(t, time);
+    return this.sample(row, fraction(t, row, time));
   }
 
   energies(time: number): Energies {
-    if (time < 0) {
-      const potential = this.body.mass * this.gravity * this.pose(time).centre[2];
-      return { translation: this.total - potential, rotation: 0, potential, ground: 0, lost: 0 };
-    }
     const { history } = this;
-    const row = rowBefore(history.t, time);
-    const part = fraction(history.t, row, time);
+    const known = Math.min(Math.max(time, 0), at(history.t, this.last));
+    const row = rowBefore(history.t, known);
+    const part = fraction(history.t, row, known);
     const value = (column: number[]): number => mix(at(column, row), at(column, row + 1), part);
-    const translation = value(history.energy_translation);
-    const rotation = value(history.energy_rotation);
-    const potential = value(history.energy_potential);
-    const ground = value(history.energy_ground);
-    return { translation, rotation, potential, ground, lost: this.total - value(history.energy_total) };
+    const lost = this.total - value(history.energy_total);
+    const rotation = time < 0 ? 0 : value(history.energy_rotation);
+    const ground = time < 0 ? 0 : value(history.energy_ground);
+    // Of the height by the place: between the samples of a flight it is not linear.
+    const potential = this.body.mass * this.gravity * this.pose(time).centre[2];
+    return { translation: this.total - lost - rotation - ground - potential, rotation, potential, ground, lost };
   }
 
   private sample(row: number, part: number): Pose {

@@ -151,7 +151,7 @@ export class Controls {
     });
     const error = make("p", { class: "error", id: `${quantity}-error`, role: "alert", hidden: true });
     const label = make("label", { for: quantity }, name);
-    const box = make("div", { class: "row" }, label, slider, field, make("span", { class: "unit" }, spec.unit), error);
+    const box = make("div", { class: "row" }, label, field, make("span", { class: "unit" }, spec.unit), slider, error);
     if (spec.model) box.title = `Of the ${spec.model} model`;
     slider.addEventListener("input", () => this.set(quantity, this.fromPosition(quantity, spec, Number(slider.value))));
     slider.addEventListener("change", () => this.onRelease());

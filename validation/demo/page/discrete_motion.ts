@@ -1,16 +1,14 @@
 // The discrete model between its impacts: the centre of mass on a parabola, the spin constant.
 import { centreHeight, momentOfInertia, type Body } from "./body";
 import type { Impact } from "./answers";
-import { fallBefore, leadIn, planeRotation, type Energies, type Motion, type Pose, type Vector } from "./motion";
+import { coast, leadIn, leadOut, planeRotation, type Energies, type Motion, type Pose, type Vector } from "./motion";
 
 const DEGREE = Math.PI / 180;
 
 interface Flight {
   start: number;
-  centre: Vector;
-  inclination: number;
-  velocity: Vector;
-  spin: number;
+  /** Just after the impact that it begins with. */
+  pose: Pose;
 }
 
 export class DiscreteMotion implements Motion {
@@ -24,40 +22,25 @@ export class DiscreteMotion implements Motion {
     const first = impacts[0];
     if (!first) throw new RangeError("a motion needs an impact");
     let x = 0;
-    let before: Flight | null = null;
+    let before: Impact | null = null;
     for (const impact of impacts) {
-      if (before) x += before.velocity[0] * (impact.start - before.start);
-      const inclination = impact.inclination_deg * DEGREE;
-      before = {
-        start: impact.start, centre: [x, 0, centreHeight(body, inclination)], inclination,
-        velocity: impact.velocity_after, spin: impact.angular_velocity_after[1],
-      };
-      this.flights.push(before);
+      if (before) x += before.velocity_after[0] * (impact.start - before.start);
+      before = impact;
+      const { inclination_deg, velocity_after: velocity, angular_velocity_after: spin } = impact;
+      this.flights.push({ start: impact.start, pose: poseOf(body, inclination_deg * DEGREE, x, velocity, spin) });
     }
-    const inclination = first.inclination_deg * DEGREE;
     const speed = first.approach_speed;
-    this.touch = {
-      centre: [0, 0, centreHeight(body, inclination)], rotation: planeRotation(inclination), inclination,
-      velocity: [0, 0, -speed], spin: [0, 0, 0], force: [0, 0, 0], inContact: false,
-    };
+    this.touch = poseOf(body, first.inclination_deg * DEGREE, 0, [0, 0, -speed], [0, 0, 0]);
     this.total = first.energy_before;
     this.begin = -leadIn(impacts, speed, gravity, body.length);
-    this.end = this.leadOut();
+    this.end = leadOut(body, (before ?? first).start, this.begin, (time) => this.pose(time));
   }
 
   pose(time: number): Pose {
-    if (time < 0) return fallBefore(this.touch, this.gravity, time);
-    const flight = this.flightAt(time);
-    const dt = time - flight.start;
-    const inclination = flight.inclination - flight.spin * dt;
-    const [vx, , vz] = flight.velocity;
-    return {
-      centre: [
-        flight.centre[0] + vx * dt, 0, flight.centre[2] + vz * dt - (this.gravity * dt * dt) / 2,
-      ],
-      rotation: planeRotation(inclination), inclination, velocity: [vx, 0, vz - this.gravity * dt],
-      spin: [0, flight.spin, 0], force: [0, 0, 0], inContact: false,
-    };
+    if (time < 0) return coast(this.touch, this.gravity, time);
+    let flight = this.flights[0] as Flight;
+    for (const next of this.flights) if (next.start <= time) flight = next;
+    return coast(flight.pose, this.gravity, time - flight.start);
   }
 
   energies(time: number): Energies {
@@ -68,23 +51,11 @@ export class DiscreteMotion implements Motion {
     const potential = mass * this.gravity * centre[2];
     return { translation, rotation, potential, ground: 0, lost: this.total - translation - rotation - potential };
   }
+}
 
-  private flightAt(time: number): Flight {
-    let flight = this.flights[0] as Flight;
-    for (const next of this.flights) if (next.start <= time) flight = next;
-    return flight;
-  }
-
-  /** After the last impact the flight is shown for a while, but never into the ground. */
-  private leadOut(): number {
-    const last = this.flights[this.flights.length - 1] as Flight;
-    const span = Math.max(0.5 * last.start, -this.begin);
-    const steps = 60;
-    for (let i = 1; i <= steps; i++) {
-      const time = last.start + (span * i) / steps;
-      const pose = this.pose(time);
-      if (pose.centre[2] < centreHeight(this.body, pose.inclination) - 1e-9) return last.start + (span * (i - 1)) / steps;
-    }
-    return last.start + span;
-  }
+function poseOf(body: Body, inclination: number, x: number, velocity: Vector, spin: Vector): Pose {
+  return {
+    centre: [x, 0, centreHeight(body, inclination)], rotation: planeRotation(inclination), inclination, velocity, spin,
+    force: [0, 0, 0], inContact: false,
+  };
 }

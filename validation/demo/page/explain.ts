@@ -9,12 +9,17 @@ export class Explanation {
 
   show(answer: ExplainAnswer): void {
     this.box.replaceChildren(...answer.steps.map(({ title, text, equations }) => make("section", { class: "step" },
-      make("h3", {}, title), make("p", {}, text), ...equations.map(equationElement))));
+      make("h3", {}, title), make("p", {}, ...withSubscripts(text)), ...equations.map(equationElement))));
   }
 
   say(text: string): void {
     this.box.replaceChildren(make("p", { class: "quiet" }, text));
   }
+}
+
+/** "V_n" in running text as V with an index. */
+function withSubscripts(text: string): (Node | string)[] {
+  return text.split(/_(\p{L})/u).map((part, i) => (i % 2 ? make("sub", {}, part) : part));
 }
 
 function equationElement(equation: Equation): HTMLElement {

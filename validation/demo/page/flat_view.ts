@@ -24,12 +24,9 @@ export class FlatView implements View {
     this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
   }
 
-  setBounds(bounds: Bounds): void {
-    this.bounds = bounds;
-  }
-
   draw(frame: Frame): void {
     const { context } = this;
+    this.bounds = frame.bounds;
     context.clearRect(0, 0, this.size.width, this.size.height);
     for (const model of frame.side ? (["discrete", "continuous"] as const) : (["discrete"] as const)) this.ground(model, frame.side);
     for (const { model, body, pose } of frame.figures) this.figure(model, body, pose, frame.side);

@@ -23,6 +23,7 @@ export interface Label {
 
 export interface Frame {
   side: boolean;
+  bounds: Bounds;
   figures: { model: ModelName; body: Body; pose: Pose }[];
   arrows: Arrow[];
   labels: Label[];
@@ -63,45 +64,41 @@ export function scalesOf(motions: Motions): Scales {
   };
 }
 
-/** What has to be in view. Rounded up, so that the picture does not breathe while a slider moves. */
-export function boundsOf(motions: Motions): Bounds {
-  const bounds = { left: 0, right: 0, top: 0 };
-  let length = 1;
-  for (const motion of [motions.discrete, motions.continuous]) {
-    if (!motion) continue;
-    length = motion.body.length;
-    for (let i = 0; i <= 60; i++) {
-      const { centre, inclination } = motion.pose(motion.begin + ((motion.end - motion.begin) * i) / 60);
-      const half = length / 2;
-      bounds.left = Math.min(bounds.left, centre[0] - half);
-      bounds.right = Math.max(bounds.right, centre[0] + half);
-      bounds.top = Math.max(bounds.top, centre[2] + half * Math.abs(Math.sin(inclination)));
-    }
+/**
+ * What has to be in view at a time: the bodies and the ground below them. The camera so follows a body that bounces high,
+ * and comes close again for the clattering.
+ */
+function boundsOf(figures: Frame["figures"]): Bounds {
+  const bounds = { left: Infinity, right: -Infinity, top: 0 };
+  for (const { body, pose } of figures) {
+    // Perspective makes the near corner of a broad body stick out.
+    const half = body.length / 2 + 0.2 * body.width;
+    bounds.left = Math.min(bounds.left, pose.centre[0] - half);
+    bounds.right = Math.max(bounds.right, pose.centre[0] + half);
+    bounds.top = Math.max(bounds.top, body.length * 0.55, pose.centre[2] + half * 1.15);
   }
-  const step = length / 4;
-  const outward = (value: number): number => Math.ceil(value / step - 1e-6) * step;
-  return { left: -outward(-bounds.left), right: outward(bounds.right), top: outward(Math.max(bounds.top, 0.5 * length)) };
+  return figures.length ? bounds : { left: -0.5, right: 0.5, top: 0.5 };
 }
 
 /** The last impact that has begun at a time; null while the body still falls. */
 export function impactAt(impacts: readonly Impact[], time: number): Impact | null {
   let last: Impact | null = null;
-  // A touch of rounding: a time that went through a link still belongs to the impact that it names.
-  for (const impact of impacts) if (impact.start <= time + 1e-9 * Math.max(1e-3, Math.abs(time))) last = impact;
+  for (const impact of impacts) if (impact.start <= time) last = impact;
   return last;
 }
 
 export function frameAt(motions: Motions, time: number, scales: Scales, side: boolean): Frame {
-  const frame: Frame = { side, figures: [], arrows: [], labels: [] };
+  const frame: Frame = { side, bounds: boundsOf([]), figures: [], arrows: [], labels: [] };
   for (const model of ["continuous", "discrete"] as const) {
     const motion = motions[model];
-    if (!motion) continue;
+    if (!motion || time > motion.end + 1e-12) continue;
     const pose = motion.pose(time);
     frame.figures.push({ model, body: motion.body, pose });
     // In the overlay two sets of speeds and names would lie on each other.
     if (side || model === "discrete" || !motions.discrete) addEnds(frame, model, motion, pose, scales);
-    addBlow(frame, model, motion, pose, time, scales);
+    addBlow(frame, model, motion, pose, time, scales, side || !motions.discrete);
   }
+  frame.bounds = boundsOf(frame.figures);
   return frame;
 }
 
@@ -119,20 +116,20 @@ function addEnds(frame: Frame, model: ModelName, motion: Motion, pose: Pose, sca
   }
 }
 
-function addBlow(frame: Frame, model: ModelName, motion: Motion, pose: Pose, time: number, scales: Scales): void {
+function addBlow(frame: Frame, model: ModelName, motion: Motion, pose: Pose, time: number, scales: Scales, side: boolean): void {
   const impact = impactAt(motion.impacts, time);
   if (!impact) return;
   const place = struckPoint(motion, impact);
   const pressing = model === "continuous" && pose.inContact;
+  // In the overlay the impulses of both models would lie on each other; a force only while it acts.
+  if (model === "continuous" && !pressing && !side) return;
   const [vector, text] = pressing
     ? [pose.force.map((f) => f * scales.force) as Vector, `${significant(pose.force[2], 3)} N`]
     : [[impact.impulse_tangential * scales.impulse, 0, impact.impulse_normal * scales.impulse] as Vector,
       `${significant(impact.impulse_normal, 3)} N·s`];
   frame.arrows.push({ model, kind: "blow", from: place, vector });
   const above: Vector = [place[0] + vector[0], place[1] + vector[1], place[2] + vector[2]];
-  if (frame.side || model === "discrete" || pressing || !frame.figures.some((f) => f.model !== model)) {
-    frame.labels.push({ model, kind: "blow", place: above, text });
-  }
+  frame.labels.push({ model, kind: "blow", place: above, text });
 }
 
 function struckPoint(motion: Motion, impact: Impact): Vector {

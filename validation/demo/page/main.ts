@@ -1,6 +1,6 @@
 // The page: from a change of the situation to the requests, and from their answers to the panels.
 import type { ExplainAnswer, SequenceAnswer, SimulateAnswer } from "./answers";
-import { ApiError, Latest, isAvailable, isOffline, offlineScenes } from "./api";
+import { Latest, isAvailable, isOffline } from "./api";
 import { CONTINUOUS_RADIUS, type Body } from "./body";
 import { EnergyBars, ForceChart } from "./charts";
 import { ContinuousMotion } from "./continuous_motion";
@@ -8,22 +8,24 @@ import { Controls } from "./controls";
 import { DiscreteMotion } from "./discrete_motion";
 import { byId } from "./dom";
 import { Explanation } from "./explain";
-import { boundsOf, frameAt, impactAt, scalesOf, type Motions, type Scales } from "./frame";
+import { frameAt, impactAt, scalesOf, type Motions, type Scales } from "./frame";
 import { AngleMap } from "./map";
 import { Numbers } from "./numbers";
+import { goOffline, hidePanels, setUpLayout } from "./panels";
 import { Player, TimeWarp } from "./playback";
 import { Prediction } from "./prediction";
 import { explainRequest, gravityNumber, keyOf, sequenceRequest, simulateRequest } from "./requests";
 import { firstSpeed } from "./restitution";
 import { setUpSharing } from "./sharing";
 import { Stage } from "./stage";
-import { PANELS, bodyOf, readAddress, writeAddress, type State } from "./state";
+import { bodyOf, readAddress, writeAddress, type Parameters, type State } from "./state";
 import { ImpactTable, csvOf, download } from "./table";
 import { Transport } from "./transport";
 import { impactInWords, outcomeInWords } from "./words";
 
 /** Until a situation stands still for so long, the slower model is not asked [ms]. */
 const CONTINUOUS_DELAY = 150;
+const EXPLAIN_DELAY = 80;
 const PLAY_DELAY = 350;
 
 class Page {
@@ -33,8 +35,14 @@ class Page {
   private continuous: SimulateAnswer | null = null;
   private scales: Scales = scalesOf({ discrete: null, continuous: null });
   private asked = 0;
-  /** From a link: kept until the first answer is there. */
-  private restored = false;
+  /** Until the first answer the time is that of the link. */
+  private hasShown = false;
+  /** Whether the time is that of the chosen impact, or one that was sought. */
+  private followsImpact = false;
+  /** Of which situation the continuous model's answer is. */
+  private continuousOf = "";
+  /** Which situation it refused last. */
+  private refusedOf = "";
   private playTimer = 0;
 
   private readonly stage = new Stage();
@@ -46,29 +54,31 @@ class Page {
   private readonly map = new AngleMap((angle) => this.setAngle(angle));
   private readonly player = new Player(new TimeWarp(0, 1, [], false), () => this.onTime());
   private readonly controls = new Controls(this.state, () => this.update(), () => this.playSoon());
-  private readonly prediction = new Prediction(() => this.answer?.impacts ?? [], () => this.onPredicted());
+  private readonly prediction = new Prediction(() => this.onPredicted());
   private readonly transport = new Transport({
     toggle: () => this.toggle(),
     step: (direction) => this.goTo(this.state.impact + direction, direction),
-    scrub: (progress) => { this.player.pause(); this.player.progress = progress; this.onTime(); },
+    scrub: (progress) => this.scrub(progress),
     setRate: (rate) => { this.state.rate = this.player.rate = rate; this.remember(); },
     setSlow: (slow) => { this.state.slow = slow; this.rewarp(); this.remember(); },
   });
 
-  private readonly sequence = new Latest<SequenceAnswer>(0, (answer) => this.onSequence(answer), (error) => this.onError("discrete", error));
-  private readonly simulation = new Latest<SimulateAnswer>(
-    CONTINUOUS_DELAY, (answer) => this.onSimulation(answer), (error) => this.onError("continuous", error),
-    (busy) => byId("spinner").classList.toggle("busy", busy));
-  private readonly explaining = new Latest<ExplainAnswer>(
-    0, (answer) => this.explanation.show(answer), (error) => this.explanation.say(error.message));
+  private readonly sequence = new Latest<SequenceAnswer, Parameters>(
+    0, (answer, parameters) => this.onSequence(answer, parameters), (error) => this.controls.setError("discrete", error));
+  private readonly simulation = new Latest<SimulateAnswer, Parameters>(
+    CONTINUOUS_DELAY, (answer, parameters) => this.onSimulation(answer, parameters),
+    (error, parameters) => { this.refusedOf = keyOf(simulateRequest(parameters)); this.controls.setError("continuous", error); },
+    (busy) => { byId("spinner").textContent = busy ? "continuous model: computing…" : ""; });
+  private readonly explaining = new Latest<ExplainAnswer, null>(
+    EXPLAIN_DELAY, (answer) => this.explanation.show(answer), (error) => this.explanation.say(error.message));
 
   constructor() {
     const { state } = this;
-    if (isOffline) this.goOffline();
-    for (const panel of PANELS) byId(`panel-${panel}`).hidden = state.hide.includes(panel);
+    goOffline(state);
+    hidePanels(state);
     this.player.rate = state.rate;
     this.transport.setSettings(state.rate, state.slow, state.lock);
-    this.setUpLayout();
+    setUpLayout(state, () => this.onTime());
     setUpSharing(state, () => this.syncTime(), (asks) => { if (asks) this.prediction.open(); });
     byId("csv").addEventListener("click", () => download("impacts.csv", csvOf(this.impacts())));
     if (state.predict) this.prediction.open();
@@ -80,8 +90,9 @@ class Page {
   private update(): void {
     const { parameters } = this.state;
     this.asked = performance.now();
-    this.sequence.ask(sequenceRequest(parameters));
-    this.simulation.ask(simulateRequest(parameters));
+    this.followsImpact = this.hasShown;
+    this.sequence.ask(sequenceRequest(parameters), { ...parameters });
+    this.simulation.ask(simulateRequest(parameters), { ...parameters });
     const speed = firstSpeed(parameters);
     if (speed > 0) void this.map.show(gravityNumber(parameters, speed), parameters.e);
     this.map.setAngle(parameters.angle);
@@ -89,20 +100,24 @@ class Page {
     this.remember();
   }
 
-  private onSequence(answer: SequenceAnswer): void {
-    const { parameters } = this.state;
+  private onSequence(answer: SequenceAnswer, parameters: Parameters): void {
     this.controls.setError("discrete", null);
+    const key = keyOf(simulateRequest(parameters));
+    if (this.refusedOf !== key) this.controls.setError("continuous", null);
     this.answer = answer;
+    this.prediction.setImpacts(answer.impacts);
     this.motions.discrete = answer.impacts.length ? new DiscreteMotion(bodyOf(parameters), answer.impacts, parameters.gravity) : null;
-    // What the other model said belongs to another situation now.
-    this.motions.continuous = null;
-    this.continuous = null;
+    if (this.continuousOf !== key) {
+      // What the other model said belongs to another situation.
+      this.motions.continuous = null;
+      this.continuous = null;
+    }
     this.showAnswers();
     document.documentElement.dataset["latency"] = (performance.now() - this.asked).toFixed(1);
   }
 
-  private onSimulation(answer: SimulateAnswer): void {
-    const { parameters } = this.state;
+  private onSimulation(answer: SimulateAnswer, parameters: Parameters): void {
+    this.continuousOf = keyOf(simulateRequest(parameters));
     this.controls.setError("continuous", null);
     this.continuous = answer;
     this.motions.continuous = answer.history.t.length > 1
@@ -110,26 +125,19 @@ class Page {
     this.showAnswers();
   }
 
-  private onError(model: "discrete" | "continuous", error: ApiError): void {
-    this.controls.setError(model, error);
-  }
-
   private showAnswers(): void {
     this.scales = scalesOf(this.motions);
-    this.stage.setBounds(boundsOf(this.motions));
     this.rewarp();
     this.table.show(this.impacts(), this.state.impact);
     byId("outcome").textContent = this.answer ? outcomeInWords(this.answer.outcome) : "";
     this.force.show(this.continuous, this.motions.discrete, this.state.impact);
     this.explain();
-    if (!this.restored) {
-      this.restored = true;
-      this.player.seek(this.state.time);
-    } else if (!this.player.playing) {
+    if (!this.player.playing) {
       // While a slider moves the picture stays with the chosen impact, whenever that is now.
-      const impact = this.steps()[this.state.impact - 1];
-      if (impact) this.player.seek(impact.start);
+      const impact = this.followsImpact ? this.steps()[this.state.impact - 1] : undefined;
+      this.player.seek(impact?.start ?? this.state.time);
     }
+    this.hasShown = true;
     this.onTime();
   }
 
@@ -157,7 +165,9 @@ class Page {
     const { time } = player;
     const impact = impactAt(this.steps(), time);
     if (impact && impact.n !== state.impact && player.playing) this.choose(impact.n);
-    this.stage.draw(frameAt(this.motions, time, this.scales, state.layout === "side"));
+    // Before the guess the picture shows the fall, not yet the blow.
+    const shown = this.prediction.isOpen ? (this.motions.discrete?.begin ?? 0) : time;
+    this.stage.draw(frameAt(this.motions, shown, this.scales, state.layout === "side"));
     this.numbers.show(this.motions, time);
     for (const model of ["discrete", "continuous"] as const) {
       this.energy.show(model, this.motions[model]?.energies(time) ?? null);
@@ -193,8 +203,18 @@ class Page {
     this.onTime();
   }
 
+  private scrub(progress: number): void {
+    this.player.pause();
+    this.followsImpact = false;
+    this.player.progress = progress;
+    const impact = impactAt(this.steps(), this.player.time);
+    if (impact && impact.n !== this.state.impact) this.choose(impact.n);
+    this.onTime();
+  }
+
   private toggle(): void {
     if (this.prediction.isOpen) return;
+    this.followsImpact = false;
     if (this.player.playing) this.player.pause();
     else this.player.play();
     this.onTime();
@@ -233,33 +253,8 @@ class Page {
     const { parameters, impact } = this.state;
     byId("explain-title").textContent = `How impact ${impact} came about`;
     const request = explainRequest(parameters, impact);
-    if (isAvailable(request)) this.explaining.ask(request);
+    if (isAvailable(request)) this.explaining.ask(request, null);
     else this.explanation.say("This offline copy holds the equations of the first impacts only.");
-  }
-
-  private setUpLayout(): void {
-    for (const button of document.querySelectorAll<HTMLButtonElement>("button[data-layout]")) {
-      const show = (): void => button.setAttribute("aria-pressed", String(this.state.layout === button.dataset["layout"]));
-      show();
-      button.disabled = this.state.lock.includes("layout");
-      button.addEventListener("click", () => {
-        this.state.layout = button.dataset["layout"] as State["layout"];
-        for (const other of document.querySelectorAll<HTMLButtonElement>("button[data-layout]")) {
-          other.setAttribute("aria-pressed", String(other === button));
-        }
-        byId("stage").dataset["layout"] = this.state.layout;
-        this.onTime();
-      });
-    }
-    byId("stage").dataset["layout"] = this.state.layout;
-  }
-
-  private goOffline(): void {
-    const { state } = this;
-    byId("offline").hidden = false;
-    const scene = offlineScenes.find(({ answers }) => keyOf(sequenceRequest(state.parameters)) in answers);
-    const [first] = offlineScenes;
-    if (!scene && first) Object.assign(state.parameters, first.parameters);
   }
 
   private syncTime(): void {
@@ -267,7 +262,7 @@ class Page {
   }
 
   private remember(): void {
-    if (this.restored) this.syncTime();
+    if (this.hasShown) this.syncTime();
     writeAddress(this.state);
   }
 }

@@ -19,6 +19,7 @@ interface Fold {
 }
 
 const HEIGHT = 300;
+const MAP_DELAY = 120; // ms
 const REFINED = 101;
 const RESOLVED = 1e-3; // degrees
 
@@ -42,6 +43,9 @@ export class AngleMap {
     const key = keyOf(request);
     if (key === this.shown || !Number.isFinite(gravity) || !isAvailable(request)) return;
     this.shown = key;
+    // While a slider moves, the faster answers go first.
+    await new Promise((resume) => setTimeout(resume, this.plot ? MAP_DELAY : 0));
+    if (key !== this.shown) return;
     const isNewest = (): boolean => key === this.shown;
     try {
       let { rows } = await ask<AnglesAnswer>(request);
@@ -79,13 +83,15 @@ export class AngleMap {
   }
 
   private build(data: uPlot.AlignedData): uPlot {
-    const degrees: uPlot.Axis["splits"] = () => [0, 15, 30, 45, 60, 75, 90];
+    const degrees: uPlot.Axis["splits"] = (drawn, index) =>
+      [0, 15, 30, 45, 60, 75, 90].filter((angle) => angle <= (drawn.scales[index === 0 ? "x" : "y"]?.max ?? 90));
     const series = (label: string, stroke: string, dash: number[]): uPlot.Series =>
       ({ label, stroke, width: 2.5, dash, points: { show: false }, spanGaps: false });
     const plot = new uPlot({
       ...chartSize(this.box, HEIGHT), legend: { show: false }, cursor: { drag: { x: false, y: false } },
       series: [{ label: "θ" }, series("β", COLOURS.beta, []), series("γ", COLOURS.gamma, [8, 4])],
-      scales: { x: { time: false, range: [0, 90] }, y: { range: [0, 90] } },
+      // With gravity the angles get small: the scale follows, in steps of 15°.
+      scales: { x: { time: false, range: [0, 90] }, y: { range: (_plot, _low, high) => [0, Math.min(90, Math.max(15, Math.ceil(high / 15) * 15))] } },
       axes: [{ ...axis("First angle θ [°]", 34), splits: degrees }, { ...axis("Angle of the next impacts [°]", 44), splits: degrees }],
       hooks: { draw: [(drawn) => this.mark(drawn)] },
     }, data, this.box);
@@ -130,8 +136,8 @@ function decimalsOf({ resolution }: Fold): number {
 }
 
 function foldInWords(fold: Fold): string {
-  const which = fold.curve === "beta_deg" ? "second" : "third";
-  return `The last angle with a ${which} impact is ${fixed(fold.theta, decimalsOf(fold))}°.`;
+  const which = fold.curve === "beta_deg" ? "the other end does not strike second" : "the first end does not strike third";
+  return `Beyond ${fixed(fold.theta, decimalsOf(fold))}° ${which}.`;
 }
 
 function merge(rows: AngleRow[], more: AngleRow[]): AngleRow[] {

@@ -1,5 +1,5 @@
 // What both models' motions have in common: where the body is at a time, and where its energy is.
-import type { Body } from "./body";
+import { centreHeight, type Body } from "./body";
 import type { Impact } from "./answers";
 
 export type Vector = [number, number, number];
@@ -70,12 +70,27 @@ export function leadIn(impacts: readonly Impact[], speed: number, gravity: numbe
   return gravity > 0 ? Math.min(lead, speed / gravity) : lead;
 }
 
-/** The fall before the first touch, in which the body does not turn. */
-export function fallBefore(touch: Pose, gravity: number, time: number): Pose {
-  const [x, y, z] = touch.centre;
-  const [vx, vy, vz] = touch.velocity;
+/** Until when the flight after the last impact is shown: for a while, but never into the ground. */
+export function leadOut(body: Body, from: number, begin: number, pose: (time: number) => Pose): number {
+  const span = Math.max(0.5 * from, -begin);
+  const steps = 60;
+  for (let i = 1; i <= steps; i++) {
+    const { centre, inclination } = pose(from + (span * i) / steps);
+    if (centre[2] < centreHeight(body, inclination) - 1e-9) return from + (span * (i - 1)) / steps;
+  }
+  return from + span;
+}
+
+/** Free flight in the plane, so long before or after a known pose. */
+export function coast(known: Pose, gravity: number, time: number): Pose {
+  const [x, y, z] = known.centre;
+  const [vx, vy, vz] = known.velocity;
+  const [c, , s] = planeRotation(-known.spin[1] * time);
+  const [a, b, d, e] = known.rotation;
   return {
-    ...touch,
+    ...known,
+    rotation: [c * a - s * d, c * b + s * e, c * d + s * a, c * e - s * b],
+    inclination: known.inclination - known.spin[1] * time,
     centre: [x + vx * time, y + vy * time, z + vz * time - (gravity * time * time) / 2],
     velocity: [vx, vy, vz - gravity * time],
     force: [0, 0, 0],

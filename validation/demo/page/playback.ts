@@ -75,23 +75,27 @@ export class Player {
   playing = false;
   rate = 1;
   private position = 0;
+  /** Where it was sent, to the last digit; until the playback moves. */
+  private sought: number | null = null;
   private last = 0;
   private request = 0;
 
   constructor(private warp: TimeWarp, private readonly onTime: (time: number, ended: boolean) => void) {}
 
   get time(): number {
-    return this.warp.toMotion(this.position);
+    return this.sought ?? this.warp.toMotion(this.position);
   }
 
   /** Another situation: a running playback goes on at the same place of the screen, a standing one keeps its time. */
   setWarp(warp: TimeWarp): void {
     const time = this.time;
     this.warp = warp;
+    if (this.playing) this.sought = null;
     this.position = this.playing ? Math.min(this.position, warp.duration) : warp.toScreen(time);
   }
 
   seek(time: number): void {
+    this.sought = Math.min(this.warp.end, Math.max(this.warp.begin, time));
     this.position = this.warp.toScreen(time);
   }
 
@@ -101,6 +105,7 @@ export class Player {
   }
 
   set progress(part: number) {
+    this.sought = null;
     this.position = part * this.warp.duration;
   }
 
@@ -125,6 +130,7 @@ export class Player {
     // A tab in the background draws no frames: coming back must not jump over impacts.
     const passed = this.last ? Math.min(0.1, (now - this.last) / 1000) : 0;
     this.last = now;
+    this.sought = null;
     this.position = Math.min(this.warp.duration, this.position + passed * this.rate);
     const ended = this.position >= this.warp.duration;
     if (ended) this.playing = false;

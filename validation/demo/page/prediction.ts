@@ -14,11 +14,15 @@ export class Prediction {
   private readonly question = byId("prediction-question");
   private readonly reveal = byId("prediction-reveal");
 
-  constructor(impacts: () => readonly Impact[], private readonly onAnswered: () => void) {
+  private guess: Guess | null = null;
+  private impacts: readonly Impact[] = [];
+
+  constructor(private readonly onAnswered: () => void) {
     for (const button of this.card.querySelectorAll<HTMLButtonElement>("button[data-guess]")) {
       button.addEventListener("click", () => {
-        this.reveal.textContent = revealed(button.dataset["guess"] as Guess, impacts());
+        this.guess = button.dataset["guess"] as Guess;
         this.close();
+        this.tell();
       });
     }
     byId("prediction-skip").addEventListener("click", () => this.close());
@@ -28,11 +32,24 @@ export class Prediction {
     return !this.card.hidden;
   }
 
+  /** The impacts of the situation; a guess can come before them, and is void for another situation. */
+  setImpacts(impacts: readonly Impact[]): void {
+    const isFirst = this.impacts.length === 0;
+    this.impacts = impacts;
+    if (!isFirst && !this.isOpen) this.guess = null;
+    this.tell();
+  }
+
   open(): void {
     this.card.hidden = false;
     this.question.hidden = false;
-    this.reveal.textContent = "";
+    this.guess = null;
+    this.tell();
     document.body.classList.add("predicting");
+  }
+
+  private tell(): void {
+    this.reveal.textContent = this.guess && this.impacts.length ? revealed(this.guess, this.impacts) : "";
   }
 
   private close(): void {
@@ -45,7 +62,7 @@ export class Prediction {
 function revealed(guess: Guess, impacts: readonly Impact[]): string {
   const [first, second] = impacts;
   if (!first) return "";
-  if (!second) return "There is no second blow: from this angle the other end never comes down.";
+  if (!second) return "There is no second blow: after the first nothing comes down again.";
   const ratio = second.impulse_normal / first.impulse_normal;
   const truth: Guess = Math.abs(ratio - 1) < ALIKE ? "same" : ratio > 1 ? "harder" : "softer";
   const verdict = guess === truth ? "You guessed it." : "A surprise:";

@@ -1,7 +1,7 @@
 // The picture and the labels over it.
 import { byId, make } from "./dom";
 import { FlatView } from "./flat_view";
-import type { Bounds, Frame, ModelName } from "./frame";
+import type { Frame, ModelName } from "./frame";
 import type { Vector } from "./motion";
 import { SpaceView } from "./view";
 
@@ -13,7 +13,6 @@ export interface Projection {
 
 export interface View {
   resize(width: number, height: number): void;
-  setBounds(bounds: Bounds): void;
   draw(frame: Frame): void;
   project(model: ModelName, point: Vector, side: boolean): Projection;
 }
@@ -28,10 +27,6 @@ export class Stage {
     this.view = this.createView();
     new ResizeObserver(() => this.resize()).observe(this.box);
     this.resize();
-  }
-
-  setBounds(bounds: Bounds): void {
-    this.view.setBounds(bounds);
   }
 
   draw(frame: Frame): void {

@@ -77,7 +77,7 @@ export function toQuery(state: State): string {
   }
   if (!parameters.planar) query.set("planar", "0");
   query.set("impact", String(state.impact));
-  query.set("t", String(Number(state.time.toPrecision(9))));
+  query.set("t", String(state.time));
   if (state.layout === "side") query.set("layout", "side");
   if (state.rate !== 1) query.set("rate", String(state.rate));
   if (!state.slow) query.set("slow", "0");

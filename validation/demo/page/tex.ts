@@ -15,7 +15,8 @@ export function isProse(text: string): boolean {
 }
 
 export function prose(text: string): string {
-  return `\\text{${text.replace(/[\\{}$&#^_~%]/g, " ").replace(/−/g, "-")}}`;
+  const plain = text.replace(/[\\{}$&#^_~%]/g, " ").replace(/−/g, "-");
+  return `\\text{${plain.replace(/[αβγθφμωΩΓ]/g, (letter) => `$${GREEK[letter]}$`)}}`;
 }
 
 /** TeX of a formula; of a text that is none, that text upright. */
@@ -65,6 +66,7 @@ const RELATIONS: Readonly<Record<string, string>> = { "−": "-", "±": "\\pm ",
 /** Sum of products of powers; a quotient's denominator is one factor, its numerator the product before it. */
 class Formula {
   private position = 0;
+  private insideBars = false;
 
   constructor(private readonly tokens: string[]) {}
 
@@ -87,7 +89,7 @@ class Formula {
         this.position++;
         next = this.peek();
       }
-      if (next === undefined || next === ")" || next === "|") return tex;
+      if (this.ends(next)) return tex;
       tex += this.product();
     }
   }
@@ -96,7 +98,7 @@ class Formula {
     let tex = this.factor();
     for (;;) {
       const next = this.peek();
-      if (next === undefined || next === ")" || next === "|" || SUMS.has(next)) return tex;
+      if (next === undefined || this.ends(next) || SUMS.has(next)) return tex;
       if (next === "·") {
         this.position++;
         tex += `\\cdot ${this.factor()}`;
@@ -120,20 +122,28 @@ class Formula {
     const token = this.peek();
     if (token === undefined) throw new SyntaxError("end of the formula");
     this.position++;
-    if (token === "(") return this.closed(")", "\\left(", "\\right)");
-    if (token === "|") return `|${this.until("|")}|`;
+    if (token === "(") return `\\left(${this.until(")")}\\right)`;
+    if (token === "|") return this.absolute();
     if (FUNCTIONS.has(token)) return `\\${token} ${this.factor()}`;
     if (/^\d/.test(token)) return numberTex(token);
     return nameTex(token);
   }
 
-  private closed(end: string, left: string, right: string): string {
-    return `${left}${this.until(end)}${right}`;
+  /** The bar that opens an absolute value looks like the one that closes it. */
+  private ends(next: string | undefined): boolean {
+    return next === undefined || next === ")" || (next === "|" && this.insideBars);
+  }
+
+  private absolute(): string {
+    this.insideBars = true;
+    const tex = this.until("|");
+    return `\\left|${tex}\\right|`;
   }
 
   private until(end: string): string {
     const tex = this.sum();
     if (this.peek() !== end) throw new SyntaxError(`${end} is missing`);
+    if (end === "|") this.insideBars = false;
     this.position++;
     return tex;
   }

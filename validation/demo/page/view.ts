@@ -34,6 +34,7 @@ export class SpaceView implements View {
   private readonly figures: Record<ModelName, Figure>;
   private readonly arrows: Record<ModelName, ArrowMesh[]> = { discrete: [], continuous: [] };
   private ground: LineSegments | null = null;
+  private cell = 0;
   private size = { width: 1, height: 1 };
   private bounds: Bounds = { left: -0.5, right: 0.5, top: 0.5 };
 
@@ -57,15 +58,9 @@ export class SpaceView implements View {
     this.renderer.setSize(width, height, false);
   }
 
-  setBounds(bounds: Bounds): void {
-    if (this.ground && JSON.stringify(bounds) === JSON.stringify(this.bounds)) return;
-    this.bounds = bounds;
-    if (this.ground) this.scene.remove(this.ground);
-    this.ground = groundGrid(bounds);
-    this.scene.add(this.ground);
-  }
-
   draw(frame: Frame): void {
+    this.bounds = frame.bounds;
+    this.layGround(frame.figures[0]?.body.length ?? 1);
     for (const model of MODELS) {
       const figure = frame.figures.find((f) => f.model === model);
       this.layers[model].visible = figure !== undefined;
@@ -138,15 +133,26 @@ export class SpaceView implements View {
     }
   }
 
+  /** A body that drifts stays on the grid, which moves along by whole cells. */
+  private layGround(length: number): void {
+    if (this.cell !== length / 10) {
+      this.cell = length / 10;
+      if (this.ground) this.scene.remove(this.ground);
+      this.ground = groundGrid(this.cell);
+      this.scene.add(this.ground);
+    }
+    const middle = (this.bounds.left + this.bounds.right) / 2;
+    this.ground?.position.setX(Math.round(middle / this.cell) * this.cell);
+  }
+
   private placeArrows(model: ModelName, wanted: Arrow[]): void {
     const meshes = this.arrows[model];
-    const { left, right } = this.bounds;
     while (meshes.length < wanted.length) {
       const mesh = new ArrowMesh();
       meshes.push(mesh);
       this.layers[model].add(mesh.group);
     }
-    meshes.forEach((mesh, i) => mesh.set(wanted[i], (right - left) * 0.0055));
+    meshes.forEach((mesh, i) => mesh.set(wanted[i], this.cell * 0.06));
   }
 }
 
@@ -187,24 +193,21 @@ function shadowMaterial(): Material {
   return new MeshBasicMaterial({ color: 0x1b2430, transparent: true, opacity: 0.13, depthWrite: false, side: DoubleSide });
 }
 
-function groundGrid({ left, right }: Bounds): LineSegments {
-  const span = right - left;
-  const cell = span / 12;
+function groundGrid(cell: number): LineSegments {
   const points: number[] = [];
   const colours: number[] = [];
-  const middle = (left + right) / 2;
   const fade = (x: number, y: number): number[] => {
-    const shade = 0.78 + 0.22 * Math.min(1, Math.hypot((x - middle) / (1.6 * span), y / (1.1 * span)));
+    const shade = 0.8 + 0.2 * Math.min(1, Math.hypot(x / (22 * cell), (y - 4 * cell) / (16 * cell)));
     return [shade, shade, Math.min(1, shade * 1.02)];
   };
   const line = (x: number, y: number, p: number, q: number): void => {
     points.push(x, y, 0, p, q, 0);
     colours.push(...fade(x, y), ...fade(p, q));
   };
-  for (let i = -24; i < 24; i++) {
-    for (let j = -12; j <= 18; j++) {
-      line(middle + i * cell, j * cell, middle + (i + 1) * cell, j * cell);
-      if (j < 18) line(middle + i * cell, j * cell, middle + i * cell, (j + 1) * cell);
+  for (let i = -22; i < 22; i++) {
+    for (let j = -12; j <= 20; j++) {
+      line(i * cell, j * cell, (i + 1) * cell, j * cell);
+      if (j < 20) line(i * cell, j * cell, i * cell, (j + 1) * cell);
     }
   }
   const geometry = new BufferGeometry();
@@ -215,12 +218,14 @@ function groundGrid({ left, right }: Bounds): LineSegments {
 
 class ArrowMesh {
   readonly group = new Group();
-  private readonly material = new MeshBasicMaterial();
+  private readonly material = new MeshBasicMaterial({ depthTest: false, transparent: true });
   private readonly shaft = new Mesh(new CylinderGeometry(1, 1, 1, 12).translate(0, 0.5, 0), this.material);
   private readonly head = new Mesh(new ConeGeometry(1, 1, 16).translate(0, -0.5, 0), this.material);
 
   constructor() {
     this.group.add(this.shaft, this.head);
+    // A blow under a broad body would else be hidden by it.
+    this.shaft.renderOrder = this.head.renderOrder = 1;
   }
 
   set(arrow: Arrow | undefined, thickness: number): void {

@@ -1,0 +1,323 @@
+// The page of `clatter demo` in a browser: what it shows is what the program computes, a link carries the whole state, and
+// keyboard, screen reader and narrow screens are served.
+// DEMO_URL: where the page is served. CLATTER_PROGRAM: the program to compare with. CHROMIUM: the browser.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { after, before, test } from "node:test";
+
+const require = createRequire(new URL("../../../validation/demo/page/package.json", import.meta.url));
+const { chromium } = require("playwright-core");
+const axeSource = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
+
+const address = process.env.DEMO_URL;
+const program = process.env.CLATTER_PROGRAM;
+assert.ok(address, "DEMO_URL says where the page is served");
+assert.ok(program, "CLATTER_PROGRAM is the program to compare with");
+
+const LARGE = { width: 1280, height: 900 };
+const NARROW = { width: 360, height: 740 };
+/** Answers come from a program that may share two cores with everything else. */
+const PATIENCE = 20_000;
+/** Of what the table shows: half a unit of the sixth digit. */
+const SHOWN = 5e-6;
+
+let browser;
+
+before(async () => {
+  browser = await chromium.launch({
+    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", headless: true,
+    args: ["--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+      "--disable-background-networking", "--no-first-run"],
+  });
+});
+
+after(() => browser?.close());
+
+/** Opens the page; afterwards nothing may have gone wrong in its console, and nothing been asked of another host. */
+async function onPage(query, use, { viewport = LARGE, reducedMotion = "reduce", mayFail = false } = {}) {
+  const context = await browser.newContext({ viewport, reducedMotion });
+  const page = await context.newPage();
+  page.setDefaultTimeout(PATIENCE);
+  const wrong = [];
+  const foreign = [];
+  page.on("console", (message) => {
+    // The browser itself reports an answer 400 as an error; drivers report how fast they are as warnings.
+    const expected = mayFail && /status of 4\d\d/.test(message.text());
+    if (message.type() === "error" && !expected) wrong.push(message.text());
+  });
+  page.on("pageerror", (error) => wrong.push(error.message));
+  page.on("request", (request) => {
+    const { protocol, origin } = new URL(request.url());
+    if (protocol.startsWith("http") && origin !== new URL(address).origin) foreign.push(request.url());
+  });
+  try {
+    await page.goto(new URL(query, address).href);
+    await use(page, context);
+    assert.deepEqual(wrong, []);
+    assert.deepEqual(foreign, []);
+  } finally {
+    await context.close();
+  }
+}
+
+const sequence = (...flags) => JSON.parse(execFileSync(program, ["sequence", ...flags, "--format", "json"], { encoding: "utf8" }));
+
+const number = (text) => Number(text.replace("−", "-"));
+
+async function column(page, title, model = "discrete") {
+  const cells = page.locator(`#impact-table tr[data-model="${model}"] td[data-column="${title}"]`);
+  return (await cells.allTextContents()).map(number);
+}
+
+/** Until the table shows a number: that of the new situation, not that of the last one. */
+async function waitForCell(page, title, row, expected, model = "discrete") {
+  await page.waitForFunction(([name, index, value, tolerance, of]) => {
+    const cells = document.querySelectorAll(`#impact-table tr[data-model="${of}"] td[data-column="${name}"]`);
+    const shown = Number(cells[index]?.textContent?.replace("−", "-") ?? NaN);
+    return Math.abs(shown - value) <= tolerance * Math.abs(value);
+  }, [title, row, expected, SHOWN, model]);
+}
+
+async function slide(page, id, value) {
+  await page.locator(`#${id}-slider`).evaluate((slider, to) => {
+    slider.value = String(to);
+    slider.dispatchEvent(new Event("input", { bubbles: true }));
+    slider.dispatchEvent(new Event("change", { bubbles: true }));
+  }, value);
+}
+
+function close(shown, expected, relative) {
+  assert.equal(shown.length, expected.length);
+  shown.forEach((value, i) =>
+    assert.ok(Math.abs(value - expected[i]) <= relative * Math.abs(expected[i]), `${value} is not ${expected[i]}`));
+}
+
+test("the question comes first, and hides the answer until it is guessed", () => onPage("/", async (page) => {
+  await page.waitForSelector("#prediction:not([hidden])");
+  assert.equal(await page.isVisible("#impact-table"), false);
+  assert.equal(await page.locator(".stage-label.blow").count(), 0);
+  await page.click('button[data-guess="softer"]');
+  await page.waitForFunction(() => /twice as hard as the first: 1\.003 N·s after 0\.5116 N·s/.test(
+    document.getElementById("prediction-reveal").textContent));
+  assert.equal(await page.isVisible("#impact-table"), true);
+}));
+
+test("predict=0 switches the question off", () => onPage("/?predict=0", async (page) => {
+  await page.waitForSelector("#impact-table tbody tr");
+  assert.equal(await page.isVisible("#prediction"), false);
+  await page.check("#ask-first");
+  assert.equal(await page.isVisible("#prediction"), true);
+}));
+
+test("a slider's answer is the program's", () => onPage("/?predict=0", async (page) => {
+  await page.waitForSelector("#impact-table tbody tr");
+  await slide(page, "angle", 23.5);
+  const { impacts } = sequence("--angle", "23.5");
+  await waitForCell(page, "Impulse", 1, impacts[1].impulse_normal);
+  close(await column(page, "Impulse"), impacts.map((i) => i.impulse_normal), SHOWN);
+  close(await column(page, "Angle"), impacts.map((i) => i.contact_angle_deg), SHOWN);
+  close(await column(page, "Velocity after"), impacts.map((i) => i.velocity_after[2]), SHOWN);
+}));
+
+test("gravity, restitution, friction and body enter the discrete model", () => onPage(
+  "/?predict=0&body=phone&angle=20&height=1&gravity=9.81&e=0.7&friction=0.2&stiffness=1e8&impacts=3", async (page) => {
+    const { impacts } = sequence("--angle", "20", "--height", "1", "--gravity", "9.81", "--restitution", "0.7", "--friction", "0.2",
+      "--body", "box", "--mass", "0.08814", "--size", "0.10566x0.04394x0.01905", "--impacts", "3");
+    await waitForCell(page, "Impulse", 0, impacts[0].impulse_normal);
+    close(await column(page, "Impulse"), impacts.map((i) => i.impulse_normal), SHOWN);
+    close((await column(page, "Time")).slice(1), impacts.map((i) => i.start).slice(1), SHOWN);
+  }));
+
+test("the continuous model follows, and tends to the discrete one on a stiff ground", () => onPage(
+  "/?predict=0&stiffness=1e12", async (page) => {
+    await page.waitForSelector('tr[data-model="continuous"]');
+    // The rod of the continuous model is 1 cm thick, so that its contact point is not quite the end of the thin rod.
+    close(await column(page, "Impulse", "continuous"), await column(page, "Impulse", "discrete"), 0.02);
+    assert.match(await page.getAttribute("#force-chart", "aria-label"), /impact 2: \d+/);
+  }));
+
+test("steps go forward and back, and are told in words", () => onPage("/?predict=0", async (page) => {
+  await page.waitForSelector("#impact-table tbody tr");
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await page.textContent("#caption"), "Impact 2: end b, 0.087 s after the first, twice as hard");
+  await page.click("#next");
+  assert.match(await page.textContent("#caption"), /^Impact 3: end a/);
+  await page.click("#previous");
+  await page.click("#previous");
+  assert.match(await page.textContent("#caption"), /^Impact 1: end a, at 10\.0°/);
+  assert.equal(await page.textContent("#time"), "0.00 ms");
+}));
+
+test("energy adds up to its total at every time", () => onPage("/?predict=0&gravity=9.81&e=0.8", async (page) => {
+  await page.waitForSelector('tr[data-model="continuous"]');
+  for (const part of [0, 0.2, 0.5, 0.8, 1]) {
+    await page.locator("#scrubber").evaluate((scrubber, at) => {
+      scrubber.value = String(at * 1000);
+      scrubber.dispatchEvent(new Event("input", { bubbles: true }));
+    }, part);
+    const rows = await page.locator("#energy-table tbody tr").evaluateAll((all) =>
+      all.map((row) => [...row.querySelectorAll("td")].map((cell) => Number(cell.textContent))));
+    const total = rows.pop();
+    for (const model of [0, 1]) {
+      const sum = rows.reduce((all, row) => all + row[model], 0);
+      // Five parts and their total, each rounded to a thousandth.
+      assert.ok(Math.abs(sum - total[model]) <= 3.01e-3, `${sum} is not ${total[model]}`);
+    }
+  }
+}));
+
+test("a link opens the same state", () => onPage(
+  "/?predict=0&body=own-box&angle=15.5&speed=2&gravity=1.62&e=0.9&mass=0.3&length=0.2&width=0.1&thickness=0.02&layout=side&rate=0.5",
+  async (page, context) => {
+    await page.waitForSelector('tr[data-model="continuous"]');
+    await page.click("#next");
+    await page.locator("#scrubber").evaluate((scrubber) => {
+      scrubber.value = "520";
+      scrubber.dispatchEvent(new Event("input", { bubbles: true }));
+    });
+    await context.grantPermissions(["clipboard-read", "clipboard-write"]);
+    await page.click("#copy-link");
+    await page.waitForFunction(() => document.getElementById("copied").textContent === "Link copied");
+    const link = await page.evaluate(() => navigator.clipboard.readText());
+    const shown = () => [...document.querySelectorAll("#numbers-table td, #time, #caption, #impact-table td, #explain-title")]
+      .map((element) => element.textContent).concat([...document.querySelectorAll("input, select")]
+        .filter((input) => input.type !== "checkbox").map((input) => input.value));
+    const here = await page.evaluate(shown);
+    const other = await context.newPage();
+    await other.goto(link);
+    await other.waitForSelector('tr[data-model="continuous"]');
+    assert.deepEqual(await other.evaluate(shown), here);
+  }));
+
+test("lock= disables controls, hide= takes panels away", () => onPage(
+  "/?predict=0&lock=angle,e&hide=map,explain,energy", async (page) => {
+    await page.waitForSelector("#impact-table tbody tr");
+    for (const id of ["angle", "angle-slider", "e", "e-slider"]) assert.equal(await page.isDisabled(`#${id}`), true, id);
+    assert.equal(await page.isDisabled("#gravity"), false);
+    for (const panel of ["map", "explain", "energy"]) assert.equal(await page.isVisible(`#panel-${panel}`), false, panel);
+    assert.equal(await page.isVisible("#panel-force"), true);
+  }));
+
+test("the table's CSV has all digits of the program", () => onPage("/?predict=0&angle=12&gravity=9.81&e=0.8", async (page) => {
+  await page.waitForSelector('tr[data-model="continuous"]');
+  const [download] = await Promise.all([page.waitForEvent("download"), page.click("#csv")]);
+  const [head, ...lines] = readFileSync(await download.path(), "utf8").trim().split("\n").map((line) => line.split(","));
+  const rows = lines.map((line) => Object.fromEntries(line.map((value, i) => [head[i], value])));
+  const { impacts } = sequence("--angle", "12", "--gravity", "9.81", "--restitution", "0.8");
+  const discrete = rows.filter(({ model }) => model === "discrete");
+  assert.deepEqual(discrete.map((row) => Number(row.impulse_normal_N_s)), impacts.map((i) => i.impulse_normal));
+  assert.deepEqual(discrete.map((row) => Number(row.start_s)), impacts.map((i) => i.start));
+  assert.deepEqual(discrete.map((row) => row.peak_force_N), impacts.map(() => ""));
+  assert.ok(rows.filter(({ model }) => model === "continuous").every((row) => Number(row.peak_force_N) > 0));
+}));
+
+test("the equations of the chosen impact are set in type", () => onPage("/?predict=0", async (page) => {
+  await page.waitForSelector("#impact-table tbody tr");
+  await page.click('button[data-choose="2"]');
+  await page.waitForFunction(() => /The flight to impact 2/.test(document.getElementById("explain-steps").textContent));
+  assert.equal(await page.locator("#explain-steps .katex-error").count(), 0);
+  assert.match(await page.textContent("#explain-steps"), /1\.00284/);
+  const sources = await page.locator("#explain-steps annotation").allTextContents();
+  assert.ok(sources.some((tex) => tex.includes("\\frac{\\left(1+e\\right)\\,m\\,u}{A-\\mu_{i}\\,B}")), sources.join("\n"));
+}));
+
+test("the map finds both folds, and a click on it sets the angle", () => onPage("/?predict=0", async (page) => {
+  await page.waitForFunction(() => /58\.4884°.*27\.5778°/.test(document.getElementById("map-folds").textContent));
+  const area = await page.locator("#map-chart .u-over").boundingBox();
+  await page.locator("#map-chart .u-over").click({ position: { x: area.width / 3, y: area.height / 2 } });
+  assert.ok(Math.abs(Number(await page.inputValue("#angle")) - 30) < 0.5);
+}));
+
+test("what is wrong is said next to its control; the last good picture stays", () => onPage("/?predict=0", async (page) => {
+  await page.waitForSelector("#impact-table tbody tr");
+  await page.fill("#angle", "95");
+  await page.waitForFunction(() => /must be from 0 to 90 degrees/.test(document.getElementById("angle-error").textContent));
+  assert.equal(await page.getAttribute("#angle", "aria-invalid"), "true");
+  assert.equal(await page.locator('tr[data-model="discrete"]').count(), 3);
+  await page.fill("#angle", "40");
+  await page.waitForFunction(() => document.getElementById("angle-error").textContent === "");
+}, { mayFail: true }));
+
+test("a link without sense shows what the program says of it", () => onPage("/?predict=0&e=2&mass=-1", async (page) => {
+  await page.waitForFunction(() => /must be from 0 to 1/.test(document.getElementById("e-error").textContent));
+}, { mayFail: true }));
+
+for (const [name, viewport] of [["large", LARGE], ["narrow", NARROW]]) {
+  for (const query of ["/", "/?predict=0&friction=0.2&layout=side"]) {
+    test(`axe finds nothing serious on a ${name} screen at ${query}`, () => onPage(query, async (page) => {
+      await page.waitForSelector(query === "/" ? "#prediction:not([hidden])" : "#explain-steps .katex");
+      // The page's own policy lets no script in from a tag; through the debugger it may come.
+      await page.evaluate(axeSource);
+      const { violations } = await page.evaluate(() => globalThis.axe.run());
+      const serious = violations.filter(({ impact }) => impact === "serious" || impact === "critical");
+      assert.deepEqual(serious.map(({ id, nodes }) => [id, nodes.map(({ target }) => target.join(" "))]), []);
+    }, { viewport }));
+  }
+
+  test(`nothing sticks out of a ${name} screen`, () => onPage("/?predict=0&friction=0.2", async (page) => {
+    await page.waitForSelector("#explain-steps .katex");
+    const width = await page.evaluate(() => document.documentElement.scrollWidth);
+    assert.ok(width <= viewport.width, `${width} px are more than ${viewport.width}`);
+  }, { viewport }));
+}
+
+test("with reduced motion nothing moves by itself, without it the drop plays after the guess", async () => {
+  const moves = (page) => page.evaluate(async () => {
+    document.querySelector('button[data-guess="harder"]').click();
+    await new Promise((resume) => setTimeout(resume, 1500));
+    return document.getElementById("play").getAttribute("aria-label") === "Pause";
+  });
+  const ready = (page) => page.waitForSelector("#impact-table tbody tr", { state: "attached" });
+  await onPage("/", async (page) => { await ready(page); assert.equal(await moves(page), false); });
+  await onPage("/", async (page) => { await ready(page); assert.equal(await moves(page), true); }, { reducedMotion: "no-preference" });
+});
+
+test("playing changes no number of the table", () => onPage("/?predict=0", async (page) => {
+  await page.waitForSelector('tr[data-model="continuous"]');
+  const numbers = () => page.locator("#impact-table td").allTextContents();
+  const atFirst = await numbers();
+  await page.selectOption("#rate", "2");
+  await page.keyboard.press("Space");
+  await page.waitForTimeout(1500);
+  assert.deepEqual(await numbers(), atFirst);
+}));
+
+test("without a graphics card the picture is drawn from the side", async () => {
+  const plain = await chromium.launch({
+    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", headless: true,
+    args: ["--no-sandbox", "--disable-gpu", "--disable-3d-apis", "--disable-background-networking", "--no-first-run"],
+  });
+  try {
+    const page = await plain.newPage({ viewport: LARGE, reducedMotion: "reduce" });
+    await page.goto(new URL("/?predict=0", address).href);
+    await page.waitForSelector("#impact-table tbody tr");
+    assert.equal(await page.getAttribute("#stage", "data-view"), "flat");
+    const painted = await page.locator("#stage canvas").evaluate((canvas) =>
+      canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.some((value) => value !== 0));
+    assert.equal(painted, true);
+  } finally {
+    await plain.close();
+  }
+});
+
+test("measured, not judged: time from slider to answer, and frames a second", () => onPage("/?predict=0", async (page) => {
+  await page.waitForSelector('tr[data-model="continuous"]');
+  const times = [];
+  for (let angle = 12; angle < 22; angle++) {
+    await slide(page, "angle", angle);
+    await waitForCell(page, "Angle", 0, angle);
+    times.push(Number(await page.evaluate(() => document.documentElement.dataset.latency)));
+  }
+  times.sort((a, b) => a - b);
+  await page.waitForSelector('tr[data-model="continuous"]');
+  const frames = await page.evaluate(async () => {
+    document.getElementById("play").click();
+    let count = 0;
+    const start = performance.now();
+    for (; performance.now() - start < 2000; count++) await new Promise(requestAnimationFrame);
+    return count / 2;
+  });
+  console.log(`slider to answer: median ${times[5]} ms, longest ${times[9]} ms; ${frames} frames a second`);
+}));
