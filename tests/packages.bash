@@ -6,16 +6,18 @@
 
 # Each header package brings the library that it belongs to.  libboost-dev is
 # Debian's own version (1.74 on Debian 12) and holds Math and Multiprecision.
+# Node.js bundles the page of clatter demo, which cpp-httplib serves.
 # shellcheck disable=SC2034  # both lists are read by the callers
 program_packages=(cmake ninja-build g++ libgsl-dev libboost-dev libeigen3-dev libcli11-dev
-                  nlohmann-json3-dev libfmt-dev libtomlplusplus-dev gnuplot-nox)
+                  nlohmann-json3-dev libfmt-dev libtomlplusplus-dev gnuplot-nox
+                  pkg-config libcpp-httplib-dev nodejs npm)
 # Without the shells and groff the tests of completion and man page would be skipped;
 # Chromium opens the page that clatter verify writes; OpenMPI shares a sweep among processes.
 # The Python module, the figures and the notebooks take the line of Python packages.
 # shellcheck disable=SC2034
 test_packages=(libgmsh-dev libboost-test-dev libbenchmark-dev python3 zsh fish groff-base
                chromium chromium-driver libopenmpi-dev openmpi-bin
-               pybind11-dev python3-dev python3-numpy python3-matplotlib jupyter-nbconvert python3-ipykernel)
+               pybind11-dev python3-dev python3-numpy python3-matplotlib jupyter-nbconvert python3-ipykernel mypy)
 
 say() { printf '%s: %s\n' "$speaker" "$*" >&2; }
 
@@ -28,6 +30,8 @@ is_present() {
   case $1 in
     cmake | g++) has_command "$1" && return ;;
     ninja-build) has_command ninja && return ;;
+    npm | pkg-config) has_command "$1" && return ;;
+    nodejs) has_command node && return ;;
   esac
   [[ $(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null) == installed* ]]
 }

@@ -17,7 +17,7 @@ using Handled = httplib::Server::HandlerResponse;
 
 constexpr const char* this_machine = "127.0.0.1";
 constexpr std::size_t largest_body = 64 * 1024;
-constexpr int bad_input = 2;
+constexpr int bad_input = 2, most_waiting = 1024;
 constexpr const char* json_type = "application/json; charset=utf-8";
 // Scripts, styles and fonts are in the page itself; it may talk to nobody but this server.
 constexpr const char* page_policy =
@@ -37,6 +37,7 @@ struct DemoServer::State {
   httplib::Server server;
   std::string page;
   int port = 0;
+  socket_t socket = 0;  ///< that is listened on
 
   /// A browser sends the name that it was given: a foreign one means that a foreign name leads here.
   [[nodiscard]] bool is_own_host(const std::string& host) const {
@@ -106,10 +107,10 @@ DemoServer::DemoServer(std::string page) : state_(std::make_unique<State>()) {
   server.set_keep_alive_max_count(1);
   server.set_tcp_nodelay(true);
   server.new_task_queue = [] { return new httplib::ThreadPool(std::max(4u, 2 * std::thread::hardware_concurrency())); };
-  // Not the library's own choice, which lets two servers share a port.
-  server.set_socket_options([](socket_t socket) {
-    const int yes = 1;
+  server.set_socket_options([this](socket_t socket) {
+    const int yes = 1;  // not the library's own choice, which lets two servers share a port
     setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    state_->socket = socket;
   });
   state_->add_routes();
 }
@@ -119,7 +120,9 @@ DemoServer::~DemoServer() = default;
 bool DemoServer::bind(int port) {
   state_->port = port == 0 ? state_->server.bind_to_any_port(this_machine)
                            : (state_->server.bind_to_port(this_machine, port) ? port : -1);
-  return state_->port > 0;
+  if (state_->port <= 0) return false;
+  // The library lets five wait to be accepted, and a sixth may be turned away.
+  return listen(state_->socket, most_waiting) == 0;
 }
 
 int DemoServer::port() const { return state_->port; }

@@ -1,0 +1,257 @@
+"""`clatter demo`: its answers are the program's, and nobody but its own page can use it.
+
+CLATTER_PROGRAM is the program.
+"""
+
+import http.client
+import json
+import os
+import re
+import signal
+import socket
+import subprocess
+import tempfile
+import threading
+import unittest
+from pathlib import Path
+
+PROGRAM = os.environ["CLATTER_PROGRAM"]
+JSON = {"Content-Type": "application/json"}
+
+
+class Demo:
+    """A running server, on a port that was free."""
+
+    def __init__(self, *arguments):
+        self.process = subprocess.Popen([PROGRAM, "demo", *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.line = self.process.stdout.readline()
+        self.port = int(re.search(r"127\.0\.0\.1:(\d+)/", self.line)[1])
+
+    def ask(self, method, path, body=None, headers=None):
+        """(status, headers, text)"""
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=60)
+        try:
+            connection.request(method, path, body, headers or {})
+            answer = connection.getresponse()
+            return answer.status, dict(answer.getheaders()), answer.read().decode()
+        finally:
+            connection.close()
+
+    def post(self, path, arguments, **headers):
+        return self.ask("POST", path, json.dumps(arguments), {**JSON, **headers})
+
+    def raw(self, text):
+        """The first line of the answer to bytes that no library would send."""
+        with socket.create_connection(("127.0.0.1", self.port), 30) as connection:
+            connection.sendall(text)
+            return connection.makefile("rb").readline().decode().strip()
+
+    def stop(self):
+        self.process.send_signal(signal.SIGINT)
+        out, err = self.process.communicate(timeout=30)
+        return self.process.returncode, out, err
+
+
+def printed(*arguments):
+    return subprocess.run([PROGRAM, *arguments, "--format", "json"], capture_output=True, text=True, check=True).stdout
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+class WithServer(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.demo = Demo("--port", str(free_port()))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.status = cls.demo.stop()
+
+    def refused(self, answer, status, words):
+        self.assertEqual(answer[0], status, answer[2])
+        error = json.loads(answer[2])["error"]
+        self.assertIn(words, error)
+        self.assertNotIn("\n", error)
+
+
+class Answers(WithServer):
+    def test_they_are_what_the_program_prints(self):
+        for path, arguments, command in (
+                ("sequence", {"angle": 10, "gravity": 9.81, "restitution": 0.8}, ["sequence", "--angle", "10", "--gravity", "9.81", "--restitution", "0.8"]),
+                ("sequence", {"angle": 12.5, "body": "box", "size": [0.10566, 0.04394, 0.01905], "friction": 0.1},
+                 ["sequence", "--angle", "12.5", "--body", "box", "--size", "0.10566x0.04394x0.01905", "--friction", "0.1"]),
+                ("angles", {"step": 10, "gravity_number": 0.1}, ["angles", "--step", "10", "--gravity-number", "0.1"]),
+                ("explain", {"angle": 10, "impact": 2}, ["explain", "2", "--angle", "10"])):
+            with self.subTest(path=path, arguments=arguments):
+                status, headers, text = self.demo.post(f"/api/{path}", arguments)
+                self.assertEqual((status, headers["Content-Type"]), (200, "application/json; charset=utf-8"))
+                self.assertEqual(text, printed(*command))
+
+    def test_simulations_and_comparisons_are_the_programs(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene, history = Path(folder) / "scene", Path(folder) / "history.csv"
+            scene.write_text("", encoding="utf-8")
+            flags = ["--angle", "20", "--stiffness", "1e9", "--damping", "1e7", "--impacts", "2", "--height", "1"]
+            given = {"angle": 20, "stiffness": 1e9, "damping": 1e7, "impacts": 2, "height": 1}
+            expected = json.loads(printed("simulate", str(scene), *flags, "--history", str(history)))
+            answer = json.loads(self.demo.post("/api/simulate", {**given, "history": True})[2])
+            columns = answer.pop("history")
+            for scene_of in (expected["scene"], answer["scene"]):
+                del scene_of["file"], scene_of["run"]["history"]
+            self.assertEqual(answer, expected)
+            rows = [line for line in history.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
+            self.assertEqual(list(columns), rows[0].split(","))
+            for name, column in zip(columns, zip(*(map(float, row.split(",")) for row in rows[1:]))):
+                self.assertEqual(columns[name], list(column))
+            expected = json.loads(printed("compare", str(scene), *flags))
+            answer = json.loads(self.demo.post("/api/compare", given)[2])
+            del expected["scene"]["file"], answer["scene"]["file"]
+            self.assertEqual(answer, expected)
+
+    def test_cases_are_the_scenes_that_come_with_the_program(self):
+        cases = json.loads(self.demo.ask("GET", "/api/cases")[2])["cases"]
+        self.assertEqual(cases["phone-damped"]["ground"]["damping"], 1e7)
+        answer = json.loads(self.demo.post("/api/simulate", {"case": "phone-damped", "impacts": 1})[2])
+        self.assertEqual(answer["scene"]["ground"], cases["phone-damped"]["ground"])
+
+    def test_two_hundred_at_once_are_all_right(self):
+        angles = [5 + 0.25 * i for i in range(200)]
+        answers = [None] * len(angles)
+
+        def ask(index):
+            answers[index] = self.demo.post("/api/sequence", {"angle": angles[index]})
+        threads = [threading.Thread(target=ask, args=(index,)) for index in range(len(angles))]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for angle, answer in zip(angles, answers):
+            self.assertEqual(answer[0], 200)
+            self.assertEqual(json.loads(answer[2])["scene"]["drop"]["angle_deg"], angle)
+        self.assertEqual(answers[20][2], printed("sequence", "--angle", str(angles[20])))
+
+    def test_the_page_holds_everything_itself(self):
+        status, headers, text = self.demo.ask("GET", "/")
+        self.assertEqual((status, headers["Content-Type"]), (200, "text/html; charset=utf-8"))
+        self.assertIn("default-src 'none'", headers["Content-Security-Policy"])
+        self.assertEqual(headers["X-Content-Type-Options"], "nosniff")
+        markup = re.sub(r"(<(script|style)[^>]*>).*?</\2>", r"\1", text, flags=re.DOTALL)
+        self.assertLess(len(markup), 100_000)
+        self.assertEqual(re.findall(r'<(?:script|link|img|iframe)[^>]+(?:src|href)="(?!data:)[^"]*"', markup), [])
+
+
+class Refusals(WithServer):
+    def test_bad_input_is_400_with_the_reason(self):
+        for path, arguments, words in (
+                ("sequence", {"angle": 95}, "angle '95': must be from 0 to 90 degrees"), ("sequence", {}, "angle: required"),
+                ("sequence", {"angle": 10, "gravty": 1}, "did you mean gravity?"), ("sequence", {"angle": "nan"}, "angle 'nan'"),
+                ("sequence", {"angle": {"a": 1}}, "angle: must be"), ("sequence", {"angle": 10, "impacts": 1000000}, "impacts 1000000"),
+                ("sequence", {"angle": 10, "impulse_ratio": 0.1, "friction": 0.1}, "impulse_ratio 0.1 and friction 0.1"),
+                ("angles", {"count": 1000000}, "count 1000000"), ("explain", {"angle": 10}, "impact ''"),
+                ("simulate", {"angle": 10}, "ground.stiffness: required"), ("simulate", {"case": "phone-dampd"}, "case 'phone-dampd'"),
+                ("simulate", {"case": "../cases/rod-45"}, "case '../cases/rod-45'"), ("simulate", {"case": "rod-sweep"}, "sweeps"),
+                ("compare", {"angle": 10, "stiffness": -1}, "stiffness '-1'")):
+            with self.subTest(path=path, arguments=arguments):
+                self.refused(self.demo.post(f"/api/{path}", arguments), 400, words)
+        for body in ("", "[1]", "{", "{\"angle\": 10} x", "\xff\xfe", "[" * 30000):
+            with self.subTest(body=body[:20]):
+                self.refused(self.demo.ask("POST", "/api/sequence", body.encode("latin-1"), JSON), 400, "JSON object")
+
+    def test_outside_the_model_is_422(self):
+        answer = self.demo.post("/api/sequence", {"angle": 63.434948822922, "impulse_ratio": 4 / 3})
+        self.refused(answer, 422, "jam")
+        self.assertEqual(json.loads(answer[2])["status"], 4)
+
+    def test_no_argument_can_name_a_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            target = Path(folder) / "written.csv"
+            for arguments in ({"history": str(target)}, {"body": "mesh", "file": "/etc/passwd"}, {"body": "mesh"}, {"output": str(target)},
+                              {"body.mesh.file": "/etc/passwd"}, {"case": "/etc/passwd"}):
+                with self.subTest(arguments=arguments):
+                    status, _, text = self.demo.post("/api/simulate", {"angle": 10, "stiffness": 1e9, **arguments})
+                    self.assertNotIn("root:", text)
+                    self.assertEqual(status, 200 if list(arguments) == ["history"] else 400)
+            self.assertEqual(list(Path(folder).iterdir()), [])
+
+    def test_other_paths_are_404(self):
+        for path in ("/index.html", "/etc/passwd", "/../../etc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "/api", "/api/", "//", "/api/sequence/"):
+            with self.subTest(path=path):
+                status, _, text = self.demo.ask("GET", path)
+                self.assertIn(status, (404, 405))
+                self.assertNotIn("root:", text)
+        self.assertEqual(self.demo.post("/api/run", {})[0], 404)
+        self.assertIn("404", self.demo.raw(b"GET /../../../etc/passwd HTTP/1.1\r\nHost: 127.0.0.1:%d\r\n\r\n" % self.demo.port))
+
+    def test_other_methods_are_405(self):
+        self.assertEqual(self.demo.ask("GET", "/api/sequence")[0], 405)
+        self.assertEqual(self.demo.ask("POST", "/", "{}", JSON)[0], 405)
+        for method in ("PUT", "DELETE", "OPTIONS", "PATCH"):
+            self.assertIn(self.demo.ask(method, "/")[0], (404, 405))
+
+    def test_a_body_over_64_kib_is_413(self):
+        self.assertEqual(self.demo.ask("POST", "/api/sequence", b" " * 65536, JSON)[0], 400)
+        self.refused(self.demo.ask("POST", "/api/sequence", b" " * 65537, JSON), 413, "64 KiB")
+
+    def test_a_body_of_another_type_is_415(self):
+        self.refused(self.demo.ask("POST", "/api/sequence", "{}", {"Content-Type": "text/plain"}), 415, "application/json")
+
+    def test_a_foreign_host_or_origin_is_403(self):
+        own = f"127.0.0.1:{self.demo.port}"
+        for headers in ({"Host": "clatter.example"}, {"Host": f"clatter.example:{self.demo.port}"}, {"Host": "127.0.0.1"},
+                        {"Host": own, "Origin": "http://clatter.example"}, {"Host": own, "Origin": "null"},
+                        {"Host": own, "Origin": f"https://{own}"}, {"Host": own, "Origin": f"http://{own}.example"}):
+            with self.subTest(headers=headers):
+                self.refused(self.demo.ask("GET", "/", None, headers), 403, "must be this server's own")
+                self.refused(self.demo.post("/api/sequence", {"angle": 10}, **headers), 403, "must be this server's own")
+        self.assertEqual(self.demo.post("/api/sequence", {"angle": 10}, Host=own, Origin=f"http://{own}")[0], 200)
+        self.assertIn("403", self.demo.raw(b"GET / HTTP/1.0\r\n\r\n"))
+
+    def test_it_listens_on_this_machine_alone(self):
+        with open("/proc/net/tcp", encoding="ascii") as table:
+            local = [line.split()[1] for line in table if line.split()[3] == "0A"]
+        self.assertIn(f"0100007F:{self.demo.port:04X}", local)
+        self.assertNotIn(f"00000000:{self.demo.port:04X}", local)
+
+
+class Command(unittest.TestCase):
+    def test_ctrl_c_ends_it_with_130(self):
+        demo = Demo("--port", str(free_port()))
+        status, out, err = demo.stop()
+        self.assertEqual((status, out, err), (130, "", ""))
+
+    def test_a_port_in_use_is_bad_input(self):
+        demo = Demo("--port", str(free_port()))
+        try:
+            done = subprocess.run([PROGRAM, "demo", "--port", str(demo.port)], capture_output=True, text=True, timeout=60)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn(f"--port {demo.port}: is in use", done.stderr)
+        finally:
+            demo.stop()
+
+    def test_bad_arguments_are_one_line(self):
+        for arguments in (["--port", "0"], ["--port", "65536"], ["--scene", "rod"], ["--export", "/no/such/folder/x.html"],
+                          ["--export", "x.html", "--scene", "rodd"], ["--export", "x.html", "--port", "8000"]):
+            with self.subTest(arguments=arguments), tempfile.TemporaryDirectory() as folder:
+                done = subprocess.run([PROGRAM, "demo", *arguments], capture_output=True, text=True, cwd=folder, timeout=60)
+                self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
+                self.assertEqual(os.listdir(folder), [])
+
+    def test_an_exported_copy_holds_its_answers_and_stays_small(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "copy.html"
+            subprocess.run([PROGRAM, "demo", "--export", str(path)], check=True, timeout=300)
+            text = path.read_text(encoding="utf-8")
+            self.assertLessEqual(path.stat().st_size, 2_000_000)
+            data = json.loads(re.search(r'id="precomputed">(.*?)</script>', text, re.DOTALL)[1])
+            rod = next(scene for scene in data["scenes"] if scene["name"] == "rod")
+            mine = next(answer for key, answer in rod["answers"].items()
+                        if key.startswith("sequence") and answer["scene"]["drop"]["angle_deg"] == 10)
+            self.assertEqual(mine["impacts"], json.loads(printed("sequence", "--angle", "10"))["impacts"])
+
+
+if __name__ == "__main__":
+    unittest.main()
