@@ -3,9 +3,12 @@
 // DEMO_URL: where the page is served. CLATTER_PROGRAM: the program to compare with. CHROMIUM: the browser.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { readFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import path from "node:path";
 import { after, before, test } from "node:test";
+import { pathToFileURL } from "node:url";
 
 const require = createRequire(new URL("../../../validation/demo/page/package.json", import.meta.url));
 const { chromium } = require("playwright-core");
@@ -50,7 +53,7 @@ async function onPage(query, use, { viewport = LARGE, reducedMotion = "reduce", 
   page.on("pageerror", (error) => wrong.push(error.message));
   page.on("request", (request) => {
     const { protocol, origin } = new URL(request.url());
-    if (protocol.startsWith("http") && origin !== new URL(address).origin) foreign.push(request.url());
+    if (protocol !== "data:" && protocol !== "file:" && protocol !== "blob:" && origin !== new URL(address).origin) foreign.push(request.url());
   });
   try {
     await page.goto(new URL(query, address).href);
@@ -191,6 +194,10 @@ test("a link opens the same state", () => onPage(
     assert.deepEqual(await other.evaluate(shown), here);
   }));
 
+test("a link that names an impact but no time shows that impact", () => onPage("/?predict=0&impact=3", async (page) => {
+  await page.waitForFunction(() => /^Impact 3: end a/.test(document.getElementById("caption").textContent));
+}));
+
 test("lock= disables controls, hide= takes panels away", () => onPage(
   "/?predict=0&lock=angle,e&hide=map,explain,energy", async (page) => {
     await page.waitForSelector("#impact-table tbody tr");
@@ -299,6 +306,50 @@ test("without a graphics card the picture is drawn from the side", async () => {
     assert.equal(painted, true);
   } finally {
     await plain.close();
+  }
+});
+
+test("an offline copy shows its scenes without a server, in 2 MB", async () => {
+  // Filled as `clatter demo --export` fills it: the page's own list of requests, answered.
+  const listed = JSON.parse(readFileSync(new URL("../../../validation/demo/page/dist/requests.json", import.meta.url), "utf8"));
+  const scenes = [];
+  for (const { requests, ...scene } of listed.scenes) {
+    const answers = {};
+    for (const { path: name, body, key } of requests) {
+      const response = await fetch(new URL(`/api/${name}`, address), {
+        method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body),
+      });
+      assert.equal(response.status, 200, key);
+      answers[key] = await response.json();
+    }
+    scenes.push({ ...scene, answers });
+  }
+  const data = JSON.stringify({ clatter: "test", scenes }).replace(/</g, "\\u003c");
+  const served = await (await fetch(address)).text();
+  const mark = '<script type="application/json" id="precomputed">{}</script>';
+  assert.equal(served.split(mark).length, 2);
+  const copy = served.replace(mark, () => mark.replace("{}", () => data));
+  assert.ok(Buffer.byteLength(copy) <= 2e6, `${Buffer.byteLength(copy)} bytes`);
+  const folder = mkdtempSync(path.join(tmpdir(), "clatter-page-"));
+  const file = path.join(folder, "offline.html");
+  writeFileSync(file, copy);
+  try {
+    await onPage(`${pathToFileURL(file).href}#predict=0&angle=20`, async (page) => {
+      assert.equal(await page.isVisible("#offline"), true);
+      assert.equal(await page.isDisabled("#gravity-slider"), true);
+      for (const { name, angles, parameters } of listed.scenes) {
+        await page.selectOption("#scene", name);
+        await page.waitForSelector('tr[data-model="continuous"]');
+        await slide(page, "angle", angles.length - 1);
+        await page.waitForFunction((angle) => {
+          const cell = document.querySelector('tr[data-model="continuous"] td[data-column="Angle"]');
+          return Math.abs(Number(cell?.textContent) - angle) < 1e-3;
+        }, angles[angles.length - 1]);
+        assert.equal(await page.textContent("#error"), "", parameters.body);
+      }
+    });
+  } finally {
+    rmSync(folder, { recursive: true });
   }
 });
 

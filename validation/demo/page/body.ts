@@ -51,11 +51,10 @@ export function centreHeight(body: Body, inclination: number): number {
   return (body.length / 2) * Math.abs(Math.sin(inclination)) + halfThickness(body) * Math.abs(Math.cos(inclination));
 }
 
-/** From the centre of mass to the point of an end that is lowest at an inclination [rad], in the plane: [x, z]. */
-export function contactPoint(body: Body, end: "a" | "b", inclination: number): [number, number] {
+/** Horizontal distance from the centre of mass to the lowest point of an end at an inclination [rad], in the plane. */
+export function contactPoint(body: Body, end: "a" | "b", inclination: number): number {
   const along = end === "a" ? -body.length / 2 : body.length / 2;
   const c = Math.cos(inclination);
-  const s = Math.sin(inclination);
   const across = c >= 0 ? -halfThickness(body) : halfThickness(body);
-  return [along * c - across * s, along * s + across * c];
+  return along * c - across * Math.sin(inclination);
 }

@@ -2,7 +2,7 @@
 import katex from "katex";
 import type { Equation, ExplainAnswer } from "./answers";
 import { byId, make } from "./dom";
-import { isProse, numberTex, toTex, unitTex } from "./tex";
+import { numberTex, splitRemark, toTex, unitTex } from "./tex";
 
 export class Explanation {
   private readonly box = byId("explain-steps");
@@ -24,7 +24,7 @@ function withSubscripts(text: string): (Node | string)[] {
 
 function equationElement(equation: Equation): HTMLElement {
   const element = make("div", { class: "equation" });
-  const remark = isProse(equation.symbolic) ? equation.symbolic : "";
+  const { remark } = splitRemark(equation.symbolic);
   const formula = make("div", { class: "formula", tabindex: 0, role: "group", "aria-label": equation.name });
   katex.render(texOf(equation), formula, { displayMode: true, throwOnError: false });
   element.append(formula);
@@ -35,7 +35,8 @@ function equationElement(equation: Equation): HTMLElement {
 /** name = formula = the numbers put in = value; prose stands beside it instead. */
 export function texOf({ name, symbolic, numeric, value, unit }: Equation): string {
   const terms: string[] = [];
-  if (symbolic && !isProse(symbolic)) terms.push(toTex(symbolic));
+  const { formula } = splitRemark(symbolic);
+  if (formula) terms.push(toTex(formula));
   if (numeric) terms.push(toTex(numeric.replace(/(\d\.\d*?)0+(?=\D|$)/g, (_all, kept: string) => kept.replace(/\.$/, ""))));
   if (value !== null) terms.push(numberTex(rounded(value)) + unitTex(unit));
   const [first = "", ...others] = terms;

@@ -129,12 +129,14 @@ function addBlow(frame: Frame, model: ModelName, motion: Motion, pose: Pose, tim
       `${significant(impact.impulse_normal, 3)} N·s`];
   frame.arrows.push({ model, kind: "blow", from: place, vector });
   const above: Vector = [place[0] + vector[0], place[1] + vector[1], place[2] + vector[2]];
-  frame.labels.push({ model, kind: "blow", place: above, text });
+  if (Math.hypot(...vector) > 0.02 * motion.body.length) frame.labels.push({ model, kind: "blow", place: above, text });
 }
 
 function struckPoint(motion: Motion, impact: Impact): Vector {
   const pose = motion.pose(impact.start);
   const [x, y] = pose.centre;
-  if (impact.end !== "a" && impact.end !== "b") return [x, y, 0];
-  return [x + contactPoint(motion.body, impact.end, pose.inclination)[0], y, 0];
+  // "a-top" is the upper edge of end a, the lowest point of a body that has turned over; "both" has its middle below the centre.
+  const end = /^[ab]/.exec(impact.end)?.[0] as "a" | "b" | undefined;
+  if (!end || impact.end === "both") return [x, y, 0];
+  return [x + contactPoint(motion.body, end, pose.inclination), y, 0];
 }

@@ -1,48 +1,38 @@
 // The page: from a change of the situation to the requests, and from their answers to the panels.
-import type { ExplainAnswer, SequenceAnswer, SimulateAnswer } from "./answers";
+import type { ExplainAnswer } from "./answers";
 import { Latest, isAvailable, isOffline } from "./api";
-import { CONTINUOUS_RADIUS, type Body } from "./body";
 import { EnergyBars, ForceChart } from "./charts";
-import { ContinuousMotion } from "./continuous_motion";
 import { Controls } from "./controls";
-import { DiscreteMotion } from "./discrete_motion";
 import { byId } from "./dom";
 import { Explanation } from "./explain";
-import { frameAt, impactAt, scalesOf, type Motions, type Scales } from "./frame";
+import { frameAt, impactAt, scalesOf, type Scales } from "./frame";
 import { AngleMap } from "./map";
+import { Models } from "./models";
 import { Numbers } from "./numbers";
 import { goOffline, hidePanels, setUpLayout } from "./panels";
 import { Player, TimeWarp } from "./playback";
 import { Prediction } from "./prediction";
-import { explainRequest, gravityNumber, keyOf, sequenceRequest, simulateRequest } from "./requests";
+import { explainRequest, gravityNumber } from "./requests";
 import { firstSpeed } from "./restitution";
 import { setUpSharing } from "./sharing";
 import { Stage } from "./stage";
-import { bodyOf, readAddress, writeAddress, type Parameters, type State } from "./state";
+import { readAddress, writeAddress, type State } from "./state";
 import { ImpactTable, csvOf, download } from "./table";
 import { Transport } from "./transport";
 import { impactInWords, outcomeInWords } from "./words";
 
-/** Until a situation stands still for so long, the slower model is not asked [ms]. */
-const CONTINUOUS_DELAY = 150;
+/** After a change, until the equations are asked for, and until the drop is played [ms]. */
 const EXPLAIN_DELAY = 80;
 const PLAY_DELAY = 350;
 
 class Page {
   private readonly state: State = readAddress();
-  private readonly motions: Motions = { discrete: null, continuous: null };
-  private answer: SequenceAnswer | null = null;
-  private continuous: SimulateAnswer | null = null;
   private scales: Scales = scalesOf({ discrete: null, continuous: null });
   private asked = 0;
   /** Until the first answer the time is that of the link. */
   private hasShown = false;
   /** Whether the time is that of the chosen impact, or one that was sought. */
   private followsImpact = false;
-  /** Of which situation the continuous model's answer is. */
-  private continuousOf = "";
-  /** Which situation it refused last. */
-  private refusedOf = "";
   private playTimer = 0;
 
   private readonly stage = new Stage();
@@ -63,12 +53,11 @@ class Page {
     setSlow: (slow) => { this.state.slow = slow; this.rewarp(); this.remember(); },
   });
 
-  private readonly sequence = new Latest<SequenceAnswer, Parameters>(
-    0, (answer, parameters) => this.onSequence(answer, parameters), (error) => this.controls.setError("discrete", error));
-  private readonly simulation = new Latest<SimulateAnswer, Parameters>(
-    CONTINUOUS_DELAY, (answer, parameters) => this.onSimulation(answer, parameters),
-    (error, parameters) => { this.refusedOf = keyOf(simulateRequest(parameters)); this.controls.setError("continuous", error); },
-    (busy) => { byId("spinner").textContent = busy ? "continuous model: computing…" : ""; });
+  private readonly models = new Models({
+    onAnswer: () => this.onAnswer(),
+    onError: (model, error) => this.controls.setError(model, error),
+    onBusy: (busy) => { byId("spinner").textContent = busy ? "continuous model: computing…" : ""; },
+  });
   private readonly explaining = new Latest<ExplainAnswer, null>(
     EXPLAIN_DELAY, (answer) => this.explanation.show(answer), (error) => this.explanation.say(error.message));
 
@@ -80,7 +69,7 @@ class Page {
     this.transport.setSettings(state.rate, state.slow, state.lock);
     setUpLayout(state, () => this.onTime());
     setUpSharing(state, () => this.syncTime(), (asks) => { if (asks) this.prediction.open(); });
-    byId("csv").addEventListener("click", () => download("impacts.csv", csvOf(this.impacts())));
+    byId("csv").addEventListener("click", () => download("impacts.csv", csvOf(this.models.impacts)));
     if (state.predict) this.prediction.open();
     this.controls.refresh();
     this.update();
@@ -91,115 +80,77 @@ class Page {
     const { parameters } = this.state;
     this.asked = performance.now();
     this.followsImpact = this.hasShown;
-    this.sequence.ask(sequenceRequest(parameters), { ...parameters });
-    this.simulation.ask(simulateRequest(parameters), { ...parameters });
+    this.models.ask(parameters);
     const speed = firstSpeed(parameters);
     if (speed > 0) void this.map.show(gravityNumber(parameters, speed), parameters.e);
     this.map.setAngle(parameters.angle);
     byId("map-note").hidden = parameters.body === "rod" && parameters.friction === 0;
+    byId("numbers-note").hidden = parameters.body !== "rod";
     this.remember();
   }
 
-  private onSequence(answer: SequenceAnswer, parameters: Parameters): void {
-    this.controls.setError("discrete", null);
-    const key = keyOf(simulateRequest(parameters));
-    if (this.refusedOf !== key) this.controls.setError("continuous", null);
-    this.answer = answer;
-    this.prediction.setImpacts(answer.impacts);
-    this.motions.discrete = answer.impacts.length ? new DiscreteMotion(bodyOf(parameters), answer.impacts, parameters.gravity) : null;
-    if (this.continuousOf !== key) {
-      // What the other model said belongs to another situation.
-      this.motions.continuous = null;
-      this.continuous = null;
-    }
-    this.showAnswers();
-    document.documentElement.dataset["latency"] = (performance.now() - this.asked).toFixed(1);
-  }
-
-  private onSimulation(answer: SimulateAnswer, parameters: Parameters): void {
-    this.continuousOf = keyOf(simulateRequest(parameters));
-    this.controls.setError("continuous", null);
-    this.continuous = answer;
-    this.motions.continuous = answer.history.t.length > 1
-      ? new ContinuousMotion(continuousBody(bodyOf(parameters)), answer.impacts, answer.history, parameters.gravity) : null;
-    this.showAnswers();
-  }
-
-  private showAnswers(): void {
-    this.scales = scalesOf(this.motions);
+  private onAnswer(): void {
+    const { models } = this;
+    this.scales = scalesOf(models.motions);
     this.rewarp();
-    this.table.show(this.impacts(), this.state.impact);
-    byId("outcome").textContent = this.answer ? outcomeInWords(this.answer.outcome) : "";
-    this.force.show(this.continuous, this.motions.discrete, this.state.impact);
+    this.prediction.setImpacts(models.steps);
+    this.table.show(models.impacts, this.state.impact);
+    byId("outcome").textContent = models.discrete ? outcomeInWords(models.discrete.outcome) : "";
+    this.force.show(models.continuous, models.motions.discrete, this.state.impact);
     this.explain();
     if (!this.player.playing) {
       // While a slider moves the picture stays with the chosen impact, whenever that is now.
-      const impact = this.followsImpact ? this.steps()[this.state.impact - 1] : undefined;
-      this.player.seek(impact?.start ?? this.state.time);
+      const impact = this.followsImpact || Number.isNaN(this.state.time) ? this.models.steps[this.state.impact - 1] : undefined;
+      this.player.seek(impact?.start ?? (this.state.time || 0));
     }
     this.hasShown = true;
     this.onTime();
+    // For whoever measures how fast the page answers.
+    if (!models.continuous) document.documentElement.dataset["latency"] = (performance.now() - this.asked).toFixed(1);
   }
 
   private rewarp(): void {
-    const motions = [this.motions.discrete, this.motions.continuous].filter((motion) => motion !== null);
-    if (!motions.length) return;
-    const begin = Math.min(...motions.map((motion) => motion.begin));
-    const end = Math.max(...motions.map((motion) => motion.end));
-    const contacts = motions.flatMap((motion) => motion.impacts.map(({ start, duration }) => ({ start, end: start + duration })));
-    this.player.setWarp(new TimeWarp(begin, end, contacts, this.state.slow));
-    this.transport.setMarks(this.steps().map(({ start }) => this.player.progressAt(start)));
-  }
-
-  /** The impacts to step through: the discrete model's, or the other's if it has none. */
-  private steps(): SequenceAnswer["impacts"] {
-    return this.answer?.impacts ?? this.continuous?.impacts ?? [];
-  }
-
-  private impacts(): { discrete: SequenceAnswer["impacts"] | null; continuous: SequenceAnswer["impacts"] | null } {
-    return { discrete: this.answer?.impacts ?? null, continuous: this.continuous?.impacts ?? null };
+    const warp = this.models.warp(this.state.slow);
+    if (!warp) return;
+    this.player.setWarp(warp);
+    this.transport.setMarks(this.models.steps.map(({ start }) => this.player.progressAt(start)));
   }
 
   private onTime(): void {
     const { player, state } = this;
     const { time } = player;
-    const impact = impactAt(this.steps(), time);
+    const impact = impactAt(this.models.steps, time);
     if (impact && impact.n !== state.impact && player.playing) this.choose(impact.n);
     // Before the guess the picture shows the fall, not yet the blow.
-    const shown = this.prediction.isOpen ? (this.motions.discrete?.begin ?? 0) : time;
-    this.stage.draw(frameAt(this.motions, shown, this.scales, state.layout === "side"));
-    this.numbers.show(this.motions, time);
+    const shown = this.prediction.isOpen ? (this.models.motions.discrete?.begin ?? 0) : time;
+    this.stage.draw(frameAt(this.models.motions, shown, this.scales, state.layout === "side"));
+    this.numbers.show(this.models.motions, time);
     for (const model of ["discrete", "continuous"] as const) {
-      this.energy.show(model, this.motions[model]?.energies(time) ?? null);
+      this.energy.show(model, this.models.motions[model]?.energies(time) ?? null);
     }
     this.force.setTime(time);
     this.transport.show(time, player.progress, player.playing);
-    this.say(impact ? impactInWords(this.steps(), impact.n) : "Falling");
+    say(impact ? impactInWords(this.models.steps, impact.n) : "Falling");
     if (!player.playing) this.remember();
-  }
-
-  private say(words: string): void {
-    const line = byId("caption");
-    if (line.textContent !== words) line.textContent = words;
   }
 
   private choose(n: number): void {
     this.state.impact = n;
     this.table.choose(n);
-    this.force.show(this.continuous, this.motions.discrete, n);
+    this.force.show(this.models.continuous, this.models.motions.discrete, n);
     this.explain();
   }
 
   /** To an impact; one step back from between two impacts is to the one before. */
   private goTo(n: number, direction = 0): void {
-    const count = this.steps().length;
+    const count = this.models.steps.length;
     if (!count || this.prediction.isOpen) return;
-    const here = impactAt(this.steps(), this.player.time)?.n ?? 0;
+    const here = impactAt(this.models.steps, this.player.time)?.n ?? 0;
     const wanted = direction === 0 ? n : here + direction;
     this.player.pause();
     clearTimeout(this.playTimer);
     this.choose(Math.min(count, Math.max(1, wanted)));
-    this.player.seek(this.steps()[this.state.impact - 1]?.start ?? 0);
+    this.player.seek(this.models.steps[this.state.impact - 1]?.start ?? 0);
     this.onTime();
   }
 
@@ -207,7 +158,7 @@ class Page {
     this.player.pause();
     this.followsImpact = false;
     this.player.progress = progress;
-    const impact = impactAt(this.steps(), this.player.time);
+    const impact = impactAt(this.models.steps, this.player.time);
     if (impact && impact.n !== this.state.impact) this.choose(impact.n);
     this.onTime();
   }
@@ -249,7 +200,7 @@ class Page {
   }
 
   private explain(): void {
-    if (this.state.hide.includes("explain") || !this.answer) return;
+    if (this.state.hide.includes("explain") || !this.models.discrete) return;
     const { parameters, impact } = this.state;
     byId("explain-title").textContent = `How impact ${impact} came about`;
     const request = explainRequest(parameters, impact);
@@ -267,8 +218,10 @@ class Page {
   }
 }
 
-function continuousBody(body: Body): Body {
-  return body.shape === "rod" && body.radius === 0 ? { ...body, radius: CONTINUOUS_RADIUS } : body;
+/** Words that are said again would be read aloud again. */
+function say(words: string): void {
+  const line = byId("caption");
+  if (line.textContent !== words) line.textContent = words;
 }
 
 new Page();

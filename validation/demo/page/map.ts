@@ -41,7 +41,13 @@ export class AngleMap {
     const { from, to, count } = MAP_RANGE;
     const request = anglesRequest(gravity, e, from, to, count);
     const key = keyOf(request);
-    if (key === this.shown || !Number.isFinite(gravity) || !isAvailable(request)) return;
+    if (key === this.shown || !Number.isFinite(gravity)) return;
+    this.box.hidden = !isAvailable(request);
+    if (this.box.hidden) {
+      this.note.textContent = "This offline copy holds no map for this scene.";
+      this.shown = "";
+      return;
+    }
     this.shown = key;
     // While a slider moves, the faster answers go first.
     await new Promise((resume) => setTimeout(resume, this.plot ? MAP_DELAY : 0));
@@ -83,8 +89,11 @@ export class AngleMap {
   }
 
   private build(data: uPlot.AlignedData): uPlot {
-    const degrees: uPlot.Axis["splits"] = (drawn, index) =>
-      [0, 15, 30, 45, 60, 75, 90].filter((angle) => angle <= (drawn.scales[index === 0 ? "x" : "y"]?.max ?? 90));
+    const degrees: uPlot.Axis["splits"] = (drawn, index) => {
+      const most = drawn.scales[index === 0 ? "x" : "y"]?.max ?? 90;
+      const step = most > 30 ? 15 : 5;
+      return Array.from({ length: Math.floor(most / step) + 1 }, (_, i) => i * step);
+    };
     const series = (label: string, stroke: string, dash: number[]): uPlot.Series =>
       ({ label, stroke, width: 2.5, dash, points: { show: false }, spanGaps: false });
     const plot = new uPlot({
@@ -174,6 +183,7 @@ function write(plot: uPlot, x: number, y: number, text: string): void {
   ctx.font = FONT.replace("12px", `${12 * devicePixelRatio}px`);
   ctx.fillStyle = COLOURS.ink;
   ctx.textBaseline = "middle";
+  ctx.textAlign = "left";
   ctx.fillText(text, plot.valToPos(x, "x", true) + 10 * devicePixelRatio, plot.valToPos(y, "y", true));
   ctx.restore();
 }

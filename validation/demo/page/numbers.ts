@@ -5,7 +5,7 @@ import type { Motions } from "./frame";
 import { endMotion, type Motion } from "./motion";
 
 const QUANTITIES: readonly { title: string; unit: string; decimals: number; of: (motion: Motion, time: number) => number }[] = [
-  { title: "Height of the centre", unit: "mm", decimals: 2, of: (m, t) => m.pose(t).centre[2] * 1e3 },
+  { title: "Centre’s height", unit: "mm", decimals: 2, of: (m, t) => m.pose(t).centre[2] * 1e3 },
   { title: "Inclination", unit: "°", decimals: 3, of: (m, t) => (m.pose(t).inclination * 180) / Math.PI },
   { title: "Velocity, up", unit: "m/s", decimals: 4, of: (m, t) => m.pose(t).velocity[2] },
   { title: "Spin", unit: "rad/s", decimals: 4, of: (m, t) => m.pose(t).spin[1] },

@@ -1,8 +1,7 @@
 // Panels and switches that only show the state: what is hidden, how the models are laid out, what an offline copy lacks.
-import { isOffline, offlineScenes } from "./api";
+import { offlineScenes } from "./api";
 import { byId } from "./dom";
-import { keyOf, sequenceRequest } from "./requests";
-import { PANELS, type State } from "./state";
+import { PANELS, type Parameters, type State } from "./state";
 
 export function hidePanels(state: State): void {
   for (const panel of PANELS) byId(`panel-${panel}`).hidden = state.hide.includes(panel);
@@ -27,11 +26,14 @@ export function setUpLayout(state: State, onChange: () => void): void {
   show();
 }
 
-/** An offline copy shows what a link names if it holds that, else its first scene. */
-export function goOffline(state: State): void {
-  if (!isOffline) return;
-  byId("offline").hidden = false;
-  const holds = offlineScenes.some(({ answers }) => keyOf(sequenceRequest(state.parameters)) in answers);
+/** An offline copy shows what a link names if it holds that, else the nearest of what it holds. */
+export function goOffline({ parameters }: State): void {
   const [first] = offlineScenes;
-  if (!holds && first) Object.assign(state.parameters, first.parameters);
+  if (!first) return;
+  byId("offline").hidden = false;
+  const alike = ({ parameters: held }: { parameters: Parameters }): boolean =>
+    (["body", "drop", "gravity", "e", "friction"] as const).every((key) => held[key] === parameters[key]);
+  const scene = offlineScenes.find(alike) ?? first;
+  const angle = scene.angles.includes(parameters.angle) ? parameters.angle : scene.parameters.angle;
+  Object.assign(parameters, scene.parameters, { angle });
 }

@@ -34,9 +34,9 @@ export class Prediction {
 
   /** The impacts of the situation; a guess can come before them, and is void for another situation. */
   setImpacts(impacts: readonly Impact[]): void {
-    const isFirst = this.impacts.length === 0;
+    const isAnother = this.impacts.length > 0 && impacts !== this.impacts;
     this.impacts = impacts;
-    if (!isFirst && !this.isOpen) this.guess = null;
+    if (isAnother) this.guess = null;
     this.tell();
   }
 

@@ -22,7 +22,7 @@ export interface State {
   parameters: Parameters;
   /** The chosen impact, from 1. */
   impact: number;
-  /** Of the picture, 0 at the first touch [s]. */
+  /** Of the picture, 0 at the first touch [s]; not a number: when the chosen impact starts. */
   time: number;
   layout: "overlay" | "side";
   /** Playback rate; it never enters a computation. */
@@ -77,7 +77,7 @@ export function toQuery(state: State): string {
   }
   if (!parameters.planar) query.set("planar", "0");
   query.set("impact", String(state.impact));
-  query.set("t", String(state.time));
+  if (Number.isFinite(state.time)) query.set("t", String(state.time));
   if (state.layout === "side") query.set("layout", "side");
   if (state.rate !== 1) query.set("rate", String(state.rate));
   if (!state.slow) query.set("slow", "0");
@@ -104,7 +104,7 @@ export function fromQuery(text: string): State {
   parameters.follow = !query.has("damping");
   parameters.planar = query.get("planar") !== "0";
   state.impact = Math.max(1, Math.round(number("impact", 1)));
-  state.time = number("t", 0);
+  state.time = number("t", query.has("impact") ? NaN : 0);
   state.layout = query.get("layout") === "side" ? "side" : "overlay";
   state.rate = RATES.find((rate) => rate === number("rate", 1)) ?? 1;
   state.slow = query.get("slow") !== "0";

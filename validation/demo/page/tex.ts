@@ -14,6 +14,15 @@ export function isProse(text: string): boolean {
   return words.some((word) => !FUNCTIONS.has(word) && !/^(?:ωt|[A-Z]?\p{L}[₀-₃ᵢₙₜ])$/u.test(word));
 }
 
+/** "P_t/P_n, mode slip" is a formula and a remark; other prose is a remark alone. */
+export function splitRemark(text: string): { formula: string; remark: string } {
+  if (!isProse(text)) return { formula: text, remark: "" };
+  const comma = text.indexOf(", ");
+  const formula = comma < 0 ? "" : text.slice(0, comma);
+  if (formula === "" || isProse(formula)) return { formula: "", remark: text };
+  return { formula, remark: text.slice(comma + 2) };
+}
+
 export function prose(text: string): string {
   const plain = text.replace(/[\\{}$&#^_~%]/g, " ").replace(/−/g, "-");
   return `\\text{${plain.replace(/[αβγθφμωΩΓ]/g, (letter) => `$${GREEK[letter]}$`)}}`;
@@ -21,8 +30,6 @@ export function prose(text: string): string {
 
 /** TeX of a formula; of a text that is none, that text upright. */
 export function toTex(text: string): string {
-  const [formula = "", ...remark] = text.split(", ");
-  if (remark.length && !isProse(formula) && isProse(remark.join())) return `${toTex(formula)},\\ ${prose(remark.join(", "))}`;
   if (isProse(text)) return prose(text);
   try {
     return new Formula(tokens(text)).parse();
@@ -149,10 +156,15 @@ class Formula {
   }
 }
 
-/** A fraction's bar makes the brackets around a denominator superfluous. */
+/** A fraction's bar makes the brackets around its denominator superfluous. */
 function bare(tex: string): string {
-  const inner = /^\\left\(((?:(?!\\left\(|\\right\)).)*)\\right\)$/.exec(tex)?.[1];
-  return inner ?? tex;
+  if (!tex.startsWith("\\left(") || !tex.endsWith("\\right)")) return tex;
+  let depth = 0;
+  for (const { 0: bracket, index } of tex.matchAll(/\\left\(|\\right\)/g)) {
+    depth += bracket === "\\left(" ? 1 : -1;
+    if (depth === 0 && index + bracket.length < tex.length) return tex;
+  }
+  return tex.slice("\\left(".length, -"\\right)".length);
 }
 
 function nameTex(token: string): string {

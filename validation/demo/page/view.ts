@@ -176,17 +176,21 @@ function rebuild(figure: Figure, model: ModelName, body: Body): void {
   if (model === "discrete") {
     figure.group.add(new Mesh(geometry, new MeshLambertMaterial({ color: COLOURS.discrete })));
   } else {
-    const outline = new LineSegmentsGeometry().fromEdgesGeometry(new EdgesGeometry(outlineOf(body), 1));
-    figure.group.add(new LineSegments2(outline, new LineMaterial({ color: new Color(COLOURS.continuous).getHex(), linewidth: 2 })));
+    // Never hidden by the solid body of the other model.
+    const material = new LineMaterial({ color: new Color(COLOURS.continuous).getHex(), linewidth: 2, depthTest: false, transparent: true });
+    figure.group.add(new LineSegments2(outlineOf(body), material));
   }
   figure.shadow.add(new Mesh(geometry, shadowMaterial()));
 }
 
-/** Few sides: every edge of the outline is drawn. */
-function outlineOf(body: Body): BufferGeometry {
-  if (body.shape === "box") return geometryOf(body);
+/** Edges of a box; of a rod its outline as seen from the side. */
+function outlineOf(body: Body): LineSegmentsGeometry {
+  const outline = new LineSegmentsGeometry();
+  if (body.shape === "box") return outline.fromEdgesGeometry(new EdgesGeometry(geometryOf(body), 1));
   const radius = Math.max(body.radius, 1.4 * THINNEST * body.length);
-  return new CylinderGeometry(radius, radius, body.length, 6).rotateZ(Math.PI / 2);
+  const half = body.length / 2;
+  const corners = [[-half, 0, -radius], [half, 0, -radius], [half, 0, radius], [-half, 0, radius]];
+  return outline.setPositions(corners.flatMap((corner, i) => [...corner, ...(corners[(i + 1) % 4] ?? [])]));
 }
 
 function shadowMaterial(): Material {

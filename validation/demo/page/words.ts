@@ -12,6 +12,8 @@ export function comparison(ratio: number): string {
 
 export function endInWords(end: string): string {
   if (end === "a" || end === "b") return `end ${end}`;
+  const edge = /^([ab])-top$/.exec(end)?.[1];
+  if (edge) return `upper edge of end ${edge}`;
   return end === "both" ? "both ends at once" : end;
 }
 

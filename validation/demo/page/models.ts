@@ -1,0 +1,96 @@
+// Both models' answers to the situation, and the motions that follow from them.
+import type { Impact, SequenceAnswer, SimulateAnswer } from "./answers";
+import { Latest, type ApiError } from "./api";
+import { CONTINUOUS_RADIUS, type Body } from "./body";
+import { ContinuousMotion } from "./continuous_motion";
+import { DiscreteMotion } from "./discrete_motion";
+import type { Motions } from "./frame";
+import { TimeWarp } from "./playback";
+import { keyOf, sequenceRequest, simulateRequest } from "./requests";
+import { bodyOf, type Parameters } from "./state";
+import type { Impacts } from "./table";
+
+/** Until a situation stands still for so long, the slower model is not asked [ms]. */
+const CONTINUOUS_DELAY = 150;
+
+export interface ModelEvents {
+  /** There is an answer to show. */
+  onAnswer(): void;
+  /** A model refused a situation, or (null) no longer does. */
+  onError(model: "discrete" | "continuous", error: ApiError | null): void;
+  /** The continuous model is being computed. */
+  onBusy(busy: boolean): void;
+}
+
+export class Models {
+  readonly motions: Motions = { discrete: null, continuous: null };
+  discrete: SequenceAnswer | null = null;
+  continuous: SimulateAnswer | null = null;
+  /** Of which situation the continuous model's answer is. */
+  private continuousOf = "";
+  /** Which situation it refused last. */
+  private refusedOf = "";
+  private readonly sequence: Latest<SequenceAnswer, Parameters>;
+  private readonly simulation: Latest<SimulateAnswer, Parameters>;
+
+  constructor(private readonly events: ModelEvents) {
+    this.sequence = new Latest<SequenceAnswer, Parameters>(
+      0, (answer, parameters) => this.onSequence(answer, parameters), (error) => events.onError("discrete", error));
+    this.simulation = new Latest<SimulateAnswer, Parameters>(
+      CONTINUOUS_DELAY, (answer, parameters) => this.onSimulation(answer, parameters),
+      (error, parameters) => {
+        this.refusedOf = keyOf(simulateRequest(parameters));
+        events.onError("continuous", error);
+      }, (busy) => events.onBusy(busy));
+  }
+
+  ask(parameters: Parameters): void {
+    this.sequence.ask(sequenceRequest(parameters), { ...parameters });
+    this.simulation.ask(simulateRequest(parameters), { ...parameters });
+  }
+
+  get impacts(): Impacts {
+    return { discrete: this.discrete?.impacts ?? null, continuous: this.continuous?.impacts ?? null };
+  }
+
+  /** The impacts to step through: the discrete model's, or the other's if it has none. */
+  get steps(): readonly Impact[] {
+    return this.discrete?.impacts ?? this.continuous?.impacts ?? [];
+  }
+
+  /** Playback of both motions; null before the first answer. */
+  warp(slow: boolean): TimeWarp | null {
+    const motions = [this.motions.discrete, this.motions.continuous].filter((motion) => motion !== null);
+    if (!motions.length) return null;
+    const contacts = motions.flatMap((motion) => motion.impacts.map(({ start, duration }) => ({ start, end: start + duration })));
+    return new TimeWarp(
+      Math.min(...motions.map((motion) => motion.begin)), Math.max(...motions.map((motion) => motion.end)), contacts, slow);
+  }
+
+  private onSequence(answer: SequenceAnswer, parameters: Parameters): void {
+    const key = keyOf(simulateRequest(parameters));
+    this.events.onError("discrete", null);
+    if (this.refusedOf !== key) this.events.onError("continuous", null);
+    this.discrete = answer;
+    this.motions.discrete = answer.impacts.length ? new DiscreteMotion(bodyOf(parameters), answer.impacts, parameters.gravity) : null;
+    if (this.continuousOf !== key) {
+      // What the other model said belongs to another situation.
+      this.motions.continuous = null;
+      this.continuous = null;
+    }
+    this.events.onAnswer();
+  }
+
+  private onSimulation(answer: SimulateAnswer, parameters: Parameters): void {
+    this.continuousOf = keyOf(simulateRequest(parameters));
+    this.events.onError("continuous", null);
+    this.continuous = answer;
+    this.motions.continuous = answer.history.t.length > 1
+      ? new ContinuousMotion(continuousBody(bodyOf(parameters)), answer.impacts, answer.history, parameters.gravity) : null;
+    this.events.onAnswer();
+  }
+}
+
+function continuousBody(body: Body): Body {
+  return body.shape === "rod" && body.radius === 0 ? { ...body, radius: CONTINUOUS_RADIUS } : body;
+}
