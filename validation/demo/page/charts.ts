@@ -85,7 +85,7 @@ export class ForceChart {
     }
     byId("force-friction").hidden = !rubs;
     this.plot = new uPlot({
-      ...chartSize(this.box, HEIGHT), series, legend: { show: false }, cursor: { drag: { x: false, y: false } },
+      ...chartSize(this.box, HEIGHT), pxAlign: 0, series, legend: { show: false }, cursor: { drag: { x: false, y: false } },
       scales: { x: { time: false }, y: { range: (_plot, _low, high) => [0, Math.max(high, 1e-9) * 1.08] } },
       axes: [axis("Time after the first touch [ms]", 34), axis("Force of the ground [N]", 58)],
       hooks: { draw: [(plot) => this.discreteStarts.forEach((x) => upright(plot, x, COLOURS.discrete, [4, 4]))] },

@@ -19,6 +19,8 @@ export interface Label {
   kind: "blow" | "end";
   place: Vector;
   text: string;
+  /** Beside its place, outwards, instead of above it. */
+  aside?: "left" | "right";
 }
 
 export interface Frame {
@@ -119,7 +121,7 @@ function addEnds(frame: Frame, model: ModelName, motion: Motion, pose: Pose, sca
 function addBlow(frame: Frame, model: ModelName, motion: Motion, pose: Pose, time: number, scales: Scales, side: boolean): void {
   const impact = impactAt(motion.impacts, time);
   if (!impact) return;
-  const place = struckPoint(motion, impact);
+  const [x, y, z] = struckPoint(motion, impact);
   const pressing = model === "continuous" && pose.inContact;
   // In the overlay the impulses of both models would lie on each other; a force only while it acts.
   if (model === "continuous" && !pressing && !side) return;
@@ -127,9 +129,15 @@ function addBlow(frame: Frame, model: ModelName, motion: Motion, pose: Pose, tim
     ? [pose.force.map((f) => f * scales.force) as Vector, `${significant(pose.force[2], 3)} N`]
     : [[impact.impulse_tangential * scales.impulse, 0, impact.impulse_normal * scales.impulse] as Vector,
       `${significant(impact.impulse_normal, 3)} N·s`];
-  frame.arrows.push({ model, kind: "blow", from: place, vector });
-  const above: Vector = [place[0] + vector[0], place[1] + vector[1], place[2] + vector[2]];
-  if (Math.hypot(...vector) > 0.02 * motion.body.length) frame.labels.push({ model, kind: "blow", place: above, text });
+  const { length } = motion.body;
+  const outwards = x < pose.centre[0] ? -1 : 1;
+  // In the overlay the force stands beside the discrete model's impulse.
+  const isSecond = model === "continuous" && !side;
+  const from: Vector = [isSecond ? x + 0.03 * outwards * length : x, y, z];
+  frame.arrows.push({ model, kind: "blow", from, vector });
+  if (Math.hypot(...vector) < 0.02 * length) return;
+  const label: Label = { model, kind: "blow", text, place: [from[0] + vector[0], from[1] + vector[1], from[2] + vector[2]] };
+  frame.labels.push(isSecond ? { ...label, aside: outwards < 0 ? "left" : "right" } : label);
 }
 
 function struckPoint(motion: Motion, impact: Impact): Vector {

@@ -101,10 +101,13 @@ class Page {
     if (!this.player.playing) {
       // While a slider moves the picture stays with the chosen impact, whenever that is now.
       const impact = this.followsImpact || Number.isNaN(this.state.time) ? this.models.steps[this.state.impact - 1] : undefined;
-      this.player.seek(impact?.start ?? (this.state.time || 0));
+      if (impact) this.state.time = impact.start;
+      this.player.seek(this.state.time || 0);
     }
     this.hasShown = true;
-    this.onTime();
+    // The time that is wanted stays, even if it lies beyond what the first model to answer can show.
+    this.draw();
+    writeAddress(this.state);
     // For whoever measures how fast the page answers.
     if (!models.continuous) document.documentElement.dataset["latency"] = (performance.now() - this.asked).toFixed(1);
   }
@@ -116,11 +119,18 @@ class Page {
     this.transport.setMarks(this.models.steps.map(({ start }) => this.player.progressAt(start)));
   }
 
+  /** The time moved. */
   private onTime(): void {
+    const impact = impactAt(this.models.steps, this.player.time);
+    if (impact && impact.n !== this.state.impact && this.player.playing) this.choose(impact.n);
+    this.draw();
+    if (!this.player.playing) this.remember();
+  }
+
+  private draw(): void {
     const { player, state } = this;
     const { time } = player;
     const impact = impactAt(this.models.steps, time);
-    if (impact && impact.n !== state.impact && player.playing) this.choose(impact.n);
     // Before the guess the picture shows the fall, not yet the blow.
     const shown = this.prediction.isOpen ? (this.models.motions.discrete?.begin ?? 0) : time;
     this.stage.draw(frameAt(this.models.motions, shown, this.scales, state.layout === "side"));
@@ -131,7 +141,6 @@ class Page {
     this.force.setTime(time);
     this.transport.show(time, player.progress, player.playing);
     say(impact ? impactInWords(this.models.steps, impact.n) : "Falling");
-    if (!player.playing) this.remember();
   }
 
   private choose(n: number): void {

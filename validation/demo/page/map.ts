@@ -97,7 +97,7 @@ export class AngleMap {
     const series = (label: string, stroke: string, dash: number[]): uPlot.Series =>
       ({ label, stroke, width: 2.5, dash, points: { show: false }, spanGaps: false });
     const plot = new uPlot({
-      ...chartSize(this.box, HEIGHT), legend: { show: false }, cursor: { drag: { x: false, y: false } },
+      ...chartSize(this.box, HEIGHT), pxAlign: 0, legend: { show: false }, cursor: { drag: { x: false, y: false } },
       series: [{ label: "θ" }, series("β", COLOURS.beta, []), series("γ", COLOURS.gamma, [8, 4])],
       // With gravity the angles get small: the scale follows, in steps of 15°.
       scales: { x: { time: false, range: [0, 90] }, y: { range: (_plot, _low, high) => [0, Math.min(90, Math.max(15, Math.ceil(high / 15) * 15))] } },
@@ -172,6 +172,7 @@ function dot(plot: uPlot, x: number, y: number, colour: string, filled: boolean)
   ctx.fillStyle = filled ? colour : "#ffffff";
   ctx.strokeStyle = colour;
   ctx.lineWidth = 2 * devicePixelRatio;
+  ctx.setLineDash([]);
   ctx.fill();
   ctx.stroke();
   ctx.restore();

@@ -36,7 +36,7 @@ export class Stage {
     frame.labels.forEach((label, i) => {
       const { x, y } = this.view.project(label.model, label.place, frame.side);
       const element = (this.labels.children[i] ?? this.labels.appendChild(make("span"))) as HTMLElement;
-      element.className = `stage-label ${label.kind} ${label.model}`;
+      element.className = `stage-label ${label.kind} ${label.model} ${label.aside ?? ""}`;
       if (element.textContent !== label.text) element.textContent = label.text;
       const margin = label.kind === "blow" ? 44 : 12;
       element.style.transform = `translate(${Math.min(width - margin, Math.max(margin, x)).toFixed(1)}px, ${Math.max(14, y).toFixed(1)}px)`;

@@ -104,7 +104,7 @@ export class SpaceView implements View {
     const wide = ((right - left) * margin) / 2;
     const distance = Math.max(tall / half, wide / (half * aspect)) + 0.15 * wide;
     // Where width decides, the ground stays low in the picture instead of floating in its middle.
-    const centre = new Vector3((left + right) / 2, 0, Math.max(top * 0.47, 0.72 * distance * half));
+    const centre = new Vector3((left + right) / 2, 0, Math.max(top * 0.47, 0.58 * distance * half));
     const flat = Math.cos(ELEVATION) * distance;
     this.camera.position.set(
       centre.x + Math.sin(AZIMUTH) * flat, -Math.cos(AZIMUTH) * flat, centre.z + Math.sin(ELEVATION) * distance,
