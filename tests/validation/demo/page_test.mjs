@@ -180,10 +180,27 @@ test("energy after each impact, and what is lost until then, are the program's",
     near(atEnd.Ground[1], 0);
   }));
 
+test("a flight ends where the next impact starts", async () => {
+  const { impacts } = sequence("--angle", "20", "--gravity", "9.81", "--restitution", "0.9");
+  const [, second] = impacts;
+  await onPage(`/?predict=0&angle=20&gravity=9.81&e=0.9&t=${second.start * (1 - 1e-9)}`, async (page) => {
+    await page.waitForSelector("#impact-table tbody tr");
+    const [height, inclination] = (await page.locator("#numbers-table tbody td:nth-of-type(1)").allTextContents()).map(number);
+    assert.equal(inclination, Number(second.inclination_deg.toFixed(3)));
+    // The end that strikes is on the ground.
+    assert.equal(height, Number((500 * Math.abs(Math.sin((second.inclination_deg * Math.PI) / 180))).toFixed(2)));
+  });
+});
+
 test("a link opens the same state", () => onPage(
-  "/?predict=0&body=own-box&angle=15.5&speed=2&gravity=1.62&e=0.9&mass=0.3&length=0.2&width=0.1&thickness=0.02&layout=side&rate=0.5",
+  "/?predict=0&body=own-box&angle=15.5&speed=2&gravity=1.62&e=0.9&mass=0.3&length=0.2&width=0.1&thickness=0.02",
   async (page, context) => {
     await page.waitForSelector('tr[data-model="continuous"]');
+    await page.click('button[data-layout="side"]');
+    await page.selectOption("#rate", "0.5");
+    await page.uncheck("#slow");
+    await page.uncheck("#planar");
+    await page.waitForFunction(() => document.getElementById("spinner").textContent === "");
     await page.click("#next");
     await page.locator("#scrubber").evaluate((scrubber) => {
       scrubber.value = "520";
@@ -195,9 +212,10 @@ test("a link opens the same state", () => onPage(
     const link = await page.evaluate(() => navigator.clipboard.readText());
     const shown = () => [...document.querySelectorAll("#numbers-table td, #time, #caption, #impact-table td, #explain-title")]
       .map((element) => element.textContent).concat([...document.querySelectorAll("input, select")]
-        .filter((input) => input.type !== "checkbox").map((input) => input.value))
+        .map((input) => (input.type === "checkbox" ? input.checked : input.value)))
       .concat([...document.querySelectorAll("[aria-pressed]")].map((button) => button.getAttribute("aria-pressed")));
     const here = await page.evaluate(shown);
+    assert.equal(await page.getAttribute('button[data-layout="side"]', "aria-pressed"), "true");
     const other = await context.newPage();
     await other.goto(link);
     await other.waitForSelector('tr[data-model="continuous"]');

@@ -4,9 +4,20 @@ import { fixed } from "./format";
 import type { Motions } from "./frame";
 import { endMotion, type Motion } from "./motion";
 
-const QUANTITIES: readonly { title: string; unit: string; decimals: number; of: (motion: Motion, time: number) => number }[] = [
+interface Shown {
+  title: string;
+  unit: string;
+  decimals: number;
+  of: (motion: Motion, time: number) => number;
+  /** After which the quantity is the same again. */
+  turn?: number;
+}
+
+const DEGREES = 180 / Math.PI;
+
+const QUANTITIES: readonly Shown[] = [
   { title: "Centre’s height", unit: "mm", decimals: 2, of: (m, t) => m.pose(t).centre[2] * 1e3 },
-  { title: "Inclination", unit: "°", decimals: 3, of: (m, t) => (m.pose(t).inclination * 180) / Math.PI },
+  { title: "Inclination", unit: "°", decimals: 3, of: (m, t) => m.pose(t).inclination * DEGREES, turn: 360 },
   { title: "Velocity, up", unit: "m/s", decimals: 4, of: (m, t) => m.pose(t).velocity[2] },
   { title: "Spin", unit: "rad/s", decimals: 4, of: (m, t) => m.pose(t).spin[1] },
   { title: "Speed of end a", unit: "m/s", decimals: 4, of: (m, t) => Math.hypot(...endMotion(m.body, m.pose(t), "a").velocity) },
@@ -24,14 +35,20 @@ export class Numbers {
   }
 
   show({ discrete, continuous }: Motions, time: number): void {
-    QUANTITIES.forEach(({ decimals, of }, i) => {
+    QUANTITIES.forEach(({ decimals, of: value, turn }, i) => {
+      const of = (motion: Motion, at: number): number => within(value(motion, at), turn);
       const a = discrete && of(discrete, time);
       // Past the end of its history the continuous model has no numbers.
       const b = continuous && time <= continuous.end ? of(continuous, time) : null;
       const [first, second, third] = this.cells[i] ?? [];
       if (first) first.textContent = a === null ? "–" : fixed(a, decimals);
       if (second) second.textContent = b === null ? "–" : fixed(b, decimals);
-      if (third) third.textContent = a === null || b === null ? "–" : fixed(b - a, decimals);
+      if (third) third.textContent = a === null || b === null ? "–" : fixed(within(b - a, turn), decimals);
     });
   }
+}
+
+/** The angle between −180° and 180° that is the same. */
+function within(value: number, turn: number | undefined): number {
+  return turn === undefined ? value : value - turn * Math.round(value / turn);
 }
