@@ -21,10 +21,10 @@ export interface Impact {
   predictable?: boolean;
 }
 
-export const HISTORY_COLUMNS = ["t", "x", "y", "z", "beta0", "beta1", "beta2", "beta3", "vx", "vy", "vz", "wx", "wy", "wz",
-  "fx", "fy", "fz", "energy_translation", "energy_rotation", "energy_potential", "energy_ground", "energy_total",
-  "in_contact"] as const;
-export type History = Record<(typeof HISTORY_COLUMNS)[number], number[]>;
+/** Columns of the time history that the page reads. */
+export type History = Record<
+  "t" | "x" | "y" | "z" | "beta0" | "beta1" | "beta2" | "beta3" | "vx" | "vy" | "vz" | "wx" | "wy" | "wz" | "fx" | "fy" | "fz"
+  | "energy_rotation" | "energy_ground" | "energy_total" | "in_contact", number[]>;
 
 export interface SequenceAnswer {
   impacts: Impact[];

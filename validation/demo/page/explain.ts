@@ -33,7 +33,7 @@ function equationElement(equation: Equation): HTMLElement {
 }
 
 /** name = formula = the numbers put in = value; prose stands beside it instead. */
-export function texOf({ name, symbolic, numeric, value, unit }: Equation): string {
+function texOf({ name, symbolic, numeric, value, unit }: Equation): string {
   const terms: string[] = [];
   const { formula } = splitRemark(symbolic);
   if (formula) terms.push(toTex(formula));

@@ -3,7 +3,7 @@
 import { bodyOf, type Parameters } from "./state";
 import { centreHeight } from "./body";
 
-export function dampingFor(e: number, stiffness: number, speed: number): number {
+function dampingFor(e: number, stiffness: number, speed: number): number {
   if (!(e < 1) || !(speed > 0)) return 0;
   // The relation has its root below 1/e; at e = 0 damping would have to be infinite.
   const wanted = Math.max(e, 0.05);

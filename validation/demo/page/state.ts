@@ -6,7 +6,6 @@ export const QUANTITIES = ["angle", "speed", "height", "gravity", "e", "friction
 export type Quantity = (typeof QUANTITIES)[number];
 
 export const PANELS = ["numbers", "table", "force", "energy", "map", "explain"] as const;
-export type Panel = (typeof PANELS)[number];
 
 /** The situation: all that the two models need. SI units, angles in degrees. */
 export interface Parameters extends Record<Quantity, number> {
@@ -41,7 +40,7 @@ export const DEFAULT_PARAMETERS: Parameters = {
   mass: 1, length: 1, radius: 0, width: 0.07, thickness: 0.01,
 };
 
-export function defaultState(): State {
+function defaultState(): State {
   return {
     parameters: { ...DEFAULT_PARAMETERS }, impact: 1, time: 0, layout: "overlay", rate: 1, slow: true, predict: true,
     lock: [], hide: [],
@@ -67,7 +66,7 @@ export function isUsed(parameters: Parameters, quantity: Quantity): boolean {
   }
 }
 
-export function toQuery(state: State): string {
+function toQuery(state: State): string {
   const query = new URLSearchParams();
   const { parameters } = state;
   query.set("body", parameters.body);
@@ -88,7 +87,7 @@ export function toQuery(state: State): string {
 }
 
 /** Numbers pass as they are given, even senseless ones: the program says what is allowed. */
-export function fromQuery(text: string): State {
+function fromQuery(text: string): State {
   const query = new URLSearchParams(text);
   const state = defaultState();
   const { parameters } = state;

@@ -9,7 +9,7 @@ const FUNCTIONS = new Set(["sin", "cos", "tan", "arccos", "arctan", "ln", "exp"]
 const TOKEN = /\s+|\d+(?:\.\d+)?(?:e[-+]?\d+)?|\p{L}(?:_\p{L})?(?:[₀₁₂₃ᵢₙₜ]*)[′]?|[-+−·/()|=,±<>≤≥²³⁴]/uy;
 
 /** Text with words that are not names of quantities is prose, not a formula. */
-export function isProse(text: string): boolean {
+function isProse(text: string): boolean {
   const words = text.match(/\p{L}{2,}/gu) ?? [];
   return words.some((word) => !FUNCTIONS.has(word) && !/^(?:ωt|[A-Z]?\p{L}[₀-₃ᵢₙₜ])$/u.test(word));
 }
@@ -23,7 +23,7 @@ export function splitRemark(text: string): { formula: string; remark: string } {
   return { formula, remark: text.slice(comma + 2) };
 }
 
-export function prose(text: string): string {
+function prose(text: string): string {
   const plain = text.replace(/[\\{}$&#^_~%]/g, " ").replace(/−/g, "-");
   return `\\text{${plain.replace(/[αβγθφμωΩΓ]/g, (letter) => `$${GREEK[letter]}$`)}}`;
 }

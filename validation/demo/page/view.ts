@@ -73,7 +73,7 @@ export class SpaceView implements View {
       this.renderer.setViewport(left, bottom, width, height);
       this.renderer.setScissor(left, bottom, width, height);
       this.aim(width / height);
-      if (part.model) for (const model of MODELS) this.layers[model].visible = model === part.model && frame.figures.some((f) => f.model === model);
+      if (part.model) for (const { model } of frame.figures) this.layers[model].visible = model === part.model;
       this.renderer.render(this.scene, this.camera);
     }
   }
@@ -126,10 +126,9 @@ export class SpaceView implements View {
     const [w, x, y, z] = pose.rotation;
     figure.group.position.set(...pose.centre);
     figure.group.quaternion.set(x, y, z, w);
-    const cast = figure.shadow.children[0];
-    if (cast) {
-      cast.position.set(...pose.centre);
-      cast.quaternion.set(x, y, z, w);
+    for (const part of figure.shadow.children) {
+      part.position.set(...pose.centre);
+      part.quaternion.set(x, y, z, w);
     }
   }
 
@@ -171,8 +170,11 @@ function geometryOf(body: Body): BufferGeometry {
 
 function rebuild(figure: Figure, model: ModelName, body: Body): void {
   const geometry = geometryOf(body);
-  figure.group.clear();
-  figure.shadow.clear();
+  for (const group of [figure.group, figure.shadow]) {
+    // The graphics card keeps what nobody gives back.
+    for (const part of group.children) if (part instanceof Mesh) part.geometry.dispose();
+    group.clear();
+  }
   if (model === "discrete") {
     figure.group.add(new Mesh(geometry, new MeshLambertMaterial({ color: COLOURS.discrete })));
   } else {

@@ -10,7 +10,7 @@ export function comparison(ratio: number): string {
   return `${significant(ratio, 2)} times as hard`;
 }
 
-export function endInWords(end: string): string {
+function endInWords(end: string): string {
   if (end === "a" || end === "b") return `end ${end}`;
   const edge = /^([ab])-top$/.exec(end)?.[1];
   if (edge) return `upper edge of end ${edge}`;
