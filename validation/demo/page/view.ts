@@ -1,12 +1,13 @@
 // The picture in space, drawn by the graphics card.
 import {
-  AmbientLight, BoxGeometry, BufferGeometry, Color, ConeGeometry, CylinderGeometry, DirectionalLight, DoubleSide, EdgesGeometry,
+  AmbientLight, BoxGeometry, BufferGeometry, Color, CylinderGeometry, DirectionalLight, DoubleSide, EdgesGeometry,
   Float32BufferAttribute, Group, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshLambertMaterial,
-  PerspectiveCamera, Quaternion, Scene, Vector3, WebGLRenderer, type Material,
+  PerspectiveCamera, Scene, Vector3, WebGLRenderer, type Material,
 } from "three";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
+import { ArrowMesh } from "./arrow_mesh";
 import type { Body } from "./body";
 import { COLOURS } from "./colours";
 import type { Arrow, Bounds, Frame, ModelName } from "./frame";
@@ -220,32 +221,4 @@ function groundGrid(cell: number): LineSegments {
   geometry.setAttribute("position", new Float32BufferAttribute(points, 3));
   geometry.setAttribute("color", new Float32BufferAttribute(colours, 3));
   return new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true, toneMapped: false }));
-}
-
-class ArrowMesh {
-  readonly group = new Group();
-  private readonly material = new MeshBasicMaterial({ depthTest: false, transparent: true });
-  private readonly shaft = new Mesh(new CylinderGeometry(1, 1, 1, 12).translate(0, 0.5, 0), this.material);
-  private readonly head = new Mesh(new ConeGeometry(1, 1, 16).translate(0, -0.5, 0), this.material);
-
-  constructor() {
-    this.group.add(this.shaft, this.head);
-    // A blow under a broad body would else be hidden by it.
-    this.shaft.renderOrder = this.head.renderOrder = 1;
-  }
-
-  set(arrow: Arrow | undefined, thickness: number): void {
-    const [x, y, z] = arrow?.vector ?? [0, 0, 0];
-    const length = Math.hypot(x, y, z);
-    this.group.visible = arrow !== undefined && length > 2 * thickness;
-    if (!arrow || !this.group.visible) return;
-    const radius = arrow.kind === "blow" ? thickness : 0.55 * thickness;
-    const head = Math.min(5 * radius, 0.6 * length);
-    this.material.color.set(arrow.kind === "speed" ? COLOURS.speed : COLOURS.blow[arrow.model]);
-    this.group.position.set(...arrow.from);
-    this.group.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), new Vector3(x, y, z).divideScalar(length)));
-    this.shaft.scale.set(radius, length - head, radius);
-    this.head.scale.set(2.6 * radius, head, 2.6 * radius);
-    this.head.position.set(0, length, 0);
-  }
 }
