@@ -1,5 +1,7 @@
 #include "validation/demo/offline_page.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -16,15 +18,29 @@ Json known_scenes() { return Json::parse(demo_requests()).at("scenes"); }
 /// JSON that may stand inside a script element.
 std::string embeddable(const Json& json) {
   std::string text = json.dump();
-  for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3) text.replace(at, 2, "<\\/");
+  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) text.replace(at, 1, "\\u003c");
   return text;
+}
+
+constexpr int kept_digits = 8;
+
+/// Numbers of a time history that a picture needs: a copy has to be small.
+void round_history(Json& answer) {
+  if (!answer.contains("history")) return;
+  for (auto& [name, column] : answer["history"].items()) {
+    for (Json& number : column) {
+      if (number.is_number_float()) number = std::stod(fmt::format("{:.{}g}", number.get<double>(), kept_digits));
+    }
+  }
 }
 
 /// @throws std::logic_error if the page's own request is refused.
 Json answered(const Json& request) {
   const ApiAnswer answer = answer_request("/api/" + request.at("path").get<std::string>(), request.at("body").dump());
   if (answer.status != 200) throw std::logic_error("the page's request for an offline copy: " + answer.body);
-  return Json::parse(answer.body);
+  Json json = Json::parse(answer.body);
+  round_history(json);
+  return json;
 }
 
 }  // namespace

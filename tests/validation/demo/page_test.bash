@@ -1,11 +1,12 @@
 #!/bin/bash
-# Serves the page with `clatter demo` and tests it in a browser.
+# Checks the types of the page, serves it with `clatter demo` and tests it in a browser.
 # Usage: page_test.bash PROGRAM PAGE, the folder in which the page was built
 set -euo pipefail
 
 program=$1
 page=$2
 here=$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")
+(cd -- "$page" && npm run --silent check)
 scratch=$(mktemp -d)
 "$program" demo >"$scratch/address" 2>"$scratch/complaints" &
 demo=$!

@@ -1,16 +1,18 @@
 // The page of `clatter demo` in a browser: what it shows is what the program computes, a link carries the whole state, and
 // keyboard, screen reader and narrow screens are served.
-// DEMO_URL: where the page is served. CLATTER_PROGRAM: the program to compare with. CHROMIUM: the browser.
+// DEMO_URL: where the page is served. DEMO_COPY: an offline copy of it. DEMO_PAGE: the folder in which it was built.
+// CLATTER_PROGRAM: the program to compare with. CHROMIUM: the browser.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { readFileSync, statSync } from "node:fs";
 import { createRequire } from "node:module";
-import { tmpdir } from "node:os";
 import path from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
 
-const require = createRequire(new URL("../../../validation/demo/page/package.json", import.meta.url));
+const folder = process.env.DEMO_PAGE;
+assert.ok(folder, "DEMO_PAGE is the folder in which the page was built");
+const require = createRequire(path.join(folder, "package.json"));
 const { chromium } = require("playwright-core");
 const axeSource = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
 
@@ -344,47 +346,24 @@ test("without a graphics card the picture is drawn from the side", async () => {
 });
 
 test("an offline copy shows its scenes without a server, in 2 MB", async () => {
-  // Filled as `clatter demo --export` fills it: the page's own list of requests, answered.
-  const listed = JSON.parse(readFileSync(new URL("../../../validation/demo/page/dist/requests.json", import.meta.url), "utf8"));
-  const scenes = [];
-  for (const { requests, ...scene } of listed.scenes) {
-    const answers = {};
-    for (const { path: name, body, key } of requests) {
-      const response = await fetch(new URL(`/api/${name}`, address), {
-        method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body),
-      });
-      assert.equal(response.status, 200, key);
-      answers[key] = await response.json();
+  const file = process.env.DEMO_COPY;
+  assert.ok(file, "DEMO_COPY is what clatter demo --export wrote");
+  assert.ok(statSync(file).size <= 2e6, `${statSync(file).size} bytes`);
+  const listed = JSON.parse(readFileSync(path.join(folder, "dist", "requests.json"), "utf8"));
+  await onPage(`${pathToFileURL(file).href}#predict=0&angle=20`, async (page) => {
+    assert.equal(await page.isVisible("#offline"), true);
+    assert.equal(await page.isDisabled("#gravity-slider"), true);
+    for (const { name, angles, parameters } of listed.scenes) {
+      await page.selectOption("#scene", name);
+      await page.waitForSelector('tr[data-model="continuous"]');
+      await slide(page, "angle", angles.length - 1);
+      await page.waitForFunction((angle) => {
+        const cell = document.querySelector('tr[data-model="continuous"] td[data-column="Angle"]');
+        return Math.abs(Number(cell?.textContent) - angle) < 1e-3;
+      }, angles[angles.length - 1]);
+      assert.equal(await page.textContent("#error"), "", parameters.body);
     }
-    scenes.push({ ...scene, answers });
-  }
-  const data = JSON.stringify({ clatter: "test", scenes }).replace(/</g, "\\u003c");
-  const served = await (await fetch(address)).text();
-  const mark = '<script type="application/json" id="precomputed">{}</script>';
-  assert.equal(served.split(mark).length, 2);
-  const copy = served.replace(mark, () => mark.replace("{}", () => data));
-  assert.ok(Buffer.byteLength(copy) <= 2e6, `${Buffer.byteLength(copy)} bytes`);
-  const folder = mkdtempSync(path.join(tmpdir(), "clatter-page-"));
-  const file = path.join(folder, "offline.html");
-  writeFileSync(file, copy);
-  try {
-    await onPage(`${pathToFileURL(file).href}#predict=0&angle=20`, async (page) => {
-      assert.equal(await page.isVisible("#offline"), true);
-      assert.equal(await page.isDisabled("#gravity-slider"), true);
-      for (const { name, angles, parameters } of listed.scenes) {
-        await page.selectOption("#scene", name);
-        await page.waitForSelector('tr[data-model="continuous"]');
-        await slide(page, "angle", angles.length - 1);
-        await page.waitForFunction((angle) => {
-          const cell = document.querySelector('tr[data-model="continuous"] td[data-column="Angle"]');
-          return Math.abs(Number(cell?.textContent) - angle) < 1e-3;
-        }, angles[angles.length - 1]);
-        assert.equal(await page.textContent("#error"), "", parameters.body);
-      }
-    });
-  } finally {
-    rmSync(folder, { recursive: true });
-  }
+  });
 });
 
 test("measured, not judged: time from slider to answer, and frames a second", () => onPage("/?predict=0", async (page) => {

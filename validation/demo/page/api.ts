@@ -20,9 +20,9 @@ export class ApiError extends Error {
   readonly blames: string | undefined;
 
   constructor(message: string) {
-    super(message.replace(/--/g, ""));
+    super(message);
     this.name = "ApiError";
-    this.blames = /^([a-z][a-z-]*) [^ ]+: /.exec(this.message)?.[1];
+    this.blames = /^([a-z][a-z_]*) [^ ]+: /.exec(this.message)?.[1];
   }
 }
 

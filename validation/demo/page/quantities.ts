@@ -41,7 +41,7 @@ export const SPECS: Readonly<Record<Quantity, QuantitySpec>> = {
 
 /** What the program calls these quantities in its messages. */
 const BLAMED: Readonly<Record<string, Quantity>> = {
-  restitution: "e", "static-friction": "friction", "sliding-friction": "friction", size: "length",
+  restitution: "e", static_friction: "friction", sliding_friction: "friction", size: "length",
 };
 
 export function blamedQuantity(name: string | undefined): Quantity | undefined {
