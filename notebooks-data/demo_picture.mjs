@@ -1,0 +1,18 @@
+// Draws notebooks-data/figures/demo.png, the page of `clatter demo` at the second impact of the rod.
+//   DEMO_URL=http://127.0.0.1:8318/ DEMO_PAGE=build/dev/page node notebooks-data/demo_picture.mjs
+import { createRequire } from "node:module";
+import path from "node:path";
+import { fileURLToPath } from "node:url";
+
+const { chromium } = createRequire(path.resolve(process.env.DEMO_PAGE, "package.json"))("playwright-core");
+const here = path.dirname(fileURLToPath(import.meta.url));
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+  args: ["--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+    "--disable-background-networking", "--no-first-run"],
+});
+const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, reducedMotion: "reduce" });
+await page.goto(new URL("?predict=0&angle=10&impact=2", process.env.DEMO_URL).href);
+await page.waitForSelector('#impact-table tr[data-model="continuous"]');
+await page.screenshot({ path: path.join(here, "figures", "demo.png") });
+await browser.close();
