@@ -97,7 +97,7 @@ set_up() {
   write_program
   echo 0 >"$settings/uid"
   printf '%s\n' libgsl-dev libboost-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libfmt-dev libtomlplusplus-dev gnuplot-nox \
-    >"$settings/installed"
+    pkg-config libcpp-httplib-dev nodejs npm >"$settings/installed"
   cd "$scratch/$1"
 }
 
@@ -337,7 +337,7 @@ test_root_installs_all_that_is_missing_at_once() {
   expect "exit status" 0 "$status"
   expect_calls 1 "apt-get"
   expect "what is installed" "cmake ninja-build g++ libgsl-dev libboost-dev libeigen3-dev libcli11-dev\
- nlohmann-json3-dev libfmt-dev libtomlplusplus-dev gnuplot-nox" "$(sed -n 's/^apt-get .*--no-install-recommends //p' \
+ nlohmann-json3-dev libfmt-dev libtomlplusplus-dev gnuplot-nox pkg-config libcpp-httplib-dev nodejs npm" "$(sed -n 's/^apt-get .*--no-install-recommends //p' \
     "$settings/calls")"
 }
 
@@ -390,6 +390,15 @@ test_user_without_sudo_is_told_one_line_to_run() {
   expect "line to run" \
     "apt-get update && apt-get install -y --no-install-recommends libgsl-dev libfmt-dev" \
     "$(grep apt-get "$settings/err")"
+}
+
+test_user_without_sudo_builds_without_the_page() {
+  become_user
+  remove_package npm
+  remove_package libcpp-httplib-dev
+  launch
+  expect "exit status" 0 "$status"
+  expect_calls 0 "apt-get"
 }
 
 test_system_without_dpkg_just_builds() {

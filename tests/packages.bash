@@ -6,11 +6,12 @@
 
 # Each header package brings the library that it belongs to.  libboost-dev is
 # Debian's own version (1.74 on Debian 12) and holds Math and Multiprecision.
-# Node.js bundles the page of clatter demo, which cpp-httplib serves.
-# shellcheck disable=SC2034  # both lists are read by the callers
+# shellcheck disable=SC2034  # the lists are read by the callers
 program_packages=(cmake ninja-build g++ libgsl-dev libboost-dev libeigen3-dev libcli11-dev
-                  nlohmann-json3-dev libfmt-dev libtomlplusplus-dev gnuplot-nox
-                  pkg-config libcpp-httplib-dev nodejs npm)
+                  nlohmann-json3-dev libfmt-dev libtomlplusplus-dev gnuplot-nox)
+# Node.js bundles the page of clatter demo, which cpp-httplib serves.  Without them all else is there.
+# shellcheck disable=SC2034
+page_packages=(pkg-config libcpp-httplib-dev nodejs npm)
 # Without the shells and groff the tests of completion and man page would be skipped;
 # Chromium opens the page that clatter verify writes; OpenMPI shares a sweep among processes.
 # The Python module, the figures and the notebooks take the line of Python packages.
@@ -52,6 +53,8 @@ apt_install() {
   apt_get "${install[@]}" || { apt_get update && apt_get "${install[@]}"; }
 }
 
+can_install() { [[ $(id -u) == 0 ]] || has_command sudo; }
+
 say_what_to_run() {
   say "Debian packages are missing; run this as root, then try again:"
   printf 'apt-get update && apt-get install -y --no-install-recommends %s\n' "$*" >&2
@@ -66,7 +69,7 @@ install_missing() {
     is_present "$package" || missing+=("$package")
   done
   ((${#missing[@]})) || return 0
-  if [[ $(id -u) != 0 ]] && ! has_command sudo; then
+  if ! can_install; then
     say_what_to_run "${missing[@]}"
     return 1
   fi
