@@ -186,7 +186,14 @@ def svg(figure):
     """The figure as the text of an SVG file: the same bytes for the same data."""
     text = io.StringIO()
     FigureCanvasSVG(figure).print_svg(text, metadata={"Date": None, "Creator": None})
-    return re.sub(r"<[^>]*>", lambda tag: shortened(tag[0]), re.sub(r" *\n *(<!--.*?-->)?", "\n", text.getvalue()))
+    plain = re.sub(r"<[^>]*>", lambda tag: shortened(tag[0]), re.sub(r" *\n *(<!--.*?-->)?", "\n", text.getvalue()))
+    return numbered(plain)
+
+
+def numbered(text):
+    """Names of shapes by their order: matplotlib makes them from positions to the last bit, in which two runs may differ."""
+    names = {}
+    return re.sub(r'(?<=["#])[phm][0-9a-f]{10}(?=[")])', lambda name: names.setdefault(name[0], f"{name[0][0]}{len(names)}"), text)
 
 
 def shortened(tag):
