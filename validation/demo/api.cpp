@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <exception>
 #include <map>
-#include <regex>
+#include <string_view>
 
 #include "analytic/errors.hpp"
 #include "numeric/errors.hpp"
@@ -152,16 +152,34 @@ const std::map<std::string, Answer> answers{{"/api/sequence", sequence},
 
 constexpr int bad_input = 2, not_computed = 3, outside_model = 4;
 
-ApiAnswer refusal(int http_status, const std::exception& error, int exit_status) {
-  // Arguments have no dashes here, and an empty scene has no place in a file.
-  std::string words = std::regex_replace(std::string(error.what()), std::regex("^scene(:\\d+:\\d+)?: "), "");
-  const std::regex flag("--([a-z][a-z-]*)");
-  for (std::smatch found; std::regex_search(words, found, flag);) {
-    std::string name = found[1];
-    std::replace(name.begin(), name.end(), '-', '_');
-    words = found.prefix().str() + name + found.suffix().str();
+bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
+
+/// Without the place "scene:1:2: ", since the text of a scene is not the user's.
+std::string without_place(const std::string& words) {
+  constexpr std::string_view name = "scene";
+  const std::size_t end = words.find(": ");
+  if (!words.starts_with(name) || end == std::string::npos) return words;
+  const bool is_place = words.find_first_not_of(":0123456789", name.size()) == end + 1;
+  return is_place ? words.substr(end + 2) : words;
+}
+
+/// Arguments as the page calls them: "tangential_velocity" for "--tangential-velocity".
+std::string with_arguments(std::string words) {
+  for (std::size_t at = 0; (at = words.find("--", at)) != std::string::npos;) {
+    if (at + 2 >= words.size() || !is_lower(words[at + 2])) {
+      at += 2;
+      continue;
+    }
+    words.erase(at, 2);
+    for (; at < words.size() && (is_lower(words[at]) || words[at] == '-'); ++at) {
+      if (words[at] == '-') words[at] = '_';
+    }
   }
-  return {http_status, error_json(words, exit_status)};
+  return words;
+}
+
+ApiAnswer refusal(int http_status, const std::exception& error, int exit_status) {
+  return {http_status, error_json(with_arguments(without_place(error.what())), exit_status)};
 }
 
 }  // namespace
