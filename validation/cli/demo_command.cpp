@@ -48,9 +48,12 @@ int serve(const DemoInput& input) {
   bind(server, input.port);
   const CooperativeInterrupt interrupt;
   std::atomic<bool> ended = false;
+  // Again and again, since what stops a server that has not begun to run is lost.
   std::thread watch([&] {
-    while (!interrupt.requested() && !ended) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    server.stop();
+    while (!ended) {
+      if (interrupt.requested()) server.stop();
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
   });
   fmt::print("clatter demo: http://127.0.0.1:{}/  (Ctrl-C ends it)\n", server.port());
   std::fflush(stdout);
