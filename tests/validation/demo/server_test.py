@@ -134,6 +134,24 @@ class Answers(WithServer):
             self.assertEqual(json.loads(answer[2])["scene"]["drop"]["angle_deg"], angle)
         self.assertEqual(answers[20][2], printed("sequence", "--angle", str(angles[20])))
 
+    def test_two_hundred_may_wait_while_the_server_is_busy(self):
+        """Stopped, it accepts nobody: whoever has no place in the queue is turned away or waits for seconds."""
+        body = b'{"angle": 10}'
+        request = (b"POST /api/sequence HTTP/1.1\r\nHost: 127.0.0.1:%d\r\nContent-Type: application/json\r\nContent-Length: %d\r\n\r\n%s"
+                   % (self.demo.port, len(body), body))
+        waiting = []
+        self.demo.process.send_signal(signal.SIGSTOP)
+        try:
+            for _ in range(200):
+                waiting.append(socket.create_connection(("127.0.0.1", self.demo.port), 5))
+                waiting[-1].sendall(request)
+        finally:
+            self.demo.process.send_signal(signal.SIGCONT)
+        for connection in waiting:
+            connection.settimeout(60)
+            with connection, connection.makefile("rb") as answer:
+                self.assertIn(b" 200 ", answer.readline())
+
     def test_the_page_holds_everything_itself(self):
         status, headers, text = self.demo.ask("GET", "/")
         self.assertEqual((status, headers["Content-Type"]), (200, "text/html; charset=utf-8"))
