@@ -2,29 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 #include "numeric/detail/require.hpp"
 #include "numeric/drop_run.hpp"
+#include "numeric/error_estimates.hpp"
 #include "numeric/motion/free_flight.hpp"
 
 namespace clatter::numeric {
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
-
-/// How the second run differs, and what its distance from the main one says about that one's error: with a tolerance
-/// it is coarser, with a fixed step finer, so that a step that is long for the contact cannot be compared with itself.
-constexpr double other_tolerance = 30;
-constexpr double other_step = 0.5;
-constexpr double error_per_distance = 0.5;
-constexpr double error_per_distance_of_steps = 1.2;  // 8/7 for order three
-constexpr double error_per_tolerance = 2;
-/// Beyond this growth the distance of the two runs tells more: truncation errors keep a scene's symmetry and may not
-/// grow with the rest.
-constexpr double largest_growth_of_tolerance = 100;
 
 bool is_adaptive(Method method) { return method != Method::tvd_rk3; }
 
@@ -44,72 +30,6 @@ Accuracy accuracy_for(const Options& options) {
                                              : std::max(std::pow(10.0, -options.digits - 4), least_tolerance);
   accuracy.steps_per_contact = 10 * std::pow(10.0, std::min(options.digits, 9) / 3.0);
   return accuracy;
-}
-
-Accuracy second_accuracy(Accuracy accuracy, double used_step) {
-  accuracy.tolerance *= other_tolerance;
-  accuracy.steps_per_contact /= other_step;
-  if (accuracy.step > 0) accuracy.step = used_step * other_step;
-  return accuracy;
-}
-
-template <class Use>
-void for_each_number(const ImpactNumbers& a, const ImpactNumbers& b, ImpactNumbers& out, Use&& use) {
-  using Numbers = ImpactNumbers;
-  for (const auto member :
-       {&Numbers::start, &Numbers::duration, &Numbers::inclination, &Numbers::contact_angle, &Numbers::approach_speed,
-        &Numbers::restitution, &Numbers::peak_force, &Numbers::peak_time, &Numbers::energy_before,
-        &Numbers::energy_after, &Numbers::energy_loss, &Numbers::work_damping, &Numbers::work_friction,
-        &Numbers::work_released}) {
-    out.*member = use(a.*member, b.*member);
-  }
-  for (const auto member : {&Numbers::impulse, &Numbers::velocity_after, &Numbers::angular_velocity_after}) {
-    for (int i = 0; i < 3; ++i) (out.*member)[i] = use((a.*member)[i], (b.*member)[i]);
-  }
-}
-
-/// What the tolerance and rounding, grown since, leave uncertain even where two runs happen to agree; numbers that are
-/// differences take it from what they are differences of.
-void add_floor(const Body& body, double tolerance, const ImpactRecord& row, ImpactNumbers& error) {
-  const double growth = std::isfinite(row.amplification) ? row.amplification : 1;
-  const double part = error_per_tolerance * tolerance * (1 + std::min(growth, largest_growth_of_tolerance)) +
-                      4 * epsilon * (1 + growth);
-  const ImpactNumbers& n = row.value;
-  const auto add = [&](double& to, double size) { to += part * std::fabs(size); };
-  for_each_number(n, error, error, [&](double value, double so_far) {
-    add(so_far, value);
-    return so_far;
-  });
-  for (double* work : {&error.energy_loss, &error.work_damping, &error.work_friction, &error.work_released}) {
-    add(*work, n.energy_before);
-  }
-  // The time of a flat maximum is known to the root of what its height is known to.
-  error.peak_time += 0.3 * std::sqrt(part) * n.duration;
-  for (int i = 0; i < 3; ++i) {
-    add(error.impulse[i], n.impulse.norm());
-    error.impulse[i] += 4 * epsilon * body.mass() * n.velocity_after.norm();
-    add(error.velocity_after[i], n.velocity_after.norm());
-    add(error.angular_velocity_after[i], n.angular_velocity_after.norm() + n.approach_speed / body.radius());
-  }
-}
-
-void estimate_errors(const Body& body, double tolerance, std::vector<ImpactRecord>& rows,
-                     const std::vector<ImpactRecord>& second) {
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const bool same_kind = i < second.size() && second[i].end == rows[i].end && second[i].touches == rows[i].touches;
-    const ImpactNumbers& other = same_kind ? second[i].value : rows[i].value;
-    for_each_number(rows[i].value, other, rows[i].error, [&](double value, double other_value) {
-      const double part = tolerance > 0 ? error_per_distance : error_per_distance_of_steps;
-      return same_kind ? part * std::fabs(value - other_value) : not_known;
-    });
-    if (same_kind) add_floor(body, tolerance, rows[i], rows[i].error);
-  }
-}
-
-void forget_errors(std::vector<ImpactRecord>& rows) {
-  for (ImpactRecord& row : rows) {
-    for_each_number(row.value, row.value, row.error, [](double, double) { return not_known; });
-  }
 }
 
 std::string words_for(const Simulation& run, const Options& options, double time) {
@@ -177,10 +97,11 @@ Simulation simulate(const Body& body, const Ground& ground, const MotionState& s
   if (wants_estimates && !simulation.impacts.empty()) {
     Options fewer = options;
     fewer.impacts = static_cast<int>(simulation.impacts.size());
-    const DropRun second = run_drop(body, ground, start, fewer, second_accuracy(accuracy, main.step), {});
-    simulation.force_evaluations += second.force_evaluations;
-    simulation.root_evaluations += second.root_evaluations;
-    estimate_errors(body, simulation.tolerance, simulation.impacts, second.impacts);
+    const SecondRun second = second_run(accuracy, main.step);
+    const DropRun other = run_drop(body, ground, start, fewer, second.accuracy, {});
+    simulation.force_evaluations += other.force_evaluations;
+    simulation.root_evaluations += other.root_evaluations;
+    estimate_errors(body, second.error_per_distance, simulation.impacts, other.impacts);
   } else {
     forget_errors(simulation.impacts);
   }

@@ -19,7 +19,7 @@ using numeric::Simulation;
 constexpr int most_repeats = 3;
 constexpr long evaluations_of_a_pilot = 200'000;
 constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
-constexpr double estimate_margin = 5;  // error estimates err on the large side; a first run that they accept is cheaper
+constexpr double estimate_margin = 4;  // what error estimates exceed errors by; a first run that they accept is cheaper
 constexpr double different_ways = 0.1;
 constexpr double usual_error_constant = 1;  // median over many scenes, for one whose pilots go different ways
 
