@@ -93,6 +93,7 @@ const Measures& all_measures() {
     add_erratum_measures(all);
     add_figure_measures(all);
     add_model_measures(all);
+    add_bar_measures(all);
     return all;
   }();
   return measures;

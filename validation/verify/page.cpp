@@ -45,7 +45,8 @@ constexpr Group groups[] = {
     {'F', "Figures", "Laws that the data of each figure must obey."},
     {'X', "Exact results", "Closed forms, 30-digit tables, conservation laws, orders of convergence."},
     {'M', "Both models over every scene", "The limit of ever stiffer grounds is the discrete model's value."},
-    {'R', "Random scenes", "Random rods and boxes through both models."}};
+    {'R', "Random scenes", "Random rods and boxes through both models."},
+    {'B', "Error bars", "How many errors lie within their bars."}};
 
 std::string row_of(const CheckResult& result) {
   const Check& check = *result.check;

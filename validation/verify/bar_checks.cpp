@@ -1,0 +1,88 @@
+// Error bars: how many errors lie within them, and how much wider they are than the errors.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "validation/compare/motion_numbers.hpp"
+#include "validation/compare/random_scenes.hpp"
+#include "validation/output/number.hpp"
+#include "validation/plan/planned_run.hpp"
+#include "validation/verify/check.hpp"
+
+namespace clatter::validation {
+namespace {
+
+constexpr std::uint64_t family = 9;
+constexpr int scene_count = 60;
+constexpr double least_covered = 0.95;
+constexpr double widest_median = 10;
+/// Errors of single numbers below this part of the number's size are those of the truth too.
+constexpr double truth_error = 1e-12;
+
+/// Errors and bars of numbers, over the sizes of their sequence.
+class BarSample {
+ public:
+  void take(double error, double bar) {
+    ++count_;
+    if (error <= bar + truth_error) ++covered_;
+    if (error > truth_error) ratios_.push_back(bar / error);
+  }
+
+  /// @param scenes  in words
+  [[nodiscard]] Measured measured(const std::string& scenes) {
+    const auto middle = ratios_.begin() + static_cast<std::ptrdiff_t>(ratios_.size() / 2);
+    std::nth_element(ratios_.begin(), middle, ratios_.end());
+    const double outside = 1 - static_cast<double>(covered_) / static_cast<double>(count_);
+    const bool holds = outside <= 1 - least_covered && *middle <= widest_median;
+    return {100 * (1 - outside), outside, holds ? Answer::holds : Answer::refuted,
+            fmt::format("% of {} numbers of {} lie within their bars; bars are {} times the error in the median", count_,
+                        scenes, significant(*middle, 2))};
+  }
+
+ private:
+  std::size_t count_ = 0, covered_ = 0;
+  std::vector<double> ratios_;
+};
+
+/// The same drop by another method, at a tolerance that is as good as none.
+numeric::Simulation truth_of(const SimulationScene& scene, const numeric::Body& body) {
+  numeric::Options options = scene.options;
+  options.method = numeric::Method::rkf45;
+  options.tolerance = 2e-13;
+  options.error_estimates = options.amplification = false;
+  return numeric::simulate(body, scene.ground, scene.start(body), options);
+}
+
+Measured bars_of_the_simulator(Laboratory& laboratory) {
+  BarSample sample;
+  for (int index = 0; index < scene_count; ++index) {
+    if (!laboratory.goes_on()) throw Laboratory::Interrupted{};
+    SimulationScene scene = random_scene(family, index);
+    scene.options.digits = 9;
+    scene.options.impacts = 2;
+    scene.options.evaluation_limit = 300'000;  // soft grounds may hold a body for thousands of oscillations
+    const numeric::Body body = scene.make_body();
+    const numeric::Simulation run = run_to_digits(body, scene.ground, scene.start(body), scene.options).run;
+    const numeric::Simulation truth = truth_of(scene, body);
+    if (run.impacts.empty()) continue;
+    const MotionNumbers sizes = motion_sizes(run, run.impacts.size(), body);
+    for (std::size_t i = 0; i < std::min(run.impacts.size(), truth.impacts.size()); ++i) {
+      const numeric::ImpactRecord& row = run.impacts[i];
+      if (!row.predictable || std::isnan(row.error.start)) continue;
+      const MotionNumbers value = motion_numbers(row.value), bar = motion_numbers(row.error),
+                          exact = motion_numbers(truth.impacts[i].value);
+      for (std::size_t q = 0; q < motion_number_count; ++q) {
+        if (exact[q] != 0) sample.take(std::fabs(value[q] - exact[q]) / sizes[q], bar[q] / sizes[q]);
+      }
+    }
+  }
+  return sample.measured(fmt::format("{} random scenes", scene_count));
+}
+
+}  // namespace
+
+void add_bar_measures(Measures& measures) { measures["B2"] = bars_of_the_simulator; }
+
+}  // namespace clatter::validation
