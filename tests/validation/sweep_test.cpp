@@ -1,14 +1,19 @@
 // Sweeps: values of the scenes, order of the rows, and what a run finds of an earlier one.
 #include <boost/test/unit_test.hpp>
 
+#include <sys/file.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <memory>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "validation/scene/bad_input.hpp"
 #include "validation/scene/number_keys.hpp"
@@ -16,6 +21,18 @@
 #include "validation/sweep/grid.hpp"
 #include "validation/sweep/sweep_file.hpp"
 #include "validation/sweep/sweep_run.hpp"
+
+namespace {
+
+std::function<void()> before_lock;  ///< runs once, when a file is about to be locked
+
+}  // namespace
+
+/// The system's, after the test's interference.
+extern "C" int flock(int file, int operation) noexcept {
+  if (const auto interfere = std::exchange(before_lock, nullptr)) interfere();
+  return static_cast<int>(syscall(SYS_flock, file, operation));
+}
 
 namespace {
 
@@ -52,16 +69,33 @@ std::string text_of(const std::string& path) {
   return text.str();
 }
 
-const SweepFileForm one_row{.head = "# head\nindex,x\n", .scenes = 10, .one_row_per_scene = true};
-const SweepFileForm rows{.head = "# head\nindex,x\n", .scenes = 10, .one_row_per_scene = false};
+const SweepFileForm form{.head = "# head\nindex,x\n", .scenes = 10};
 
-/// What a new run finds in a part with this text: the scenes that are done and what is left of the text.
-std::pair<long long, std::string> taken_up(const std::string& text, const SweepFileForm& form, bool restart = false) {
+using Found = std::pair<long long, std::string>;
+
+/// What a new run finds once the part or its digests have been changed: the scenes that are done and what is left of the
+/// text.  The part was "0,1\n" for scene 0, then "1,1\n2,1\n" for scenes 1 and 2, then "3,1\n3,2\n" for scene 3.
+Found found_after(const std::function<void(const std::string& part)>& change, bool restart = false) {
   const Folder folder;
-  const std::string path = folder.at("out.csv");
-  write_text(path + ".part", text);
+  const std::string path = folder.at("out.csv"), part = path + ".part";
+  {
+    SweepFile file(path, form, false);
+    file.write("0,1\n", 1);
+    file.flush();
+    file.write("1,1\n2,1\n", 2);
+    file.flush();
+    file.write("3,1\n3,2\n", 1);
+    file.flush();
+  }
+  change(part);
   const SweepFile file(path, form, restart);
-  return {file.scenes(), text_of(path + ".part")};
+  return {file.scenes(), text_of(part)};
+}
+
+void replace_text(const std::string& path, const std::string& before, const std::string& after) {
+  std::string text = text_of(path);
+  text.replace(text.find(before), before.size(), after);
+  write_text(path, text);
 }
 
 }  // namespace
@@ -291,43 +325,43 @@ BOOST_AUTO_TEST_CASE(any_number_of_threads_writes_the_same_and_what_they_throw_i
   BOOST_CHECK_EXCEPTION(run_on_threads(queue, 3, fails, hooks), std::runtime_error, says("no"));
 }
 
-BOOST_AUTO_TEST_CASE(a_run_goes_on_after_the_last_complete_scene) {
-  const std::string& head = one_row.head;
-  using Found = std::pair<long long, std::string>;
+BOOST_AUTO_TEST_CASE(a_run_goes_on_after_the_last_rows_that_their_digest_confirms) {
+  const std::string one = form.head + "0,1\n", three = one + "1,1\n2,1\n", four = three + "3,1\n3,2\n";
   const auto found = [](const Found& is, long long scenes, const std::string& text) {
     BOOST_TEST(is.first == scenes);
     BOOST_TEST(is.second == text);
   };
-  found(taken_up("", one_row), 0, head);
-  found(taken_up("# he", one_row), 0, head);
-  found(taken_up(head, one_row), 0, head);
-  found(taken_up(head + "0,1\n1,1\n", one_row), 2, head + "0,1\n1,1\n");
-  found(taken_up(head + "0,1\n1,1\n2,", one_row), 2, head + "0,1\n1,1\n");
-  found(taken_up(head + "0,1\n1,1\n2", one_row), 2, head + "0,1\n1,1\n");
-  // Scene 1 may lack rows, whole as its last one is.
-  found(taken_up(head + "0,1\n0,2\n1,1\n1,2\n", rows), 1, head + "0,1\n0,2\n");
-  found(taken_up(head + "0,1\n0,2\n1,1\n2,", rows), 1, head + "0,1\n0,2\n");
-  found(taken_up(head + "0,1\n0,2", rows), 0, head);
-  found(taken_up(head + "0,1\n", one_row, true), 0, head);
-  found(taken_up("another thing\n", one_row, true), 0, head);
+  found(found_after([](const std::string&) {}), 4, four);
+  for (std::size_t size = 0; size <= four.size(); ++size) {  // cut anywhere
+    const Found is = found_after([&](const std::string& part) { std::filesystem::resize_file(part, size); });
+    if (size == four.size()) found(is, 4, four);
+    else if (size >= three.size()) found(is, 3, three);
+    else if (size >= one.size()) found(is, 1, one);
+    else found(is, 0, form.head);
+  }
+  found(found_after([&](const std::string& part) { write_text(part, four + "4,1\n"); }), 4, four);  // no digest yet
+  found(found_after([](const std::string& part) { replace_text(part, "0,1", "0,7"); }), 0, form.head);
+  found(found_after([](const std::string& part) { replace_text(part, "2,1", "2,7"); }), 1, one);
+  found(found_after([](const std::string& part) { replace_text(part, "1,1\n2,1", "2,1\n1,1"); }), 1, one);
+  found(found_after([](const std::string& part) { replace_text(part, "3,2", "3,3"); }), 3, three);
+  found(found_after([](const std::string& part) { std::filesystem::remove(part + ".digests"); }), 0, form.head);
+  found(found_after([](const std::string& part) { std::filesystem::remove(part); }), 0, form.head);
+  found(found_after([](const std::string& part) { replace_text(part + ".digests", " 4 ", " 5 "); }), 3, three);
+  found(found_after([](const std::string& part) { replace_text(part + ".digests", " 4 ", " 11 "); }), 3, three);
+  found(found_after([](const std::string& part) { replace_text(part + ".digests", " 4 ", " x "); }), 3, three);
+  found(found_after([](const std::string&) {}, true), 0, form.head);
+  found(found_after([](const std::string& part) { write_text(part, "another thing\n"); }, true), 0, form.head);
 }
 
-BOOST_AUTO_TEST_CASE(a_part_of_another_sweep_or_a_damaged_one_is_refused_and_kept) {
-  const std::string& head = one_row.head;
+BOOST_AUTO_TEST_CASE(a_part_of_another_sweep_is_refused_and_kept) {
   const auto refused = [](const std::string& text, const char* why) {
     const Folder folder;
     write_text(folder.at("x.part"), text);
-    BOOST_CHECK_EXCEPTION(SweepFile(folder.at("x"), one_row, false), BadInput, says(why));
+    BOOST_CHECK_EXCEPTION(SweepFile(folder.at("x"), form, false), BadInput, says(why));
     BOOST_TEST(text_of(folder.at("x.part")) == text);
   };
   refused("# other\nindex,x\n0,1\n", "its line 1 differs");
   refused("# head\nindex,y\n0,1\n", "its line 2 differs");
-  refused(head + "0,1\n2,1\n", "damaged after 1 rows");
-  refused(head + "0,1\n0,1\n", "damaged");
-  refused(head + "1,1\n", "damaged after 0 rows");
-  refused(head + "x\n", "damaged");
-  refused(head + "0\n", "damaged");
-  refused(head + "0,1\n1,1\n2,1\n3,1\n4,1\n5,1\n6,1\n7,1\n8,1\n9,1\n10,1\n", "damaged after 10 rows");
 }
 
 BOOST_AUTO_TEST_CASE(a_part_takes_its_name_at_the_end_and_belongs_to_one_run) {
@@ -335,13 +369,44 @@ BOOST_AUTO_TEST_CASE(a_part_takes_its_name_at_the_end_and_belongs_to_one_run) {
   const std::string path = folder.at("out.csv");
   write_text(path, "old");
   {
-    SweepFile file(path, one_row, false);
-    file.write("0,1\n");
+    SweepFile file(path, form, false);
+    file.write("0,1\n", 1);
     file.flush();
-    BOOST_CHECK_EXCEPTION(SweepFile(path, one_row, false), BadInput, says("another run"));
+    BOOST_CHECK_EXCEPTION(SweepFile(path, form, false), BadInput, says("another run"));
     BOOST_TEST(text_of(path) == "old");
     file.commit();
   }
-  BOOST_TEST(text_of(path) == one_row.head + "0,1\n");
+  BOOST_TEST(text_of(path) == form.head + "0,1\n");
   BOOST_TEST(!std::filesystem::exists(path + ".part"));
+  BOOST_TEST(!std::filesystem::exists(path + ".part.digests"));
+}
+
+BOOST_AUTO_TEST_CASE(a_sweep_that_finishes_while_another_opens_its_part_keeps_its_rows) {
+  const Folder folder;
+  const std::string path = folder.at("out.csv");
+  auto first = std::make_unique<SweepFile>(path, form, false);
+  first->write("0,1\n", 1);
+  before_lock = [&] {  // between the second run's opening the part and its locking it
+    first->commit();
+    first.reset();
+  };
+  const SweepFile second(path, form, false);
+  BOOST_TEST(text_of(path) == form.head + "0,1\n");
+  BOOST_TEST(second.scenes() == 0);
+  BOOST_TEST(text_of(path + ".part") == form.head);
+}
+
+BOOST_AUTO_TEST_CASE(a_run_that_writes_no_row_leaves_no_part) {
+  const Folder folder;
+  const std::string path = folder.at("out.csv");
+  { const SweepFile file(path, form, false); }
+  BOOST_TEST(!std::filesystem::exists(path + ".part"));
+  BOOST_TEST(!std::filesystem::exists(path + ".part.digests"));
+}
+
+BOOST_AUTO_TEST_CASE(the_digest_is_the_published_crc_of_its_name) {
+  Digest digest;
+  digest.add("1234");
+  digest.add("56789");
+  BOOST_TEST(digest.value() == 0x995dc9bbdf1939faU);  // the check value of CRC-64/XZ in the catalogue of CRCs
 }

@@ -6,9 +6,12 @@ import io
 import os
 import signal
 import subprocess
+import sys
 import tempfile
-import time
 import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from waiting import until  # noqa: E402
 
 PROGRAM = os.environ["CLATTER_PROGRAM"]
 CASES = os.path.join(os.environ["CLATTER_ROOT"], "validation", "cases")
@@ -60,7 +63,7 @@ BAD_OPTIONS = {
     "--threads 0": "--threads",
     "--threads nan": "--threads",
     "--restart": "--output",
-    "--output /dev/null": "regular",
+    "--restart --output /dev/null": "--output",
     "--output /no/such/folder/x": "/no/such/folder/x",
 }
 
@@ -90,7 +93,7 @@ class Folder(unittest.TestCase):
             return file.read()
 
     def run_program(self, *arguments, **options):
-        return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=120, **options)
+        return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=3000, **options)
 
     def sweep(self, *arguments):
         result = self.run_program("sweep", *arguments)
@@ -282,10 +285,9 @@ class SameBytes(Folder):
                                    text=True)
         part = self.path("out.csv.part")
         size = os.path.getsize(part) if os.path.exists(part) else 0
-        while process.poll() is None and not (os.path.exists(part) and os.path.getsize(part) > size + 2000):
-            time.sleep(0.005)
+        until(lambda: process.poll() is not None or os.path.exists(part) and os.path.getsize(part) > size + 2000)
         process.send_signal(number)
-        message = process.communicate(timeout=60)[1]
+        message = process.communicate(timeout=3000)[1]
         if process.returncode == 0:
             return False
         if number == signal.SIGKILL:
@@ -337,7 +339,7 @@ class SameBytes(Folder):
         process.send_signal(signal.SIGINT)
         lines += process.stdout.read().splitlines(keepends=True)
         process.stdout.close()
-        self.assertEqual(process.wait(timeout=60), 130)
+        self.assertEqual(process.wait(timeout=3000), 130)
         rows = [line for line in lines if line[0].isdigit()]
         self.assertEqual(lines[-1], f"# interrupted after {len(rows)} of 60000000 scenes\n")
         self.assertEqual([int(row[:row.index(",")]) for row in rows], list(range(len(rows))))
@@ -350,12 +352,12 @@ class SameBytes(Folder):
                           [PHONE, "--set", "drop.angle_deg=3:89:2", "--rows", "impact", *QUICK_PHONE]):
             for count in ("2", "3"):
                 sweep = [PROGRAM, "sweep", *arguments, "--output", self.path("out.csv")]
-                result = subprocess.run([*command, count, *sweep], capture_output=True, text=True, timeout=120,
+                result = subprocess.run([*command, count, *sweep], capture_output=True, text=True, timeout=3000,
                                         check=False)
                 self.assertEqual((result.returncode, result.stdout), (0, ""), result.stderr)
                 self.assertEqual(self.read("out.csv").decode(), self.sweep(*arguments), count)
         bad = subprocess.run([*command, "3", PROGRAM, "sweep", self.scene, "--set", "drop.angle=1:2:1"],
-                             capture_output=True, text=True, timeout=120, check=False)
+                             capture_output=True, text=True, timeout=3000, check=False)
         self.assertNotEqual(bad.returncode, 0)
         self.assertEqual(bad.stderr.count("did you mean"), 1)
 

@@ -34,7 +34,7 @@ std::vector<std::string> script_head(const AnglesRequest& request) {
 }
 
 void show_progress(long long done, long long count) {
-  fmt::print(stderr, "\rclatter: {} of {} rows{}", done, count, done == count ? "\n" : "");
+  std::fputs(fmt::format("\rclatter: {} of {} rows{}", done, count, done == count ? "\n" : "").c_str(), stderr);
 }
 
 /// Blocks of rows, two at a time on two threads, written in order.
@@ -74,7 +74,8 @@ int run_angles(const AnglesInput& input) {
       .as_printed = input.as_printed,
       .digits = input.digits ? read_integer_option("--digits", *input.digits, 1, 17) : 6};
   const OutputChoice choice = read_output(input.output);
-  PlotFile plot(input.plot, {{"--output", choice.path}});
+  check_files(choice, plot_files(input.plot));
+  PlotFile plot(input.plot);
   if (choice.style.format == Format::csv) {
     const int status = write_csv(request, choice);
     if (status != 0) {

@@ -11,6 +11,7 @@
 #include "validation/cli/progress.hpp"
 #include "validation/cli/scene_flags.hpp"
 #include "validation/output/interrupt.hpp"
+#include "validation/output/message.hpp"
 #include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {
@@ -36,8 +37,8 @@ int compare_one(const SimulationScene& scene, const OutputChoice& choice, PlotFi
     plot.write(comparison_picture(scene, comparison), run_words("compare", what_it_is, scene.json()));
   if (!comparison.agrees()) return check_failed;
   if (comparison.has_content()) return 0;
-  fmt::print(stderr, "clatter: nothing could be compared: {}\n",
-             comparison.impacts.empty() ? comparison.run.message : comparison.impacts[0].reason);
+  say("nothing could be compared: " +
+      (comparison.impacts.empty() ? comparison.run.message : comparison.impacts[0].reason));
   return outside_model;
 }
 
@@ -73,8 +74,8 @@ int run_compare(const CompareInput& input) {
   const SimulationScene scene = read_scene_flags(input.scene);
   const OutputChoice choice = read_output(input.output);
   if (is_given(input.scene, "--history")) throw BadInput("--history: compare writes none; clatter simulate does");
-  refuse_scene_file(input.scene, "--output", choice.path);
-  PlotFile plot(input.plot, {{"--output", choice.path}, {"the scene file", input.scene.file}});
+  check_files(choice, plot_files(input.plot), files_of(scene));
+  PlotFile plot(input.plot);
   return scene.sweep ? compare_swept(scene, choice, plot) : compare_one(scene, choice, plot);
 }
 

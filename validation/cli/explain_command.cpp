@@ -6,6 +6,7 @@
 #include "validation/cli/commands.hpp"
 #include "validation/cli/derivation.hpp"
 #include "validation/cli/options.hpp"
+#include "validation/output/message.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation {
@@ -128,8 +129,9 @@ int run_explain(const ExplainInput& input) {
   const int n = read_integer_option("explain N", input.number, 1, 1000000);
   const Scene scene = read_scene(input.scene);
   const OutputChoice choice = read_output(input.output);
+  check_files(choice, {});
   const Explanation explanation = explain_impact(scene, n);
-  for (const std::string& warning : explanation.warnings) fmt::print(stderr, "clatter: {}\n", warning);
+  for (const std::string& warning : explanation.warnings) say(warning);
   const std::vector<Step>& steps = explanation.steps;
   std::vector<std::string> head{headline("explain", fmt::format("impact {} step by step", n))};
   for (const std::string& line : explanation.scene.summary()) head.push_back(line);

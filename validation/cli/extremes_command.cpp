@@ -43,8 +43,7 @@ ExtremesOptions read_options(const ExtremesInput& input) {
 int run_extremes(const ExtremesInput& input) {
   ExtremesOptions options = read_options(input);
   const OutputChoice choice = read_output(input.output);
-  if (input.plot && *input.plot == choice.path)
-    throw BadInput(fmt::format("--plot {}: must be another file than --output's", *input.plot));
+  check_files(choice, {{"--plot", input.plot.value_or("")}});
   std::optional<Sink> plot;
   if (input.plot) plot.emplace(*input.plot, "--plot");
   const CooperativeInterrupt interrupt;

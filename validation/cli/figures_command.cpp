@@ -42,6 +42,7 @@ int run_figures(const FiguresInput& input) {
   const std::vector<int> numbers = chosen(input);
   if (!input.folder || input.folder->empty()) throw BadInput("--output DIR: required, the folder for the CSV files");
   make_folder(*input.folder, "--output");
+  check_figure_files(numbers, *input.folder);
   Laboratory laboratory;
   Progress progress;
   std::size_t done = 0;

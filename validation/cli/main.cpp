@@ -2,6 +2,7 @@
 #include "validation/output/interrupt.hpp"
 
 int main(int argc, char** argv) {
+  clatter::validation::occupy_closed_streams();
   clatter::validation::handle_signals();
   return clatter::validation::run_program({argv + 1, argv + argc});
 }

@@ -60,6 +60,13 @@ std::string headline(const std::string& command, const std::string& what) {
   return fmt::format("clatter {}, {}: {}", version, command, what);
 }
 
+void check_files(const OutputChoice& choice, std::vector<RunFile> written, const std::vector<RunFile>& read) {
+  const RunFile output{"--output", choice.path};
+  written.insert(written.begin(), output);
+  refuse_shared_files(written, read);
+  require_writable(output);  // or a run would end in vain
+}
+
 void write_out(const OutputChoice& choice, const std::string& text) {
   Sink sink(choice.path);
   sink.write(text);

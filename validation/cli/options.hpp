@@ -5,8 +5,10 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "validation/output/json.hpp"
+#include "validation/output/run_files.hpp"
 #include "validation/output/table.hpp"
 #include "validation/scene/scene.hpp"
 
@@ -34,6 +36,9 @@ CLI::Option* add_text(CLI::App& command, const std::string& name, std::optional<
 
 /// "clatter 0.1.0, COMMAND: WHAT".
 [[nodiscard]] std::string headline(const std::string& command, const std::string& what);
+
+/// What a run writes besides --output.  @throws as refuse_shared_files and require_writable.
+void check_files(const OutputChoice& choice, std::vector<RunFile> written, const std::vector<RunFile>& read = {});
 
 /// Writes a finished text whole.
 void write_out(const OutputChoice& choice, const std::string& text);

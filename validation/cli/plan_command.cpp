@@ -7,6 +7,7 @@
 #include "validation/cli/options.hpp"
 #include "validation/cli/plan_report.hpp"
 #include "validation/cli/scene_flags.hpp"
+#include "validation/output/message.hpp"
 #include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {
@@ -40,7 +41,7 @@ int run_plan(const PlanInput& input) {
   const OutputChoice choice = read_output(input.output);
   const PlanTarget target = read_target(input, scene);
   refuse_what_it_plans(input);
-  refuse_scene_file(input.scene, "--output", choice.path);
+  check_files(choice, {}, files_of(scene));
   if (scene.sweep) {
     throw BadInput(fmt::format("{}: a sweep has no plan; give --angle or leave out [sweep]", scene.path));
   }
@@ -50,7 +51,7 @@ int run_plan(const PlanInput& input) {
       [&] { return plan_table(scene, plan); });
   const std::string shortfall = plan_shortfall(plan);
   if (shortfall.empty()) return 0;
-  fmt::print(stderr, "clatter: {}\n", shortfall);
+  say(shortfall);
   return not_computed;
 }
 

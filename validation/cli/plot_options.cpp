@@ -6,6 +6,7 @@
 
 #include "validation/cli/options.hpp"
 #include "validation/figures/gnuplot.hpp"
+#include "validation/output/message.hpp"
 #include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {
@@ -22,15 +23,6 @@ PictureFormat format_of(const std::string& file) {
   throw BadInput(fmt::format("--plot {}: the name must end in .svg or .png", file));
 }
 
-bool is_same_file(const std::string& one, const std::string& other) {
-  std::error_code error;
-  if (std::filesystem::equivalent(one, other, error)) return true;
-  const auto whole = [&](const std::string& file) {
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(file, error), error);
-  };
-  return whole(one) == whole(other);
-}
-
 }  // namespace
 
 void add_plot_options(CLI::App& command, PlotTexts& texts) {
@@ -42,24 +34,23 @@ std::vector<std::string> run_words(const std::string& command, const std::string
   return {headline(command, what), "scene: " + scene.dump()};
 }
 
-void refuse_same_file(const RunFile& file, const RunFile& other) {
-  if (file.path.empty() || other.path.empty() || !is_same_file(file.path, other.path)) return;
-  throw BadInput(fmt::format("{} {}: must be another file than {}", file.option, file.path, other.option));
-}
-
-PlotFile::PlotFile(const PlotTexts& texts, const std::vector<RunFile>& others) {
+std::vector<RunFile> plot_files(const PlotTexts& texts) {
   if (!texts.plot) {
     if (texts.script)
       throw BadInput(fmt::format("{}: needs --plot FILE, beside which the script is kept", script_option));
-    return;
+    return {};
   }
-  path_ = *texts.plot;
+  std::vector<RunFile> files{{"--plot", *texts.plot}};
+  if (texts.script) files.push_back({script_option, path(*texts.plot).replace_extension(".gnuplot").string()});
+  return files;
+}
+
+PlotFile::PlotFile(const PlotTexts& texts) {
+  const std::vector<RunFile> files = plot_files(texts);
+  if (files.empty()) return;
+  path_ = files[0].path;
   format_ = format_of(path_);
-  if (texts.script) script_path_ = path(path_).replace_extension(".gnuplot").string();
-  for (const RunFile& other : others) {
-    refuse_same_file({"--plot", path_}, other);
-    refuse_same_file({script_option, script_path_}, other);
-  }
+  if (texts.script) script_path_ = files[1].path;
   picture_.emplace(path_, "--plot");
   if (texts.script) script_.emplace(script_path_, script_option);
   require_gnuplot("--plot " + path_, terminal_name(format_));
@@ -81,7 +72,7 @@ void PlotFile::write(const Picture& picture, const std::vector<std::string>& hea
 }
 
 void PlotFile::leave_out(const std::string& reason) const {
-  if (picture_) fmt::print(stderr, "clatter: --plot {}: no picture: {}\n", path_, reason);
+  if (picture_) say(fmt::format("--plot {}: no picture: {}", path_, reason));
 }
 
 }  // namespace clatter::validation

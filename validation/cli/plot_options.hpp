@@ -8,6 +8,7 @@
 
 #include "validation/figures/picture.hpp"
 #include "validation/output/json.hpp"
+#include "validation/output/run_files.hpp"
 #include "validation/output/sink.hpp"
 
 namespace clatter::validation {
@@ -18,19 +19,15 @@ struct PlotTexts {
 };
 void add_plot_options(CLI::App& command, PlotTexts& texts);
 
-/// A file that the run reads or writes; an empty path: none.
-struct RunFile {
-  std::string option, path;
-};
+/// The files of these options, whether wanted or not.  @throws BadInput if the script is wanted without a picture.
+[[nodiscard]] std::vector<RunFile> plot_files(const PlotTexts& texts);
 
 /// The picture that was asked for, if one was.  Made before the run, it finds everything that could be wrong with it
 /// then; written after the run, the files appear whole or not at all.
 class PlotFile {
  public:
-  /// @param others files that must be others than the picture's and its script's
-  /// @throws BadInput naming the option: the extension, a file that cannot be created or is one of `others`, gnuplot
-  /// missing.
-  PlotFile(const PlotTexts& texts, const std::vector<RunFile>& others);
+  /// @throws BadInput naming the option: the extension, a file that cannot be created, gnuplot missing.
+  explicit PlotFile(const PlotTexts& texts);
   [[nodiscard]] bool is_wanted() const { return picture_.has_value(); }
 
   /// @param head of the script: lines without "# " that say what was run.  @throws as run_gnuplot.
@@ -47,8 +44,5 @@ class PlotFile {
 /// Head of a script: version, command, what it computes, and the whole scene.
 [[nodiscard]] std::vector<std::string> run_words(const std::string& command, const std::string& what,
                                                  const Json& scene);
-
-/// @throws BadInput if the two name the same file, however they are spelled; an empty path is none.
-void refuse_same_file(const RunFile& file, const RunFile& other);
 
 }  // namespace clatter::validation

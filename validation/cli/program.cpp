@@ -11,6 +11,7 @@
 #include "validation/cli/arguments.hpp"
 #include "validation/cli/commands.hpp"
 #include "validation/cli/version.hpp"
+#include "validation/output/message.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/scene/bad_input.hpp"
 
@@ -20,9 +21,7 @@ namespace {
 enum Status { done = 0, bad_input = 2, not_computed = 3, outside_model = 4 };
 
 int complain(const std::string& what, Status status) {
-  std::string line = what;
-  std::replace(line.begin(), line.end(), '\n', ' ');
-  fmt::print(stderr, "clatter: {}\n", line);
+  say(what);
   return status;
 }
 
@@ -76,6 +75,8 @@ int parse_and_run(const std::vector<std::string>& given) {
 int run_program(const std::vector<std::string>& arguments) {
   try {
     return parse_and_run(arguments);
+  } catch (const ReaderGone&) {
+    return done;
   } catch (const BadInput& error) {
     return complain(error.what(), bad_input);
   } catch (const numeric::MeshError& error) {

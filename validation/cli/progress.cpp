@@ -11,11 +11,11 @@ namespace clatter::validation {
 void Progress::show(const std::string& text) {
   if (!shows_progress()) return;
   shown_ = true;
-  fmt::print(stderr, "\r\033[Kclatter: {}", text);
+  std::fputs(fmt::format("\r\033[Kclatter: {}", text).c_str(), stderr);
 }
 
 Progress::~Progress() {
-  if (shown_) fmt::print(stderr, "\r\033[K");
+  if (shown_) std::fputs("\r\033[K", stderr);
 }
 
 std::string progress_bar(std::size_t done, std::size_t of) {

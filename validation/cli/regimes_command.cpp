@@ -162,7 +162,8 @@ int run_regimes(const RegimesInput& input) {
   const int digits = input.digits ? read_integer_option("--digits", *input.digits, 1, 17) : 8;
   const OutputChoice choice = read_output(input.output);
   const std::vector<double> values = values_of(input, quantity);
-  PlotFile plot(input.plot, {{"--output", choice.path}});
+  check_files(choice, plot_files(input.plot));
+  PlotFile plot(input.plot);
   std::vector<Regimes> all;
   for (const double value : values) {
     rod.*quantity.member = value;

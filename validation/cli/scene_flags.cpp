@@ -76,8 +76,8 @@ bool is_given(const SceneFlags& given, const std::string& name) {
   return false;
 }
 
-void refuse_scene_file(const SceneFlags& given, const std::string& option, const std::string& path) {
-  if (!path.empty() && path == given.file) throw BadInput(fmt::format("{} {}: is the scene file", option, path));
+std::vector<RunFile> files_of(const SimulationScene& scene) {
+  return {{"the scene file", scene.path}, {"the mesh file", scene.body.file}};
 }
 
 }  // namespace clatter::validation

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "validation/output/run_files.hpp"
 #include "validation/scene/simulation_scene.hpp"
 
 namespace clatter::validation {
@@ -23,7 +24,7 @@ void add_scene_flags(CLI::App& command, SceneFlags& flags);
 [[nodiscard]] SimulationScene read_scene_flags(const SceneFlags& flags);
 /// Whether the flag ("--history") was typed.
 [[nodiscard]] bool is_given(const SceneFlags& flags, const std::string& name);
-/// @throws BadInput if `path`, given for `option`, is the scene file itself.
-void refuse_scene_file(const SceneFlags& flags, const std::string& option, const std::string& path);
+/// What a run of the scene reads: the scene's file and its mesh's.
+[[nodiscard]] std::vector<RunFile> files_of(const SimulationScene& scene);
 
 }  // namespace clatter::validation

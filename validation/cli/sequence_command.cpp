@@ -7,6 +7,7 @@
 #include "validation/cli/plot_options.hpp"
 #include "validation/cli/sequence_picture.hpp"
 #include "validation/cli/sequence_report.hpp"
+#include "validation/output/message.hpp"
 #include "validation/plan/sequence_method.hpp"
 
 namespace clatter::validation {
@@ -23,9 +24,10 @@ int run_sequence(const SequenceInput& input) {
   const Scene scene = read_scene(input.scene);
   const OutputChoice choice = read_output(input.output);
   const SequenceMethod method = read_sequence_method(input.method.value_or("auto"));
-  PlotFile plot(input.plot, {{"--output", choice.path}});
+  check_files(choice, plot_files(input.plot));
+  PlotFile plot(input.plot);
   const analytic::Sequence sequence = sequence_by_method(scene, method);
-  for (const std::string& warning : sequence.warnings) fmt::print(stderr, "clatter: {}\n", warning);
+  for (const std::string& warning : sequence.warnings) say(warning);
   write_report(choice, [&] { return sequence_json(scene, sequence); },
                [&] { return sequence_records(scene, sequence); },
                [&] { return sequence_table(scene, sequence); });

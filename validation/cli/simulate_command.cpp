@@ -14,6 +14,7 @@
 #include "validation/cli/simulation_picture.hpp"
 #include "validation/cli/simulation_report.hpp"
 #include "validation/output/interrupt.hpp"
+#include "validation/output/message.hpp"
 #include "validation/output/names.hpp"
 #include "validation/plan/planned_run.hpp"
 #include "validation/scene/bad_input.hpp"
@@ -53,7 +54,7 @@ int status_of(const Simulation& run) {
     case Outcome::step_too_small:
     case Outcome::not_representable:
     case Outcome::flight_undecided:
-      fmt::print(stderr, "clatter: {}: {}\n", outcome_name(run.outcome), run.message);
+      say(fmt::format("{}: {}", outcome_name(run.outcome), run.message));
       return run.impacts.empty() ? 3 : 0;
     default: return 0;
   }
@@ -125,20 +126,17 @@ int run_sweep(const SimulationScene& scene, const numeric::Body& body, const Out
     return 0;
   }
   plot.leave_out("no impact was computed");
-  fmt::print(stderr, "clatter: no impact could be computed: {}\n", runs.back().run.message);
+  say("no impact could be computed: " + runs.back().run.message);
   return 3;
 }
 
 int run_simulate(const SimulateInput& input) {
   const SimulationScene scene = read_scene_flags(input.scene);
   const OutputChoice choice = read_output(input.output);
-  if (!choice.path.empty() && choice.path == scene.history) {
-    throw BadInput(fmt::format("--history {}: must be another file than --output's", scene.history));
-  }
-  refuse_scene_file(input.scene, "--history", scene.history);
-  refuse_scene_file(input.scene, "--output", choice.path);
-  PlotFile plot(input.plot,
-                {{"--output", choice.path}, {"--history", scene.history}, {"the scene file", input.scene.file}});
+  std::vector<RunFile> written = plot_files(input.plot);
+  written.insert(written.begin(), {"--history", scene.history});
+  check_files(choice, std::move(written), files_of(scene));
+  PlotFile plot(input.plot);
   const numeric::Body body = scene.make_body();
   return scene.sweep ? run_sweep(scene, body, choice, plot) : run_single(scene, body, choice, plot);
 }

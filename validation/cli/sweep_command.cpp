@@ -10,7 +10,9 @@
 #include "validation/cli/commands.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/progress.hpp"
+#include "validation/cli/scene_flags.hpp"
 #include "validation/output/interrupt.hpp"
+#include "validation/output/message.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/scene/bad_input.hpp"
 #include "validation/sweep/ranks.hpp"
@@ -75,33 +77,38 @@ class SweepProgress {
   Progress progress_;
 };
 
-/// Where the rows go: a file that can be taken up again, or stdout.
+/// Whether the rows go to a file that can be taken up again.
+bool writes_file(const SweepInput& input) {
+  return input.output && !destination_of({"--output", *input.output}).is_stream;
+}
+
+/// Where the rows go: a file that can be taken up again, or stdout or a device.
 class SweepOutput {
  public:
-  SweepOutput(const SweepInput& input, const SweepPlan& plan) : stdout_("") {
+  SweepOutput(const SweepInput& input, const SweepPlan& plan) {
     const std::string head = plan.head();
-    if (input.output) {
-      file_.emplace(*input.output, SweepFileForm{head, plan.points.count(), plan.rows == RowKind::scene},
-                    input.restart);
+    if (writes_file(input)) {
+      file_.emplace(*input.output, SweepFileForm{head, plan.points.count()}, input.restart);
     } else {
-      stdout_.write(head);
+      stream_.emplace(input.output.value_or(""));
+      stream_->write(head);
     }
   }
 
   [[nodiscard]] long long first() const { return file_ ? file_->scenes() : 0; }
-  void write(const std::string& rows) { file_ ? file_->write(rows) : stdout_.write(rows); }
+  void write(const RangeRows& rows) { file_ ? file_->write(rows.text, rows.scenes) : stream_->write(rows.text); }
 
-  void commit() { file_ ? file_->commit() : stdout_.commit(); }
+  void commit() { file_ ? file_->commit() : stream_->commit(); }
 
   /// @param words how far it came; a part says that by itself
   void leave(const std::string& words) {
     if (file_) return file_->flush();
-    stdout_.write(fmt::format("# {}\n", words));
-    stdout_.commit();
+    stream_->write(fmt::format("# {}\n", words));
+    stream_->commit();
   }
 
  private:
-  Sink stdout_;
+  std::optional<Sink> stream_;
   std::optional<SweepFile> file_;
 };
 
@@ -112,12 +119,13 @@ int read_threads(const SweepInput& input, const Ranks& ranks) {
   throw BadInput(fmt::format("--threads {}: must be left out under mpirun, where each process is one thread", threads));
 }
 
-void check_output(const SweepInput& input) {
-  const std::string& scene = input.request.file;
-  if (!input.output) {
-    if (input.restart) throw BadInput("--restart: needs --output, there is nothing to go on with");
-  } else if (*input.output == scene || *input.output + ".part" == scene) {
-    throw BadInput(fmt::format("--output {}: is the scene file", *input.output));
+void check_output(const SweepInput& input, const SweepPlan& plan) {
+  if (writes_file(input)) {
+    std::vector<RunFile> written = SweepFile::files_beside(*input.output);
+    written.insert(written.begin(), {"--output", *input.output});
+    refuse_shared_files(written, files_of(plan.scene));
+  } else if (input.restart) {
+    throw BadInput("--restart: needs a file as --output, there is nothing to go on with");
   }
 }
 
@@ -133,11 +141,11 @@ void fill(SweepOutput& output, RangeQueue& queue, const SweepWork& what, Ranks& 
   SweepProgress progress(queue.taken(), what.plan.points.count());
   SweepHooks hooks;
   hooks.write = [&](const RangeRows& rows) {
-    output.write(rows.text);
+    output.write(rows);
     progress.add(rows.scenes);
   };
   hooks.tick = [&] {
-    output.write("");
+    output.write({});
     progress.tick();
   };
   hooks.stop = [&] { return what.interrupt.requested(); };
@@ -158,7 +166,7 @@ int run_sweep(const SweepInput& input, const SweepPlan& plan, const SweepBody& b
   }
   const std::string words = fmt::format("interrupted after {} of {} scenes", queue.taken(), scenes);
   output.leave(words);
-  if (input.output) fmt::print(stderr, "clatter: {}; the same command goes on\n", words);
+  if (writes_file(input)) say(words + "; the same command goes on");
   return interrupted_status;
 }
 
@@ -172,7 +180,7 @@ int serve(const SweepPlan& plan, const SweepBody& body, Ranks& ranks) {
 int run_command(const SweepInput& input, Ranks& ranks) {
   const SweepPlan plan = read_sweep_plan(input.request);
   const int threads = read_threads(input, ranks);
-  check_output(input);
+  check_output(input, plan);
   // A body that cannot be made is bad input, but a row's where it is swept.
   const SweepBody body = plan.body_axes.empty() ? make_sweep_body(plan, plan.scene) : SweepBody{};
   return ranks.writes() ? run_sweep(input, plan, body, threads, ranks) : serve(plan, body, ranks);

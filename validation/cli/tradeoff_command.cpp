@@ -23,10 +23,10 @@ struct TradeoffInput {
 int run_tradeoff(const TradeoffInput& input) {
   const SimulationScene scene = read_scene_flags(input.scene);
   const OutputChoice choice = read_output(input.output);
-  refuse_scene_file(input.scene, "--output", choice.path);
+  check_files(choice, plot_files(input.plot), files_of(scene));
   if (scene.sweep)
     throw BadInput(fmt::format("{}: a sweep has no tradeoff; give --angle or leave out [sweep]", scene.path));
-  PlotFile plot(input.plot, {{"--output", choice.path}, {"the scene file", input.scene.file}});
+  PlotFile plot(input.plot);
   const CooperativeInterrupt interrupt;
   Tradeoff tradeoff;
   {

@@ -26,8 +26,7 @@ struct VerifyInput {
 int run_verify(const VerifyInput& input) {
   const CheckSelection selection = select_checks(input.quick, input.only);
   const OutputChoice choice = read_output(input.output);
-  if (input.html && *input.html == choice.path)
-    throw BadInput(fmt::format("--html {}: must be another file than --output's", *input.html));
+  check_files(choice, {{"--html", input.html.value_or("")}});
   std::optional<Sink> page;
   if (input.html) {  // what is missing is found before the work
     require_gnuplot("--html " + *input.html);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "validation/figures/figure.hpp"
 
@@ -9,6 +10,9 @@ namespace clatter::validation {
 
 /// Creates the folder if it is not there.  @throws BadInput if it cannot be, or is a file.
 void make_folder(const std::string& folder, const std::string& option);
+
+/// @throws BadInput if a file of these figures cannot be written, or two of them are one by links.
+void check_figure_files(const std::vector<int>& numbers, const std::string& folder);
 
 /// Writes DIR/figure_NN.csv, whole or not at all.  @throws BadInput naming the file if it cannot be written.
 void write_figure(const Figure& figure, const std::string& folder);

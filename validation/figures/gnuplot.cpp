@@ -1,5 +1,6 @@
 #include "validation/figures/gnuplot.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -11,6 +12,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "validation/output/interrupt.hpp"
 #include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {
@@ -26,23 +28,41 @@ std::filesystem::path temporary_folder() {
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& text) : path_((temporary_folder() / "clatter-XXXXXX").string()) {
-    const int file = mkstemp(path_.data());
+    const int file = create();
     if (file < 0)
       throw std::runtime_error("no temporary file can be made in " + temporary_folder().string() + " (TMPDIR)");
     std::FILE* stream = fdopen(file, "w");
     const bool is_whole = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
     if (std::fclose(stream) == 0 && is_whole) return;
-    std::filesystem::remove(path_);
+    remove();
     throw std::runtime_error("a temporary file in " + temporary_folder().string() + " (TMPDIR) cannot be written");
   }
-  ~TemporaryFile() { std::filesystem::remove(path_); }
+  ~TemporaryFile() { remove(); }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   [[nodiscard]] const std::string& path() const { return path_; }
 
  private:
+  int create() {
+    const SignalsWait no_signal;
+    const int file = mkostemp(path_.data(), O_CLOEXEC);
+    if (file >= 0) remove_on_interrupt(path_);
+    return file;
+  }
+  void remove() {
+    unlink(path_.c_str());
+    keep_on_interrupt(path_);
+  }
+
   std::string path_;
 };
+
+/// A word of the shell's, whatever is in it.
+std::string shell_quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? "'\\''" : std::string(1, c);
+  return out + "'";
+}
 
 /// The first line that says something.
 std::string first_line(const std::string& path) {
@@ -57,7 +77,7 @@ std::string first_line(const std::string& path) {
 
 std::string run_gnuplot(const std::string& script) {
   const TemporaryFile file(script), complaints("");
-  const std::string command = fmt::format("gnuplot -d '{}' 2>'{}'", file.path(), complaints.path());
+  const std::string command = fmt::format("gnuplot -d {} 2>{}", shell_quoted(file.path()), shell_quoted(complaints.path()));
   std::FILE* pipe = popen(command.c_str(), "r");
   if (!pipe) throw std::runtime_error("gnuplot cannot be started");
   std::string text;

@@ -1,12 +1,35 @@
-// Ctrl-C and SIGTERM: status 130, nothing half-written.
+// Ctrl-C, SIGTERM and SIGHUP: status 130, nothing half-written.
 #pragma once
 
+#include <signal.h>
+
 #include <string>
+#include <vector>
 
 namespace clatter::validation {
 
-/// Installs the handlers; a broken pipe becomes a write error instead of a signal.
+/// Installs the handlers; a broken pipe and a file that may not grow become write errors instead of signals.  SIGHUP stays
+/// ignored where nohup wants that.
 void handle_signals();
+
+/// The signals that ask this process to end.
+[[nodiscard]] std::vector<int> ending_signals();
+
+/// Of stdin, stdout and stderr those that were closed become unusable ones, so that no file gets their numbers: reading
+/// and writing fail, only what is said on stderr is lost without an error.
+void occupy_closed_streams();
+
+/// While such an object lives, signals that end the process wait.
+class SignalsWait {
+ public:
+  SignalsWait();
+  ~SignalsWait();
+  SignalsWait(const SignalsWait&) = delete;
+  SignalsWait& operator=(const SignalsWait&) = delete;
+
+ private:
+  sigset_t before_;
+};
 
 /// While such an object lives, a first interrupt only sets the flag, so that rows so far can be printed.
 class CooperativeInterrupt {
@@ -16,7 +39,7 @@ class CooperativeInterrupt {
   [[nodiscard]] bool requested() const;
 };
 
-/// The handler removes this file, until it is told to keep it.  It knows up to eight.
+/// The handler removes this file, until it is told to keep it.  @throws std::length_error beyond 32 files at once
 void remove_on_interrupt(const std::string& path);
 void keep_on_interrupt(const std::string& path);
 

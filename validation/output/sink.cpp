@@ -1,5 +1,6 @@
 #include "validation/output/sink.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -7,59 +8,74 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <vector>
+#include <filesystem>
 
 #include "validation/output/interrupt.hpp"
 #include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {
 
-Sink::Sink(const std::string& path, const std::string& option)
-    : path_(path), option_(option), stream_(stdout) {
-  if (path_.empty()) return;
-  struct stat status{};
-  if (stat(path_.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
-    throw BadInput(fmt::format("{} {}: not a regular file", option_, path_));
+Sink::Sink(const std::string& path, const std::string& option) : path_(path), option_(option) {
+  if (path_.empty()) {
+    stream_ = stdout;
+    return;
   }
-  std::vector<char> name(path_.begin(), path_.end());
-  for (const char c : std::string_view(".XXXXXX")) name.push_back(c);
-  name.push_back('\0');
-  const int descriptor = mkstemp(name.data());
-  if (descriptor < 0) fail("cannot be created");
-  temporary_ = name.data();
-  remove_on_interrupt(temporary_);
-  const mode_t mask = umask(0);
-  umask(mask);
-  fchmod(descriptor, 0666 & ~mask);
-  stream_ = fdopen(descriptor, "wb");
+  destination_ = destination_of({option_, path_});
+  if (destination_.is_stream) open_stream(destination_);
+  else open_temporary();
 }
 
 Sink::~Sink() {
+  if (stream_ != nullptr && stream_ != stdout) std::fclose(stream_);
   if (temporary_.empty()) return;
-  if (stream_ != nullptr) std::fclose(stream_);
   unlink(temporary_.c_str());
   keep_on_interrupt(temporary_);
 }
 
+void Sink::open_stream(const Destination& destination) {
+  const int descriptor = destination.open_file >= 0 ? fcntl(destination.open_file, F_DUPFD_CLOEXEC, 3)
+                                                    : open(destination.path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+  if (descriptor >= 0) stream_ = fdopen(descriptor, "wb");
+  if (stream_ == nullptr) fail("cannot be opened");
+}
+
+void Sink::open_temporary() {
+  // Not named after the file, whose name may be as long as names can be.
+  std::string name = (std::filesystem::path(destination_.path).parent_path() / ".clatter-XXXXXX").string();
+  int descriptor = -1;
+  {
+    const SignalsWait no_signal;  // between the file's beginning and its entry among those to remove
+    descriptor = mkostemp(name.data(), O_CLOEXEC);
+    if (descriptor < 0) fail("cannot be created");
+    temporary_ = name;
+    remove_on_interrupt(temporary_);
+  }
+  const mode_t mask = umask(0);
+  umask(mask);
+  fchmod(descriptor, destination_.mode.value_or(0666 & ~mask));
+  stream_ = fdopen(descriptor, "wb");
+}
+
 void Sink::fail(const char* what) const {
-  throw BadInput(fmt::format("{} {}: {} ({})", option_, path_, what, std::strerror(errno)));
+  const int error = errno;
+  if (path_.empty()) throw std::runtime_error(fmt::format("standard output: {} ({})", what, std::strerror(error)));
+  throw BadInput(fmt::format("{} {}: {} ({})", option_, path_, what, std::strerror(error)));
 }
 
 void Sink::write(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stream_) == text.size()) return;
-  if (is_file()) fail("cannot be written");
-  std::_Exit(errno == EPIPE ? 0 : 3);  // nobody reads any more
+  if (errno == EPIPE && !is_file()) throw ReaderGone();
+  fail("cannot be written");
 }
 
 void Sink::commit() {
   if (std::fflush(stream_) != 0) {
-    if (is_file()) fail("cannot be written");
-    std::_Exit(errno == EPIPE ? 0 : 3);
+    if (errno == EPIPE && !is_file()) throw ReaderGone();
+    fail("cannot be written");
   }
   if (!is_file()) return;
   if (fsync(fileno(stream_)) != 0) fail("cannot be written");
-  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot be put in place");
-  std::fclose(stream_);
+  if (std::rename(temporary_.c_str(), destination_.path.c_str()) != 0) fail("cannot be put in place");
   keep_on_interrupt(temporary_);
   temporary_.clear();
 }

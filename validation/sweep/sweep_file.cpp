@@ -8,11 +8,10 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <optional>
+#include <sstream>
 
 #include "validation/scene/bad_input.hpp"
 
@@ -22,138 +21,186 @@ namespace {
 constexpr std::size_t block_bytes = 1 << 20;
 constexpr std::chrono::milliseconds block_time{500};
 
-bool is_other_than_file(const std::string& path) {
-  struct stat status{};
-  return stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode);
+/// Writes all of it.  @returns false, and errno, if it cannot.
+bool write_all(int file, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(file, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
 }
 
-/// The number of a row's scene.
-std::optional<long long> index_of(const std::string& row) {
-  long long index = 0;
-  const auto [end, error] = std::from_chars(row.data(), row.data() + row.size(), index);
-  if (error != std::errc() || end == row.data() + row.size() || *end != ',') return std::nullopt;
-  return index;
+/// Adds bytes of a file to a digest.  @returns false if there are not so many.
+bool add_bytes(int file, long long begin, long long end, Digest& digest) {
+  std::string block;
+  while (begin < end) {
+    block.resize(std::min(block_bytes, static_cast<std::size_t>(end - begin)));
+    const ssize_t count = pread(file, block.data(), block.size(), begin);
+    if (count <= 0) return false;
+    digest.add(std::string_view(block).substr(0, static_cast<std::size_t>(count)));
+    begin += count;
+  }
+  return true;
 }
 
-/// Goes through the rows of a part.
-class PartReader {
- public:
-  PartReader(const std::string& path, const SweepFileForm& form) : file_(path, std::ios::binary), form_(form) {}
-
-  /// Reads the head.  @returns false if the file ends within it; the number of the first other line is 0 if none is.
-  bool read_head(long long& other_line) {
-    std::string text(form_.head.size(), '\0');
-    file_.read(text.data(), static_cast<std::streamsize>(text.size()));
-    const auto size = static_cast<std::size_t>(file_.gcount());
-    other_line = 0;
-    std::size_t same = 0;
-    while (same < size && text[same] == form_.head[same]) ++same;
-    if (same < size) other_line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(same), '\n');
-    kept_bytes_ = bytes_ = size;
-    return size == text.size();
-  }
-
-  /// Reads as far as the rows are whole.  @returns false at one that is not the next.
-  bool read_rows() {
-    long long last = -1;
-    for (std::string row; std::getline(file_, row) && !file_.eof();) {
-      const std::optional<long long> index = index_of(row);
-      const bool next = index == last + 1, same = index == last && last >= 0 && !form_.one_row_per_scene;
-      if (!(next || same) || *index >= form_.scenes) return false;
-      if (next) keep(*index);  // those before it are complete
-      last = *index;
-      ++rows_;
-      bytes_ += row.size() + 1;
-    }
-    if (form_.one_row_per_scene) keep(last + 1);
-    return true;
-  }
-
-  [[nodiscard]] long long scenes() const { return scenes_; }
-  [[nodiscard]] long long rows() const { return rows_; }
-  [[nodiscard]] std::size_t kept_bytes() const { return kept_bytes_; }
-
- private:
-  void keep(long long scenes) {
-    scenes_ = scenes;
-    kept_bytes_ = bytes_;
-  }
-
-  std::ifstream file_;
-  const SweepFileForm& form_;
-  long long scenes_ = 0, rows_ = 0;
-  std::size_t bytes_ = 0, kept_bytes_ = 0;
+/// A line of the digests: what the part was when rows had been written.
+struct Record {
+  long long bytes = 0, scenes = 0;
+  std::uint64_t digest = 0;
 };
+
+/// @param rows digest of the part; that of a record is of its numbers, too.
+Record record_of(long long bytes, long long scenes, Digest rows) {
+  rows.add(fmt::format("{} {}", bytes, scenes));
+  return {bytes, scenes, rows.value()};
+}
+
+std::string text_of(const Record& record) {
+  return fmt::format("{} {} {:016x}\n", record.bytes, record.scenes, record.digest);
+}
+
+/// The records of a file, up to the first line that is none.
+std::vector<Record> read_records(const std::string& path) {
+  std::vector<Record> records;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    Record record;
+    std::istringstream words(line);
+    words >> record.bytes >> record.scenes >> std::hex >> record.digest;
+    if (line + "\n" != text_of(record)) break;
+    records.push_back(record);
+  }
+  return records;
+}
+
+bool truncate_to(int file, long long bytes) {
+  return ftruncate(file, bytes) == 0 && lseek(file, bytes, SEEK_SET) == bytes;
+}
 
 }  // namespace
 
+std::vector<RunFile> SweepFile::files_beside(const std::string& path) {
+  const std::string part = destination_of({"--output", path}).path + ".part";
+  return {{"--output's part", part}, {"--output's digests", part + ".digests"}};
+}
+
 SweepFile::SweepFile(const std::string& path, const SweepFileForm& form, bool restart)
-    : path_(path), part_(path + ".part"), flushed_(std::chrono::steady_clock::now()) {
-  if (is_other_than_file(path_) || is_other_than_file(part_)) refuse("not a regular file");
-  open();
+    : path_(path), destination_(destination_of({"--output", path})), flushed_(std::chrono::steady_clock::now()) {
+  part_ = destination_.path + ".part";
+  digests_ = part_ + ".digests";
   try {
-    if (restart && ftruncate(descriptor_, 0) != 0) fail("cannot be written");
+    open();
+    if (restart && ftruncate(part_file_, 0) != 0) fail(part_, "cannot be written");
     take_up(form);
   } catch (...) {
-    close(descriptor_);
+    close_all();
     throw;
   }
 }
 
-SweepFile::~SweepFile() {
-  if (descriptor_ >= 0) close(descriptor_);
+SweepFile::~SweepFile() { close_all(); }
+
+void SweepFile::close_all() {
+  if (is_own_ && scenes_ == 0) {
+    unlink(part_.c_str());
+    unlink(digests_.c_str());
+  }
+  for (int* const file : {&digests_file_, &part_file_}) {  // the part last, for it is locked
+    if (*file >= 0) close(*file);
+    *file = -1;
+  }
 }
 
 void SweepFile::open() {
-  descriptor_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) fail("cannot be created");
-  if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
-  close(descriptor_);
-  refuse(fmt::format("{} is being written by another run", part_));
+  for (;;) {
+    part_file_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (part_file_ < 0) fail(part_, "cannot be created");
+    struct stat own{}, named{};
+    fstat(part_file_, &own);
+    if (!S_ISREG(own.st_mode)) refuse(fmt::format("{} is not a regular file", part_));
+    if (flock(part_file_, LOCK_EX | LOCK_NB) != 0) {
+      if (errno == EWOULDBLOCK) refuse(fmt::format("{} is being written by another run", part_));
+      fail(part_, "cannot be locked");
+    }
+    // Between opening and locking the run that had the lock may have given the part its name: then it is a finished file.
+    if (stat(part_.c_str(), &named) == 0 && own.st_dev == named.st_dev && own.st_ino == named.st_ino) break;
+    close(part_file_);
+  }
+}
+
+/// @returns whether the part begins with the whole head; false if it ends within it.  @throws BadInput at another one.
+bool SweepFile::has_head(const std::string& head) {
+  std::string text(head.size(), '\0');
+  const ssize_t size = pread(part_file_, text.data(), text.size(), 0);
+  if (size < 0) fail(part_, "cannot be read");
+  text.resize(static_cast<std::size_t>(size));
+  const auto [same, expected] = std::mismatch(text.begin(), text.end(), head.begin());
+  if (same == text.end()) return text.size() == head.size();
+  refuse(fmt::format("{} is of another sweep (its line {} differs); --restart begins anew", part_,
+                     1 + std::count(text.begin(), same, '\n')));
+}
+
+void SweepFile::keep_whole_rows(const SweepFileForm& form) {
+  long long kept_records = 0;
+  Digest digest = digest_;
+  for (const Record& record : read_records(digests_)) {
+    const bool grows = record.bytes > bytes_ && record.scenes > scenes_ && record.scenes <= form.scenes;
+    if (!grows || !add_bytes(part_file_, bytes_, record.bytes, digest)) break;
+    if (record.digest != record_of(record.bytes, record.scenes, digest).digest) break;
+    digest_ = digest;
+    bytes_ = record.bytes;
+    scenes_ = record.scenes;
+    kept_records += static_cast<long long>(text_of(record).size());
+  }
+  if (!truncate_to(part_file_, bytes_)) fail(part_, "cannot be written");
+  if (!truncate_to(digests_file_, kept_records)) fail(digests_, "cannot be written");
 }
 
 void SweepFile::take_up(const SweepFileForm& form) {
-  PartReader reader(part_, form);
-  long long other_line = 0;
-  const bool has_head = reader.read_head(other_line);
-  if (other_line > 0) {
-    refuse(fmt::format("{} is of another sweep (its line {} differs); --restart begins anew", part_, other_line));
-  }
-  if (has_head && !reader.read_rows()) {
-    refuse(fmt::format("{} is damaged after {} rows; --restart begins anew", part_, reader.rows()));
-  }
-  scenes_ = reader.scenes();
-  const auto kept = has_head ? static_cast<off_t>(reader.kept_bytes()) : off_t{0};
-  if (ftruncate(descriptor_, kept) != 0 || lseek(descriptor_, kept, SEEK_SET) != kept) fail("cannot be written");
-  if (has_head) return;
-  pending_ = form.head;
-  flush();
+  const bool goes_on = has_head(form.head);
+  is_own_ = true;
+  digests_file_ = ::open(digests_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+  if (digests_file_ < 0) fail(digests_, "cannot be created");
+  if (destination_.mode) fchmod(part_file_, *destination_.mode);
+  digest_.add(form.head);
+  bytes_ = static_cast<long long>(form.head.size());
+  if (goes_on) return keep_whole_rows(form);
+  if (!truncate_to(part_file_, 0) || !write_all(part_file_, form.head)) fail(part_, "cannot be written");
+  if (!truncate_to(digests_file_, 0)) fail(digests_, "cannot be written");
 }
 
-void SweepFile::write(std::string_view rows) {
+void SweepFile::write(std::string_view rows, long long scenes) {
   pending_ += rows;
+  pending_scenes_ += scenes;
   if (pending_.size() >= block_bytes || std::chrono::steady_clock::now() - flushed_ >= block_time) flush();
 }
 
 void SweepFile::flush() {
-  for (std::string_view rest = pending_; !rest.empty();) {
-    const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail("cannot be written");
-    rest.remove_prefix(static_cast<std::size_t>(written));
-  }
-  pending_.clear();
   flushed_ = std::chrono::steady_clock::now();
+  if (pending_.empty()) return;
+  if (!write_all(part_file_, pending_)) fail(part_, "cannot be written");
+  digest_.add(pending_);
+  bytes_ += static_cast<long long>(pending_.size());
+  const Record record = record_of(bytes_, scenes_ + pending_scenes_, digest_);
+  if (!write_all(digests_file_, text_of(record))) fail(digests_, "cannot be written");
+  scenes_ = record.scenes;
+  pending_.clear();
+  pending_scenes_ = 0;
 }
 
 void SweepFile::commit() {
   flush();
-  if (fsync(descriptor_) != 0) fail("cannot be written");
-  if (std::rename(part_.c_str(), path_.c_str()) != 0) fail("cannot be put in place");
+  if (fsync(part_file_) != 0) fail(part_, "cannot be written");
+  if (std::rename(part_.c_str(), destination_.path.c_str()) != 0) fail(part_, "cannot be put in place");
+  is_own_ = false;
+  unlink(digests_.c_str());
 }
 
-void SweepFile::fail(const char* what) const {
-  throw BadInput(fmt::format("--output {}: {} {} ({})", path_, part_, what, std::strerror(errno)));
+void SweepFile::fail(const std::string& file, const char* what) const {
+  const int error = errno;
+  throw BadInput(fmt::format("--output {}: {} {} ({})", path_, file, what, std::strerror(error)));
 }
 
 void SweepFile::refuse(const std::string& why) const { throw BadInput(fmt::format("--output {}: {}", path_, why)); }

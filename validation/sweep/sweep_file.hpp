@@ -4,33 +4,40 @@
 #include <chrono>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "validation/output/digest.hpp"
+#include "validation/output/run_files.hpp"
 
 namespace clatter::validation {
 
 /// What the file of a sweep must be.
 struct SweepFileForm {
-  std::string head;               ///< its first lines
-  long long scenes = 0;           ///< how many it will hold
-  bool one_row_per_scene = true;  ///< else a scene's last row is known by the next scene's first
+  std::string head;      ///< its first lines
+  long long scenes = 0;  ///< how many it will hold
 };
 
-/// FILE.part, which grows by whole scenes and takes the name FILE in commit().  Whatever ends the program leaves the
-/// part, and the next object takes up after its last complete scene.  No two programs write one part.
+/// FILE.part, which grows by whole scenes and takes the name FILE in commit(); FILE is where symbolic links lead.  Beside
+/// it FILE.part.digests has a line "bytes scenes digest" for each time that rows were written: how far the part went
+/// then, and the digest of all of it and of these two numbers.  Whatever ends the program leaves both, and the next object takes up after the
+/// last rows that are as their digest says; rows after them are computed anew.  No two programs write one part.
 class SweepFile {
  public:
   /// @param restart begins anew, whatever is in the part.
-  /// @throws BadInput with one line if the part belongs to another sweep, is damaged or in use, or a file cannot be
-  ///         written.
+  /// @throws BadInput with one line if the part belongs to another sweep or is in use, or a file cannot be written.
   SweepFile(const std::string& path, const SweepFileForm& form, bool restart);
   ~SweepFile();
   SweepFile(const SweepFile&) = delete;
   SweepFile& operator=(const SweepFile&) = delete;
 
+  /// The files beside FILE, for refuse_shared_files.
+  [[nodiscard]] static std::vector<RunFile> files_beside(const std::string& path);
+
   /// Scenes that the part held already: the next row is that of scene number scenes().
   [[nodiscard]] long long scenes() const { return scenes_; }
-  /// Takes rows of whole scenes, or none; they are in the file after half a second or a mebibyte, or after flush().
-  /// @throws BadInput if they cannot be written.
-  void write(std::string_view rows);
+  /// Takes the rows of so many whole scenes, or none; they are in the file after half a second or a mebibyte, or after
+  /// flush().  @throws BadInput if they cannot be written.
+  void write(std::string_view rows, long long scenes);
   void flush();
   /// Ends the file and gives it its name.
   void commit();
@@ -38,13 +45,22 @@ class SweepFile {
  private:
   void open();
   void take_up(const SweepFileForm& form);
-  [[noreturn]] void fail(const char* what) const;
+  [[nodiscard]] bool has_head(const std::string& head);
+  void keep_whole_rows(const SweepFileForm& form);
+  void close_all();
+  [[noreturn]] void fail(const std::string& file, const char* what) const;
   [[noreturn]] void refuse(const std::string& why) const;
 
-  std::string path_, part_;
-  int descriptor_ = -1;
-  long long scenes_ = 0;
+  std::string path_;
+  Destination destination_;
+  std::string part_, digests_;
+  int part_file_ = -1, digests_file_ = -1;
+  bool is_own_ = false;  ///< the part was taken up, and is nothing to be kept while no scene is in it
+  long long scenes_ = 0;   ///< in the part
+  long long bytes_ = 0;    ///< of the part
+  Digest digest_;          ///< of the part
   std::string pending_;
+  long long pending_scenes_ = 0;
   std::chrono::steady_clock::time_point flushed_;
 };
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "validation/cli/version.hpp"
+#include "validation/output/digest.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/bad_input.hpp"
 #include "validation/sweep/rows.hpp"
@@ -189,6 +190,7 @@ std::string SweepPlan::head() const {
   std::string head = fmt::format("# clatter {}, sweep: {} model, one row per {}\n# scene: {}\n", version,
                                  model_names[static_cast<std::size_t>(model)],
                                  row_names[static_cast<std::size_t>(rows)], scene.json().dump());
+  if (!scene.body.file.empty()) head += fmt::format("# mesh: CRC-64/XZ {:016x}\n", file_digest(scene.body.file));
   for (const std::string& line : words) head += "# " + line + "\n";
   return head + column_names(*this) + "\n";
 }

@@ -32,7 +32,8 @@ struct SweepPlan {
   /// How it was asked for: the values set, and how many scenes there are.
   std::vector<std::string> words;
 
-  /// The first lines of the output, each with its end; the last one names the columns.  Equal for equal sweeps.
+  /// The first lines of the output, each with its end; the last one names the columns.  Equal for equal sweeps;
+  /// a body's mesh is in them by a digest of its file.
   [[nodiscard]] std::string head() const;
 };
 

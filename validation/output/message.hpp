@@ -1,0 +1,12 @@
+// Words to the user, on stderr.
+#pragma once
+
+#include <string>
+
+namespace clatter::validation {
+
+/// Writes "clatter: WORDS" as one line.  Nobody may be there to read (stderr closed, full or hung up), which changes
+/// neither the run nor its status.
+void say(const std::string& words);
+
+}  // namespace clatter::validation
