@@ -9,9 +9,9 @@
 # shellcheck disable=SC2034  # the lists are read by the callers
 program_packages=(cmake ninja-build g++ libgsl-dev libboost-dev libeigen3-dev libcli11-dev
                   nlohmann-json3-dev libfmt-dev libtomlplusplus-dev gnuplot-nox)
-# Node.js bundles the page of clatter demo, which cpp-httplib serves.  Without them all else is there.
+# Node.js bundles the page of clatter demo.  Without it all else is there.
 # shellcheck disable=SC2034
-page_packages=(pkg-config libcpp-httplib-dev nodejs npm)
+page_packages=(nodejs npm)
 # Without the shells and groff the tests of completion and man page would be skipped;
 # Chromium opens the page that clatter verify writes; OpenMPI shares a sweep among processes.
 # The Python module, the figures and the notebooks take the line of Python packages.
@@ -31,7 +31,7 @@ is_present() {
   case $1 in
     cmake | g++) has_command "$1" && return ;;
     ninja-build) has_command ninja && return ;;
-    npm | pkg-config) has_command "$1" && return ;;
+    npm) has_command "$1" && return ;;
     nodejs) has_command node && return ;;
   esac
   [[ $(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null) == installed* ]]

@@ -1,11 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <cstdio>
+#include <cmath>
 #include <memory>
-#include <thread>
 
 #include "validation/cli/commands.hpp"
 #include "validation/cli/options.hpp"
@@ -21,9 +19,10 @@ namespace clatter::validation {
 namespace {
 
 constexpr int usual_port = 8318;
+constexpr double usual_seconds = 10;
 
 struct DemoInput {
-  std::optional<std::string> port, file;
+  std::optional<std::string> port, seconds, file;
   std::vector<std::string> scenes;
 };
 
@@ -44,23 +43,18 @@ void bind(DemoServer& server, const std::optional<std::string>& port) {
 }
 
 int serve(const DemoInput& input) {
-  DemoServer server{std::string(demo_page())};
+  const double seconds =
+      input.seconds ? read_number_option("--seconds", *input.seconds, {0, 86400, true, "greater than 0, at most 86400"})
+                    : usual_seconds;
+  DemoServer server(std::string(demo_page()), std::chrono::milliseconds(std::llround(std::ceil(1000 * seconds))));
   bind(server, input.port);
-  const CooperativeInterrupt interrupt;
-  std::atomic<bool> ended = false;
-  // Again and again, since what stops a server that has not begun to run is lost.
-  std::thread watch([&] {
-    while (!ended) {
-      if (interrupt.requested()) server.stop();
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-  });
-  fmt::print("clatter demo: http://127.0.0.1:{}/  (Ctrl-C ends it)\n", server.port());
-  std::fflush(stdout);
+  {
+    Sink address("");
+    address.write(fmt::format("clatter demo: http://127.0.0.1:{}/  (Ctrl-C ends it)\n", server.port()));
+    address.commit();
+  }
   server.run();
-  ended = true;
-  watch.join();
-  return interrupt.requested() ? interrupted_status : 0;
+  return interrupted_status;
 }
 
 int export_page(const DemoInput& input) {
@@ -89,6 +83,7 @@ int run_demo(const DemoInput& input) {
     return serve(input);
   }
   if (input.port) throw BadInput(fmt::format("--port {}: not with --export, which serves nothing", *input.port));
+  if (input.seconds) throw BadInput(fmt::format("--seconds {}: not with --export, which serves nothing", *input.seconds));
   return export_page(input);
 }
 
@@ -98,6 +93,7 @@ Action add_demo_command(CLI::App& app) {
   auto input = std::make_shared<DemoInput>();
   CLI::App* command = app.add_subcommand("demo", "a page to play with, in the browser");
   add_text(*command, "--port", input->port, "N", fmt::format("of 127.0.0.1 ({}, or a free one)", usual_port));
+  add_text(*command, "--seconds", input->seconds, "S", fmt::format("that an answer may take ({})", usual_seconds));
   add_text(*command, "--export", input->file, "FILE", "write a copy of the page that needs no program (HTML), and end");
   command->add_option("--scene", input->scenes, "scenes of the copy (all)")->type_name("NAME");
   command->footer("Example: clatter demo\nIt serves the page to this machine alone, until Ctrl-C.");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <exception>
 #include <map>
+#include <new>
 #include <string_view>
 
 #include "analytic/errors.hpp"
@@ -214,6 +215,8 @@ ApiAnswer answer_request(const std::string& path, const std::string& body) {
     return refusal(422, error, outside_model);
   } catch (const std::logic_error& error) {  // a scene that the library refuses
     return refusal(400, error, bad_input);
+  } catch (const std::bad_alloc&) {
+    return {422, error_json("the answer takes more memory than there is", not_computed)};
   } catch (const std::exception& error) {
     return refusal(422, error, not_computed);
   }
