@@ -44,8 +44,8 @@ case $* in
     echo "$PWD" >build/release/configured ;;
   --build*)
     cp "$SETTINGS/program" build/release/validation/clatter
-    [[ ! -e $SETTINGS/save_while_building ]] || { sleep 0.05; touch analytic/a.cpp; }
-    [[ ! -e $SETTINGS/build_takes ]] || sleep "$(<"$SETTINGS/build_takes")"
+    [[ ! -e $SETTINGS/save_while_building ]] || touch -d "now + 1 minute" analytic/a.cpp
+    [[ ! -e $SETTINGS/build_waits ]] || cat "$SETTINGS/build_waits"
     [[ ! -e $SETTINGS/build_fails ]] ;;
 esac
 END
@@ -73,10 +73,10 @@ write_program() {
 printf 'in %s\n' "$PWD"
 printf '<%s>\n' "$@"
 cat
-[[ ! -e $SETTINGS/program_takes ]] || {
-  takes=$(<"$SETTINGS/program_takes")  # before the test, which waits for `running`, removes it
+[[ ! -e $SETTINGS/program_waits ]] || {
+  exec 8<>"$SETTINGS/program_waits"  # before the test, which waits for `running`, removes it
   touch "$SETTINGS/running"
-  exec sleep "$takes"
+  exec cat <&8
 }
 exit "$(cat "$SETTINGS/exit_status")"
 END
@@ -97,7 +97,7 @@ set_up() {
   write_program
   echo 0 >"$settings/uid"
   printf '%s\n' libgsl-dev libboost-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libfmt-dev libtomlplusplus-dev gnuplot-nox \
-    pkg-config libcpp-httplib-dev nodejs npm >"$settings/installed"
+    nodejs npm >"$settings/installed"
   cd "$scratch/$1"
 }
 
@@ -116,7 +116,13 @@ launch() { launch_as "$tree/clatter" "$@"; }
 build_first() {
   launch
   expect "status of the first launch" 0 "$status"
-  sleep 0.05  # so that what is saved from now on is newer by the file system's clock
+  age_tree
+}
+
+# Built an hour ago, from sources of an hour before: what is saved from now on is newer by any file system's clock.
+age_tree() {
+  find "$tree" -path "$tree/build" -prune -o -exec touch -d "2 hours ago" {} +
+  touch -d "1 hour ago" "$tree/build/release/built"
 }
 
 expect() {  # WHAT WANTED FOUND
@@ -131,12 +137,8 @@ expect_calls() {  # COUNT PATTERN
   expect "number of calls '$2' among: $(<"$settings/calls")" "$1" "$(calls "$2")"
 }
 
-wait_for() {  # FILE, 10 s at most
-  local tries=500
-  until [[ -e $1 ]]; do
-    ((tries--)) || expect "existence of" "$1" "nothing after 10 s"
-    sleep 0.02
-  done
+wait_for() {  # COMMAND..., until it succeeds
+  until "$@"; do sleep 0.02; done
 }
 
 expect_no_program() {
@@ -240,39 +242,41 @@ test_program_left_by_a_failed_build_is_not_run() {
 }
 
 test_interrupted_build_is_not_taken_for_finished() {
-  echo 20 >"$settings/build_takes"
+  mkfifo "$settings/build_waits"
   set -m  # a process group of its own, as a terminal gives
   with_stubs "$tree/clatter" >"$settings/out" 2>"$settings/err" </dev/null &
-  wait_for "$tree/build/release/validation/clatter"
+  wait_for test -e "$tree/build/release/validation/clatter"
   kill -INT -- "-$!"
   status=0
   wait $! || status=$?
   set +m
   expect "exit status" 130 "$status"
   expect "standard output" "" "$(<"$settings/out")"
-  rm "$settings/build_takes"
+  rm "$settings/build_waits"
   launch
   expect_calls 1 "cmake --build"
   expect "exit status" 0 "$status"
 }
 
 test_two_launches_at_once_build_once() {
-  echo 0.3 >"$settings/build_takes"
+  mkfifo "$settings/build_waits"
   : >"$settings/calls"
-  with_stubs "$tree/clatter" one >"$settings/one" 2>/dev/null </dev/null &
-  with_stubs "$tree/clatter" two >"$settings/two" 2>/dev/null </dev/null
-  wait $!
+  with_stubs "$tree/clatter" one >"$settings/one" 2>"$settings/err" </dev/null &
+  with_stubs "$tree/clatter" two >"$settings/two" 2>"$settings/err.two" </dev/null &
+  wait_for grep -qs "waiting for another build" "$settings/err" "$settings/err.two"
+  echo go >"$settings/build_waits"  # the build of the other reads it
+  wait
   expect_calls 1 "cmake --build"
   expect "output of one" 1 "$(grep -c '<one>' "$settings/one")"
   expect "output of two" 1 "$(grep -c '<two>' "$settings/two")"
 }
 
 test_running_program_does_not_hold_up_a_build() {
-  echo 60 >"$settings/program_takes"
+  mkfifo "$settings/program_waits"
   with_stubs "$tree/clatter" >"$settings/one" 2>/dev/null </dev/null &
-  wait_for "$settings/running"
-  rm "$settings/program_takes"
-  sleep 0.05
+  wait_for test -e "$settings/running"
+  rm "$settings/program_waits"
+  age_tree
   touch "$tree/analytic/a.cpp"
   launch
   expect_calls 1 "cmake --build"
@@ -337,7 +341,7 @@ test_root_installs_all_that_is_missing_at_once() {
   expect "exit status" 0 "$status"
   expect_calls 1 "apt-get"
   expect "what is installed" "cmake ninja-build g++ libgsl-dev libboost-dev libeigen3-dev libcli11-dev\
- nlohmann-json3-dev libfmt-dev libtomlplusplus-dev gnuplot-nox pkg-config libcpp-httplib-dev nodejs npm" "$(sed -n 's/^apt-get .*--no-install-recommends //p' \
+ nlohmann-json3-dev libfmt-dev libtomlplusplus-dev gnuplot-nox nodejs npm" "$(sed -n 's/^apt-get .*--no-install-recommends //p' \
     "$settings/calls")"
 }
 
@@ -395,7 +399,7 @@ test_user_without_sudo_is_told_one_line_to_run() {
 test_user_without_sudo_builds_without_the_page() {
   become_user
   remove_package npm
-  remove_package libcpp-httplib-dev
+  remove_package nodejs
   launch
   expect "exit status" 0 "$status"
   expect_calls 0 "apt-get"

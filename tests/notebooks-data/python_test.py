@@ -319,12 +319,12 @@ class LongCalls(unittest.TestCase):
         self.assertEqual(results, [expected] * len(results))
 
     def test_ctrl_c_ends_a_long_call(self):
-        script = ("import clatter\nprint('ready', flush=True)\n"
-                  "try:\n  clatter.simulate('rod-45', method='tvd-rk3', step=1e-12, evaluation_limit=10**12)\n"
+        script = ("import clatter\n"
+                  "try:\n  print('ready', flush=True)\n  clatter.simulate('rod-45', method='tvd-rk3', step=1e-12, evaluation_limit=10**12)\n"
                   "except KeyboardInterrupt:\n  print('interrupted', flush=True)\n")
         with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True) as child:
             self.assertEqual(child.stdout.readline(), "ready\n")
-            time.sleep(0.5)
+            until_it_computes(child)
             child.send_signal(signal.SIGINT)
             self.assertEqual(child.stdout.readline(), "interrupted\n")
 

@@ -6,7 +6,6 @@ import os
 import re
 import subprocess
 import tempfile
-import time
 import unittest
 import urllib.request
 
@@ -45,7 +44,7 @@ class Driver:
         request = urllib.request.Request(self.base + path, json.dumps(body).encode(), {"Content-Type": "application/json"},
                                          method=method)
         opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
-        with opener.open(request, timeout=120) as answer:
+        with opener.open(request, timeout=3000) as answer:
             return json.load(answer)["value"]
 
     def open(self, path):
@@ -53,6 +52,11 @@ class Driver:
 
     def run(self, script):
         return self.post("/execute/sync", {"script": script, "args": []})
+
+    def run_until_drawn(self):
+        """Waits until the page has been drawn twice and has nothing left to do."""
+        self.post("/execute/async", {"args": [], "script": "const done = arguments[0]; requestAnimationFrame(() => "
+                                     "requestAnimationFrame(() => requestIdleCallback(() => done())));"})
 
     def log(self, kind):
         return self.post("/se/log", {"type": kind})
@@ -79,7 +83,7 @@ class Page(unittest.TestCase):
         cls.addClassCleanup(cls.driver.close)
         cls.driver.start(os.path.join(cls.folder.name, "profile"))
         cls.driver.open(cls.path)
-        time.sleep(0.5)  # for a request that a page might start after it has loaded
+        cls.driver.run_until_drawn()
 
     def test_the_run_passed(self):
         self.assertEqual(self.status, 0)

@@ -10,10 +10,13 @@ import shutil
 import signal
 import struct
 import subprocess
+import sys
 import tempfile
-import time
 import unittest
 import xml.etree.ElementTree as ElementTree
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from waiting import sizes, until  # noqa: E402
 
 PROGRAM = os.environ["CLATTER_PROGRAM"]
 CASES = os.path.join(os.environ["CLATTER_ROOT"], "validation", "cases")
@@ -56,7 +59,7 @@ QUICK = [name for name in COMMANDS if name != "tradeoff"]  # which measures for 
 
 
 def run(*arguments, **options):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=300, **options)
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=3000, **options)
 
 
 def blocks(script):
@@ -346,10 +349,9 @@ class WithoutPicture(InFolder):
         with open(self.path("rows.csv"), "wb") as rows:
             running = subprocess.Popen([PROGRAM, "angles", "--count", "50000000", "--format", "csv", "--plot",
                                         self.path("p.svg"), "--plot-script"], stdout=rows, stderr=subprocess.PIPE, text=True)
-            while os.path.getsize(self.path("rows.csv")) < 1000:
-                time.sleep(0.01)
+            until(lambda: os.path.getsize(self.path("rows.csv")) >= 1000, running)
             running.send_signal(signal.SIGINT)
-            _, complaint = running.communicate(timeout=60)
+            _, complaint = running.communicate(timeout=30000)
         self.assertEqual(running.returncode, 130)
         self.assertRegex(complaint, r"\Aclatter: --plot [^\n]+: no picture: interrupted\n\Z")
         self.assertEqual(os.listdir(self.folder), ["rows.csv"])
@@ -357,12 +359,10 @@ class WithoutPicture(InFolder):
     def test_killed_at_once_it_leaves_no_file_behind(self):
         running = subprocess.Popen([PROGRAM, "angles", "--count", "50000000", "--format", "csv", "--output",
                                     self.path("rows.csv"), "--plot", self.path("p.svg"), "--plot-script"])
-        while len(os.listdir(self.folder)) < 3:
-            time.sleep(0.01)
-        time.sleep(0.2)
+        until(lambda: any(sizes(self.folder).values()), running)
         running.send_signal(signal.SIGTERM)
         running.send_signal(signal.SIGINT)  # of two interrupts the second does not wait
-        self.assertEqual(running.wait(timeout=60), 130)
+        self.assertEqual(running.wait(timeout=30000), 130)
         self.assertEqual(os.listdir(self.folder), [])
 
     def test_a_run_without_a_row_writes_none_and_says_so(self):

@@ -9,9 +9,12 @@ import os
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
-import time
 import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from waiting import sizes, until  # noqa: E402
 
 PROGRAM = os.environ["CLATTER_PROGRAM"]
 
@@ -34,7 +37,7 @@ TOO_LARGE = {"--angle": "90.0000001", "--restitution": "1.0000001", "--impacts":
 
 
 def run(*arguments, **options):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=60, **options)
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=3000, **options)
 
 
 class BadInput(unittest.TestCase):
@@ -274,21 +277,21 @@ class Manners(unittest.TestCase):
         process.stdout.close()
         self.assertEqual(process.stderr.read(), b"")
         process.stderr.close()
-        self.assertEqual(process.wait(timeout=60), 0)
+        self.assertEqual(process.wait(timeout=3000), 0)
 
     def test_an_interrupt_gives_130_whole_rows_and_no_half_file(self):
         with tempfile.TemporaryDirectory() as folder:
             process = subprocess.Popen([PROGRAM, "angles", "--count", "50000000", "--format", "csv", "--output", os.path.join(folder, "x")])
-            time.sleep(0.5)
+            until(lambda: any(sizes(folder).values()), process)
             process.send_signal(signal.SIGINT)
-            self.assertEqual(process.wait(timeout=60), 130)
+            self.assertEqual(process.wait(timeout=3000), 130)
             self.assertEqual(os.listdir(folder), [])
         process = subprocess.Popen([PROGRAM, "angles", "--count", "50000000", "--format", "csv"], stdout=subprocess.PIPE, text=True)
         lines = [process.stdout.readline() for _ in range(5)]
         process.send_signal(signal.SIGINT)
         lines += process.stdout.read().splitlines(keepends=True)
         process.stdout.close()
-        self.assertEqual(process.wait(timeout=60), 130)
+        self.assertEqual(process.wait(timeout=3000), 130)
         self.assertTrue(lines[-1].startswith("# interrupted after"))
         width = next(l for l in lines if l.startswith("theta")).count(",")
         self.assertTrue(all(l.count(",") == width for l in lines if l[0].isdigit()))

@@ -9,9 +9,12 @@ import math
 import os
 import signal
 import subprocess
+import sys
 import tempfile
-import time
 import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from waiting import until  # noqa: E402
 
 PROGRAM = os.environ["CLATTER_PROGRAM"]
 CASES = os.environ["CLATTER_CASES"]
@@ -115,7 +118,7 @@ def box_stl(size, attitude, centre):
 
 
 def run(*arguments, **options):
-    return subprocess.run([PROGRAM, "simulate", *arguments], capture_output=True, text=True, timeout=120, **options)
+    return subprocess.run([PROGRAM, "simulate", *arguments], capture_output=True, text=True, timeout=3000, **options)
 
 
 class Folder(unittest.TestCase):
@@ -334,10 +337,11 @@ class Output(Folder):
     def test_an_interrupt_prints_the_rows_so_far_and_ends_with_130(self):
         path = self.scene("[drop]\nangle_deg = 10\n[ground]\nstiffness = 1\ndamping = 1e9\n"
                           "[run]\nevaluation_limit = 1000000000\n")
-        with subprocess.Popen([PROGRAM, "simulate", path], stdout=subprocess.PIPE, text=True) as process:
-            time.sleep(0.5)
+        with subprocess.Popen([PROGRAM, "simulate", path, "--history", self.path("h.csv")], stdout=subprocess.PIPE,
+                              text=True) as process:
+            until(lambda: any(name.startswith(".clatter-") for name in os.listdir(self.folder)), process)
             process.send_signal(signal.SIGINT)
-            output = process.communicate(timeout=60)[0]
+            output = process.communicate(timeout=3000)[0]
         self.assertEqual(process.returncode, 130)
         self.assertIn("interrupted: stopped on request", output)
 

@@ -8,15 +8,11 @@ page=$2
 here=$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")
 (cd -- "$page" && npm run --silent check)
 scratch=$(mktemp -d)
-"$program" demo >"$scratch/address" 2>"$scratch/complaints" &
+exec 3< <(exec "$program" demo 2>"$scratch/complaints")
 demo=$!
 trap 'kill -INT "$demo" 2>/dev/null; wait "$demo" || true; rm -rf -- "$scratch"' EXIT
 "$program" demo --export "$scratch/copy.html"
-for ((tries = 0; tries < 300; ++tries)); do
-  [[ -s $scratch/address ]] && break
-  kill -0 "$demo" || { cat -- "$scratch/complaints" && exit 1; }
-  sleep 0.1
-done
-[[ $(<"$scratch/address") =~ http://[0-9.:]+/ ]]
+read -r address <&3 || { cat -- "$scratch/complaints" && exit 1; }
+[[ $address =~ http://[0-9.:]+/ ]]
 DEMO_URL=${BASH_REMATCH[0]} DEMO_COPY=$scratch/copy.html DEMO_PAGE=$page CLATTER_PROGRAM=$program \
   node --test --test-reporter=spec "$here/page_test.mjs"
