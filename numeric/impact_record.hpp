@@ -5,8 +5,19 @@
 
 namespace clatter::numeric {
 
-/// How friction acted during an impact.
-enum class FrictionMode { frictionless, slip, stick, slip_stick, stick_slip, reverse_slip, regularised };
+/// How friction acted during an impact: its phases in their order.
+enum class FrictionMode {
+  frictionless,
+  slip,              ///< from beginning to end, in one direction
+  stick,
+  slip_stick,
+  stick_slip,        ///< stick gives way
+  slip_stick_slip,   ///< slip stops, sticks and is let go again
+  stick_slip_stick,
+  alternating,       ///< more phases than three
+  reverse_slip,      ///< slip stops and goes on the other way at once
+  regularised,
+};
 
 /// Which ends of the body touched during the impact: by the sign of x′ of the vertices that went into the ground.
 enum class ContactEnd { a, b, both, middle };

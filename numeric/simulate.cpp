@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 
 #include "numeric/detail/require.hpp"
 #include "numeric/drop_run.hpp"
 #include "numeric/error_estimates.hpp"
+#include "numeric/errors.hpp"
 #include "numeric/motion/free_flight.hpp"
 
 namespace clatter::numeric {
@@ -56,6 +58,16 @@ std::string words_for(const Simulation& run, const Options& options, double time
   return text.str();
 }
 
+/// The input has been checked: a contract that the run breaks is no fault of the input.
+DropRun run_checked(const Body& body, const Ground& ground, const MotionState& start, const Options& options,
+                    const Accuracy& accuracy, const RunExtras& extras) {
+  try {
+    return run_drop(body, ground, start, options, accuracy, extras);
+  } catch (const std::logic_error& error) {
+    throw NumericalError(std::string("the drop cannot be computed in double precision: ") + error.what());
+  }
+}
+
 }  // namespace
 
 double Simulation::total_normal_impulse() const {
@@ -80,8 +92,8 @@ Simulation simulate(const Body& body, const Ground& ground, const MotionState& s
   const double low = lowest_height(body, start);
   detail::require(low >= -1e-12 * body.radius(), "height of the lowest point", low, "at least 0");
   const Accuracy accuracy = accuracy_for(options);
-  DropRun main = run_drop(body, ground, start, options, accuracy,
-                          {options.amplification, options.history, options.progress ? &options.progress : nullptr});
+  DropRun main = run_checked(body, ground, start, options, accuracy,
+                             {options.amplification, options.history, options.progress ? &options.progress : nullptr});
   Simulation simulation;
   simulation.outcome = main.outcome;
   simulation.method = accuracy.method;
@@ -98,7 +110,7 @@ Simulation simulate(const Body& body, const Ground& ground, const MotionState& s
     Options fewer = options;
     fewer.impacts = static_cast<int>(simulation.impacts.size());
     const SecondRun second = second_run(accuracy, main.step);
-    const DropRun other = run_drop(body, ground, start, fewer, second.accuracy, {});
+    const DropRun other = run_checked(body, ground, start, fewer, second.accuracy, {});
     simulation.force_evaluations += other.force_evaluations;
     simulation.root_evaluations += other.root_evaluations;
     estimate_errors(body, second.error_per_distance, simulation.impacts, other.impacts);

@@ -8,8 +8,11 @@
 namespace clatter::numeric {
 
 Vector3 touch_point(const Body& body, const MotionState& state) {
-  const double level = lowest_height(body, state) + 1e-11 * body.radius();
-  const GroundPlane plane{state.attitude.conjugate() * Vector3::UnitZ(), state.centre.z()};
+  // Heights over the centre of mass: over the ground those of a high flight would lose the body's size.
+  MotionState level_with_centre = state;
+  level_with_centre.centre.setZero();
+  const double level = lowest_height(body, level_with_centre) + 1e-11 * body.radius();
+  const GroundPlane plane{state.attitude.conjugate() * Vector3::UnitZ(), 0};
   const Facets& facets = body.facets();
   std::vector<int> touching;
   body.hierarchy().visit_below(plane, level, [&](int facet) {

@@ -32,6 +32,22 @@ AlongGround leaning_slip(const AlongGround& slip, const FrictionPhase& phase) {
   return {slip.east + lean.east, slip.north + lean.north};
 }
 
+AlongGround bounded(const AlongGround& force, double limit) {
+  const double size = force.norm();
+  if (size <= limit) return force;
+  return std::isfinite(size) ? force * (limit / size) : AlongGround{};
+}
+
+/// Root x of D x = b for D = (by_east, by_north); 0 if D is singular.
+AlongGround solve(const AlongGround& by_east, const AlongGround& by_north, const AlongGround& b) {
+  const double size = std::max(by_east.norm(), by_north.norm());
+  const AlongGround p = by_east * (1 / size), q = by_north * (1 / size);
+  const double determinant = p.east * q.north - q.east * p.north;
+  if (!(std::fabs(determinant) > 0)) return {};
+  return AlongGround{b.east * q.north - b.north * q.east, b.north * p.east - b.east * p.north} *
+         (1 / (size * determinant));
+}
+
 AlongGround unit_slip(const AlongGround& slip, const FrictionPhase& phase, bool planar) {
   if (planar) return phase.direction;
   const AlongGround leaning = leaning_slip(slip, phase);
@@ -69,6 +85,14 @@ struct ContactSystem::Instant {
                 c * (r.rate_squared_position - rise * l.depth_position - r.depth_position_squared * h) +
                 rates.first_moment_by_area};
   }
+  /// What an angular acceleration adds to them, by the dampers alone.
+  [[nodiscard]] Changes response(const Ground& ground, const Vector3& acceleration) const {
+    const Vector3 h = normal.cross(acceleration);
+    return {-ground.damping * h.dot(rates.load.depth_position),
+            -ground.damping * (rates.rates.depth_position_squared * h)};
+  }
+  /// F_n ċ, ċ being the velocity at which the pressure centre runs over the body: finite where F_n fades.
+  [[nodiscard]] Vector3 wander(const Changes& change) const { return change.first_moment - centre * change.force; }
 };
 
 ContactSystem::ContactSystem(const Body& body, const Ground& ground, double gravity, bool planar)
@@ -113,8 +137,13 @@ GroundView ContactSystem::view(const ContactState& y) const {
 }
 
 Vector3 ContactSystem::angular_acceleration(const Vector3& moment, const Vector3& omega) const {
+  return response(planar_ ? moment : Vector3(moment - omega.cross(body_.inertia() * omega)));
+}
+
+/// Angular acceleration that a moment causes by itself.
+Vector3 ContactSystem::response(const Vector3& moment) const {
   if (planar_) return north_ * (north_.dot(moment) / north_.dot(body_.inertia() * north_));
-  return body_.inverse_inertia() * (moment - omega.cross(body_.inertia() * omega));
+  return body_.inverse_inertia() * moment;
 }
 
 /// Friction's resultant, its moment about the centre of mass (body frame) and the power that it dissipates.
@@ -122,6 +151,7 @@ struct ContactSystem::Friction {
   AlongGround force;
   Vector3 moment = Vector3::Zero();
   double power = 0;
+  AlongGround hold;  ///< see ContactDiagnosis
 };
 
 ContactSystem::Friction ContactSystem::friction(const Instant& at) {
@@ -130,7 +160,7 @@ ContactSystem::Friction ContactSystem::friction(const Instant& at) {
   switch (phase_.kind) {
     case Kind::none: return {};
     case Kind::regularised: return over_patch(at, at.load);
-    case Kind::stick: return at_centre(at, stick(at));
+    case Kind::stick: return in_stick(at);
     case Kind::slip: break;
   }
   if (!phase_.varies) return at_centre(at, unit_slip(at.slip, phase_, planar_) * (-mu * at.load.force));
@@ -142,7 +172,17 @@ ContactSystem::Friction ContactSystem::friction(const Instant& at) {
 }
 
 ContactSystem::Friction ContactSystem::at_centre(const Instant& at, const AlongGround& force) const {
-  return {force, at.centre.cross(along(at.view, force)), -force.dot(at.slip)};
+  return {force, at.centre.cross(along(at.view, force)), -force.dot(at.slip), {}};
+}
+
+/// A point at rest takes no work: where a remaining slip would give some back, none is booked.
+ContactSystem::Friction ContactSystem::in_stick(const Instant& at) const {
+  const AlongGround hold = stick(at);
+  const double bound = ground_.static_friction * at.load.force;
+  Friction friction = at_centre(at, bounded(hold, bound));
+  friction.power = std::max(friction.power, 0.0);
+  friction.hold = bounded(hold, 2 * bound);
+  return friction;
 }
 
 /// Of a patch taken as flat only the resultant at the pressure centre and the moment about the vertical are real; so
@@ -150,7 +190,7 @@ ContactSystem::Friction ContactSystem::at_centre(const Instant& at, const AlongG
 ContactSystem::Friction ContactSystem::over_patch(const Instant& at, const ContactLoad& load) const {
   const double mu = ground_.sliding_friction;
   const AlongGround force{mu * load.slip_east, planar_ ? 0 : mu * load.slip_north};
-  Friction friction{force, mu * load.slip_moment, 0};
+  Friction friction{force, mu * load.slip_moment, 0, {}};
   if (phase_.kind == FrictionPhase::Kind::slip) {
     const Vector3 at_centre = at.centre.cross(along(at.view, force));
     friction.moment = at_centre + at.normal * at.normal.dot(friction.moment - at_centre);
@@ -160,29 +200,28 @@ ContactSystem::Friction ContactSystem::over_patch(const Instant& at, const Conta
   return friction;
 }
 
+/// F_n times the condition of stick is linear in F_t:
+///     F_n [F_t/m + α(F_t) × c]_t + [ω × F_n ċ(F_t)]_t = −F_n [α₀ × c + ω × (ω × c) + fading v]_t − [ω × F_n ċ₀]_t,
+/// α₀ and ċ₀ being those without friction.  Both sides vanish with F_n, so that neither is divided by F_n.
 AlongGround ContactSystem::stick(const Instant& at) const {
   const GroundView& view = at.view;
   const Vector3& omega = view.angular_velocity;
-  const auto tangential_acceleration = [&](const AlongGround& force) {
-    const Vector3 alpha = angular_acceleration(at.moment + at.centre.cross(along(view, force)), omega);
-    const auto change = at.changes(ground_, alpha);
-    const Vector3 wander = (change.first_moment - at.centre * change.force) / at.load.force;
-    const Vector3 point = alpha.cross(at.centre) + omega.cross(omega.cross(at.centre)) + omega.cross(wander);
-    return AlongGround{force.east / body_.mass() + view.east.dot(point) + phase_.fading * at.slip.east,
-                       force.north / body_.mass() + view.north.dot(point) + phase_.fading * at.slip.north};
+  const double normal = at.load.force;
+  const auto along_ground = [&](const Vector3& point, const AlongGround& rest) {
+    return AlongGround{view.east.dot(point) + normal * rest.east, view.north.dot(point) + normal * rest.north};
   };
-  // The acceleration is linear in the force; a probe of the normal force's size keeps the differences exact enough.
-  const double probe = at.load.force;
-  const AlongGround free = tangential_acceleration({});
-  const AlongGround by_east = tangential_acceleration({probe, 0});
-  const double a = (by_east.east - free.east) / probe;
-  if (planar_) return {-free.east / a, 0};
-  const AlongGround by_north = tangential_acceleration({0, probe});
-  const double b = (by_north.east - free.east) / probe;
-  const double c = (by_east.north - free.north) / probe;
-  const double d = (by_north.north - free.north) / probe;
-  const double determinant = a * d - b * c;
-  return {(-free.east * d + free.north * b) / determinant, (-free.north * a + free.east * c) / determinant};
+  const auto per_force = [&](const AlongGround& unit) {
+    const Vector3 alpha = response(at.centre.cross(along(view, unit)));
+    const Vector3 wander = at.wander(at.response(ground_, alpha));
+    return along_ground(normal * alpha.cross(at.centre) + omega.cross(wander), unit * (1 / body_.mass()));
+  };
+  const Vector3 alpha = angular_acceleration(at.moment, omega);
+  const Vector3 wander = at.wander(at.changes(ground_, alpha));
+  const Vector3 turning = alpha.cross(at.centre) + omega.cross(omega.cross(at.centre));
+  const AlongGround free = along_ground(normal * turning + omega.cross(wander), at.slip * phase_.fading);
+  const AlongGround by_east = per_force({1, 0});
+  if (planar_) return by_east.east != 0 ? AlongGround{-free.east / by_east.east, 0} : AlongGround{};
+  return solve(by_east, per_force({0, 1}), free * -1);
 }
 
 void ContactSystem::derivative(const ContactState& y, ContactState& rate) { evaluate(y, rate, nullptr, nullptr); }
@@ -229,14 +268,15 @@ void ContactSystem::evaluate(const ContactState& y, ContactState& rate, ContactD
   rate[works + 1] = load.release_power;
   rate[works + 2] = friction.power;
   if (!diagnosis) return;
-  *diagnosis = {load, at.changes(ground_, alpha).force, friction.force, at.centre, at.slip, at.normal.dot(omega)};
+  *diagnosis = {load, at.changes(ground_, alpha).force, friction.force, friction.hold, at.centre,
+                at.slip, at.normal.dot(omega)};
 }
 
 AlongGround ContactSystem::sticking_force(const ContactState& y) {
   const FrictionPhase before = phase_;
   phase_ = {.kind = FrictionPhase::Kind::stick, .direction = {}};
   ContactState rate;
-  const AlongGround force = diagnose(y, rate).friction;
+  const AlongGround force = diagnose(y, rate).hold;
   phase_ = before;
   return force;
 }

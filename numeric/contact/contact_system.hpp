@@ -41,6 +41,8 @@ struct ContactDiagnosis {
   ContactLoad load;
   double force_rate = 0;         ///< dF_n/dt [N/s]
   AlongGround friction;          ///< [N]
+  /// Force that would hold the pressure centre in stick, cut off at 2 μ_s F_n; 0 in the other phases [N].
+  AlongGround hold;
   Vector3 centre = Vector3::Zero();  ///< of pressure, body frame [m]
   AlongGround slip;              ///< velocity of the body there, along the ground [m/s]
   double spin = 0;               ///< angular velocity about the vertical [rad/s]
@@ -54,7 +56,8 @@ struct ContactDiagnosis {
 /// whenever it is about to stick.)  Stick: F_t at c such that
 ///     d/dt v_t(c) = [V̇ + ω̇ × c + ω × (ω × c) + ω × ċ]_t = 0,
 /// ċ being the pressure centre's motion over the body, so that c stays at rest although it moves
-/// (or comes to rest, like exp(−fading × time), if it was caught with a little slip left).
+/// (or comes to rest, like exp(−fading × time), if it was caught with a little slip left).  |F_t| <= μ_s F_n: stick
+/// that asks for more gets the bound.
 class ContactSystem {
  public:
   ContactSystem(const Body& body, const Ground& ground, double gravity, bool planar);
@@ -71,7 +74,7 @@ class ContactSystem {
   /// The derivative with the numbers of the instant; `submerged` gets vertices below the ground if not null.
   [[nodiscard]] ContactDiagnosis diagnose(const ContactState& y, ContactState& rate,
                                           std::vector<int>* submerged = nullptr);
-  /// Friction force that sticking would take.
+  /// Friction force that sticking would take, cut off at 2 μ_s F_n.
   [[nodiscard]] AlongGround sticking_force(const ContactState& y);
   /// The same per unit of normal force for a light load at the body's point u, from the touch-down pose: tells
   /// whether a contact that begins without slip sticks.
@@ -92,9 +95,11 @@ class ContactSystem {
                 std::vector<int>* submerged);
   [[nodiscard]] GroundView view(const ContactState& y) const;
   [[nodiscard]] Vector3 angular_acceleration(const Vector3& moment, const Vector3& omega) const;
+  [[nodiscard]] Vector3 response(const Vector3& moment) const;
   [[nodiscard]] Friction friction(const Instant& at);
   [[nodiscard]] Friction at_centre(const Instant& at, const AlongGround& force) const;
   [[nodiscard]] Friction over_patch(const Instant& at, const ContactLoad& load) const;
+  [[nodiscard]] Friction in_stick(const Instant& at) const;
   [[nodiscard]] AlongGround stick(const Instant& at) const;
 
   const Body& body_;

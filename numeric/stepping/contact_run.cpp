@@ -1,7 +1,5 @@
 #include "numeric/stepping/contact_run.hpp"
 
-#include <boost/math/tools/toms748_solve.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,8 +19,6 @@ constexpr double smallest_part = 1e-13;
 /// damper that stiffens like 1/|v|, which explicit steps could not follow.
 constexpr double slow_part = 0.1;
 constexpr double fading_per_contact = 50;    ///< rate at which stick ends a remaining slip, times the contact time
-constexpr double minor_part = 1e-6;          ///< of energy or time: a friction phase below it does not name the mode
-constexpr int most_switches = 8;             ///< of friction without a step between them
 
 }  // namespace
 
@@ -51,8 +47,7 @@ ContactResult ContactRun::run(const MotionState& touch, const Vector3& point, co
 
 void ContactRun::begin(const MotionState& touch, const Vector3& point) {
   weigh_errors();
-  phases_.clear();
-  phases_.reserve(64);
+  log_.begin(scales_, system_.body().mass());
   switches_ = 0;
   touches_.begin();
   now_.time = 0;
@@ -74,7 +69,7 @@ void ContactRun::step_to_the_end() {
 }
 
 void ContactRun::collect() {
-  close_phase();
+  log_.close(system_.phase(), sums());
   result_.duration = now_.time;
   result_.after = system_.motion(now_.state);
   result_.work_damping = now_.state[13];
@@ -117,8 +112,7 @@ void ContactRun::choose_first_phase(const MotionState& touch, const Vector3& poi
 }
 
 void ContactRun::start_phase(FrictionPhase::Kind kind, const AlongGround& direction) {
-  phase_start_ = now_.time;
-  phase_work_ = now_.state[15];
+  log_.open(sums());
   stopping_speed_ = 0;
   system_.set_phase({.kind = kind,
                      .direction = direction,
@@ -126,13 +120,9 @@ void ContactRun::start_phase(FrictionPhase::Kind kind, const AlongGround& direct
                      .fading = fading_per_contact / scales_.time});
 }
 
-/// Notes the phase that ends, if it mattered: a sticking end slips for an instant when the force on it fades.
-void ContactRun::close_phase() {
-  const FrictionPhase& phase = system_.phase();
-  const bool slips = phase.kind == Kind::slip;
-  const bool matters = slips ? now_.state[15] - phase_work_ > minor_part * scales_.energy
-                             : now_.time - phase_start_ > minor_part * scales_.time;
-  if (matters && phases_.size() < phases_.capacity()) phases_.push_back({phase.kind, phase.direction});
+FrictionLog::Sums ContactRun::sums() const {
+  const double speed = now_.state[9] - system_.initial()[9] + system_.gravity() * now_.time;
+  return {now_.time, now_.state[15], system_.body().mass() * speed};
 }
 
 /// One step of length h from `from`, with the numbers at its end; false if it failed.
@@ -222,109 +212,6 @@ void ContactRun::accept(const ContactInstant& next) {
   system_.set_phase(phase);
 }
 
-/// A maximum of F_n inside the step: of the cubic through the forces and their rates at both ends, then of the
-/// numerical solution there; what remains is of second order in the small error of its time.
-void ContactRun::look_for_peak(const ContactInstant& next) {
-  const auto note = [&](const ContactInstant& at) {
-    if (!(at.diagnosis.load.force > result_.peak_force)) return;
-    result_.peak_force = at.diagnosis.load.force;
-    result_.peak_time = at.time;
-  };
-  note(next);
-  const double h = next.time - now_.time;
-  const double slope = h * now_.diagnosis.force_rate, end_slope = h * next.diagnosis.force_rate;
-  if (!(slope >= 0) || !(end_slope <= 0) || slope == end_slope) return;
-  const double rise = next.diagnosis.load.force - now_.diagnosis.load.force;
-  // p′(s) = slope + 2 b s + 3 a s², which falls through 0 once in (0, 1].
-  const double a = slope + end_slope - 2 * rise, b = 3 * rise - 2 * slope - end_slope;
-  const double root = std::sqrt(std::max(b * b - 3 * a * slope, 0.0));
-  const double s = b <= 0 ? slope / (root - b) : (-b - root) / (3 * a);
-  if (!(s > 0 && s < 1)) return;
-  const double top = now_.diagnosis.load.force + s * (slope + s * (b + s * a));
-  if (!(top > 0.9 * result_.peak_force) || !try_step(now_, s * h, probe_)) return;
-  note(probe_);
-  peak_ = probe_;
-  const double at_probe = h * probe_.diagnosis.force_rate;
-  const double other_s = at_probe > 0 ? 1 : 0, other = at_probe > 0 ? end_slope : slope;
-  const double better = s - at_probe * (other_s - s) / (other - at_probe);
-  if (better > 0 && better < 1 && try_step(now_, better * h, probe_)) note(probe_);
-  if (probe_.time == result_.peak_time) peak_ = probe_;
-  if (control_->observe && peak_.time == result_.peak_time) control_->observe(peak_);
-}
-
-double ContactRun::slip_forward(const ContactInstant& at) const {
-  if (!(at.diagnosis.load.force > 0)) return scales_.speed;
-  return at.diagnosis.slip.dot(system_.phase().direction) - stopping_speed_;
-}
-
-double ContactRun::stick_reserve(const ContactInstant& at) const {
-  const double force = at.diagnosis.load.force;
-  return force > 0 ? system_.ground().static_friction * force - at.diagnosis.friction.norm() : 0;
-}
-
-/// If slip ends or stick gives way within the step that led to trial_, moves there and changes the phase.
-bool ContactRun::handle_friction_event(double h) {
-  const Kind kind = system_.phase().kind;
-  if (kind != Kind::slip && kind != Kind::stick) return false;
-  const Indicator indicator = kind == Kind::slip ? &ContactRun::slip_forward : &ContactRun::stick_reserve;
-  const bool happens = kind == Kind::slip ? !((this->*indicator)(trial_) > 0) : (this->*indicator)(trial_) < 0;
-  if (!happens || ++switches_ > most_switches) return false;
-  const int switches = switches_;
-  if ((this->*indicator)(now_) > 0) {
-    static_cast<void>(locate(indicator, h, trial_));
-    accept(trial_);
-  }
-  switches_ = switches;
-  close_phase();
-  const AlongGround hold = system_.sticking_force(trial_.state);
-  const AlongGround& against = kind == Kind::stick ? trial_.diagnosis.friction : hold;
-  const double normal = trial_.diagnosis.load.force;
-  const bool can_hold = kind == Kind::slip && hold.norm() <= system_.ground().static_friction * normal;
-  if (can_hold) {
-    start_phase(Kind::stick, {});
-  } else {
-    const double size = against.norm();
-    const AlongGround direction = size > 0 ? against * (-1 / size) : system_.phase().direction;
-    start_phase(Kind::slip, direction);
-  }
-  now_.diagnosis = system_.diagnose(now_.state, now_.rate);
-  return true;
-}
-
-/// The length of the step at whose end the indicator has just fallen to 0; at_root gets that instant.
-double ContactRun::locate(Indicator indicator, double h, ContactInstant& at_root) {
-  const auto value = [&](double length) {
-    return length <= 0 ? (this->*indicator)(now_)
-           : try_step(now_, length, probe_) ? (this->*indicator)(probe_)
-                                            : -std::numeric_limits<double>::min();
-  };
-  const double resolution = 1e-14 * (scales_.time + now_.time);
-  std::uintmax_t iterations = 50;
-  const auto [low, high] = boost::math::tools::toms748_solve(
-      value, 0.0, h, (this->*indicator)(now_), (this->*indicator)(at_root),
-      [&](double a, double b) { return b - a <= resolution; }, iterations);
-  static_cast<void>(low);
-  static_cast<void>(try_step(now_, high, at_root));
-  return high;
-}
-
-/// The length of the step at whose end the deepest vertex is just out of the ground, by Newton's method in a
-/// bracket; at_root, given at h, gets that instant.
-double ContactRun::lift_off_time(double h, ContactInstant& at_root) {
-  const double resolution = 1e-13 * scales_.depth;
-  double low = 0, high = h, length = h;
-  for (int i = 0; i < 100; ++i) {
-    const double depth = at_root.diagnosis.load.deepest, rate = at_root.diagnosis.load.deepest_rate;
-    if (std::fabs(depth) <= resolution || high - low <= 1e-14 * (scales_.time + now_.time)) break;
-    (depth > 0 ? low : high) = length;
-    const bool seen = depth > -0.5 * system_.body().radius();  // facets far above the ground are not looked at
-    const double newton = seen && rate < 0 ? length - depth / rate : low;
-    length = newton > low && newton < high ? newton : (low + high) / 2;
-    if (!try_step(now_, length, at_root)) break;
-  }
-  return length;
-}
-
 /// Motion and acceleration a millionth of what a fall into this contact would have.
 bool ContactRun::at_rest(const ContactInstant& at) const {
   const double g = system_.gravity();
@@ -339,17 +226,7 @@ bool ContactRun::at_rest(const ContactInstant& at) const {
 FrictionMode ContactRun::mode() const {
   const Ground& ground = system_.ground();
   if (!ground.has_friction()) return FrictionMode::frictionless;
-  if (ground.friction == FrictionLaw::regularised) return FrictionMode::regularised;
-  const auto is = [](Kind kind) { return [kind](const PhaseLog& phase) { return phase.kind == kind; }; };
-  const auto slip = std::find_if(phases_.begin(), phases_.end(), is(Kind::slip));
-  if (slip == phases_.end()) return FrictionMode::stick;
-  const bool reverses = std::any_of(slip, phases_.end(), [&](const PhaseLog& phase) {
-    return phase.kind == Kind::slip && phase.direction.dot(slip->direction) < 0;
-  });
-  if (reverses) return FrictionMode::reverse_slip;
-  const auto stick = std::find_if(phases_.begin(), phases_.end(), is(Kind::stick));
-  if (stick == phases_.end()) return FrictionMode::slip;
-  return stick < slip ? FrictionMode::stick_slip : FrictionMode::slip_stick;
+  return ground.friction == FrictionLaw::regularised ? FrictionMode::regularised : log_.mode();
 }
 
 }  // namespace clatter::numeric

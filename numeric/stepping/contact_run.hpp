@@ -7,6 +7,7 @@
 #include "numeric/contact/contact_system.hpp"
 #include "numeric/impact_record.hpp"
 #include "numeric/stepping/contact_scales.hpp"
+#include "numeric/stepping/friction_log.hpp"
 #include "numeric/stepping/stepper.hpp"
 #include "numeric/stepping/touch_counter.hpp"
 
@@ -57,10 +58,6 @@ class ContactRun {
   [[nodiscard]] ContactResult run(const MotionState& touch, const Vector3& point, const ContactControl& control);
 
  private:
-  struct PhaseLog {
-    FrictionPhase::Kind kind;
-    AlongGround direction;  ///< of slip when it began
-  };
   using Indicator = double (ContactRun::*)(const ContactInstant&) const;
 
   void begin(const MotionState& touch, const Vector3& point);
@@ -77,12 +74,16 @@ class ContactRun {
   void accept(const ContactInstant& next);
   void look_for_peak(const ContactInstant& next);
   bool handle_friction_event(double h);
+  void change_phase();
   [[nodiscard]] double locate(Indicator indicator, double h, ContactInstant& at_root);
   [[nodiscard]] double lift_off_time(double h, ContactInstant& at_root);
   [[nodiscard]] double slip_forward(const ContactInstant& at) const;
   [[nodiscard]] double stick_reserve(const ContactInstant& at) const;
+  [[nodiscard]] double force_to_judge(const ContactInstant& at) const;
+  [[nodiscard]] bool is_faint(const ContactInstant& at) const;
+  [[nodiscard]] bool phase_is_over(const ContactInstant& at) const;
   void start_phase(FrictionPhase::Kind kind, const AlongGround& direction);
-  void close_phase();
+  [[nodiscard]] FrictionLog::Sums sums() const;
   [[nodiscard]] bool at_rest(const ContactInstant& at) const;
   [[nodiscard]] FrictionMode mode() const;
 
@@ -94,10 +95,9 @@ class ContactRun {
   const ContactControl* control_ = nullptr;
   ContactScales scales_;
   ContactState weights_, error_;
-  ContactInstant now_, trial_, probe_, peak_;
+  ContactInstant now_, trial_, probe_, peak_, faint_;
   ContactResult result_;
-  std::vector<PhaseLog> phases_;  ///< of friction that mattered, in their order
-  double phase_start_ = 0, phase_work_ = 0;  ///< time and work of friction when the current phase began
+  FrictionLog log_;
   double stopping_speed_ = 0;  ///< slip at which the slip phase ends [m/s]
   int switches_ = 0;  ///< of friction since the last accepted step
 };

@@ -70,6 +70,12 @@ const char* mode_name(FrictionMode mode) {
       return "slip-stick";
     case FrictionMode::stick_slip:
       return "stick-slip";
+    case FrictionMode::slip_stick_slip:
+      return "slip-stick-slip";
+    case FrictionMode::stick_slip_stick:
+      return "stick-slip-stick";
+    case FrictionMode::alternating:
+      return "alternating";
     case FrictionMode::reverse_slip:
       return "reverse-slip";
     case FrictionMode::regularised:
