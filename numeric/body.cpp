@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "numeric/detail/require.hpp"
+#include "numeric/errors.hpp"
 
 namespace clatter::numeric {
 namespace {
@@ -17,6 +18,15 @@ void check_inertia(const Matrix3& inertia) {
   require(moments[0] > 0, "smallest principal moment of inertia", moments[0], "greater than 0");
   require(moments[2] <= (moments[0] + moments[1]) * (1 + 1e-9), "largest principal moment of inertia", moments[2],
           "at most the sum of the other two");
+}
+
+/// Products of lengths that leave the range of doubles give no normals.
+void check_surface(const Facets& facets, double radius) {
+  const bool sound = !facets.facets.empty() && std::isfinite(radius) &&
+                     std::all_of(facets.facets.begin(), facets.facets.end(), [](const Facet& facet) {
+                       return std::fabs(facet.normal.squaredNorm() - 1) <= 1e-9;
+                     });
+  if (!sound) throw NumericalError("the surface of the body is not representable in double precision");
 }
 
 }  // namespace
@@ -32,7 +42,8 @@ void Body::set_up(const MassProperties& properties, const Surface& surface, bool
   check_inertia(properties.inertia);
   mass_ = properties.mass;
   inertia_ = properties.inertia;
-  inverse_inertia_ = inertia_.inverse();
+  const double size = inertia_.trace();  // scaled: the determinant of a large body's inertia overflows
+  inverse_inertia_ = Matrix3(inertia_ / size).inverse() / size;
   facets_ = planar_facets(surface, merge);
   for (Vector3& vertex : facets_.vertices) {
     vertex -= properties.centre;
@@ -40,6 +51,7 @@ void Body::set_up(const MassProperties& properties, const Surface& surface, bool
     half_length_ = std::max(half_length_, std::fabs(vertex.x()));
   }
   hierarchy_ = Hierarchy(facets_);
+  check_surface(facets_, radius_);
 }
 
 }  // namespace clatter::numeric

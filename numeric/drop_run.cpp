@@ -142,6 +142,7 @@ class Run {
     row.end = contact.end;
     row.touches = contact.touches;
     row.mode = contact.mode;
+    row.submerged = contact.submerged;
     row.amplification = std::numeric_limits<double>::quiet_NaN();
     row.energy_stored = contact.energy_stored;
     const double gap = n.energy_loss - n.work_damping - n.work_friction - n.work_released - row.energy_stored;

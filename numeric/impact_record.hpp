@@ -49,6 +49,9 @@ struct ImpactRecord {
   ContactEnd end = ContactEnd::a;
   int touches = 1;           ///< separate places that came down during this impact
   FrictionMode mode = FrictionMode::frictionless;
+  /// Whether the whole body lay below the ground for a time: the foundation, a bed below the body, is then pressed from
+  /// within, and its law stands for nothing real.
+  bool submerged = false;
   /// Growth of a relative error of the start until the end of this impact; NaN if not asked for.
   double amplification = 0;
   /// Whether rounding errors, so grown, stay below one part in a hundred.

@@ -48,7 +48,7 @@ std::string words_for(const Simulation& run, const Options& options, double time
       text << "the contact after " << time << " s needs steps too small for the tolerance; ask for fewer digits";
       break;
     case Outcome::not_representable:
-      text << "the contact after " << time << " s is too shallow or too deep for double precision";
+      text << "the contact after " << time << " s is too shallow, too deep or too large for double precision";
       break;
     case Outcome::flight_undecided:
       text << "no touch-down found after " << time << " s within the work allowed";
@@ -89,6 +89,9 @@ MotionState touching_state(const Body& body, const Drop& drop) {
 Simulation simulate(const Body& body, const Ground& ground, const MotionState& start, const Options& options) {
   options.validate();
   ground.validate();
+  const bool finite = start.centre.allFinite() && start.attitude.coeffs().allFinite() && start.velocity.allFinite() &&
+                      start.angular_velocity.allFinite();
+  if (!finite) throw std::domain_error("the start: every number of the state must be finite");
   const double low = lowest_height(body, start);
   detail::require(low >= -1e-12 * body.radius(), "height of the lowest point", low, "at least 0");
   const Accuracy accuracy = accuracy_for(options);

@@ -1,6 +1,7 @@
 #include "numeric/contact/contact_load.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "numeric/contact/slip_quadrature.hpp"
 
@@ -24,6 +25,13 @@ struct ContactLoader::FacetView {
   double weight;       ///< of its area
   double weight_rate;
 };
+
+/// A face that looks up from below the ground, of negative weight in the projected measure, is pressed downward and
+/// rubs as much.  In a patch taken as flat each column of the ground slips as one: the faces at its ends share one
+/// velocity, and their difference, never negative, is what the column presses with.
+double ContactLoader::friction_weight(double weight, const SlipField& slip) {
+  return slip.kind == SlipField::Kind::turning ? weight : std::fabs(weight);
+}
 
 ContactLoader::ContactLoader(const Body& body, const Ground& ground) : body_(body), ground_(ground) {
   std::size_t longest = 0;
@@ -114,7 +122,9 @@ void ContactLoader::add_below(const ContactPolygon& below, const FacetView& face
 double ContactLoader::add_pressing(const ContactPolygon& pressing, const FacetView& facet, Sums& sums) {
   const LoadIntegrals here = load_integrals(pressing);
   sums.pressing.add(here, facet.weight);
-  if (sums.slip.kind != SlipField::Kind::none) add_slip(pressing, facet.weight, sums.view, ground_, sums.slip, sums.load);
+  if (sums.slip.kind != SlipField::Kind::none) {
+    add_slip(pressing, friction_weight(facet.weight, sums.slip), sums.view, ground_, sums.slip, sums.load);
+  }
   if (!sums.rates) return here.depth_squared;
   sums.rates->rates.add(rate_integrals(pressing), facet.weight);
   const double k = ground_.stiffness, c = ground_.damping;

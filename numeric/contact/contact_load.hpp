@@ -81,6 +81,7 @@ class ContactLoader {
  private:
   struct Sums;
   struct FacetView;
+  [[nodiscard]] static double friction_weight(double weight, const SlipField& slip);
   void add_facet(const Facet& facet, Sums& sums);
   void add_loop(const FacetView& facet, const Loop& loop, Sums& sums);
   void add_below(const ContactPolygon& below, const FacetView& facet, Sums& sums);

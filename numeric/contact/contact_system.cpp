@@ -304,4 +304,11 @@ ContactLoad ContactSystem::pressed(double depth) {
   return loader_.load(view, {});
 }
 
+bool ContactSystem::is_submerged(const ContactState& y) const {
+  if (!(plane_.offset + y[displacement + 2] < 0)) return false;  // the centre of mass lies within the body
+  const GroundView at = view(y);
+  const std::vector<Vector3>& vertices = body_.facets().vertices;
+  return std::all_of(vertices.begin(), vertices.end(), [&](const Vector3& u) { return at.height(u) < 0; });
+}
+
 }  // namespace clatter::numeric

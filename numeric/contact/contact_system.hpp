@@ -82,6 +82,9 @@ class ContactSystem {
   /// Static energy and force at a depth below the touch-down pose, for the scales of time and depth.
   [[nodiscard]] ContactLoad pressed(double depth);
 
+  /// Whether no vertex is at or above the ground.
+  [[nodiscard]] bool is_submerged(const ContactState& y) const;
+
   [[nodiscard]] long evaluations() const { return evaluations_; }
   [[nodiscard]] const Body& body() const { return body_; }
   [[nodiscard]] const Ground& ground() const { return ground_; }

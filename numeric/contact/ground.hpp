@@ -6,7 +6,10 @@ namespace clatter::numeric {
 /// Over which area the distributed load is integrated.
 enum class AreaMeasure {
   surface,    ///< the body's own surface, the paper's reading: a steep side face counts in full
-  projected,  ///< its signed vertical component, a Winkler bed of springs: F = k_G × submerged volume
+  /// Its signed vertical component, a Winkler bed of springs: F = k_G × submerged volume.  Faces that look up from
+  /// below the ground are pressed downward.  Friction of the regularised law acts on them as on the others, by what
+  /// presses on each; friction of the coulomb law is that of the resultant.
+  projected,
 };
 
 enum class FrictionLaw {

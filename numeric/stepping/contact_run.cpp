@@ -153,11 +153,15 @@ bool ContactRun::stepped_over() const {
 bool ContactRun::find_step(double& h, double& next) {
   const int order = stepper_.error_order();
   const double horizon = std::max(scales_.time, now_.time);
+  bool is_number = true;  // of the last trial
   if (order > 0) h = std::min(h, largest_part * horizon);
   for (;;) {
     if (system_.evaluations() >= control_->evaluation_limit) return end(ContactEnding::evaluation_limit);
-    if (!(h > smallest_part * horizon)) return end(ContactEnding::step_too_small);
-    if (!try_step(now_, h, trial_)) {
+    if (!(h > smallest_part * horizon)) {
+      return end(is_number ? ContactEnding::step_too_small : ContactEnding::not_representable);
+    }
+    is_number = try_step(now_, h, trial_);
+    if (!is_number) {
       h /= 8;
       continue;
     }
@@ -192,6 +196,7 @@ bool ContactRun::advance(double& h) {
 
 void ContactRun::accept(const ContactInstant& next) {
   touches_.update(submerged_);
+  result_.submerged = result_.submerged || system_.is_submerged(next.state);
   look_for_peak(next);
   now_ = next;
   switches_ = 0;

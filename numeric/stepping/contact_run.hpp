@@ -43,6 +43,7 @@ struct ContactResult {
   double peak_time = 0;   ///< after touch-down [s]
   FrictionMode mode = FrictionMode::frictionless;
   int touches = 0;
+  bool submerged = false;  ///< see ImpactRecord
   ContactEnd end = ContactEnd::middle;
   ContactScales scales;
   double step = 0;        ///< fixed step used [s]; 0: adaptive

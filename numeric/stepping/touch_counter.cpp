@@ -6,34 +6,52 @@
 namespace clatter::numeric {
 
 TouchCounter::TouchCounter(const Body& body) : body_(body) {
-  const Facets& facets = body.facets();
-  const std::size_t vertices = facets.vertices.size();
-  std::vector<std::pair<int, int>> edges;
-  edges.reserve(2 * facets.corners.size());
-  const double longest = body.radius() / 4;
-  for (const Loop& loop : facets.loops) {
-    for (int c = loop.begin; c < loop.end; ++c) {
-      const int next = c + 1 < loop.end ? c + 1 : loop.begin;
-      const int from = facets.corners[static_cast<std::size_t>(c)], to = facets.corners[static_cast<std::size_t>(next)];
-      const double length = (facets.vertices[static_cast<std::size_t>(from)] -
-                             facets.vertices[static_cast<std::size_t>(to)]).norm();
-      if (!(length < longest)) continue;
-      edges.emplace_back(from, to);
-      edges.emplace_back(to, from);
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  const std::size_t vertices = body.facets().vertices.size();
+  const std::vector<Edge> all = edges();
   neighbour_begin_.assign(vertices + 1, 0);
-  for (const auto& [from, to] : edges) {
-    ++neighbour_begin_[static_cast<std::size_t>(from) + 1];
-    neighbours_.push_back(to);
+  for (const Edge& edge : all) {
+    ++neighbour_begin_[static_cast<std::size_t>(edge.from) + 1];
+    neighbours_.push_back(edge.to);
   }
   for (std::size_t v = 0; v < vertices; ++v) neighbour_begin_[v + 1] += neighbour_begin_[v];
   stamps_.assign(vertices, 0);
   before_.assign(vertices, 0);
   flooded_.assign(vertices, 0);
   stack_.reserve(vertices);
+}
+
+/// All links in both directions, sorted by where they begin.
+std::vector<TouchCounter::Edge> TouchCounter::edges() const {
+  const Facets& facets = body_.facets();
+  std::vector<Edge> edges;
+  edges.reserve(2 * facets.corners.size());
+  const auto first_corner = [&](int loop) {
+    return facets.corners[static_cast<std::size_t>(facets.loops[static_cast<std::size_t>(loop)].begin)];
+  };
+  for (std::size_t f = 0; f < facets.facets.size(); ++f) {
+    const Facet& facet = facets.facets[f];
+    for (int l = facet.begin; l < facet.end; ++l) {
+      add_loop(facets.loops[static_cast<std::size_t>(l)], edges);
+      if (l == facet.begin) continue;  // a hole's outline is joined to the face's
+      edges.push_back({first_corner(facet.begin), {first_corner(l), Link::facet, static_cast<int>(f)}});
+      edges.push_back({first_corner(l), {first_corner(facet.begin), Link::facet, static_cast<int>(f)}});
+    }
+  }
+  std::stable_sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.from < b.from; });
+  return edges;
+}
+
+void TouchCounter::add_loop(const Loop& loop, std::vector<Edge>& edges) const {
+  const Facets& facets = body_.facets();
+  const double longest = body_.radius() / 4;
+  for (int c = loop.begin; c < loop.end; ++c) {
+    const int next = c + 1 < loop.end ? c + 1 : loop.begin;
+    const int from = facets.corners[static_cast<std::size_t>(c)], to = facets.corners[static_cast<std::size_t>(next)];
+    const double length = (facets.vertices[static_cast<std::size_t>(from)] -
+                           facets.vertices[static_cast<std::size_t>(to)]).norm();
+    // The facet beyond the edge gives the other direction.
+    edges.push_back({from, {to, length < longest ? Link::near : Link::far, -1}});
+  }
 }
 
 void TouchCounter::begin() {
@@ -69,11 +87,27 @@ void TouchCounter::update(const std::vector<int>& submerged) {
   }
   any_before_ = !submerged.empty();
   if (!grown) return;
-  bool new_place = false;
   for (const int vertex : submerged) {
-    if (flooded_[static_cast<std::size_t>(vertex)] != now_ && !joins_old(vertex)) new_place = true;
+    if (flooded_[static_cast<std::size_t>(vertex)] != now_ && !joins_old(vertex)) ++touches_;
   }
-  if (new_place) ++touches_;
+}
+
+/// Below the ground now, and not at the update before.
+bool TouchCounter::is_new(int vertex) const {
+  return stamp_of(vertex) == now_ && before_[static_cast<std::size_t>(vertex)] != now_ - 1;
+}
+
+bool TouchCounter::connects(int from, const Neighbour& to) const {
+  if (stamp_of(to.vertex) != now_) return false;
+  if (to.link == Link::near) return true;
+  if (!is_new(from) || !is_new(to.vertex)) return false;
+  if (to.link == Link::far) return true;
+  const Facets& facets = body_.facets();
+  const Facet& facet = facets.facets[static_cast<std::size_t>(to.facet)];
+  const int begin = facets.loops[static_cast<std::size_t>(facet.begin)].begin;
+  const int end = facets.loops[static_cast<std::size_t>(facet.end - 1)].end;
+  return std::all_of(facets.corners.begin() + begin, facets.corners.begin() + end,
+                     [&](int vertex) { return stamp_of(vertex) == now_; });
 }
 
 /// Visits the connected set of a vertex; tells whether part of it was below before.
@@ -83,14 +117,16 @@ bool TouchCounter::joins_old(int seed) {
   stack_.push_back(seed);
   flooded_[static_cast<std::size_t>(seed)] = now_;
   while (!stack_.empty()) {
-    const auto vertex = static_cast<std::size_t>(stack_.back());
+    const int vertex = stack_.back();
     stack_.pop_back();
-    joins = joins || before_[vertex] == now_ - 1;
-    for (int i = neighbour_begin_[vertex]; i < neighbour_begin_[vertex + 1]; ++i) {
-      const auto next = static_cast<std::size_t>(neighbours_[static_cast<std::size_t>(i)]);
-      if (stamps_[next] != now_ || flooded_[next] == now_) continue;
-      flooded_[next] = now_;
-      stack_.push_back(static_cast<int>(next));
+    joins = joins || !is_new(vertex);
+    const auto v = static_cast<std::size_t>(vertex);
+    for (int i = neighbour_begin_[v]; i < neighbour_begin_[v + 1]; ++i) {
+      const Neighbour& next = neighbours_[static_cast<std::size_t>(i)];
+      int& flooded = flooded_[static_cast<std::size_t>(next.vertex)];
+      if (flooded == now_ || !connects(vertex, next)) continue;
+      flooded = now_;
+      stack_.push_back(next.vertex);
     }
   }
   return joins;

@@ -7,10 +7,11 @@
 
 namespace clatter::numeric {
 
-/// A new place is a set of vertices that go below the ground together, apart from all that were below before:
-/// not connected with them, over vertices below the ground, by edges shorter than a quarter of the body's
-/// radius.  (Along a longer edge the contact spreads as well, but what arrives at its far end is another blow.)
-/// Vertices that go below between two updates are one place.  No allocation after construction.
+/// A new place is a set of vertices that go below the ground together, apart from all that were below before and from
+/// one another's: not connected, over vertices below the ground, by edges shorter than a quarter of the body's radius.
+/// (Along a longer edge the contact spreads as well, but what arrives at its far end is another blow.)  Between two
+/// updates vertices go below at once; longer edges, and facets that then lie below wholly, connect them too: a face or
+/// an edge that lands flat is one place, two feet are two.  No allocation after construction.
 class TouchCounter {
  public:
   explicit TouchCounter(const Body& body);
@@ -26,12 +27,28 @@ class TouchCounter {
   [[nodiscard]] bool touched_b() const { return touched_b_; }  ///< a vertex with x′ > 0
 
  private:
+  enum class Link { near, far, facet };
+  struct Neighbour {
+    int vertex;
+    Link link;
+    int facet;  ///< that must lie below wholly; of Link::facet
+  };
+  struct Edge {
+    int from;
+    Neighbour to;
+  };
+
+  [[nodiscard]] std::vector<Edge> edges() const;
+  void add_loop(const Loop& loop, std::vector<Edge>& edges) const;
   [[nodiscard]] int stamp_of(int vertex) const { return stamps_[static_cast<std::size_t>(vertex)]; }
+  [[nodiscard]] bool is_new(int vertex) const;
+  [[nodiscard]] bool connects(int from, const Neighbour& to) const;
   [[nodiscard]] bool joins_old(int seed);
   void note_end(int vertex);
 
   const Body& body_;
-  std::vector<int> neighbour_begin_, neighbours_;
+  std::vector<int> neighbour_begin_;
+  std::vector<Neighbour> neighbours_;
   std::vector<int> stamps_;       ///< update at which a vertex was last below the ground
   std::vector<int> flooded_;      ///< update at which it was last flooded
   std::vector<int> before_;       ///< update before the stamp at which it was below, for continuity

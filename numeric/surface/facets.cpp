@@ -55,7 +55,7 @@ class Grouping {
 
  private:
   [[nodiscard]] bool in_plane(const Vector3& normal, const Vector3& point, int polygon) const {
-    const double deviation = (polygons_.area[polygon].normalized() - normal).norm();
+    const double deviation = (polygons_.area[polygon].stableNormalized() - normal).norm();
     if (!(deviation <= normal_tolerance)) return false;
     for (int c = polygons_.begin[polygon]; c < polygons_.begin[polygon + 1]; ++c) {
       const double off = normal.dot(polygons_.position(c) - point);
@@ -67,7 +67,7 @@ class Grouping {
   /// Everything that is reached from the first polygon over edges within its plane.
   void grow(Groups& groups, int first) const {
     const int group = groups.count();
-    const Vector3 normal = polygons_.area[first].normalized();
+    const Vector3 normal = polygons_.area[first].stableNormalized();
     const Vector3& point = polygons_.position(polygons_.begin[first]);
     groups.of[first] = group;
     std::size_t done = groups.members.size();
@@ -186,7 +186,7 @@ class Assembly {
         add_loops(groups.members[m]);
       }
       const int end = static_cast<int>(facets_.loops.size());
-      facets_.facets.push_back({area.normalized(), begin, end});
+      facets_.facets.push_back({area.stableNormalized(), begin, end});
     }
     use_own_vertices();
     return std::move(facets_);
