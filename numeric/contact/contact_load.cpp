@@ -7,6 +7,15 @@
 
 namespace clatter::numeric {
 
+void SlipRange::add(double east, double north) {
+  low_east = std::min(low_east, east);
+  high_east = std::max(high_east, east);
+  low_north = std::min(low_north, north);
+  high_north = std::max(high_north, north);
+}
+
+double SlipRange::width() const { return std::max({high_east - low_east, high_north - low_north, 0.0}); }
+
 /// One evaluation: what it sees and what it has summed so far.
 struct ContactLoader::Sums {
   const GroundView& view;
@@ -41,6 +50,9 @@ ContactLoader::ContactLoader(const Body& body, const Ground& ground) : body_(bod
   whole_.resize(longest);
   below_.resize(2 * longest);
   part_.resize(4 * longest);
+  scratch_ = std::make_shared<SlipScratch>();
+  scratch_->corners.resize(4 * longest);
+  scratch_->part.resize(8 * longest);
 }
 
 ContactLoad ContactLoader::load(const GroundView& view, const SlipField& slip, LoadRates* rates,
@@ -123,7 +135,7 @@ double ContactLoader::add_pressing(const ContactPolygon& pressing, const FacetVi
   const LoadIntegrals here = load_integrals(pressing);
   sums.pressing.add(here, facet.weight);
   if (sums.slip.kind != SlipField::Kind::none) {
-    add_slip(pressing, friction_weight(facet.weight, sums.slip), sums.view, ground_, sums.slip, sums.load);
+    add_slip(pressing, friction_weight(facet.weight, sums.slip), sums.view, ground_, sums.slip, *scratch_, sums.load);
   }
   if (!sums.rates) return here.depth_squared;
   sums.rates->rates.add(rate_integrals(pressing), facet.weight);

@@ -1,6 +1,8 @@
 // The ground's load on a body: normal force, its moment, powers and stored energy.
 #pragma once
 
+#include <limits>
+#include <memory>
 #include <vector>
 
 #include "numeric/body.hpp"
@@ -34,14 +36,24 @@ struct GroundView {
 struct SlipField {
   enum class Kind {
     none,
-    turning,      ///< −v/|v|, v = slip of the centre + spin × distance from it: the patch taken as flat
-    regularised,  ///< −v/√(v² + v_r²), v the velocity of each point
+    turning,  ///< −v/|v|, v = slip of the centre + spin × distance from it: the patch taken as flat
+    points,   ///< −v/√(v² + v_r²), v the velocity of each point
   };
   Kind kind = Kind::none;
-  double regularisation = 0;         ///< v_r [m/s]
+  bool planar = false;               ///< v has no part to the north
+  double regularisation = 0;         ///< v_r; 0: −v/|v| [m/s]
   Vector3 centre = Vector3::Zero();  ///< of pressure, body frame [m]
-  double east = 0, north = 0;        ///< slip velocity there [m/s]
+  double east = 0, north = 0;        ///< slip velocity there; of `points`, added to that of each [m/s]
   double spin = 0;                   ///< about the vertical [rad/s]
+};
+
+/// The slip velocities that the patch has, component by component.
+struct SlipRange {
+  double low_east = std::numeric_limits<double>::infinity(), high_east = -low_east;  ///< [m/s]
+  double low_north = low_east, high_north = -low_east;
+  void add(double east, double north);
+  /// Largest difference between two points, of either component; 0 where nothing slips or touches.
+  [[nodiscard]] double width() const;
 };
 
 /// The load, per unit of k_G and c_G as the law f_n = (k_G + c_G δ̇) δ combines them.
@@ -55,6 +67,7 @@ struct ContactLoad {
   double deepest_rate = 0;                  ///< its δ̇ [m/s]
   double slip_east = 0, slip_north = 0;     ///< ∫f_n s, s the direction of the field [N]
   Vector3 slip_moment = Vector3::Zero();    ///< ∫f_n u × s, body frame [N·m]
+  SlipRange slip_range;                     ///< of the field
 
   [[nodiscard]] Vector3 pressure_centre() const { return first_moment / force; }
 };
@@ -67,6 +80,8 @@ struct LoadRates {
   double force_by_area = 0;
   Vector3 first_moment_by_area = Vector3::Zero();
 };
+
+struct SlipScratch;
 
 /// Sums the load over the facets near the ground.  Holds the scratch memory; one per thread.
 class ContactLoader {
@@ -91,6 +106,7 @@ class ContactLoader {
   const Body& body_;
   const Ground& ground_;
   std::vector<ContactCorner> whole_, below_, part_;
+  std::shared_ptr<SlipScratch> scratch_;
 };
 
 }  // namespace clatter::numeric

@@ -159,7 +159,8 @@ ContactSystem::Friction ContactSystem::friction(const Instant& at) {
   const double mu = ground_.sliding_friction;
   switch (phase_.kind) {
     case Kind::none: return {};
-    case Kind::regularised: return over_patch(at, at.load);
+    case Kind::regularised:
+    case Kind::local: return over_patch(at, at.load);
     case Kind::stick: return in_stick(at);
     case Kind::slip: break;
   }
@@ -238,9 +239,10 @@ void ContactSystem::evaluate(const ContactState& y, ContactState& rate, ContactD
   ++evaluations_;
   const GroundView view = this->view(y);
   SlipField field;
-  if (phase_.kind == Kind::regularised) {
-    field.kind = SlipField::Kind::regularised;
-    field.regularisation = ground_.regularisation_speed;
+  if (phase_.kind == Kind::regularised || phase_.kind == Kind::local) {
+    field.kind = SlipField::Kind::points;
+    field.planar = planar_;
+    if (phase_.kind == Kind::regularised) field.regularisation = ground_.regularisation_speed;
   }
   LoadRates rates;
   const bool wants_rates = diagnosis || phase_.kind == Kind::stick;
@@ -279,6 +281,32 @@ AlongGround ContactSystem::sticking_force(const ContactState& y) {
   const AlongGround force = diagnose(y, rate).hold;
   phase_ = before;
   return force;
+}
+
+SlipRange ContactSystem::slip_range(const ContactState& y) {
+  ++evaluations_;
+  return loader_.load(view(y), {.kind = SlipField::Kind::points, .planar = planar_}).slip_range;
+}
+
+LocalFriction ContactSystem::local_friction(const ContactState& y, const AlongGround& shift) {
+  ++evaluations_;
+  const GroundView view = this->view(y);
+  const ContactLoad load = loader_.load(
+      view, {.kind = SlipField::Kind::points, .planar = planar_, .east = shift.east, .north = shift.north});
+  if (!(load.force > 0)) return {};
+  const double mu = ground_.sliding_friction;
+  const AlongGround force{mu * load.slip_east, planar_ ? 0 : mu * load.slip_north};
+  const Vector3 at_centre = load.pressure_centre().cross(along(view, force));
+  return {force, planar_ ? 0 : view.normal().dot(mu * load.slip_moment - at_centre)};
+}
+
+AlongGround ContactSystem::response(const ContactState& y, const Vector3& u, const AlongGround& impulse) const {
+  const GroundView view = this->view(y);
+  const Vector3 moment = u.cross(along(view, impulse));
+  const Vector3 turning = (planar_ ? Vector3(north_ * (north_.dot(moment) / north_.dot(body_.inertia() * north_)))
+                                   : Vector3(body_.inverse_inertia() * moment)).cross(u);
+  return {impulse.east / body_.mass() + view.east.dot(turning),
+          planar_ ? 0 : impulse.north / body_.mass() + view.north.dot(turning)};
 }
 
 AlongGround ContactSystem::sticking_ratio(const Vector3& u) const {

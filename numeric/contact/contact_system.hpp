@@ -17,7 +17,7 @@ struct AlongGround {
 
 /// What friction does until an event changes it.
 struct FrictionPhase {
-  enum class Kind { none, slip, stick, regularised };
+  enum class Kind { none, slip, stick, regularised, local };
   Kind kind = Kind::none;
   AlongGround direction;  ///< of slip when the phase or the step began, unit
   bool varies = false;    ///< whether the direction of slip varies over the patch noticeably
@@ -48,12 +48,19 @@ struct ContactDiagnosis {
   double spin = 0;               ///< angular velocity about the vertical [rad/s]
 };
 
+/// The local law's resultant and its moment about the vertical through the pressure centre.
+struct LocalFriction {
+  AlongGround force;  ///< [N]
+  double twist = 0;   ///< [N·m]
+};
+
 ///     m V̇ = F_c − m g e_z,   I ω̇′ + ω′ × I ω′ = M′,   β̇ = ½ β ω′,
 ///     F_c = F_n e_z + F_t,   M′ = ∫f_n u × n′ + (friction)
 /// Slip: F_t = −μ_k F_n d at the pressure centre c, d the direction of the slip velocity there; if the body spins
 /// about the vertical, −μ_k ∫f_n v/|v| over the patch taken as flat, with its moment about the vertical.  (The slip of its points differs by the turning
 /// about the horizontal times their depth too; that is left out: the patch would slip forth and back at once
 /// whenever it is about to stick.)  Stick: F_t at c such that
+/// Local slip: −μ_k ∫f_n v/|v|, v the velocity of each point, with its moment.
 ///     d/dt v_t(c) = [V̇ + ω̇ × c + ω × (ω × c) + ω × ċ]_t = 0,
 /// ċ being the pressure centre's motion over the body, so that c stays at rest although it moves
 /// (or comes to rest, like exp(−fading × time), if it was caught with a little slip left).  |F_t| <= μ_s F_n: stick
@@ -79,6 +86,12 @@ class ContactSystem {
   /// The same per unit of normal force for a light load at the body's point u, from the touch-down pose: tells
   /// whether a contact that begins without slip sticks.
   [[nodiscard]] AlongGround sticking_ratio(const Vector3& u) const;
+  /// Range of the slip velocities of the patch's points [m/s].
+  [[nodiscard]] SlipRange slip_range(const ContactState& y);
+  /// Friction of the local law if all points slipped faster by `shift` [m/s].
+  [[nodiscard]] LocalFriction local_friction(const ContactState& y, const AlongGround& shift);
+  /// Change of velocity of the body's point u along the ground by an impulse there [m/s].
+  [[nodiscard]] AlongGround response(const ContactState& y, const Vector3& u, const AlongGround& impulse) const;
   /// Static energy and force at a depth below the touch-down pose, for the scales of time and depth.
   [[nodiscard]] ContactLoad pressed(double depth);
 

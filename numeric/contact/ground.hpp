@@ -13,13 +13,25 @@ enum class AreaMeasure {
 };
 
 enum class FrictionLaw {
-  /// Slip per unit area against the local slip velocity; stick as one unknown resultant at the pressure centre.
-  /// Cannot represent: the moment that resists spinning about the vertical while the pressure centre sticks, and
-  /// areas that slip while others stick.
+  /// Coulomb's law of a contact patch taken as flat: f_t = −μ_k f_n v/|v|, v the slip of the pressure centre plus the
+  /// spin about the vertical times the distance from it; stick is one unknown resultant at the pressure centre.  The
+  /// discrete model's law, whose contact is a point.  Leaves out the slip of the points from the turning about the
+  /// horizontal times their depth; cannot represent the moment that resists spinning while the pressure centre sticks,
+  /// nor areas that slip while others stick.
   coulomb,
   /// f_t = −μ_k f_n v / √(v² + v_r²) everywhere.  Represents spin; cannot represent stick: a body on a slope or under
   /// a sustained tangential load creeps, at a speed of up to about v_r.
   regularised,
+  /// f_t = −μ_k f_n v/|v| with the velocity v of each point: Eq. 6 of the paper as written, where the load at each
+  /// place follows from "its local indentation and relative velocity".  (Its stick, Eq. 5, is one resultant with "a
+  /// presumed sticking location", as in `coulomb`.)  While the patch turns about the horizontal its points slip at
+  /// different speeds, over a range of about |ω| times the depth, and at most a line of them rests: friction changes
+  /// continuously from −μ_k F_n to μ_k F_n while the slip of the pressure centre crosses that range, and nothing
+  /// sticks.  Where the range is below what the tolerance resolves (slip_resolution, contact_run.cpp) the patch
+  /// counts as a point, as in `coulomb`: that is the law's limit, with the resultant that keeps the point at rest, at
+  /// most μ_k F_n.  The equations are stiff there, and since the slip forgets its start at the rate μ_k F_n over
+  /// mass times range, the error is of second order.  μ_s has a place where nothing turns alone.
+  local,
 };
 
 /// f_n = (k_G + c_G δ̇) δ per unit area where the surface lies δ > 0 below z = 0, clamped at zero: the ground

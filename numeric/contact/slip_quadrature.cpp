@@ -1,83 +1,85 @@
 #include "numeric/contact/slip_quadrature.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace clatter::numeric {
 namespace {
 
-struct Point {
-  double p, q, r;  ///< barycentric
-  double weight;
+/// Slip velocity of the body's points: `value` at the origin, and its rates of change over the body, per metre.
+struct BodySlip {
+  double east = 0, north = 0;
+  Vector3 east_slope, north_slope;
 };
 
-/// Radon's rule: centroid and two orbits of three.
-std::array<Point, 7> radon_rule() {
-  const double root = std::sqrt(15.0);
-  const double a = (6 - root) / 21, b = (6 + root) / 21;
-  const double wa = (155 - root) / 1200, wb = (155 + root) / 1200;
-  const double third = 1.0 / 3;
-  return {{{third, third, third, 9.0 / 40},
-           {a, a, 1 - 2 * a, wa}, {a, 1 - 2 * a, a, wa}, {1 - 2 * a, a, a, wa},
-           {b, b, 1 - 2 * b, wb}, {b, 1 - 2 * b, b, wb}, {1 - 2 * b, b, b, wb}}};
-}
-
-struct Slip {
-  double east, north;
-};
-
-Slip slip_at(const Vector3& u, const GroundView& view, const SlipField& field) {
+BodySlip body_slip(const Vector3& origin, const GroundView& view, const SlipField& field) {
   if (field.kind == SlipField::Kind::turning) {
-    const Vector3 away = u - field.centre;
-    return {field.east - field.spin * view.north.dot(away), field.north + field.spin * view.east.dot(away)};
+    const Vector3 away = origin - field.centre;
+    const Vector3 east_slope = -field.spin * view.north, north_slope = field.spin * view.east;
+    return {field.east + east_slope.dot(away), field.north + north_slope.dot(away), east_slope, north_slope};
   }
-  const Vector3 turning = view.angular_velocity.cross(u);
-  return {view.east_speed + view.east.dot(turning), view.north_speed + view.north.dot(turning)};
+  // a·(ω × u) = (a × ω)·u
+  const Vector3 east_slope = view.east.cross(view.angular_velocity), north_slope = view.north.cross(view.angular_velocity);
+  return {view.east_speed + field.east + east_slope.dot(origin), view.north_speed + field.north + north_slope.dot(origin),
+          east_slope, north_slope};
 }
 
-/// Where the patch turns about a point inside it, the direction jumps from one quadrature point to the next, and the
-/// sum with it although the integral is smooth.  A tenth of the speed across the triangle rounds the jump off;
-/// it fades with the cube of that speed over the slip of the centre.
-double rounding_speed(const SlipField& field, const ContactCorner& p, const ContactCorner& q, const ContactCorner& r) {
-  if (field.kind == SlipField::Kind::regularised) return field.regularisation;
-  const double size = std::sqrt(std::max({(q.position - p.position).squaredNorm(), (r.position - p.position).squaredNorm(),
-                                          (r.position - q.position).squaredNorm()}));
-  const double across = std::fabs(field.spin) * size;
-  if (!(across > 0)) return 0;
-  return 0.1 * across / (1 + (field.east * field.east + field.north * field.north) / (across * across));
-}
-
-void add_point(const Vector3& u, double force, double rounding, const GroundView& view, const SlipField& field,
+void add_force(double east, const Vector3& east_moment, double weight, const Vector3& direction, double& sum,
                ContactLoad& load) {
-  const Slip slip = slip_at(u, view, field);
-  const double speed = std::hypot(slip.east, slip.north, rounding);
-  if (!(speed > 0)) return;
-  const double at_east = -force * slip.east / speed, at_north = -force * slip.north / speed;
-  load.slip_east += at_east;
-  load.slip_north += at_north;
-  load.slip_moment += u.cross(at_east * view.east + at_north * view.north);
+  sum -= weight * east;
+  load.slip_moment -= weight * east_moment.cross(direction);
+}
+
+/// One direction of slip: the part of the polygon that slips forward, less the part that slips back.
+void add_split(const ContactPolygon& polygon, double weight, const GroundView& view, const Ground& ground,
+               const BodySlip& slip, SlipScratch& scratch, ContactLoad& load) {
+  ContactPolygon part = polygon;
+  part.corners = scratch.part.data();
+  for (const double side : {1.0, -1.0}) {
+    part.count = clip(polygon.corners, polygon.count, scratch.part.data(), [&](const ContactCorner& corner) {
+      return side * (slip.east + slip.east_slope.dot(corner.position));
+    });
+    if (part.count < 3) continue;
+    const LoadIntegrals here = load_integrals(part);
+    const double k = ground.stiffness, c = ground.damping;
+    add_force(k * here.depth + c * here.depth_rate, k * here.depth_position + c * here.depth_rate_position, side * weight,
+              view.east, load.slip_east, load);
+  }
+}
+
+void widen(const BodySlip& slip, const ContactPolygon& polygon, bool planar, ContactLoad& load) {
+  for (int i = 0; i < polygon.count; ++i) {
+    const Vector3& u = polygon.corners[i].position;
+    load.slip_range.add(slip.east + slip.east_slope.dot(u), planar ? 0 : slip.north + slip.north_slope.dot(u));
+  }
 }
 
 }  // namespace
 
 void add_slip(const ContactPolygon& polygon, double weight, const GroundView& view, const Ground& ground,
-              const SlipField& slip, ContactLoad& load) {
-  static const std::array<Point, 7> rule = radon_rule();
-  const ContactCorner* c = polygon.corners;
-  for (int i = 2; i < polygon.count; ++i) {
-    const ContactCorner &p = c[0], &q = c[i - 1], &r = c[i];
-    const Vector3 along = q.position - p.position;
-    const double area = weight * 0.5 * polygon.normal.dot(along.cross(r.position - p.position));
-    const double rounding = rounding_speed(slip, p, q, r);
-    for (const Point& at : rule) {
-      const double depth = at.p * p.depth + at.q * q.depth + at.r * r.depth;
-      const double rate = at.p * p.rate + at.q * q.rate + at.r * r.rate;
-      const Vector3 u = polygon.origin + at.p * p.position + at.q * q.position + at.r * r.position;
-      const double pressure = (ground.stiffness + ground.damping * rate) * depth;
-      add_point(u, area * at.weight * pressure, rounding, view, slip, load);
-    }
+              const SlipField& field, SlipScratch& scratch, ContactLoad& load) {
+  const BodySlip slip = body_slip(polygon.origin, view, field);
+  widen(slip, polygon, field.planar, load);
+  if (field.planar && field.regularisation == 0) return add_split(polygon, weight, view, ground, slip, scratch, load);
+  const Vector3 along = polygon.normal.unitOrthogonal(), across = polygon.normal.cross(along);
+  for (int i = 0; i < polygon.count; ++i) {
+    const Vector3& u = polygon.corners[i].position;
+    scratch.corners[static_cast<std::size_t>(i)] = {along.dot(u), across.dot(u)};
   }
+  const auto over_plane = [&](double value, const Vector3& slope) {
+    return PlaneLinear{value, slope.dot(along), slope.dot(across)};
+  };
+  const Vector3 normal = view.normal(), rate_slope = normal.cross(view.angular_velocity);
+  const double rate = -(view.vertical_speed + rate_slope.dot(polygon.origin));
+  SlipPatch patch{scratch.corners.data(), polygon.count, over_plane(-view.height(polygon.origin), -normal),
+                  over_plane(ground.stiffness + ground.damping * rate, -ground.damping * rate_slope),
+                  over_plane(slip.east, slip.east_slope), over_plane(slip.north, slip.north_slope), field.regularisation};
+  if (field.planar) patch.north = {};
+  const SlipIntegrals sums = slip_integrals(patch);
+  const auto moment = [&](double value, double x, double y) -> Vector3 {
+    return value * polygon.origin + x * along + y * across;
+  };
+  add_force(sums.east, moment(sums.east, sums.east_x, sums.east_y), weight, view.east, load.slip_east, load);
+  add_force(sums.north, moment(sums.north, sums.north_x, sums.north_y), weight, view.north, load.slip_north, load);
 }
 
 }  // namespace clatter::numeric

@@ -1,16 +1,23 @@
 // Friction that varies over the contact patch.
 #pragma once
 
+#include <vector>
+
 #include "numeric/contact/contact_load.hpp"
+#include "numeric/contact/slip_integrals.hpp"
 
 namespace clatter::numeric {
 
-/// Adds to `load` weight × the integrals of f_n = (k_G + c_G δ̇) δ against the slip direction over the polygon's triangles, by
-/// the seven-point rule of degree 5. The direction is no polynomial: the
-/// error is that of the rule, small where the slip of the centre exceeds the speed of turning across the patch.  Where
-/// the patch turns about a point inside it, the direction is rounded off over a tenth of that speed, and the
-/// friction is right to about that part.
+/// Room for the polygons that add_slip works on.
+struct SlipScratch {
+  std::vector<PlanePoint> corners;
+  std::vector<ContactCorner> part;
+};
+
+/// Adds to `load` weight × the integrals of f_n = (k_G + c_G δ̇) δ against the slip direction over the polygon: by
+/// slip_integrals, right to rounding; in the plane exactly, by the polygon's parts on the two sides of the line of no
+/// slip.  `scratch` has room for twice the polygon's corners.
 void add_slip(const ContactPolygon& polygon, double weight, const GroundView& view, const Ground& ground,
-              const SlipField& slip, ContactLoad& load);
+              const SlipField& slip, SlipScratch& scratch, ContactLoad& load);
 
 }  // namespace clatter::numeric

@@ -1,0 +1,294 @@
+#include "numeric/contact/slip_integrals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "numeric/contact/gauss_rules.hpp"
+#include "numeric/contact/slip_segment.hpp"
+
+namespace clatter::numeric {
+namespace {
+
+constexpr double least_ellipse = 2.6;     ///< ρ from which Gauss's rule is taken
+constexpr double least_smooth_ellipse = 3.1;  ///< ρ from which it is taken for a whole triangle
+constexpr double near_sizes = 1.5;        ///< distance of p₀ from the middle, in sizes, up to which (1) cancels little
+constexpr int deepest_halving = 27;       ///< a part of 2^−27 adds less than eps: what it bounds is continuous
+constexpr double no_slip_part = 1e-15;    ///< of the largest slip: below it, rounding
+
+double cross(const PlanePoint& a, const PlanePoint& b) { return a.x * b.y - a.y * b.x; }
+PlanePoint minus(const PlanePoint& a, const PlanePoint& b) { return {a.x - b.x, a.y - b.y}; }
+PlanePoint between(const PlanePoint& a, const PlanePoint& b, double part) {
+  return {a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)};
+}
+
+/// A polygon with what slip_integrals must know to choose among its ways.
+struct Survey {
+  PlanePoint middle;
+  double size = 0;  ///< largest distance of a corner from the middle
+  SlipVector slip;  ///< at the middle
+  double variation = 0, fastest = 0;  ///< of the slip from that, and itself
+};
+
+SlipVector slip_at(const SlipPatch& patch, const PlanePoint& p) { return {patch.east.at(p), patch.north.at(p)}; }
+
+Survey survey(const SlipPatch& patch) {
+  Survey s;
+  PlanePoint low = patch.corners[0], high = low;
+  for (int i = 1; i < patch.count; ++i) {
+    const PlanePoint& p = patch.corners[i];
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  s.middle = between(low, high, 0.5);
+  s.slip = slip_at(patch, s.middle);
+  double square = 0, variation = 0;
+  for (int i = 0; i < patch.count; ++i) {
+    const PlanePoint away = minus(patch.corners[i], s.middle);
+    const SlipVector change{patch.east.along(away), patch.north.along(away)};
+    square = std::max(square, away.x * away.x + away.y * away.y);
+    variation = std::max(variation, change.square());
+  }
+  s.size = std::sqrt(square);
+  s.variation = std::sqrt(variation);
+  s.fastest = std::sqrt(s.slip.square()) + s.variation;
+  return s;
+}
+
+/// Slip along a segment that lies across the survey's circle with the half length b has its complex zeros at
+/// |z| >= √(K² − 1 + (v_r/b)²) half lengths from its middle, K the slip at the middle over its variation.
+double smooth_ellipse(const SlipPatch& patch, const Survey& s) {
+  if (!(s.variation > 0)) return std::numeric_limits<double>::infinity();
+  const double steady = std::sqrt(s.slip.square()) / s.variation, rounded = patch.rounding / s.variation;
+  const double square = std::max(steady * steady - 1, 0.0) + rounded * rounded;
+  return square > 1 ? std::sqrt(square) + std::sqrt(square - 1) : 1;
+}
+
+SlipIntegrals add_up_fan(const SlipPatch& patch, int order) {
+  SlipIntegrals sum;
+  const std::span<const GaussNode> rule = gauss_rule(order);
+  const PlanePoint& apex = patch.corners[0];
+  for (int i = 2; i < patch.count; ++i) {
+    const PlanePoint &p = patch.corners[i - 1], &q = patch.corners[i];
+    const double area = cross(minus(p, apex), minus(q, apex)) / 2;
+    for (const GaussNode& along : rule) {
+      const PlanePoint end = between(p, q, (1 + along.at) / 2);
+      for (const GaussNode& out : rule) {
+        const double part = (1 + out.at) / 2;
+        const PlanePoint at = between(apex, end, part);
+        add_point(patch, at, area / 2 * along.weight * out.weight * part, sum);
+      }
+    }
+  }
+  return sum;
+}
+
+/// The point of no slip, if it is near: by elimination with the largest slope as pivot, so that what rounding leaves of
+/// the slip there is small however ill-conditioned the slopes are.
+bool near_fixed_point(const SlipPatch& patch, const Survey& s, PlanePoint& fixed) {
+  double rows[2][3] = {{patch.east.x, patch.east.y, -s.slip.east}, {patch.north.x, patch.north.y, -s.slip.north}};
+  int row = 0, column = 0;
+  for (int i = 0; i < 4; ++i) {
+    if (std::fabs(rows[i / 2][i % 2]) > std::fabs(rows[row][column])) row = i / 2, column = i % 2;
+  }
+  const double(&first)[3] = rows[row];
+  const double(&second)[3] = rows[1 - row];
+  const double factor = second[column] / first[column];
+  const double pivot = second[1 - column] - factor * first[1 - column], right = second[2] - factor * first[2];
+  if (!(std::fabs(right) <= near_sizes * s.size * std::fabs(pivot)) || pivot == 0) return false;
+  const double other = right / pivot;
+  const double one = (first[2] - first[1 - column] * other) / first[column];
+  if (!(std::hypot(one, other) <= near_sizes * s.size)) return false;
+  fixed = {s.middle.x + (column == 0 ? one : other), s.middle.y + (column == 0 ? other : one)};
+  return true;
+}
+
+/// Equation (1).
+SlipIntegrals add_up_edges(const SlipPatch& patch, const PlanePoint& fixed) {
+  SlipIntegrals sum;
+  SlipSegment segment;
+  segment.depth = patch.depth.at(fixed);
+  segment.stiffness = patch.stiffness.at(fixed);
+  for (int degree = 0; degree < 3; ++degree) {
+    segment.force_parts[degree] = 1.0 / (degree + 2);
+    segment.moment_parts[degree] = 1.0 / (degree + 3);
+  }
+  for (int i = 0; i < patch.count; ++i) {
+    const PlanePoint a = minus(patch.corners[i], fixed);
+    const PlanePoint b = minus(patch.corners[i + 1 == patch.count ? 0 : i + 1], fixed);
+    const double twice_area = cross(a, b);
+    if (twice_area == 0) continue;
+    segment.middle = between(a, b, 0.5);
+    segment.half = {(b.x - a.x) / 2, (b.y - a.y) / 2};
+    segment.slip = {patch.east.along(segment.middle), patch.north.along(segment.middle)};
+    segment.depth_at_middle = patch.depth.along(segment.middle);
+    segment.stiffness_at_middle = patch.stiffness.along(segment.middle);
+    sum.add(along_segment(patch, segment), twice_area / 2);
+  }
+  sum.east_x += fixed.x * sum.east;
+  sum.east_y += fixed.y * sum.east;
+  sum.north_x += fixed.x * sum.north;
+  sum.north_y += fixed.y * sum.north;
+  return sum;
+}
+
+/// Sums over triangles: along the steepest direction of the slip in closed form, across it by Gauss's rule.
+class Strips {
+ public:
+  Strips(const SlipPatch& patch, const Survey& s) : patch_(patch) {
+    const PlaneLinear &e = patch.east, &n = patch.north;
+    const double xx = e.x * e.x + n.x * n.x, yy = e.y * e.y + n.y * n.y, xy = e.x * e.y + n.x * n.y;
+    const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
+    steep_ = {std::cos(angle), std::sin(angle)};
+    rise_ = {e.along(steep_), n.along(steep_)};
+    const PlanePoint across{-steep_.y, steep_.x};
+    drift_ = {e.along(across), n.along(across)};
+    const double speed = std::sqrt(rise_.square());
+    const double sideways = std::fabs(rise_.cross(s.slip)) / speed + std::fabs(rise_.cross(drift_)) / speed * 2 * s.size;
+    aligned_ = std::hypot(sideways, patch.rounding) <= no_slip_part * s.fastest;
+  }
+
+  SlipIntegrals sum() {
+    for (int i = 2; i < patch_.count; ++i) add_triangle(patch_.corners[0], patch_.corners[i - 1], patch_.corners[i]);
+    return sum_;
+  }
+
+ private:
+  /// A corner in the coordinates along and across the steep direction.
+  struct Corner {
+    double along, across;
+  };
+  /// The strip of a triangle between two heights, and its two sides: along = at + slope × (across − from).
+  struct Side {
+    double from, at, slope;
+    [[nodiscard]] double along(double across) const { return at + slope * (across - from); }
+  };
+  struct Strip {
+    Side left, right;
+    double sign;
+  };
+
+  [[nodiscard]] Corner turned(const PlanePoint& p) const {
+    return {steep_.x * p.x + steep_.y * p.y, steep_.x * p.y - steep_.y * p.x};
+  }
+  [[nodiscard]] PlanePoint back(double along, double across) const {
+    return {steep_.x * along - steep_.y * across, steep_.y * along + steep_.x * across};
+  }
+  [[nodiscard]] SlipVector slip(double along, double across) const { return slip_at(patch_, back(along, across)); }
+
+  static Side side(const Corner& a, const Corner& b) {
+    return {a.across, a.along, (b.along - a.along) / (b.across - a.across)};
+  }
+
+  void add_triangle(const PlanePoint& p, const PlanePoint& q, const PlanePoint& r) {
+    Corner c[3] = {turned(p), turned(q), turned(r)};
+    const double orientation = cross(minus(q, p), minus(r, p)) > 0 ? 1 : -1;
+    std::sort(c, c + 3, [](const Corner& a, const Corner& b) { return a.across < b.across; });
+    if (!(c[2].across > c[0].across)) return;
+    const Side whole = side(c[0], c[2]);
+    const bool bulges_right = c[1].along > whole.along(c[1].across);
+    const auto add = [&](const Corner& a, const Corner& b) {
+      if (!(b.across > a.across)) return;
+      const Side other = side(a, b);
+      add_strip({bulges_right ? whole : other, bulges_right ? other : whole, orientation}, a.across, b.across);
+    };
+    add(c[0], c[1]);
+    add(c[1], c[2]);
+  }
+
+  /// Cuts where a side crosses the line on which the slip has no part along its steep change, and where it has no part
+  /// across.
+  void add_strip(const Strip& strip, double low, double high) {
+    double cuts[5] = {low, high, low, low, low};
+    int count = 2;
+    const auto cut_at_zero = [&](double at_low, double at_high) {
+      if ((at_low > 0) == (at_high > 0)) return;
+      const double cut = low + (high - low) * (at_low / (at_low - at_high));
+      if (cut > low && cut < high) cuts[count++] = cut;
+    };
+    for (const Side* s : {&strip.left, &strip.right}) {
+      cut_at_zero(rise_.dot(slip(s->along(low), low)), rise_.dot(slip(s->along(high), high)));
+    }
+    cut_at_zero(rise_.cross(slip(strip.left.along(low), low)), rise_.cross(slip(strip.left.along(high), high)));
+    for (int i = 1; i < count; ++i) {  // std::sort of so few makes g++ 12 warn
+      for (int j = i; j > 0 && cuts[j] < cuts[j - 1]; --j) std::swap(cuts[j], cuts[j - 1]);
+    }
+    for (int i = 1; i < count; ++i) add_part(strip, cuts[i - 1], cuts[i], 0);
+  }
+
+  void add_part(const Strip& strip, double low, double high, int halvings) {
+    if (!(high > low)) return;
+    const double ellipse = aligned_ ? std::numeric_limits<double>::infinity() : part_ellipse(strip, low, high);
+    if (ellipse < least_ellipse && halvings < deepest_halving) {
+      const double middle = (low + high) / 2;
+      add_part(strip, low, middle, halvings + 1);
+      add_part(strip, middle, high, halvings + 1);
+      return;
+    }
+    const double half = (high - low) / 2, middle = (high + low) / 2;
+    for (const GaussNode& node : gauss_rule(gauss_order(ellipse))) {
+      add_line(strip, middle + half * node.at, half * node.weight);
+    }
+  }
+
+  /// Of the function across: its singularities are where the slip and v_r vanish together at an end, or on the way
+  /// between ends on different sides of the least slip.
+  [[nodiscard]] double part_ellipse(const Strip& strip, double low, double high) const {
+    const double middle = (low + high) / 2, left = strip.left.along(middle), right = strip.right.along(middle);
+    const double at_left = rise_.dot(slip(left, middle)), at_right = rise_.dot(slip(right, middle));
+    const double half = (high - low) / 2;
+    const auto along_side = [&](const Side& s) {
+      const SlipVector change{half * (drift_.east + s.slope * rise_.east), half * (drift_.north + s.slope * rise_.north)};
+      return segment_ellipse(slip(s.along(middle), middle), change, patch_.rounding);
+    };
+    double ellipse = std::min(along_side(strip.left), along_side(strip.right));
+    if ((at_left > 0) != (at_right > 0)) {
+      const double speed = std::sqrt(rise_.square());
+      const SlipVector sideways{rise_.cross(slip(left, middle)) / speed, 0};
+      ellipse = std::min(ellipse, segment_ellipse(sideways, {half * rise_.cross(drift_) / speed, 0}, patch_.rounding));
+    }
+    return ellipse;
+  }
+
+  void add_line(const Strip& strip, double across, double weight) {
+    const double left = strip.left.along(across), right = strip.right.along(across);
+    SlipSegment segment;
+    segment.middle = back((left + right) / 2, across);
+    segment.half = {steep_.x * (right - left) / 2, steep_.y * (right - left) / 2};
+    segment.slip = slip_at(patch_, segment.middle);
+    segment.depth_at_middle = patch_.depth.at(segment.middle);
+    segment.stiffness_at_middle = patch_.stiffness.at(segment.middle);
+    sum_.add(along_segment(patch_, segment), strip.sign * weight * (right - left) / 2);
+  }
+
+  const SlipPatch& patch_;
+  PlanePoint steep_;           ///< unit vector along which the slip changes most
+  SlipVector rise_, drift_;    ///< its slopes along that and across
+  bool aligned_ = false;       ///< all slip is along `rise_`, to rounding
+  SlipIntegrals sum_;
+};
+
+}  // namespace
+
+void SlipIntegrals::add(const SlipIntegrals& other, double weight) {
+  east += weight * other.east;
+  north += weight * other.north;
+  east_x += weight * other.east_x;
+  east_y += weight * other.east_y;
+  north_x += weight * other.north_x;
+  north_y += weight * other.north_y;
+}
+
+SlipIntegrals slip_integrals(const SlipPatch& patch) {
+  if (patch.count < 3) return {};
+  const Survey s = survey(patch);
+  if (!(s.fastest > 0) || !(s.size > 0)) return {};
+  const double ellipse = smooth_ellipse(patch, s);
+  if (ellipse >= least_smooth_ellipse) return add_up_fan(patch, gauss_order(ellipse));
+  PlanePoint fixed;
+  if (patch.rounding == 0 && near_fixed_point(patch, s, fixed)) return add_up_edges(patch, fixed);
+  return Strips(patch, s).sum();
+}
+
+}  // namespace clatter::numeric

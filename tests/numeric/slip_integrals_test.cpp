@@ -1,0 +1,275 @@
+// Friction over a polygon against brute force: triangles halved until the slip varies little, in extended precision.
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "numeric/contact/gauss_rules.hpp"
+#include "numeric/contact/slip_integrals.hpp"
+
+namespace {
+
+using namespace clatter::numeric;
+using Real = long double;
+using Six = std::array<Real, 6>;  // as SlipIntegrals
+
+constexpr double allowed = 1e-13;  // of ∫|q| dA, times the size for moments
+
+struct Place {
+  Real x, y;
+};
+
+struct Node {
+  Real at, weight;
+};
+
+/// Gauss–Legendre by Newton's method, in extended precision.
+std::vector<Node> legendre_rule(int n) {
+  std::vector<Node> rule;
+  for (int i = 0; i < n; ++i) {
+    Real x = std::cos(std::numbers::pi_v<Real> * (i + 0.75L) / (n + 0.5L)), slope = 0;
+    for (int pass = 0; pass < 30; ++pass) {
+      Real before = 1, value = x;
+      for (int k = 2; k <= n; ++k) {
+        const Real next = ((2 * k - 1) * x * value - (k - 1) * before) / k;
+        before = value;
+        value = next;
+      }
+      slope = n * (before - x * value) / (1 - x * x);
+      x -= value / slope;
+    }
+    rule.push_back({x, 2 / ((1 - x * x) * slope * slope)});
+  }
+  return rule;
+}
+
+/// The brute force: bisects the edge along which the slip changes most until Gauss's rule serves.
+class Oracle {
+ public:
+  explicit Oracle(const SlipPatch& patch) : patch_(patch) {
+    for (int i = 0; i < patch.count; ++i) {
+      const Place v = slip(place(patch.corners[i]));
+      fastest_ = std::max(fastest_, std::hypot(v.x, v.y));
+    }
+  }
+
+  Six integrals() {
+    for (int i = 2; i < patch_.count; ++i) {
+      add(place(patch_.corners[0]), place(patch_.corners[i - 1]), place(patch_.corners[i]), 0);
+    }
+    return sum_;
+  }
+  /// ∫|q| dA.
+  [[nodiscard]] Real total() const { return total_; }
+
+ private:
+  static Place place(const PlanePoint& p) { return {p.x, p.y}; }
+  static Place middle(const Place& a, const Place& b) { return {(a.x + b.x) / 2, (a.y + b.y) / 2}; }
+  static Real at(const PlaneLinear& f, const Place& p) { return f.value + (Real(f.x) * p.x + Real(f.y) * p.y); }
+  [[nodiscard]] Place slip(const Place& p) const { return {at(patch_.east, p), at(patch_.north, p)}; }
+  [[nodiscard]] Real change(const Place& a, const Place& b) const {
+    const Place u = slip(a), v = slip(b);
+    return std::hypot(u.x - v.x, u.y - v.y);
+  }
+
+  void add(const Place& a, const Place& b, const Place& c, int depth) {
+    const Real ab = change(a, b), bc = change(b, c), ca = change(c, a);
+    const Place centre{(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3}, v = slip(centre);
+    const Real longest = std::max({ab, bc, ca}), steady = std::hypot(v.x, v.y, Real(patch_.rounding));
+    if (steady > 3 * longest || longest <= 1e-19L * fastest_ || depth > 110) return add_smooth(a, b, c);
+    if (ab >= bc && ab >= ca) {
+      add(a, middle(a, b), c, depth + 1);
+      add(middle(a, b), b, c, depth + 1);
+    } else if (bc >= ca) {
+      add(a, b, middle(b, c), depth + 1);
+      add(a, middle(b, c), c, depth + 1);
+    } else {
+      add(a, b, middle(c, a), depth + 1);
+      add(middle(c, a), b, c, depth + 1);
+    }
+  }
+
+  void add_smooth(const Place& a, const Place& b, const Place& c) {
+    static const std::vector<Node> rule = legendre_rule(14);
+    const Real area = ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)) / 2;
+    for (const Node& m : rule) {
+      const Real t = (1 + m.at) / 2;
+      const Place end{b.x + t * (c.x - b.x), b.y + t * (c.y - b.y)};
+      for (const Node& n : rule) {
+        const Real part = (1 + n.at) / 2;
+        add_point({a.x + part * (end.x - a.x), a.y + part * (end.y - a.y)}, area / 2 * m.weight * n.weight * part);
+      }
+    }
+  }
+
+  void add_point(const Place& p, Real weight) {
+    const Place v = slip(p);
+    const Real speed = std::hypot(v.x, v.y, Real(patch_.rounding));
+    const Real force = weight * at(patch_.depth, p) * at(patch_.stiffness, p);
+    total_ += std::fabs(force);
+    if (!(speed > 0)) return;
+    const Real east = force * v.x / speed, north = force * v.y / speed;
+    const Six here{east, north, east * p.x, east * p.y, north * p.x, north * p.y};
+    for (std::size_t i = 0; i < 6; ++i) sum_[i] += here[i];
+  }
+
+  const SlipPatch& patch_;
+  Real fastest_ = 0, total_ = 0;
+  Six sum_{};
+};
+
+Six six(const SlipIntegrals& s) { return {s.east, s.north, s.east_x, s.east_y, s.north_x, s.north_y}; }
+
+/// A random polygon with its pressure and slip.
+struct Scene {
+  std::vector<PlanePoint> corners;
+  double size = 1;
+  SlipPatch patch;
+};
+
+/// Twice the polygon's area over the square of its size: what rounding of corners does to the area of a sliver.
+double breadth(const Scene& scene) {
+  double sum = 0;
+  for (std::size_t i = 2; i < scene.corners.size(); ++i) {
+    const PlanePoint &a = scene.corners[0], &b = scene.corners[i - 1], &c = scene.corners[i];
+    sum += (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  }
+  return std::min(sum / (scene.size * scene.size), 1.0);
+}
+
+/// Largest deviation, relative to ∫|q| and for moments to the size.
+double deviation(const SlipPatch& patch, double size) {
+  Oracle oracle(patch);
+  const Six exact = oracle.integrals(), found = six(slip_integrals(patch));
+  Real worst = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Real error = std::fabs(found[i] - exact[i]) / (oracle.total() * (i < 2 ? 1 : Real(size)));
+    if (!(error <= worst)) worst = error;
+  }
+  return static_cast<double>(worst);
+}
+
+enum class Middle { inside, on_an_edge, at_a_corner, beside, far, anywhere };
+
+class Draw {
+ public:
+  explicit Draw(unsigned seed) : random_(seed) {}
+  double operator()(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
+  double decades(double low, double high) { return std::pow(10, (*this)(low, high)); }
+  int one_of(int count) { return static_cast<int>(random_() % static_cast<unsigned>(count)); }
+
+  /// Convex: on an ellipse, down to slivers of 1e-6, turned and away from the origin.
+  void polygon(Scene& scene) {
+    const int count = 3 + one_of(5);
+    std::vector<double> angles;
+    for (int i = 0; i < count; ++i) angles.push_back((*this)(0, 2 * std::numbers::pi));
+    std::sort(angles.begin(), angles.end());
+    const double thin = one_of(3) == 0 ? decades(-6, 0) : (*this)(0.2, 1), turn = (*this)(0, 2 * std::numbers::pi);
+    scene.size = decades(-3, 0);
+    for (const double angle : angles) {
+      const double x = scene.size * std::cos(angle), y = scene.size * thin * std::sin(angle);
+      scene.corners.push_back({x * std::cos(turn) - y * std::sin(turn), x * std::sin(turn) + y * std::cos(turn)});
+    }
+    const PlanePoint shift = scene.corners[0];
+    for (PlanePoint& p : scene.corners) p = {p.x - shift.x, p.y - shift.y};
+  }
+
+  PlanePoint fixed_point(const Scene& scene, Middle where) {
+    const auto& c = scene.corners;
+    const std::size_t i = static_cast<std::size_t>(one_of(static_cast<int>(c.size())));
+    const PlanePoint a = c[i], b = c[(i + 1) % c.size()], d = c[(i + 2) % c.size()];
+    const double t = (*this)(0, 1), s = (*this)(0, 1 - t), far = scene.size * decades(0, 6);
+    switch (where) {
+      case Middle::inside: return {a.x + t * (b.x - a.x) + s * (d.x - a.x), a.y + t * (b.y - a.y) + s * (d.y - a.y)};
+      case Middle::on_an_edge: return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
+      case Middle::at_a_corner: return a;
+      case Middle::beside: return {a.x + scene.size * (*this)(-3, 3), a.y + scene.size * (*this)(-3, 3)};
+      default: return {far * std::cos(6.3 * t), far * std::sin(6.3 * t)};
+    }
+  }
+
+  /// Slopes of a given condition, their weak direction anywhere.
+  void slip(Scene& scene, Middle where, double condition) {
+    const double turn = (*this)(0, 6.3), other = (*this)(0, 6.3), size = decades(-2, 2);
+    const double c = std::cos(turn), s = std::sin(turn), e = std::cos(other), n = std::sin(other);
+    const double weak = condition > 0 ? size / condition : 0;
+    PlaneLinear& east = scene.patch.east;
+    PlaneLinear& north = scene.patch.north;
+    east = {0, size * e * c + weak * n * s, size * e * s - weak * n * c};
+    north = {0, size * n * c - weak * e * s, size * n * s + weak * e * c};
+    const PlanePoint fixed = fixed_point(scene, where);
+    east.value = -east.along(fixed);
+    north.value = -north.along(fixed);
+    if (where != Middle::anywhere) return;
+    east.value = size * scene.size * (*this)(-1, 1);
+    north.value = size * scene.size * (*this)(-1, 1) * decades(-16, 0);
+  }
+
+  /// Presses on all of the polygon, zero on an edge or not.
+  void pressure(Scene& scene) {
+    const double slope_x = (*this)(-1, 1), slope_y = (*this)(-1, 1);
+    double least = 0;
+    for (const PlanePoint& p : scene.corners) least = std::min(least, slope_x * p.x + slope_y * p.y);
+    scene.patch.depth = {(one_of(2) == 0 ? 1 : 2) * -least, slope_x, slope_y};
+    scene.patch.stiffness = {1, 0.3 / scene.size * (*this)(-1, 1), 0.3 / scene.size * (*this)(-1, 1)};
+  }
+
+  Scene scene(Middle where, double condition) {
+    Scene scene;
+    polygon(scene);
+    pressure(scene);
+    slip(scene, where, condition);
+    scene.patch.corners = scene.corners.data();
+    scene.patch.count = static_cast<int>(scene.corners.size());
+    return scene;
+  }
+
+ private:
+  std::mt19937 random_;
+};
+
+constexpr Middle places[] = {Middle::inside, Middle::on_an_edge, Middle::at_a_corner, Middle::beside, Middle::far,
+                             Middle::anywhere};
+#ifdef CLATTER_TEST_SLOW_BUILD
+constexpr int scenes_each = 4;
+#else
+constexpr int scenes_each = 12;
+#endif
+
+double worst_of(double log_condition, double rounding_part) {
+  double worst = 0;
+  for (const Middle where : places) {
+    Draw draw(static_cast<unsigned>(100 * log_condition) + static_cast<unsigned>(where));
+    for (int i = 0; i < scenes_each; ++i) {
+      Scene scene = draw.scene(where, std::pow(10, log_condition));
+      scene.patch.corners = scene.corners.data();
+      const double across = scene.size * std::hypot(scene.patch.east.x, scene.patch.north.x);
+      if (rounding_part > 0) scene.patch.rounding = across * rounding_part;
+      const double error = deviation(scene.patch, scene.size) * breadth(scene);
+      BOOST_TEST(error <= allowed, "place " << static_cast<int>(where) << ", scene " << i << ", condition 1e"
+                                            << log_condition << ": " << error);
+      if (!(error <= worst)) worst = error;
+    }
+  }
+  return worst;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(friction_about_any_point_of_no_slip_is_right_to_1e13) {
+  for (const double log_condition : {0.0, 0.3, 1.0, 2.0, 4.0, 8.0, 16.0}) {
+    BOOST_TEST_MESSAGE("condition 1e" << log_condition << ": " << worst_of(log_condition, 0));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(regularised_friction_is_right_to_1e13) {
+  for (const double part : {1e-6, 1e-2, 1.0}) {
+    for (const double log_condition : {0.0, 2.0, 16.0}) {
+      BOOST_TEST_MESSAGE("v_r " << part << ", condition 1e" << log_condition << ": " << worst_of(log_condition, part));
+    }
+  }
+}
