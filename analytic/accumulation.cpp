@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace clatter::analytic {
 namespace {
@@ -14,17 +15,24 @@ struct Remainder {
   double error = 0;
 };
 
-/// Aitken's Δ² from the last two of `terms` (latest last) and from the two before.
+/// Aitken's Δ² from the last two of `terms` (latest last), the two before and the two before those.
+/// The changes of the extrapolated limit shrink at least as fast as the terms, or as the changes themselves did last.
 std::optional<Remainder> shrinking_remainder(const double (&terms)[blocks]) {
   const auto remaining = [&](int k) {
     const double ratio = terms[k] / terms[k - 1];
     return ratio > 0 && ratio < 1 ? terms[k] * ratio / (1 - ratio) : NAN;
   };
   const double last = remaining(3);
-  const double one_earlier = remaining(2) - terms[3];
-  const double two_earlier = remaining(1) - terms[3] - terms[2];
-  const double error = std::fmax(std::fabs(last - one_earlier), std::fabs(one_earlier - two_earlier));
-  if (!(last > 0 && error < last)) return {};
+  const double change = std::fabs(last - (remaining(2) - terms[3]));
+  const double change_before = std::fabs(remaining(2) - terms[3] - (remaining(1) - terms[3] - terms[2]));
+  const double ratio = terms[3] / terms[2];
+  const double rounding = 32 * std::numeric_limits<double>::epsilon() * (last + terms[2]) / (1 - ratio);
+  if (!(last > 0) || std::isnan(change_before)) return {};
+  if (change <= rounding && change_before <= rounding) return Remainder{last, 2 * rounding};
+  const double shrinks = std::fmax(ratio, change / change_before);
+  if (!(shrinks < 1)) return {};
+  const double error = rounding + 2 * std::fmax(change, shrinks * change_before) / (1 - shrinks);
+  if (!(error < last)) return {};
   return Remainder{last, error};
 }
 
@@ -56,14 +64,16 @@ std::optional<Tail> bouncing_tail(const BodyMotion& motion, const ImpactLaw& law
               .tangential_impulse = tangential,
               .vertices = last.vertices,
               .closed_form = true,
-              .after = {.tangential = v.tangential + tangential / mass}};
+              .after = {.tangential = v.tangential + tangential / mass},
+              .after_error = {}};
 }
 
 bool Accumulation::repeats(int period) const {
   const int count = static_cast<int>(events_.size());
   if (count < blocks * period) return false;
   for (int i = count - (blocks - 1) * period; i < count; ++i) {
-    if (events_[i].vertices != events_[i - period].vertices) return false;
+    const Event &event = events_[static_cast<std::size_t>(i)], &before = events_[static_cast<std::size_t>(i - period)];
+    if (event.vertices != before.vertices || event.mode != before.mode) return false;
   }
   return true;
 }
@@ -77,33 +87,102 @@ double Accumulation::block(int period, int index, double Event::*quantity) const
   return sum;
 }
 
-std::optional<Tail> Accumulation::extrapolate(const Tolerance& tolerance) const {
-  for (int period = 1; period <= 4; ++period) {
-    if (!repeats(period)) continue;
-    double times[blocks], impulses[blocks];
-    for (int k = 0; k < blocks; ++k) {
-      times[k] = block(period, k, &Event::flight_time);
-      impulses[k] = block(period, k, &Event::normal_impulse);
-    }
-    const auto time = shrinking_remainder(times);
-    const auto impulse = shrinking_remainder(impulses);
-    if (!time || !impulse ||
-        !(time->error <= std::fmax(tolerance.relative * time->value, tolerance.time)) ||
-        !(impulse->error <= std::fmax(tolerance.relative * impulse->value, tolerance.impulse))) {
-      continue;
-    }
-    const double ratio = block(period, blocks - 1, &Event::tangential_impulse) / impulses[blocks - 1];
-    VertexSet vertices = 0;
-    for (int i = 1; i <= period; ++i) vertices |= events_[events_.size() - i].vertices;
-    return Tail{.end_time = time->value,
-                .end_time_error = time->error,
-                .normal_impulse = impulse->value,
-                .normal_impulse_error = impulse->error,
-                .tangential_impulse = ratio * impulse->value,
-                .vertices = vertices,
-                .after = {}};
+VertexSet Accumulation::vertices(int last) const {
+  VertexSet set = 0;
+  for (std::size_t i = events_.size() - static_cast<std::size_t>(last); i < events_.size(); ++i) set |= events_[i].vertices;
+  return set;
+}
+
+std::optional<Tail> Accumulation::periodic(int period, const Tolerance& tolerance) const {
+  double times[blocks], impulses[blocks];
+  for (int k = 0; k < blocks; ++k) {
+    times[k] = block(period, k, &Event::flight_time);
+    impulses[k] = block(period, k, &Event::normal_impulse);
   }
-  return {};
+  const auto time = shrinking_remainder(times);
+  const auto impulse = shrinking_remainder(impulses);
+  if (!time || !impulse || !(time->error <= std::fmax(tolerance.relative * time->value, tolerance.time)) ||
+      !(impulse->error <= std::fmax(tolerance.relative * impulse->value, tolerance.impulse))) {
+    return {};
+  }
+  const double ratio = block(period, blocks - 1, &Event::tangential_impulse) / impulses[blocks - 1];
+  const double ratio_before = block(period, blocks - 2, &Event::tangential_impulse) / impulses[blocks - 2];
+  const double shrinks = impulses[blocks - 1] / impulses[blocks - 2];
+  return Tail{.end_time = time->value,
+              .end_time_error = time->error,
+              .normal_impulse = impulse->value,
+              .normal_impulse_error = impulse->error,
+              .tangential_impulse = ratio * impulse->value,
+              .tangential_impulse_error = 2 * std::fabs(ratio - ratio_before) / (1 - shrinks) * impulse->value +
+                                          std::fabs(ratio) * impulse->error,
+              .vertices = vertices(period),
+              .after = {},
+              .after_error = {}};
+}
+
+/// The last impacts took next to no time, and those before them little more than they.
+std::optional<Tail> Accumulation::vanishing(const Tolerance& tolerance) const {
+  constexpr int period = 12;
+  if (events_.size() < static_cast<std::size_t>(blocks * period)) return {};
+  const auto remainder = [&](double Event::*quantity) {
+    double largest_ratio = 0;
+    for (int k = 1; k < blocks; ++k) {
+      largest_ratio = std::fmax(largest_ratio, block(period, k, quantity) / block(period, k - 1, quantity));
+    }
+    return largest_ratio < 1 ? block(period, blocks - 1, quantity) * largest_ratio / (1 - largest_ratio) : NAN;
+  };
+  const double time = remainder(&Event::flight_time), impulse = remainder(&Event::normal_impulse);
+  if (!(4 * time <= tolerance.time && 4 * impulse <= tolerance.impulse)) return {};
+  const double ratio = block(period, blocks - 1, &Event::tangential_impulse) / block(period, blocks - 1, &Event::normal_impulse);
+  return Tail{.end_time = time,
+              .end_time_error = 4 * time,
+              .normal_impulse = impulse,
+              .normal_impulse_error = 4 * impulse,
+              .tangential_impulse = ratio * impulse,
+              .tangential_impulse_error = 4 * (1 + std::fabs(ratio)) * impulse,
+              .vertices = vertices(blocks * period),
+              .after = {},
+              .after_error = {}};
+}
+
+std::optional<Tail> Accumulation::extrapolate(const Tolerance& tolerance) const {
+  constexpr int longest_period = 6;
+  for (int period = 1; period <= longest_period; ++period) {
+    if (!repeats(period)) continue;
+    if (auto tail = periodic(period, tolerance)) return tail;
+  }
+  return vanishing(tolerance);
+}
+
+void end_state(const BodyMotion& motion, Tail& tail) {
+  const PlanarVelocity v = motion.velocity();
+  const PlanarBody& body = motion.body();
+  const double normal = tail.normal_impulse, tangential = tail.tangential_impulse;
+  tail.after = {.tangential = v.tangential + tangential / body.mass};
+  tail.after_error = {.tangential = tail.tangential_impulse_error / body.mass};
+  if (std::popcount(tail.vertices) != 1) return;
+  const ContactPoint d = motion.contact_point(std::countr_zero(tail.vertices));
+  const double inertia = body.mass * body.gyration_square;
+  const double way = (std::fabs(v.angular) + (normal + std::fabs(tangential)) * body.reach() / inertia) * body.reach() *
+                     tail.end_time;
+  tail.after.angular = v.angular + (tangential * d.normal - normal * d.tangential) / inertia;
+  tail.after.normal = tail.after.angular * d.tangential;
+  tail.after_error.angular = (tail.tangential_impulse_error * std::fabs(d.normal) +
+                              tail.normal_impulse_error * std::fabs(d.tangential) +
+                              way * (normal + std::fabs(tangential))) / inertia;
+  tail.after_error.normal = tail.after_error.angular * std::fabs(d.tangential) + way * std::fabs(tail.after.angular);
+}
+
+bool keeps_its_mode(const BodyMotion& motion, const Tail& tail, ImpactMode mode) {
+  if (mode == ImpactMode::frictionless || mode == ImpactMode::stick || mode == ImpactMode::slip_stick) return true;
+  const PlanarBody& body = motion.body();
+  const ContactInertia inertia =
+      contact_inertia(body.gyration_square, motion.contact_point(motion.local_departure().reference));
+  const double turning = std::fabs(motion.velocity().angular);
+  const double change = (inertia.tangential * std::fabs(tail.tangential_impulse) +
+                         std::fabs(inertia.coupling) * tail.normal_impulse) / body.mass +
+                        turning * turning * body.reach() * tail.end_time;
+  return 2 * change < std::fabs(motion.slip());
 }
 
 }  // namespace clatter::analytic

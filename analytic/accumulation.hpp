@@ -18,12 +18,16 @@ namespace clatter::analytic {
 
 /// Recognises an accumulation from the flight times and impulses of the impacts so far.
 ///
-/// Impacts whose vertices repeat with a period of 1 to 4 are summed over each period; if the sums
-/// shrink geometrically, Aitken's extrapolation gives their limit, and its last change the error.
+/// Near its end an accumulation of one vertex, or of the two of a face that rattles, is the same motion over and over on a
+/// scale that shrinks.  Impacts whose vertices and modes repeat with a period are summed over each period; the sums
+/// then shrink geometrically in the limit, Aitken's extrapolation gives their remainder, and what it changed last, summed
+/// over the changes still to come, its error.  A rattling that never becomes periodic is followed until all that
+/// remains is below the resolution of the sums that it would be added to.
 class Accumulation {
  public:
   struct Event {
     VertexSet vertices = 0;
+    ImpactMode mode = ImpactMode::frictionless;
     double flight_time = 0;  ///< of the flight that led to this impact
     double normal_impulse = 0;
     double tangential_impulse = 0;
@@ -43,8 +47,20 @@ class Accumulation {
  private:
   [[nodiscard]] bool repeats(int period) const;
   [[nodiscard]] double block(int period, int index, double Event::*quantity) const;
+  [[nodiscard]] VertexSet vertices(int last) const;
+  [[nodiscard]] std::optional<Tail> periodic(int period, const Tolerance& tolerance) const;
+  [[nodiscard]] std::optional<Tail> vanishing(const Tolerance& tolerance) const;
 
   std::vector<Event> events_;
 };
+
+/// State at the end of an extrapolated tail, from the state after the last impact: a single vertex stays on the ground
+/// while the body turns about it; with two, the face rests.
+/// Errors: those of the impulses, and of the vertex's way during the tail.
+void end_state(const BodyMotion& motion, Tail& tail);
+
+/// Whether slip during the tail goes on as in the impacts that it was extrapolated from: it sticks each time, or is far
+/// from changing its direction.
+[[nodiscard]] bool keeps_its_mode(const BodyMotion& motion, const Tail& tail, ImpactMode mode);
 
 }  // namespace clatter::analytic

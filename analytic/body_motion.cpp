@@ -9,6 +9,16 @@
 namespace clatter::analytic {
 namespace {
 
+// π/2 as the sum of two doubles.
+constexpr double quarter_high = 1.5707963267948966;
+constexpr double quarter_low = 6.123233995736766e-17;
+
+/// The body seen from a frame that is turned by 90°: inclinations in that frame are smaller by 90°.
+PlanarBody turned_by_a_quarter(PlanarBody body) {
+  for (Vertex& vertex : body.vertices) vertex = {-vertex.z, vertex.x};
+  return body;
+}
+
 VertexSet only(int vertex) { return static_cast<VertexSet>(1u << vertex); }
 
 /// The two vertices of a set that are farthest apart along the ground.
@@ -30,8 +40,9 @@ Pair outermost(const BodyMotion& motion, VertexSet set) {
 
 BodyMotion::BodyMotion(const PlanarBody& body, const Angle& inclination,
                        const PlanarVelocity& velocity, double gravity)
-    : body_(body), gravity_(gravity), inclination_(inclination.radians), sine_(inclination.sine),
+    : body_(body), turned_(body), gravity_(gravity), inclination_(inclination.radians), sine_(inclination.sine),
       cosine_(inclination.cosine), initial_(inclination), remainder_(velocity) {
+  turn_to_face_below();
   if (body.uniform_thin_rod && velocity.normal < 0) {
     frame_ = {.speed = -velocity.normal, .sextant = 3};
     remainder_.normal = 0;
@@ -71,6 +82,52 @@ void BodyMotion::collapse_frame() {
   frame_ = {};
 }
 
+/// Describes a body whose faces can come to rest by the face that is now below.
+void BodyMotion::turn_to_face_below() {
+  const bool has_ends = !body_.uniform_thin_rod;
+  if (cosine_ >= (has_ends ? std::fabs(sine_) : 0.0) || frame_.speed != 0) return;
+  const double sine = sine_, cosine = cosine_;
+  const int turns = !has_ends || cosine < -std::fabs(sine) ? 2 : sine > 0 ? 1 : -1;
+  for (int i = 0; i < (turns + 4) % 4; ++i) turned_ = turned_by_a_quarter(turned_);
+  quarters_ += turns;
+  if (quarters_ > 2) quarters_ -= 4;
+  if (quarters_ < -1) quarters_ += 4;
+  sine_ = (turns == 2 ? -sine : -turns * cosine) + 0.0;  // no negative zero
+  cosine_ = turns == 2 ? -cosine : turns * sine;
+  inclination_ = std::atan2(sine_, cosine_);
+}
+
+double BodyMotion::inclination() const {
+  if (quarters_ == 0) return inclination_;
+  const double sum = inclination_ + quarters_ * quarter_high + quarters_ * quarter_low;
+  return sum > pi ? sum - 2 * pi : sum;
+}
+
+double BodyMotion::contact_angle() const {
+  if (quarters_ % 2 == 0) return acute_angle(inclination_);
+  return quarter_high - (acute_angle(inclination_) - quarter_low);
+}
+
+ContactVelocity BodyMotion::contact_velocity(int vertex) const {
+  const ContactPoint d = contact_point(vertex);
+  const PlanarVelocity v = velocity();
+  ContactVelocity found{normal_velocity(v, d), slip_velocity(v, d)};
+  if (vertex != carried_.vertex) return found;
+  if (4 * carried_.normal_scale < std::fabs(v.normal) + std::fabs(v.angular * d.tangential)) {
+    found.normal = carried_.velocity.normal;
+  }
+  if (4 * carried_.slip_scale < std::fabs(v.tangential) + std::fabs(v.angular * d.normal)) {
+    found.slip = carried_.velocity.slip;
+  }
+  return found;
+}
+
+double BodyMotion::slip_scale(int vertex) const {
+  const PlanarVelocity v = velocity();
+  const double absolute = std::fabs(v.tangential) + std::fabs(v.angular * contact_point(vertex).normal);
+  return vertex == carried_.vertex && 4 * carried_.slip_scale < absolute ? carried_.slip_scale : absolute;
+}
+
 BodyMotion::Strike BodyMotion::strike(VertexSet vertices, const ImpactLaw& law) {
   collapse_frame();
   if (std::popcount(vertices) > 1) {
@@ -83,6 +140,7 @@ BodyMotion::Strike BodyMotion::strike(VertexSet vertices, const ImpactLaw& law) 
       remainder_ = impact->after;
       touching_ = vertices;
       reference_ = first;
+      slip_ = impact->slip_after;
       const double e = law.law == RestitutionLaw::viscoelastic ? impact->restitution() : law.restitution;
       rebound_speed_ = -e * normal_velocity(before, contact_point(first));
       return {*impact, vertices};
@@ -96,11 +154,17 @@ BodyMotion::Strike BodyMotion::strike(VertexSet vertices, const ImpactLaw& law) 
 
 Impact BodyMotion::strike_point(int vertex, const ImpactLaw& law) {
   const ContactPoint d = contact_point(vertex);
-  Impact impact = analytic::strike(body_, velocity(), d, law);
+  const ContactVelocity contact = contact_velocity(vertex);
+  if (frame_.speed != 0 && !frame_carries(vertex, contact)) {
+    remainder_ = velocity();
+    frame_ = {};
+  }
+  Impact impact = analytic::strike(body_, velocity(), contact, d, law);
   if (impact.approach_speed > 0) {
     // Strong friction is no small departure from an elastic impact.
     if (frame_.speed != 0 && std::fabs(impact.impulse_ratio()) < 1) strike_framed(vertex, impact);
     else {
+      keep_contact_velocity(d, impact);
       frame_ = {};
       remainder_ = impact.after;
     }
@@ -108,7 +172,28 @@ Impact BodyMotion::strike_point(int vertex, const ImpactLaw& law) {
   touching_ = only(vertex);
   reference_ = vertex;
   rebound_speed_ = impact.separation_speed;
+  slip_ = impact.slip_after;
   return impact;
+}
+
+/// Whether frame and remainder give the normal velocity of the contact point without cancelling each other.
+bool BodyMotion::frame_carries(int vertex, const ContactVelocity& contact) const {
+  const ReflectionAxis axis = reflection_axis(body_.vertices[vertex].x < 0, sine_, cosine_);
+  const double of_frame = std::fabs(frame_.contact_velocity(axis));
+  const double of_remainder = std::fabs(normal_velocity(remainder_, contact_point(vertex)));
+  return of_frame + of_remainder <= 8 * std::fabs(contact.normal);
+}
+
+/// V of the centre of mass from the contact point's velocity after the impact, where that was carried: the two stay one
+/// motion.
+void BodyMotion::keep_contact_velocity(const ContactPoint& d, Impact& impact) const {
+  const PlanarVelocity before = velocity();
+  if (-impact.approach_speed != normal_velocity(before, d)) {
+    impact.after.normal = impact.separation_speed + impact.after.angular * d.tangential;
+  }
+  if (impact.slip_before != slip_velocity(before, d)) {
+    impact.after.tangential = impact.slip_after - impact.after.angular * d.normal;
+  }
 }
 
 /// The impact as an elastic reflection of the frame plus what the real one does differently:
@@ -147,6 +232,16 @@ void BodyMotion::strike_framed(int vertex, Impact& impact) {
 }
 
 Departure BodyMotion::departure() const {
+  Departure departure = local_departure();
+  if (quarters_ == 0) return departure;
+  const double sine = sine_, cosine = cosine_;
+  departure.inclination = inclination();
+  departure.sine = quarters_ == 2 ? -sine : quarters_ * cosine;
+  departure.cosine = quarters_ == 2 ? -cosine : -quarters_ * sine;
+  return departure;
+}
+
+Departure BodyMotion::local_departure() const {
   const PlanarVelocity v = velocity();
   return {.inclination = inclination_, .sine = sine_, .cosine = cosine_, .normal = v.normal,
           .angular = v.angular, .gravity = gravity_, .touching = touching_,
@@ -154,10 +249,12 @@ Departure BodyMotion::departure() const {
 }
 
 Flight BodyMotion::fly() {
-  Flight flight = analytic::fly(body_, departure());
+  const Departure departure = local_departure();
+  Flight flight = analytic::fly(turned_, departure, &passes_);
   if (flight.end != FlightEnd::contact) return flight;
   Arrival& arrival = flight.arrival;
   refine(arrival);
+  carry(departure, arrival);
   time_ += arrival.time;
   remainder_.normal -= gravity_ * arrival.time;
   if (arrival.time > 0 && arrival.inclination != inclination_) {
@@ -168,8 +265,26 @@ Flight BodyMotion::fly() {
     const bool turned_over = std::fabs(arrival.inclination) > pi;
     inclination_ = turned_over ? std::atan2(sine_, cosine_) : arrival.inclination;
   }
+  arrival.inclination += quarters_ * quarter_high;
+  turn_to_face_below();
   centre_height_ = -contact_point(arrival.vertex).normal;
   return flight;
+}
+
+/// With h of the arriving vertex from the one that struck last: u = h′, s = s₀ + Ω (d_n − d_n0), both at the touch.
+void BodyMotion::carry(const Departure& departure, const Arrival& arrival) {
+  const VertexHeight height = vertex_height(turned_, departure, arrival.vertex);
+  const double turned = departure.angular * arrival.time;
+  const double half = std::sin(turned / 2);
+  const double sine_part = height.sine * std::sin(std::fabs(turned));
+  const double versine_part = height.versine * 2 * half * half;
+  const auto [along, offset] = departure.offset(turned_, reference_, arrival.vertex);
+  const double of_start = departure.rebound_speed + std::fabs(departure.angular * along);
+  const double scale = std::fabs(offset) + std::fabs(versine_part) + std::fabs(sine_part);
+  carried_ = {.vertex = arrival.vertex,
+              .velocity = {height.at(arrival.time).velocity, slip_ + departure.angular * (offset + versine_part - sine_part)},
+              .normal_scale = of_start + height.velocity_scale(arrival.time),
+              .slip_scale = std::fabs(slip_) + std::fabs(departure.angular) * (scale + std::fmax(std::fabs(turned) - 1, 0))};
 }
 
 /// The first two flights of a thin rod that is carried by its frame alone, a → b → a, have their angles

@@ -16,6 +16,10 @@ namespace clatter::analytic {
 /// The velocity of a uniform thin rod is the sum of an elastic frame and a remainder, as long as the
 /// remainder (gravity, restitution below 1, friction) is the smaller part; any other body has it all in
 /// the remainder.
+///
+/// Bounces that become ever smaller keep their digits: the velocity of the vertex that arrives is carried from the one that
+/// struck last wherever V_n − Ω d_t would cancel, and a body that has turned over is described by the inclination of
+/// the face that is now below, which is small where that face comes to rest.
 class BodyMotion {
  public:
   /// The body with the given inclination, touching the ground with its lowest vertices.
@@ -35,18 +39,22 @@ class BodyMotion {
 
   /// How the body leaves the ground after strike().
   [[nodiscard]] Departure departure() const;
+  /// The same for turned_body(), whose inclination is that of the face below.
+  [[nodiscard]] Departure local_departure() const;
   /// Flies to the next arrival, if there is one; the state is then the one before that impact.
   Flight fly();
 
   [[nodiscard]] PlanarVelocity velocity() const;
-  [[nodiscard]] double inclination() const { return inclination_; }
-  [[nodiscard]] double sine() const { return sine_; }
-  [[nodiscard]] double cosine() const { return cosine_; }
+  [[nodiscard]] double inclination() const;
+  /// In [0, π/2]; keeps its relative accuracy where a face comes to rest on the ground.
+  [[nodiscard]] double contact_angle() const;
   [[nodiscard]] double time() const { return time_; }
   [[nodiscard]] double centre_height() const { return centre_height_; }
   [[nodiscard]] ContactPoint contact_point(int vertex) const {
-    return body_.contact_point(vertex, sine_, cosine_);
+    return turned_.contact_point(vertex, sine_, cosine_);
   }
+  /// Velocity of the contact point of `vertex`, from V, Ω, or from what was carried if `vertex` arrived last.
+  [[nodiscard]] ContactVelocity contact_velocity(int vertex) const;
   /// Translational, rotational and potential energy.
   [[nodiscard]] double energy() const;
   [[nodiscard]] const ElasticFrame& frame() const { return frame_; }
@@ -57,16 +65,37 @@ class BodyMotion {
   /// Velocity beyond the frame's.
   [[nodiscard]] const PlanarVelocity& remainder() const { return remainder_; }
   [[nodiscard]] const PlanarBody& body() const { return body_; }
+  /// The rounding error of contact_velocity().slip is below 4ε × this [m/s].
+  [[nodiscard]] double slip_scale(int vertex) const;
+  /// Slip of the vertex that struck last, as it leaves [m/s].
+  [[nodiscard]] double slip() const { return slip_; }
+  /// The body turned by quarters, as local_departure() sees it.
+  [[nodiscard]] const PlanarBody& turned_body() const { return turned_; }
+  /// Lowest turning point that each vertex passed above the ground in the last flight; infinite clearance: none.
+  [[nodiscard]] const Passes& passes() const { return passes_; }
 
  private:
+  /// What the vertex that arrived knows of its velocity beside V_n − Ω d_t and V_t + Ω d_n.
+  struct Carried {
+    int vertex = -1;
+    ContactVelocity velocity;
+    double normal_scale = 0;  ///< its rounding error is below 4ε × this [m/s]
+    double slip_scale = 0;
+  };
+  void turn_to_face_below();
+  void carry(const Departure& departure, const Arrival& arrival);
+  void keep_contact_velocity(const ContactPoint& d, Impact& impact) const;
+  [[nodiscard]] bool frame_carries(int vertex, const ContactVelocity& contact) const;
   Impact strike_point(int vertex, const ImpactLaw& law);
   void strike_framed(int vertex, Impact& impact);
   void collapse_frame();
   void refine(Arrival& arrival);
 
   PlanarBody body_;
+  PlanarBody turned_;  ///< body_ turned by `quarters_` times 90°
   double gravity_;
-  double inclination_, sine_, cosine_;
+  int quarters_ = 0;  ///< in −1..2
+  double inclination_, sine_, cosine_;  ///< of turned_
   double time_ = 0;
   double centre_height_ = 0;
   Angle initial_;
@@ -77,6 +106,9 @@ class BodyMotion {
   VertexSet touching_ = 0;
   int reference_ = 0;
   double rebound_speed_ = 0;
+  double slip_ = 0;  ///< of the reference vertex as it leaves [m/s]
+  Carried carried_;
+  Passes passes_{};
 };
 
 }  // namespace clatter::analytic

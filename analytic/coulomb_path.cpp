@@ -80,29 +80,46 @@ double impulse_for_work(const Phases& phases, double compression, double work) {
   return left + 2 * rest / (speed + std::sqrt(speed * speed + 2 * phases.second.slope * rest));
 }
 
-/// Viscoelastic ground: if slip stops before the ground has given back what it stored, the rest is given back
-/// along the second phase; otherwise the velocities are those of the restitution e.
-double viscoelastic_impulse(const Phases& phases, double v, const ImpactLaw& law) {
-  const double single = impulse_for_rise(phases, (1 + law.restitution) * v);
-  if (!(phases.first.length < endless)) return single;
-  const double speed = phases.first.slope * phases.first.length - v;  // where slip stops
-  if (!(speed < law.restitution * v)) return single;
-  const double work = stored_work(law.damping_per_stiffness, {.from = -v, .to = speed, .length = phases.first.length});
-  const Unloading rest{.from = speed, .slope = phases.second.slope, .work = work};
-  return phases.first.length + (separation_speed(law.damping_per_stiffness, rest) - speed) / phases.second.slope;
+/// Rise of u by `impulse` after compression.
+double rise_after(const Phases& phases, double compression, double impulse) {
+  const double left = std::fmax(phases.first.length - compression, 0.0);
+  const double in_first = std::fmin(impulse, left);
+  const double of_first = in_first > 0 ? phases.first.slope * in_first : 0;
+  return impulse > left ? of_first + phases.second.slope * (impulse - left) : of_first;
 }
 
-double total_impulse(const Phases& phases, double v, const ImpactLaw& law) {
+/// Impulse and separation speed.
+struct Ending {
+  double impulse, separation;
+};
+
+/// Viscoelastic ground: if slip stops before the ground has given back what it stored, the rest is given back
+/// along the second phase; otherwise the velocities are those of the restitution e.
+Ending viscoelastic_ending(const Phases& phases, double v, const ImpactLaw& law) {
+  const double single = impulse_for_rise(phases, (1 + law.restitution) * v);
+  if (!(phases.first.length < endless)) return {single, law.restitution * v};
+  const double speed = phases.first.slope * phases.first.length - v;  // where slip stops
+  if (!(speed < law.restitution * v)) return {single, law.restitution * v};
+  const double work = stored_work(law.damping_per_stiffness, {.from = -v, .to = speed, .length = phases.first.length});
+  const Unloading rest{.from = speed, .slope = phases.second.slope, .work = work};
+  const double separation = separation_speed(law.damping_per_stiffness, rest);
+  return {phases.first.length + (separation - speed) / phases.second.slope, separation};
+}
+
+Ending ending(const Phases& phases, double v, const ImpactLaw& law) {
   const double e = law.restitution;
-  if (law.law == RestitutionLaw::viscoelastic) return viscoelastic_impulse(phases, v, law);
-  if (law.law == RestitutionLaw::newton) return impulse_for_rise(phases, (1 + e) * v);
+  if (law.law == RestitutionLaw::viscoelastic) return viscoelastic_ending(phases, v, law);
+  if (law.law == RestitutionLaw::newton) return {impulse_for_rise(phases, (1 + e) * v), e * v};
   const double compression = impulse_for_rise(phases, v);
-  if (law.law == RestitutionLaw::poisson) return (1 + e) * compression;
+  if (law.law == RestitutionLaw::poisson) {
+    return {(1 + e) * compression, rise_after(phases, compression, e * compression)};
+  }
   // Work is taken in units of v² so that speeds of any magnitude can be squared.
   const double work = e * e * (compression_work(phases, v, compression) / v / v);
   const Phases scaled{{phases.first.ratio, phases.first.slope, phases.first.length / v},
                       phases.second, phases.mode_first, phases.mode_second};
-  return compression + v * impulse_for_work(scaled, compression / v, work);
+  const double restitution = v * impulse_for_work(scaled, compression / v, work);
+  return {compression + restitution, rise_after(phases, compression, restitution)};
 }
 
 }  // namespace
@@ -111,13 +128,13 @@ PathEnd coulomb_path(const PathCoefficients& path, const PathStart& start, const
   const double friction = law.friction_value;
   const Phases phases = start.slip == 0 ? from_rest(path, friction)
                                         : from_slip(path, start.slip, friction);
-  const double impulse = total_impulse(phases, start.approach_speed, law);
-  if (friction == 0) return {impulse, 0, ImpactMode::frictionless};
+  const auto [impulse, separation] = ending(phases, start.approach_speed, law);
+  if (friction == 0) return {impulse, 0, separation, ImpactMode::frictionless};
   if (!(impulse > phases.first.length)) {
-    return {impulse, phases.first.ratio * impulse, phases.mode_first};
+    return {impulse, phases.first.ratio * impulse, separation, phases.mode_first};
   }
   const double second = impulse - phases.first.length;
-  return {impulse, phases.first.ratio * phases.first.length + phases.second.ratio * second,
+  return {impulse, phases.first.ratio * phases.first.length + phases.second.ratio * second, separation,
           phases.mode_second};
 }
 

@@ -24,6 +24,7 @@ struct PathStart {
 struct PathEnd {
   double normal_impulse = 0;      ///< [m/s]
   double tangential_impulse = 0;  ///< [m/s]
+  double separation_speed = 0;    ///< u at the end, from where u was 0: however small beside the approach [m/s]
   ImpactMode mode = ImpactMode::frictionless;
 };
 

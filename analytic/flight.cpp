@@ -84,7 +84,8 @@ bool cannot_leave(const VertexHeight& height) {
 
 class Race {
  public:
-  Race(const PlanarBody& body, const Departure& departure) : departure_(departure) {
+  Race(const PlanarBody& body, const Departure& departure, Passes* passes) : departure_(departure), passes_(passes) {
+    if (passes_) passes_->fill({.clearance = never});
     for (int i = 0; i < body.vertex_count; ++i) heights_[i] = vertex_height(body, departure, i);
   }
 
@@ -123,6 +124,7 @@ class Race {
     }
     const FirstRoot root = first_root(height, best_);
     flight_.evaluations += root.evaluations;
+    if (passes_) (*passes_)[static_cast<std::size_t>(vertex)] = root.near_miss;
     if (root.near_miss.clearance < flight_.near_miss.clearance) {
       flight_.near_miss = root.near_miss;
       flight_.near_miss.vertex = vertex;
@@ -142,6 +144,7 @@ class Race {
   }
 
   const Departure& departure_;
+  Passes* passes_;
   std::array<VertexHeight, max_vertices> heights_{};
   Flight flight_;
   double best_ = never;
@@ -149,20 +152,27 @@ class Race {
 
 }  // namespace
 
+ContactPoint Departure::offset(const PlanarBody& body, int from, int to) const {
+  const double x = body.vertices[to].x - body.vertices[from].x;
+  const double z = body.vertices[to].z - body.vertices[from].z;
+  return {.tangential = x * cosine - z * sine, .normal = x * sine + z * cosine};
+}
+
 VertexHeight vertex_height(const PlanarBody& body, const Departure& departure, int vertex) {
   const ContactPoint d = body.contact_point(vertex, departure.sine, departure.cosine);
-  const ContactPoint from = body.contact_point(departure.reference, departure.sine, departure.cosine);
+  const ContactPoint offset = departure.offset(body, departure.reference, vertex);
   const bool touching = contains(departure.touching, vertex);
   const double sense = departure.angular < 0 ? -1 : 1;
-  return {.height = touching ? 0 : d.normal - from.normal,
-          .velocity = departure.rebound_speed -
-                      departure.angular * (d.tangential - from.tangential),
+  return {.height = touching ? 0 : offset.normal,
+          .velocity = departure.rebound_speed - departure.angular * offset.tangential,
           .gravity = departure.gravity,
           .rate = std::fabs(departure.angular),
           .versine = -d.normal,
           .sine = sense * d.tangential};
 }
 
-Flight fly(const PlanarBody& body, const Departure& departure) { return Race(body, departure).run(body); }
+Flight fly(const PlanarBody& body, const Departure& departure, Passes* passes) {
+  return Race(body, departure, passes).run(body);
+}
 
 }  // namespace clatter::analytic

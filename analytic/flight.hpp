@@ -33,6 +33,8 @@ struct VertexHeight {
   [[nodiscard]] Value at(double t) const;
   /// h″(t).
   [[nodiscard]] double acceleration(double t) const;
+  /// Sum of the magnitudes of the terms of h′(t), with the error of the angle turned: h′ is known to 4ε × this.
+  [[nodiscard]] double velocity_scale(double t) const;
 };
 
 /// Everything that decides where the body goes after an impact.  Vertices in `touching` are at height
@@ -47,6 +49,9 @@ struct Departure {
   VertexSet touching = 0;
   int reference = 0;        ///< a touching vertex
   double rebound_speed = 0; ///< normal velocity of the reference vertex, known exactly: e |u| [m/s]
+
+  /// d_j − d_i from vertex i of the body to vertex j, without the cancellation of parts that they share.
+  [[nodiscard]] ContactPoint offset(const PlanarBody& body, int from, int to) const;
 };
 
 /// The moment at which the earliest vertex reaches the ground.
@@ -68,6 +73,9 @@ struct NearMiss {
   int vertex = 0;
   [[nodiscard]] bool within_margin() const { return !(clearance > margin); }
 };
+
+/// Of each vertex, the lowest turning point that the search passed above the ground; infinite clearance: none.
+using Passes = std::array<NearMiss, max_vertices>;
 
 enum class FlightEnd {
   contact,        ///< `arrival` holds
@@ -91,8 +99,9 @@ struct Flight {
 /// on which h(t + 2π/ω) > h(t) > 0, are skipped, so 10⁶ turns cost no more than two.
 /// Accuracy of time and inclination: about 2 ulp × (1 + condition number); the inclination keeps its
 /// relative accuracy when it is small.
+/// @param passes filled in if given.
 /// @throws NumericalError if a root cannot be polished.
-[[nodiscard]] Flight fly(const PlanarBody& body, const Departure& departure);
+[[nodiscard]] Flight fly(const PlanarBody& body, const Departure& departure, Passes* passes = nullptr);
 
 /// First root of (1) in (0, end], with h > 0 or a rising start at t = 0; nothing if there is none.
 struct FirstRoot {

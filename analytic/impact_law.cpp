@@ -42,7 +42,8 @@ PathEnd ratio_impulse(const ContactInertia& inertia, double approach_speed, cons
   const double denominator = std::fma(-ratio, inertia.coupling, inertia.normal);
   if (!(denominator > 0)) jam(ratio, jamming_ratio(inertia));
   const double impulse = (1 + law.restitution) * approach_speed / denominator;
-  return {impulse, ratio * impulse, ratio == 0 ? ImpactMode::frictionless : ImpactMode::slip};
+  return {impulse, ratio * impulse, law.restitution * approach_speed,
+          ratio == 0 ? ImpactMode::frictionless : ImpactMode::slip};
 }
 
 PathEnd point_impulse(const ContactInertia& inertia, const PathStart& start, const ImpactLaw& law) {
@@ -112,16 +113,20 @@ double slip_velocity(const PlanarVelocity& v, const ContactPoint& d) {
 
 Impact strike(const PlanarBody& body, const PlanarVelocity& before, const ContactPoint& contact,
               const ImpactLaw& given) {
+  return strike(body, before, {normal_velocity(before, contact), slip_velocity(before, contact)}, contact, given);
+}
+
+Impact strike(const PlanarBody& body, const PlanarVelocity& before, const ContactVelocity& velocity,
+              const ContactPoint& contact, const ImpactLaw& given) {
   given.validate();
-  const double u = normal_velocity(before, contact);
-  const double s = slip_velocity(before, contact);
+  const auto [u, s] = velocity;
   Impact impact{.approach_speed = -u, .separation_speed = u, .slip_before = s, .slip_after = s,
                 .after = before};
   if (!(u < 0)) return impact;
 
   const ImpactLaw law = at_speed(given, -u);
   const ContactInertia inertia = contact_inertia(body.gyration_square, contact);
-  const auto [normal, tangential, mode] =
+  const auto [normal, tangential, separation, mode] =
       point_impulse(inertia, {.approach_speed = -u, .slip = s}, law);
   impact.normal_impulse = body.mass * normal;
   impact.tangential_impulse = body.mass * tangential;
@@ -134,12 +139,9 @@ Impact strike(const PlanarBody& body, const PlanarVelocity& before, const Contac
   if (!std::isfinite(impact.after.angular) || !std::isfinite(impact.after.tangential)) {
     throw NumericalError("the impulse overflows: the impulse ratio is too near the jamming limit");
   }
-  // Newton's law fixes the separation speed exactly; the others through the impulse.
-  const bool fixed = law.friction != FrictionKind::coulomb || law.law == RestitutionLaw::newton;
-  const double rise = inertia.normal * normal - inertia.coupling * tangential;
-  impact.separation_speed = fixed ? -law.restitution * u : u + rise;
+  impact.separation_speed = separation;
   const double turned = impact.after.angular * contact.tangential;
-  if (fixed && 2 * std::fabs(turned) <= impact.separation_speed) {  // near upright: no cancellation
+  if (2 * std::fabs(turned) <= impact.separation_speed) {  // near upright: no cancellation
     impact.after.normal = impact.separation_speed + turned;
   }
   impact.slip_after = mode == ImpactMode::stick || mode == ImpactMode::slip_stick
@@ -160,7 +162,8 @@ std::optional<Impact> strike_flat(const PlanarBody& body, const PlanarVelocity& 
   const double depth = first.normal;
   const PathStart start{.approach_speed = -before.normal, .slip = slip_velocity(before, first)};
   if (!(start.approach_speed > 0)) return {};
-  const auto [normal, tangential, mode] = flat_impulse(start, before.angular, depth, law);
+  const PathEnd path = flat_impulse(start, before.angular, depth, law);
+  const double normal = path.normal_impulse, tangential = path.tangential_impulse;
 
   // Shares of the two vertices, from the angular momentum that they must supply together.
   const double moment = tangential * depth + body.gyration_square * (1 + e) * before.angular;
@@ -173,7 +176,7 @@ std::optional<Impact> strike_flat(const PlanarBody& body, const PlanarVelocity& 
                 .approach_speed = start.approach_speed,
                 .separation_speed = e * start.approach_speed,
                 .slip_before = start.slip,
-                .mode = mode,
+                .mode = path.mode,
                 .after = {.normal = e * start.approach_speed,
                           .tangential = before.tangential + tangential,
                           .angular = 0 - e * before.angular}};

@@ -88,6 +88,10 @@ struct Impact {
 [[nodiscard]] ContactInertia contact_inertia(double gyration_square, const ContactPoint& d);
 
 /// Velocity of the contact point: u = v_n − ω d_t, s = v_t + ω d_n.
+struct ContactVelocity {
+  double normal = 0;  ///< u [m/s]
+  double slip = 0;    ///< s [m/s]
+};
 [[nodiscard]] double normal_velocity(const PlanarVelocity& v, const ContactPoint& d);
 [[nodiscard]] double slip_velocity(const PlanarVelocity& v, const ContactPoint& d);
 
@@ -101,6 +105,11 @@ struct Impact {
 ///         (A − μ_i B <= 0); NumericalError if so close to it that the impulse overflows;
 ///         std::domain_error as ImpactLaw::validate().
 [[nodiscard]] Impact strike(const PlanarBody& body, const PlanarVelocity& before,
+                            const ContactPoint& contact, const ImpactLaw& law);
+
+/// The same with a velocity of the contact point that is known better than v_n − ω d_t and v_t + ω d_n are: impulse and
+/// separation then keep the relative accuracy of u, however small beside v_n.
+[[nodiscard]] Impact strike(const PlanarBody& body, const PlanarVelocity& before, const ContactVelocity& velocity,
                             const ContactPoint& contact, const ImpactLaw& law);
 
 /// Eq. 10 for two vertices that strike together (flat landing).  Rule: the body rebounds as a whole,

@@ -9,6 +9,7 @@
 
 #include "analytic/accumulation.hpp"
 #include "analytic/body_motion.hpp"
+#include "analytic/error_growth.hpp"
 #include "analytic/errors.hpp"
 #include "analytic/units.hpp"
 
@@ -58,6 +59,7 @@ class Run {
       : law_(drop.law), options_(options), gravity_(drop.gravity),
         motion_(drop.body, drop.inclination, drop.velocity, drop.gravity) {
     result_.rows.reserve(static_cast<std::size_t>(std::min(options.impacts, 64)));
+    if (options.amplification) growth_.emplace(motion_, drop.inclination.radians);
   }
 
   Sequence run() {
@@ -69,7 +71,7 @@ class Run {
       const BodyMotion::Strike strike = record(arriving, flight, departure);
       if (accumulates(strike) || full()) break;
       departure = motion_.departure();
-      flight = motion_.fly();
+      flight = fly();
       result_.root_evaluations += flight.evaluations;
       if (flight.end != FlightEnd::contact) {
         end_without_contact(flight);
@@ -77,10 +79,33 @@ class Run {
       }
       arriving = flight.arrival.vertices;
     }
+    result_.end_predictable = growth_ && growth_->predictable();
+    if (growth_ && !growth_->predictable()) {
+      result_.message += "; errors have grown so far that another sequence is possible" + from_impact();
+    }
+    result_.total_normal_impulse_error =
+        (growth_ ? growth_->total_impulse() : infinite) + (result_.tail ? result_.tail->normal_impulse_error : 0);
     return std::move(result_);
   }
 
  private:
+  /// From which impact on nothing is certain; nothing to say if only the end is not.
+  [[nodiscard]] std::string from_impact() const {
+    std::size_t known = 0;
+    for (const ImpactRow& row : result_.rows) known += row.error.predictable ? 1 : 0;
+    return known < result_.rows.size() ? " from impact " + std::to_string(known + 1) + " on" : "";
+  }
+
+  Flight fly() {
+    if (!growth_) return motion_.fly();
+    FlownState flown{.body = motion_.turned_body(), .departure = motion_.local_departure(), .arrival = {}};
+    Flight flight = motion_.fly();
+    flown.arrival = flight.arrival;
+    if (flight.end == FlightEnd::contact) growth_->fly(motion_, flown);
+    else if (flight.end == FlightEnd::no_contact) growth_->end_without_contact(motion_, flown);
+    return flight;
+  }
+
   void require_approach(VertexSet vertices) const {
     double fastest = infinite;
     for (int i = 0; i < motion_.body().vertex_count; ++i) {
@@ -95,19 +120,20 @@ class Run {
   BodyMotion::Strike record(VertexSet arriving, const Flight& flight, const Departure& departure) {
     ImpactRow row{.start = motion_.time(), .inclination = motion_.inclination(),
                   .centre_height = motion_.centre_height(), .before = motion_.velocity(),
-                  .impact = {}, .energy_before = motion_.energy(), .amplification = missing,
+                  .impact = {}, .energy_before = motion_.energy(), .amplification = missing, .error = RowErrors::unknown(),
                   .flight = flight, .departure = departure};
-    row.contact_angle = acute_angle(row.inclination);
+    row.contact_angle = motion_.contact_angle();
     const BodyMotion::Strike strike = motion_.strike(arriving, law_);
     row.vertices = strike.vertices;
     row.impact = strike.impact;
     row.energy_after = motion_.energy();
     result_.total_normal_impulse += row.impact.normal_impulse;
-    if (law_.restitution < 1 && gravity_ > 0 && !result_.rows.empty()) {
-      accumulation_.add({row.vertices, flight.arrival.time, row.impact.normal_impulse,
+    if (law_.restitution < 1 && !result_.rows.empty()) {
+      accumulation_.add({row.vertices, row.impact.mode, flight.arrival.time, row.impact.normal_impulse,
                          row.impact.tangential_impulse});
     }
     warn_of_energy(row.impact);
+    if (growth_) growth_->strike(motion_, law_, row);
     result_.rows.push_back(row);
     return strike;
   }
@@ -131,33 +157,26 @@ class Run {
   }
 
   /// Whether infinitely many impacts follow that need no more rows: a bouncing in closed form fills the
-  /// rows asked for first.
+  /// rows asked for first, as far as its speeds and times are numbers.
   bool accumulates(const BodyMotion::Strike& strike) {
-    const auto tail = bouncing_tail(motion_, law_, gravity_, strike);
-    if (!tail) return extrapolated_end();
-    if (!last_row()) return false;
+    constexpr double least = std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
+    auto tail = bouncing_tail(motion_, law_, gravity_, strike);
+    if (!tail) return extrapolated_end(strike.impact.mode);
+    const double speed = strike.impact.separation_speed;
+    if (!last_row() && speed > least && speed > least * gravity_) return false;
     finish(*tail);
     return true;
   }
 
-  bool extrapolated_end() {
+  bool extrapolated_end(ImpactMode mode) {
     constexpr double ulps = 4 * std::numeric_limits<double>::epsilon();
     auto tail = accumulation_.extrapolate({.relative = std::pow(10.0, -options_.digits),
                                            .time = ulps * motion_.time(),
                                            .impulse = ulps * result_.total_normal_impulse});
     if (!tail || !undisturbed(*tail)) return false;
-    const PlanarVelocity v = motion_.velocity();
-    tail->after = v;
-    if (std::popcount(tail->vertices) == 1) {
-      const ContactPoint d = motion_.contact_point(std::countr_zero(tail->vertices));
-      const PlanarBody& body = motion_.body();
-      tail->after.angular += (tail->tangential_impulse * d.normal - tail->normal_impulse * d.tangential) /
-                             (body.mass * body.gyration_square);
-      tail->after.normal = tail->after.angular * d.tangential;
-      tail->after.tangential += tail->tangential_impulse / body.mass;
-    } else {
-      tail->after = {.tangential = v.tangential + tail->tangential_impulse / motion_.body().mass};
-    }
+    const bool vanishes = tail->normal_impulse <= ulps * result_.total_normal_impulse;
+    if (!vanishes && !keeps_its_mode(motion_, *tail, mode)) return false;
+    end_state(motion_, *tail);
     tail->end_time += motion_.time();
     finish(*tail);
     return true;
@@ -165,16 +184,17 @@ class Run {
 
   /// No other vertex reaches the ground before twice the remaining time has passed.
   [[nodiscard]] bool undisturbed(const Tail& tail) const {
-    const Departure departure = motion_.departure();
+    const Departure departure = motion_.local_departure();
     for (int i = 0; i < motion_.body().vertex_count; ++i) {
       if (tail.vertices >> i & 1) continue;
-      const VertexHeight height = vertex_height(motion_.body(), departure, i);
+      const VertexHeight height = vertex_height(motion_.turned_body(), departure, i);
       if (first_root(height, 2 * tail.end_time).time) return false;
     }
     return true;
   }
 
-  void finish(const Tail& tail) {
+  void finish(Tail tail) {
+    if (growth_) growth_->add_to(motion_, tail);
     result_.tail = tail;
     result_.total_normal_impulse += tail.normal_impulse;
     rest(tail.after, tail.vertices,
@@ -217,6 +237,7 @@ class Run {
   double gravity_;
   BodyMotion motion_;
   Accumulation accumulation_;
+  std::optional<ErrorGrowth> growth_;
   Sequence result_;
   double created_ = 0;
   int first_creating_ = 0;
@@ -253,45 +274,6 @@ Sequence internal_sequence(const Drop& drop, const SequenceOptions& options, con
   return sequence;
 }
 
-double relative_change(double value, double neighbour) {
-  return value == neighbour ? 0 : std::fabs((neighbour - value) / value);
-}
-
-/// Rows of a neighbouring drop against the rows: the largest relative change over `shift`.
-void compare(Sequence& sequence, const Sequence& neighbour, double shift) {
-  bool same = true;
-  for (std::size_t i = 0; i < sequence.rows.size(); ++i) {
-    ImpactRow& row = sequence.rows[i];
-    same = same && i < neighbour.rows.size() && neighbour.rows[i].vertices == row.vertices;
-    if (!same) {
-      row.amplification = missing;
-      continue;
-    }
-    const ImpactRow& other = neighbour.rows[i];
-    const double growth =
-        std::max({relative_change(row.start, other.start),
-                  relative_change(row.contact_angle, other.contact_angle),
-                  relative_change(row.impact.normal_impulse, other.impact.normal_impulse)}) / shift;
-    row.amplification = std::fmax(row.amplification, growth);
-  }
-}
-
-/// How a small change of angle and of speed has grown by each impact.
-void add_amplification(Sequence& sequence, const Drop& drop, const SequenceOptions& options,
-                       const Units& units) {
-  constexpr double shift = 0x1p-30;  // between rounding (2⁻⁵²) and the curvature of the results
-  for (ImpactRow& row : sequence.rows) row.amplification = 0;
-  SequenceOptions same_length = options;
-  same_length.impacts = static_cast<int>(sequence.rows.size());
-  Drop faster = drop;
-  faster.velocity.normal *= 1 + shift;
-  compare(sequence, internal_sequence(faster, same_length, units), shift);
-  if (drop.inclination.radians == 0 || drop.inclination.cosine == 0) return;
-  Drop flatter = drop;
-  flatter.inclination = Angle::from_radians(drop.inclination.radians * (1 - shift));
-  compare(sequence, internal_sequence(flatter, same_length, units), shift);
-}
-
 }  // namespace
 
 void SequenceOptions::validate() const {
@@ -303,9 +285,7 @@ Sequence impact_sequence(const Drop& drop, const SequenceOptions& options) {
   validate(drop);
   options.validate();
   const Units units(drop);
-  Sequence sequence = internal_sequence(drop, options, units);
-  if (options.amplification) add_amplification(sequence, drop, options, units);
-  return sequence;
+  return internal_sequence(drop, options, units);
 }
 
 }  // namespace clatter::analytic

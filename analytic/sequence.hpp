@@ -9,6 +9,7 @@
 #include "analytic/flight.hpp"
 #include "analytic/impact_law.hpp"
 #include "analytic/planar_body.hpp"
+#include "analytic/row_errors.hpp"
 
 namespace clatter::analytic {
 
@@ -26,8 +27,8 @@ struct SequenceOptions {
   /// Relative error to which the end of an accumulation of impacts must be known before the sequence
   /// is cut there: 10^−digits of the remaining time.  In [1, 15].
   int digits = 6;
-  /// Also run two neighbouring drops to learn how errors grow (`amplification`); costs twice as much
-  /// again.
+  /// Also follow how errors of the drop and of rounding grow: `error` and `amplification` of each row, and the errors of
+  /// tail and total.
   bool amplification = true;
 
   /// @throws std::domain_error naming the field, its value and what is allowed.
@@ -46,8 +47,10 @@ struct ImpactRow {
   double energy_before = 0;      ///< translational + rotational + potential (z = 0 at the ground) [J]
   double energy_after = 0;
   /// Relative change of this row's quantities per relative change of the drop (angle, speed): the
-  /// largest over contact angle, time and impulse.  NaN if it could not be had.
+  /// largest over contact angle, time and impulse.  NaN if it could not be had, or is so large that the row cannot be
+  /// predicted.
   double amplification = 0;
+  RowErrors error;  ///< all unknown without SequenceOptions::amplification
   /// The flight that led here; for the first row all zero.
   Flight flight;
   Departure departure;  ///< how that flight began
@@ -62,15 +65,19 @@ enum class Outcome {
 };
 
 /// The remaining impacts after the last row: infinitely many in a finite time.
+/// Errors are bounds on those of the extrapolation, with SequenceOptions::amplification on all that the sums begin from
+/// as well; infinite where the last row cannot be predicted.
 struct Tail {
-  double end_time = 0;         ///< time since the first impact [s]
-  double end_time_error = 0;   ///< estimate [s]; 0: closed form
-  double normal_impulse = 0;   ///< sum over the remaining impacts [N·s]
+  double end_time = 0;            ///< time since the first impact [s]
+  double end_time_error = 0;      ///< [s]
+  double normal_impulse = 0;      ///< sum over the remaining impacts [N·s]
   double normal_impulse_error = 0;
   double tangential_impulse = 0;  ///< likewise
+  double tangential_impulse_error = 0;
   VertexSet vertices = 0;
   bool closed_form = false;
-  PlanarVelocity after;  ///< at the end
+  PlanarVelocity after;        ///< at the end
+  PlanarVelocity after_error;
 };
 
 struct Sequence {
@@ -81,6 +88,10 @@ struct Sequence {
   std::optional<Tail> tail;
   NearMiss near_miss;        ///< of the last flight, if no_further_impact
   double total_normal_impulse = 0;  ///< rows and tail [N·s]
+  /// Bound on its error; infinite without SequenceOptions::amplification or if a row cannot be predicted [N·s].
+  double total_normal_impulse_error = 0;
+  /// Whether the outcome is certain, and not only that of one of the sequences that the errors leave open.
+  bool end_predictable = false;
   int root_evaluations = 0;
 };
 
@@ -89,8 +100,8 @@ struct Sequence {
 /// Several vertices that reach the ground together (the body lands flat) are one row by the rule of
 /// strike_flat.  With e < 1 and gravity, infinitely many impacts in a finite time are recognised: in
 /// closed form for flat and upright bouncing, where the times form a geometric series ending
-/// 2w/(g(1−e)) after an impact with rebound speed w, otherwise by extrapolation of the flight times of
-/// one vertex, accepted when its error estimate meets `digits`; there is no velocity threshold.
+/// 2w/(g(1−e)) after an impact with rebound speed w, otherwise by extrapolation of the flight times of one vertex or of
+/// two in turn, accepted when its error meets `digits` (accumulation.hpp); there is no velocity threshold.
 /// Results scale exactly with powers of two of every unit.
 /// @throws std::domain_error for a drop whose first contact does not approach the ground, or whose
 ///         parameters are out of range; OutsideModelError for jamming; NumericalError if gravity, tangential

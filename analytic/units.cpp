@@ -49,12 +49,24 @@ void Units::to_si(Impact& impact) const {
   to_si(impact.after);
 }
 
+void Units::to_si(RowErrors& error) const {
+  scale(error.start, length_ - speed_);
+  scale(error.approach_speed, speed_);
+  scale(error.normal_impulse, mass_ + speed_);
+  scale(error.tangential_impulse, mass_ + speed_);
+  to_si(error.after);
+  scale(error.energy_before, mass_ + 2 * speed_);
+  scale(error.energy_after, mass_ + 2 * speed_);
+  scale(error.energy_loss, mass_ + 2 * speed_);
+}
+
 void Units::to_si(ImpactRow& row) const {
   const int time = length_ - speed_;
   scale(row.start, time);
   scale(row.centre_height, length_);
   scale(row.energy_before, mass_ + 2 * speed_);
   scale(row.energy_after, mass_ + 2 * speed_);
+  to_si(row.error);
   to_si(row.before);
   to_si(row.impact);
   scale(row.flight.arrival.time, time);
@@ -69,6 +81,7 @@ void Units::to_si(ImpactRow& row) const {
 void Units::to_si(Sequence& sequence) const {
   for (ImpactRow& row : sequence.rows) to_si(row);
   scale(sequence.total_normal_impulse, mass_ + speed_);
+  scale(sequence.total_normal_impulse_error, mass_ + speed_);
   scale(sequence.near_miss.clearance, length_);
   scale(sequence.near_miss.margin, length_);
   scale(sequence.near_miss.time, length_ - speed_);
@@ -79,6 +92,8 @@ void Units::to_si(Sequence& sequence) const {
   scale(tail.normal_impulse, mass_ + speed_);
   scale(tail.normal_impulse_error, mass_ + speed_);
   scale(tail.tangential_impulse, mass_ + speed_);
+  scale(tail.tangential_impulse_error, mass_ + speed_);
+  to_si(tail.after_error);
   to_si(tail.after);
 }
 

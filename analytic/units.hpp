@@ -18,6 +18,7 @@ class Units {
  private:
   void to_si(PlanarVelocity& v) const;
   void to_si(Impact& impact) const;
+  void to_si(RowErrors& error) const;
   void to_si(ImpactRow& row) const;
 
   int length_, speed_, mass_;  ///< exponents of two

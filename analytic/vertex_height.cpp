@@ -215,7 +215,8 @@ FirstRoot parabola_root(const VertexHeight& h, double end) {
   FirstRoot found;
   double t = never;
   if (h.gravity > 0) {
-    const double root = std::sqrt(h.velocity * h.velocity + 2 * h.gravity * h.height);
+    // From the ground itself without squares: those of the smallest bounces would underflow.
+    const double root = h.height > 0 ? std::sqrt(h.velocity * h.velocity + 2 * h.gravity * h.height) : std::fabs(h.velocity);
     t = h.velocity > 0 ? (h.velocity + root) / h.gravity : 2 * h.height / (root - h.velocity);
   } else if (h.velocity < 0) {
     t = h.height / -h.velocity;
@@ -263,6 +264,13 @@ VertexHeight::Value VertexHeight::at(double t) const {
 double VertexHeight::acceleration(double t) const {
   const double turned = rate * t;
   return rate * rate * (versine * std::cos(turned) + sine * std::sin(turned)) - gravity;
+}
+
+double VertexHeight::velocity_scale(double t) const {
+  const double turned = rate * t;
+  const double reach = std::fabs(versine) + std::fabs(sine);
+  const double of_turning = rate * (std::fabs(versine) * std::fmin(turned, 1) + std::fabs(sine) * std::fmin(turned * turned, 1));
+  return std::fabs(velocity) + gravity * t + of_turning + (turned > 1 ? turned * rate * reach : 0);
 }
 
 FirstRoot first_root(const VertexHeight& height, double end) {
