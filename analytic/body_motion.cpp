@@ -113,18 +113,25 @@ ContactVelocity BodyMotion::contact_velocity(int vertex) const {
   const PlanarVelocity v = velocity();
   ContactVelocity found{normal_velocity(v, d), slip_velocity(v, d)};
   if (vertex != carried_.vertex) return found;
-  if (4 * carried_.normal_scale < std::fabs(v.normal) + std::fabs(v.angular * d.tangential)) {
-    found.normal = carried_.velocity.normal;
-  }
-  if (4 * carried_.slip_scale < std::fabs(v.tangential) + std::fabs(v.angular * d.normal)) {
-    found.slip = carried_.velocity.slip;
-  }
+  if (4 * carried_.normal_scale < absolute_scale(vertex).normal) found.normal = carried_.velocity.normal;
+  if (4 * carried_.slip_scale < absolute_scale(vertex).slip) found.slip = carried_.velocity.slip;
   return found;
 }
 
-double BodyMotion::slip_scale(int vertex) const {
+ContactVelocity BodyMotion::absolute_scale(int vertex) const {
+  const ContactPoint d = contact_point(vertex);
   const PlanarVelocity v = velocity();
-  const double absolute = std::fabs(v.tangential) + std::fabs(v.angular * contact_point(vertex).normal);
+  return {.normal = std::fmax(std::fabs(v.normal), scale_.normal) + std::fabs(v.angular * d.tangential),
+          .slip = std::fmax(std::fabs(v.tangential), scale_.tangential) + std::fabs(v.angular * d.normal)};
+}
+
+double BodyMotion::normal_scale(int vertex) const {
+  const double absolute = absolute_scale(vertex).normal;
+  return vertex == carried_.vertex && 4 * carried_.normal_scale < absolute ? carried_.normal_scale : absolute;
+}
+
+double BodyMotion::slip_scale(int vertex) const {
+  const double absolute = absolute_scale(vertex).slip;
   return vertex == carried_.vertex && 4 * carried_.slip_scale < absolute ? carried_.slip_scale : absolute;
 }
 
@@ -138,6 +145,7 @@ BodyMotion::Strike BodyMotion::strike(VertexSet vertices, const ImpactLaw& law) 
     if (impact) {
       frame_ = {};
       remainder_ = impact->after;
+      scale_ = {.normal = std::fabs(before.normal), .tangential = std::fabs(before.tangential) + std::fabs(impact->slip_after)};
       touching_ = vertices;
       reference_ = first;
       slip_ = impact->slip_after;
@@ -162,7 +170,7 @@ Impact BodyMotion::strike_point(int vertex, const ImpactLaw& law) {
   Impact impact = analytic::strike(body_, velocity(), contact, d, law);
   if (impact.approach_speed > 0) {
     // Strong friction is no small departure from an elastic impact.
-    if (frame_.speed != 0 && std::fabs(impact.impulse_ratio()) < 1) strike_framed(vertex, impact);
+    if (frame_.speed != 0 && std::fabs(impact.impulse_ratio()) < 1) strike_framed(vertex, impact), scale_ = velocity();
     else {
       keep_contact_velocity(d, impact);
       frame_ = {};
@@ -184,15 +192,22 @@ bool BodyMotion::frame_carries(int vertex, const ContactVelocity& contact) const
   return of_frame + of_remainder <= 8 * std::fabs(contact.normal);
 }
 
-/// V of the centre of mass from the contact point's velocity after the impact, where that was carried: the two stay one
-/// motion.
-void BodyMotion::keep_contact_velocity(const ContactPoint& d, Impact& impact) const {
+/// V of the centre of mass after an impact, from what loses fewer digits: V and impulse before, or the contact point's
+/// velocity after it; the latter always where that was carried, so that the two stay one motion.
+void BodyMotion::keep_contact_velocity(const ContactPoint& d, Impact& impact) {
   const PlanarVelocity before = velocity();
-  if (-impact.approach_speed != normal_velocity(before, d)) {
-    impact.after.normal = impact.separation_speed + impact.after.angular * d.tangential;
+  const double turn = impact.after.angular;
+  scale_ = {.normal = std::fabs(before.normal) + impact.normal_impulse / body_.mass,
+            .tangential = std::fabs(before.tangential) + std::fabs(impact.tangential_impulse) / body_.mass};
+  const double normal_scale = impact.separation_speed + std::fabs(turn * d.tangential);
+  if (-impact.approach_speed != normal_velocity(before, d) || normal_scale < scale_.normal) {
+    impact.after.normal = impact.separation_speed + turn * d.tangential;
+    scale_.normal = normal_scale;
   }
-  if (impact.slip_before != slip_velocity(before, d)) {
-    impact.after.tangential = impact.slip_after - impact.after.angular * d.normal;
+  const double slip_scale = std::fabs(impact.slip_after) + std::fabs(turn * d.normal);
+  if (impact.slip_before != slip_velocity(before, d) || slip_scale < scale_.tangential) {
+    impact.after.tangential = impact.slip_after - turn * d.normal;
+    scale_.tangential = slip_scale;
   }
 }
 
@@ -257,6 +272,7 @@ Flight BodyMotion::fly() {
   carry(departure, arrival);
   time_ += arrival.time;
   remainder_.normal -= gravity_ * arrival.time;
+  scale_.normal += gravity_ * arrival.time;
   if (arrival.time > 0 && arrival.inclination != inclination_) {
     sine_ = std::sin(arrival.inclination);
     cosine_ = std::cos(arrival.inclination);

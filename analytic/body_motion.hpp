@@ -65,7 +65,8 @@ class BodyMotion {
   /// Velocity beyond the frame's.
   [[nodiscard]] const PlanarVelocity& remainder() const { return remainder_; }
   [[nodiscard]] const PlanarBody& body() const { return body_; }
-  /// The rounding error of contact_velocity().slip is below 4ε × this [m/s].
+  /// The rounding errors of contact_velocity() since the last impact are below 4ε × these [m/s].
+  [[nodiscard]] double normal_scale(int vertex) const;
   [[nodiscard]] double slip_scale(int vertex) const;
   /// Slip of the vertex that struck last, as it leaves [m/s].
   [[nodiscard]] double slip() const { return slip_; }
@@ -84,7 +85,8 @@ class BodyMotion {
   };
   void turn_to_face_below();
   void carry(const Departure& departure, const Arrival& arrival);
-  void keep_contact_velocity(const ContactPoint& d, Impact& impact) const;
+  void keep_contact_velocity(const ContactPoint& d, Impact& impact);
+  [[nodiscard]] ContactVelocity absolute_scale(int vertex) const;
   [[nodiscard]] bool frame_carries(int vertex, const ContactVelocity& contact) const;
   Impact strike_point(int vertex, const ImpactLaw& law);
   void strike_framed(int vertex, Impact& impact);
@@ -108,6 +110,7 @@ class BodyMotion {
   double rebound_speed_ = 0;
   double slip_ = 0;  ///< of the reference vertex as it leaves [m/s]
   Carried carried_;
+  PlanarVelocity scale_;  ///< sizes of the parts that V_n and V_t of the remainder were put together from
   Passes passes_{};
 };
 

@@ -288,15 +288,10 @@ void ErrorGrowth::fly(const BodyMotion& motion, const FlownState& flown) {
   for (double& entry : of_height) entry *= height_rounding / f.velocity;
   advance(f.state);
   factor_.add(of_height);
-  const PlanarVelocity v = motion.velocity();
-  const ContactPoint d = motion.contact_point(arrival.vertex);
-  const ContactVelocity u = motion.contact_velocity(arrival.vertex);
-  const bool carried = u.normal != normal_velocity(v, d);
-  const double absolute = std::fabs(v.normal) + from.gravity * arrival.time + std::fabs(v.angular * d.tangential);
   const double roundings[] = {
       arrival.time + motion.time(),
       turned > 0 ? std::fabs(from.inclination) + turned : 0,
-      of_start + (carried ? height.velocity_scale(arrival.time) : absolute + of_phase * std::fabs(from.angular)),
+      of_start + motion.normal_scale(arrival.vertex) + of_phase * std::fabs(from.angular),
       motion.slip_scale(arrival.vertex)};
   for (std::size_t i = 0; i < 4; ++i) {
     StateVector alone{};
@@ -305,7 +300,7 @@ void ErrorGrowth::fly(const BodyMotion& motion, const FlownState& flown) {
   }
   StateVector speed{}, angle{};
   speed[at_normal] = angle[at_angle] = 1;
-  const double late = std::fmax(alone(speed) / std::fabs(u.normal), alone(angle));
+  const double late = std::fmax(alone(speed) / std::fabs(f.velocity), alone(angle));
   if (!(late <= largest_curvature)) predictable_ = false;
   curvature_ = std::fmax(curvature_, late);
   if (!predictable_) factor_ = {};

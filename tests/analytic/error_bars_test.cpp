@@ -200,10 +200,10 @@ void judge_end(const Sequence& sequence, const oracle::EventSequence<Real>& trut
   for (const auto& impact : truth.impacts) sum += impact.normal_impulse;
   RowJudge judge(tally);
   ++tally.tails;
-  judge("total", sequence.total_normal_impulse, sequence.total_normal_impulse_error + (sequence.tail ? 2 / (1 - scene.drop.law.restitution) * static_cast<double>(truth.impacts.back().normal_impulse) : 0), sum);
+  judge("total", sequence.total_normal_impulse, sequence.total_normal_impulse_error + (sequence.tail ? 4 / (1 - scene.drop.law.restitution) * static_cast<double>(truth.impacts.back().normal_impulse) : 0), sum);
   if (sequence.tail) {
     // What the simulation has left out after its last impact.
-    const double e = scene.drop.law.restitution, left = 2 / (1 - e);
+    const double e = scene.drop.law.restitution, left = 4 / (1 - e);
     const auto& last = truth.impacts.back();
     const double impulse_left = left * static_cast<double>(last.normal_impulse);
     const double time_left = left * static_cast<double>(last.time - truth.impacts[truth.impacts.size() - 2].time);
