@@ -1,5 +1,4 @@
 #include <boost/test/unit_test.hpp>
-#include <chrono>
 #include <cmath>
 #include <vector>
 
@@ -108,13 +107,10 @@ BOOST_AUTO_TEST_CASE(masses_and_lengths_from_1e_minus_150_to_1e150_change_nothin
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_fast_spin_makes_a_million_turns_and_ends_in_under_a_second) {
-  const auto start = std::chrono::steady_clock::now();
+BOOST_AUTO_TEST_CASE(a_fast_spin_makes_a_million_turns_with_few_evaluations_of_its_height) {
   Drop drop{.body = make_rod({}), .inclination = Angle::from_degrees(30), .velocity = {.normal = -10, .tangential = 0, .angular = -1e7},
             .gravity = 9.81, .law = {}};
   const Sequence s = impact_sequence(drop, {.impacts = 3});
   BOOST_TEST(s.rows.size() == 3u);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  BOOST_TEST_MESSAGE("took " << seconds << " s");
   BOOST_TEST(s.root_evaluations < 1000);
 }

@@ -12,7 +12,6 @@ import subprocess
 import sys
 import tempfile
 import threading
-import time
 import tomllib
 import unittest
 import warnings
@@ -21,6 +20,9 @@ from pathlib import Path
 import numpy as np
 
 import clatter
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from waiting import until_it_computes  # noqa: E402
 
 PROGRAM = os.environ["CLATTER_PROGRAM"]
 ROOT = Path(os.environ["CLATTER_ROOT"])
@@ -287,23 +289,19 @@ class Errors(unittest.TestCase):
 
 class LongCalls(unittest.TestCase):
     def test_other_threads_run_meanwhile(self):
-        """A thread counts while another simulates; with the lock held it could not."""
-        counted, done = [0], threading.Event()
-
-        def count():
-            while not done.is_set():
-                counted[0] += 1
-                time.sleep(0)
-        counter = threading.Thread(target=count)
-        counter.start()
-        try:
-            before = counted[0]
-            clatter.simulate("phone-elastic", digits=11, impacts=4)
-            after = counted[0]
-        finally:
-            done.set()
-            counter.join()
-        self.assertGreater(after - before, 20)
+        """A thread answers while another simulates without end; with the lock held it could not."""
+        script = ("import clatter, sys, threading\n"
+                  "def answer():\n  for line in sys.stdin: print(line, end='', flush=True)\n"
+                  "threading.Thread(target=answer, daemon=True).start()\n"
+                  "print('ready', flush=True)\n"
+                  "clatter.simulate('rod-45', method='tvd-rk3', step=1e-12, evaluation_limit=10**12)\n")
+        with subprocess.Popen([sys.executable, "-c", script], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as child:
+            self.assertEqual(child.stdout.readline(), "ready\n")
+            until_it_computes(child)
+            for question in range(20):
+                print(question, file=child.stdin, flush=True)
+                self.assertEqual(child.stdout.readline(), f"{question}\n")
+            child.kill()
 
     def test_calls_from_several_threads_agree(self):
         expected = clatter.simulate("phone-damped", impacts=2).to_dict()

@@ -15,7 +15,7 @@ PATIENCE = ["--seconds", "600"]  # so that no test depends on a time
 
 
 def extremes(*arguments):
-    return subprocess.run([PROGRAM, "extremes", *arguments], capture_output=True, text=True, timeout=300)
+    return subprocess.run([PROGRAM, "extremes", *arguments], capture_output=True, text=True, timeout=3000)
 
 
 class Extremes(unittest.TestCase):

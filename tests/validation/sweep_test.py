@@ -73,6 +73,22 @@ def records(text):
     return list(csv.DictReader(io.StringIO("".join(l for l in text.splitlines(True) if not l.startswith("#")))))
 
 
+def box_stl(side):
+    """A cube about the origin."""
+    text, half = "solid box\n", side / 2
+    for axis in range(3):
+        for sign in (-1, 1):
+            corners = []
+            for u, v in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
+                corner = [0.0, 0.0, 0.0]
+                corner[axis], corner[(axis + 1) % 3], corner[(axis + 2) % 3] = sign * half, u * half, v * half
+                corners.append("vertex %r %r %r\n" % tuple(corner))
+            a, b, c, d = corners[::sign]
+            for triangle in ((a, b, c), (a, c, d)):
+                text += "facet normal 0 0 0\nouter loop\n" + "".join(triangle) + "endloop\nendfacet\n"
+    return text + "endsolid box\n"
+
+
 class Folder(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -331,6 +347,38 @@ class SameBytes(Folder):
         self.sweep(*arguments, "--output", self.path("out.csv"), "--restart")
         self.assertEqual(self.read("out.csv").decode(), self.sweep(*arguments))
         self.assertFalse(os.path.exists(path))
+
+    def test_rows_that_were_damaged_are_computed_anew(self):
+        arguments = [self.scene, "--set", "drop.angle_deg=0.0004:60:0.0004", "--output", self.path("out.csv")]
+        self.sweep(*arguments)
+        whole = self.read("out.csv")
+        os.remove(self.path("out.csv"))
+        self.assertTrue(self.interrupt(signal.SIGINT, arguments), "too short a sweep to interrupt")
+        rest = bytearray(self.read("out.csv.part"))
+        digests = self.read("out.csv.part.digests")
+        begin = rest.index(b"\nindex") + 1
+        for at in (len(rest) - 5, (begin + len(rest)) // 2, rest.index(b"\n", begin) + 2):
+            part = rest[:]
+            part[at] = ord("7") if part[at] != ord("7") else ord("3")
+            for name, text in (("out.csv.part", part), ("out.csv.part.digests", digests)):
+                with open(self.path(name), "wb") as file:
+                    file.write(text)
+            self.sweep(*arguments)
+            self.assertEqual(self.read("out.csv") == whole, True)
+            self.assertEqual(sorted(os.listdir(self.folder)), ["out.csv", "rod.toml"])
+
+    def test_a_sweep_does_not_go_on_with_another_mesh_of_the_same_name(self):
+        self.write("body.stl", box_stl(0.1))
+        scene = self.write("mesh.toml", "[drop]\nangle_deg = 10\n[body]\nshape = 'mesh'\nmass = 1\ninertia = [1, 1, 1]\n"
+                           "mesh = { file = 'body.stl' }\n[ground]\nstiffness = 1e8\n[run]\nimpacts = 1\ndigits = 3\n")
+        arguments = [scene, "--set", "drop.angle_deg=1:3:1"]
+        whole = self.sweep(*arguments)
+        self.write("out.csv.part", whole[:-10])
+        self.write("body.stl", box_stl(0.2))
+        self.assertIn("is of another sweep", self.refuse(*arguments, "--output", self.path("out.csv")))
+        self.write("body.stl", box_stl(0.1))
+        self.sweep(*arguments, "--output", self.path("out.csv"))
+        self.assertEqual(self.read("out.csv").decode(), whole)
 
     def test_an_interrupt_ends_stdout_with_whole_rows_and_a_word(self):
         process = subprocess.Popen([PROGRAM, "sweep", self.scene, "--set", "drop.angle_deg=0.000001:60:0.000001"],

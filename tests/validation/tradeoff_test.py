@@ -13,7 +13,7 @@ CASES = os.path.join(os.environ["CLATTER_ROOT"], "validation", "cases")
 
 def tradeoff(name, *arguments):
     return subprocess.run([PROGRAM, "tradeoff", os.path.join(CASES, name + ".toml"), *arguments], capture_output=True,
-                          text=True, timeout=300)
+                          text=True, timeout=3000)
 
 
 class Tradeoff(unittest.TestCase):

@@ -20,7 +20,7 @@ NUMBERS = [7, 8, 9, 10, 11, 12, 14, 15, 16, 17, 19, 20, 21, 22, 23, 24]
 
 
 def clatter(*arguments):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=300)
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=3000)
 
 
 def case(name):
@@ -108,7 +108,7 @@ class Verify(unittest.TestCase):
                 if command.startswith("clatter verify"):
                     continue
                 words = command.replace("DIR", folder).replace("FILE", os.path.join(folder, "history.csv")).split()
-                run = subprocess.run([PROGRAM, *words[1:]], capture_output=True, text=True, cwd=ROOT, timeout=300)
+                run = subprocess.run([PROGRAM, *words[1:]], capture_output=True, text=True, cwd=ROOT, timeout=3000)
                 self.assertEqual(run.returncode, 0, f"{command}: {run.stderr}")
 
     def test_bad_arguments_have_one_line_and_status_2(self):
