@@ -42,8 +42,12 @@ void Body::set_up(const MassProperties& properties, const Surface& surface, bool
   check_inertia(properties.inertia);
   mass_ = properties.mass;
   inertia_ = properties.inertia;
-  const double size = inertia_.trace();  // scaled: the determinant of a large body's inertia overflows
-  inverse_inertia_ = Matrix3(inertia_ / size).inverse() / size;
+  // By a power of two, which rounds nothing: the determinant of a large body's inertia overflows.
+  const int exponent = std::ilogb(inertia_.trace());
+  const auto scaled = [](const Matrix3& m, int power) {
+    return Matrix3(m.unaryExpr([&](double x) { return std::scalbn(x, power); }));
+  };
+  inverse_inertia_ = scaled(scaled(inertia_, -exponent).inverse(), -exponent);
   facets_ = planar_facets(surface, merge);
   for (Vector3& vertex : facets_.vertices) {
     vertex -= properties.centre;

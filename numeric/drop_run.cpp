@@ -23,6 +23,7 @@ constexpr double least_depth = 1e3;
 Outcome outcome_of(ContactEnding ending) {
   switch (ending) {
     case ContactEnding::at_rest: return Outcome::at_rest;
+    case ContactEnding::sustained_contact: return Outcome::sustained_contact;
     case ContactEnding::evaluation_limit: return Outcome::evaluation_limit;
     case ContactEnding::step_too_small: return Outcome::step_too_small;
     case ContactEnding::not_representable: return Outcome::not_representable;
@@ -106,7 +107,8 @@ class Run {
     const Vector3 point = touch_point(body_, state_);
     const ContactResult contact = contact_.run(state_, point, control_);
     result_.step = contact.step;
-    if (contact.ending != ContactEnding::lift_off && contact.ending != ContactEnding::at_rest) {
+    const bool lifts = contact.ending == ContactEnding::lift_off;
+    if (!lifts && contact.ending != ContactEnding::at_rest && contact.ending != ContactEnding::sustained_contact) {
       return end(outcome_of(contact.ending));
     }
     if (!(contact.scales.depth > least_depth * placement_)) return end(Outcome::not_representable);
@@ -114,7 +116,7 @@ class Run {
     if (extras_.amplification) note_growth(contact);
     state_ = options_.planar ? in_plane(contact.after) : contact.after;
     time_ += contact.duration;
-    return contact.ending == ContactEnding::lift_off || end(Outcome::at_rest);
+    return lifts || end(outcome_of(contact.ending));
   }
 
   [[nodiscard]] ImpactRecord record(const ContactResult& contact, const Vector3& point) const {

@@ -66,6 +66,7 @@ enum class Outcome {
   no_further_impact,   ///< nothing reaches the ground any more
   impact_limit,        ///< as many impacts as asked for
   at_rest,             ///< the body lies still on the ground
+  sustained_contact,   ///< it slides or spins on there steadily, and no friction stops it
   evaluation_limit,    ///< contact goes on; the last row is unfinished and not listed
   step_too_small,      ///< the integrator cannot reach the tolerance; the last row is not listed
   not_representable,   ///< numbers of this scene leave the range or resolution of doubles

@@ -40,6 +40,9 @@ std::string words_for(const Simulation& run, const Options& options, double time
     case Outcome::no_further_impact: text << "nothing reaches the ground any more"; break;
     case Outcome::impact_limit: text << "stopped after the " << options.impacts << " impacts asked for"; break;
     case Outcome::at_rest: text << "the body lies still on the ground from " << time << " s"; break;
+    case Outcome::sustained_contact:
+      text << "from " << time << " s the body slides or spins on the ground steadily, and no friction stops it";
+      break;
     case Outcome::evaluation_limit:
       text << "the contact after " << time << " s had not ended after " << options.evaluation_limit
            << " force evaluations";

@@ -1,13 +1,17 @@
 #include "numeric/touch_point.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "numeric/motion/free_flight.hpp"
 
 namespace clatter::numeric {
 
-Vector3 touch_point(const Body& body, const MotionState& state) {
+namespace {
+
+/// The lowest vertices, each once.
+std::vector<int> touching_vertices(const Body& body, const MotionState& state) {
   // Heights over the centre of mass: over the ground those of a high flight would lose the body's size.
   MotionState level_with_centre = state;
   level_with_centre.centre.setZero();
@@ -27,9 +31,29 @@ Vector3 touch_point(const Body& body, const MotionState& state) {
   });
   std::sort(touching.begin(), touching.end());
   touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
+  return touching;
+}
+
+}  // namespace
+
+Vector3 touch_point(const Body& body, const MotionState& state) {
+  const std::vector<int> touching = touching_vertices(body, state);
   Vector3 sum = Vector3::Zero();
-  for (const int vertex : touching) sum += facets.vertices[static_cast<std::size_t>(vertex)];
+  for (const int vertex : touching) sum += body.facets().vertices[static_cast<std::size_t>(vertex)];
   return sum / static_cast<double>(touching.size());
+}
+
+FirstTouch first_touch(const Body& body, const MotionState& state) {
+  FirstTouch touch{.approach_speed = -std::numeric_limits<double>::infinity()};
+  bool a = false, b = false;
+  for (const int vertex : touching_vertices(body, state)) {
+    const Vector3& u = body.facets().vertices[static_cast<std::size_t>(vertex)];
+    a = a || u.x() < -1e-9 * body.half_length();
+    b = b || u.x() > 1e-9 * body.half_length();
+    touch.approach_speed = std::max(touch.approach_speed, -point_velocity(state, u).z());
+  }
+  touch.end = a && b ? ContactEnd::both : a ? ContactEnd::a : b ? ContactEnd::b : ContactEnd::middle;
+  return touch;
 }
 
 }  // namespace clatter::numeric

@@ -60,7 +60,7 @@ ContactLoad ContactLoader::load(const GroundView& view, const SlipField& slip, L
   Sums sums{view, slip, view.normal(), {}, {}, {}, {}, rates, submerged};
   sums.rate_slope = sums.normal.cross(view.angular_velocity);
   sums.normal_rate = sums.rate_slope;
-  sums.load.deepest = -1;
+  sums.load.deepest = -2 * body_.radius();  // where no facet is looked at
   // Boxes are rounded, vertices are not: a margin keeps facets that just touch.
   const double margin = 1e-14 * body_.radius();
   body_.hierarchy().visit_below(view.plane(), margin, [&](int facet) {

@@ -18,6 +18,9 @@ constexpr double smallest_part = 1e-13;
 /// Slip slower than this part, times √tolerance, of the contact's speed keeps its direction: across it friction is a
 /// damper that stiffens like 1/|v|, which explicit steps could not follow.
 constexpr double slow_part = 0.1;
+/// Part of the speed and acceleration of a fall below which a body lies still, and how many times the tolerance the
+/// errors of steps keep up, so that a rough run ends too.
+constexpr double least_rest = 1e-6, largest_rest = 1e-5, noise_per_tolerance = 300;
 constexpr double fading_per_contact = 50;    ///< rate at which stick ends a remaining slip, times the contact time
 
 }  // namespace
@@ -190,7 +193,7 @@ bool ContactRun::advance(double& h) {
   h = next;
   const bool goes_on = !control_->observe || control_->observe(now_);
   if (lifts) return end(ContactEnding::lift_off);
-  if (at_rest(now_)) return end(ContactEnding::at_rest);
+  if (ends_on_the_ground(now_)) return false;
   return goes_on || end(ContactEnding::interrupted);
 }
 
@@ -217,15 +220,38 @@ void ContactRun::accept(const ContactInstant& next) {
   system_.set_phase(phase);
 }
 
-/// Motion and acceleration a millionth of what a fall into this contact would have.
-bool ContactRun::at_rest(const ContactInstant& at) const {
+/// Whether only sliding along the ground and spinning about the vertical are left, neither with an acceleration: to a
+/// millionth of what a fall into this contact would have, or to what the tolerance's errors keep up.
+bool ContactRun::is_steady(const ContactInstant& at) const {
   const double g = system_.gravity();
   const double depth = at.diagnosis.load.deepest;
   if (!(g > 0) || !(depth > 0)) return false;
-  const double radius = system_.body().radius();
-  const double speed = 1e-6 * std::sqrt(g * depth), acceleration = 1e-6 * g;
-  return at.state.segment<3>(7).norm() <= speed && radius * at.state.segment<3>(10).norm() <= speed &&
-         at.rate.segment<3>(7).norm() <= acceleration && radius * at.rate.segment<3>(10).norm() <= acceleration;
+  const double radius = system_.body().radius(), fall = std::sqrt(g * depth);
+  const double noise = stepper_.error_order() > 0 ? noise_per_tolerance * control_->tolerance * scales_.speed / fall : 0;
+  const double part = std::clamp(noise, least_rest, largest_rest);
+  const double turning = at.state.segment<3>(10).norm(), spin = at.diagnosis.spin;
+  const double tipping = std::sqrt(std::max(turning * turning - spin * spin, 0.0));
+  return std::fabs(at.state[9]) <= part * fall && radius * tipping <= part * fall + 1e-7 * radius * turning &&
+         at.rate.segment<3>(7).norm() <= part * g && radius * at.rate.segment<3>(10).norm() <= part * g;
+}
+
+/// What is left of a steady motion: nothing, or what no friction will ever stop.
+bool ContactRun::ends_on_the_ground(const ContactInstant& at) {
+  if (!is_steady(at)) return false;
+  const double speed = least_rest * std::sqrt(system_.gravity() * at.diagnosis.load.deepest);
+  const double sliding = std::hypot(at.state[7], at.state[8]);
+  const double turning = system_.body().radius() * std::fabs(at.diagnosis.spin);
+  if (sliding <= speed && turning <= speed) {
+    result_.ending = ContactEnding::at_rest;
+    return true;
+  }
+  result_.ending = ContactEnding::sustained_contact;
+  return goes_on_for_ever();
+}
+
+/// Sliding without friction, or spinning about a pressure centre that sticks, which this law does not resist.
+bool ContactRun::goes_on_for_ever() const {
+  return system_.ground().sliding_friction == 0 || system_.phase().kind == Kind::stick;
 }
 
 FrictionMode ContactRun::mode() const {

@@ -31,7 +31,15 @@ struct ContactControl {
   std::function<bool(const ContactInstant&)> observe = nullptr;
 };
 
-enum class ContactEnding { lift_off, at_rest, evaluation_limit, step_too_small, not_representable, interrupted };
+enum class ContactEnding {
+  lift_off,
+  at_rest,
+  sustained_contact,  ///< steady sliding or spinning that nothing stops
+  evaluation_limit,
+  step_too_small,
+  not_representable,
+  interrupted
+};
 
 struct ContactResult {
   ContactEnding ending = ContactEnding::lift_off;
@@ -85,7 +93,9 @@ class ContactRun {
   [[nodiscard]] bool phase_is_over(const ContactInstant& at) const;
   void start_phase(FrictionPhase::Kind kind, const AlongGround& direction);
   [[nodiscard]] FrictionLog::Sums sums() const;
-  [[nodiscard]] bool at_rest(const ContactInstant& at) const;
+  [[nodiscard]] bool is_steady(const ContactInstant& at) const;
+  [[nodiscard]] bool goes_on_for_ever() const;
+  bool ends_on_the_ground(const ContactInstant& at);
   [[nodiscard]] FrictionMode mode() const;
 
   ContactSystem& system_;

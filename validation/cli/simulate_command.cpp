@@ -46,6 +46,10 @@ PlannedRun run_scene(const SimulationScene& scene, const numeric::Body& body, co
   return run_to_digits(body, scene.ground, start, options);
 }
 
+void warn(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) fmt::print(stderr, "clatter: warning: {}\n", warning);
+}
+
 /// 3 if there is no number at all because of what the run met.
 int status_of(const Simulation& run) {
   switch (run.outcome) {
@@ -94,6 +98,7 @@ int run_single(const SimulationScene& scene, const numeric::Body& body, const Ou
   write_report(choice, [&] { return simulation_json(scene, planned); }, [&] { return simulation_records(scene, planned); },
                [&] { return simulation_table(scene, planned); });
   draw(scene, planned.run, picture, plot);
+  warn(planned.warnings);
   return status_of(planned.run);
 }
 
@@ -101,19 +106,25 @@ int run_sweep(const SimulationScene& scene, const numeric::Body& body, const Out
   const CooperativeInterrupt interrupt;
   const std::vector<double> values = scene.sweep->values();
   std::vector<SweptRun> runs;
+  std::vector<std::string> warnings;  // each once
   {
     Progress progress;
     for (const double value : values) {
       if (interrupt.requested()) break;
       if (runs.size() % 10 == 0) progress.show(progress_bar(runs.size(), values.size()));
       SweptRun swept{value, scene.at(value), {}};
-      swept.run = run_scene(swept.scene, body, interrupt, [](int, long) {}, nullptr).run;
+      PlannedRun planned = run_scene(swept.scene, body, interrupt, [](int, long) {}, nullptr);
+      for (const std::string& one : planned.warnings) {
+        if (std::find(warnings.begin(), warnings.end(), one) == warnings.end()) warnings.push_back(one);
+      }
+      swept.run = std::move(planned.run);
       if (swept.run.outcome == Outcome::interrupted) break;
       runs.push_back(std::move(swept));
     }
   }
   write_report(choice, [&] { return sweep_json(scene, runs); }, [&] { return sweep_records(scene, runs); },
                [&] { return sweep_table(scene, runs); });
+  warn(warnings);
   if (runs.size() < values.size()) {
     plot.leave_out("interrupted");
     return interrupted_status;

@@ -99,6 +99,7 @@ std::vector<std::string> notes_of(const SimulationScene& scene, const PlannedRun
   std::vector<std::string> notes;
   const std::string trust = trust_words(scene, run);
   if (!trust.empty()) notes.push_back(trust);
+  for (const std::string& warning : planned.warnings) notes.push_back("!: warning: " + warning);
   double gap = 0;
   for (const ImpactRecord& row : run.impacts) gap = std::max(gap, std::fabs(row.ledger_gap));
   if (!run.impacts.empty()) {
@@ -155,7 +156,7 @@ Table simulation_table(const SimulationScene& scene, const PlannedRun& planned) 
     const ImpactNumbers &v = row.value, &e = row.error;
     const bool trusted_row = ++n <= trust;
     const auto cell = [&](double value, double error) { return known(scene, value, error, trusted_row); };
-    table.rows.push_back({Cell(std::to_string(n) + (trusted_row ? "" : "?")), Cell(end_name(row.end)),
+    table.rows.push_back({Cell(std::to_string(n) + (trusted_row ? "" : "?") + (row.submerged ? "!" : "")), Cell(end_name(row.end)),
                           cell(v.start, e.start), cell(v.duration, e.duration),
                           cell(v.contact_angle * degrees, e.contact_angle * degrees),
                           cell(v.impulse.z(), e.impulse.z()), cell(v.impulse.x(), e.impulse.x()),
@@ -173,6 +174,7 @@ Json simulation_json(const SimulationScene& scene, const PlannedRun& planned) {
   int n = 0;
   for (const ImpactRecord& row : run.impacts) json["impacts"].push_back(impact_json(row, ++n));
   json["outcome"] = outcome_name(run.outcome);
+  json["warnings"] = planned.warnings;
   json["message"] = run.message + "; restitution is null where an impact has several touches";
   json["method"] = method_name(run.method);
   json["tolerance"] = run.tolerance > 0 ? Json(run.tolerance) : Json(nullptr);

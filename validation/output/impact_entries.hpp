@@ -95,6 +95,7 @@ void for_each_entry(const numeric::ImpactRecord& row, int n, Entry&& entry) {
   entry("end", end_name(row.end));
   entry("touches", row.touches);
   entry("mode", mode_name(row.mode));
+  entry("submerged", row.submerged);
   for_each_number(row.value, entry);
   entry("impulse_ratio", impulse_ratio(row.value));
   entry("energy_stored", row.energy_stored);

@@ -44,6 +44,8 @@ const char* outcome_name(Outcome outcome) {
       return "impact-limit";
     case Outcome::at_rest:
       return "at-rest";
+    case Outcome::sustained_contact:
+      return "sustained-contact";
     case Outcome::evaluation_limit:
       return "evaluation-limit";
     case Outcome::step_too_small:

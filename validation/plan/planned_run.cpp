@@ -6,6 +6,7 @@
 
 #include "validation/compare/motion_numbers.hpp"
 #include "validation/plan/cost_table.hpp"
+#include "validation/plan/symmetry.hpp"
 #include "validation/plan/tolerance_search.hpp"
 
 namespace clatter::validation {
@@ -51,7 +52,7 @@ class Runner {
     Options options = options_;
     options.history = nullptr;
     take_cheapest(options);
-    PlannedRun planned{.run = {}, .planned = true, .asked = std::pow(10.0, -options.digits)};
+    PlannedRun planned{.run = {}, .planned = true, .asked = std::pow(10.0, -options.digits), .warnings = {}};
     for (int repeat = 0;; ++repeat) {
       planned.run = simulate(options);
       judge(body_, planned);
@@ -121,16 +122,39 @@ class Runner {
   long evaluations_ = 0;
 };
 
+/// A warning that names the impacts in which the whole body sank; empty: none.
+std::string submersion_warning(const Simulation& run) {
+  std::string impacts;
+  for (std::size_t i = 0; i < run.impacts.size(); ++i) {
+    if (run.impacts[i].submerged) impacts += (impacts.empty() ? "" : ", ") + std::to_string(i + 1);
+  }
+  if (impacts.empty()) return "";
+  return "the whole body sinks below the ground in impact " + impacts + ": a foundation below it is no model of that";
+}
+
 }  // namespace
+
+std::string planar_warning(const numeric::Body& body, const numeric::MotionState& start, const Options& options) {
+  if (!options.planar || is_mirror_image(body, start)) return "";
+  return "kept in its plane, although the body as it is tilted is not its own mirror image there: forces and moments out "
+         "of the plane are left out";
+}
 
 PlannedRun run_to_digits(const numeric::Body& body, const numeric::Ground& ground, const numeric::MotionState& start,
                          const Options& options) {
   const bool plans = options.method == Method::automatic && options.step == 0 && options.tolerance == 0;
-  if (plans) return Runner(body, ground, start, options).run();
-  PlannedRun planned{.run = numeric::simulate(body, ground, start, options),
-                     .planned = false,
-                     .asked = std::pow(10.0, -options.digits)};
-  judge(body, planned);
+  PlannedRun planned;
+  if (plans) {
+    planned = Runner(body, ground, start, options).run();
+  } else {
+    planned.run = numeric::simulate(body, ground, start, options);
+    planned.asked = std::pow(10.0, -options.digits);
+    judge(body, planned);
+  }
+  const std::string out_of_plane = planar_warning(body, start, options);
+  if (!out_of_plane.empty()) planned.warnings.push_back(out_of_plane);
+  const std::string sunk = submersion_warning(planned.run);
+  if (!sunk.empty()) planned.warnings.push_back(sunk);
   return planned;
 }
 

@@ -1,6 +1,9 @@
 // A run of the continuous model whose method and tolerance follow from the digits asked for.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "validation/scene/simulation_scene.hpp"
 
 namespace clatter::validation {
@@ -14,7 +17,12 @@ struct PlannedRun {
   double achieved = 0;
   /// The first impacts, before rounding errors have grown beyond what is asked.
   int known_impacts = 0;
+  std::vector<std::string> warnings;  ///< of what the run leaves out although the scene has it, and of bodies that sink
 };
+
+/// A warning if the motion is kept in its plane although nothing but that keeps it there; empty: none.
+[[nodiscard]] std::string planar_warning(const numeric::Body& body, const numeric::MotionState& start,
+                                         const numeric::Options& options);
 
 /// Runs the scene.  With `run.method = "auto"`, no step and no tolerance, two pilot runs with rkck (at 1e-4 and 1e-6)
 /// give the scene's error constant, the measured table (CostTable) the cheapest method and tolerance for the digits;

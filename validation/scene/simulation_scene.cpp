@@ -11,7 +11,9 @@
 #include "numeric/mesh/generators.hpp"
 #include "numeric/mesh/import.hpp"
 #include "numeric/motion/free_flight.hpp"
+#include "numeric/touch_point.hpp"
 #include "validation/embedded/embedded.hpp"
+#include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/bad_input.hpp"
 #include "validation/scene/scene_values.hpp"
@@ -411,14 +413,22 @@ numeric::MotionState SimulationScene::start(const numeric::Body& dropped) const 
   numeric::MotionState state = numeric::touching_state(
       dropped, {.inclination = angle_deg * degree, .velocity = {tangential_velocity, 0, -speed}, .spin = spin,
                 .out_of_plane_tilt = tilt_deg * degree});
-  if (!height) return state;
+  if (height) state.velocity.z() = -fallen_speed(state);
+  const numeric::FirstTouch first = numeric::first_touch(dropped, state);
+  if (!(first.approach_speed > 0)) {  // in the discrete model's words
+    throw BadInput(fmt::format("the first contact, end {}, does not approach the ground: speed and spin must bring it down",
+                               end_name(first.end)));
+  }
+  return state;
+}
+
+double SimulationScene::fallen_speed(const numeric::MotionState& state) const {
   const double touch = state.centre.z();
   if (!(*height > touch)) {
     throw BadInput(fmt::format("{}: drop.height = {}: must be greater than {} m, the height of the centre of mass at the first touch",
                                path, shortest(*height), significant(touch, 6)));
   }
-  state.velocity.z() = -std::sqrt(2 * options.gravity * (*height - touch));
-  return state;
+  return std::sqrt(2 * options.gravity * (*height - touch));
 }
 
 Json SimulationScene::json() const {

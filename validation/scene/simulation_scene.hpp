@@ -70,12 +70,16 @@ struct SimulationScene {
   [[nodiscard]] SimulationScene at(double value) const;
   [[nodiscard]] numeric::Body make_body() const;
   /// State at the first touch; with `height` the speed there follows from the fall.
-  /// @throws BadInput if `height` is not above the centre of mass at the touch.
+  /// @throws BadInput if `height` is not above the centre of mass at the touch, or no touching vertex comes down.
   [[nodiscard]] numeric::MotionState start(const numeric::Body& body) const;
   /// Everything, defaults included, under the names of the file.
   [[nodiscard]] Json json() const;
   /// The same for a reader: a few lines.
   [[nodiscard]] std::vector<std::string> summary() const;
+
+ private:
+  /// Speed of the fall from `height` to the touch [m/s].
+  [[nodiscard]] double fallen_speed(const numeric::MotionState& touch) const;
 };
 
 /// @throws BadInput with one line "file:line:column: key ..." or "--flag ...".
