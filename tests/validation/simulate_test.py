@@ -439,5 +439,52 @@ class Claims(Folder):
         self.assertLess(max(ratios[13:]) - min(ratios[13:]), 1e-5)
 
 
+class Friction(Folder):
+    """What friction, a plane and a deep ground do to a run, and what is said of it."""
+
+    def test_landings_flat_and_upright_with_friction_bounce_plainly(self):
+        friction = ("--static-friction", "0.5", "--sliding-friction", "0.5", "--impacts", "1", "--gravity", "0")
+        for case in ("rod-10", "phone-corner"):
+            for angle in ("0", "90"):
+                for method in ("auto", "tvd-rk3", "rk8pd"):
+                    result = run(os.path.join(CASES, case + ".toml"), "--angle", angle, "--tilt", "0", "--method", method,
+                                 "--planar", "--speed", "1", "--damping", "0", *friction, "--format", "json", "--history",
+                                 self.path("h.csv"))
+                    self.assertEqual((result.returncode, result.stderr), (0, ""), (case, angle, method))
+                    row = json.loads(result.stdout)["impacts"][0]
+                    self.assertAlmostEqual(row["restitution"], 1, places=6)
+                    self.assertAlmostEqual(row["impulse_tangential"], 0, places=9)
+                    with open(self.path("h.csv"), encoding="utf-8") as file:
+                        self.assertNotIn("nan", "".join(line for line in file if not line.startswith("#")))
+
+    def test_a_first_contact_that_recedes_is_refused_in_the_words_of_the_discrete_model(self):
+        case = os.path.join(CASES, "rod-10.toml")
+        sequence = subprocess.run([PROGRAM, "sequence", "--angle", "10", "--spin", "50"], capture_output=True, text=True,
+                                  timeout=120)
+        for command in ("simulate", "compare", "tradeoff"):
+            result = subprocess.run([PROGRAM, command, case, "--spin", "50"], capture_output=True, text=True, timeout=120)
+            self.assertEqual((result.returncode, result.stdout, result.stderr), (2, "", sequence.stderr), command)
+        self.assertEqual(run(case, "--spin", "1", "--impacts", "1").returncode, 0)
+
+    def test_a_tilted_body_kept_in_its_plane_is_warned_of(self):
+        case = os.path.join(CASES, "phone-elastic.toml")
+        for tilt, warned in (("20", True), ("0", False), ("90", False)):
+            for form in ("table", "json"):
+                result = run(case, "--planar", "--tilt", tilt, "--impacts", "1", "--format", form)
+                self.assertEqual(result.returncode, 0)
+                self.assertEqual("its own mirror image" in result.stderr, warned, (tilt, form))
+                self.assertEqual("mirror image" in " ".join(result.stdout.split()), warned, (tilt, form))
+
+    def test_a_body_that_sinks_wholly_is_marked_in_its_row(self):
+        case = os.path.join(CASES, "phone-elastic.toml")
+        for stiffness, sinks in (("1e4", True), ("1e8", False)):
+            result = run(case, "--stiffness", stiffness, "--impacts", "1")
+            self.assertEqual("1!" in result.stdout, sinks)
+            self.assertEqual("sinks below the ground in impact 1" in result.stderr, sinks)
+            rows = self.json(case, "--stiffness", stiffness, "--impacts", "1")
+            self.assertEqual([row["submerged"] for row in rows["impacts"]], [sinks])
+            self.assertEqual(len(rows["warnings"]), 1 if sinks else 0)
+
+
 if __name__ == "__main__":
     unittest.main()
