@@ -75,7 +75,7 @@ bool holds(const VertexSet set, int vertex) { return (set >> vertex & 1) != 0; }
 
 RowErrors RowErrors::unknown() {
   constexpr double none = analytic::unknown;
-  return {.predictable = false, .start = none, .inclination = none, .contact_angle = none, .approach_speed = none,
+  return {.predictable = false, .relative = none, .start = none, .inclination = none, .contact_angle = none, .approach_speed = none,
           .restitution = none, .normal_impulse = none, .tangential_impulse = none, .impulse_ratio = none,
           .after = {.normal = none, .tangential = none, .angular = none},
           .energy_before = none, .energy_after = none, .energy_loss = none};
@@ -84,7 +84,7 @@ RowErrors RowErrors::unknown() {
 ErrorGrowth::ErrorGrowth(const BodyMotion& motion, double angle) {
   const ContactPoint d = motion.contact_point(std::countr_zero(motion.lowest_vertices()));
   const PlanarVelocity v = motion.velocity();
-  const bool exact = angle == 0 || motion.contact_angle() == 0 || d.tangential == 0;  // 0° and 90° are what they are
+  const bool exact = motion.local_departure().sine == 0 || d.tangential == 0;  // 0° and 90° are what they are
   const double size = exact ? 0 : std::fabs(angle);
   of_angle_[at_angle] = size;
   of_angle_[at_normal] = v.angular * d.normal * size;
@@ -229,6 +229,9 @@ void ErrorGrowth::strike(const BodyMotion& motion, const ImpactLaw& law, ImpactR
       .normal = bound(moves.normal, 2 * epsilon * (std::fabs(row.before.normal) + std::fabs(after.normal))),
       .tangential = bound(moves.tangential, 2 * epsilon * (std::fabs(row.before.tangential) + std::fabs(after.tangential))),
       .angular = bound(turn, epsilon * std::fabs(after.angular))};
+  const auto relative = [](double error, double value) { return error > 0 ? error / std::fabs(value) : 0; };
+  row.error.relative = std::max({relative(row.error.start, row.start), relative(row.error.contact_angle, row.contact_angle),
+                                 relative(row.error.normal_impulse, row.impact.normal_impulse)});
   row.error.energy_after =
       bound(moves.energy, 2 * epsilon * (std::fabs(row.energy_before) + std::fabs(row.energy_after)));
 }

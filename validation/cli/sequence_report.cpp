@@ -23,30 +23,17 @@ using analytic::Sequence;
 const char* const no_history =
     "the discrete model's impacts are instantaneous: no peak force or time";
 
-/// The numbers of an impact under their names in the JSON, those with an error estimate.
-struct Quantity {
-  const char* name;
-  double value;
-};
-
-std::vector<Quantity> quantities(const ImpactRow& row) {
-  const analytic::Impact& impact = row.impact;
-  return {{"start", row.start},
-          {"inclination_deg", row.inclination * degrees_per_radian},
-          {"contact_angle_deg", row.contact_angle * degrees_per_radian},
-          {"approach_speed", impact.approach_speed},
-          {"impulse_normal", impact.normal_impulse},
-          {"impulse_tangential", impact.tangential_impulse}};
-}
-
 Json impact_json(const Scene& scene, const ImpactRow& row, int n) {
   Json json;
   for_each_entry(row, n, scene.angle_deg, [&](const char* name, const auto& value) { json[name] = entry_json(value); });
-  Json errors = Json::object();
-  for (const auto& [name, value] : quantities(row)) {
-    errors[name] = number_or_null(rounding_error(row, n, value));
-  }
-  json["error_estimate"] = errors;
+  const analytic::RowErrors& error = row.error;
+  json["error_estimate"] = {{"start", number_or_null(error.start)},
+                            {"inclination_deg", number_or_null(error.inclination * degrees_per_radian)},
+                            {"contact_angle_deg", number_or_null(error.contact_angle * degrees_per_radian)},
+                            {"approach_speed", number_or_null(error.approach_speed)},
+                            {"impulse_normal", number_or_null(error.normal_impulse)},
+                            {"impulse_tangential", number_or_null(error.tangential_impulse)}};
+  json["predictable"] = error.predictable;
   json["amplification"] = number_or_null(row.amplification);
   return json;
 }
@@ -54,17 +41,14 @@ Json impact_json(const Scene& scene, const ImpactRow& row, int n) {
 Json tail_json(const analytic::Tail& tail) {
   return {{"end", analytic::PlanarBody::vertex_set_name(tail.vertices)},
           {"end_time", tail.end_time},
-          {"end_time_error", tail.end_time_error},
+          {"end_time_error", number_or_null(tail.end_time_error)},
           {"impulse_normal", tail.normal_impulse},
-          {"impulse_normal_error", tail.normal_impulse_error},
+          {"impulse_normal_error", number_or_null(tail.normal_impulse_error)},
           {"impulse_tangential", tail.tangential_impulse},
+          {"impulse_tangential_error", number_or_null(tail.tangential_impulse_error)},
           {"closed_form", tail.closed_form},
           {"velocity_after", {tail.after.tangential, 0.0, tail.after.normal}},
           {"angular_velocity_after", {0.0, tail.after.angular, 0.0}}};
-}
-
-Cell known(const Scene& scene, const ImpactRow& row, int n, double value) {
-  return {value, std::min(scene.digits, known_digits(value, rounding_error(row, n, value)))};
 }
 
 Cell known(const Scene& scene, double value, double error) {
@@ -81,14 +65,10 @@ bool loses_energy(const Sequence& sequence) {
   });
 }
 
-/// Largest relative bound on rounding of the rows' numbers; infinite: the growth of errors is not known.
+/// Largest relative error of the rows' numbers; infinite if a row cannot be predicted.
 double largest_rounding(const Sequence& sequence) {
   double worst = 0;
-  int n = 0;
-  for (const ImpactRow& row : sequence.rows) {
-    if (std::isnan(row.amplification)) return std::numeric_limits<double>::infinity();
-    worst = std::max(worst, rounding_error(row, ++n, 1));
-  }
+  for (const ImpactRow& row : sequence.rows) worst = std::max(worst, row.error.relative);
   return worst;
 }
 
@@ -133,11 +113,6 @@ std::vector<std::string> head_of(const Scene& scene) {
 
 }  // namespace
 
-double rounding_error(const ImpactRow& row, int n, double value) {
-  const double growth = std::isnan(row.amplification) ? 1 : row.amplification;
-  return std::numeric_limits<double>::epsilon() * (2 + 2 * growth + 2 * n) * std::fabs(value);
-}
-
 Table sequence_table(const Scene& scene, const Sequence& sequence) {
   const bool friction = with_friction(scene);
   Table table{.head = head_of(scene), .columns = {}, .rows = {}, .notes = closing_notes(scene, sequence)};
@@ -150,21 +125,25 @@ Table sequence_table(const Scene& scene, const Sequence& sequence) {
   int n = 0;
   for (const ImpactRow& row : sequence.rows) {
     ++n;
-    const auto cell = [&](double value) { return known(scene, row, n, value); };
-    table.rows.push_back({Cell(std::to_string(n)),
-                          Cell(analytic::PlanarBody::vertex_set_name(row.vertices)), cell(row.start),
-                          cell(degrees_of(row.contact_angle, n, scene.angle_deg)), cell(row.impact.normal_impulse),
-                          cell(row.impact.tangential_impulse), cell(row.impact.after.normal),
-                          cell(row.impact.after.angular), cell(row.impact.energy_loss),
-                          Cell(mode_name(row.impact.mode))});
+    const analytic::RowErrors& error = row.error;
+    const auto cell = [&](double value, double bound) { return known(scene, value, bound); };
+    table.rows.push_back({Cell(std::to_string(n)), Cell(analytic::PlanarBody::vertex_set_name(row.vertices)),
+                          cell(row.start, error.start),
+                          cell(degrees_of(row.contact_angle, n, scene.angle_deg), error.contact_angle * degrees_per_radian),
+                          cell(row.impact.normal_impulse, error.normal_impulse),
+                          cell(row.impact.tangential_impulse, error.tangential_impulse),
+                          cell(row.impact.after.normal, error.after.normal),
+                          cell(row.impact.after.angular, error.after.angular),
+                          cell(row.impact.energy_loss, error.energy_loss), Cell(mode_name(row.impact.mode))});
   }
   if (sequence.tail) {
     const analytic::Tail& tail = *sequence.tail;
     table.rows.push_back({Cell("…"), Cell(analytic::PlanarBody::vertex_set_name(tail.vertices)),
                           known(scene, tail.end_time, tail.end_time_error), Cell(),
                           known(scene, tail.normal_impulse, tail.normal_impulse_error),
-                          known(scene, tail.tangential_impulse, tail.normal_impulse_error),
-                          known(scene, tail.after.normal, 0), known(scene, tail.after.angular, 0),
+                          known(scene, tail.tangential_impulse, tail.tangential_impulse_error),
+                          known(scene, tail.after.normal, tail.after_error.normal),
+                          known(scene, tail.after.angular, tail.after_error.angular),
                           Cell(), Cell()});
   }
   fit_columns(table, scene.digits, {5, 2});
@@ -187,6 +166,7 @@ Json sequence_json(const Scene& scene, const Sequence& sequence) {
   }
   json["accuracy"] = {{"asked", std::pow(10.0, -scene.digits)}, {"achieved", number_or_null(largest_rounding(sequence))}};
   json["total_normal_impulse"] = number_or_null(sequence.total_normal_impulse);
+  json["total_normal_impulse_error"] = number_or_null(sequence.total_normal_impulse_error);
   json["cost"] = {{"force_evaluations", 0}, {"root_evaluations", sequence.root_evaluations}};
   return json;
 }

@@ -16,8 +16,4 @@ namespace clatter::validation {
 /// One row per impact with the JSON's names as columns, vectors spread over three.
 [[nodiscard]] Table sequence_records(const Scene& scene, const analytic::Sequence& sequence);
 
-/// Bound on the rounding error of a number of impact n, counted from 1: (2 + 2 × amplification + 2n)
-/// units in the last place.
-[[nodiscard]] double rounding_error(const analytic::ImpactRow& row, int n, double value);
-
 }  // namespace clatter::validation
