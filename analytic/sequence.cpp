@@ -63,8 +63,26 @@ class Run {
   }
 
   Sequence run() {
-    VertexSet arriving = motion_.lowest_vertices();
-    require_approach(arriving);
+    const VertexSet lowest = motion_.lowest_vertices();
+    require_approach(lowest);
+    try {
+      go_on(lowest);
+    } catch (const NumericalError& error) {
+      if (result_.rows.empty()) throw;
+      result_.outcome = Outcome::not_computed;
+      result_.message = error.what();
+    }
+    result_.end_predictable = growth_ && growth_->predictable();
+    if (growth_ && !growth_->predictable()) {
+      result_.message += "; errors have grown so far that another sequence is possible" + from_impact();
+    }
+    result_.total_normal_impulse_error =
+        (growth_ ? growth_->total_impulse() : infinite) + (result_.tail ? result_.tail->normal_impulse_error : 0);
+    return std::move(result_);
+  }
+
+ private:
+  void go_on(VertexSet arriving) {
     Flight flight;
     Departure departure;
     for (;;) {
@@ -79,16 +97,8 @@ class Run {
       }
       arriving = flight.arrival.vertices;
     }
-    result_.end_predictable = growth_ && growth_->predictable();
-    if (growth_ && !growth_->predictable()) {
-      result_.message += "; errors have grown so far that another sequence is possible" + from_impact();
-    }
-    result_.total_normal_impulse_error =
-        (growth_ ? growth_->total_impulse() : infinite) + (result_.tail ? result_.tail->normal_impulse_error : 0);
-    return std::move(result_);
   }
 
- private:
   /// From which impact on nothing is certain; nothing to say if only the end is not.
   [[nodiscard]] std::string from_impact() const {
     std::size_t known = 0;
@@ -105,7 +115,6 @@ class Run {
     else if (flight.end == FlightEnd::no_contact) growth_->end_without_contact(motion_, flown);
     return flight;
   }
-
   void require_approach(VertexSet vertices) const {
     double fastest = infinite;
     for (int i = 0; i < motion_.body().vertex_count; ++i) {

@@ -62,6 +62,7 @@ enum class Outcome {
   at_rest,            ///< infinitely many impacts end in a finite time, with no normal or angular motion left
   sustained_contact,  ///< a vertex stays on the ground (after infinitely many impacts, or with e = 0)
                       ///< while the body still turns: beyond the model
+  not_computed,       ///< a number of the next flight or impact could not be had; the rows so far hold
 };
 
 /// The remaining impacts after the last row: infinitely many in a finite time.
@@ -103,10 +104,12 @@ struct Sequence {
 /// 2w/(g(1−e)) after an impact with rebound speed w, otherwise by extrapolation of the flight times of one vertex or of
 /// two in turn, accepted when its error meets `digits` (accumulation.hpp); there is no velocity threshold.
 /// Results scale exactly with powers of two of every unit.
+/// A number that cannot be had after the first impact (a flight so long that its end has no digit, say) ends the
+/// sequence as not_computed.
 /// @throws std::domain_error for a drop whose first contact does not approach the ground, or whose
 ///         parameters are out of range; OutsideModelError for jamming; NumericalError if gravity, tangential
 ///         velocity or spin in units of the body's length and downward speed, or results in SI units, are beyond the
-///         doubles, or a flight is so long that its end has no digit.
+///         doubles, or the first impact cannot be computed.
 [[nodiscard]] Sequence impact_sequence(const Drop& drop, const SequenceOptions& options);
 
 }  // namespace clatter::analytic

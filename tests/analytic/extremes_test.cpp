@@ -16,6 +16,13 @@ struct Counts {
   int refusals = 0;
 };
 
+void require_reason(const Drop& drop, const std::string& what) {
+  const bool jams = drop.law.friction == FrictionKind::impulse_ratio;  // or nearly, and is thrown up without end
+  BOOST_REQUIRE_MESSAGE((what.starts_with("the impulse overflows") && drop.law.friction_value > 1e100) ||
+                            (what.starts_with("the flight is so long") && drop.gravity > 0 && jams),
+                        "numerical error at inclination " << drop.inclination.degrees << ", gravity " << drop.gravity << ": " << what);
+}
+
 /// A result without NaN, or a typed refusal; anything else fails.
 void run(const Drop& drop, Counts& counts) {
   try {
@@ -30,16 +37,14 @@ void run(const Drop& drop, Counts& counts) {
       BOOST_REQUIRE(row.impact.normal_impulse >= 0);
     }
     if (s.tail) BOOST_REQUIRE(std::isfinite(s.tail->end_time) && std::isfinite(s.tail->normal_impulse));
-    ++counts.results;
+    const bool ends_early = s.outcome == Outcome::not_computed;
+    if (ends_early) require_reason(drop, s.message);
+    ++(ends_early ? counts.refusals : counts.results);
   } catch (const OutsideModelError&) {
     ++counts.refusals;
   } catch (const NumericalError& error) {
     ++counts.refusals;
-    const std::string what = error.what();
-    const bool jams = drop.law.friction == FrictionKind::impulse_ratio;  // or nearly, and is thrown up without end
-    BOOST_REQUIRE_MESSAGE((what.starts_with("the impulse overflows") && drop.law.friction_value > 1e100) ||
-                              (what.starts_with("the flight is so long") && drop.gravity > 0 && jams),
-                          "numerical error at inclination " << drop.inclination.degrees << ", gravity " << drop.gravity << ": " << error.what());
+    require_reason(drop, error.what());
   }
 }
 

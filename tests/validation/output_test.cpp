@@ -4,6 +4,7 @@
 #include <cstring>
 #include <random>
 
+#include "validation/output/estimated.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/table.hpp"
@@ -36,7 +37,33 @@ BOOST_AUTO_TEST_CASE(significant_digits_are_kept_and_no_more_than_known_ones_sho
   BOOST_TEST(known_digits(1.0, 1e-3) == 3);
   BOOST_TEST(known_digits(1.0, 2e-3) == 2);  // an error of two in the third digit
   BOOST_TEST(known_digits(1.0, 0) == 17);
-  BOOST_TEST(known_digits(1.0, 10.0) == 1);
+  BOOST_TEST(known_digits(3.0, 0.5) == 1);   // half a unit of the one digit
+  BOOST_TEST(known_digits(3.0, 0.6) == 0);
+  BOOST_TEST(known_digits(1.0, 10.0) == 0);
+  for (const double unknown : {static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
+    BOOST_TEST(known_digits(1.0, unknown) == 0);
+    BOOST_TEST(known_digits(unknown, 0) == 0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_sum_is_known_as_well_as_its_parts_together_and_not_at_all_with_an_unknown_one) {
+  const Estimated sum = Estimated{1, 0.01} + Estimated{-1, 0.02};
+  BOOST_TEST(sum.error == 0.03, boost::test_tools::tolerance(1e-15));
+  for (const double unknown : {static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
+    const Estimated doubtful = Estimated{1, 0.01} + Estimated{2, unknown} + Estimated{3, 0};
+    BOOST_TEST(doubtful.value == 6);
+    BOOST_TEST(!doubtful.is_known());
+    BOOST_TEST(known_text(doubtful, {.digits = 6, .size = 1e9}) == "?");
+    BOOST_TEST(!larger({1, unknown}, {2, 0}).is_known());
+  }
+  BOOST_TEST(larger({1, 0.5}, {2, 0.1}).error == 0.5);
+}
+
+BOOST_AUTO_TEST_CASE(a_number_within_its_error_of_0_is_0_only_where_both_are_small_for_its_kind) {
+  BOOST_TEST(known_text({1e-16, 1e-15}, {.digits = 6, .size = 1}) == "0");
+  BOOST_TEST(known_text({1e-3, 2e-3}, {.digits = 6, .size = 1}) == "?");
+  BOOST_TEST(known_text({1e-16, 1e-15}, {.digits = 6, .size = 0}) == "?");
+  BOOST_TEST(known_text({2.34567, 1e-3}, {.digits = 6, .size = 1}) == "2.35");
 }
 
 BOOST_AUTO_TEST_CASE(only_whole_finite_decimal_numbers_are_read) {

@@ -146,7 +146,8 @@ class Output(unittest.TestCase):
             self.assertIn(key, data)
         wanted = ["n", "start", "duration", "end", "inclination_deg", "contact_angle_deg", "approach_speed", "restitution",
                   "impulse_normal", "impulse_tangential", "impulse_ratio", "mode", "peak_force", "peak_time", "velocity_after",
-                  "angular_velocity_after", "energy_before", "energy_after", "energy_loss", "error_estimate", "amplification"]
+                  "angular_velocity_after", "energy_before", "energy_after", "energy_loss", "error_estimate", "amplification",
+                  "predictable"]
         for impact in data["impacts"]:
             self.assertEqual(list(impact), wanted)
             self.assertIsNone(impact["peak_force"])

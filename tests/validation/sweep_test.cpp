@@ -235,7 +235,8 @@ BOOST_AUTO_TEST_CASE(every_number_of_a_scene_can_be_put_where_the_reader_puts_it
   const std::set<std::string> others{"impact.law",          "body.shape",       "body.size",      "body.merge",
                                      "body.inertia",        "body.centre",      "body.mesh.file", "ground.area",
                                      "ground.friction_law", "run.method",       "run.history",    "run.planar",
-                                     "run.errors",          "run.amplification", "run.contact_gravity"};
+                                     "run.errors",          "run.amplification", "run.contact_gravity",
+                                     "run.require_digits"};
   const auto is_other = [&](const std::string& key) { return others.contains(key) || key.starts_with("sweep."); };
   BOOST_TEST(put == scene_keys().size() - std::count_if(scene_keys().begin(), scene_keys().end(), is_other));
 }

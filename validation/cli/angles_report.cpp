@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -19,7 +21,8 @@ namespace {
 using analytic::degrees_per_radian;
 using analytic::NextImpact;
 
-constexpr std::size_t plain_columns = 17, impacts_column = 16;
+constexpr std::size_t plain_columns = 17, impacts_column = 16, deficit_column = 15;
+constexpr double neighbour_shift = 0x1p-30;  // between rounding and the curvature of the results
 
 /// What may be given.
 struct AnglesTexts {
@@ -122,10 +125,12 @@ std::vector<Column> angles_columns(const AnglesRequest& request) {
   return columns;
 }
 
-AnglesRow angles_row(const AnglesRequest& request, long long i) {
-  const double theta = request.theta(i);
+namespace {
+
+/// The row of one rod at one angle [°].
+AnglesRow row_of(double theta, const analytic::RodParameters& rod, bool as_printed) {
   const analytic::Angle angle = analytic::Angle::from_degrees(theta);
-  const analytic::ContactAngles a = analytic::contact_angles(angle, request.rod);
+  const analytic::ContactAngles a = analytic::contact_angles(angle, rod);
   const double beta = angle_or_missing(a.beta);
   const double gamma = angle_or_missing(a.gamma);
   AnglesRow row{theta,
@@ -147,11 +152,50 @@ AnglesRow angles_row(const AnglesRequest& request, long long i) {
                 static_cast<double>(a.impacts()),
                 NAN,
                 NAN};
-  if (!request.as_printed) return row;
-  const double g = request.rod.gravity_number;
+  if (!as_printed) return row;
+  const double g = rod.gravity_number;
   row[plain_columns] = angle_or_missing(analytic::contact_angle_as_printed(angle, g));
   row[plain_columns + 1] = angle_or_missing(analytic::contact_angle_as_printed(angle, -g));
   return row;
+}
+
+/// Adds |Δvalue| over the relative change of one parameter, for each value; infinite where only one of the rods has it.
+void add_sensitivity(const AnglesRow& row, const AnglesRow& neighbour, AnglesRow& sum) {
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    if (std::isnan(row[k])) continue;
+    sum[k] += std::isnan(neighbour[k]) ? INFINITY : std::fabs(neighbour[k] - row[k]) / neighbour_shift;
+  }
+}
+
+/// Bounds on the errors of a row's numbers, after contact_angles(): 12 (2 + 2κ) ulp at most, κ from neighbouring rods
+/// whose angle, G, e and μ_i differ; the sum of impulses cancels in the deficit unless the rod is elastic.
+AnglesRow errors_of(const AnglesRow& row, const AnglesRequest& request) {
+  const double theta = row[0];
+  const auto neighbour = [&](double angle, double analytic::RodParameters::*changed) {
+    analytic::RodParameters rod = request.rod;
+    if (changed) rod.*changed *= 1 - neighbour_shift;
+    return row_of(angle, rod, request.as_printed);
+  };
+  using Rod = analytic::RodParameters;
+  AnglesRow sensitivity{};
+  if (theta > 0) add_sensitivity(row, neighbour(theta * (1 - neighbour_shift), nullptr), sensitivity);
+  for (double Rod::*const parameter : {&Rod::gravity_number, &Rod::restitution, &Rod::impulse_ratio}) {
+    const double neutral = parameter == &Rod::restitution ? 1 : 0;
+    if (request.rod.*parameter != neutral) add_sensitivity(row, neighbour(theta, parameter), sensitivity);
+  }
+  const bool elastic = request.rod.restitution == 1 && request.rod.impulse_ratio == 0 && request.rod.gravity_number == 0;
+  AnglesRow errors{};
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    const double size = k == deficit_column && !elastic ? 2 : std::fabs(row[k]);
+    errors[k] = 24 * std::numeric_limits<double>::epsilon() * (size + sensitivity[k]);
+  }
+  return errors;
+}
+
+}  // namespace
+
+AnglesRow angles_row(const AnglesRequest& request, long long i) {
+  return row_of(request.theta(i), request.rod, request.as_printed);
 }
 
 Table angles_frame(const AnglesRequest& request) {
@@ -169,9 +213,11 @@ Table angles_table(const AnglesRequest& request) {
   Table table = angles_frame(request);
   for (long long i = 0; i < request.count; ++i) {
     const AnglesRow row = angles_row(request, i);
+    const AnglesRow errors = errors_of(row, request);
     auto& cells = table.rows.emplace_back();
     for (std::size_t k = 0; k < column_count(request); ++k) {
-      cells.push_back(std::isnan(row[k]) ? Cell() : Cell(row[k], request.digits));
+      const Cell known(row[k], std::min(request.digits, known_digits(row[k], errors[k])));
+      cells.push_back(std::isnan(row[k]) ? Cell() : known);
     }
     cells[impacts_column] = Cell(std::to_string(static_cast<int>(row[impacts_column])));
     cells[0] = Cell(shortest(row[0]));

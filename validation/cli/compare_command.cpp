@@ -12,12 +12,13 @@
 #include "validation/cli/scene_flags.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/message.hpp"
+#include "validation/output/number.hpp"
 #include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {
 namespace {
 
-constexpr int check_failed = 1, outside_model = 4;
+constexpr int check_failed = 1, not_computed = 3, outside_model = 4;
 const char* const what_it_is = "discrete and continuous model, impact by impact";
 
 struct CompareInput {
@@ -36,10 +37,24 @@ int compare_one(const SimulationScene& scene, const OutputChoice& choice, PlotFi
   else if (plot.is_wanted())
     plot.write(comparison_picture(scene, comparison), run_words("compare", what_it_is, scene.json()));
   if (!comparison.agrees()) return check_failed;
+  if (!comparison.shortfall.empty()) {
+    say(comparison.shortfall);
+    return not_computed;
+  }
   if (comparison.has_content()) return 0;
   say("nothing could be compared: " +
       (comparison.impacts.empty() ? comparison.run.message : comparison.impacts[0].reason));
   return outside_model;
+}
+
+/// Says how many values fall short, and why the first of them does.
+int shortfall_status(const std::vector<SweptComparison>& swept) {
+  const auto falls_short = [](const SweptComparison& one) { return !one.comparison.shortfall.empty(); };
+  const auto first = std::find_if(swept.begin(), swept.end(), falls_short);
+  if (first == swept.end()) return 0;
+  say(fmt::format("{} of {} values fall short; {}: {}", std::count_if(swept.begin(), swept.end(), falls_short), swept.size(), shortest(first->value),
+             first->comparison.shortfall));
+  return not_computed;
 }
 
 int compare_swept(const SimulationScene& scene, const OutputChoice& choice, PlotFile& plot) {
@@ -67,7 +82,7 @@ int compare_swept(const SimulationScene& scene, const OutputChoice& choice, Plot
   }
   const bool agree =
       std::all_of(swept.begin(), swept.end(), [](const SweptComparison& one) { return one.comparison.agrees(); });
-  return agree ? 0 : check_failed;
+  return agree ? shortfall_status(swept) : check_failed;
 }
 
 int run_compare(const CompareInput& input) {
@@ -90,6 +105,7 @@ Action add_compare_command(CLI::App& app) {
   command->footer(
       "Example: clatter compare validation/cases/phone-damped.toml --impacts 2\n"
       "Exit status 1 if the stiff limit of the continuous model misses the discrete value,\n"
+      "3 if a limit or a number that could not be computed left fewer impacts than asked for,\n"
       "4 if nothing can be compared.");
   return [input] { return run_compare(*input); };
 }

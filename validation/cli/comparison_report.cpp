@@ -10,6 +10,7 @@
 #include "validation/cli/options.hpp"
 #include "validation/cli/swept_column.hpp"
 #include "validation/cli/version.hpp"
+#include "validation/output/estimated.hpp"
 #include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
 
@@ -26,6 +27,11 @@ struct NumberPair {
   [[nodiscard]] double discrete() const { return (*impact.discrete)[quantity]; }
   [[nodiscard]] double continuous() const { return (*impact.continuous)[quantity]; }
   [[nodiscard]] double deviation() const { return continuous() - discrete(); }
+  [[nodiscard]] Estimated discrete_number() const { return {discrete(), impact.discrete_error[quantity]}; }
+  [[nodiscard]] Estimated continuous_number() const { return {continuous(), impact.continuous_error[quantity]}; }
+  [[nodiscard]] Estimated deviation_number() const { return continuous_number() - discrete_number(); }
+  /// Of the limit off the discrete value; its own error bar stands beside it.
+  [[nodiscard]] Estimated miss_number() const { return {miss(), impact.discrete_error[quantity] + bar()}; }
   [[nodiscard]] double predicted() const { return impact.predicted.total()[quantity]; }
   [[nodiscard]] double miss() const { return impact.limit->value[quantity] - discrete(); }
   [[nodiscard]] double allowance() const { return impact.allowance[quantity]; }
@@ -48,20 +54,35 @@ std::string landing_word(const ComparedImpact& impact) {
   return !impact.has_landing() ? "" : impact.lands() ? "agrees" : "DIFFERS";
 }
 
+/// A difference, to two digits at most.
+Cell difference_cell(const Estimated& difference, double scale) {
+  Cell cell = known_cell(difference, {6, scale});
+  cell.digits = std::min(cell.digits, 2);
+  return cell;
+}
+
+/// By how much the limit is off; 0 where the error bar, which stands beside it, leaves no digit.
+Cell miss_cell(const Estimated& miss) {
+  const int digits = known_digits(miss.value, miss.error);
+  return digits > 0 || !miss.is_known() ? Cell(miss.value, std::min(digits, 2)) : Cell(0.0, 1);
+}
+
 void add_rows(const Comparison& comparison, const ComparedImpact& impact, Table& table) {
   bool first = true;
   for (std::size_t q = 0; q < quantity_count; ++q) {
     if (!impact.discrete || is_nothing(comparison, impact, q)) continue;
     const NumberPair pair{impact, q};
+    const double scale = comparison.scales[q];
     const bool comparable = impact.reason.empty();
     std::vector<Cell> row{first ? number_cell(impact) : Cell(), first ? Cell(impact.discrete_end) : Cell(),
-                          Cell(quantity_names[q].heading), Cell(pair.discrete(), 6)};
+                          Cell(quantity_names[q].heading), known_cell(pair.discrete_number(), {6, scale})};
     if (comparable) {
-      row.insert(row.end(), {Cell(pair.continuous(), 6), Cell(pair.deviation(), 2), Cell(pair.predicted(), 2)});
+      row.insert(row.end(), {known_cell(pair.continuous_number(), {6, scale}),
+                             difference_cell(pair.deviation_number(), scale), Cell(pair.predicted(), 2)});
     } else {
       row.insert(row.end(), {Cell("–"), Cell(), Cell()});
     }
-    if (impact.has_landing()) row.insert(row.end(), {Cell(pair.miss(), 2), Cell(pair.bar(), 2)});
+    if (impact.has_landing()) row.insert(row.end(), {miss_cell(pair.miss_number()), Cell(pair.bar(), 2)});
     row.resize(9);
     table.rows.push_back(std::move(row));
     first = false;
@@ -115,7 +136,10 @@ Json number_json(const NumberPair& pair) {
   Json json{{"discrete", impact.discrete ? number_or_null(pair.discrete()) : Json(nullptr)},
             {"continuous", impact.continuous ? number_or_null(pair.continuous()) : Json(nullptr)}};
   const bool comparable = impact.reason.empty();
+  json["discrete_error"] = impact.discrete ? error_or_null(pair.discrete_number()) : Json(nullptr);
+  json["continuous_error"] = impact.continuous ? error_or_null(pair.continuous_number()) : Json(nullptr);
   json["deviation"] = comparable ? number_or_null(pair.deviation()) : Json(nullptr);
+  json["deviation_error"] = comparable ? error_or_null(pair.deviation_number()) : Json(nullptr);
   json["predicted"] = comparable ? number_or_null(pair.predicted()) : Json(nullptr);
   json["predicted_gravity"] = comparable ? number_or_null(size.gravity[q]) : Json(nullptr);
   json["predicted_turning"] = comparable ? number_or_null(size.turning[q]) : Json(nullptr);
@@ -127,9 +151,19 @@ Json number_json(const NumberPair& pair) {
   return json;
 }
 
+/// Whether every number of either model is known to its error.
+bool is_predictable(const ComparedImpact& impact) {
+  for (std::size_t q = 0; q < quantity_count; ++q) {
+    if (impact.discrete && !std::isfinite(impact.discrete_error[q])) return false;
+    if (impact.continuous && !std::isfinite(impact.continuous_error[q])) return false;
+  }
+  return true;
+}
+
 Json impact_json(const ComparedImpact& impact) {
   Json json{{"n", impact.n},
             {"comparable", impact.reason.empty()},
+            {"predictable", is_predictable(impact)},
             {"reason", impact.reason.empty() ? Json(nullptr) : Json(impact.reason)},
             {"discrete_end", impact.discrete ? Json(impact.discrete_end) : Json(nullptr)},
             {"continuous_end", impact.continuous ? Json(impact.continuous_end) : Json(nullptr)},
@@ -148,6 +182,7 @@ Json result_json(const Comparison& comparison) {
   json["discrete_ended"] = comparison.sequence.message;
   json["continuous_ended"] = comparison.run.message;
   json["agrees"] = comparison.agrees();
+  json["shortfall"] = comparison.shortfall.empty() ? Json(nullptr) : Json(comparison.shortfall);
   json["message"] = verdict_words(comparison);
   return json;
 }
@@ -162,7 +197,8 @@ void add_records(const Comparison& comparison, const std::vector<Cell>& front, T
     const Json json = impact_json(impact);
     for (const auto& [name, numbers] : json["numbers"].items()) {
       auto& row = table.rows.emplace_back(front);
-      row.insert(row.end(), {Cell(impact.n, 17), Cell(name), Cell(impact.reason)});
+      row.insert(row.end(), {Cell(impact.n, 17), Cell(name), Cell(is_predictable(impact) ? "true" : "false"),
+                             Cell(impact.reason)});
       for (const auto& [key, value] : numbers.items()) row.push_back(json_cell(value));
     }
   }
@@ -173,7 +209,8 @@ Table records_table(const SimulationScene& scene) {
               .columns = {},
               .rows = {},
               .notes = {}};
-  for (const char* name : {"n", "quantity", "not_compared_because", "discrete", "continuous", "deviation", "predicted",
+  for (const char* name : {"n", "quantity", "predictable", "not_compared_because", "discrete", "continuous",
+                           "discrete_error", "continuous_error", "deviation", "deviation_error", "predicted",
                            "predicted_gravity", "predicted_turning", "predicted_indentation", "predicted_delay",
                            "limit", "limit_error", "allowance"}) {
     table.columns.push_back({name, name, ""});
@@ -203,11 +240,13 @@ WorstNumber worst_number(const Comparison& comparison, const ComparedImpact& imp
     if (impact.reason.empty() && std::fabs(pair.deviation()) / scale > largest) {
       largest = std::fabs(pair.deviation()) / scale;
       worst.deviation = largest;
+      worst.deviation_error = pair.deviation_number().error / scale;
       worst.predicted = pair.predicted() / scale;
     }
     if (impact.has_landing() && std::fabs(pair.miss()) / pair.allowance() > largest_miss) {
       largest_miss = std::fabs(pair.miss()) / pair.allowance();
       worst.miss = std::fabs(pair.miss()) / scale;
+      worst.miss_error = pair.miss_number().error / scale;
       worst.bar = pair.bar() / scale;
     }
   }
@@ -230,6 +269,7 @@ Table comparison_table(const SimulationScene& scene, const Comparison& compariso
   table.notes.push_back(
       "t in s, angles in °, P in N·s, V in m/s, Ω in rad/s; predicted: the size, no bound, of what gravity, turning and "
       "indentation do during contacts, carried on from impact to impact");
+  if (!comparison.shortfall.empty()) table.notes.push_back(comparison.shortfall);
   table.notes.push_back(limit_words(comparison));
   table.notes.push_back(verdict_words(comparison));
   fit_columns(table, 6, {3});
@@ -245,7 +285,8 @@ Json comparison_json(const SimulationScene& scene, const Comparison& comparison)
 Table comparison_records(const SimulationScene& scene, const Comparison& comparison) {
   Table table = records_table(scene);
   add_records(comparison, {}, table);
-  table.notes = {verdict_words(comparison)};
+  if (!comparison.shortfall.empty()) table.notes.push_back(comparison.shortfall);
+  table.notes.push_back(verdict_words(comparison));
   return table;
 }
 
@@ -266,10 +307,10 @@ Table swept_comparison_table(const SimulationScene& scene, const std::vector<Swe
       std::vector<Cell> row{impact.n == 1 ? Cell(value, 6) : Cell(), Cell(std::to_string(impact.n)),
                             Cell(impact.discrete_end)};
       if (impact.reason.empty())
-        row.insert(row.end(), {Cell(worst.deviation, 2), Cell(worst.predicted, 2)});
+        row.insert(row.end(), {difference_cell({worst.deviation, worst.deviation_error}, 1), Cell(worst.predicted, 2)});
       else
         row.insert(row.end(), {Cell("–"), Cell()});
-      if (impact.has_landing()) row.insert(row.end(), {Cell(worst.miss, 2), Cell(worst.bar, 2)});
+      if (impact.has_landing()) row.insert(row.end(), {miss_cell({worst.miss, worst.miss_error}), Cell(worst.bar, 2)});
       row.resize(7);
       row.emplace_back(landing_word(impact));
       table.rows.push_back(std::move(row));

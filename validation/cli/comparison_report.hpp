@@ -14,10 +14,11 @@ namespace clatter::validation {
 /// One row per impact and number with the JSON's names as columns.
 [[nodiscard]] Table comparison_records(const SimulationScene& scene, const Comparison& comparison);
 
-/// The number of an impact that deviates most for its size: deviation over scale, and what was predicted of it; the
+/// The number of an impact that deviates most for its size: deviation over scale, its error
+/// and what was predicted of it; the
 /// number whose limit is farthest off for what it may be: distance over scale, and its error bar.
 struct WorstNumber {
-  double deviation = 0, predicted = 0, miss = 0, bar = 0;
+  double deviation = 0, deviation_error = 0, predicted = 0, miss = 0, miss_error = 0, bar = 0;
 };
 /// Of an impact that the discrete model has.
 [[nodiscard]] WorstNumber worst_number(const Comparison& comparison, const ComparedImpact& impact);

@@ -8,8 +8,10 @@
 
 #include "validation/cli/sequence_report.hpp"
 #include "validation/cli/version.hpp"
+#include "validation/output/estimated.hpp"
 #include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
+#include "validation/plan/shortfall.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -26,11 +28,13 @@ class Derivation {
   std::vector<Step> impact(int n) {
     const auto index = static_cast<std::size_t>(n - 1);
     const ImpactRow& row = sequence_.rows[index];
+    error_ = row.error;
     if (n == 1) first_touch(row);
     else flight(sequence_.rows[index - 1], row, n);
     if (std::popcount(row.vertices) > 1) flat_landing(row);
     else point_impact(row);
     energy(row);
+    set_errors();
     return std::move(steps_);
   }
 
@@ -43,7 +47,7 @@ class Derivation {
     const analytic::NearMiss& miss = sequence_.near_miss;
     if (sequence_.outcome == analytic::Outcome::no_further_impact && std::isfinite(miss.clearance)) {
       step.equations.push_back({"clearance", "least height of a vertex at a turning point", "",
-                                miss.clearance, "m"});
+                                miss.clearance, "m", miss.margin});
       step.equations.push_back({"margin", "rounding error of that height", "", miss.margin, "m"});
     }
     return std::move(steps_);
@@ -51,8 +55,18 @@ class Derivation {
 
  private:
   [[nodiscard]] std::string num(double value) const {
-    const std::string text = significant(value, scene_.digits);
+    const std::string text = known_text({value, error_.relative * std::fabs(value)}, {.digits = scene_.digits});
     return value < 0 ? "(" + text + ")" : text;
+  }
+
+  /// Every number of the steps follows from the row's: relatively, none is known better.  Residuals have errors of their
+  /// own already.
+  void set_errors() {
+    for (Step& step : steps_) {
+      for (Equation& equation : step.equations) {
+        if (equation.error == 0) equation.error = error_.relative * std::fabs(equation.value);
+      }
+    }
   }
 
   Step& open(std::string title, std::string text) {
@@ -103,8 +117,12 @@ class Derivation {
     step.equations.push_back(
         {"left side", "at the root φ",
          fmt::format("{} + {}·{} − {} − {}", num(std::sin(start)), num(k), num(turned),
-                     num(gamma * turned * turned), num(std::sin(turned - start))), left, ""});
+                     num(gamma * turned * turned), num(std::sin(turned - start))), left, "",
+         residual_error(std::fabs(std::sin(start)) + std::fabs(k * turned) + 1 + gamma * turned * turned), 1});
   }
+
+  /// Of a sum of terms that cancel, from their sizes: the row's relative error in each.
+  [[nodiscard]] double residual_error(double terms) const { return error_.relative * terms; }
 
   /// The general height function of the vertex that arrives.
   void height_equation(Step& step, const ImpactRow& row) {
@@ -115,7 +133,9 @@ class Derivation {
     step.equations.push_back({"v₀", "its normal velocity", "", h.velocity, "m/s"});
     step.equations.push_back({"p", "−d_n", "", h.versine, "m"});
     step.equations.push_back({"q", "±d_t, the sign of Ω", "", h.sine, "m"});
-    step.equations.push_back({"h(T)", "at the root T", "", h.at(row.flight.arrival.time).height, "m"});
+    const analytic::VertexHeight::Value at_root = h.at(row.flight.arrival.time);
+    step.equations.push_back({"h(T)", "at the root T", "", at_root.height, "m", residual_error(at_root.scale),
+                              at_root.scale});
   }
 
   void root(Step& step, const ImpactRow& row) {
@@ -202,9 +222,15 @@ class Derivation {
   analytic::Drop drop_;
   const analytic::Sequence& sequence_;
   std::vector<Step> steps_;
+  analytic::RowErrors error_;
 };
 
 }  // namespace
+
+std::string value_text(const Equation& equation, int digits) {
+  const Shown shown{.digits = digits, .size = equation.size};
+  return known_text({equation.value, equation.error}, shown) + (equation.unit.empty() ? "" : " " + equation.unit);
+}
 
 std::vector<Step> derive_impact(const Scene& scene, const analytic::Sequence& sequence, int n) {
   Derivation derivation(scene, sequence);
@@ -215,8 +241,14 @@ std::vector<Step> derive_impact(const Scene& scene, const analytic::Sequence& se
 Explanation explain_impact(Scene scene, int n) {
   scene.impacts = std::max(scene.impacts, n);
   const analytic::Sequence sequence =
-      analytic::impact_sequence(scene.drop(), {.impacts = n, .digits = scene.digits, .amplification = false});
-  return {.scene = scene, .impact = n, .steps = derive_impact(scene, sequence, n), .warnings = sequence.warnings};
+      analytic::impact_sequence(scene.drop(), {.impacts = n, .digits = scene.digits});
+  const bool has_impact = static_cast<std::size_t>(n) <= sequence.rows.size();
+  const bool falls_short = scene.require_digits || !has_impact;
+  return {.scene = scene,
+          .impact = n,
+          .steps = derive_impact(scene, sequence, n),
+          .warnings = sequence.warnings,
+          .shortfall = falls_short ? shortfall(scene, sequence) : ""};
 }
 
 Json explanation_json(const Explanation& explanation) {
@@ -228,6 +260,7 @@ Json explanation_json(const Explanation& explanation) {
                            {"symbolic", e.formula},
                            {"numeric", e.numbers},
                            {"value", number_or_null(e.value)},
+                           {"error", number_or_null(e.error)},
                            {"unit", e.unit}});
     }
     steps.push_back({{"title", step.title}, {"text", step.text}, {"equations", equations}});
@@ -236,6 +269,7 @@ Json explanation_json(const Explanation& explanation) {
           {"model", "discrete"},
           {"scene", explanation.scene.json()},
           {"impact", explanation.impact},
+          {"shortfall", explanation.shortfall.empty() ? Json(nullptr) : Json(explanation.shortfall)},
           {"steps", steps}};
 }
 

@@ -17,7 +17,12 @@ struct Equation {
   std::string numbers;  ///< the formula with numbers put in; may be empty
   double value = 0;
   std::string unit;
+  double error = 0;  ///< bound on the value's error; infinite: not known
+  double size = 0;   ///< of such values, against which one counts as zero
 };
+
+/// The value with the digits that are known of it, of `digits`, and its unit.
+[[nodiscard]] std::string value_text(const Equation& equation, int digits);
 
 /// A titled group of equations with a sentence before and after.
 struct Step {
@@ -36,6 +41,7 @@ struct Explanation {
   int impact = 1;
   std::vector<Step> steps;
   std::vector<std::string> warnings;
+  std::string shortfall;  ///< as of the sequence up to this impact
 };
 [[nodiscard]] Explanation explain_impact(Scene scene, int n);
 [[nodiscard]] Json explanation_json(const Explanation& explanation);

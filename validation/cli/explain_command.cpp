@@ -1,26 +1,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "validation/cli/commands.hpp"
 #include "validation/cli/derivation.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/output/message.hpp"
+#include "validation/output/estimated.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation {
 namespace {
+
+constexpr int not_computed = 3;
 
 struct ExplainInput {
   std::string number;
   SceneTexts scene;
   OutputTexts output;
 };
-
-std::string value_text(const Equation& equation, int digits) {
-  return significant(equation.value, digits) + (equation.unit.empty() ? "" : " " + equation.unit);
-}
 
 /// "name = formula" and, where the line gets too long, "= numbers = value" below it.
 std::string equation_text(const Equation& equation, std::size_t name_width, int digits) {
@@ -103,7 +103,8 @@ std::string as_latex(const std::vector<std::string>& head, const std::vector<Ste
       if (!e.formula.empty() && !words) out += " &= " + latex_math(e.formula);
       else out += " &";
       if (!e.numbers.empty()) out += " = " + latex_math(e.numbers);
-      out += " = " + significant(e.value, digits) + (e.unit.empty() ? "" : "\\ \\mathrm{" + latex_math(e.unit) + "}");
+      out += " = " + known_text({e.value, e.error}, {.digits = digits, .size = e.size}) +
+             (e.unit.empty() ? "" : "\\ \\mathrm{" + latex_math(e.unit) + "}");
       if (words && e.formula.find("Ω") == std::string::npos) out += " &&\\text{" + (e.formula.find("φ") == std::string::npos && e.formula.find("_") == std::string::npos && e.formula.find("μ") == std::string::npos ? e.formula : std::string("at the root")) + "}";
       separator = " \\\\\n";
     }
@@ -114,12 +115,13 @@ std::string as_latex(const std::vector<std::string>& head, const std::vector<Ste
 
 Table as_table(const std::vector<std::string>& head, const std::vector<Step>& steps) {
   Table table{.head = head, .columns = {{"step", "", ""}, {"quantity", "", ""}, {"equation", "", ""},
-                                        {"numbers", "", ""}, {"value", "", ""}, {"unit", "", ""}},
+                                        {"numbers", "", ""}, {"value", "", ""}, {"unit", "", ""},
+                                        {"error", "", ""}},
               .rows = {}, .notes = {}};
   for (const Step& step : steps) {
     for (const Equation& e : step.equations) {
       table.rows.push_back({Cell(step.title), Cell(e.name), Cell(e.formula), Cell(e.numbers),
-                            Cell(e.value, 17), Cell(e.unit)});
+                            Cell(e.value, 17), Cell(e.unit), std::isfinite(e.error) ? Cell(e.error, 17) : Cell()});
     }
   }
   return table;
@@ -144,7 +146,9 @@ int run_explain(const ExplainInput& input) {
     case Format::table: text = as_text(head, steps, scene.digits, choice.style.ascii); break;
   }
   write_out(choice, text);
-  return 0;
+  if (explanation.shortfall.empty()) return 0;
+  say(explanation.shortfall);
+  return not_computed;
 }
 
 }  // namespace

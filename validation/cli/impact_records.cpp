@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "validation/output/number.hpp"
+
 namespace clatter::validation {
 namespace {
 
@@ -16,6 +18,20 @@ std::size_t widest_line(const Table& table) {
   return widest;
 }
 
+/// A row of records in the making, with the names of its columns.
+struct Record {
+  std::vector<Column> columns;
+  std::vector<Cell> cells;
+
+  void add(const std::string& name, const Json& value, const std::string& ending) {
+    for (std::size_t i = 0; i < (value.is_array() ? 3u : 1u); ++i) {
+      const std::string column = name + (value.is_array() ? std::string("_") + "xyz"[i] : "") + ending;
+      columns.push_back({column, column, ""});
+      cells.push_back(json_cell(value.is_array() ? value[i] : value));
+    }
+  }
+};
+
 }  // namespace
 
 void fit_columns(Table& table, int digits, const std::vector<std::size_t>& starts) {
@@ -29,6 +45,12 @@ void fit_columns(Table& table, int digits, const std::vector<std::size_t>& start
   }
 }
 
+std::string total_note(const Json& run) {
+  const auto text = [&](const char* name) { return run[name].is_null() ? "unknown" : shortest(run[name].get<double>()); };
+  return "total_normal_impulse: " + text("total_normal_impulse") + "; total_normal_impulse_error: " +
+         text("total_normal_impulse_error");
+}
+
 Cell json_cell(const Json& value) {
   if (value.is_null()) return {};
   if (value.is_string()) return Cell(value.get<std::string>());
@@ -38,18 +60,15 @@ Cell json_cell(const Json& value) {
 
 void add_impact_records(Table& table, const Json& impacts) {
   for (const Json& impact : impacts) {
-    const bool first = table.columns.empty();
-    auto& row = table.rows.emplace_back();
-    std::vector<Column> columns;
+    Record record;
     for (const auto& [key, value] : impact.items()) {
-      if (value.is_object()) continue;
-      for (std::size_t i = 0; i < (value.is_array() ? 3u : 1u); ++i) {
-        const std::string suffix = value.is_array() ? std::string("_") + "xyz"[i] : "";
-        columns.push_back({key + suffix, key + suffix, ""});
-        row.push_back(json_cell(value.is_array() ? value[i] : value));
-      }
+      if (!value.is_object()) record.add(key, value, "");
     }
-    if (first) table.columns = std::move(columns);
+    if (impact.contains("error_estimate")) {
+      for (const auto& [key, value] : impact["error_estimate"].items()) record.add(key, value, "_error");
+    }
+    if (table.columns.empty()) table.columns = std::move(record.columns);
+    table.rows.push_back(std::move(record.cells));
   }
 }
 

@@ -36,6 +36,8 @@ void add_scene_options(CLI::App& command, SceneTexts& t) {
   add("--size", t.size, "LxWxT", "of the box in m: L along the inclination, T upright at 0 degrees");
   add("--impacts", t.impacts, "N", "most impacts to report (6)");
   add("--digits", t.digits, "N", "significant digits in tables, accuracy of an extrapolated end (6)");
+  command.add_flag_callback("--require-digits", [&t] { t.require_digits = "true"; },
+                            "exit status 3 if fewer digits are known")->group("Scene");
 }
 
 void add_output_options(CLI::App& command, OutputTexts& t) {

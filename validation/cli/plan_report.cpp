@@ -108,6 +108,10 @@ Json choice_json(const Plan& plan) {
 
 std::string plan_shortfall(const Plan& plan) {
   if (std::isnan(plan.error)) return "no impact could be computed: " + plan.pilot_ending;
+  if (plan.cut_short) {
+    return fmt::format("{} of {} impacts could be computed: {}", plan.impacts, plan.scene.options.impacts,
+                       plan.pilot_ending);
+  }
   if (plan.serves || plan.target.most_accurate) return "";
   const std::string best = fmt::format("the best is {} with an error of {}", rung_name(plan.choice.rung),
                                        error_words(plan.error));
@@ -184,6 +188,7 @@ Json plan_json(const SimulationScene& scene, const Plan& plan) {
   json["error_constant"] = number_or_null(plan.error_constant);
   json["planning_evaluations"] = plan.planning_evaluations;
   const std::string shortfall = plan_shortfall(plan);
+  json["shortfall"] = shortfall.empty() ? Json(nullptr) : Json(shortfall);
   json["message"] = shortfall.empty() ? choice_words(plan) : shortfall;
   return json;
 }

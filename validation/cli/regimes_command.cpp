@@ -11,6 +11,7 @@
 #include "validation/cli/regimes_picture.hpp"
 #include "validation/cli/rod_options.hpp"
 #include "validation/cli/version.hpp"
+#include "validation/output/estimated.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/bad_input.hpp"
 
@@ -97,7 +98,8 @@ Table table_of(const std::vector<Regimes>& all, const Quantity& quantity, const 
                         "contact comes first."}};
   for (const auto& [value, second, third] : all) {
     const auto theta = [&](const RegimeBoundary& b) {
-      return b.kind == BoundaryKind::never ? Cell() : angle_cell(b.theta, digits);
+      const Estimated angle = Estimated{b.theta, b.uncertainty} * degrees_per_radian;
+      return b.kind == BoundaryKind::never ? Cell() : known_cell(angle, {digits, 90});
     };
     table.rows.push_back({Cell(value, 6), theta(second), Cell(kind_name(second.kind)),
                           angle_cell(second.beta, digits), theta(third), Cell(kind_name(third.kind)),

@@ -55,6 +55,7 @@ void add_scene_flags(CLI::App& command, SceneFlags& given) {
     add_text(command, flags[i].name, given.texts[i], flags[i].type, flags[i].help)->group(group);
   }
   command.add_flag("--planar", given.planar, "keep the motion in its plane")->group(group);
+  command.add_flag("--require-digits", given.require_digits, "exit status 3 if fewer digits are known")->group(group);
   command.add_flag("--no-contact-gravity", given.no_contact_gravity, "let gravity act in flight only")->group(group);
 }
 
@@ -65,6 +66,7 @@ SimulationScene read_scene_flags(const SceneFlags& given) {
   }
   SimulationScene scene = read_simulation_scene(given.file, overrides);
   if (given.planar) scene.options.planar = true;
+  if (given.require_digits) scene.require_digits = true;
   if (given.no_contact_gravity) scene.options.gravity_in_contact = false;
   return scene;
 }

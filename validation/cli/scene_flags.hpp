@@ -15,7 +15,7 @@ namespace clatter::validation {
 struct SceneFlags {
   std::string file;
   std::vector<std::optional<std::string>> texts;
-  bool planar = false, no_contact_gravity = false;
+  bool planar = false, require_digits = false, no_contact_gravity = false;
 };
 
 /// Adds SCENE and the flags.

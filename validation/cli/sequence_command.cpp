@@ -8,10 +8,13 @@
 #include "validation/cli/sequence_picture.hpp"
 #include "validation/cli/sequence_report.hpp"
 #include "validation/output/message.hpp"
+#include "validation/plan/shortfall.hpp"
 #include "validation/plan/sequence_method.hpp"
 
 namespace clatter::validation {
 namespace {
+
+constexpr int not_computed = 3;
 
 struct SequenceInput {
   SceneTexts scene;
@@ -34,7 +37,10 @@ int run_sequence(const SequenceInput& input) {
   if (plot.is_wanted()) {
     plot.write(sequence_picture(scene, sequence), run_words("sequence", "impact sequence, discrete model", scene.json()));
   }
-  return 0;
+  const std::string why = shortfall(scene, sequence);
+  if (why.empty()) return 0;
+  say(why);
+  return not_computed;
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <optional>
 
@@ -11,11 +10,12 @@
 #include "validation/cli/plot_options.hpp"
 #include "validation/cli/progress.hpp"
 #include "validation/cli/scene_flags.hpp"
+#include "validation/plan/shortfall.hpp"
 #include "validation/cli/simulation_picture.hpp"
 #include "validation/cli/simulation_report.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/message.hpp"
-#include "validation/output/names.hpp"
+#include "validation/output/number.hpp"
 #include "validation/plan/planned_run.hpp"
 #include "validation/scene/bad_input.hpp"
 
@@ -31,6 +31,7 @@ struct SimulateInput {
   PlotTexts plot;
 };
 
+constexpr int not_computed = 3;
 constexpr long evaluations_before_progress = 200'000;
 
 PlannedRun run_scene(const SimulationScene& scene, const numeric::Body& body, const CooperativeInterrupt& interrupt,
@@ -47,21 +48,29 @@ PlannedRun run_scene(const SimulationScene& scene, const numeric::Body& body, co
 }
 
 void warn(const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) fmt::print(stderr, "clatter: warning: {}\n", warning);
+  for (const std::string& warning : warnings) say(fmt::format("warning: {}", warning));
 }
 
-/// 3 if there is no number at all because of what the run met.
-int status_of(const Simulation& run) {
-  switch (run.outcome) {
-    case Outcome::interrupted: return interrupted_status;
-    case Outcome::evaluation_limit:
-    case Outcome::step_too_small:
-    case Outcome::not_representable:
-    case Outcome::flight_undecided:
-      say(fmt::format("{}: {}", outcome_name(run.outcome), run.message));
-      return run.impacts.empty() ? 3 : 0;
-    default: return 0;
+int status_of(const SimulationScene& scene, const PlannedRun& planned) {
+  if (planned.run.outcome == Outcome::interrupted) return interrupted_status;
+  const std::string why = shortfall(scene, planned);
+  if (why.empty()) return 0;
+  say(why);
+  return not_computed;
+}
+
+/// Says how many values fall short, and why the first of them does.
+int status_of(const std::vector<SweptRun>& runs) {
+  std::size_t count = 0;
+  std::string first;
+  for (const SweptRun& swept : runs) {
+    const std::string why = shortfall(swept.scene, swept.planned);
+    if (why.empty()) continue;
+    if (count++ == 0) first = fmt::format("{}: {}", shortest(swept.value), why);
   }
+  if (count == 0) return 0;
+  say(fmt::format("{} of {} values fall short; {}", count, runs.size(), first));
+  return not_computed;
 }
 
 /// The history's picture, unless there is none to draw.
@@ -99,7 +108,7 @@ int run_single(const SimulationScene& scene, const numeric::Body& body, const Ou
                [&] { return simulation_table(scene, planned); });
   draw(scene, planned.run, picture, plot);
   warn(planned.warnings);
-  return status_of(planned.run);
+  return status_of(scene, planned);
 }
 
 int run_sweep(const SimulationScene& scene, const numeric::Body& body, const OutputChoice& choice, PlotFile& plot) {
@@ -113,12 +122,11 @@ int run_sweep(const SimulationScene& scene, const numeric::Body& body, const Out
       if (interrupt.requested()) break;
       if (runs.size() % 10 == 0) progress.show(progress_bar(runs.size(), values.size()));
       SweptRun swept{value, scene.at(value), {}};
-      PlannedRun planned = run_scene(swept.scene, body, interrupt, [](int, long) {}, nullptr);
-      for (const std::string& one : planned.warnings) {
+      swept.planned = run_scene(swept.scene, body, interrupt, [](int, long) {}, nullptr);
+      for (const std::string& one : swept.planned.warnings) {
         if (std::find(warnings.begin(), warnings.end(), one) == warnings.end()) warnings.push_back(one);
       }
-      swept.run = std::move(planned.run);
-      if (swept.run.outcome == Outcome::interrupted) break;
+      if (swept.planned.run.outcome == Outcome::interrupted) break;
       runs.push_back(std::move(swept));
     }
   }
@@ -129,16 +137,13 @@ int run_sweep(const SimulationScene& scene, const numeric::Body& body, const Out
     plot.leave_out("interrupted");
     return interrupted_status;
   }
-  const bool any = std::any_of(runs.begin(), runs.end(), [](const SweptRun& swept) { return !swept.run.impacts.empty(); });
-  if (any) {
-    if (plot.is_wanted()) {
-      plot.write(sweep_picture(scene, runs), run_words("simulate", "first impacts, continuous contact", scene.json()));
-    }
-    return 0;
-  }
-  plot.leave_out("no impact was computed");
-  say("no impact could be computed: " + runs.back().run.message);
-  return 3;
+  const bool any =
+      std::any_of(runs.begin(), runs.end(), [](const SweptRun& swept) { return !swept.planned.run.impacts.empty(); });
+  if (!any)
+    plot.leave_out("no impact was computed");
+  else if (plot.is_wanted())
+    plot.write(sweep_picture(scene, runs), run_words("simulate", "first impacts, continuous contact", scene.json()));
+  return status_of(runs);
 }
 
 int run_simulate(const SimulateInput& input) {

@@ -51,9 +51,9 @@ PicturePanel history_panel(const PictureHistory& history, const std::string& lab
 Range2 loss_range(const std::vector<SweptRun>& runs) {
   double energy = 0, loss = 0;
   for (const SweptRun& swept : runs) {
-    if (swept.run.impacts.empty()) continue;
-    energy = std::max(energy, swept.run.energy_start);
-    loss = std::max(loss, std::fabs(swept.run.impacts[0].value.energy_loss));
+    if (swept.planned.run.impacts.empty()) continue;
+    energy = std::max(energy, swept.planned.run.energy_start);
+    loss = std::max(loss, std::fabs(swept.planned.run.impacts[0].value.energy_loss));
   }
   return loss < 0.01 * energy ? Range2{-0.01 * energy, 0.01 * energy} : Range2{};
 }
@@ -90,11 +90,11 @@ Picture sweep_picture(const SimulationScene& scene, const std::vector<SweptRun>&
                                           {"loss", "J", "energy lost in impact 1"}};
   std::vector<std::vector<double>> rows;
   for (const SweptRun& swept : runs) {
-    if (swept.run.impacts.empty()) {
+    if (swept.planned.run.impacts.empty()) {
       rows.push_back({swept.value, none, none, none, none});
       continue;
     }
-    const numeric::ImpactNumbers& first = swept.run.impacts[0].value;
+    const numeric::ImpactNumbers& first = swept.planned.run.impacts[0].value;
     rows.push_back({swept.value, first.velocity_after.z(), first.angular_velocity_after.y(), first.impulse.z(),
                     first.energy_loss});
   }

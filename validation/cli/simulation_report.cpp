@@ -8,11 +8,13 @@
 
 #include "validation/cli/impact_records.hpp"
 #include "validation/cli/options.hpp"
+#include "validation/plan/shortfall.hpp"
 #include "validation/cli/swept_column.hpp"
 #include "validation/cli/version.hpp"
 #include "validation/output/impact_entries.hpp"
 #include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
+#include "validation/output/totals.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -25,15 +27,10 @@ using numeric::Vector3;
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-double ratio_error(const ImpactRecord& row) {
-  return (row.error.impulse.norm() * (1 + std::fabs(impulse_ratio(row.value)))) / std::fabs(row.value.impulse.z());
-}
-
 Json impact_json(const ImpactRecord& row, int n) {
   Json json, errors;
   for_each_entry(row, n, [&](const char* name, const auto& value) { json[name] = entry_json(value); });
-  for_each_number(row.error, [&](const char* name, const auto& value) { errors[name] = entry_json(value); });
-  errors["impulse_ratio"] = number_or_null(ratio_error(row));
+  for_each_error(row, [&](const char* name, const auto& error) { errors[name] = entry_json(error); });
   json["error_estimate"] = errors;
   return json;
 }
@@ -46,13 +43,42 @@ bool doubtful(const SimulationScene& scene, const ImpactRecord& row) {
   return !(row.error.impulse.norm() <= 0.05 * row.value.impulse.norm());
 }
 
-/// What is known of a number: the digits that its estimated error leaves, 0 if none; two digits in a row that is not to
-/// be trusted.
-Cell known(const SimulationScene& scene, double value, double error, bool trusted = true) {
-  if (!scene.options.error_estimates) return {value, scene.options.digits};
-  if (!trusted || !std::isfinite(error)) return {value, 2};
-  if (std::fabs(value) <= error) return {0.0, 1};
-  return {value, std::min(scene.options.digits, known_digits(value, error))};
+/// The number of impacts before the first doubtful one.
+std::size_t trusted_impacts(const SimulationScene& scene, const Simulation& run) {
+  const auto first = std::find_if(run.impacts.begin(), run.impacts.end(),
+                                  [&](const ImpactRecord& row) { return doubtful(scene, row); });
+  return static_cast<std::size_t>(first - run.impacts.begin());
+}
+
+/// What is known of the numbers of an impact: the digits that their estimated errors leave, none in a row that is not to
+/// be trusted.  Without estimates (run.errors = false) two digits, which a tolerance of 1e-4 and less leaves.
+class Known {
+ public:
+  Known(const SimulationScene& scene, bool trusted) : scene_(scene), trusted_(trusted) {}
+
+  [[nodiscard]] Cell operator()(double value, double error, double size) const {
+    if (!trusted_) return {value, 0};
+    if (!scene_.options.error_estimates) return {value, digits_without_estimate};
+    return known_cell({value, error}, {scene_.options.digits, size});
+  }
+
+ private:
+  static constexpr int digits_without_estimate = 2;
+  const SimulationScene& scene_;
+  bool trusted_;
+};
+
+/// Sizes of the numbers of a run, by their places in MotionNumbers.
+struct Sizes {
+  double time, angle, impulse, speed, rate;
+  explicit Sizes(const MotionNumbers& all) : time(all[0]), angle(all[1]), impulse(all[4]), speed(all[7]), rate(all[9]) {}
+};
+
+/// The sum of the normal impulses as far as it is known.
+std::string total_words(const SimulationScene& scene, const PlannedRun& planned) {
+  const Estimated total = totals(planned.run).normal_impulse;
+  const bool trusted = trusted_impacts(scene, planned.run) == planned.run.impacts.size();
+  return shown_text(Known(scene, trusted)(total.value, total.error, 0));
 }
 
 std::string method_words(const Simulation& run) {
@@ -62,15 +88,8 @@ std::string method_words(const Simulation& run) {
                      run.force_evaluations);
 }
 
-/// The number of impacts before the first doubtful one.
-std::size_t trusted(const SimulationScene& scene, const Simulation& run) {
-  const auto first = std::find_if(run.impacts.begin(), run.impacts.end(),
-                                  [&](const ImpactRecord& row) { return doubtful(scene, row); });
-  return static_cast<std::size_t>(first - run.impacts.begin());
-}
-
 std::string trust_words(const SimulationScene& scene, const Simulation& run) {
-  const std::size_t last_trusted = trusted(scene, run);
+  const std::size_t last_trusted = trusted_impacts(scene, run);
   if (last_trusted == run.impacts.size()) return "";
   const auto first = run.impacts.begin() + static_cast<std::ptrdiff_t>(last_trusted);
   const std::string growth = first->predictable
@@ -104,7 +123,7 @@ std::vector<std::string> notes_of(const SimulationScene& scene, const PlannedRun
   for (const ImpactRecord& row : run.impacts) gap = std::max(gap, std::fabs(row.ledger_gap));
   if (!run.impacts.empty()) {
     notes.push_back(fmt::format("Sum of normal impulses: {} N·s; the ledger of energy closes to {}",
-                                significant(run.total_normal_impulse(), scene.options.digits), significant(gap, 1)));
+                                total_words(scene, planned), significant(gap, 1)));
   }
   notes.push_back(method_words(run));
   const std::string accuracy = accuracy_words(scene, planned);
@@ -121,20 +140,24 @@ std::vector<std::string> head_of(const SimulationScene& scene, const std::string
 
 const char* const what_it_is = "impact sequence, continuous contact";
 
-Cell loss_cell(const SimulationScene& scene, const Simulation& run, const ImpactRecord& row, bool trusted = true) {
+Cell loss_cell(const Known& known, const Simulation& run, const ImpactRecord& row) {
   const double percent = 100 / run.energy_start;
-  // Below the method's error the loss is none.
-  if (std::fabs(row.value.energy_loss) <= 1e-9 * run.energy_start) return {0.0, 1};
-  return known(scene, row.value.energy_loss * percent, row.error.energy_loss * percent, trusted);
+  return known(row.value.energy_loss * percent, row.error.energy_loss * percent, 100);
+}
+
+Json shortfall_json(const SimulationScene& scene, const PlannedRun& planned) {
+  const std::string why = shortfall(scene, planned);
+  return why.empty() ? Json(nullptr) : Json(why);
 }
 
 Json quantity_json(const SimulationScene& scene, const SweptRun& swept) {
   Json json{{scene.sweep->name(), swept.value},
-            {"outcome", outcome_name(swept.run.outcome)},
-            {"message", swept.run.message}};
+            {"outcome", outcome_name(swept.planned.run.outcome)},
+            {"message", swept.planned.run.message},
+            {"shortfall", shortfall_json(scene, swept.planned)}};
   json["impacts"] = Json::array();
   int n = 0;
-  for (const ImpactRecord& row : swept.run.impacts) json["impacts"].push_back(impact_json(row, ++n));
+  for (const ImpactRecord& row : swept.planned.run.impacts) json["impacts"].push_back(impact_json(row, ++n));
   return json;
 }
 
@@ -150,19 +173,21 @@ Table simulation_table(const SimulationScene& scene, const PlannedRun& planned) 
                    {"impulse_tangential", "Pₜ", "N·s", friction}, {"peak_force", "peak Fₙ", "N"},
                    {"velocity_after_z", "Vₙ", "m/s"}, {"angular_velocity_after_y", "Ω", "rad/s"},
                    {"energy_loss", "loss", "%", loses}};
-  const std::size_t trust = trusted(scene, run);
+  const std::size_t trust = trusted_impacts(scene, run);
+  const Sizes sizes(planned.sizes);
   std::size_t n = 0;
   for (const ImpactRecord& row : run.impacts) {
     const ImpactNumbers &v = row.value, &e = row.error;
     const bool trusted_row = ++n <= trust;
-    const auto cell = [&](double value, double error) { return known(scene, value, error, trusted_row); };
+    const Known cell(scene, trusted_row);
     table.rows.push_back({Cell(std::to_string(n) + (trusted_row ? "" : "?") + (row.submerged ? "!" : "")), Cell(end_name(row.end)),
-                          cell(v.start, e.start), cell(v.duration, e.duration),
-                          cell(v.contact_angle * degrees, e.contact_angle * degrees),
-                          cell(v.impulse.z(), e.impulse.z()), cell(v.impulse.x(), e.impulse.x()),
-                          cell(v.peak_force, e.peak_force), cell(v.velocity_after.z(), e.velocity_after.z()),
-                          cell(v.angular_velocity_after.y(), e.angular_velocity_after.y()),
-                          loss_cell(scene, run, row, trusted_row)});
+                          cell(v.start, e.start, sizes.time), cell(v.duration, e.duration, sizes.time),
+                          cell(v.contact_angle * degrees, e.contact_angle * degrees, sizes.angle),
+                          cell(v.impulse.z(), e.impulse.z(), sizes.impulse),
+                          cell(v.impulse.x(), e.impulse.x(), sizes.impulse), cell(v.peak_force, e.peak_force, 0),
+                          cell(v.velocity_after.z(), e.velocity_after.z(), sizes.speed),
+                          cell(v.angular_velocity_after.y(), e.angular_velocity_after.y(), sizes.rate),
+                          loss_cell(cell, run, row)});
   }
   fit_columns(table, scene.options.digits, {2});
   return table;
@@ -181,7 +206,11 @@ Json simulation_json(const SimulationScene& scene, const PlannedRun& planned) {
   json["step"] = run.step > 0 ? Json(run.step) : Json(nullptr);
   json["accuracy"] = {{"asked", planned.asked}, {"achieved", number_or_null(planned.achieved)},
                       {"known_impacts", planned.known_impacts}, {"planned", planned.planned}};
-  json["total_normal_impulse"] = number_or_null(run.total_normal_impulse());
+  const Totals sums = totals(run);
+  json["total_normal_impulse"] = number_or_null(sums.normal_impulse.value);
+  json["total_normal_impulse_error"] = error_or_null(sums.normal_impulse);
+  json["predictable"] = sums.predictable;
+  json["shortfall"] = shortfall_json(scene, planned);
   json["energy_start"] = number_or_null(run.energy_start);
   json["cost"] = {{"force_evaluations", run.force_evaluations}, {"root_evaluations", run.root_evaluations}};
   return json;
@@ -191,6 +220,7 @@ Table simulation_records(const SimulationScene& scene, const PlannedRun& planned
   const Json json = simulation_json(scene, planned);
   Table table{.head = {headline("simulate", what_it_is), "scene: " + json["scene"].dump()}, .columns = {}, .rows = {},
               .notes = notes_of(scene, planned)};
+  table.notes.insert(table.notes.begin(), total_note(json));
   add_impact_records(table, json["impacts"]);
   return table;
 }
@@ -205,23 +235,26 @@ Table sweep_table(const SimulationScene& scene, const std::vector<SweptRun>& run
   for (const SweptRun& swept : runs) {
     auto& row = table.rows.emplace_back();
     row.emplace_back(swept.value, 6);
-    if (swept.run.impacts.empty()) {
-      row.emplace_back(std::string(outcome_name(swept.run.outcome)));
+    const Simulation& run = swept.planned.run;
+    if (run.impacts.empty()) {
+      row.emplace_back(std::string(outcome_name(run.outcome)));
       row.resize(table.columns.size());
       continue;
     }
-    const ImpactRecord& first = swept.run.impacts[0];
+    const ImpactRecord& first = run.impacts[0];
     const ImpactNumbers &v = first.value, &e = first.error;
+    const Known known(scene, trusted_impacts(swept.scene, run) > 0);
+    const Sizes sizes(swept.planned.sizes);
     row.emplace_back(std::to_string(first.touches));
-    row.push_back(known(scene, v.impulse.z(), e.impulse.z()));
-    row.push_back(known(scene, impulse_ratio(v), ratio_error(first)));
-    row.push_back(known(scene, v.velocity_after.x(), e.velocity_after.x()));
-    row.push_back(known(scene, v.velocity_after.z(), e.velocity_after.z()));
-    row.push_back(known(scene, v.angular_velocity_after.y(), e.angular_velocity_after.y()));
-    row.push_back(known(scene, v.peak_force, e.peak_force));
-    row.push_back(loss_cell(scene, swept.run, first));
+    row.push_back(known(v.impulse.z(), e.impulse.z(), sizes.impulse));
+    row.push_back(known(impulse_ratio(v), impulse_ratio_error(first), 1));
+    row.push_back(known(v.velocity_after.x(), e.velocity_after.x(), sizes.speed));
+    row.push_back(known(v.velocity_after.z(), e.velocity_after.z(), sizes.speed));
+    row.push_back(known(v.angular_velocity_after.y(), e.angular_velocity_after.y(), sizes.rate));
+    row.push_back(known(v.peak_force, e.peak_force, 0));
+    row.push_back(loss_cell(known, run, first));
   }
-  if (!runs.empty()) table.notes.push_back(method_words(runs.back().run) + " (the last row's)");
+  if (!runs.empty()) table.notes.push_back(method_words(runs.back().planned.run) + " (the last row's)");
   add_interruption(*scene.sweep, runs.size(), table);
   fit_columns(table, scene.options.digits, {2});
   return table;
@@ -246,9 +279,9 @@ Table sweep_records(const SimulationScene& scene, const std::vector<SweptRun>& r
     for (std::size_t i = before; i < table.rows.size(); ++i) {
       table.rows[i].insert(table.rows[i].begin(), Cell(swept.value, 17));
     }
-    if (swept.run.impacts.empty()) {
-      table.notes.push_back(fmt::format("{}: {}: {}", shortest(swept.value), outcome_name(swept.run.outcome),
-                                        swept.run.message));
+    const Simulation& run = swept.planned.run;
+    if (run.impacts.empty() || is_cut_short(run.outcome)) {
+      table.notes.push_back(fmt::format("{}: {}: {}", shortest(swept.value), outcome_name(run.outcome), run.message));
     }
   }
   add_interruption(*scene.sweep, runs.size(), table);

@@ -19,7 +19,7 @@ namespace clatter::validation {
 struct SweptRun {
   double value;
   SimulationScene scene;
-  numeric::Simulation run;
+  PlannedRun planned;
 };
 /// The first impact of each, one row a value.
 [[nodiscard]] Table sweep_table(const SimulationScene& scene, const std::vector<SweptRun>& runs);

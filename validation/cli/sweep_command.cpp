@@ -16,6 +16,7 @@
 #include "validation/output/sink.hpp"
 #include "validation/scene/bad_input.hpp"
 #include "validation/sweep/ranks.hpp"
+#include "validation/sweep/rows.hpp"
 #include "validation/sweep/scene_runner.hpp"
 #include "validation/sweep/sweep_file.hpp"
 #include "validation/sweep/sweep_plan.hpp"
@@ -24,6 +25,8 @@ namespace clatter::validation {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr int not_computed = 3;
 
 struct SweepInput {
   SweepRequest request;
@@ -85,10 +88,11 @@ bool writes_file(const SweepInput& input) {
 /// Where the rows go: a file that can be taken up again, or stdout or a device.
 class SweepOutput {
  public:
-  SweepOutput(const SweepInput& input, const SweepPlan& plan) {
+  SweepOutput(const SweepInput& input, const SweepPlan& plan) : shortfalls_(column_names(plan)) {
     const std::string head = plan.head();
     if (writes_file(input)) {
       file_.emplace(*input.output, SweepFileForm{head, plan.points.count()}, input.restart);
+      if (file_->scenes() > 0) file_->for_each_row([this](const std::string& row) { shortfalls_.add(row); });
     } else {
       stream_.emplace(input.output.value_or(""));
       stream_->write(head);
@@ -96,7 +100,11 @@ class SweepOutput {
   }
 
   [[nodiscard]] long long first() const { return file_ ? file_->scenes() : 0; }
-  void write(const RangeRows& rows) { file_ ? file_->write(rows.text, rows.scenes) : stream_->write(rows.text); }
+  [[nodiscard]] const ShortfallCount& shortfalls() const { return shortfalls_; }
+  void write(const RangeRows& rows) {
+    shortfalls_.add(rows.text);
+    file_ ? file_->write(rows.text, rows.scenes) : stream_->write(rows.text);
+  }
 
   void commit() { file_ ? file_->commit() : stream_->commit(); }
 
@@ -110,6 +118,7 @@ class SweepOutput {
  private:
   std::optional<Sink> stream_;
   std::optional<SweepFile> file_;
+  ShortfallCount shortfalls_;
 };
 
 int read_threads(const SweepInput& input, const Ranks& ranks) {
@@ -153,6 +162,12 @@ void fill(SweepOutput& output, RangeQueue& queue, const SweepWork& what, Ranks& 
   else run_on_threads(queue, what.threads, runners_of(what.plan, what.body), hooks);
 }
 
+int status_of(const ShortfallCount& shortfalls, long long scenes) {
+  if (shortfalls.scenes() == 0) return 0;
+  say(fmt::format("{} of {} scenes fall short; {}", shortfalls.scenes(), scenes, shortfalls.first()));
+  return not_computed;
+}
+
 /// The part of the process that writes.
 int run_sweep(const SweepInput& input, const SweepPlan& plan, const SweepBody& body, int threads, Ranks& ranks) {
   const CooperativeInterrupt interrupt;
@@ -162,7 +177,7 @@ int run_sweep(const SweepInput& input, const SweepPlan& plan, const SweepBody& b
   fill(output, queue, {plan, body, threads, interrupt}, ranks);
   if (queue.is_complete()) {
     output.commit();
-    return 0;
+    return status_of(output.shortfalls(), scenes);
   }
   const std::string words = fmt::format("interrupted after {} of {} scenes", queue.taken(), scenes);
   output.leave(words);
@@ -215,14 +230,19 @@ Action add_sweep_command(CLI::App& app) {
   add_text(*command, "--model", request.model, "discrete|continuous", "(continuous if the scene has a ground)");
   add_text(*command, "--rows", request.rows, "scene|impact", "one row per scene or per impact (scene)");
   add_text(*command, "--output", input->output, "FILE", "write there; until it is complete the rows are in FILE.part");
+  command->add_flag("--no-errors", request.no_errors, "neither errors nor whether rows can be predicted; half the cost");
+  command->add_flag("--require-digits", request.require_digits, "a scene of which fewer digits are known falls short");
   command->add_flag("--restart", input->restart, "begin anew where FILE.part is there, instead of going on");
   add_text(*command, "--threads", input->threads, "N", "computing threads (all cores)");
   command->footer(
       "Example: clatter sweep validation/cases/phone-damped.toml --set drop.angle_deg=5:85:5 "
       "--set ground.damping=0:2e7:1e6 --set run.impacts=2 --output phone.csv\n"
       "An interrupted sweep goes on when the same command is given again. The discrete model takes the impact.* keys.\n"
-      "Continuous scenes are planned for run.digits, without the error estimates that clatter simulate makes.\n"
-      "A scene that is refused or fails is a row with its outcome: refused, outside-model or not-computed.");
+      "Continuous scenes are planned for run.digits. Each number has a column with its error, empty where that is not "
+      "known.\n"
+      "A scene that is refused or fails is a row with its outcome, refused, outside-model or not-computed, and reason.\n"
+      "Exit status 3 if a number could not be computed, a limit left fewer impacts than asked for, or required digits\n"
+      "are not known, in any scene; its row says why.");
   return [input] { return run_processes(*input); };
 }
 

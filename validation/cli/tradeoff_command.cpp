@@ -8,11 +8,14 @@
 #include "validation/cli/progress.hpp"
 #include "validation/cli/scene_flags.hpp"
 #include "validation/cli/tradeoff_report.hpp"
+#include "validation/output/message.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {
 namespace {
+
+constexpr int not_computed = 3;
 
 struct TradeoffInput {
   SceneFlags scene;
@@ -46,7 +49,9 @@ int run_tradeoff(const TradeoffInput& input) {
     return interrupted_status;
   }
   plot.write(tradeoff_picture(scene, tradeoff), run_words("tradeoff", "cost against true error", scene.json()));
-  return 0;
+  if (tradeoff.shortfall.empty()) return 0;
+  say(tradeoff.shortfall);
+  return not_computed;
 }
 
 }  // namespace

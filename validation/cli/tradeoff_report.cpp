@@ -117,6 +117,7 @@ Json tradeoff_json(const SimulationScene& scene, const Tradeoff& tradeoff) {
   json["reference"] = tradeoff.reference;
   json["reference_error"] = number_or_null(tradeoff.reference_error);
   json["impacts"] = tradeoff.impacts;
+  json["shortfall"] = tradeoff.shortfall.empty() ? Json(nullptr) : Json(tradeoff.shortfall);
   json["message"] = reference_words(tradeoff);
   return json;
 }

@@ -116,6 +116,13 @@ Quantities allowance(const ComparedImpact& impact, const ImpactRow& row, const Q
   return sum;
 }
 
+/// The estimates, unknown in a row that cannot be predicted.
+Quantities error_of(const ImpactRecord& record) {
+  Quantities error = quantities(record.error);
+  if (!record.predictable) error.fill(std::numeric_limits<double>::infinity());
+  return error;
+}
+
 void add_impact(Comparison& comparison, std::size_t i, const std::vector<PredictedSize>& predicted) {
   const auto& rows = comparison.sequence.rows;
   const auto& records = comparison.run.impacts;
@@ -123,16 +130,20 @@ void add_impact(Comparison& comparison, std::size_t i, const std::vector<Predict
                         .reason = {},
                         .discrete = {},
                         .continuous = {},
+                        .discrete_error = {},
+                        .continuous_error = {},
                         .discrete_end = {},
                         .continuous_end = {},
                         .predicted = {},
                         .limit = {}};
   if (i < rows.size()) {
     impact.discrete = quantities(rows[i]);
+    impact.discrete_error = quantities(comparison.sequence.rows[i].error);
     impact.discrete_end = end_of(comparison.drop.body, rows[i]);
   }
   if (i < records.size()) {
     impact.continuous = quantities(records[i].value);
+    impact.continuous_error = error_of(records[i]);
     impact.continuous_end = end_name(records[i].end);
     impact.contact_time = records[i].value.duration;
   }
@@ -160,6 +171,31 @@ void drop_unlike_limits(Comparison& comparison, const SimulationScene& scene) {
   }
 }
 
+/// Largest error of a number of either model, relative to its scale; infinite: one is not known.
+double largest_error(const Comparison& comparison) {
+  double worst = 0;
+  for (const ComparedImpact& impact : comparison.impacts) {
+    for (std::size_t q = 0; q < quantity_count; ++q) {
+      double error = impact.discrete ? impact.discrete_error[q] : 0;
+      if (impact.continuous) error += impact.continuous_error[q];
+      if (!std::isfinite(error)) return std::numeric_limits<double>::infinity();
+      worst = std::max(worst, error / comparison.scales[q]);
+    }
+  }
+  return worst;
+}
+
+std::string shortfall_of(const Comparison& comparison, const SimulationScene& scene) {
+  const auto words = [](const char* model, const auto& ended) {
+    return fmt::format("{} model: {}: {}", model, outcome_name(ended.outcome), ended.message);
+  };
+  if (is_cut_short(comparison.sequence.outcome)) return words("discrete", comparison.sequence);
+  if (is_cut_short(comparison.run.outcome)) return words("continuous", comparison.run);
+  if (!scene.require_digits || largest_error(comparison) <= std::pow(10.0, -scene.options.digits)) return "";
+  return fmt::format("asked {} digits of both models, achieved fewer: largest error {} of the sequence's sizes",
+                     scene.options.digits, significant(largest_error(comparison), 2));
+}
+
 }  // namespace
 
 bool ComparedImpact::lands() const {
@@ -180,7 +216,7 @@ bool Comparison::agrees() const {
 }
 
 Comparison compare_models(const SimulationScene& scene, const numeric::Body& body) {
-  Comparison comparison{.drop = discrete_drop(scene, body), .sequence = {}, .run = {}, .limit = {}, .impacts = {}};
+  Comparison comparison{.drop = discrete_drop(scene, body), .sequence = {}, .run = {}, .limit = {}, .impacts = {}, .shortfall = {}};
   comparison.sequence = impact_sequence(comparison.drop, {.impacts = scene.options.impacts});
   numeric::Options options = scene.options;
   options.amplification = true;
@@ -203,6 +239,7 @@ Comparison compare_models(const SimulationScene& scene, const numeric::Body& bod
     if (first_reason.empty()) first_reason = impact.reason;
   }
   drop_unlike_limits(comparison, scene);
+  comparison.shortfall = shortfall_of(comparison, scene);
   return comparison;
 }
 

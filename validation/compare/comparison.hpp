@@ -19,6 +19,7 @@ struct ComparedImpact {
   int n = 1;
   std::string reason;  ///< why the numbers at the scene's own stiffness cannot be compared; empty: they can
   std::optional<Quantities> discrete, continuous;
+  Quantities discrete_error{}, continuous_error{};  ///< of these; not finite: not known
   std::string discrete_end, continuous_end;
   double contact_time = 0;  ///< of the continuous model [s]
   PredictedSize predicted;
@@ -39,6 +40,9 @@ struct Comparison {
   std::vector<ComparedImpact> impacts;
   /// Whether there is anything to compare: an impact at the scene's stiffness or a limit.
   [[nodiscard]] bool has_content() const;
+  /// Why a number that could not be computed or a limit on the work left one of the models fewer impacts than asked for, or
+  /// required digits are not known; empty: neither.
+  std::string shortfall;
   /// No impact whose limit misses the discrete value.
   [[nodiscard]] bool agrees() const;
 };

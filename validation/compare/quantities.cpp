@@ -17,6 +17,16 @@ Quantities quantities(const analytic::ImpactRow& row) {
           row.impact.after.angular};
 }
 
+Quantities quantities(const analytic::RowErrors& errors) {
+  return {errors.start,
+          errors.contact_angle * degrees_per_radian,
+          errors.normal_impulse,
+          errors.tangential_impulse,
+          errors.after.normal,
+          errors.after.tangential,
+          errors.after.angular};
+}
+
 Quantities quantities(const numeric::ImpactNumbers& n) {
   return {n.start,
           n.contact_angle * degrees_per_radian,

@@ -36,6 +36,8 @@ inline constexpr std::array<QuantityName, quantity_count> quantity_names{{{"star
 
 [[nodiscard]] Quantities quantities(const analytic::ImpactRow& row);
 [[nodiscard]] Quantities quantities(const numeric::ImpactNumbers& numbers);
+/// Errors of the numbers of a row.
+[[nodiscard]] Quantities quantities(const analytic::RowErrors& errors);
 
 /// Size against which a deviation counts as relative: time, angle and velocities of the drop at large, so that a
 /// number that is zero by symmetry has a scale too.

@@ -79,7 +79,7 @@ Drop rod_drop(double angle_deg, double gravity) {
 Sequence timed_sequence(const Drop& drop, int impacts, CellMeasure& measure) {
   Sequence sequence;
   measure.seconds =
-      timed([&] { sequence = impact_sequence(drop, {.impacts = impacts, .digits = 6, .amplification = false}); });
+      timed([&] { sequence = whole_sequence(drop, {.impacts = impacts, .digits = 6, .amplification = false}); });
   measure.outcome = outcome_name(sequence.outcome);
   measure.evaluations = sequence.root_evaluations;
   return sequence;

@@ -4,10 +4,20 @@
 #include <cstdint>
 #include <vector>
 
+#include "analytic/errors.hpp"
+#include "analytic/sequence.hpp"
 #include "validation/extremes/axes.hpp"
 #include "validation/extremes/cell.hpp"
 
 namespace clatter::validation {
+
+/// The sequence of a drop.  @throws analytic::NumericalError if a number of it could not be computed.
+[[nodiscard]] inline analytic::Sequence whole_sequence(const analytic::Drop& drop,
+                                                       const analytic::SequenceOptions& options) {
+  analytic::Sequence sequence = impact_sequence(drop, options);
+  if (sequence.outcome == analytic::Outcome::not_computed) throw analytic::NumericalError(sequence.message);
+  return sequence;
+}
 
 /// Cells of the closed form and of the discrete model on an axis; none if it has no such quantity.
 [[nodiscard]] std::vector<Probe> discrete_probes(const MapAxis& axis);

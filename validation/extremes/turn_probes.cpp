@@ -33,7 +33,7 @@ CellMeasure discrete_turns(double turns) {
   CellMeasure measure{.oracle = retrace_oracle, .outcome = {}};
   analytic::Sequence sequence;
   measure.seconds =
-      timed([&] { sequence = impact_sequence(drop, {.impacts = 2, .digits = 6, .amplification = false}); });
+      timed([&] { sequence = whole_sequence(drop, {.impacts = 2, .digits = 6, .amplification = false}); });
   measure.outcome = outcome_name(sequence.outcome);
   measure.evaluations = sequence.root_evaluations;
   const Retrace found = retrace(drop, sequence);

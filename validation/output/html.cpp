@@ -20,8 +20,7 @@ std::string heading(const Column& column) {
 }
 
 std::string cell_text(const Cell& cell, const Column& column) {
-  const std::string text = cell.number ? significant(*cell.number, cell.digits) : cell.text;
-  return fmt::format("<td style=\"text-align: {}\">{}</td>", column.words ? "left" : "right", html_escaped(text));
+  return fmt::format("<td style=\"text-align: {}\">{}</td>", column.words ? "left" : "right", html_escaped(shown_text(cell)));
 }
 
 }  // namespace

@@ -33,6 +33,9 @@ template <class Value>
 
 /// Tangential over normal impulse.
 [[nodiscard]] inline double impulse_ratio(const numeric::ImpactNumbers& n) { return n.impulse.x() / n.impulse.z(); }
+[[nodiscard]] inline double impulse_ratio_error(const numeric::ImpactRecord& row) {
+  return row.error.impulse.norm() * (1 + std::fabs(impulse_ratio(row.value))) / std::fabs(row.value.impulse.z());
+}
 
 /// Calls entry(name, value) for each number of an impact of the discrete model but its amplification.  A value is an
 /// int, a double (not finite: not to be had), a text, an EntryVector, or nullptr where the model has none.
@@ -61,6 +64,25 @@ void for_each_entry(const analytic::ImpactRow& row, int n, double drop_deg, Entr
   entry("energy_loss", impact.energy_loss);
 }
 
+/// Calls entry(name, error) for each number of an impact of the discrete model that has an error, a double or an
+/// EntryVector as above.
+template <class Entry>
+void for_each_error(const analytic::RowErrors& errors, Entry&& entry) {
+  entry("start", errors.start);
+  entry("inclination_deg", errors.inclination * analytic::degrees_per_radian);
+  entry("contact_angle_deg", errors.contact_angle * analytic::degrees_per_radian);
+  entry("approach_speed", errors.approach_speed);
+  entry("restitution", errors.restitution);
+  entry("impulse_normal", errors.normal_impulse);
+  entry("impulse_tangential", errors.tangential_impulse);
+  entry("impulse_ratio", errors.impulse_ratio);
+  entry("velocity_after", EntryVector{errors.after.tangential, 0, errors.after.normal});
+  entry("angular_velocity_after", EntryVector{0, errors.after.angular, 0});
+  entry("energy_before", errors.energy_before);
+  entry("energy_after", errors.energy_after);
+  entry("energy_loss", errors.energy_loss);
+}
+
 /// The numbers of an impact of the continuous model, or their error estimates.
 template <class Entry>
 void for_each_number(const numeric::ImpactNumbers& part, Entry&& entry) {
@@ -85,6 +107,13 @@ void for_each_number(const numeric::ImpactNumbers& part, Entry&& entry) {
   entry("work_damping", part.work_damping);
   entry("work_friction", part.work_friction);
   entry("work_released", part.work_released);
+}
+
+/// Calls entry(name, error) for each number of an impact of the continuous model.
+template <class Entry>
+void for_each_error(const numeric::ImpactRecord& row, Entry&& entry) {
+  for_each_number(row.error, entry);
+  entry("impulse_ratio", impulse_ratio_error(row));
 }
 
 /// Calls entry(name, value) for all that is known of an impact of the continuous model but its error estimates; values

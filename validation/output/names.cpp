@@ -32,6 +32,8 @@ const char* outcome_name(analytic::Outcome outcome) {
       return "at-rest";
     case analytic::Outcome::sustained_contact:
       return "sustained-contact";
+    case analytic::Outcome::not_computed:
+      return "not-computed";
   }
   return "";
 }
@@ -58,6 +60,25 @@ const char* outcome_name(Outcome outcome) {
       return "interrupted";
   }
   return "";
+}
+
+bool is_cut_short(analytic::Outcome outcome) { return outcome == analytic::Outcome::not_computed; }
+
+bool is_cut_short(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::evaluation_limit:
+    case Outcome::step_too_small:
+    case Outcome::not_representable:
+    case Outcome::flight_undecided:
+      return true;
+    case Outcome::no_further_impact:
+    case Outcome::impact_limit:
+    case Outcome::at_rest:
+    case Outcome::sustained_contact:
+    case Outcome::interrupted:
+      return false;
+  }
+  return false;
 }
 
 const char* mode_name(FrictionMode mode) {

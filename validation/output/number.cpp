@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace clatter::validation {
 
@@ -23,9 +24,14 @@ std::string significant(double value, int digits) {
 bool is_short_whole(double value) { return value == std::round(value) && std::fabs(value) < 1e5; }
 
 int known_digits(double value, double error) {
-  if (!(error > 0) || value == 0) return 17;
-  const double digits = std::floor(std::log10(std::fabs(value) / error));
-  return static_cast<int>(std::clamp(digits, 1.0, 17.0));
+  constexpr int all = 17;
+  if (!std::isfinite(value) || !(std::fabs(error) < std::numeric_limits<double>::infinity())) return 0;
+  const double size = std::fabs(value), off = std::fabs(error);
+  if (off == 0) return all;
+  if (size == 0) return 0;
+  const double digits = std::clamp(std::floor(std::log10(size) - std::log10(off)), 1.0, double{all});
+  const double half_unit = 0.5 * std::pow(10.0, std::floor(std::log10(size)) - digits + 1);
+  return static_cast<int>(digits) - (off <= half_unit ? 0 : 1);
 }
 
 bool read_number(std::string_view text, double& value) {

@@ -12,10 +12,6 @@ namespace {
 
 using Texts = std::vector<std::vector<std::string>>;
 
-std::string shown_text(const Cell& cell) {
-  return cell.number ? significant(*cell.number, cell.digits) : cell.text;
-}
-
 std::vector<std::size_t> shown_columns(const Table& table) {
   std::vector<std::size_t> shown;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
@@ -163,6 +159,11 @@ std::string latex(const Table& table) {
 }
 
 }  // namespace
+
+std::string shown_text(const Cell& cell) {
+  if (!cell.number) return cell.text;
+  return cell.digits > 0 ? significant(*cell.number, cell.digits) : "?";
+}
 
 std::size_t display_width(const std::string& text) {
   return static_cast<std::size_t>(

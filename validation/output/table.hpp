@@ -21,7 +21,7 @@ struct Column {
 /// A cell: a number with the digits to show, a text, or nothing.
 struct Cell {
   std::optional<double> number;
-  int digits = 6;  ///< significant digits shown in tables; those not known are left out
+  int digits = 6;  ///< significant digits shown in tables; those not known are left out: "?" if none is known
   std::string text;
 
   Cell() = default;
@@ -41,6 +41,9 @@ struct TableStyle {
   Format format = Format::table;
   bool ascii = false;  ///< no characters beyond ASCII in `table`
 };
+
+/// What a reader sees of a cell.
+[[nodiscard]] std::string shown_text(const Cell& cell);
 
 /// The table in any format but JSON.  CSV follows RFC 4180 with head and notes as lines that begin with
 /// "# "; numbers there are shortest round-trip.

@@ -84,7 +84,38 @@ std::string reason_against_closed_form(const Drop& drop) {
   return "";
 }
 
-Sequence closed_form_sequence(const Drop& drop, int impacts) {
+namespace {
+
+double relative_change(double value, double neighbour) {
+  return value == neighbour ? 0 : std::fabs((neighbour - value) / value);
+}
+
+/// Largest relative change of the rows' angles, times and impulses over that of the drop's angle and speed, each.
+void add_amplification(const Drop& drop, Sequence& sequence) {
+  constexpr double shift = 0x1p-30;  // between rounding (2⁻⁵²) and the curvature of the results
+  Drop faster = drop, flatter = drop;
+  faster.velocity.normal *= 1 + shift;
+  flatter.inclination = analytic::Angle::from_radians(drop.inclination.radians * (1 - shift));
+  const int impacts = static_cast<int>(sequence.rows.size());
+  for (ImpactRow& row : sequence.rows) row.amplification = 0;
+  for (const Drop& neighbour : {faster, flatter}) {
+    const Sequence other = closed_form_sequence(neighbour, impacts);
+    for (std::size_t i = 0; i < sequence.rows.size(); ++i) {
+      ImpactRow& row = sequence.rows[i];
+      const bool there = i < other.rows.size();
+      const double growth =
+          there ? std::max({relative_change(row.start, other.rows[i].start),
+                            relative_change(row.contact_angle, other.rows[i].contact_angle),
+                            relative_change(row.impact.normal_impulse, other.rows[i].impact.normal_impulse)}) / shift
+                : std::numeric_limits<double>::infinity();
+      row.amplification = std::max(row.amplification, growth);
+    }
+  }
+}
+
+}  // namespace
+
+Sequence closed_form_sequence(const Drop& drop, int impacts, bool amplification) {
   const Instants at = instants_of(drop, impacts);
   Sequence sequence;
   PlanarVelocity velocity = drop.velocity;
@@ -101,6 +132,7 @@ Sequence closed_form_sequence(const Drop& drop, int impacts) {
   sequence.message = at.count == most_impacts ? "the closed form ends with the third impact"
                                               : "the closed form has no further impact";
   if (at.count == impacts) sequence.message = "as many impacts as asked for";
+  if (amplification) add_amplification(drop, sequence);
   return sequence;
 }
 

@@ -12,8 +12,10 @@ namespace clatter::validation {
 [[nodiscard]] std::string reason_against_closed_form(const analytic::Drop& drop);
 
 /// The first impacts, at most three, of a drop to which it applies.  One impact is Eq. 9; with the second and third come
-/// the roots β and γ of Eq. 12.  Amplifications are not known (NaN), and what comes after the third impact neither.
+/// the roots β and γ of Eq. 12.  What comes after the third impact is not known.
 /// Accuracy: as contact_angles().
-[[nodiscard]] analytic::Sequence closed_form_sequence(const analytic::Drop& drop, int impacts);
+/// @param amplification also the neighbouring drops that tell how errors grow; without it, amplifications are NaN.
+[[nodiscard]] analytic::Sequence closed_form_sequence(const analytic::Drop& drop, int impacts,
+                                                      bool amplification = false);
 
 }  // namespace clatter::validation

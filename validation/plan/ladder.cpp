@@ -1,5 +1,7 @@
 #include "validation/plan/ladder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "analytic/errors.hpp"
@@ -133,6 +135,7 @@ Truth true_values(const Ladder& ladder, double trusted) {
   truth.setting = {.rung = ladder.full(), .method = Method::rk8pd, .tolerance = numeric::least_tolerance};
   const int impacts = ladder.scene().options.impacts;
   const Simulation run = ladder.simulate(truth.setting, impacts);
+  if (is_cut_short(run.outcome)) truth.cut_short = fmt::format("{}: {}", outcome_name(run.outcome), run.message);
   if (run.impacts.empty()) return truth;
   RungSetting coarser = truth.setting;
   coarser.tolerance *= 30;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "validation/compare/prediction.hpp"
+#include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
 #include "validation/plan/cost_table.hpp"
 #include "validation/plan/tolerance_search.hpp"
@@ -71,6 +72,7 @@ class Planner {
     }
     plan_.planning_evaluations = timings * finest.force_evaluations;
     plan_.pilot_ending = finest.message;
+    plan_.cut_short = is_cut_short(finest.outcome);
     seconds_per_evaluation_ = seconds / static_cast<double>(finest.force_evaluations);
     if (finest.impacts.empty()) return;
     truth_ = motion_rows(finest);

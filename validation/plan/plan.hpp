@@ -59,6 +59,7 @@ struct Plan {
   std::vector<WeighedPart> parts;
   long planning_evaluations = 0;  ///< of all runs of the planning
   std::string pilot_ending;       ///< how the finest pilot run ended
+  bool cut_short = false;         ///< because a number could not be computed or a limit was reached
 };
 
 /// Plans the scene.

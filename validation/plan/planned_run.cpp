@@ -27,6 +27,7 @@ constexpr double usual_error_constant = 1;  // median over many scenes, for one 
 /// Fills in what was achieved.
 void judge(const numeric::Body& body, PlannedRun& planned) {
   const std::vector<numeric::ImpactRecord>& rows = planned.run.impacts;
+  if (!rows.empty()) planned.sizes = motion_sizes(planned.run, rows.size(), body);
   const auto last = std::find_if(rows.begin(), rows.end(), [&](const numeric::ImpactRecord& row) {
     return rounding * row.amplification > planned.asked;
   });

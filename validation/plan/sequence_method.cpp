@@ -18,7 +18,7 @@ analytic::Sequence sequence_by_method(const Scene& scene, SequenceMethod method)
   }
   const std::string reason = reason_against_closed_form(drop);
   if (!reason.empty()) throw BadInput("--method closed-form: does not apply: " + reason);
-  return closed_form_sequence(drop, scene.impacts);
+  return closed_form_sequence(drop, scene.impacts, true);
 }
 
 }  // namespace clatter::validation

@@ -21,7 +21,8 @@ const std::map<std::string, Member> members{{"angle", &SceneTexts::angle},
                                             {"radius", &SceneTexts::radius},
                                             {"size", &SceneTexts::size},
                                             {"impacts", &SceneTexts::impacts},
-                                            {"digits", &SceneTexts::digits}};
+                                            {"digits", &SceneTexts::digits},
+                                            {"require_digits", &SceneTexts::require_digits}};
 
 const std::map<std::string, std::string> keys{{"angle", "drop.angle_deg"},
                                               {"tilt", "drop.tilt_deg"},
@@ -46,6 +47,7 @@ const std::map<std::string, std::string> keys{{"angle", "drop.angle_deg"},
                                               {"area", "ground.area"},
                                               {"impacts", "run.impacts"},
                                               {"digits", "run.digits"},
+                                              {"require_digits", "run.require_digits"},
                                               {"method", "run.method"},
                                               {"tolerance", "run.tolerance"},
                                               {"step", "run.step"},

@@ -163,6 +163,9 @@ Scene read_scene(const SceneTexts& texts) {
   read_speed(texts, scene);
   if (texts.impacts) scene.impacts = read_integer_option("--impacts", *texts.impacts, 1, 1000000);
   if (texts.digits) scene.digits = read_integer_option("--digits", *texts.digits, 1, 15);
+  if (texts.require_digits) {
+    scene.require_digits = read_name_option("--require-digits", *texts.require_digits, {"false", "true"}) == 1;
+  }
   return scene;
 }
 
@@ -197,7 +200,7 @@ Json Scene::json() const {
               {"world", {{"gravity", gravity}}},
               {"impact", impact},
               {"body", shape},
-              {"run", {{"impacts", impacts}, {"digits", digits}}}};
+              {"run", {{"impacts", impacts}, {"digits", digits}, {"require_digits", require_digits}}}};
 }
 
 std::vector<std::string> Scene::summary() const {

@@ -13,7 +13,8 @@ namespace clatter::validation {
 /// The texts of the scene options, empty where not given.  Names are those of the flags.
 struct SceneTexts {
   std::optional<std::string> angle, speed, height, tangential_velocity, spin, gravity, restitution,
-      restitution_law, impulse_ratio, friction, body, mass, length, radius, size, impacts, digits;
+      restitution_law, impulse_ratio, friction, body, mass, length, radius, size, impacts, digits,
+      require_digits;
 };
 
 /// A checked scene.
@@ -30,6 +31,7 @@ struct Scene {
   analytic::BoxSize box;
   int impacts = 6;
   int digits = 6;
+  bool require_digits = false;       ///< fewer known digits are exit status 3
 
   [[nodiscard]] analytic::PlanarBody body() const;
   [[nodiscard]] analytic::Drop drop() const;

@@ -55,7 +55,7 @@ const std::vector<std::string> known_keys{
     "body.mesh.file", "body.mesh.unit", "body.mesh.density",
     "ground.stiffness", "ground.damping", "ground.static_friction", "ground.sliding_friction", "ground.area",
     "ground.friction_law", "ground.regularisation_speed",
-    "run.impacts", "run.digits", "run.method", "run.tolerance", "run.step", "run.history", "run.planar",
+    "run.impacts", "run.digits", "run.require_digits", "run.method", "run.tolerance", "run.step", "run.history", "run.planar",
     "run.contact_gravity", "run.evaluation_limit",
     "run.errors", "run.amplification",
     "sweep.angle_deg.from", "sweep.angle_deg.to", "sweep.angle_deg.step",
@@ -360,6 +360,7 @@ SimulationScene read_values(SceneValues values, const std::vector<SceneOverride>
     only_for(values, {"ground.static_friction", "ground.sliding_friction"}, "a scene that does not sweep it");
   }
   scene.ground = read_ground(values, model);
+  scene.require_digits = values.truth("run.require_digits", false);
   if (values.has("run.history")) scene.history = values.text("run.history");
   if (scene.sweep && !scene.history.empty()) values.refuse("run.history", "left out in a sweep");
   return scene;
@@ -445,7 +446,8 @@ Json SimulationScene::json() const {
                         {"area", area_names[static_cast<std::size_t>(ground.area)]},
                         {"friction_law", friction_law_names[static_cast<std::size_t>(ground.friction)]},
                         {"regularisation_speed", ground.regularisation_speed}}},
-            {"run", {{"impacts", options.impacts}, {"digits", options.digits}, {"method", method_name(options.method)},
+            {"run", {{"impacts", options.impacts}, {"digits", options.digits},
+                     {"require_digits", require_digits}, {"method", method_name(options.method)},
                      {"tolerance", options.tolerance > 0 ? Json(options.tolerance) : Json(nullptr)},
                      {"step", options.step > 0 ? Json(options.step) : Json(nullptr)},
                      {"history", history.empty() ? Json(nullptr) : Json(history)}, {"planar", options.planar},

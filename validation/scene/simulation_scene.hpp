@@ -63,6 +63,7 @@ struct SimulationScene {
   BodyScene body;
   numeric::Ground ground;          ///< stiffness 0: none given, for the discrete model
   numeric::Options options;
+  bool require_digits = false;     ///< fewer known digits are exit status 3
   std::string history;             ///< file for the time history; empty: none
   std::optional<SceneSweep> sweep;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "analytic/sequence.hpp"
 #include "numeric/simulate.hpp"
@@ -11,18 +12,50 @@ namespace clatter::validation {
 
 /// Index and swept keys, then per scene
 ///     impacts, outcome, total_normal_impulse [N·s], first_peak_force, largest_peak_force [N] (continuous model),
-///     energy_loss [J] and last_start [s] over the impacts listed;
-/// or per impact what `clatter sequence` and `clatter simulate` write as CSV, and the scene's outcome.
+///     energy_loss [J] and last_start [s] over the impacts listed, predictable, the error of each of these numbers,
+///     reason;
+/// or per impact what `clatter sequence` and `clatter simulate` write as CSV, the scene's outcome and reason.
+/// The reason says why a scene has no numbers, fewer impacts than asked for or fewer digits than required; else it is
+/// empty.  Errors and predictable are empty where no errors were asked for, an error alone where it is not known.
 [[nodiscard]] std::string column_names(const SweepPlan& plan);
 
 /// What all rows of a scene begin with.
 [[nodiscard]] std::string row_prefix(long long index, const std::vector<double>& values);
 
+/// Where the rows of one scene go, and what they hold besides its numbers.
+struct RowForm {
+  std::string& out;
+  const std::string& prefix;
+  RowKind rows = RowKind::scene;
+  bool errors = true;       ///< whether errors were asked for
+  bool predictions = true;  ///< whether their growth was
+  std::string reason;
+};
 /// Appends the rows of one scene.  @param drop_deg its inclination [°]
-void append_rows(std::string& out, const std::string& prefix, RowKind rows, const analytic::Sequence& sequence,
-                 double drop_deg);
-void append_rows(std::string& out, const std::string& prefix, RowKind rows, const numeric::Simulation& run);
+void append_rows(const RowForm& form, const analytic::Sequence& sequence, double drop_deg);
+void append_rows(const RowForm& form, const numeric::Simulation& run);
 /// The one row of a scene without numbers.
-void append_failure(std::string& out, const std::string& prefix, const SweepPlan& plan, const char* outcome);
+void append_failure(const RowForm& form, Model model, const char* outcome);
+
+/// Counts the scenes that fall short of what was asked: those with a reason that were neither refused nor outside the
+/// model.
+class ShortfallCount {
+ public:
+  explicit ShortfallCount(const std::string& column_names);
+
+  /// Takes whole rows; lines of a head are skipped.
+  void add(std::string_view rows);
+
+  [[nodiscard]] long long scenes() const { return scenes_; }
+  /// "INDEX: REASON" of the first of them.
+  [[nodiscard]] const std::string& first() const { return first_; }
+
+ private:
+  void add_row(std::string_view row);
+
+  std::size_t outcome_ = 0;  ///< place of that column
+  long long scenes_ = 0;
+  std::string last_, first_;
+};
 
 }  // namespace clatter::validation

@@ -5,10 +5,10 @@
 
 #include "analytic/errors.hpp"
 #include "numeric/errors.hpp"
+#include "validation/plan/shortfall.hpp"
 #include "validation/compare/discrete_scene.hpp"
 #include "validation/plan/planned_run.hpp"
 #include "validation/scene/bad_input.hpp"
-#include "validation/sweep/rows.hpp"
 
 namespace clatter::validation {
 
@@ -37,44 +37,62 @@ void SceneRunner::renew_body() {
   for (const std::size_t axis : plan_.body_axes) body_values_.push_back(values_[axis]);
 }
 
-bool SceneRunner::append_result(const std::string& prefix, std::string& out) {
+bool SceneRunner::append_result(RowForm& form) {
   renew_body();
   if (plan_.model == Model::discrete) {
     const analytic::Sequence sequence =
         analytic::impact_sequence(impact_drop(scene_, body_.planar), {.impacts = scene_.options.impacts,
                                                                       .digits = scene_.options.digits,
-                                                                      .amplification = scene_.options.amplification});
-    append_rows(out, prefix, plan_.rows, sequence, scene_.angle_deg);
+                                                                      .amplification = form.errors});
+    form.reason = shortfall(Asked{scene_.options.digits, scene_.require_digits}, sequence);
+    append_rows(form, sequence, scene_.angle_deg);
     return true;
   }
-  const numeric::Simulation run =
-      run_to_digits(*body_.solid, scene_.ground, scene_.start(*body_.solid), scene_.options).run;
-  if (run.outcome == numeric::Outcome::interrupted) return false;
-  append_rows(out, prefix, plan_.rows, run);
+  const PlannedRun planned = run_to_digits(*body_.solid, scene_.ground, scene_.start(*body_.solid), scene_.options);
+  if (planned.run.outcome == numeric::Outcome::interrupted) return false;
+  form.reason = shortfall(scene_, planned);
+  append_rows(form, planned.run);
   return true;
+}
+
+RowForm SceneRunner::form_of(const std::string& prefix, std::string& out) const {
+  const numeric::Options& options = scene_.options;
+  const bool both = options.error_estimates && options.amplification;
+  return {.out = out,
+          .prefix = prefix,
+          .rows = plan_.rows,
+          .errors = plan_.model == Model::discrete ? both : options.error_estimates,
+          .predictions = plan_.model == Model::discrete ? both : options.amplification,
+          .reason = {}};
 }
 
 bool SceneRunner::append_scene(long long index, std::string& out) {
   plan_.points.at(index, values_);
   for (std::size_t i = 0; i < values_.size(); ++i) plan_.put[i](scene_, values_[i]);
   const std::string prefix = row_prefix(index, values_);
+  RowForm form = form_of(prefix, out);
   const char* outcome = nullptr;
   try {
-    return append_result(prefix, out);
+    return append_result(form);
   } catch (const std::bad_alloc&) {
     throw;  // not the scene's fault, and another time it may have enough
-  } catch (const analytic::OutsideModelError&) {
+  } catch (const analytic::OutsideModelError& error) {
     outcome = "outside-model";
-  } catch (const BadInput&) {
+    form.reason = error.what();
+  } catch (const BadInput& error) {
     outcome = "refused";
-  } catch (const numeric::MeshError&) {
+    form.reason = error.what();
+  } catch (const numeric::MeshError& error) {
     outcome = "refused";
-  } catch (const std::logic_error&) {  // domain_error of the library: a scene it refuses
+    form.reason = error.what();
+  } catch (const std::logic_error& error) {  // domain_error of the library: a scene it refuses
     outcome = "refused";
-  } catch (const std::exception&) {
+    form.reason = error.what();
+  } catch (const std::exception& error) {
     outcome = "not-computed";
+    form.reason = error.what();
   }
-  append_failure(out, prefix, plan_, outcome);
+  append_failure(form, plan_.model, outcome);
   return true;
 }
 

@@ -8,6 +8,7 @@
 
 #include "analytic/planar_body.hpp"
 #include "numeric/body.hpp"
+#include "validation/sweep/rows.hpp"
 #include "validation/sweep/sweep_plan.hpp"
 #include "validation/sweep/sweep_run.hpp"
 
@@ -37,7 +38,8 @@ class SceneRunner {
  private:
   /// False if it was stopped; then nothing is appended.
   bool append_scene(long long index, std::string& out);
-  bool append_result(const std::string& prefix, std::string& out);
+  bool append_result(RowForm& form);
+  [[nodiscard]] RowForm form_of(const std::string& prefix, std::string& out) const;
   void renew_body();
 
   const SweepPlan& plan_;

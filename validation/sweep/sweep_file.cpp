@@ -165,10 +165,16 @@ void SweepFile::take_up(const SweepFileForm& form) {
   if (digests_file_ < 0) fail(digests_, "cannot be created");
   if (destination_.mode) fchmod(part_file_, *destination_.mode);
   digest_.add(form.head);
-  bytes_ = static_cast<long long>(form.head.size());
+  bytes_ = head_bytes_ = static_cast<long long>(form.head.size());
   if (goes_on) return keep_whole_rows(form);
   if (!truncate_to(part_file_, 0) || !write_all(part_file_, form.head)) fail(part_, "cannot be written");
   if (!truncate_to(digests_file_, 0)) fail(digests_, "cannot be written");
+}
+
+void SweepFile::for_each_row(const std::function<void(const std::string& row)>& take) const {
+  std::ifstream file(part_, std::ios::binary);
+  file.seekg(head_bytes_);
+  for (std::string row; std::getline(file, row);) take(row + "\n");
 }
 
 void SweepFile::write(std::string_view rows, long long scenes) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,6 +39,8 @@ class SweepFile {
   /// Takes the rows of so many whole scenes, or none; they are in the file after half a second or a mebibyte, or after
   /// flush().  @throws BadInput if they cannot be written.
   void write(std::string_view rows, long long scenes);
+  /// Calls take(row) for each row that was taken up, its end of line included.
+  void for_each_row(const std::function<void(const std::string& row)>& take) const;
   void flush();
   /// Ends the file and gives it its name.
   void commit();
@@ -58,6 +61,7 @@ class SweepFile {
   bool is_own_ = false;  ///< the part was taken up, and is nothing to be kept while no scene is in it
   long long scenes_ = 0;   ///< in the part
   long long bytes_ = 0;    ///< of the part
+  long long head_bytes_ = 0;  ///< of its head
   Digest digest_;          ///< of the part
   std::string pending_;
   long long pending_scenes_ = 0;

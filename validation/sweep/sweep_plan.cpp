@@ -141,9 +141,9 @@ void read_scene(const SweepRequest& request, const std::vector<Setting>& setting
         fmt::format("{}: sweep: must be left out here; give --set drop.angle_deg=FROM:TO:STEP", request.file));
   }
   if (!plan.scene.history.empty()) values.refuse("run.history", "left out in a sweep");
-  // No row holds error estimates, and a scene's row no amplification.
-  plan.scene.options.error_estimates = false;
-  if (plan.rows == RowKind::scene) plan.scene.options.amplification = false;
+  if (plan.scene.require_digits && !plan.scene.options.error_estimates) {
+    throw BadInput("run.require_digits: needs run.errors, without which no digit is known");
+  }
 }
 
 void read_points(const SweepRequest& request, const std::vector<Setting>& settings, SweepPlan& plan) {
@@ -177,7 +177,10 @@ void choose_setters(const SceneValues& values, const std::vector<Setting>& setti
 SweepPlan read_sweep_plan(const SweepRequest& request) {
   SweepPlan plan;
   SceneValues values = read_scene_values(request.file);
-  const std::vector<Setting> settings = read_settings(request.sets, request.random.has_value());
+  std::vector<std::string> sets = request.sets;
+  if (request.no_errors) sets.emplace_back("run.errors=false");
+  if (request.require_digits) sets.emplace_back("run.require_digits=true");
+  const std::vector<Setting> settings = read_settings(sets, request.random.has_value());
   if (request.rows) plan.rows = static_cast<RowKind>(read_name_option("--rows", *request.rows, row_names));
   read_scene(request, settings, values, plan);
   for (const Setting& setting : settings) plan.words.push_back(fmt::format("set: {} = {}", setting.key, setting.text));

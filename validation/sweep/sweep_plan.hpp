@@ -16,6 +16,8 @@ struct SweepRequest {
   std::string file;
   std::vector<std::string> sets;
   std::optional<std::string> random, seed, model, rows;
+  bool no_errors = false;       ///< as --set run.errors=false
+  bool require_digits = false;  ///< as --set run.require_digits=true
 };
 
 enum class RowKind { scene, impact };

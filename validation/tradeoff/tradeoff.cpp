@@ -8,6 +8,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "numeric/errors.hpp"
+
 namespace clatter::validation {
 namespace {
 
@@ -35,14 +37,30 @@ void time_it(const TradeoffOptions& options, TradePoint& point, const Work& work
   }
 }
 
+std::string without_truth(const Truth& truth) {
+  const std::string why = truth.cut_short.empty() ? "" : ": " + truth.cut_short;
+  return "the reference run has no impact that can be trusted" + why;
+}
+
+std::string shortfall_of(const Truth& truth, const SimulationScene& scene) {
+  if (!truth.cut_short.empty()) {
+    return fmt::format("{} of {} impacts have a reference: {}", truth.rows.size(), scene.options.impacts,
+                       truth.cut_short);
+  }
+  if (!scene.require_digits || truth.error <= std::pow(10.0, -scene.options.digits)) return "";
+  return fmt::format("asked {} digits, the reference is known to {:.1f}", scene.options.digits,
+                     -std::log10(truth.error));
+}
+
 /// The bench: the scene, its truth, and the points so far.
 class Bench {
  public:
   Bench(const SimulationScene& scene, const TradeoffOptions& options)
       : ladder_(limited(scene)), options_(options), truth_(true_values(ladder_)) {
-    if (truth_.rows.empty()) throw std::domain_error("the reference run has no impact that can be trusted");
+    if (truth_.rows.empty()) throw numeric::NumericalError(without_truth(truth_));
     result_.impacts = impacts();
     result_.reference_error = truth_.error;
+    result_.shortfall = shortfall_of(truth_, scene);
     result_.reference = fmt::format("{} model, {} at tolerance {}", rung_name(truth_.setting.rung),
                                     method_name(truth_.setting.method), truth_.setting.tolerance);
   }

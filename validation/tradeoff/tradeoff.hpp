@@ -29,6 +29,7 @@ struct Tradeoff {
   std::string reference;       ///< how the true values were had
   double reference_error = 0;  ///< their estimated error, relative
   int impacts = 0;             ///< that were compared
+  std::string shortfall;       ///< why the reference has fewer than asked for or fewer digits than required; else empty
 };
 
 struct TradeoffOptions {
@@ -45,7 +46,7 @@ inline constexpr int tolerance_count = 13;
 /// The scene through every rung; the continuous ones with four adaptive methods over thirteen tolerances and the
 /// paper's over eleven steps, and over mesh densities.  True values: see true_values().
 /// Methods that fail are points with their reason.
-/// @throws std::domain_error if the scene has no impact with a reference that can be trusted.
+/// @throws numeric::NumericalError if the scene has no impact with a reference that can be trusted.
 [[nodiscard]] Tradeoff measure_tradeoff(const SimulationScene& scene, const TradeoffOptions& options);
 
 }  // namespace clatter::validation

@@ -62,7 +62,7 @@ Report swept_report(const SimulationScene& scene, const std::function<bool()>& g
   for (const double value : scene.sweep->values()) {
     if (!goes_on()) break;
     const SimulationScene one = scene.at(value);
-    swept.runs.push_back({value, one, run_scene(one, goes_on, nullptr).run});
+    swept.runs.push_back({value, one, run_scene(one, goes_on, nullptr)});
   }
   const auto run = std::make_shared<const SweptRuns>(std::move(swept));
   return {.json = [run] { return validation::sweep_json(run->scene, run->runs); },

@@ -29,7 +29,16 @@ __all__ = [
 ]
 
 # Outcomes after which rows are missing because a number could not be computed.
-_CUT_SHORT = {"evaluation-limit", "step-too-small", "not-representable", "flight-undecided"}
+_CUT_SHORT = {"evaluation-limit", "step-too-small", "not-representable", "flight-undecided", "not-computed"}
+
+
+def _check(run: Run) -> None:
+    """Warns of rows that are missing, raises NotComputed if all are or if required digits are not known."""
+    if run.shortfall is None:
+        return
+    if run.outcome not in _CUT_SHORT or not run.impacts:
+        raise NotComputed(run.shortfall)
+    warnings.warn(run.shortfall, ClatterWarning, stacklevel=3)
 
 
 def sequence(
@@ -51,6 +60,7 @@ def sequence(
     size: Value | None = None,
     impacts: int | None = None,
     digits: int | None = None,
+    require_digits: bool | None = None,
     method: str = "auto",
 ) -> Sequence:
     """Impact sequence of a falling rod or box by the discrete model, Eqs. 8 to 12.
@@ -61,10 +71,11 @@ def sequence(
     restitution (1), restitution_law ("newton", "poisson", "stronge").
     impulse_ratio: Eq. 8's mu_i as given; or friction: Coulomb's mu (0).
     body: "rod" (mass 1 kg, length 1 m, radius 0 m) or "box" (mass, size=(L, W, T) in m).
-    impacts: most to report (6).  digits: shown in the table (6).
+    impacts: most to report (6).  digits: shown in the table (6); require_digits: NotComputed if fewer are known.
     method: "auto", "discrete" or "closed-form" (Eqs. 9 and 12).
 
-    Raises BadInput; OutsideModel at the jamming limit; NotComputed.  Warns of energy that an impulse ratio creates.
+    Raises BadInput; OutsideModel at the jamming limit; NotComputed.  Warns of energy that an impulse ratio creates, and
+    of a sequence that ended early because a number could not be computed.
 
     >>> clatter.sequence(angle=10)[1].impulse_normal
     1.0028424649698549
@@ -74,8 +85,10 @@ def sequence(
         "gravity": gravity, "restitution": restitution, "restitution_law": restitution_law,
         "impulse_ratio": impulse_ratio, "friction": friction, "body": body, "mass": mass, "length": length,
         "radius": radius, "size": size, "impacts": impacts, "digits": digits,
+        "require_digits": require_digits,
     }
     result = Sequence(called(_clatter.sequence, texts_of(given), method))
+    _check(result)
     for warning in result.to_dict().get("warnings", []):
         warnings.warn(warning, ClatterWarning, stacklevel=2)
     return result
@@ -88,12 +101,12 @@ def simulate(scene: Scene, *, history: bool = False, **changes: Value | None) ->
     time history is not written.
     history: keep the time history in memory.  A sweep keeps none.
     changes: take the place of keys of the scene: angle, tilt, speed, height, tangential_velocity, spin, gravity, body,
-    mass, length, radius, size, stiffness, damping, static_friction, sliding_friction, area, impacts, digits, method,
+    mass, length, radius, size, stiffness, damping, static_friction, sliding_friction, area, impacts, digits, require_digits, method,
     tolerance, step, planar, contact_gravity, errors, amplification, evaluation_limit; restitution, restitution_law,
     impulse_ratio and friction belong to the discrete model and are only kept.
 
     A scene with a table [sweep] gives a Sweep.  Raises BadInput, and NotComputed if there is no impact at all because
-    of what the run met; warns if it ended early with some.
+    of what the run met or required digits are not known; warns if it ended early with some.
 
     >>> clatter.simulate("rod-45", stiffness=1e9, impacts=1)
     """
@@ -101,10 +114,7 @@ def simulate(scene: Scene, *, history: bool = False, **changes: Value | None) ->
     if "runs" in report.data():
         return Sweep(report)
     run = Simulation(report, None if arrays is None else History(arrays))
-    if run.outcome in _CUT_SHORT:
-        if not run.impacts:
-            raise NotComputed(f"{run.outcome}: {run.message}")
-        warnings.warn(f"{run.outcome}: {run.message}", ClatterWarning, stacklevel=2)
+    _check(run)
     return run
 
 

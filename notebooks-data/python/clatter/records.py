@@ -63,9 +63,9 @@ class Impact(Record):
 
     n, start, duration, end ("a", "b", "both" ...), inclination_deg, contact_angle_deg, approach_speed, restitution,
     impulse_normal, impulse_tangential, impulse_ratio, mode, peak_force, peak_time, velocity_after (3),
-    angular_velocity_after (3), energy_before, energy_after, energy_loss, error_estimate (a record), amplification;
-    from the continuous model also touches, impulse (3), work_damping, work_friction, work_released, energy_stored,
-    ledger_gap, predictable.  start counts from the first touch, peak_time from the impact's start.
+    angular_velocity_after (3), energy_before, energy_after, energy_loss, error_estimate (a record), amplification,
+    predictable; from the continuous model also touches, impulse (3), work_damping, work_friction, work_released,
+    energy_stored, ledger_gap.  start counts from the first touch, peak_time from the impact's start.
     """
 
     def __repr__(self) -> str:

@@ -57,6 +57,23 @@ class Run(Result):
         return float(self._data["total_normal_impulse"])
 
     @property
+    def total_normal_impulse_error(self) -> float | None:
+        """Bound or estimate of its error [N·s]; None if one of the impacts cannot be predicted."""
+        error = self._data["total_normal_impulse_error"]
+        return None if error is None else float(error)
+
+    @property
+    def predictable(self) -> bool:
+        """Whether each impact is: rounding has not decided what happens."""
+        return bool(self._data["predictable"])
+
+    @property
+    def shortfall(self) -> str | None:
+        """Why there are fewer impacts or known digits than asked for: the program's exit status 3; None: there are not."""
+        reason = self._data["shortfall"]
+        return None if reason is None else str(reason)
+
+    @property
     def cost(self) -> Record:
         """force_evaluations, root_evaluations."""
         return Record(self._data["cost"])
@@ -139,9 +156,9 @@ class Sweep(Result):
 class Comparison(Result):
     """Both models over one scene.
 
-    impacts: records with n, comparable, reason, discrete_end, continuous_end, contact_time, limit_is_discrete and
-    numbers: by quantity (start, contact_angle_deg, impulse_normal ...) discrete, continuous, deviation, predicted, limit,
-    limit_error, allowance.
+    impacts: records with n, comparable, predictable, reason, discrete_end, continuous_end, contact_time, limit_is_discrete and
+    numbers: by quantity (start, contact_angle_deg, impulse_normal ...) discrete, continuous, deviation and the error of
+    each (discrete_error ...), predicted, limit, limit_error, allowance.
     """
 
     def __init__(self, report: Report) -> None:

@@ -1,0 +1,269 @@
+#!/usr/bin/python3
+"""Sums and their errors: what is printed of them, what CSV and JSON carry, and when a run falls short (exit status 3)."""
+
+import csv
+import io
+import json
+import math
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["CLATTER_PROGRAM"]
+CASES = os.path.join(os.environ["CLATTER_ROOT"], "validation", "cases")
+PHONE = os.path.join(CASES, "phone-damped.toml")
+TUMBLING = os.path.join(CASES, "phone-elastic.toml")  # in space nothing after impact 2 can be predicted
+# An elastic box under gravity strikes again and again, and errors grow by each impact.
+CHAOS = ["sequence", "--angle", "33", "--gravity", "9.81", "--body", "box", "--size", "0.1x0.05x0.04", "--impacts", "60"]
+QUICK = ["--set", "run.impacts=2", "--set", "run.digits=4"]
+# So much damping that explicit steps get nowhere in the second contact.
+OVERDAMPED = ["--damping", "1e13", "--impacts", "3"]
+
+
+def run(*arguments):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=300, check=False)
+
+
+def records(text):
+    return list(csv.DictReader(io.StringIO("".join(l for l in text.splitlines(True) if not l.startswith("#")))))
+
+
+def printed_sum(text):
+    return re.search(r"Sum of normal impulses: (\S+)", text)[1].rstrip(";")
+
+
+def half_unit(text):
+    """Half a unit of the last digit of a number as printed."""
+    mantissa, _, exponent = text.partition("e")
+    return 0.5 * 10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2]))
+
+
+class Base(unittest.TestCase):
+    def json(self, *arguments, status=0):
+        result = run(*arguments, "--format", "json")
+        self.assertEqual(result.returncode, status, (arguments, result.stderr))
+        return json.loads(result.stdout)
+
+    def rows(self, *arguments, status=0):
+        result = run(*arguments, "--format", "csv") if arguments[0] != "sweep" else run(*arguments)
+        self.assertEqual(result.returncode, status, (arguments, result.stderr))
+        return records(result.stdout)
+
+
+class Sums(Base):
+    def test_a_sum_over_an_impact_that_cannot_be_predicted_is_unknown_in_every_form(self):
+        data = self.json(*CHAOS)
+        rows = data["impacts"]
+        self.assertFalse(data["predictable"])
+        self.assertIsNone(data["total_normal_impulse_error"])
+        self.assertEqual([row["predictable"] for row in rows], sorted((r["predictable"] for r in rows), reverse=True))
+        self.assertTrue(rows[0]["predictable"])
+        self.assertFalse(rows[-1]["predictable"])
+        self.assertTrue(all(error is None or error == [None, 0, None] or error == [0, None, 0]
+                            for error in rows[-1]["error_estimate"].values()), rows[-1]["error_estimate"])
+        for form in ("table", "markdown", "latex"):
+            text = run(*CHAOS, "--format", form).stdout
+            self.assertEqual(printed_sum(text), "?", form)
+        last = [line.split() for line in run(*CHAOS).stdout.splitlines() if line.split()[:1] == ["60?"]][0]
+        self.assertEqual(last[2:], ["?"] * (len(last) - 2))
+        self.assertIn("total_normal_impulse_error: unknown", run(*CHAOS, "--format", "csv").stdout)
+        self.assertEqual(printed_sum(run("simulate", TUMBLING).stdout), "?")
+        self.assertIsNone(self.json("simulate", TUMBLING)["total_normal_impulse_error"])
+
+    def test_a_printed_sum_is_right_to_half_a_unit_of_its_last_digit_and_its_error_at_every_number_of_digits(self):
+        for scene in (["sequence", "--angle", "25", "--gravity", "9.81", "--restitution", "0.5", "--impacts", "40"],
+                      ["sequence", "--angle", "70", "--body", "box", "--size", "0.1x0.05x0.02", "--gravity", "9.81",
+                       "--restitution", "0.4", "--impacts", "60"],
+                      ["simulate", PHONE, "--impacts", "2", "--planar"]):
+            best = self.json(*scene, "--digits", "12")["total_normal_impulse"]
+            for digits in ("3", "5", "7", "9"):
+                with self.subTest(scene=scene, digits=digits):
+                    data = self.json(*scene, "--digits", digits)
+                    error = data["total_normal_impulse_error"]
+                    self.assertLessEqual(abs(data["total_normal_impulse"] - best), error + 1e-11 * best)
+                    shown = printed_sum(run(*scene, "--digits", digits).stdout)
+                    # Half a unit from rounding, and as much for the error that the last digit may have.
+                    self.assertLessEqual(abs(float(shown) - best), 2 * half_unit(shown))
+                    self.assertLessEqual(error, half_unit(shown))
+
+    def test_the_error_of_a_sum_is_the_sum_of_the_sizes_of_its_parts_errors(self):
+        for scene in (["sequence", "--angle", "33", "--gravity", "9.81", "--impacts", "5"],
+                      ["simulate", PHONE, "--impacts", "3", "--planar"]):
+            data = self.json(*scene)
+            parts = sum(row["error_estimate"]["impulse_normal"] for row in data["impacts"])
+            rounding = len(data["impacts"]) * 2.0 ** -52 * data["total_normal_impulse"]
+            self.assertGreaterEqual(data["total_normal_impulse_error"], parts)
+            self.assertLessEqual(data["total_normal_impulse_error"], parts + rounding)
+
+    def test_the_sum_keeps_momentum_within_its_error(self):
+        # What the ground gave is what the centre of mass and gravity took.
+        data = self.json("simulate", PHONE, "--impacts", "2", "--planar", "--digits", "8")
+        first, last, mass, g = data["impacts"][0], data["impacts"][-1], 0.08814, 9.81
+        before = -math.sqrt(2 * g * (data["scene"]["drop"]["height"] - self.touch_height(data)))
+        taken = mass * (last["velocity_after"][2] - before) + mass * g * (last["start"] + last["duration"])
+        errors = last["error_estimate"]
+        margin = mass * (errors["velocity_after"][2] + g * (errors["start"] + errors["duration"]))
+        self.assertGreater(first["impulse_normal"], 0)
+        self.assertLessEqual(abs(taken - data["total_normal_impulse"]), data["total_normal_impulse_error"] + margin)
+
+    @staticmethod
+    def touch_height(data):
+        angle = math.radians(data["scene"]["drop"]["angle_deg"])
+        length, _, thickness = data["scene"]["body"]["size"]
+        return length / 2 * math.sin(angle) + thickness / 2 * math.cos(angle)
+
+    def test_no_number_of_an_unpredictable_row_is_explained_with_digits(self):
+        text = run("explain", "60", *CHAOS[1:]).stdout
+        self.assertRegex(text, r"P_n = .*\n.*\n *= \? N·s")
+        self.assertIsNone(re.search(r"\d\.\d+ (N·s|m/s|rad/s|s|J)\n", text))
+
+    def test_angles_print_no_digit_that_rounding_takes_near_the_fold(self):
+        # 1e-9 degrees below the fold beta's condition number is about 1e5: of 16 digits some ten are left.
+        row = ["angles", "--from", "58.488442287", "--to", "58.488442287", "--digits", "17"]
+        beta = [line.split()[1] for line in run(*row).stdout.splitlines() if line.split()[:1] == ["58.488442287"]][0]
+        self.assertLess(len(beta.replace(".", "")), 14)
+        self.assertGreater(len(beta.replace(".", "")), 6)
+
+
+class Columns(Base):
+    def test_csv_has_the_errors_and_the_predictions_of_the_json(self):
+        for command in (["sequence", "--angle", "33", "--gravity", "9.81", "--friction", "0.1"],
+                        ["simulate", PHONE, "--impacts", "2"]):
+            data, rows = self.json(*command), self.rows(*command)
+            self.assertEqual(len(rows), len(data["impacts"]))
+            for row, impact in zip(rows, data["impacts"]):
+                self.assertEqual(row["predictable"], "true" if impact["predictable"] else "false")
+                for name, error in impact["error_estimate"].items():
+                    parts = zip("xyz", error) if isinstance(error, list) else [("", error)]
+                    for axis, part in parts:
+                        column = row[f"{name}_{axis}_error" if axis else f"{name}_error"]
+                        self.assertEqual(float(column) if column else None, part, name)
+
+    def test_comparisons_carry_the_errors_of_both_models_and_of_their_difference(self):
+        command = ["compare", PHONE, "--impacts", "2", "--planar"]
+        data, rows = self.json(*command), self.rows(*command)
+        for row in rows:
+            pair = data["impacts"][int(row["n"]) - 1]["numbers"][row["quantity"]]
+            self.assertEqual(row["predictable"], "true")
+            for name in ("discrete_error", "continuous_error", "deviation_error"):
+                self.assertEqual(float(row[name]), pair[name])
+            self.assertGreaterEqual(pair["deviation_error"], pair["discrete_error"] + pair["continuous_error"])
+
+    def test_a_sweeps_numbers_lie_within_their_errors_of_more_accurate_ones(self):
+        rows = self.rows("sweep", PHONE, "--set", "drop.angle_deg=10:40:10", "--set", "run.planar=true", *QUICK)
+        better = self.rows("sweep", PHONE, "--set", "drop.angle_deg=10:40:10", "--set", "run.planar=true",
+                           "--set", "run.impacts=2", "--set", "run.digits=10")
+        for row, truth in zip(rows, better):
+            self.assertEqual((row["predictable"], row["reason"]), ("true", ""))
+            for name in ("total_normal_impulse", "first_peak_force", "largest_peak_force", "energy_loss", "last_start"):
+                off = abs(float(row[name]) - float(truth[name]))
+                self.assertLessEqual(off, float(row[f"{name}_error"]) + float(truth[f"{name}_error"]), name)
+                self.assertLessEqual(float(row[f"{name}_error"]), 1e-2 * float(row[name]), name)
+
+    def test_a_sweeps_errors_are_empty_where_unknown_and_absent_where_not_asked_for(self):
+        sweep = ["sweep", PHONE, "--model", "discrete", "--set", "drop.angle_deg=33", "--set", "run.impacts=2:62:60"]
+        known, unknown = self.rows(*sweep)
+        self.assertEqual((known["predictable"], unknown["predictable"]), ("true", "false"))
+        self.assertGreater(float(known["total_normal_impulse_error"]), 0)
+        for name in ("total_normal_impulse", "energy_loss", "last_start"):
+            self.assertNotEqual(unknown[name], "")
+            self.assertEqual(unknown[f"{name}_error"], "", name)
+        for row in self.rows(*sweep, "--no-errors"):
+            self.assertEqual((row["predictable"], row["total_normal_impulse_error"]), ("", ""))
+            self.assertGreater(float(row["total_normal_impulse"]), 0)
+
+
+class Shortfalls(Base):
+    """Exit status 3 with the reason, the rows so far whole."""
+
+    def short(self, *arguments):
+        result = run(*arguments)
+        self.assertEqual(result.returncode, 3, (arguments, result.stderr))
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        return result
+
+    def test_fewer_impacts_than_asked_because_of_a_limit_are_status_3_with_the_rows_so_far(self):
+        result = self.short("simulate", PHONE, *OVERDAMPED)
+        self.assertRegex(result.stderr, "evaluation-limit|step-too-small|not-representable|flight-undecided")
+        data = self.json("simulate", PHONE, *OVERDAMPED, status=3)
+        self.assertTrue(0 < len(data["impacts"]) < 3)
+        self.assertIn(data["outcome"], data["shortfall"])
+        self.assertIn(data["shortfall"], result.stderr)
+        rows = self.rows("simulate", PHONE, *OVERDAMPED, status=3)
+        self.assertEqual(len(rows), len(data["impacts"]))
+        self.assertEqual({None} & {value for row in rows for value in row.values()}, set())
+
+    def test_compare_plan_and_tradeoff_end_with_status_3_where_a_run_was_cut_short(self):
+        for command in ("compare", "plan", "tradeoff"):
+            with self.subTest(command):
+                result = self.short(command, PHONE, *OVERDAMPED)
+                self.assertRegex(result.stderr, "force evaluations|steps too small|double precision|within the work")
+
+    def test_a_sweep_says_in_which_rows_and_why_it_falls_short_and_ends_with_status_3(self):
+        sweep = ["sweep", PHONE, "--set", "run.evaluation_limit=20:200020:200000", *QUICK]
+        result = self.short(*sweep)
+        self.assertIn("1 of 2 scenes fall short; 0: evaluation-limit", result.stderr)
+        limited, whole = records(result.stdout)
+        self.assertIn("force evaluations", limited["reason"])
+        self.assertEqual((whole["outcome"], whole["reason"]), ("impact-limit", ""))
+        impacts = self.rows(*sweep, "--rows", "impact", status=3)
+        self.assertIn("force evaluations", impacts[0]["reason"])
+
+    def test_a_sweep_that_is_taken_up_again_remembers_the_rows_that_fall_short(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "out.csv")
+            sweep = ["sweep", PHONE, "--set", "run.evaluation_limit=20:200020:200000", *QUICK, "--output", path]
+            self.short(*sweep)
+            with open(path, encoding="utf-8") as file:
+                whole = file.read()
+            with open(path + ".part", "w", encoding="utf-8") as file:
+                file.write(whole[:whole.rindex("\n", 0, -1) + 1])  # without the last row
+            os.remove(path)
+            self.assertIn("1 of 2 scenes", self.short(*sweep).stderr)
+            with open(path, encoding="utf-8") as file:
+                self.assertEqual(file.read(), whole)
+
+    def test_a_swept_scene_says_how_many_of_its_values_fall_short(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "scene.toml")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write("[ground]\nstiffness = 1e8\ndamping = 1e13\n[run]\nimpacts = 3\nevaluation_limit = 20000\n"
+                           "[sweep]\nangle_deg = { from = 10, to = 20, step = 10 }\n")
+            self.assertIn("2 of 2 values fall short; 10: ", self.short("simulate", path).stderr)
+
+    def test_a_sequence_whose_next_flight_cannot_be_computed_keeps_its_rows(self):
+        # So weak a gravity that the end of the second flight has no digit.
+        command = ["sequence", "--angle", "80", "--gravity", "1e-200"]
+        result = self.short(*command)
+        self.assertIn("not-computed", result.stderr)
+        data = self.json(*command, status=3)
+        self.assertGreaterEqual(len(data["impacts"]), 1)
+        self.assertEqual(data["outcome"], "not-computed")
+        self.assertEqual(len(self.rows(*command, status=3)), len(data["impacts"]))
+
+    def test_ends_that_are_physics_are_status_0(self):
+        bounce = ["--gravity", "9.81", "--restitution", "0.5", "--impacts", "40"]
+        outcomes = {self.json("sequence", *scene)["outcome"]
+                    for scene in (["--angle", "10"], ["--angle", "10", "--impacts", "1"], ["--angle", "0", *bounce],
+                                  ["--angle", "30", "--gravity", "9.81", "--restitution", "0"])}
+        self.assertEqual(outcomes, {"no-further-impact", "impact-limit", "at-rest", "sustained-contact"})
+        for impacts in ("1", "2"):
+            self.assertIsNone(self.json("simulate", PHONE, "--impacts", impacts)["shortfall"])
+
+    def test_required_digits_that_are_not_achieved_are_status_3(self):
+        self.assertIn("digits", self.short(*CHAOS, "--require-digits").stderr)
+        self.assertEqual(run(*CHAOS).returncode, 0)
+        self.assertEqual(run("sequence", "--angle", "10", "--require-digits").returncode, 0)
+        self.assertIn("of 3 impacts only", self.short("simulate", TUMBLING, "--impacts", "3", "--require-digits").stderr)
+        self.assertEqual(run("simulate", TUMBLING, "--impacts", "3", "--planar", "--require-digits").returncode, 0)
+        self.assertIn("digits", self.short("compare", TUMBLING, "--impacts", "3", "--require-digits").stderr)
+        sweep = ["sweep", TUMBLING, "--set", "run.impacts=1:3:2", "--set", "run.digits=4"]
+        rows = records(self.short(*sweep, "--require-digits").stdout)
+        self.assertEqual([bool(row["reason"]) for row in rows], [False, True])
+        self.assertEqual(run(*sweep).returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,40 @@
+#include "validation/output/estimated.hpp"
+
+#include <algorithm>
+
+#include "validation/output/number.hpp"
+
+namespace clatter::validation {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::infinity();
+constexpr int digits_of_zero = 6;
+
+bool is_zero(const Estimated& number, const Shown& shown) {
+  const double largest = std::pow(10.0, -std::min(shown.digits, digits_of_zero)) * shown.size;
+  return std::fabs(number.value) + number.error <= largest;
+}
+
+}  // namespace
+
+Estimated& Estimated::operator+=(const Estimated& other) {
+  const bool known = is_known() && other.is_known();
+  value += other.value;
+  error = known ? error + other.error + std::numeric_limits<double>::epsilon() / 2 * std::fabs(value) : unknown;
+  return *this;
+}
+
+Estimated larger(const Estimated& a, const Estimated& b) {
+  const bool known = a.is_known() && b.is_known();
+  return {std::max(a.value, b.value), known ? std::max(a.error, b.error) : unknown};
+}
+
+Cell known_cell(const Estimated& number, const Shown& shown) {
+  const int digits = number.is_known() ? known_digits(number.value, number.error) : 0;
+  if (digits > 0) return {number.value, std::min(digits, shown.digits)};
+  return number.is_known() && is_zero(number, shown) ? Cell(0.0, 1) : Cell(number.value, 0);
+}
+
+std::string known_text(const Estimated& number, const Shown& shown) { return shown_text(known_cell(number, shown)); }
+
+}  // namespace clatter::validation

@@ -1,0 +1,46 @@
+#include "validation/output/totals.hpp"
+
+
+namespace clatter::validation {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::infinity();
+
+void forget(Totals& sums) {
+  for (Estimated* sum : {&sums.normal_impulse, &sums.energy_loss, &sums.last_start, &sums.largest_peak})
+    sum->error = unknown;
+}
+
+}  // namespace
+
+Totals totals(const analytic::Sequence& sequence) {
+  Totals sums;
+  sums.impacts = static_cast<int>(sequence.rows.size());
+  for (const analytic::ImpactRow& row : sequence.rows) {
+    sums.predictable = sums.predictable && row.error.predictable;
+    sums.energy_loss += {row.impact.energy_loss, row.error.energy_loss};
+    sums.last_start = {row.start, row.error.start};
+  }
+  sums.normal_impulse = {sequence.total_normal_impulse, sequence.total_normal_impulse_error};
+  return sums;
+}
+
+Totals totals(const numeric::Simulation& run) {
+  Totals sums;
+  sums.impacts = static_cast<int>(run.impacts.size());
+  for (const numeric::ImpactRecord& row : run.impacts) {
+    const numeric::ImpactNumbers &value = row.value, &error = row.error;
+    const Estimated peak{value.peak_force, row.predictable ? error.peak_force : unknown};
+    const bool is_first = &row == &run.impacts.front();
+    sums.predictable = sums.predictable && row.predictable;
+    sums.normal_impulse += {value.impulse.z(), error.impulse.z()};
+    sums.energy_loss += {value.energy_loss, error.energy_loss};
+    sums.last_start = {value.start, error.start};
+    if (is_first) sums.first_peak = peak;
+    sums.largest_peak = is_first ? peak : larger(sums.largest_peak, peak);
+  }
+  if (!sums.predictable) forget(sums);
+  return sums;
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,26 @@
+// Sums over the impacts of a run, with the errors that follow from those of the impacts.
+#pragma once
+
+#include "analytic/sequence.hpp"
+#include "numeric/simulate.hpp"
+#include "validation/output/estimated.hpp"
+
+namespace clatter::validation {
+
+/// Sums and extremes over the impacts listed; the normal impulse with that of the discrete model's tail.  Errors of
+/// impacts may be correlated, so their sizes add up.  One impact that cannot be predicted leaves all unknown but the
+/// first peak, if that is another impact's.
+struct Totals {
+  int impacts = 0;
+  bool predictable = true;   ///< each impact is
+  Estimated normal_impulse;  ///< [N·s]
+  Estimated energy_loss;     ///< [J]
+  Estimated last_start;      ///< touch-down of the last impact, after that of the first [s]
+  Estimated first_peak;      ///< peak force of the first impact [N]; the continuous model's
+  Estimated largest_peak;    ///< [N]; likewise
+};
+
+[[nodiscard]] Totals totals(const analytic::Sequence& sequence);
+[[nodiscard]] Totals totals(const numeric::Simulation& run);
+
+}  // namespace clatter::validation

@@ -1,0 +1,52 @@
+#include "validation/plan/shortfall.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/output/names.hpp"
+
+namespace clatter::validation {
+namespace {
+
+std::string digits_words(int asked, double achieved) {
+  if (achieved <= std::pow(10.0, -asked)) return "";
+  if (!std::isfinite(achieved)) return fmt::format("asked {} digits, achieved none of all impacts", asked);
+  return fmt::format("asked {} digits, achieved {:.1f}", asked, std::max(-std::log10(achieved), 0.0));
+}
+
+}  // namespace
+
+double largest_error(const analytic::Sequence& sequence) {
+  double worst = 0;
+  for (const analytic::ImpactRow& row : sequence.rows) worst = std::max(worst, row.error.relative);
+  if (!sequence.tail) return worst;
+  const analytic::Tail& tail = *sequence.tail;
+  if (tail.end_time > 0) worst = std::max(worst, tail.end_time_error / tail.end_time);
+  if (tail.normal_impulse > 0) worst = std::max(worst, tail.normal_impulse_error / tail.normal_impulse);
+  return worst;
+}
+
+std::string shortfall(const Asked& asked, const analytic::Sequence& sequence) {
+  if (is_cut_short(sequence.outcome)) return fmt::format("{}: {}", outcome_name(sequence.outcome), sequence.message);
+  return asked.require_digits ? digits_words(asked.digits, largest_error(sequence)) : "";
+}
+
+std::string shortfall(const Scene& scene, const analytic::Sequence& sequence) {
+  return shortfall(Asked{scene.digits, scene.require_digits}, sequence);
+}
+
+std::string shortfall(const SimulationScene& scene, const PlannedRun& planned) {
+  const numeric::Simulation& run = planned.run;
+  if (is_cut_short(run.outcome)) return fmt::format("{}: {}", outcome_name(run.outcome), run.message);
+  if (!scene.require_digits || run.impacts.empty()) return "";
+  if (!scene.options.error_estimates) return "run.require_digits: without run.errors no digit is known";
+  const int impacts = static_cast<int>(run.impacts.size());
+  if (planned.known_impacts < impacts)
+    return fmt::format("asked {} digits, achieved of the first {} of {} impacts only", scene.options.digits,
+                       planned.known_impacts, impacts);
+  return digits_words(scene.options.digits, planned.achieved);
+}
+
+}  // namespace clatter::validation

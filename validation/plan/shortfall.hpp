@@ -1,0 +1,26 @@
+// Where a run falls short of what was asked of it: exit status 3.
+#pragma once
+
+#include <string>
+
+#include "analytic/sequence.hpp"
+#include "validation/plan/planned_run.hpp"
+#include "validation/scene/scene.hpp"
+
+namespace clatter::validation {
+
+/// Largest relative error of the sequence's numbers, its tail's too; infinite if one cannot be predicted.
+[[nodiscard]] double largest_error(const analytic::Sequence& sequence);
+
+/// In one line why there are fewer impacts than asked for, where a number that could not be computed or a limit is the
+/// reason, or, with run.require_digits, that fewer digits are known than asked for; empty: neither.
+[[nodiscard]] std::string shortfall(const Scene& scene, const analytic::Sequence& sequence);
+[[nodiscard]] std::string shortfall(const SimulationScene& scene, const PlannedRun& planned);
+/// The same of a sequence with other settings.
+struct Asked {
+  int digits = 6;
+  bool require_digits = false;
+};
+[[nodiscard]] std::string shortfall(const Asked& asked, const analytic::Sequence& sequence);
+
+}  // namespace clatter::validation
