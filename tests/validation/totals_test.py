@@ -255,6 +255,11 @@ class Shortfalls(Base):
     def test_required_digits_that_are_not_achieved_are_status_3(self):
         self.assertIn("digits", self.short(*CHAOS, "--require-digits").stderr)
         self.assertEqual(run(*CHAOS).returncode, 0)
+        # Four ulp are 15 digits, and every one of sixty impacts rounds several times.
+        rounded = ["sequence", "--angle", "33", "--gravity", "9.81", "--impacts", "60", "--digits", "15"]
+        self.assertIn("achieved 1", self.short(*rounded, "--require-digits").stderr)
+        coarse = ["simulate", PHONE, "--impacts", "1", "--digits", "9", "--tolerance", "1e-3"]
+        self.assertIn("asked 9 digits, achieved ", self.short(*coarse, "--require-digits").stderr)
         self.assertEqual(run("sequence", "--angle", "10", "--require-digits").returncode, 0)
         self.assertIn("of 3 impacts only", self.short("simulate", TUMBLING, "--impacts", "3", "--require-digits").stderr)
         self.assertEqual(run("simulate", TUMBLING, "--impacts", "3", "--planar", "--require-digits").returncode, 0)
