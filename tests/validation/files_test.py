@@ -28,6 +28,11 @@ MESHED = ("[drop]\nangle_deg = 10\n[body]\nshape = 'mesh'\nmass = 1\ninertia = [
 LONG_RUN = ["angles", "--count", "50000000", "--format", "csv"]
 
 
+def heed_hangups():
+    """Also where the tests themselves are run under nohup."""
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
+
+
 class Folder(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -256,6 +261,17 @@ class Names(Folder):
         self.refused("out.part", "sweep", "scene.toml", "--output", "y" * 240 + "out")  # FILE.part.digests is longer
 
 
+    def test_a_name_of_any_bytes_is_read_and_written(self):
+        name = os.fsencode(self.folder) + b"/s\xff\xc3(\n'.toml"
+        shutil.copy(self.path("scene.toml"), name)
+        for form in ("table", "csv", "json"):
+            done = subprocess.run([PROGRAM, "simulate", name, "--output", name + b".out", "--history", name + b".csv", "--format", form],
+                                  capture_output=True, timeout=3000, check=False)
+            self.assertEqual((done.returncode, done.stderr), (0, b""))
+            with open(name + b".out", encoding="utf-8") as file:
+                self.assertIn("continuous", file.read())
+
+
 class Streams(Folder):
     def closed(self, redirection, *arguments):
         return subprocess.run(["/bin/bash", "-c", 'exec "$0" "$@" ' + redirection, PROGRAM, *arguments], cwd=self.folder, text=True,
@@ -302,7 +318,7 @@ class Signals(Folder):
     def test_each_ends_the_run_with_130_and_leaves_nothing(self):
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             with subprocess.Popen([PROGRAM, *LONG_RUN, "--output", "out", "--plot", "p.svg", "--plot-script"], cwd=self.folder,
-                                  stderr=subprocess.DEVNULL) as process:
+                                  stderr=subprocess.DEVNULL, preexec_fn=heed_hangups) as process:
                 until(self.growing, process)
                 process.send_signal(number)
             self.assertEqual(process.returncode, 130, number)

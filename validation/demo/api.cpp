@@ -186,7 +186,7 @@ ApiAnswer refusal(int http_status, const std::exception& error, int exit_status)
 }  // namespace
 
 std::string error_json(const std::string& words, int exit_status) {
-  return json_text({{"error", words}, {"status", exit_status}});
+  return json_text({{"error", text_json(words)}, {"status", exit_status}});
 }
 
 std::string cases_json() {

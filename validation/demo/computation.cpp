@@ -40,8 +40,8 @@ void limit_memory() {
 std::size_t most_at_once() { return std::max(2U, std::thread::hardware_concurrency()); }
 
 /// The new process: writes "STATUS BODY" to the pipe and ends.  It keeps no other file of the server's, whose
-/// connections would stay open with it.
-[[noreturn]] void compute(int pipe, pid_t server, const std::string& path, const std::string& body) {
+/// connections would stay open with it, and no exception leads back into the server's code.
+[[noreturn]] void compute(int pipe, pid_t server, const std::string& path, const std::string& body) noexcept {
   for (const int number : ending_signals()) signal(number, SIG_DFL);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != server) _exit(EXIT_FAILURE);

@@ -48,6 +48,10 @@ void write(const Json& value, const std::string& indent, std::string& out) {
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value + 0.0) : Json(nullptr); }
 
+Json text_json(const std::string& text) {
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
 std::string json_text(const Json& value) {
   std::string out;
   write(value, "", out);

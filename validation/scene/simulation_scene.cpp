@@ -245,7 +245,7 @@ Json body_json(const BodyScene& body) {
       json["mesh"] = {{"nx", body.nx}, {"ny", body.ny}, {"nz", body.nz}};
       break;
     case BodyScene::Shape::mesh:
-      json["mesh"] = {{"file", body.file}, {"unit", body.unit}};
+      json["mesh"] = {{"file", text_json(body.file)}, {"unit", body.unit}};
       if (body.density) json["mesh"]["density"] = *body.density;
       if (!body.inertia.empty()) json["inertia"] = body.inertia;
       if (!body.centre.empty()) json["centre"] = body.centre;
@@ -434,7 +434,7 @@ double SimulationScene::fallen_speed(const numeric::MotionState& state) const {
 
 Json SimulationScene::json() const {
   const auto or_null = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
-  Json json{{"file", path},
+  Json json{{"file", text_json(path)},
             {"drop", {{"angle_deg", angle_deg}, {"tilt_deg", tilt_deg}, {"speed", height ? Json(nullptr) : Json(speed)},
                       {"height", or_null(height)}, {"tangential_velocity", tangential_velocity}, {"spin", spin}}},
             {"world", {{"gravity", options.gravity}}},
@@ -450,7 +450,7 @@ Json SimulationScene::json() const {
                      {"require_digits", require_digits}, {"method", method_name(options.method)},
                      {"tolerance", options.tolerance > 0 ? Json(options.tolerance) : Json(nullptr)},
                      {"step", options.step > 0 ? Json(options.step) : Json(nullptr)},
-                     {"history", history.empty() ? Json(nullptr) : Json(history)}, {"planar", options.planar},
+                     {"history", history.empty() ? Json(nullptr) : text_json(history)}, {"planar", options.planar},
                      {"contact_gravity", options.gravity_in_contact},
                      {"evaluation_limit", options.evaluation_limit}, {"errors", options.error_estimates},
                      {"amplification", options.amplification}}}};

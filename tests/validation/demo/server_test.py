@@ -32,7 +32,8 @@ class Demo:
     def __init__(self, *arguments):
         # No answer that a test waits for is late, however busy the machine is.
         limit = [] if "--seconds" in arguments else ["--seconds", "80000"]
-        self.process = subprocess.Popen([PROGRAM, "demo", *arguments, *limit], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.process = subprocess.Popen([PROGRAM, "demo", *arguments, *limit], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                        preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL))  # also under nohup
         self.line = self.process.stdout.readline()
         self.port = int(re.search(r"127\.0\.0\.1:(\d+)/", self.line)[1])
 
@@ -320,6 +321,10 @@ class Refusals(WithServer):
                 self.assertIn(status, (404, 405))
                 self.assertNotIn("root:", text)
         self.assertEqual(self.demo.post("/api/run", {})[0], 404)
+        for target in (b"/\xff", b"/api/\xf6\xba", b"/api/sequence\xc3"):
+            for method in (b"GET", b"POST"):
+                self.assertRegex(self.demo.raw(b"%s %s HTTP/1.1\r\nHost: 127.0.0.1:%d\r\nContent-Type: application/json\r\n"
+                                               b"Content-Length: 2\r\n\r\n{}" % (method, target, self.demo.port)), "40[045]")
         self.assertIn("404", self.demo.raw(b"GET /../../../etc/passwd HTTP/1.1\r\nHost: 127.0.0.1:%d\r\n\r\n" % self.demo.port))
 
     def test_other_methods_are_405(self):
