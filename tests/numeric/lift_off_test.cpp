@@ -164,6 +164,53 @@ BOOST_AUTO_TEST_CASE(sticking_never_takes_more_than_the_static_friction_gives) {
   }
 }
 
+/// A flat face that turns and has hardly any depth: its pressure centre runs away as δ falls, so that holding it asks for
+/// more than any friction gives.
+BOOST_AUTO_TEST_CASE(stick_under_a_fading_force_is_bounded_and_knows_that_it_cannot_hold) {
+  const double mu = 0.7;
+  const Body body = box_body({0.3, 0.2, 0.1}, 1);
+  const Ground ground{.stiffness = 1e9, .static_friction = mu, .sliding_friction = mu};
+  for (const bool planar : {true, false}) {
+    ContactSystem system(body, ground, 0, planar);
+    system.begin(touching_state(body, {}));
+    system.set_phase({.kind = FrictionPhase::Kind::stick, .direction = {}});
+    for (const double depth : {1e-8, 1e-12, 1e-16, 1e-24, 1e-60}) {
+      ContactState state = system.initial(), rate;
+      state[2] = -depth;
+      state[11] = 1;  // ω_y
+      const ContactDiagnosis at = system.diagnose(state, rate);
+      BOOST_TEST(at.load.force > 0);
+      BOOST_TEST(at.friction.norm() <= mu * at.load.force * (1 + 1e-12));
+      if (depth <= 1e-16) BOOST_TEST(at.hold.norm() == 2 * mu * at.load.force, boost::test_tools::tolerance(1e-12));
+      BOOST_TEST(rate.allFinite());
+    }
+  }
+}
+
+/// Stick that gives way in the last of few large steps gives way all the same: as in a run of many small ones, to some
+/// tens of times the tolerance of 1e-8.
+BOOST_AUTO_TEST_CASE(a_late_release_does_not_depend_on_the_steps) {
+  struct Case {
+    Body body;
+    double angle, slip, mu;
+  };
+  for (const Case& c : {Case{rod(), 60, 0, 0.6}, {phone(), 75, 0, 0.4}, {phone(), 75, 0.3, 0.7}}) {
+    const Ground ground{.stiffness = 1e9, .static_friction = c.mu, .sliding_friction = 0};
+    const auto impulse = [&](Method method, int digits) {
+      Options options = plain_options();
+      options.planar = true;
+      options.method = method;
+      options.digits = digits;
+      const MotionState start = touching_state(c.body, {.inclination = c.angle * degree, .velocity = {c.slip, 0, -1}});
+      return Vector3(simulate(c.body, ground, start, options).impacts.at(0).value.impulse);
+    };
+    const Vector3 fine = impulse(Method::rk8pd, 10);
+    for (const Method method : {Method::rkf45, Method::rkck, Method::rk8pd}) {
+      BOOST_TEST((impulse(method, 4) - fine).norm() <= 5e-7 * fine.norm());
+    }
+  }
+}
+
 /// Deep in the bed the faces that look up were once driven along their slip.
 BOOST_AUTO_TEST_CASE(friction_over_faces_that_look_up_from_below_the_ground_never_drives) {
   for (const FrictionLaw law : {FrictionLaw::regularised, FrictionLaw::coulomb}) {
