@@ -63,7 +63,7 @@ struct ContactLoad {
   double energy = 0;                        ///< ½ k_G ∫δ² over all that is below the ground [J]
   double damping_power = 0;                 ///< c_G ∫δδ̇² where the ground presses [W]
   double release_power = 0;                 ///< −k_G ∫δδ̇ where the clamp lets go [W]
-  double deepest = 0;                       ///< largest δ of a vertex [m]; not positive: nothing touches
+  double deepest = 0;                       ///< largest δ of a vertex near the ground [m]; not positive: nothing touches
   double deepest_rate = 0;                  ///< its δ̇ [m/s]
   double slip_east = 0, slip_north = 0;     ///< ∫f_n s, s the direction of the field [N]
   Vector3 slip_moment = Vector3::Zero();    ///< ∫f_n u × s, body frame [N·m]
