@@ -59,7 +59,8 @@ struct ImpactRow {
 enum class Outcome {
   no_further_impact,  ///< nothing reaches the ground any more
   impact_limit,       ///< as many impacts as asked for
-  at_rest,            ///< infinitely many impacts end in a finite time, with no normal or angular motion left
+  at_rest,            ///< infinitely many impacts end in a finite time, with no normal or angular motion left that
+                      ///< doubles could tell from none
   sustained_contact,  ///< a vertex stays on the ground (after infinitely many impacts, or with e = 0)
                       ///< while the body still turns: beyond the model
   not_computed,       ///< a number of the next flight or impact could not be had; the rows so far hold
