@@ -62,6 +62,7 @@ class Run {
     control_.step = accuracy.step;
     control_.steps_per_contact = accuracy.steps_per_contact;
     control_.evaluation_limit = options.evaluation_limit;
+    control_.estimate_local_slip = extras.local_slip;
     if (extras.history || extras.progress) {
       control_.observe = [this](const ContactInstant& at) { return observe(at); };
     }
@@ -144,6 +145,7 @@ class Run {
     row.end = contact.end;
     row.touches = contact.touches;
     row.mode = contact.mode;
+    row.local_slip = contact.local_slip;
     row.submerged = contact.submerged;
     row.amplification = std::numeric_limits<double>::quiet_NaN();
     row.energy_stored = contact.energy_stored;
@@ -155,8 +157,10 @@ class Run {
   void note_growth(const ContactResult& contact) {
     const std::function<bool(const ContactInstant&)> observe = std::move(control_.observe);
     control_.observe = nullptr;
+    control_.estimate_local_slip = false;
     growth_.touch(contact_, control_, state_, contact);
     control_.observe = observe;
+    control_.estimate_local_slip = extras_.local_slip;
     ImpactRecord& row = result_.impacts.back();
     row.amplification = growth_.factor();
     row.predictable = row.amplification < predictable_growth;

@@ -28,6 +28,7 @@ struct DropRun {
 /// What a run does besides.
 struct RunExtras {
   bool amplification = false;
+  bool local_slip = false;  ///< estimate ImpactRecord::local_slip
   HistoryRecorder* history = nullptr;
   const std::function<bool(int, long)>* progress = nullptr;
 };

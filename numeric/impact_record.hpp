@@ -17,6 +17,7 @@ enum class FrictionMode {
   alternating,       ///< more phases than three
   reverse_slip,      ///< slip stops and goes on the other way at once
   regularised,
+  local,             ///< each place slips for itself
 };
 
 /// Which ends of the body touched during the impact: by the sign of x′ of the vertices that went into the ground.
@@ -52,6 +53,9 @@ struct ImpactRecord {
   /// Whether the whole body lay below the ground for a time: the foundation, a bed below the body, is then pressed from
   /// within, and its law stands for nothing real.
   bool submerged = false;
+  /// What FrictionLaw::local would change in the tangential impulse of this contact, estimated to a factor of about 3;
+  /// 0 for the other laws and without error estimates [N·s].
+  double local_slip = 0;
   /// Growth of a relative error of the start until the end of this impact; NaN if not asked for.
   double amplification = 0;
   /// Whether rounding errors, so grown, stay below one part in a hundred.

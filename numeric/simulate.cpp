@@ -99,7 +99,10 @@ Simulation simulate(const Body& body, const Ground& ground, const MotionState& s
   detail::require(low >= -1e-12 * body.radius(), "height of the lowest point", low, "at least 0");
   const Accuracy accuracy = accuracy_for(options);
   DropRun main = run_checked(body, ground, start, options, accuracy,
-                             {options.amplification, options.history, options.progress ? &options.progress : nullptr});
+                             {.amplification = options.amplification,
+                           .local_slip = options.error_estimates && ground.has_friction() && ground.friction == FrictionLaw::coulomb,
+                           .history = options.history,
+                           .progress = options.progress ? &options.progress : nullptr});
   Simulation simulation;
   simulation.outcome = main.outcome;
   simulation.method = accuracy.method;

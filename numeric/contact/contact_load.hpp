@@ -42,6 +42,10 @@ struct SlipField {
   Kind kind = Kind::none;
   bool planar = false;               ///< v has no part to the north
   double regularisation = 0;         ///< v_r; 0: −v/|v| [m/s]
+  /// The v_r of a facet whose points slip alike, within `alike` of it: one that lies flat would else reverse the
+  /// friction of all its area at once [m/s].
+  double floor = 0;
+  static constexpr double alike = 1e4;
   Vector3 centre = Vector3::Zero();  ///< of pressure, body frame [m]
   double east = 0, north = 0;        ///< slip velocity there; of `points`, added to that of each [m/s]
   double spin = 0;                   ///< about the vertical [rad/s]

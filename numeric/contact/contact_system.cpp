@@ -179,7 +179,7 @@ ContactSystem::Friction ContactSystem::at_centre(const Instant& at, const AlongG
 /// A point at rest takes no work: where a remaining slip would give some back, none is booked.
 ContactSystem::Friction ContactSystem::in_stick(const Instant& at) const {
   const AlongGround hold = stick(at);
-  const double bound = ground_.static_friction * at.load.force;
+  const double bound = stick_coefficient() * at.load.force;
   Friction friction = at_centre(at, bounded(hold, bound));
   friction.power = std::max(friction.power, 0.0);
   friction.hold = bounded(hold, 2 * bound);
@@ -243,6 +243,7 @@ void ContactSystem::evaluate(const ContactState& y, ContactState& rate, ContactD
     field.kind = SlipField::Kind::points;
     field.planar = planar_;
     if (phase_.kind == Kind::regularised) field.regularisation = ground_.regularisation_speed;
+    else field.floor = phase_.floor;
   }
   LoadRates rates;
   const bool wants_rates = diagnosis || phase_.kind == Kind::stick;
@@ -271,7 +272,7 @@ void ContactSystem::evaluate(const ContactState& y, ContactState& rate, ContactD
   rate[works + 2] = friction.power;
   if (!diagnosis) return;
   *diagnosis = {load, at.changes(ground_, alpha).force, friction.force, friction.hold, at.centre,
-                at.slip, at.normal.dot(omega)};
+                at.slip, at.normal.dot(omega), friction.moment - at.centre.cross(along(view, friction.force))};
 }
 
 AlongGround ContactSystem::sticking_force(const ContactState& y) {
@@ -296,17 +297,25 @@ LocalFriction ContactSystem::local_friction(const ContactState& y, const AlongGr
   if (!(load.force > 0)) return {};
   const double mu = ground_.sliding_friction;
   const AlongGround force{mu * load.slip_east, planar_ ? 0 : mu * load.slip_north};
-  const Vector3 at_centre = load.pressure_centre().cross(along(view, force));
-  return {force, planar_ ? 0 : view.normal().dot(mu * load.slip_moment - at_centre)};
+  return {force, mu * load.slip_moment - load.pressure_centre().cross(along(view, force)), load.slip_range.width()};
 }
 
 AlongGround ContactSystem::response(const ContactState& y, const Vector3& u, const AlongGround& impulse) const {
   const GroundView view = this->view(y);
-  const Vector3 moment = u.cross(along(view, impulse));
-  const Vector3 turning = (planar_ ? Vector3(north_ * (north_.dot(moment) / north_.dot(body_.inertia() * north_)))
-                                   : Vector3(body_.inverse_inertia() * moment)).cross(u);
+  const Vector3 turning = response(u.cross(along(view, impulse))).cross(u);
   return {impulse.east / body_.mass() + view.east.dot(turning),
           planar_ ? 0 : impulse.north / body_.mass() + view.north.dot(turning)};
+}
+
+AlongGround ContactSystem::response(const ContactState& y, const Vector3& u, const Vector3& angular_impulse) const {
+  const GroundView view = this->view(y);
+  const Vector3 turning = response(angular_impulse).cross(u);
+  return {view.east.dot(turning), planar_ ? 0 : view.north.dot(turning)};
+}
+
+double ContactSystem::vertical_spin(const ContactState& y) const {
+  const GroundView view = this->view(y);
+  return view.normal().dot(view.angular_velocity);
 }
 
 AlongGround ContactSystem::sticking_ratio(const Vector3& u) const {

@@ -21,6 +21,8 @@ struct FrictionPhase {
   Kind kind = Kind::none;
   AlongGround direction;  ///< of slip when the phase or the step began, unit
   bool varies = false;    ///< whether the direction of slip varies over the patch noticeably
+  double floor = 0;       ///< local law: see SlipField [m/s]
+  bool turns = false;     ///< local law: the points slip differently, so that none holds by static friction
   /// Slip slower than this has no direction but that above: rounding must not choose it [m/s].
   double slow = 0;
   /// In stick a remaining slip of the pressure centre fades at this rate [1/s].
@@ -46,21 +48,23 @@ struct ContactDiagnosis {
   Vector3 centre = Vector3::Zero();  ///< of pressure, body frame [m]
   AlongGround slip;              ///< velocity of the body there, along the ground [m/s]
   double spin = 0;               ///< angular velocity about the vertical [rad/s]
+  Vector3 couple = Vector3::Zero();  ///< moment of friction about the pressure centre, body frame [N·m]
 };
 
-/// The local law's resultant and its moment about the vertical through the pressure centre.
+/// The local law's resultant and its moment about the pressure centre.
 struct LocalFriction {
-  AlongGround force;  ///< [N]
-  double twist = 0;   ///< [N·m]
+  AlongGround force;                  ///< [N]
+  Vector3 couple = Vector3::Zero();   ///< body frame [N·m]
+  double range = 0;                   ///< of slip velocities over the patch [m/s]
 };
 
 ///     m V̇ = F_c − m g e_z,   I ω̇′ + ω′ × I ω′ = M′,   β̇ = ½ β ω′,
 ///     F_c = F_n e_z + F_t,   M′ = ∫f_n u × n′ + (friction)
 /// Slip: F_t = −μ_k F_n d at the pressure centre c, d the direction of the slip velocity there; if the body spins
-/// about the vertical, −μ_k ∫f_n v/|v| over the patch taken as flat, with its moment about the vertical.  (The slip of its points differs by the turning
-/// about the horizontal times their depth too; that is left out: the patch would slip forth and back at once
-/// whenever it is about to stick.)  Stick: F_t at c such that
+/// about the vertical, −μ_k ∫f_n v/|v| over the patch taken as flat, with its moment about the vertical.  (The slip of
+/// its points differs by the turning about the horizontal times their depth too: FrictionLaw::local.)
 /// Local slip: −μ_k ∫f_n v/|v|, v the velocity of each point, with its moment.
+/// Stick: F_t at c such that
 ///     d/dt v_t(c) = [V̇ + ω̇ × c + ω × (ω × c) + ω × ċ]_t = 0,
 /// ċ being the pressure centre's motion over the body, so that c stays at rest although it moves
 /// (or comes to rest, like exp(−fading × time), if it was caught with a little slip left).  |F_t| <= μ_s F_n: stick
@@ -73,6 +77,13 @@ class ContactSystem {
   void begin(const MotionState& touch);
   [[nodiscard]] ContactState initial() const;
   [[nodiscard]] MotionState motion(const ContactState& y) const;
+
+  /// μ_s, or μ_k where nothing is at rest.
+  [[nodiscard]] double stick_coefficient() const {
+    return phase_.turns ? ground_.sliding_friction : ground_.static_friction;
+  }
+  /// Angular velocity about the vertical [rad/s].
+  [[nodiscard]] double vertical_spin(const ContactState& y) const;
 
   void set_phase(const FrictionPhase& phase) { phase_ = phase; }
   [[nodiscard]] const FrictionPhase& phase() const { return phase_; }
@@ -92,6 +103,8 @@ class ContactSystem {
   [[nodiscard]] LocalFriction local_friction(const ContactState& y, const AlongGround& shift);
   /// Change of velocity of the body's point u along the ground by an impulse there [m/s].
   [[nodiscard]] AlongGround response(const ContactState& y, const Vector3& u, const AlongGround& impulse) const;
+  /// The same by an angular impulse [N·m·s], body frame.
+  [[nodiscard]] AlongGround response(const ContactState& y, const Vector3& u, const Vector3& angular_impulse) const;
   /// Static energy and force at a depth below the touch-down pose, for the scales of time and depth.
   [[nodiscard]] ContactLoad pressed(double depth);
 

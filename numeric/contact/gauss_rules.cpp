@@ -55,7 +55,7 @@ std::span<const GaussNode> gauss_rule(int n) {
 }
 
 int gauss_order(double ellipse) {
-  constexpr double digits = 38.4;  // −ln(eps/10)
+  constexpr double digits = 34.5;  // −ln 1e-15
   constexpr int for_polynomial = 2;
   const double wanted = std::ceil(digits / (2 * std::log(ellipse))) + for_polynomial;
   return wanted < most_gauss_nodes ? std::max(static_cast<int>(wanted), for_polynomial + 1) : most_gauss_nodes;

@@ -27,10 +27,11 @@ enum class FrictionLaw {
   /// presumed sticking location", as in `coulomb`.)  While the patch turns about the horizontal its points slip at
   /// different speeds, over a range of about |ω| times the depth, and at most a line of them rests: friction changes
   /// continuously from −μ_k F_n to μ_k F_n while the slip of the pressure centre crosses that range, and nothing
-  /// sticks.  Where the range is below what the tolerance resolves (slip_resolution, contact_run.cpp) the patch
+  /// sticks.  Where the range is below what the tolerance resolves (slip_resolution, local_slip.cpp) the patch
   /// counts as a point, as in `coulomb`: that is the law's limit, with the resultant that keeps the point at rest, at
   /// most μ_k F_n.  The equations are stiff there, and since the slip forgets its start at the rate μ_k F_n over
-  /// mass times range, the error is of second order.  μ_s has a place where nothing turns alone.
+  /// mass times range, the error is of second order.  A facet that lies flat slips as one while others do not: there
+  /// v/√(v² + v_r²) with a v_r below the resolution stands for v/|v|.  μ_s has a place where nothing turns alone.
   local,
 };
 

@@ -13,8 +13,9 @@ namespace {
 
 constexpr double least_ellipse = 2.6;     ///< ρ from which Gauss's rule is taken
 constexpr double least_smooth_ellipse = 3.1;  ///< ρ from which it is taken for a whole triangle
-constexpr double near_sizes = 1.5;        ///< distance of p₀ from the middle, in sizes, up to which (1) cancels little
-constexpr int deepest_halving = 27;       ///< a part of 2^−27 adds less than eps: what it bounds is continuous
+constexpr double near_sizes = 3;          ///< distance of p₀ from the middle, in sizes, up to which (1) cancels little
+constexpr double least_part = 2e-8;       ///< of the size: a lower part errs by less than its square
+constexpr double flat_part = 1e-15;       ///< of the size: the height of an edge that is rounding
 constexpr double no_slip_part = 1e-15;    ///< of the largest slip: below it, rounding
 
 double cross(const PlanePoint& a, const PlanePoint& b) { return a.x * b.y - a.y * b.x; }
@@ -133,10 +134,11 @@ SlipIntegrals add_up_edges(const SlipPatch& patch, const PlanePoint& fixed) {
   return sum;
 }
 
-/// Sums over triangles: along the steepest direction of the slip in closed form, across it by Gauss's rule.
+/// Sums over the strips between the polygon's edges and a line across the steepest direction of the slip: along that
+/// direction in closed form, across it by Gauss's rule.
 class Strips {
  public:
-  Strips(const SlipPatch& patch, const Survey& s) : patch_(patch) {
+  Strips(const SlipPatch& patch, const Survey& s) : patch_(patch), size_(s.size) {
     const PlaneLinear &e = patch.east, &n = patch.north;
     const double xx = e.x * e.x + n.x * n.x, yy = e.y * e.y + n.y * n.y, xy = e.x * e.y + n.x * n.y;
     const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
@@ -146,11 +148,19 @@ class Strips {
     drift_ = {e.along(across), n.along(across)};
     const double speed = std::sqrt(rise_.square());
     const double sideways = std::fabs(rise_.cross(s.slip)) / speed + std::fabs(rise_.cross(drift_)) / speed * 2 * s.size;
+    // The line on which the slip has no part along its steep change, or the nearest one through the polygon.
+    const double middle = turned(s.middle).along, least = middle - rise_.dot(s.slip) / rise_.square();
+    reference_ = std::clamp(least, middle - s.size, middle + s.size);
     aligned_ = std::hypot(sideways, patch.rounding) <= no_slip_part * s.fastest;
   }
 
   SlipIntegrals sum() {
-    for (int i = 2; i < patch_.count; ++i) add_triangle(patch_.corners[0], patch_.corners[i - 1], patch_.corners[i]);
+    Corner from = turned(patch_.corners[patch_.count - 1]);
+    for (int i = 0; i < patch_.count; ++i) {
+      const Corner to = turned(patch_.corners[i]);
+      add_edge(from, to);
+      from = to;
+    }
     return sum_;
   }
 
@@ -159,11 +169,12 @@ class Strips {
   struct Corner {
     double along, across;
   };
-  /// The strip of a triangle between two heights, and its two sides: along = at + slope × (across − from).
+  /// A side of a strip: along = at + slope × (across − from).
   struct Side {
     double from, at, slope;
     [[nodiscard]] double along(double across) const { return at + slope * (across - from); }
   };
+  /// From the reference line to an edge.
   struct Strip {
     Side left, right;
     double sign;
@@ -177,24 +188,12 @@ class Strips {
   }
   [[nodiscard]] SlipVector slip(double along, double across) const { return slip_at(patch_, back(along, across)); }
 
-  static Side side(const Corner& a, const Corner& b) {
-    return {a.across, a.along, (b.along - a.along) / (b.across - a.across)};
-  }
-
-  void add_triangle(const PlanePoint& p, const PlanePoint& q, const PlanePoint& r) {
-    Corner c[3] = {turned(p), turned(q), turned(r)};
-    const double orientation = cross(minus(q, p), minus(r, p)) > 0 ? 1 : -1;
-    std::sort(c, c + 3, [](const Corner& a, const Corner& b) { return a.across < b.across; });
-    if (!(c[2].across > c[0].across)) return;
-    const Side whole = side(c[0], c[2]);
-    const bool bulges_right = c[1].along > whole.along(c[1].across);
-    const auto add = [&](const Corner& a, const Corner& b) {
-      if (!(b.across > a.across)) return;
-      const Side other = side(a, b);
-      add_strip({bulges_right ? whole : other, bulges_right ? other : whole, orientation}, a.across, b.across);
-    };
-    add(c[0], c[1]);
-    add(c[1], c[2]);
+  /// The signed area between the reference line and the edge.
+  void add_edge(const Corner& a, const Corner& b) {
+    if (!(std::fabs(a.across - b.across) > flat_part * size_)) return;
+    const Side edge{a.across, a.along, (b.along - a.along) / (b.across - a.across)};
+    const double low = std::min(a.across, b.across), high = std::max(a.across, b.across);
+    add_strip({{a.across, reference_, 0}, edge, b.across > a.across ? 1.0 : -1.0}, low, high);
   }
 
   /// Cuts where a side crosses the line on which the slip has no part along its steep change, and where it has no part
@@ -214,16 +213,16 @@ class Strips {
     for (int i = 1; i < count; ++i) {  // std::sort of so few makes g++ 12 warn
       for (int j = i; j > 0 && cuts[j] < cuts[j - 1]; --j) std::swap(cuts[j], cuts[j - 1]);
     }
-    for (int i = 1; i < count; ++i) add_part(strip, cuts[i - 1], cuts[i], 0);
+    for (int i = 1; i < count; ++i) add_part(strip, cuts[i - 1], cuts[i]);
   }
 
-  void add_part(const Strip& strip, double low, double high, int halvings) {
+  void add_part(const Strip& strip, double low, double high) {
     if (!(high > low)) return;
     const double ellipse = aligned_ ? std::numeric_limits<double>::infinity() : part_ellipse(strip, low, high);
-    if (ellipse < least_ellipse && halvings < deepest_halving) {
+    if (ellipse < least_ellipse && high - low > least_part * size_) {
       const double middle = (low + high) / 2;
-      add_part(strip, low, middle, halvings + 1);
-      add_part(strip, middle, high, halvings + 1);
+      add_part(strip, low, middle);
+      add_part(strip, middle, high);
       return;
     }
     const double half = (high - low) / 2, middle = (high + low) / 2;
@@ -263,8 +262,10 @@ class Strips {
   }
 
   const SlipPatch& patch_;
+  double size_;                ///< of the polygon [m]
   PlanePoint steep_;           ///< unit vector along which the slip changes most
   SlipVector rise_, drift_;    ///< its slopes along that and across
+  double reference_ = 0;       ///< coordinate along of the strips' common side [m]
   bool aligned_ = false;       ///< all slip is along `rise_`, to rounding
   SlipIntegrals sum_;
 };
@@ -284,10 +285,10 @@ SlipIntegrals slip_integrals(const SlipPatch& patch) {
   if (patch.count < 3) return {};
   const Survey s = survey(patch);
   if (!(s.fastest > 0) || !(s.size > 0)) return {};
-  const double ellipse = smooth_ellipse(patch, s);
-  if (ellipse >= least_smooth_ellipse) return add_up_fan(patch, gauss_order(ellipse));
   PlanePoint fixed;
   if (patch.rounding == 0 && near_fixed_point(patch, s, fixed)) return add_up_edges(patch, fixed);
+  const double ellipse = smooth_ellipse(patch, s);
+  if (ellipse >= least_smooth_ellipse) return add_up_fan(patch, gauss_order(ellipse));
   return Strips(patch, s).sum();
 }
 

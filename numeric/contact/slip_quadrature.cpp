@@ -46,11 +46,16 @@ void add_split(const ContactPolygon& polygon, double weight, const GroundView& v
   }
 }
 
-void widen(const BodySlip& slip, const ContactPolygon& polygon, bool planar, ContactLoad& load) {
+/// Widens the load's range of slip by the polygon's, which is returned.
+SlipRange widen(const BodySlip& slip, const ContactPolygon& polygon, bool planar, ContactLoad& load) {
+  SlipRange range;
   for (int i = 0; i < polygon.count; ++i) {
     const Vector3& u = polygon.corners[i].position;
-    load.slip_range.add(slip.east + slip.east_slope.dot(u), planar ? 0 : slip.north + slip.north_slope.dot(u));
+    const double east = slip.east + slip.east_slope.dot(u), north = planar ? 0 : slip.north + slip.north_slope.dot(u);
+    range.add(east, north);
+    load.slip_range.add(east, north);
   }
+  return range;
 }
 
 }  // namespace
@@ -58,8 +63,10 @@ void widen(const BodySlip& slip, const ContactPolygon& polygon, bool planar, Con
 void add_slip(const ContactPolygon& polygon, double weight, const GroundView& view, const Ground& ground,
               const SlipField& field, SlipScratch& scratch, ContactLoad& load) {
   const BodySlip slip = body_slip(polygon.origin, view, field);
-  widen(slip, polygon, field.planar, load);
-  if (field.planar && field.regularisation == 0) return add_split(polygon, weight, view, ground, slip, scratch, load);
+  const SlipRange range = widen(slip, polygon, field.planar, load);
+  const double rounding = range.width() > SlipField::alike * field.floor ? field.regularisation
+                                                                         : std::max(field.regularisation, field.floor);
+  if (field.planar && rounding == 0) return add_split(polygon, weight, view, ground, slip, scratch, load);
   const Vector3 along = polygon.normal.unitOrthogonal(), across = polygon.normal.cross(along);
   for (int i = 0; i < polygon.count; ++i) {
     const Vector3& u = polygon.corners[i].position;
@@ -72,7 +79,7 @@ void add_slip(const ContactPolygon& polygon, double weight, const GroundView& vi
   const double rate = -(view.vertical_speed + rate_slope.dot(polygon.origin));
   SlipPatch patch{scratch.corners.data(), polygon.count, over_plane(-view.height(polygon.origin), -normal),
                   over_plane(ground.stiffness + ground.damping * rate, -ground.damping * rate_slope),
-                  over_plane(slip.east, slip.east_slope), over_plane(slip.north, slip.north_slope), field.regularisation};
+                  over_plane(slip.east, slip.east_slope), over_plane(slip.north, slip.north_slope), rounding};
   if (field.planar) patch.north = {};
   const SlipIntegrals sums = slip_integrals(patch);
   const auto moment = [&](double value, double x, double y) -> Vector3 {

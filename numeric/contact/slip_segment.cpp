@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
 
 #include "numeric/contact/gauss_rules.hpp"
@@ -20,13 +19,14 @@ struct Slowest {
 Slowest slowest(const SlipVector& slip, const SlipVector& change, double rounding) {
   const double square = change.square();
   const double across = slip.cross(change) / square, rounded = rounding / std::sqrt(square);
-  return {-slip.dot(change) / square, std::hypot(across, rounded)};
+  return {-slip.dot(change) / square, std::sqrt(across * across + rounded * rounded)};
 }
 
+/// By the distances of the complex zero from the ends, the foci.
 double ellipse_of(const Slowest& place) {
-  const std::complex<double> z(place.at, place.width);
-  const std::complex<double> root = std::sqrt(z * z - 1.0);
-  return std::max(std::abs(z + root), std::abs(z - root));
+  const double square = place.width * place.width, before = place.at + 1, after = place.at - 1;
+  const double sum = (std::sqrt(before * before + square) + std::sqrt(after * after + square)) / 2;
+  return sum + std::sqrt(std::max(sum * sum - 1, 0.0));
 }
 
 /// A polynomial of degree up to 3.
@@ -62,7 +62,7 @@ struct RootIntegrals {
 };
 
 RootIntegrals root_integrals(double from, double to, double width) {
-  const double a = std::hypot(from, width), b = std::hypot(to, width), square = width * width;
+  const double square = width * width, a = std::sqrt(from * from + square), b = std::sqrt(to * to + square);
   RootIntegrals r;
   r.m[0] = width > 0 ? std::asinh(to / width) - std::asinh(from / width) : 0;
   r.m[1] = b - a;

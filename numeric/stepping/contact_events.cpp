@@ -53,7 +53,7 @@ double ContactRun::slip_forward(const ContactInstant& at) const {
 
 double ContactRun::stick_reserve(const ContactInstant& at) const {
   const double force = at.diagnosis.load.force;
-  return force > 0 ? system_.ground().static_friction * force - at.diagnosis.hold.norm() : 0;
+  return force > 0 ? system_.stick_coefficient() * force - at.diagnosis.hold.norm() : 0;
 }
 
 /// Where the contact begins and ends, the forces that decide between slip and stick are rounding.
@@ -96,7 +96,7 @@ void ContactRun::change_phase() {
   log_.close(system_.phase(), sums());
   const AlongGround hold = kind == Kind::stick ? trial_.diagnosis.hold : system_.sticking_force(trial_.state);
   const double normal = trial_.diagnosis.load.force;
-  const bool can_hold = kind == Kind::slip && hold.norm() <= system_.ground().static_friction * normal;
+  const bool can_hold = kind == Kind::slip && hold.norm() <= system_.stick_coefficient() * normal;
   if (can_hold) {
     start_phase(Kind::stick, {});
   } else {

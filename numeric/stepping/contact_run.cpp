@@ -21,6 +21,7 @@ constexpr double slow_part = 0.1;
 /// Part of the speed and acceleration of a fall below which a body lies still, and how many times the tolerance the
 /// errors of steps keep up, so that a rough run ends too.
 constexpr double least_rest = 1e-6, largest_rest = 1e-5, noise_per_tolerance = 300;
+constexpr double least_spin = 1;             ///< times tolerance and the contact's speed: slip from spin that counts
 constexpr double fading_per_contact = 50;    ///< rate at which stick ends a remaining slip, times the contact time
 
 }  // namespace
@@ -51,6 +52,7 @@ ContactResult ContactRun::run(const MotionState& touch, const Vector3& point, co
 void ContactRun::begin(const MotionState& touch, const Vector3& point) {
   weigh_errors();
   log_.begin(scales_, system_.body().mass());
+  local_slip_.begin();
   switches_ = 0;
   touches_.begin();
   now_.time = 0;
@@ -80,6 +82,7 @@ void ContactRun::collect() {
   result_.work_friction = now_.state[15];
   result_.energy_stored = now_.diagnosis.load.energy;
   result_.mode = mode();
+  result_.local_slip = local_slip_.impulse();
   result_.touches = std::max(touches_.touches(), 1);
   result_.end = touches_.touched_a() && touches_.touched_b() ? ContactEnd::both
                 : touches_.touched_a()                        ? ContactEnd::a
@@ -117,10 +120,19 @@ void ContactRun::choose_first_phase(const MotionState& touch, const Vector3& poi
 void ContactRun::start_phase(FrictionPhase::Kind kind, const AlongGround& direction) {
   log_.open(sums());
   stopping_speed_ = 0;
-  system_.set_phase({.kind = kind,
-                     .direction = direction,
-                     .slow = slow_part * std::sqrt(control_->tolerance) * scales_.speed,
-                     .fading = fading_per_contact / scales_.time});
+  FrictionPhase phase{.kind = kind,
+                      .direction = direction,
+                      .slow = slow_part * std::sqrt(control_->tolerance) * scales_.speed,
+                      .fading = fading_per_contact / scales_.time};
+  if (kind == Kind::slip && !system_.planar()) note_variation(phase);
+  system_.set_phase(phase);
+}
+
+/// Whether the patch spins noticeably; returns how fast its farthest point might.
+double ContactRun::note_variation(FrictionPhase& phase) const {
+  const double spin_speed = std::fabs(system_.vertical_spin(now_.state)) * system_.body().radius();
+  phase.varies = spin_speed > least_spin * control_->tolerance * scales_.speed;
+  return spin_speed;
 }
 
 FrictionLog::Sums ContactRun::sums() const {
@@ -188,8 +200,11 @@ bool ContactRun::advance(double& h) {
   if (!find_step(h, next)) return false;
   bool lifts = !(trial_.diagnosis.load.deepest > 0);
   if (lifts && now_.diagnosis.load.deepest > 0) h = lift_off_time(h, trial_);
+  const double began = now_.time;
   if (handle_friction_event(h)) lifts = false;
   else accept(trial_);
+  if (control_->estimate_local_slip) local_slip_.advance(system_, trial_.state, trial_.diagnosis, now_.time - began);
+  if (!lifts) watch_local_slip();
   h = next;
   const bool goes_on = !control_->observe || control_->observe(now_);
   if (lifts) return end(ContactEnding::lift_off);
@@ -212,8 +227,7 @@ void ContactRun::accept(const ContactInstant& next) {
                             slip.north + phase.slow * phase.direction.north};
   const double size = leaning.norm();
   if (now_.diagnosis.load.force > 0 && size > 0) phase.direction = leaning * (1 / size);
-  const double spin_speed = std::fabs(now_.diagnosis.spin) * system_.body().radius();
-  phase.varies = spin_speed > 100 * control_->tolerance * scales_.speed;
+  const double spin_speed = note_variation(phase);
   // Spin keeps the friction of a slow patch from stopping it in a finite time: it counts as stopped before.
   const double stopped = 1e-4 * spin_speed;
   stopping_speed_ = phase.varies && speed > 2 * stopped ? stopped : 0;
@@ -257,7 +271,8 @@ bool ContactRun::goes_on_for_ever() const {
 FrictionMode ContactRun::mode() const {
   const Ground& ground = system_.ground();
   if (!ground.has_friction()) return FrictionMode::frictionless;
-  return ground.friction == FrictionLaw::regularised ? FrictionMode::regularised : log_.mode();
+  if (ground.friction == FrictionLaw::regularised) return FrictionMode::regularised;
+  return ground.friction == FrictionLaw::local ? FrictionMode::local : log_.mode();
 }
 
 }  // namespace clatter::numeric

@@ -8,6 +8,7 @@
 #include "numeric/impact_record.hpp"
 #include "numeric/stepping/contact_scales.hpp"
 #include "numeric/stepping/friction_log.hpp"
+#include "numeric/stepping/local_slip.hpp"
 #include "numeric/stepping/stepper.hpp"
 #include "numeric/stepping/touch_counter.hpp"
 
@@ -27,6 +28,7 @@ struct ContactControl {
   double first_step = 0;     ///< length of the first fixed step [s], at most `step`; 0: as the others
   double steps_per_contact = 300;
   long evaluation_limit = 0;  ///< of the system's count, at which the run stops
+  bool estimate_local_slip = false;  ///< see ContactResult::local_slip
   /// Called after every accepted step, and before that with a peak of the force inside it; return false to stop.
   std::function<bool(const ContactInstant&)> observe = nullptr;
 };
@@ -54,6 +56,9 @@ struct ContactResult {
   bool submerged = false;  ///< see ImpactRecord
   ContactEnd end = ContactEnd::middle;
   ContactScales scales;
+  /// Change of the tangential impulse that FrictionLaw::local would make of a contact with FrictionLaw::coulomb,
+  /// estimated (LocalSlipEstimate) if asked for [N·s].
+  double local_slip = 0;
   double step = 0;        ///< fixed step used [s]; 0: adaptive
 };
 
@@ -92,6 +97,9 @@ class ContactRun {
   [[nodiscard]] bool is_faint(const ContactInstant& at) const;
   [[nodiscard]] bool phase_is_over(const ContactInstant& at) const;
   void start_phase(FrictionPhase::Kind kind, const AlongGround& direction);
+  void watch_local_slip();
+  void change_kind(const FrictionPhase& from, FrictionPhase::Kind kind, const AlongGround& direction);
+  double note_variation(FrictionPhase& phase) const;
   [[nodiscard]] FrictionLog::Sums sums() const;
   [[nodiscard]] bool is_steady(const ContactInstant& at) const;
   [[nodiscard]] bool goes_on_for_ever() const;
@@ -109,6 +117,7 @@ class ContactRun {
   ContactInstant now_, trial_, probe_, peak_, faint_;
   ContactResult result_;
   FrictionLog log_;
+  LocalSlipEstimate local_slip_;
   double stopping_speed_ = 0;  ///< slip at which the slip phase ends [m/s]
   int switches_ = 0;  ///< of friction since the last accepted step
 };

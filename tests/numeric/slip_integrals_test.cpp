@@ -235,9 +235,9 @@ class Draw {
 constexpr Middle places[] = {Middle::inside, Middle::on_an_edge, Middle::at_a_corner, Middle::beside, Middle::far,
                              Middle::anywhere};
 #ifdef CLATTER_TEST_SLOW_BUILD
-constexpr int scenes_each = 4;
+constexpr int scenes_each = 1;
 #else
-constexpr int scenes_each = 12;
+constexpr int scenes_each = 3;
 #endif
 
 double worst_of(double log_condition, double rounding_part) {

@@ -31,6 +31,7 @@ Json impact_json(const ImpactRecord& row, int n) {
   Json json, errors;
   for_each_entry(row, n, [&](const char* name, const auto& value) { json[name] = entry_json(value); });
   for_each_error(row, [&](const char* name, const auto& error) { errors[name] = entry_json(error); });
+  json["local_slip"] = number_or_null(row.local_slip);
   json["error_estimate"] = errors;
   return json;
 }
@@ -113,6 +114,20 @@ std::string accuracy_words(const SimulationScene& scene, const PlannedRun& plann
                      significant(planned.achieved, 1));
 }
 
+/// What the scene's law of friction leaves out, if that exceeds the digits asked.
+std::string local_slip_words(const SimulationScene& scene, const Simulation& run) {
+  double largest = 0;
+  std::size_t worst = 0;
+  for (std::size_t i = 0; i < run.impacts.size(); ++i) {
+    largest = std::max(largest, run.impacts[i].value.impulse.norm());
+    if (run.impacts[i].local_slip > run.impacts[worst].local_slip) worst = i;
+  }
+  if (run.impacts.empty() || !(run.impacts[worst].local_slip > std::pow(10.0, -scene.options.digits) * largest)) return "";
+  return fmt::format("coulomb takes the patch as flat: with each place's own slip (friction_law = \"local\") the tangential "
+                     "impulse of impact {} would change by about {} N·s, and what follows with it",
+                     worst + 1, significant(run.impacts[worst].local_slip, 1));
+}
+
 std::vector<std::string> notes_of(const SimulationScene& scene, const PlannedRun& planned) {
   const Simulation& run = planned.run;
   std::vector<std::string> notes;
@@ -125,6 +140,8 @@ std::vector<std::string> notes_of(const SimulationScene& scene, const PlannedRun
     notes.push_back(fmt::format("Sum of normal impulses: {} N·s; the ledger of energy closes to {}",
                                 total_words(scene, planned), significant(gap, 1)));
   }
+  const std::string local_slip = local_slip_words(scene, run);
+  if (!local_slip.empty()) notes.push_back(local_slip);
   notes.push_back(method_words(run));
   const std::string accuracy = accuracy_words(scene, planned);
   if (!accuracy.empty()) notes.push_back(accuracy);
@@ -201,6 +218,8 @@ Json simulation_json(const SimulationScene& scene, const PlannedRun& planned) {
   json["outcome"] = outcome_name(run.outcome);
   json["warnings"] = planned.warnings;
   json["message"] = run.message + "; restitution is null where an impact has several touches";
+  const std::string local_slip = local_slip_words(scene, run);
+  json["notes"] = local_slip.empty() ? Json::array() : Json::array({local_slip});
   json["method"] = method_name(run.method);
   json["tolerance"] = run.tolerance > 0 ? Json(run.tolerance) : Json(nullptr);
   json["step"] = run.step > 0 ? Json(run.step) : Json(nullptr);

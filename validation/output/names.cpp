@@ -103,6 +103,8 @@ const char* mode_name(FrictionMode mode) {
       return "reverse-slip";
     case FrictionMode::regularised:
       return "regularised";
+    case FrictionMode::local:
+      return "local";
   }
   return "";
 }

@@ -42,7 +42,7 @@ constexpr Range angle_range{0, 90, false, "from 0 to 90 degrees"};
 const std::vector<std::string> shape_names{"rod", "box", "mesh"};
 const std::vector<std::string> law_names{"newton", "poisson", "stronge"};
 const std::vector<std::string> area_names{"surface", "projected"};
-const std::vector<std::string> friction_law_names{"coulomb", "regularised"};
+const std::vector<std::string> friction_law_names{"coulomb", "regularised", "local"};
 const std::vector<std::string> method_names{"auto", "tvd-rk3", "rk4", "rkf45", "rkck", "rk8pd"};
 const std::vector<std::string> sweep_names{"angle_deg", "sliding_friction"};
 
@@ -308,9 +308,11 @@ std::string in_powers(double value) {
 
 std::string friction_words(const numeric::Ground& ground) {
   if (!ground.has_friction()) return "no friction";
-  const std::string law = ground.friction == FrictionLaw::regularised
-                              ? fmt::format(", regularised at {} m/s", shortest(ground.regularisation_speed))
-                              : "";
+  std::string law;
+  if (ground.friction == FrictionLaw::regularised) {
+    law = fmt::format(", regularised at {} m/s", shortest(ground.regularisation_speed));
+  }
+  if (ground.friction == FrictionLaw::local) law = ", each place by its own slip";
   if (ground.static_friction == ground.sliding_friction) {
     return fmt::format("friction μ = {}{}", shortest(ground.sliding_friction), law);
   }
