@@ -160,7 +160,12 @@ void end_state(const BodyMotion& motion, Tail& tail) {
   const double normal = tail.normal_impulse, tangential = tail.tangential_impulse;
   tail.after = {.tangential = v.tangential + tangential / body.mass};
   tail.after_error = {.tangential = tail.tangential_impulse_error / body.mass};
-  if (std::popcount(tail.vertices) != 1) return;
+  if (std::popcount(tail.vertices) != 1) {
+    const double share = std::fmin(tail.normal_impulse_error / normal, 1.0);  // of the motion that may be left
+    tail.after_error.normal = share * std::fabs(v.normal);
+    tail.after_error.angular = share * std::fabs(v.angular);
+    return;
+  }
   const ContactPoint d = motion.contact_point(std::countr_zero(tail.vertices));
   const double inertia = body.mass * body.gyration_square;
   const double way = (std::fabs(v.angular) + (normal + std::fabs(tangential)) * body.reach() / inertia) * body.reach() *

@@ -249,6 +249,8 @@ void judge_bars(const BarScene& scene, int impacts, BarCoverage& coverage) {
     return;  // the first contact recedes
   } catch (const analytic::OutsideModelError&) {
     return;
+  } catch (const analytic::NumericalError&) {
+    return;  // energy that an impulse ratio creates has carried the body off
   }
   ++coverage.scenes;
   const oracle::EventSequence<Real> truth = exact(scene, impacts);

@@ -31,7 +31,7 @@ struct BarScene {
 
 /// How many numbers lie within their bars.
 struct BarCoverage {
-  long scenes = 0;       ///< compared: without those whose first contact recedes or that jam
+  long scenes = 0;       ///< compared: without those whose first contact recedes, that jam or fly off
   long rows = 0;         ///< impacts
   long predictable = 0;  ///< rows that are said to be known
   long rows_inside = 0;  ///< of these, with each number within its bar
