@@ -3,113 +3,18 @@
 CLATTER_PROGRAM is the program.
 """
 
-import http.client
 import json
 import os
 import re
-import select
 import signal
 import socket
 import subprocess
-import sys
 import tempfile
 import threading
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
-from waiting import until  # noqa: E402
-
-PROGRAM = os.environ["CLATTER_PROGRAM"]
-JSON = {"Content-Type": "application/json"}
-# A step so short that the contact would take for ever; the limit of force evaluations ends it after many seconds.
-LONG = {"case": "rod-45", "method": "tvd-rk3", "step": 1e-12}
-
-
-class Demo:
-    """A running server, on a port that was free."""
-
-    def __init__(self, *arguments):
-        # No answer that a test waits for is late, however busy the machine is.
-        limit = [] if "--seconds" in arguments else ["--seconds", "80000"]
-        self.process = subprocess.Popen([PROGRAM, "demo", *arguments, *limit], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                                        preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL))  # also under nohup
-        self.line = self.process.stdout.readline()
-        self.port = int(re.search(r"127\.0\.0\.1:(\d+)/", self.line)[1])
-
-    def ask(self, method, path, body=None, headers=None):
-        """(status, headers, text)"""
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=3000)
-        try:
-            connection.request(method, path, body, headers or {})
-            answer = connection.getresponse()
-            return answer.status, dict(answer.getheaders()), answer.read().decode()
-        finally:
-            connection.close()
-
-    def post(self, path, arguments, **headers):
-        return self.ask("POST", path, json.dumps(arguments), {**JSON, **headers})
-
-    def raw(self, text):
-        """The first line of the answer to bytes that no library would send."""
-        with socket.create_connection(("127.0.0.1", self.port), 3000) as connection:
-            connection.sendall(text)
-            return connection.makefile("rb").readline().decode().strip()
-
-    def send(self, path, arguments, end=b""):
-        """A connection on which a request has been sent."""
-        body = json.dumps(arguments).encode()
-        connection = socket.create_connection(("127.0.0.1", self.port), 3000)
-        connection.sendall(b"POST %s HTTP/1.1\r\nHost: 127.0.0.1:%d\r\nContent-Type: application/json\r\nContent-Length: %d\r\n\r\n%s%s"
-                           % (path.encode(), self.port, len(body), body, end))
-        return connection
-
-    def computing(self):
-        """Processes that compute answers."""
-        with open(f"/proc/{self.process.pid}/task/{self.process.pid}/children", encoding="ascii") as file:
-            return [int(pid) for pid in file.read().split()]
-
-    def stop(self):
-        self.process.send_signal(signal.SIGINT)
-        out, err = self.process.communicate(timeout=3000)
-        return self.process.returncode, out, err
-
-
-def received(connection):
-    """All that comes until the other side closes."""
-    text = b""
-    try:
-        while part := connection.recv(65536):
-            text += part
-    except ConnectionResetError:
-        pass
-    return text
-
-
-def printed(*arguments):
-    return subprocess.run([PROGRAM, *arguments, "--format", "json"], capture_output=True, text=True, check=True).stdout
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
-
-
-class WithServer(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.demo = Demo("--port", str(free_port()))
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.status = cls.demo.stop()
-
-    def refused(self, answer, status, words):
-        self.assertEqual(answer[0], status, answer[2])
-        error = json.loads(answer[2])["error"]
-        self.assertIn(words, error)
-        self.assertNotIn("\n", error)
+from running_demo import JSON, PROGRAM, Demo, WithServer, free_port, printed
 
 
 class Answers(WithServer):
@@ -196,91 +101,6 @@ class Answers(WithServer):
         self.assertEqual(re.findall(r'<(?:script|link|img|iframe)[^>]+(?:src|href)="(?!data:)[^"]*"', markup), [])
 
 
-class Patience(unittest.TestCase):
-    """What clients do to the server does not keep it from the others."""
-
-    def setUp(self, *arguments):
-        self.demo = Demo("--port", str(free_port()), *arguments)
-        self.addCleanup(self.demo.process.stdout.close)
-        self.addCleanup(self.demo.process.stderr.close)
-        self.addCleanup(self.demo.process.wait)
-        self.addCleanup(self.demo.process.kill)
-        self.open = []
-        self.addCleanup(lambda: [connection.close() for connection in self.open])
-
-    def start_long(self, count=1):
-        before = len(self.demo.computing())
-        for _ in range(count):
-            self.open.append(self.demo.send("/api/simulate", LONG))
-        until(lambda: len(self.demo.computing()) >= min(before + count, 2), self.demo.process)
-        for pid in self.demo.computing():
-            os.kill(pid, signal.SIGSTOP)  # now it takes for ever
-
-    def answers(self):
-        self.assertEqual(self.demo.ask("GET", "/")[0], 200)
-        self.assertEqual(self.demo.post("/api/sequence", {"angle": 10})[2], printed("sequence", "--angle", "10"))
-
-    def test_five_hundred_idle_and_slow_connections_do_not_keep_others_from_an_answer(self):
-        for beginning in (b"", b"P", b"POST /api/sequence HTTP/1.1\r\nHost: 127.0",
-                          b"POST /api/sequence HTTP/1.1\r\nHost: 127.0.0.1:%d\r\nContent-Length: 13\r\n\r\n{" % self.demo.port):
-            for _ in range(125):
-                self.open.append(socket.create_connection(("127.0.0.1", self.demo.port), 3000))
-                self.open[-1].sendall(beginning)
-        self.answers()
-
-    def test_long_computations_do_not_keep_others_from_an_answer(self):
-        self.start_long(20)
-        self.answers()
-        self.assertEqual([one for one in self.open if select.select([one], [], [], 0)[0]], [])  # they still compute
-
-    def test_ctrl_c_ends_it_whatever_computes(self):
-        """Not after the answers: there are none."""
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-            if number != signal.SIGINT:
-                self.doCleanups()
-                self.setUp()
-            self.start_long(20)
-            children = self.demo.computing()
-            self.open.append(socket.create_connection(("127.0.0.1", self.demo.port), 3000))  # idle
-            self.demo.process.send_signal(number)
-            self.assertEqual(self.demo.process.wait(timeout=3000), 130)
-            self.assertEqual([pid for pid in children if os.path.exists(f"/proc/{pid}")], [])
-            for connection in self.open:
-                self.assertEqual(received(connection), b"")
-
-    def test_a_computation_whose_client_has_left_is_ended(self):
-        self.start_long(2)
-        for connection in self.open:
-            connection.close()
-        until(lambda: not self.demo.computing(), self.demo.process)
-        self.answers()
-
-    def test_a_client_that_leaves_before_its_turn_is_forgotten(self):
-        self.start_long(20)
-        running = self.demo.computing()
-        for connection in self.open[len(running):]:
-            connection.close()
-        for connection in self.open[:len(running)]:
-            connection.close()
-        until(lambda: not self.demo.computing(), self.demo.process)
-        self.answers()
-
-    def test_an_answer_that_takes_too_long_is_a_refusal(self):
-        self.doCleanups()
-        self.setUp("--seconds", "0.2")
-        for path in ("simulate", "compare"):
-            status, _, text = self.demo.post(f"/api/{path}", {"case": "rod-45", "method": "tvd-rk3", "step": 1e-12})
-            self.assertEqual((status, json.loads(text)["status"]), (503, 3))
-            self.assertIn("takes more than 0.2 s", json.loads(text)["error"])
-        self.assertEqual(self.demo.computing(), [])
-
-    def test_a_computation_that_breaks_off_is_500_and_harms_nobody(self):
-        self.start_long()
-        os.kill(self.demo.computing()[0], signal.SIGKILL)
-        self.assertIn(b" 500 ", received(self.open[0]))
-        self.answers()
-
-
 class Refusals(WithServer):
     def test_bad_input_is_400_with_the_reason(self):
         for path, arguments, words in (
@@ -336,41 +156,6 @@ class Refusals(WithServer):
     def test_a_body_over_64_kib_is_413(self):
         self.assertEqual(self.demo.ask("POST", "/api/sequence", b" " * 65536, JSON)[0], 400)
         self.refused(self.demo.ask("POST", "/api/sequence", b" " * 65537, JSON), 413, "64 KiB")
-
-    def test_a_chunked_body_obeys_the_same_limit(self):
-        head = (b"POST /api/sequence HTTP/1.1\r\nHost: 127.0.0.1:%d\r\nContent-Type: application/json\r\n"
-                b"Transfer-Encoding: chunked\r\n\r\n" % self.demo.port)
-        for sizes, status in (((12,), b"200"), ((1,) * 12, b"200"), ((65537,), b"413"), ((4096,) * 17, b"413"), ((1,) * 65537, b"413"),
-                              ((1 << 40,), b"413")):
-            body = b'{"angle":10}' if sum(sizes) == 12 else b" " * min(sum(sizes), 70000)
-            text, at = head, 0
-            for size in sizes:
-                text, at = text + b"%x\r\n" % size + body[at:at + size] + b"\r\n", at + size
-            self.assertEqual(self.demo.raw(text + b"0\r\n\r\n").encode().split()[1], status, sizes[:3])
-
-    def test_a_header_without_end_is_431(self):
-        self.assertIn("431", self.demo.raw(b"GET / HTTP/1.1\r\nX: " + b"x" * 20000))
-        self.assertIn("431", self.demo.raw(b"GET / HTTP/1.1\r\n" + b"X: x\r\n" * 5000))
-
-    def test_what_is_not_http_is_400(self):
-        for text in (b"\r\n\r\n", b"hello\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n", b"GET /\r\n\r\n", b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\r\n\r\n",
-                     b"GET / HTTP/1.1\r\nContent-Length: -1\r\n\r\n", b"GET / HTTP/1.1\r\nContent-Length: 99999999999999999999\r\n\r\n",
-                     b"POST /api/sequence HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\nxyz\r\n"):
-            self.assertIn("400", self.demo.raw(text), text)
-
-    def test_any_number_of_ranges_gets_the_page_once(self):
-        page = self.demo.ask("GET", "/")[2]
-        for ranges in ("0-9", "0-,0-,0-", ",".join(["0-"] * 500)):
-            status, headers, text = self.demo.ask("GET", "/", None, {"Range": "bytes=" + ranges})
-            self.assertEqual((status, text == page), (200, True), ranges[:20])
-            self.assertNotIn("multipart", headers["Content-Type"])
-
-    def test_a_header_that_says_who_asks_is_refused_twice(self):
-        own = b"127.0.0.1:%d" % self.demo.port
-        for twice in (b"Host: %s\r\nHost: %s\r\n" % (own, own), b"Host: %s\r\nHost: clatter.example\r\n" % own,
-                      b"Host: %s\r\nOrigin: http://%s\r\nOrigin: http://%s\r\n" % (own, own, own),
-                      b"Host: %s\r\nOrigin: http://%s\r\norigin: http://clatter.example\r\n" % (own, own)):
-            self.assertIn("403", self.demo.raw(b"GET / HTTP/1.1\r\n%s\r\n" % twice), twice)
 
     def test_a_body_of_another_type_is_415(self):
         self.refused(self.demo.ask("POST", "/api/sequence", "{}", {"Content-Type": "text/plain"}), 415, "application/json")
