@@ -6,17 +6,20 @@
 
 namespace clatter::analytic {
 
-/// Time, inclination, normal velocity and slip of the contact point, Ω, and the sum of the normal impulses so far.
+/// Time, inclination, normal velocity and slip of the contact point, Ω, and the sum of the normal
+/// impulses so far.
 inline constexpr std::size_t state_size = 6;
 using StateVector = std::array<double, state_size>;
 /// Rows: derivatives of one number of the new state with respect to the numbers of the old one.
 using StateMatrix = std::array<StateVector, state_size>;
 
-/// Independent errors of a state: column k of F holds what the k-th does to the state, so that the covariance is F Fᵀ.
+/// Independent errors of a state: column k of F holds what the k-th does to the state, so that the
+/// covariance is F Fᵀ.
 ///
-/// Errors of one state are strongly correlated, and what one step blows up the next may bring together again.  A bound
-/// for each number alone would lose that; the factor does not, and keeps the relative accuracy of each row, be the
-/// numbers as different in size as the time and the speed of the smallest bounce.
+/// Errors of one state are strongly correlated, and what one step blows up the next may bring
+/// together again.  A bound for each number alone would lose that; the factor does not, and keeps
+/// the relative accuracy of each row, be the numbers as different in size as the time and the speed
+/// of the smallest bounce.
 class ErrorFactor {
  public:
   /// One more independent error.

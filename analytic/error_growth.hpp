@@ -1,9 +1,10 @@
 // How errors of the start and of rounding grow along an impact sequence.
 //
-// The state (t, α, u, s, Ω, ΣP) of a body whose vertex touches the ground goes through impacts and flights by their
-// Jacobians, and with it independent errors: one unit in the last place of each number of the drop, and the rounding of
-// each step.  What a Jacobian cannot tell ends the prediction: a second vertex that arrives, or passes the ground, within
-// the error, and an error so large beside a graze that the root's parabola shows.
+// The state (t, α, u, s, Ω, ΣP) of a body whose vertex touches the ground goes through impacts and
+// flights by their Jacobians, and with it independent errors: one unit in the last place of each
+// number of the drop, and the rounding of each step.  What a Jacobian cannot tell ends the
+// prediction: a second vertex that arrives, or passes the ground, within the error, and an error so
+// large beside a graze that the root's parabola shows.
 #pragma once
 
 #include "analytic/body_motion.hpp"
@@ -18,7 +19,8 @@ class ErrorGrowth {
   /// @param motion before its first impact, in internal units (units.hpp); angle of the drop [rad]
   ErrorGrowth(const BodyMotion& motion, double angle);
 
-  /// Errors and amplification of a row whose impact `motion` has just had; errors go through the impact.
+  /// Errors and amplification of a row whose impact `motion` has just had; errors go through the
+  /// impact.
   void strike(const BodyMotion& motion, const ImpactLaw& law, ImpactRow& row);
   /// Errors go through the flight that `motion` has just flown; `flown.arrival` as it was found.
   void fly(const BodyMotion& motion, const FlownState& flown);
@@ -28,13 +30,17 @@ class ErrorGrowth {
   [[nodiscard]] bool predictable() const { return predictable_; }
   /// Bound on the error of the sum of the normal impulses so far [N·s].
   [[nodiscard]] double total_impulse() const;
-  /// Adds to the errors of a tail those of the state after the last impact, from which its sums begin.
+  /// Adds to the errors of a tail those of the state after the last impact, from which its sums
+  /// begin.
   void add_to(const BodyMotion& motion, Tail& tail) const;
 
  private:
   [[nodiscard]] double bound(const StateVector& gradient, double rounding) const;
-  [[nodiscard]] double alone(const StateVector& gradient) const { return deviations * factor_.deviation(gradient); }
-  void fill(const BodyMotion& motion, const StruckState& struck, const ImpactDerivatives& d, ImpactRow& row) const;
+  [[nodiscard]] double alone(const StateVector& gradient) const {
+    return deviations * factor_.deviation(gradient);
+  }
+  void fill(const BodyMotion& motion, const StruckState& struck, const ImpactDerivatives& d,
+            ImpactRow& row) const;
   [[nodiscard]] double amplification(const ImpactDerivatives& d, const ImpactRow& row) const;
   void add_rounding(const StruckState& struck, const Impact& impact);
   void advance(const StateMatrix& jacobian);
@@ -45,7 +51,8 @@ class ErrorGrowth {
   static constexpr double deviations = 3;
 
   ErrorFactor factor_;
-  StateVector of_angle_{}, of_speed_{};  ///< changes of the state for relative changes of the drop's angle and speed by 1
+  StateVector of_angle_{}, of_speed_{};  ///< changes of the state for relative changes of the
+                                         ///< drop's angle and speed by 1
   double curvature_ = 0;  ///< largest share of the second order so far, relative to the first
   double total_impulse_ = 0;
   bool predictable_ = true;

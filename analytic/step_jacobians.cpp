@@ -22,13 +22,15 @@ ImpactResponse point_response(const StruckState& struck, const Shift& by) {
   const ContactPoint d = inclined(struck.place, by.angle);
   const ContactVelocity contact{struck.contact.normal + by.normal, struck.contact.slip + by.slip};
   const double turn = struck.before.angular + by.turn;
-  const PlanarVelocity before{.normal = contact.normal + turn * d.tangential, .tangential = contact.slip - turn * d.normal,
+  const PlanarVelocity before{.normal = contact.normal + turn * d.tangential,
+                              .tangential = contact.slip - turn * d.normal,
                               .angular = turn};
   const Impact impact = strike(struck.body, before, contact, d, struck.law);
   const double mass = struck.body.mass;
   const double normal = impact.normal_impulse / mass, tangential = impact.tangential_impulse / mass;
   const ContactInertia inertia = contact_inertia(struck.body.gyration_square, d);
-  return {.normal = impact.normal_impulse, .tangential = impact.tangential_impulse,
+  return {.normal = impact.normal_impulse,
+          .tangential = impact.tangential_impulse,
           .separation = impact.separation_speed,
           .push = inertia.tangential * tangential - inertia.coupling * normal,
           .turn = (tangential * d.normal - normal * d.tangential) / struck.body.gyration_square};
@@ -39,9 +41,12 @@ ImpactResponse flat_response(const StruckState& struck, const Shift& by, const I
   const ContactPoint& d = struck.place;
   const double u = struck.contact.normal + by.normal, s = struck.contact.slip + by.slip;
   const double turn = struck.before.angular + by.turn;
-  const PlanarVelocity before{.normal = u + turn * d.tangential, .tangential = s - turn * d.normal, .angular = turn};
-  const Impact impact = strike_flat(struck.body, before, d, struck.second, struck.law).value_or(as_it_was);
-  return {.normal = impact.normal_impulse, .tangential = impact.tangential_impulse,
+  const PlanarVelocity before{
+      .normal = u + turn * d.tangential, .tangential = s - turn * d.normal, .angular = turn};
+  const Impact impact =
+      strike_flat(struck.body, before, d, struck.second, struck.law).value_or(as_it_was);
+  return {.normal = impact.normal_impulse,
+          .tangential = impact.tangential_impulse,
           .separation = normal_velocity(impact.after, d),
           .push = impact.slip_after - s,
           .turn = impact.after.angular - turn};
@@ -51,7 +56,9 @@ ImpactResponse response(const StruckState& struck, const Shift& by, const Impact
   return struck.flat ? flat_response(struck, by, as_it_was) : point_response(struck, by);
 }
 
-bool sticks(const Impact& impact) { return impact.mode == ImpactMode::stick || impact.mode == ImpactMode::slip_stick; }
+bool sticks(const Impact& impact) {
+  return impact.mode == ImpactMode::stick || impact.mode == ImpactMode::slip_stick;
+}
 
 }  // namespace
 
@@ -77,7 +84,9 @@ ImpactDerivatives impact_derivatives(const StruckState& struck, const Impact& im
     up.*member = step;
     down.*member = -step;
     const ImpactResponse more = response(struck, up, impact), less = response(struck, down, impact);
-    const auto slope = [&](double ImpactResponse::*of) { return (more.*of - less.*of) / (2 * step); };
+    const auto slope = [&](double ImpactResponse::*of) {
+      return (more.*of - less.*of) / (2 * step);
+    };
     d.normal[index] = slope(&ImpactResponse::normal);
     d.tangential[index] = slope(&ImpactResponse::tangential);
     d.state[at_normal][index] = slope(&ImpactResponse::separation);
@@ -96,8 +105,8 @@ StateVector height_gradient(const FlownState& flown, int vertex, double time) {
   const double turned = from.angular * time;
   const double vers = detail::versine(turned), sine = std::sin(turned);
   StateVector gradient{};
-  gradient[at_angle] = offset.tangential - d.tangential * vers - d.normal * detail::sine_deficit(turned) +
-                       turned * offset.normal;
+  gradient[at_angle] = offset.tangential - d.tangential * vers -
+                       d.normal * detail::sine_deficit(turned) + turned * offset.normal;
   gradient[at_normal] = time;
   gradient[at_turn] = -time * (offset.tangential - d.tangential * vers + d.normal * sine);
   return gradient;
@@ -131,9 +140,25 @@ FlightDerivatives flight_derivatives(const FlownState& flown) {
   f.state[at_slip][at_turn] = up - turned * to.tangential;
   const StateVector height = height_gradient(flown, vertex, time);
   for (std::size_t i = 0; i < state_size; ++i) {
-    for (std::size_t k = 0; k < state_size; ++k) f.state[i][k] -= f.of_time[i] * height[k] / f.velocity;
+    for (std::size_t k = 0; k < state_size; ++k)
+      f.state[i][k] -= f.of_time[i] * height[k] / f.velocity;
   }
   return f;
+}
+
+MotionGradients::MotionGradients(const PlanarBody& body, const ContactPoint& d,
+                                 const PlanarVelocity& v, double gravity) {
+  normal[at_angle] = -v.angular * d.normal;
+  normal[at_normal] = 1;
+  normal[at_turn] = d.tangential;
+  tangential[at_angle] = -v.angular * d.tangential;
+  tangential[at_slip] = 1;
+  tangential[at_turn] = -d.normal;
+  for (std::size_t i = 0; i < state_size; ++i) {
+    energy[i] = body.mass * (v.normal * normal[i] + v.tangential * tangential[i]);
+  }
+  energy[at_turn] += body.mass * body.gyration_square * v.angular;
+  energy[at_angle] -= body.mass * gravity * d.tangential;
 }
 
 }  // namespace clatter::analytic

@@ -1,7 +1,7 @@
 // Derivatives of an impact and of a flight with respect to the state before, for error_growth.hpp.
 //
-// The state (t, α, u, s, Ω, ΣP) is that of a body one of whose vertices touches the ground, with that vertex's normal
-// velocity u and slip s; α that of local_departure().
+// The state (t, α, u, s, Ω, ΣP) is that of a body one of whose vertices touches the ground, with
+// that vertex's normal velocity u and slip s; α that of local_departure().
 #pragma once
 
 #include "analytic/error_factor.hpp"
@@ -38,7 +38,8 @@ struct ImpactDerivatives {
   StateVector normal{}, tangential{};
   StateMatrix state{};  ///< of the state after it
 };
-/// By central differences of strike() and strike_flat(), which are homogeneous in the velocities; relative accuracy 1e-9.
+/// By central differences of strike() and strike_flat(), which are homogeneous in the velocities;
+/// relative accuracy 1e-9.
 [[nodiscard]] ImpactDerivatives impact_derivatives(const StruckState& struck, const Impact& impact);
 
 /// A flight for its Jacobian.
@@ -48,15 +49,25 @@ struct FlownState {
   Arrival arrival;
 };
 
-/// Derivatives of h of a vertex at a fixed time after the departure, with respect to the state there.
+/// Derivatives of h of a vertex at a fixed time after the departure, with respect to the state
+/// there.
 [[nodiscard]] StateVector height_gradient(const FlownState& flown, int vertex, double time);
 /// Derivatives of a flight from touch to touch.
 struct FlightDerivatives {
-  StateMatrix state{};     ///< of the state at the arrival
-  StateVector of_time{};   ///< of the state with respect to the time of arrival
-  double velocity = 0;     ///< h′ of the arriving vertex [m/s]
-  double acceleration = 0; ///< h″ [m/s²]
+  StateMatrix state{};      ///< of the state at the arrival
+  StateVector of_time{};    ///< of the state with respect to the time of arrival
+  double velocity = 0;      ///< h′ of the arriving vertex [m/s]
+  double acceleration = 0;  ///< h″ [m/s²]
 };
 [[nodiscard]] FlightDerivatives flight_derivatives(const FlownState& flown);
+
+/// Gradients of V_n, V_t and the energy of the body as functions of the state.
+struct MotionGradients {
+  StateVector normal{}, tangential{}, energy{};
+
+  /// @param d of the vertex that touches; gravity [m/s²]
+  MotionGradients(const PlanarBody& body, const ContactPoint& d, const PlanarVelocity& v,
+                  double gravity);
+};
 
 }  // namespace clatter::analytic

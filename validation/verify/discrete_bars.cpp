@@ -24,7 +24,8 @@ using analytic::Sequence;
 using analytic::Tail;
 
 template <unsigned digits>
-using Digits = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<digits>, boost::multiprecision::et_off>;
+using Digits = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<digits>,
+                                             boost::multiprecision::et_off>;
 /// Bounces that have shrunk to 1e-26 leave 28 of these digits to heights.
 using Real = Digits<80>;
 /// Where gravity has no time to act between bounces, heights shrink much faster than speeds.
@@ -50,18 +51,21 @@ oracle::EventState<To> converted(const oracle::EventState<From>& s) {
 
 template <class R>
 oracle::EventSequence<Real> simulated(const BarScene& scene, int impacts) {
-  const oracle::EventLaw<R> law{scene.law.restitution, static_cast<oracle::EventRestitution>(scene.law.law),
-                                static_cast<oracle::EventFriction>(scene.law.friction), scene.law.friction_value,
-                                scene.gravity};
+  const oracle::EventLaw<R> law{scene.law.restitution,
+                                static_cast<oracle::EventRestitution>(scene.law.law),
+                                static_cast<oracle::EventFriction>(scene.law.friction),
+                                scene.law.friction_value, scene.gravity};
   const oracle::EventBody<R> body = simulated_body<R>(scene);
   const R angle = R(scene.degrees) * boost::math::constants::pi<R>() / 180;
   const analytic::PlanarVelocity& v = scene.velocity;
   oracle::EventSimulation<R> simulation(body, {angle, v.normal, v.tangential, v.angular}, law);
-  const oracle::EventSequence<R> found = simulation.run(static_cast<std::size_t>(impacts), R(1e-18));
+  const oracle::EventSequence<R> found =
+      simulation.run(static_cast<std::size_t>(impacts), R(1e-18));
   oracle::EventSequence<Real> sequence{{}, found.end};
   for (const auto& i : found.impacts) {
-    sequence.impacts.push_back({i.vertex, Real(i.time), converted<Real>(i.before), converted<Real>(i.after), Real(i.approach),
-                                Real(i.separation), Real(i.normal_impulse), Real(i.tangential_impulse),
+    sequence.impacts.push_back({i.vertex, Real(i.time), converted<Real>(i.before),
+                                converted<Real>(i.after), Real(i.approach), Real(i.separation),
+                                Real(i.normal_impulse), Real(i.tangential_impulse),
                                 Real(i.energy_before), Real(i.energy_after)});
   }
   return sequence;
@@ -74,10 +78,14 @@ oracle::EventSequence<Real> exact(const BarScene& scene, int impacts) {
 
 Outcome outcome_of(oracle::EventEnd end) {
   switch (end) {
-    case oracle::EventEnd::no_further: return Outcome::no_further_impact;
-    case oracle::EventEnd::limit: return Outcome::impact_limit;
-    case oracle::EventEnd::one_vertex_rests: return Outcome::sustained_contact;
-    default: return Outcome::at_rest;
+    case oracle::EventEnd::no_further:
+      return Outcome::no_further_impact;
+    case oracle::EventEnd::limit:
+      return Outcome::impact_limit;
+    case oracle::EventEnd::one_vertex_rests:
+      return Outcome::sustained_contact;
+    default:
+      return Outcome::at_rest;
   }
 }
 
@@ -85,7 +93,8 @@ Outcome outcome_of(oracle::EventEnd end) {
 bool same_end(Outcome outcome, const oracle::EventSequence<Real>& truth) {
   if (outcome == outcome_of(truth.end)) return true;
   const oracle::EventImpact<Real>&first = truth.impacts.front(), &last = truth.impacts.back();
-  const bool faint = last.after.angular * last.after.angular < 1e-30 * first.after.angular * first.after.angular;
+  const bool faint =
+      last.after.angular * last.after.angular < 1e-30 * first.after.angular * first.after.angular;
   return faint && outcome == Outcome::at_rest && truth.end == oracle::EventEnd::one_vertex_rests;
 }
 
@@ -96,7 +105,8 @@ class RowJudge {
   void operator()(const char* name, double value, double bar, const Real& truth) {
     const double error = static_cast<double>(abs(Real(value) - truth));
     ++coverage_.numbers;
-    if (error <= bar) ++coverage_.numbers_inside;
+    if (error <= bar)
+      ++coverage_.numbers_inside;
     else {
       std::ostringstream text;
       text << ' ' << name << ' ' << value << " +- " << bar << " off " << error;
@@ -129,7 +139,8 @@ void judge_row(const ImpactRow& row, const oracle::EventImpact<Real>& truth, Row
   judge("loss", i.energy_loss, e.energy_loss, truth.energy_before - truth.energy_after);
 }
 
-void judge_end(const Sequence& sequence, const oracle::EventSequence<Real>& truth, const BarScene& scene, BarCoverage& coverage) {
+void judge_end(const Sequence& sequence, const oracle::EventSequence<Real>& truth,
+               const BarScene& scene, BarCoverage& coverage) {
   if (!sequence.end_predictable) return;
   if (truth.end == oracle::EventEnd::out_of_digits) {
     ++coverage.not_judged;
@@ -138,19 +149,29 @@ void judge_end(const Sequence& sequence, const oracle::EventSequence<Real>& trut
   const bool right = same_end(sequence.outcome, truth);
   ++coverage.certain_ends;
   coverage.certain_ends_right += right ? 1 : 0;
-  if (!right) coverage.outside.push_back("ends after " + std::to_string(sequence.rows.size()) + " as " + std::to_string(static_cast<int>(sequence.outcome)) + ", not after " + std::to_string(truth.impacts.size()) + " as " + std::to_string(static_cast<int>(truth.end)) + ": " + scene.words());
+  if (!right)
+    coverage.outside.push_back("ends after " + std::to_string(sequence.rows.size()) + " as " +
+                               std::to_string(static_cast<int>(sequence.outcome)) + ", not after " +
+                               std::to_string(truth.impacts.size()) + " as " +
+                               std::to_string(static_cast<int>(truth.end)) + ": " + scene.words());
   if (!right || sequence.rows.size() > truth.impacts.size()) return;
   Real sum = 0;
   for (const auto& impact : truth.impacts) sum += impact.normal_impulse;
   RowJudge judge(coverage);
   ++coverage.sums;
-  judge("total", sequence.total_normal_impulse, sequence.total_normal_impulse_error + (sequence.tail ? 4 / (1 - scene.law.restitution) * static_cast<double>(truth.impacts.back().normal_impulse) : 0), sum);
+  judge("total", sequence.total_normal_impulse,
+        sequence.total_normal_impulse_error +
+            (sequence.tail ? 4 / (1 - scene.law.restitution) *
+                                 static_cast<double>(truth.impacts.back().normal_impulse)
+                           : 0),
+        sum);
   if (sequence.tail) {
     // What the simulation has left out after its last impact.
     const double e = scene.law.restitution, left = 4 / (1 - e);
     const auto& last = truth.impacts.back();
     const double impulse_left = left * static_cast<double>(last.normal_impulse);
-    const double time_left = left * static_cast<double>(last.time - truth.impacts[truth.impacts.size() - 2].time);
+    const double time_left =
+        left * static_cast<double>(last.time - truth.impacts[truth.impacts.size() - 2].time);
     const Tail& tail = *sequence.tail;
     Real normal = 0, tangential = 0;
     for (std::size_t i = sequence.rows.size(); i < truth.impacts.size(); ++i) {
@@ -159,17 +180,22 @@ void judge_end(const Sequence& sequence, const oracle::EventSequence<Real>& trut
     }
     judge("tail end", tail.end_time, tail.end_time_error + time_left, truth.impacts.back().time);
     judge("tail Pn", tail.normal_impulse, tail.normal_impulse_error + impulse_left, normal);
-    judge("tail Pt", tail.tangential_impulse, tail.tangential_impulse_error + impulse_left, tangential);
+    judge("tail Pt", tail.tangential_impulse, tail.tangential_impulse_error + impulse_left,
+          tangential);
     const double speed_left = impulse_left / scene.mass, reach = scene.length;
-    judge("tail Vt", tail.after.tangential, tail.after_error.tangential + speed_left, last.after.tangential);
-    judge("tail Omega", tail.after.angular, tail.after_error.angular + 20 * speed_left / reach, last.after.angular);
+    judge("tail Vt", tail.after.tangential, tail.after_error.tangential + speed_left,
+          last.after.tangential);
+    judge("tail Omega", tail.after.angular, tail.after_error.angular + 20 * speed_left / reach,
+          last.after.angular);
   }
-  if (judge.outside().empty()) ++coverage.sums_inside;
-  else coverage.outside.push_back("sums:" + judge.outside() + ": " + scene.words());
+  if (judge.outside().empty())
+    ++coverage.sums_inside;
+  else
+    coverage.outside.push_back("sums:" + judge.outside() + ": " + scene.words());
 }
 
-void judge_rows(const Sequence& sequence, const oracle::EventSequence<Real>& truth, const BarScene& scene,
-                BarCoverage& coverage) {
+void judge_rows(const Sequence& sequence, const oracle::EventSequence<Real>& truth,
+                const BarScene& scene, BarCoverage& coverage) {
   // The simulation stops within an accumulation, the sequence perhaps later.
   const Outcome end = outcome_of(truth.end);
   const bool accumulates = end == Outcome::at_rest || end == Outcome::sustained_contact;
@@ -183,8 +209,10 @@ void judge_rows(const Sequence& sequence, const oracle::EventSequence<Real>& tru
                       std::countr_zero(row.vertices) == static_cast<int>(truth.impacts[i].vertex);
     if (same) judge_row(row, truth.impacts[i], judge);
     const std::string wrong = same ? judge.outside() : " another vertex";
-    if (wrong.empty()) ++coverage.rows_inside;
-    else coverage.outside.push_back("impact " + std::to_string(i + 1) + wrong + ": " + scene.words());
+    if (wrong.empty())
+      ++coverage.rows_inside;
+    else
+      coverage.outside.push_back("impact " + std::to_string(i + 1) + wrong + ": " + scene.words());
   }
 }
 
@@ -193,26 +221,33 @@ void judge_rows(const Sequence& sequence, const oracle::EventSequence<Real>& tru
 analytic::Drop BarScene::drop() const {
   const analytic::PlanarBody body =
       shape == BarShape::box
-          ? analytic::make_box({.mass = mass, .length = length, .width = length, .thickness = 2 * half_thickness})
+          ? analytic::make_box(
+                {.mass = mass, .length = length, .width = length, .thickness = 2 * half_thickness})
           : analytic::make_rod({.mass = mass, .length = length, .radius = half_thickness});
-  return {.body = body, .inclination = analytic::Angle::from_degrees(degrees), .velocity = velocity, .gravity = gravity,
+  return {.body = body,
+          .inclination = analytic::Angle::from_degrees(degrees),
+          .velocity = velocity,
+          .gravity = gravity,
           .law = law};
 }
 
 std::string BarScene::words() const {
   std::ostringstream text;
   text.precision(17);
-  text << (shape == BarShape::box ? "box " : "rod ") << length << " x " << half_thickness << " m, " << mass << " kg, "
-       << degrees << " deg, " << velocity.normal << ' ' << velocity.tangential << " m/s, " << velocity.angular
-       << " rad/s, g " << gravity << ", e " << law.restitution << " law " << static_cast<int>(law.law) << " friction "
-       << static_cast<int>(law.friction) << ' ' << law.friction_value << ", digits " << digits;
+  text << (shape == BarShape::box ? "box " : "rod ") << length << " x " << half_thickness << " m, "
+       << mass << " kg, " << degrees << " deg, " << velocity.normal << ' ' << velocity.tangential
+       << " m/s, " << velocity.angular << " rad/s, g " << gravity << ", e " << law.restitution
+       << " law " << static_cast<int>(law.law) << " friction " << static_cast<int>(law.friction)
+       << ' ' << law.friction_value << ", digits " << digits;
   return text.str();
 }
 
 BarScene random_bar_scene(unsigned family, int index) {
   std::seed_seq seed{family, static_cast<unsigned>(index)};
   std::mt19937_64 random(seed);
-  const auto uniform = [&](double low, double high) { return low + (high - low) * 0x1p-53 * static_cast<double>(random() >> 11); };
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * 0x1p-53 * static_cast<double>(random() >> 11);
+  };
   const auto one_of = [&](unsigned n) { return static_cast<int>(random() % n); };
   BarScene scene;
   scene.shape = static_cast<BarShape>(one_of(3));
@@ -227,8 +262,10 @@ BarScene random_bar_scene(unsigned family, int index) {
   scene.law.restitution = one_of(3) != 0 ? uniform(0.001, 0.98) : std::pow(10, uniform(-3, -0.01));
   scene.law.law = static_cast<analytic::RestitutionLaw>(one_of(3));
   const int friction = one_of(4);
-  if (friction == 1) scene.law.friction = FrictionKind::impulse_ratio, scene.law.friction_value = uniform(-0.2, 0.2);
-  if (friction > 1) scene.law.friction = FrictionKind::coulomb, scene.law.friction_value = uniform(0.01, 0.8);
+  if (friction == 1)
+    scene.law.friction = FrictionKind::impulse_ratio, scene.law.friction_value = uniform(-0.2, 0.2);
+  if (friction > 1)
+    scene.law.friction = FrictionKind::coulomb, scene.law.friction_value = uniform(0.01, 0.8);
   scene.digits = 3 * (1 + one_of(4));
   return scene;
 }

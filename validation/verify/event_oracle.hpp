@@ -1,12 +1,12 @@
-// Impact sequences of a planar body to many digits, by brute force: Routh's path in impulse space segment by segment, and
-// flights by steps that provably pass no contact.
+// Impact sequences of a planar body to many digits, by brute force: Routh's path in impulse space
+// segment by segment, and flights by steps that provably pass no contact.
 //
-// Written from the physics alone.  Positions and velocities are those of the centre of mass; what cancels is left to the
-// digits of Real.
-//   Impact.  Per unit mass, an impulse dP along the normal with r dP along the ground changes the velocity (u, s) of the
-//   contact point by du = (A − B r) dP, ds = (C r − B) dP, A = 1 + (d_t/k)², B = d_t d_n/k², C = 1 + (d_n/k)².
-//   Flight.  With |h″| <= M = g + Ω²ρ, a vertex at height h with velocity h′ cannot reach the ground before the positive
-//   zero of h + h′Δ − MΔ²/2.
+// Written from the physics alone.  Positions and velocities are those of the centre of mass; what
+// cancels is left to the digits of Real.
+//   Impact.  Per unit mass, an impulse dP along the normal with r dP along the ground changes the
+//   velocity (u, s) of the contact point by du = (A − B r) dP, ds = (C r − B) dP, A = 1 + (d_t/k)²,
+//   B = d_t d_n/k², C = 1 + (d_n/k)². Flight.  With |h″| <= M = g + Ω²ρ, a vertex at height h with
+//   velocity h′ cannot reach the ground before the positive zero of h + h′Δ − MΔ²/2.
 #pragma once
 
 #include <algorithm>
@@ -14,6 +14,8 @@
 #include <optional>
 #include <stdexcept>
 #include <vector>
+
+#include "validation/verify/impulse_path.hpp"
 
 namespace clatter::oracle {
 
@@ -66,7 +68,8 @@ struct EventSequence {
 template <class Real>
 class EventSimulation {
  public:
-  EventSimulation(const EventBody<Real>& body, const EventState<Real>& start, const EventLaw<Real>& law)
+  EventSimulation(const EventBody<Real>& body, const EventState<Real>& start,
+                  const EventLaw<Real>& law)
       : body_(body), state_(start), law_(law) {
     for (const auto& v : body.vertices) {
       using std::sqrt;
@@ -128,12 +131,15 @@ class EventSimulation {
     return best;
   }
 
-  /// Of the last `small` impacts: one vertex alone bounced, and the others need far longer to the ground than its bounces last all together; or
-  /// several have bounced; or neither can be said yet (limit).
-  [[nodiscard]] EventEnd accumulation_end(const std::vector<EventImpact<Real>>& impacts, std::size_t small) const {
+  /// Of the last `small` impacts: one vertex alone bounced, and the others need far longer to the
+  /// ground than its bounces last all together; or several have bounced; or neither can be said yet
+  /// (limit).
+  [[nodiscard]] EventEnd accumulation_end(const std::vector<EventImpact<Real>>& impacts,
+                                          std::size_t small) const {
     using std::sqrt;
     const EventImpact<Real>& last = impacts.back();
-    for (std::size_t i = impacts.size() - std::max<std::size_t>(small, 2); i < impacts.size(); ++i) {
+    for (std::size_t i = impacts.size() - std::max<std::size_t>(small, 2); i < impacts.size();
+         ++i) {
       if (impacts[i].vertex != last.vertex) return EventEnd::face_rests;
     }
     const Real bounce = last.time - impacts[impacts.size() - 2].time;
@@ -152,82 +158,14 @@ class EventSimulation {
   [[nodiscard]] Real energy(const Real& height) const {
     const auto& v = state_;
     return body_.mass * ((v.normal * v.normal + v.tangential * v.tangential +
-                          body_.gyration_square * v.angular * v.angular) / 2 + law_.gravity * height);
+                          body_.gyration_square * v.angular * v.angular) /
+                             2 +
+                         law_.gravity * height);
   }
 
   // ---- impact ----
 
-  struct Path {
-    Real A, B, C, friction, u, s;
-    Real normal = 0, tangential = 0;
-
-    [[nodiscard]] Real ratio() const {
-      if (s > 0) return -friction;
-      if (s < 0) return friction;
-      const Real stick = B / C;
-      if (stick > friction) return friction;
-      if (stick < -friction) return -friction;
-      return stick;
-    }
-    /// Impulse until slip stops; negative: not on this segment.
-    [[nodiscard]] Real until_slip_stops(const Real& r) const {
-      const Real rate = C * r - B;
-      if (s == 0 || rate == 0) return -1;
-      const Real left = -s / rate;
-      return left > 0 ? left : Real(-1);
-    }
-    void go(const Real& r, const Real& impulse, bool stops) {
-      normal += impulse;
-      tangential += r * impulse;
-      u += (A - B * r) * impulse;
-      s = stops ? Real(0) : s + (C * r - B) * impulse;
-    }
-    /// On until u has reached `target` from below.
-    void rise_to(const Real& target) {
-      for (int segment = 0; segment < 4; ++segment) {
-        const Real r = ratio(), slope = A - B * r, stop = until_slip_stops(r);
-        const Real need = slope > 0 ? (target - u) / slope : Real(-1);
-        if (slope > 0 && (stop < 0 || need <= stop)) return go(r, need, false);
-        if (stop < 0) throw std::runtime_error("the contact jams");
-        go(r, stop, true);
-      }
-    }
-    /// On for this much impulse.
-    void push(Real impulse) {
-      while (impulse > 0) {
-        const Real r = ratio(), stop = until_slip_stops(r);
-        if (stop < 0 || impulse <= stop) return go(r, impulse, false);
-        go(r, stop, true);
-        impulse -= stop;
-      }
-    }
-    /// On from u = 0 until ∫ u dP = work.
-    void give_back(Real work) {
-      using std::sqrt;
-      for (int segment = 0; segment < 4; ++segment) {
-        const Real r = ratio(), slope = A - B * r, stop = until_slip_stops(r);
-        const Real need = (sqrt(u * u + 2 * slope * work) - u) / slope;
-        if (stop < 0 || need <= stop) return go(r, need, false);
-        work -= u * stop + slope * stop * stop / 2;
-        go(r, stop, true);
-      }
-    }
-    /// −∫ u dP to the end of compression, as a copy of this path goes there.
-    [[nodiscard]] Real compression_work() const {
-      Path path = *this;
-      Real work = 0;
-      while (path.u < 0) {
-        const Real r = path.ratio(), slope = path.A - path.B * r, stop = path.until_slip_stops(r);
-        const Real need = slope > 0 ? -path.u / slope : Real(-1);
-        const bool ends = slope > 0 && (stop < 0 || need <= stop);
-        const Real step = ends ? need : stop;
-        work -= path.u * step + slope * step * step / 2;
-        if (ends) return work;
-        path.go(r, step, true);
-      }
-      return work;
-    }
-  };
+  using Path = ImpulsePath<Real>;
 
   void follow(Path& path) const {
     const Real& e = law_.restitution;
@@ -255,8 +193,11 @@ class EventSimulation {
     impact.time = time_;
     impact.before = state_;
     impact.energy_before = energy(-d.normal);
-    Path path{1 + d.tangential * d.tangential / k2, d.tangential * d.normal / k2, 1 + d.normal * d.normal / k2,
-              law_.friction_value, state_.normal - state_.angular * d.tangential,
+    Path path{1 + d.tangential * d.tangential / k2,
+              d.tangential * d.normal / k2,
+              1 + d.normal * d.normal / k2,
+              law_.friction_value,
+              state_.normal - state_.angular * d.tangential,
               state_.tangential + state_.angular * d.normal};
     if (!(path.u < 0)) return std::nullopt;
     impact.approach = -path.u;
@@ -283,14 +224,16 @@ class EventSimulation {
   /// The vertex that arrives first; the state is then that of its touch.
   std::optional<std::size_t> fly(std::size_t from) {
     using std::cos, std::sin, std::sqrt;
-    const Real start = -offset(from).normal, V = state_.normal, g = law_.gravity, spin = state_.angular;
+    const Real start = -offset(from).normal, V = state_.normal, g = law_.gravity,
+               spin = state_.angular;
     Real t = 0;
     for (long step = 0; step < most_steps; ++step) {
       const Real centre = start + t * (V - g * t / 2), speed = V - g * t;
       if (centre > reach_) {
         if (g == 0 && speed >= 0) return std::nullopt;
-        const Real back = g == 0 ? t + (centre - reach_) / -speed
-                                 : t + (speed + sqrt(speed * speed + 2 * g * (centre - reach_))) / g;
+        const Real back = g == 0
+                              ? t + (centre - reach_) / -speed
+                              : t + (speed + sqrt(speed * speed + 2 * g * (centre - reach_))) / g;
         if (back > t * (1 + Real(1e-30))) {
           t = back;
           continue;
@@ -301,10 +244,13 @@ class EventSimulation {
       std::size_t nearest = 0;
       for (std::size_t i = 0; i < body_.vertices.size(); ++i) {
         const Offset d = offset(i, s, c);
-        const Real bend = g + spin * spin * reaches_[i], h = centre + d.normal, velocity = speed - spin * d.tangential;
+        const Real bend = g + spin * spin * reaches_[i], h = centre + d.normal,
+                   velocity = speed - spin * d.tangential;
         Real own;
-        if (t == 0 && i == from) own = velocity / bend;  // it rises; until twice this time for certain
-        else own = h > 0 ? safe_step(h, velocity, bend) : Real(0);
+        if (t == 0 && i == from)
+          own = velocity / bend;  // it rises; until twice this time for certain
+        else
+          own = h > 0 ? safe_step(h, velocity, bend) : Real(0);
         if (stride < 0 || own < stride) stride = own, nearest = i;
       }
       if (stride <= Real(1e-32) * t) {

@@ -1,0 +1,84 @@
+// The velocity of a contact point along an impact with Coulomb friction, segment by segment
+// (event_oracle.hpp).
+#pragma once
+
+#include <stdexcept>
+
+namespace clatter::oracle {
+
+/// (u, s) after the impulses so far: du = (A − B r) dP, ds = (C r − B) dP, r the ratio that
+/// friction allows.
+template <class Real>
+struct ImpulsePath {
+  Real A, B, C, friction, u, s;
+  Real normal = 0, tangential = 0;
+
+  [[nodiscard]] Real ratio() const {
+    if (s > 0) return -friction;
+    if (s < 0) return friction;
+    const Real stick = B / C;
+    if (stick > friction) return friction;
+    if (stick < -friction) return -friction;
+    return stick;
+  }
+  /// Impulse until slip stops; negative: not on this segment.
+  [[nodiscard]] Real until_slip_stops(const Real& r) const {
+    const Real rate = C * r - B;
+    if (s == 0 || rate == 0) return -1;
+    const Real left = -s / rate;
+    return left > 0 ? left : Real(-1);
+  }
+  void go(const Real& r, const Real& impulse, bool stops) {
+    normal += impulse;
+    tangential += r * impulse;
+    u += (A - B * r) * impulse;
+    s = stops ? Real(0) : s + (C * r - B) * impulse;
+  }
+  /// On until u has reached `target` from below.
+  void rise_to(const Real& target) {
+    for (int segment = 0; segment < 4; ++segment) {
+      const Real r = ratio(), slope = A - B * r, stop = until_slip_stops(r);
+      const Real need = slope > 0 ? (target - u) / slope : Real(-1);
+      if (slope > 0 && (stop < 0 || need <= stop)) return go(r, need, false);
+      if (stop < 0) throw std::runtime_error("the contact jams");
+      go(r, stop, true);
+    }
+  }
+  /// On for this much impulse.
+  void push(Real impulse) {
+    while (impulse > 0) {
+      const Real r = ratio(), stop = until_slip_stops(r);
+      if (stop < 0 || impulse <= stop) return go(r, impulse, false);
+      go(r, stop, true);
+      impulse -= stop;
+    }
+  }
+  /// On from u = 0 until ∫ u dP = work.
+  void give_back(Real work) {
+    using std::sqrt;
+    for (int segment = 0; segment < 4; ++segment) {
+      const Real r = ratio(), slope = A - B * r, stop = until_slip_stops(r);
+      const Real need = (sqrt(u * u + 2 * slope * work) - u) / slope;
+      if (stop < 0 || need <= stop) return go(r, need, false);
+      work -= u * stop + slope * stop * stop / 2;
+      go(r, stop, true);
+    }
+  }
+  /// −∫ u dP to the end of compression, as a copy of this path goes there.
+  [[nodiscard]] Real compression_work() const {
+    ImpulsePath path = *this;
+    Real work = 0;
+    while (path.u < 0) {
+      const Real r = path.ratio(), slope = path.A - path.B * r, stop = path.until_slip_stops(r);
+      const Real need = slope > 0 ? -path.u / slope : Real(-1);
+      const bool ends = slope > 0 && (stop < 0 || need <= stop);
+      const Real step = ends ? need : stop;
+      work -= path.u * step + slope * step * step / 2;
+      if (ends) return work;
+      path.go(r, step, true);
+    }
+    return work;
+  }
+};
+
+}  // namespace clatter::oracle
