@@ -41,6 +41,7 @@ struct SlipField {
   };
   Kind kind = Kind::none;
   bool planar = false;               ///< v has no part to the north
+  bool rough = false;                ///< for an estimate, right to some per cent
   double regularisation = 0;         ///< v_r; 0: −v/|v| [m/s]
   /// The v_r of a facet whose points slip alike, within `alike` of it: one that lies flat would else reverse the
   /// friction of all its area at once [m/s].

@@ -286,14 +286,14 @@ AlongGround ContactSystem::sticking_force(const ContactState& y) {
 
 SlipRange ContactSystem::slip_range(const ContactState& y) {
   ++evaluations_;
-  return loader_.load(view(y), {.kind = SlipField::Kind::points, .planar = planar_}).slip_range;
+  return loader_.load(view(y), {.kind = SlipField::Kind::points, .planar = planar_, .rough = true}).slip_range;
 }
 
 LocalFriction ContactSystem::local_friction(const ContactState& y, const AlongGround& shift) {
   ++evaluations_;
   const GroundView view = this->view(y);
   const ContactLoad load = loader_.load(
-      view, {.kind = SlipField::Kind::points, .planar = planar_, .east = shift.east, .north = shift.north});
+      view, {.kind = SlipField::Kind::points, .planar = planar_, .rough = true, .east = shift.east, .north = shift.north});
   if (!(load.force > 0)) return {};
   const double mu = ground_.sliding_friction;
   const AlongGround force{mu * load.slip_east, planar_ ? 0 : mu * load.slip_north};

@@ -99,7 +99,7 @@ class ContactSystem {
   [[nodiscard]] AlongGround sticking_ratio(const Vector3& u) const;
   /// Range of the slip velocities of the patch's points [m/s].
   [[nodiscard]] SlipRange slip_range(const ContactState& y);
-  /// Friction of the local law if all points slipped faster by `shift` [m/s].
+  /// Friction of the local law if all points slipped faster by `shift` [m/s]; in space right to some per cent.
   [[nodiscard]] LocalFriction local_friction(const ContactState& y, const AlongGround& shift);
   /// Change of velocity of the body's point u along the ground by an impulse there [m/s].
   [[nodiscard]] AlongGround response(const ContactState& y, const Vector3& u, const AlongGround& impulse) const;

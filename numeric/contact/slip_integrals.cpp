@@ -13,6 +13,8 @@ namespace {
 
 constexpr double least_ellipse = 2.6;     ///< ρ from which Gauss's rule is taken
 constexpr double least_smooth_ellipse = 3.1;  ///< ρ from which it is taken for a whole triangle
+constexpr int rough_order = 6;
+constexpr double rough_rounding = 0.05;   ///< of the slip's variation
 constexpr double near_sizes = 3;          ///< distance of p₀ from the middle, in sizes, up to which (1) cancels little
 constexpr double least_part = 2e-8;       ///< of the size: a lower part errs by less than its square
 constexpr double flat_part = 1e-15;       ///< of the size: the height of an edge that is rounding
@@ -272,15 +274,6 @@ class Strips {
 
 }  // namespace
 
-void SlipIntegrals::add(const SlipIntegrals& other, double weight) {
-  east += weight * other.east;
-  north += weight * other.north;
-  east_x += weight * other.east_x;
-  east_y += weight * other.east_y;
-  north_x += weight * other.north_x;
-  north_y += weight * other.north_y;
-}
-
 SlipIntegrals slip_integrals(const SlipPatch& patch) {
   if (patch.count < 3) return {};
   const Survey s = survey(patch);
@@ -290,6 +283,13 @@ SlipIntegrals slip_integrals(const SlipPatch& patch) {
   const double ellipse = smooth_ellipse(patch, s);
   if (ellipse >= least_smooth_ellipse) return add_up_fan(patch, gauss_order(ellipse));
   return Strips(patch, s).sum();
+}
+
+SlipIntegrals rough_slip_integrals(const SlipPatch& patch) {
+  if (patch.count < 3) return {};
+  SlipPatch rounded = patch;
+  rounded.rounding = std::max(patch.rounding, rough_rounding * survey(patch).variation);
+  return add_up_fan(rounded, rough_order);
 }
 
 }  // namespace clatter::numeric

@@ -30,7 +30,14 @@ struct SlipIntegrals {
   double east = 0, north = 0;
   double east_x = 0, east_y = 0, north_x = 0, north_y = 0;  ///< times a coordinate of the plane
 
-  void add(const SlipIntegrals& other, double weight);
+  void add(const SlipIntegrals& other, double weight) {
+    east += weight * other.east;
+    north += weight * other.north;
+    east_x += weight * other.east_x;
+    east_y += weight * other.east_y;
+    north_x += weight * other.north_x;
+    north_y += weight * other.north_y;
+  }
 };
 
 /// The integrals, whatever the polygon's cut and the slopes of the slip.  With p₀ the point of no slip (v_r = 0):
@@ -46,5 +53,8 @@ struct SlipIntegrals {
 /// Accuracy: 1e-13 of ∫|q| dA, times the polygon's size for the moments; against 30 digits over polygons, slivers among
 /// them, of any place and slopes of the slip.  No error is left that would have to be estimated.
 [[nodiscard]] SlipIntegrals slip_integrals(const SlipPatch& patch);
+
+/// The same for estimates: right to some per cent, at a cost that does not depend on the slip.
+[[nodiscard]] SlipIntegrals rough_slip_integrals(const SlipPatch& patch);
 
 }  // namespace clatter::numeric

@@ -81,7 +81,7 @@ void add_slip(const ContactPolygon& polygon, double weight, const GroundView& vi
                   over_plane(ground.stiffness + ground.damping * rate, -ground.damping * rate_slope),
                   over_plane(slip.east, slip.east_slope), over_plane(slip.north, slip.north_slope), rounding};
   if (field.planar) patch.north = {};
-  const SlipIntegrals sums = slip_integrals(patch);
+  const SlipIntegrals sums = field.rough ? rough_slip_integrals(patch) : slip_integrals(patch);
   const auto moment = [&](double value, double x, double y) -> Vector3 {
     return value * polygon.origin + x * along + y * across;
   };

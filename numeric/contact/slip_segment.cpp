@@ -9,7 +9,7 @@
 namespace clatter::numeric {
 namespace {
 
-constexpr double far_ellipse = 3;  ///< ρ from which the closed form would cancel more than Gauss's rule errs
+constexpr double far_ellipse = 5;  ///< ρ from which the closed form would cancel more than Gauss's rule errs
 
 /// The slowest place of a segment's slip: |slip + σ change|² + rounding² = |change|² ((σ − at)² + width²).
 struct Slowest {
@@ -27,6 +27,11 @@ double ellipse_of(const Slowest& place) {
   const double square = place.width * place.width, before = place.at + 1, after = place.at - 1;
   const double sum = (std::sqrt(before * before + square) + std::sqrt(after * after + square)) / 2;
   return sum + std::sqrt(std::max(sum * sum - 1, 0.0));
+}
+
+double finite_ellipse(const Slowest& place) {
+  const double ellipse = ellipse_of(place);
+  return std::isfinite(ellipse) ? ellipse : std::numeric_limits<double>::infinity();
 }
 
 /// A polynomial of degree up to 3.
@@ -108,15 +113,15 @@ SlipIntegrals by_gauss(const SlipPatch& patch, const SlipSegment& g, const SlipV
 
 double segment_ellipse(const SlipVector& slip, const SlipVector& change, double rounding) {
   if (!(change.square() > 0)) return std::numeric_limits<double>::infinity();
-  const double ellipse = ellipse_of(slowest(slip, change, rounding));
-  return std::isfinite(ellipse) ? ellipse : std::numeric_limits<double>::infinity();
+  return finite_ellipse(slowest(slip, change, rounding));
 }
 
 SlipIntegrals along_segment(const SlipPatch& patch, const SlipSegment& segment) {
   const SlipVector change{patch.east.along(segment.half), patch.north.along(segment.half)};
-  const double ellipse = segment_ellipse(segment.slip, change, patch.rounding);
-  if (ellipse >= far_ellipse) return by_gauss(patch, segment, change, ellipse);
-  return in_closed_form(patch, segment, change, slowest(segment.slip, change, patch.rounding));
+  if (!(change.square() > 0)) return by_gauss(patch, segment, change, std::numeric_limits<double>::infinity());
+  const Slowest place = slowest(segment.slip, change, patch.rounding);
+  const double ellipse = finite_ellipse(place);
+  return ellipse >= far_ellipse ? by_gauss(patch, segment, change, ellipse) : in_closed_form(patch, segment, change, place);
 }
 
 void add_point(const SlipPatch& patch, const PlanePoint& p, double weight, SlipIntegrals& sum) {

@@ -16,8 +16,8 @@ constexpr double least_resolution = 1e-9;     ///< of that speed
 constexpr double turning_resolution = 1e-13;  ///< of that speed: a range above it comes from turning, not rounding
 constexpr double steps_of_range = 4;     ///< of a fixed length within which friction may cross the range
 constexpr double enough = 1e-9;          ///< of the bound of friction: a difference of the laws that needs no solving
-constexpr double parts_per_range = 4, most_parts = 64;  ///< of a step
-constexpr int sweeps = 2, most_trials = 20;
+constexpr double parts_per_range = 4, most_parts = 32;  ///< of a step
+constexpr int sweeps = 2, most_trials = 12;
 constexpr double near = 0.05;            ///< relative, of the deviation
 
 /// The zero of a rising function between `low` and `high`, which are widened until they hold it.

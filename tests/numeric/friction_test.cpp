@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tests/numeric/bodies.hpp"
+#include "tests/numeric/support.hpp"
 
 namespace {
 
@@ -175,6 +176,6 @@ BOOST_AUTO_TEST_CASE(the_regularised_law_slows_a_spinning_plate) {
   const Simulation run = simulate(body, ground, start, plain_options());
   const double spin = run.impacts[0].value.angular_velocity_after.z();
   BOOST_TEST(spin < 9.9);
-  BOOST_TEST(spin > 0);
+  BOOST_TEST(spin > -10 * eps);  // it may come to rest, to rounding, and does not turn back
   BOOST_TEST(run.impacts[0].value.work_friction > 0);
 }

@@ -261,7 +261,7 @@ constexpr Middle places[] = {Middle::inside, Middle::on_an_edge, Middle::at_a_co
 #ifdef CLATTER_TEST_SLOW_BUILD
 constexpr int scenes_each = 1;
 #else
-constexpr int scenes_each = 12;
+constexpr int scenes_each = 5;
 #endif
 
 double worst_of(double log_condition, double rounding_part) {
