@@ -103,6 +103,11 @@ double BodyMotion::inclination() const {
   return sum > pi ? sum - 2 * pi : sum;
 }
 
+double BodyMotion::beyond_turned_body() const {
+  const double quarters = quarters_ * quarter_high;
+  return inclination_ + quarters > pi ? quarters - 2 * pi : quarters;
+}
+
 double BodyMotion::contact_angle() const {
   if (quarters_ % 2 == 0) return acute_angle(inclination_);
   return quarter_high - (acute_angle(inclination_) - quarter_low);
@@ -211,6 +216,7 @@ Departure BodyMotion::local_departure() const {
 
 Flight BodyMotion::fly() {
   const Departure departure = local_departure();
+  const double beyond = beyond_turned_body();
   Flight flight = analytic::fly(turned_, departure, &passes_);
   if (flight.end != FlightEnd::contact) return flight;
   Arrival& arrival = flight.arrival;
@@ -219,18 +225,29 @@ Flight BodyMotion::fly() {
   time_ += arrival.time;
   remainder_.normal -= gravity_ * arrival.time;
   scale_.normal += gravity_ * arrival.time;
-  if (arrival.time > 0 && arrival.inclination != inclination_) {
-    sine_ = std::sin(arrival.inclination);
-    cosine_ = std::cos(arrival.inclination);
-    // Whole turns go by way of sine and cosine: the double next to 2π, taken off k times, would leave an inclination
-    // that is off from them by k ulp, and the next flight would be put together from the two.
-    const bool turned_over = std::fabs(arrival.inclination) > pi;
-    inclination_ = turned_over ? std::atan2(sine_, cosine_) : arrival.inclination;
-  }
-  arrival.inclination += quarters_ * quarter_high;
+  const bool turned = arrival.time > 0 && arrival.inclination != inclination_;
+  const double local = arrival.inclination;
+  arrival.inclination += beyond;
+  if (turned) turn_to(local, arrival.inclination);
   turn_to_face_below();
   centre_height_ = -contact_point(arrival.vertex).normal;
   return flight;
+}
+
+/// Whole turns go by way of sine and cosine: the double next to 2π, taken off k times, would leave an inclination that is
+/// off from them by k ulp, and the next flight would be put together from the two.  They go by those of the given body's
+/// inclination, since after many turns that of the turned body, which differs by quarters, rounds to another angle.
+void BodyMotion::turn_to(double local, double given) {
+  if (std::fabs(local) <= pi) {
+    inclination_ = local;
+    sine_ = std::sin(local);
+    cosine_ = std::cos(local);
+    return;
+  }
+  const double sine = std::sin(given), cosine = std::cos(given);
+  sine_ = quarters_ == 0 ? sine : quarters_ == 2 ? -sine : -quarters_ * cosine;
+  cosine_ = quarters_ == 0 ? cosine : quarters_ == 2 ? -cosine : quarters_ * sine;
+  inclination_ = std::atan2(sine_, cosine_);
 }
 
 /// The first two flights of a thin rod that is carried by its frame alone, a → b → a, have their angles

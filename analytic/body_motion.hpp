@@ -84,6 +84,10 @@ class BodyMotion {
     double slip_scale = 0;
   };
   void turn_to_face_below();
+  /// inclination() less that of turned_body(): quarters, and a whole turn where inclination() leaves one out.
+  [[nodiscard]] double beyond_turned_body() const;
+  /// Sets the inclination of turned_body(), `local`, which is that of the given body, `given`, less whole turns and quarters.
+  void turn_to(double local, double given);
   void carry(const Departure& departure, const Arrival& arrival);
   void keep_contact_velocity(const ContactPoint& d, Impact& impact);
   [[nodiscard]] ContactVelocity absolute_scale(int vertex) const;

@@ -102,7 +102,8 @@ Ending viscoelastic_ending(const Phases& phases, double v, const ImpactLaw& law)
   if (!(speed < law.restitution * v)) return {single, law.restitution * v};
   const double work = stored_work(law.damping_per_stiffness, {.from = -v, .to = speed, .length = phases.first.length});
   const Unloading rest{.from = speed, .slope = phases.second.slope, .work = work};
-  const double separation = separation_speed(law.damping_per_stiffness, rest);
+  // Work that rounding alone has made negative would slow the body down again, by an impulse that pulls.
+  const double separation = std::fmax(separation_speed(law.damping_per_stiffness, rest), speed);
   return {phases.first.length + (separation - speed) / phases.second.slope, separation};
 }
 

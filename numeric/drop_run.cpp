@@ -59,6 +59,7 @@ class Run {
         stepper_(make_stepper(accuracy.method)), contact_(system_, *stepper_), state_(options.planar ? in_plane(start) : start),
         growth_(body, start, options.gravity, options.planar), history_(body, options.gravity, extras.history) {
     control_.tolerance = accuracy.tolerance;
+    control_.step_cap = accuracy.step_cap;
     control_.step = accuracy.step;
     control_.steps_per_contact = accuracy.steps_per_contact;
     control_.evaluation_limit = options.evaluation_limit;

@@ -10,6 +10,7 @@ namespace clatter::numeric {
 struct Accuracy {
   Method method = Method::rk8pd;
   double tolerance = 1e-10;       ///< of an adaptive method
+  double step_cap = 1;            ///< of an adaptive method: factor of the longest step, which no tolerance makes longer
   double step = 0;                ///< of a fixed-step method [s]; 0: see steps_per_contact
   double steps_per_contact = 300;
 };

@@ -11,9 +11,11 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 constexpr double finer = 0.1;   ///< tolerance of the second run, over that of the main one
 constexpr double coarser = 10;  ///< the same where a finer one is not to be had
+/// Of the longest step, over that of the main run: where steps are as long as they may be, the tolerance changes nothing.
+constexpr double shorter_steps = 0.7;
 /// Errors of single numbers scatter about the power of the tolerance: of random drops 95 of 100 lie within these.
 constexpr double error_per_distance_of_finer = 4;
-constexpr double error_per_distance_of_coarser = 2;
+constexpr double error_per_distance_of_coarser = 4;
 constexpr double step_part = 0.5;
 constexpr double error_per_distance_of_steps = 3;  ///< 8/7 where the step is short enough for the order to show
 
@@ -63,6 +65,7 @@ SecondRun second_run(const Accuracy& main, double used_step) {
   second.accuracy.steps_per_contact /= step_part;
   if (main.step > 0) second.accuracy.step = used_step * step_part;
   if (main.method == Method::tvd_rk3) return second;
+  second.accuracy.step_cap *= shorter_steps;
   const bool can_be_finer = finer * main.tolerance >= least_tolerance;
   second.accuracy.tolerance *= can_be_finer ? finer : coarser;
   second.error_per_distance = can_be_finer ? error_per_distance_of_finer : error_per_distance_of_coarser;

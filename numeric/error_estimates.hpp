@@ -13,7 +13,7 @@ struct SecondRun {
   double error_per_distance = 0;
 };
 
-/// The second run is finer than the main one: a tenth of its tolerance, or half its step.  The distance of the two is
+/// The second run is finer than the main one: a tenth of its tolerance and shorter longest steps, or half its step.  The distance of the two is
 /// then the main run's error but for a part: 10^(−q), q the power of the tolerance with which errors fall (0.9), or
 /// 1/8 for order three.  Where a tenth of the tolerance is below least_tolerance, the second run is ten times coarser.
 /// @param used_step  of the main run, fixed [s]

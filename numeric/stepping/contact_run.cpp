@@ -62,7 +62,7 @@ void ContactRun::begin(const MotionState& touch, const Vector3& point) {
 }
 
 void ContactRun::step_to_the_end() {
-  double h = scales_.time / adaptive_first_steps;
+  double h = control_->step_cap * scales_.time / adaptive_first_steps;
   if (stepper_.error_order() > 0) {
     while (advance(h)) continue;
     return;
@@ -169,7 +169,7 @@ bool ContactRun::find_step(double& h, double& next) {
   const int order = stepper_.error_order();
   const double horizon = std::max(scales_.time, now_.time);
   bool is_number = true;  // of the last trial
-  if (order > 0) h = std::min(h, largest_part * horizon);
+  if (order > 0) h = std::min(h, control_->step_cap * largest_part * horizon);
   for (;;) {
     if (system_.evaluations() >= control_->evaluation_limit) return end(ContactEnding::evaluation_limit);
     if (!(h > smallest_part * horizon)) {

@@ -27,6 +27,7 @@ struct ContactControl {
   double step = 0;           ///< of a fixed-step method [s], at most a quarter of scales.time; 0: scales.time / steps_per_contact
   double first_step = 0;     ///< length of the first fixed step [s], at most `step`; 0: as the others
   double steps_per_contact = 300;
+  double step_cap = 1;       ///< of an adaptive method: factor of the longest step and of the first one
   long evaluation_limit = 0;  ///< of the system's count, at which the run stops
   bool estimate_local_slip = false;  ///< see ContactResult::local_slip
   /// Called after every accepted step, and before that with a peak of the force inside it; return false to stop.

@@ -89,7 +89,7 @@ class Coverage {
 void check_coverage(Coverage& coverage) {
   BOOST_TEST_MESSAGE("covered " << coverage.covered() << " of " << coverage.count() << ", bar over error: median "
                                 << coverage.quantile(0.5) << ", widest twentieth " << coverage.quantile(0.95));
-  BOOST_TEST(coverage.count() > 6 * random_drops);
+  BOOST_TEST(coverage.count() > 4 * random_drops);
   BOOST_TEST(coverage.covered() >= 0.95);
   BOOST_TEST(coverage.quantile(0.5) <= 10);
   BOOST_TEST(coverage.quantile(0.95) <= 100);
@@ -122,6 +122,19 @@ BOOST_AUTO_TEST_CASE(error_bars_cover_95_of_100_errors_and_are_at_most_ten_times
       options.method = method;
       options.tolerance = tolerance;
       settings.push_back(options);
+    }
+  }
+  check_bars(settings);
+}
+
+/// Steps are then as long as they may be, whatever the tolerance: a second run at a tenth of it alone would be the same run.
+BOOST_AUTO_TEST_CASE(error_bars_cover_where_the_tolerance_is_too_loose_to_shorten_a_step) {
+  std::vector<Options> settings;
+  for (const Method method : {Method::rkck, Method::rk8pd}) {
+    for (const double tolerance : {1e-3, 1e-2, 1e-1}) {
+      settings.push_back(options_for(6, 1));
+      settings.back().method = method;
+      settings.back().tolerance = tolerance;
     }
   }
   check_bars(settings);

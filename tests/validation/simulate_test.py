@@ -460,9 +460,9 @@ class Friction(Folder):
     def test_a_first_contact_that_recedes_is_refused_in_the_words_of_the_discrete_model(self):
         case = os.path.join(CASES, "rod-10.toml")
         sequence = subprocess.run([PROGRAM, "sequence", "--angle", "10", "--spin", "50"], capture_output=True, text=True,
-                                  timeout=120)
+                                  timeout=3000)
         for command in ("simulate", "compare", "tradeoff"):
-            result = subprocess.run([PROGRAM, command, case, "--spin", "50"], capture_output=True, text=True, timeout=120)
+            result = subprocess.run([PROGRAM, command, case, "--spin", "50"], capture_output=True, text=True, timeout=3000)
             self.assertEqual((result.returncode, result.stdout, result.stderr), (2, "", sequence.stderr), command)
         self.assertEqual(run(case, "--spin", "1", "--impacts", "1").returncode, 0)
 

@@ -31,7 +31,6 @@ Json impact_json(const ImpactRecord& row, int n) {
   Json json, errors;
   for_each_entry(row, n, [&](const char* name, const auto& value) { json[name] = entry_json(value); });
   for_each_error(row, [&](const char* name, const auto& error) { errors[name] = entry_json(error); });
-  json["local_slip"] = number_or_null(row.local_slip);
   json["error_estimate"] = errors;
   return json;
 }

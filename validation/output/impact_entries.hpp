@@ -127,6 +127,7 @@ void for_each_entry(const numeric::ImpactRecord& row, int n, Entry&& entry) {
   entry("submerged", row.submerged);
   for_each_number(row.value, entry);
   entry("impulse_ratio", impulse_ratio(row.value));
+  entry("local_slip", row.local_slip);
   entry("energy_stored", row.energy_stored);
   entry("ledger_gap", row.ledger_gap);
   entry("amplification", row.amplification);
