@@ -98,7 +98,8 @@ void Computation::watch_time(std::chrono::milliseconds limit) {
 void Computation::read() {
   asio::async_read(pipe_, asio::dynamic_buffer(answer_),
                    [self = shared_from_this()](const boost::system::error_code& error, std::size_t) {
-                     if (error == asio::error::eof) self->finish(self->answer());
+                     // The end may have been read, and be told, when the computation is cancelled already.
+                     if (error == asio::error::eof && self->done_) self->finish(self->answer());
                    });
 }
 

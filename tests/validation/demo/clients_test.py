@@ -21,6 +21,19 @@ from waiting import until  # noqa: E402
 LONG = {"case": "rod-45", "method": "tvd-rk3", "step": 1e-12}
 
 
+# Refused once the body is made: an answer of one piece.
+SHORT = {"angle": 10, "stiffness": 1e8, "height": 0.001}
+
+
+def process_state(pid):
+    """One letter: T stopped, Z ended and not yet waited for; None: there is no such process."""
+    try:
+        with open(f"/proc/{pid}/stat", encoding="ascii", errors="replace") as file:
+            return file.read().rpartition(")")[2].split()[0]
+    except FileNotFoundError:
+        return None
+
+
 class Patience(unittest.TestCase):
     """What clients do to the server does not keep it from the others."""
 
@@ -98,6 +111,31 @@ class Patience(unittest.TestCase):
             self.assertEqual((status, json.loads(text)["status"]), (503, 3))
             self.assertIn("takes more than 0.2 s", json.loads(text)["error"])
         self.assertEqual(self.demo.computing(), [])
+
+    def test_an_answer_that_is_there_when_its_client_leaves_harms_nobody(self):
+        """The server meets both at once: it is stopped while they happen.  Another computation goes on meanwhile."""
+        self.start_long()
+        others = self.demo.computing()
+
+        def caught():
+            """A process that has not yet answered, stopped; its connection."""
+            connection = self.demo.send("/api/simulate", SHORT)
+            self.open.append(connection)
+            until(lambda: set(self.demo.computing()) - set(others) or select.select([connection], [], [], 0)[0])
+            for pid in set(self.demo.computing()) - set(others):
+                os.kill(pid, signal.SIGSTOP)
+                until(lambda: process_state(pid) in ("T", "Z", None))
+                if process_state(pid) == "T":
+                    return pid, connection
+            return None
+        pid, connection = until(caught)
+        os.kill(self.demo.process.pid, signal.SIGSTOP)
+        until(lambda: process_state(self.demo.process.pid) == "T")
+        os.kill(pid, signal.SIGCONT)
+        until(lambda: process_state(pid) == "Z")
+        connection.close()
+        os.kill(self.demo.process.pid, signal.SIGCONT)
+        self.answers()
 
     def test_a_computation_that_breaks_off_is_500_and_harms_nobody(self):
         self.start_long()
