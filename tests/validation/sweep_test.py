@@ -303,7 +303,7 @@ class SameBytes(Folder):
                                    text=True)
         part = self.path("out.csv.part")
         size = os.path.getsize(part) if os.path.exists(part) else 0
-        until(lambda: process.poll() is not None or os.path.exists(part) and os.path.getsize(part) > size + 2000)
+        until(lambda: process.poll() is not None or os.path.exists(part) and os.path.getsize(part) > size + 20000)  # more than the head
         process.send_signal(number)
         message = process.communicate(timeout=3000)[1]
         if process.returncode == 0 or os.path.exists(self.path("out.csv")):  # all was done when the signal came
