@@ -298,6 +298,8 @@ class Files(unittest.TestCase):
 
     def test_a_check_names_the_files_that_differ_and_a_run_mends_them(self):
         picture, data = self.data / "figures" / "figure_07.svg", self.data / "figures" / "regimes_restitution.csv"
+        data.unlink()  # written anew, for its last digits are those of the machine that writes them
+        self.assertEqual(self.run_program(PROGRAM, "--only", "regimes").returncode, 0)
         kept = picture.read_text(encoding="utf-8"), data.read_text(encoding="utf-8")
         picture.write_text(kept[0].replace("86", "87", 1), encoding="utf-8")
         data.write_text(kept[1].replace("58.488", "58.588"), encoding="utf-8")
