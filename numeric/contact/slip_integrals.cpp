@@ -6,13 +6,14 @@
 #include <utility>
 
 #include "numeric/contact/gauss_rules.hpp"
-#include "numeric/contact/slip_segment.hpp"
+#include "numeric/contact/slip_rays.hpp"
 
 namespace clatter::numeric {
 namespace {
 
 constexpr double least_ellipse = 2.6;     ///< ρ from which Gauss's rule is taken
 constexpr double least_smooth_ellipse = 3.1;  ///< ρ from which it is taken for a whole triangle
+constexpr double cheap_ellipse = 10;  ///< ρ from which it costs less than a sum over the edges
 constexpr int rough_order = 6;
 constexpr double rough_rounding = 0.05;   ///< of the slip's variation
 constexpr double near_sizes = 3;          ///< distance of p₀ from the middle, in sizes, up to which (1) cancels little
@@ -107,7 +108,7 @@ bool near_fixed_point(const SlipPatch& patch, const Survey& s, PlanePoint& fixed
   return true;
 }
 
-/// Equation (1).
+/// Equation (1), or the rays between the point of no slip and the edges.
 SlipIntegrals add_up_edges(const SlipPatch& patch, const PlanePoint& fixed) {
   SlipIntegrals sum;
   SlipSegment segment;
@@ -127,7 +128,7 @@ SlipIntegrals add_up_edges(const SlipPatch& patch, const PlanePoint& fixed) {
     segment.slip = {patch.east.along(segment.middle), patch.north.along(segment.middle)};
     segment.depth_at_middle = patch.depth.along(segment.middle);
     segment.stiffness_at_middle = patch.stiffness.along(segment.middle);
-    sum.add(along_segment(patch, segment), twice_area / 2);
+    sum.add(patch.rounding > 0 ? along_rays(patch, segment) : along_segment(patch, segment), twice_area / 2);
   }
   sum.east_x += fixed.x * sum.east;
   sum.east_y += fixed.y * sum.east;
@@ -279,8 +280,8 @@ SlipIntegrals slip_integrals(const SlipPatch& patch) {
   const Survey s = survey(patch);
   if (!(s.fastest > 0) || !(s.size > 0)) return {};
   PlanePoint fixed;
-  if (patch.rounding == 0 && near_fixed_point(patch, s, fixed)) return add_up_edges(patch, fixed);
   const double ellipse = smooth_ellipse(patch, s);
+  if (ellipse < cheap_ellipse && near_fixed_point(patch, s, fixed)) return add_up_edges(patch, fixed);
   if (ellipse >= least_smooth_ellipse) return add_up_fan(patch, gauss_order(ellipse));
   return Strips(patch, s).sum();
 }

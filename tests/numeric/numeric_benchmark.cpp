@@ -134,6 +134,22 @@ void contact_evaluation(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(loader.load(view, {}));
 }
 
+/// A face that lies almost flat and spins about a point of it.
+void regularised_friction_evaluation(benchmark::State& state) {
+  const Body body = phone();
+  const Ground ground{.stiffness = 1e9, .damping = 1e7, .static_friction = 0.3, .sliding_friction = 0.3};
+  const MotionState touch = touching_state(body, {.inclination = 0.01, .out_of_plane_tilt = 0.005});
+  GroundView view;
+  view.reference = {touch.attitude.conjugate() * Vector3::UnitZ(), touch.centre.z()};
+  view.sink = -1e-3;
+  view.vertical_speed = -0.1;
+  view.angular_velocity = Vector3(2, -1, 30);
+  view.east_speed = 0.2;
+  ContactLoader loader(body, ground);
+  const SlipField field{.kind = SlipField::Kind::points, .regularisation = 1e-3};
+  for (auto _ : state) benchmark::DoNotOptimize(loader.load(view, field));
+}
+
 void touch_down_search(benchmark::State& state) {
   const Body body = phone();
   MotionState start;
@@ -149,6 +165,7 @@ BENCHMARK(damped_phone_two_impacts)->Unit(benchmark::kMicrosecond);
 BENCHMARK(damped_phone_two_impacts_with_estimates)->Unit(benchmark::kMicrosecond);
 BENCHMARK(damped_phone_with_a_million_surface_elements)->Unit(benchmark::kMicrosecond);
 BENCHMARK(contact_evaluation)->Arg(0)->Arg(1);
+BENCHMARK(regularised_friction_evaluation);
 BENCHMARK(touch_down_search)->Unit(benchmark::kMicrosecond);
 
 double seconds(const std::function<void()>& work) {

@@ -291,7 +291,7 @@ BOOST_AUTO_TEST_CASE(friction_about_any_point_of_no_slip_is_right_to_1e13) {
 }
 
 BOOST_AUTO_TEST_CASE(regularised_friction_is_right_to_1e13) {
-  for (const double part : {1e-6, 1e-2, 1.0}) {
+  for (const double part : {1e-10, 1e-6, 1e-2, 0.1, 1.0}) {
     for (const double log_condition : {0.0, 2.0, 16.0}) {
       BOOST_TEST_MESSAGE("v_r " << part << ", condition 1e" << log_condition << ": " << worst_of(log_condition, part));
     }
