@@ -54,8 +54,20 @@ void Body::set_up(const MassProperties& properties, const Surface& surface, bool
     radius_ = std::max(radius_, vertex.norm());
     half_length_ = std::max(half_length_, std::fabs(vertex.x()));
   }
+  if (!merge) find_outline(properties, surface);
   hierarchy_ = Hierarchy(facets_);
   check_surface(facets_, radius_);
+}
+
+/// Both list the surface's nodes that they use in the same order.
+void Body::find_outline(const MassProperties& properties, const Surface& surface) {
+  outline_ = planar_facets(surface, true);
+  for (Vector3& vertex : outline_.vertices) vertex -= properties.centre;
+  std::size_t next = 0;
+  for (const Vector3& vertex : facets_.vertices) {
+    const bool is_next = next < outline_.vertices.size() && vertex == outline_.vertices[next];
+    outline_of_.push_back(is_next ? static_cast<int>(next++) : -1);
+  }
 }
 
 }  // namespace clatter::numeric

@@ -18,11 +18,12 @@ TouchCounter::TouchCounter(const Body& body) : body_(body) {
   before_.assign(vertices, 0);
   flooded_.assign(vertices, 0);
   stack_.reserve(vertices);
+  corners_.reserve(body.facets().corners.size());
 }
 
 /// All links in both directions, sorted by where they begin.
 std::vector<TouchCounter::Edge> TouchCounter::edges() const {
-  const Facets& facets = body_.facets();
+  const Facets& facets = body_.outline();
   std::vector<Edge> edges;
   edges.reserve(2 * facets.corners.size());
   const auto first_corner = [&](int loop) {
@@ -42,7 +43,7 @@ std::vector<TouchCounter::Edge> TouchCounter::edges() const {
 }
 
 void TouchCounter::add_loop(const Loop& loop, std::vector<Edge>& edges) const {
-  const Facets& facets = body_.facets();
+  const Facets& facets = body_.outline();
   const double longest = body_.radius() / 4;
   for (int c = loop.begin; c < loop.end; ++c) {
     const int next = c + 1 < loop.end ? c + 1 : loop.begin;
@@ -61,12 +62,14 @@ void TouchCounter::begin() {
 }
 
 bool TouchCounter::all_new(const std::vector<int>& submerged) const {
-  return any_before_ && !submerged.empty() &&
-         std::none_of(submerged.begin(), submerged.end(), [&](int vertex) { return stamp_of(vertex) == now_; });
+  return any_before_ && !submerged.empty() && std::none_of(submerged.begin(), submerged.end(), [&](int vertex) {
+    const int corner = body_.outline_vertex(vertex);
+    return corner >= 0 && stamp_of(corner) == now_;
+  });
 }
 
 void TouchCounter::note_end(int vertex) {
-  const double x = body_.facets().vertices[static_cast<std::size_t>(vertex)].x();
+  const double x = body_.outline().vertices[static_cast<std::size_t>(vertex)].x();
   const double middle = 1e-9 * body_.half_length();
   touched_a_ = touched_a_ || x < -middle;
   touched_b_ = touched_b_ || x > middle;
@@ -75,7 +78,11 @@ void TouchCounter::note_end(int vertex) {
 void TouchCounter::update(const std::vector<int>& submerged) {
   const int previous = now_++;
   bool grown = false;
-  for (const int vertex : submerged) {
+  corners_.clear();
+  for (const int facet_vertex : submerged) {
+    const int vertex = body_.outline_vertex(facet_vertex);
+    if (vertex < 0) continue;
+    corners_.push_back(vertex);
     int& stamp = stamps_[static_cast<std::size_t>(vertex)];
     if (stamp == now_) continue;
     before_[static_cast<std::size_t>(vertex)] = stamp;
@@ -87,7 +94,7 @@ void TouchCounter::update(const std::vector<int>& submerged) {
   }
   any_before_ = !submerged.empty();
   if (!grown) return;
-  for (const int vertex : submerged) {
+  for (const int vertex : corners_) {
     if (flooded_[static_cast<std::size_t>(vertex)] != now_ && !joins_old(vertex)) ++touches_;
   }
 }
@@ -102,7 +109,7 @@ bool TouchCounter::connects(int from, const Neighbour& to) const {
   if (to.link == Link::near) return true;
   if (!is_new(from) || !is_new(to.vertex)) return false;
   if (to.link == Link::far) return true;
-  const Facets& facets = body_.facets();
+  const Facets& facets = body_.outline();
   const Facet& facet = facets.facets[static_cast<std::size_t>(to.facet)];
   const int begin = facets.loops[static_cast<std::size_t>(facet.begin)].begin;
   const int end = facets.loops[static_cast<std::size_t>(facet.end - 1)].end;
