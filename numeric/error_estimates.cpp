@@ -1,5 +1,6 @@
 #include "numeric/error_estimates.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -19,6 +20,13 @@ constexpr double error_per_distance_of_coarser = 4;
 constexpr double step_part = 0.5;
 constexpr double error_per_distance_of_steps = 3;  ///< 8/7 where the step is short enough for the order to show
 
+/// Single numbers agree by chance in two runs that differ: of a vector's distance, at least, for each component, and of
+/// the impulse's relative distance for what the same steps yield.
+constexpr double least_part = 0.1;
+
+constexpr Vector3 ImpactNumbers::* vectors[] = {&ImpactNumbers::impulse, &ImpactNumbers::velocity_after,
+                                                &ImpactNumbers::angular_velocity_after};
+
 template <class Use>
 void for_each_number(const ImpactNumbers& a, const ImpactNumbers& b, ImpactNumbers& out, Use&& use) {
   using Numbers = ImpactNumbers;
@@ -29,8 +37,25 @@ void for_each_number(const ImpactNumbers& a, const ImpactNumbers& b, ImpactNumbe
         &Numbers::work_released}) {
     out.*member = use(a.*member, b.*member);
   }
-  for (const auto member : {&Numbers::impulse, &Numbers::velocity_after, &Numbers::angular_velocity_after}) {
+  for (const auto member : vectors) {
     for (int i = 0; i < 3; ++i) (out.*member)[i] = use((a.*member)[i], (b.*member)[i]);
+  }
+}
+
+/// Against agreement by chance.  Components that are 0 in both runs, out of the plane of motion, stay known.
+void widen(const ImpactNumbers& a, const ImpactNumbers& b, ImpactNumbers& error) {
+  using Numbers = ImpactNumbers;
+  const double relative = least_part * error.impulse.norm() / a.impulse.norm();
+  for (const auto member : {&Numbers::duration, &Numbers::restitution, &Numbers::peak_force}) {
+    const double least = relative * std::fabs(a.*member);
+    if (error.*member < least) error.*member = least;
+  }
+  for (const auto member : vectors) {
+    Vector3& of = error.*member;
+    const double least = least_part * of.norm();
+    for (int i = 0; i < 3; ++i) {
+      if ((a.*member)[i] != 0 || (b.*member)[i] != 0) of[i] = std::max(of[i], least);
+    }
   }
 }
 
@@ -48,6 +73,13 @@ void add_rounding(const Body& body, const ImpactRecord& row, ImpactNumbers& erro
   for (double* work : {&error.energy_loss, &error.work_damping, &error.work_friction, &error.work_released}) {
     add(*work, n.energy_before);
   }
+  for (double* angle : {&error.inclination, &error.contact_angle}) add(*angle, 1);  // from direction cosines
+  // Of a point of the body: what V and ω × u leave, about as large as afterwards.
+  add(error.approach_speed, n.velocity_after.norm() + body.radius() * n.angular_velocity_after.norm());
+  // Heights are known to the rounding of the body's size, and touch-down and lift-off to that over the speed.
+  const double separation = n.approach_speed * (n.restitution > 0 ? std::min(n.restitution, 1.0) : 1);
+  add(error.duration, body.radius() / separation);
+  if (n.start > 0) add(error.start, body.radius() / n.approach_speed);
   // The time of a flat maximum is known to the root of what its height is known to.
   error.peak_time += std::sqrt(part) * n.duration;
   for (int i = 0; i < 3; ++i) {
@@ -81,7 +113,9 @@ void estimate_errors(const Body& body, double error_per_distance, std::vector<Im
     for_each_number(row.value, other, row.error, [&](double value, double other_value) {
       return same_kind ? error_per_distance * std::fabs(value - other_value) : not_known;
     });
-    if (same_kind) add_rounding(body, row, row.error);
+    if (!same_kind) continue;
+    widen(row.value, other, row.error);
+    add_rounding(body, row, row.error);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "numeric/error_estimates.hpp"
 #include "tests/numeric/bodies.hpp"
 
 namespace {
@@ -125,6 +126,28 @@ BOOST_AUTO_TEST_CASE(error_bars_cover_95_of_100_errors_and_are_at_most_ten_times
     }
   }
   check_bars(settings);
+}
+
+/// Components out of the plane of motion, 0 in both runs, stay known.
+BOOST_AUTO_TEST_CASE(a_number_in_which_two_runs_agree_by_chance_is_not_taken_for_exact) {
+  constexpr double distance = 1e-3, rounding = 1e-12;
+  ImpactRecord row;
+  row.value.duration = 0.1;
+  row.value.approach_speed = row.value.restitution = row.value.peak_force = 1;
+  row.value.impulse = row.value.velocity_after = row.value.angular_velocity_after = Vector3(1, 0, 2);
+  std::vector<ImpactRecord> rows{row}, second{row};
+  for (const auto vector : {&ImpactNumbers::impulse, &ImpactNumbers::velocity_after, &ImpactNumbers::angular_velocity_after}) {
+    (second[0].value.*vector).z() += distance;
+  }
+  estimate_errors(phone(), 1, rows, second);
+  const ImpactNumbers& error = rows[0].error;
+  BOOST_TEST(error.impulse.x() > distance / 100);
+  BOOST_TEST(error.velocity_after.x() > distance / 100);
+  BOOST_TEST(error.angular_velocity_after.x() > distance / 100);
+  BOOST_TEST(error.impulse.y() < rounding);
+  BOOST_TEST(error.impulse.z() > distance / 2);
+  BOOST_TEST(error.duration > 0.1 * distance / 100);
+  BOOST_TEST(error.peak_force > distance / 100);
 }
 
 /// Steps are then as long as they may be, whatever the tolerance: a second run at a tenth of it alone would be the same run.
