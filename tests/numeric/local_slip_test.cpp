@@ -7,6 +7,7 @@
 #include <random>
 
 #include "tests/numeric/bodies.hpp"
+#include "tests/numeric/row_comparison.hpp"
 
 namespace {
 
@@ -148,6 +149,46 @@ BOOST_AUTO_TEST_CASE(numbers_do_not_depend_on_how_a_face_is_meshed_whatever_the_
     }
   }
   BOOST_TEST(within >= 0.99 * compared, within << " of " << compared << " within their bars");
+}
+
+void check_mesh_independence(const Body& whole, const Body& meshed, const Ground& ground, const MotionState& start,
+                             const Options& options) {
+  const Simulation one = simulate(whole, ground, start, options), other = simulate(meshed, ground, start, options);
+  BOOST_TEST_REQUIRE(one.impacts.size() == static_cast<std::size_t>(options.impacts));
+  BOOST_TEST_REQUIRE(other.impacts.size() == one.impacts.size());
+  const Comparison rows = compare_rows(one, other, true);
+  BOOST_TEST(rows.unknown == 0);
+  BOOST_TEST(rows.note == "");
+  BOOST_TEST(rows.within == rows.numbers, rows.within << " of " << rows.numbers << " within, worst " << rows.worst
+                                                      << ": " << rows.worst_number);
+}
+
+/// About a point inside the patch, with friction that turns with the place.
+BOOST_AUTO_TEST_CASE(a_box_that_spins_on_its_corner_at_54_6_degrees_does_not_depend_on_its_mesh) {
+  const Vector3 size(0.1, 0.05, 0.04);
+  const Body whole = box_body(size, 0.1), meshed = box_body(size, 0.1, 16, 12, 8, false);
+  Ground ground{.stiffness = 1e8, .damping = 1e6, .static_friction = 0.6, .sliding_friction = 0.6};
+  Options options;
+  options.digits = 9;
+  options.impacts = 2;
+  for (const double tilt : {0.0, 25.0}) {
+    MotionState start = touching_state(whole, {.inclination = 54.6 * degree, .out_of_plane_tilt = tilt * degree});
+    start.angular_velocity = start.attitude.conjugate() * Vector3(0, 3, 40);
+    check_mesh_independence(whole, meshed, ground, start, options);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_damped_phone_at_2_degrees_with_regularised_friction_does_not_depend_on_its_mesh) {
+  const Body whole = phone(), meshed = phone(24, 10, 4, false);
+  const Ground ground{.stiffness = 1e8, .damping = 1e7, .static_friction = 0.075, .sliding_friction = 0.075,
+                      .friction = FrictionLaw::regularised};
+  Options options;
+  options.digits = 9;
+  options.impacts = 2;
+  options.planar = true;
+  MotionState start = touching_state(whole, {.inclination = 2 * degree});
+  start.velocity = {0, 0, -std::sqrt(2 * options.gravity * (1 - start.centre.z()))};  // from 1 m
+  check_mesh_independence(whole, meshed, ground, start, options);
 }
 
 /// The brute force sums some thousand pieces, whose friction jumps: 1e-3 of it at most; the flat patch is further off.
