@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "numeric/contact/gauss_rules.hpp"
+#include "numeric/contact/slip_one_way.hpp"
 #include "numeric/contact/slip_rays.hpp"
 
 namespace clatter::numeric {
@@ -279,6 +280,8 @@ SlipIntegrals slip_integrals(const SlipPatch& patch) {
   if (patch.count < 3) return {};
   const Survey s = survey(patch);
   if (!(s.fastest > 0) || !(s.size > 0)) return {};
+  const PlaneLinear& north = patch.north;
+  if (north.value == 0 && north.x == 0 && north.y == 0) return one_way_slip_integrals(patch);
   PlanePoint fixed;
   const double ellipse = smooth_ellipse(patch, s);
   if (ellipse < cheap_ellipse && near_fixed_point(patch, s, fixed)) return add_up_edges(patch, fixed);

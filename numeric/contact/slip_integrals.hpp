@@ -41,6 +41,7 @@ struct SlipIntegrals {
 };
 
 /// The integrals, whatever the polygon's cut and the slopes of the slip.  With p₀ the point of no slip (v_r = 0):
+/// - No slip to the north, as in the plane: a sum over the edges in closed form (one_way_slip_integrals).
 /// - Slip that varies little over the polygon, against its own size: Gauss's rule on the triangles of a fan.
 ///   The direction is analytic up to the complex zeros of |v|² + v_r², whose distance gives the order.
 /// - p₀ in or near the polygon, v_r = 0: each homogeneous part F_k, of degree k in p − p₀, of the integrand has

@@ -264,13 +264,14 @@ constexpr int scenes_each = 1;
 constexpr int scenes_each = 5;
 #endif
 
-double worst_of(double log_condition, double rounding_part) {
+double worst_of(double log_condition, double rounding_part, bool one_way = false) {
   double worst = 0;
   for (const Middle where : places) {
     Draw draw(static_cast<unsigned>(100 * log_condition) + static_cast<unsigned>(where));
     for (int i = 0; i < scenes_each; ++i) {
       Scene scene = draw.scene(where, std::pow(10, log_condition));
       scene.patch.corners = scene.corners.data();
+      if (one_way) scene.patch.north = {};
       const double across = scene.size * std::hypot(scene.patch.east.x, scene.patch.north.x);
       if (rounding_part > 0) scene.patch.rounding = across * rounding_part;
       const double error = deviation(scene.patch, scene.size) * breadth(scene);
@@ -295,5 +296,11 @@ BOOST_AUTO_TEST_CASE(regularised_friction_is_right_to_1e13) {
     for (const double log_condition : {0.0, 2.0, 16.0}) {
       BOOST_TEST_MESSAGE("v_r " << part << ", condition 1e" << log_condition << ": " << worst_of(log_condition, part));
     }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(friction_of_slip_in_one_direction_is_right_to_1e13) {
+  for (const double part : {0.0, 1e-10, 1e-4, 0.1, 1.0}) {
+    BOOST_TEST_MESSAGE("v_r " << part << ": " << worst_of(16, part, true));
   }
 }
