@@ -123,7 +123,7 @@ void run_scene(unsigned number, const Limits& limits, Totals& totals) {
   const Simulation one = simulate(whole, scene.ground, scene.start(whole), scene.options);
   Fine fine = fine_run(scene, limits, false);
   Comparison result = compare_rows(one, fine.run, false);
-  const bool one_bar = result.within == result.numbers;
+  const bool one_bar = result.alike && result.within == result.numbers;
   if (!one_bar) {  // the fine run's own bars are about as large, and cost more than the run
     for (std::size_t i = 0; i < std::min(one.impacts.size(), fine.run.impacts.size()); ++i) {
       fine.run.impacts[i].error = one.impacts[i].error;
@@ -137,7 +137,7 @@ void run_scene(unsigned number, const Limits& limits, Totals& totals) {
     result = compare_rows(one, fine.run, true);
   }
   ++totals.scenes;
-  totals.within += result.within == result.numbers;
+  totals.within += result.alike && result.within == result.numbers;
   totals.within_one_bar += one_bar;
   totals.halved += fine.parts < limits.parts;
   totals.numbers += result.numbers;

@@ -36,13 +36,14 @@ struct NamedVector {
   Vector3 ImpactNumbers::*vector;
 };
 
-inline constexpr NamedVector named_vectors[] = {{"impulse", &ImpactNumbers::impulse},
-                                                {"velocity_after", &ImpactNumbers::velocity_after},
-                                                {"angular_velocity_after", &ImpactNumbers::angular_velocity_after}};
+inline constexpr NamedVector named_vectors[] = {{"impulse_", &ImpactNumbers::impulse},
+                                                {"velocity_after_", &ImpactNumbers::velocity_after},
+                                                {"angular_velocity_after_", &ImpactNumbers::angular_velocity_after}};
 
 struct Comparison {
   int numbers = 0, within = 0;
   int unknown = 0;           ///< numbers without a bar
+  bool alike = true;         ///< as many rows, with the same labels
   double worst = 0;          ///< |difference| over the bar
   std::string worst_number;  ///< in words
   std::string note;          ///< on what is no number: rows, outcomes, how they are labelled
@@ -56,7 +57,8 @@ struct Comparison {
     ++numbers;
     const double distance = std::fabs(one - other);
     if (distance <= bar) ++within;
-    const double ratio = std::isnan(distance) ? std::numeric_limits<double>::infinity() : distance > 0 ? distance / bar : 0;
+    double ratio = distance > 0 ? distance / bar : 0;
+    if (std::isnan(distance)) ratio = std::numeric_limits<double>::infinity();
     if (!(ratio > worst)) return;
     worst = ratio;
     std::ostringstream words;
@@ -76,18 +78,23 @@ inline std::string kind_of(const ImpactRecord& row) {
 inline Comparison compare_rows(const Simulation& run, const Simulation& other, bool with_other) {
   Comparison c;
   if (run.outcome != other.outcome) c.note += " (" + run.message + "; " + other.message + ")";
-  if (run.impacts.size() != other.impacts.size()) c.note += " OTHER NUMBER OF ROWS";
+  c.alike = run.impacts.size() == other.impacts.size();
+  if (!c.alike) c.note += " OTHER NUMBER OF ROWS";
   for (std::size_t i = 0; i < std::min(run.impacts.size(), other.impacts.size()); ++i) {
     const ImpactRecord &a = run.impacts[i], &b = other.impacts[i];
     const std::string row = "row " + std::to_string(i + 1) + ' ';
     if (!a.predictable) c.note += ' ' + row + "not predictable";
-    if (kind_of(a) != kind_of(b)) c.note += ' ' + row + "OTHER KIND: " + kind_of(a) + ", " + kind_of(b);
+    if (kind_of(a) != kind_of(b)) {
+      c.alike = false;
+      c.note += ' ' + row + "OTHER KIND: " + kind_of(a) + ", " + kind_of(b);
+    }
     for (const auto& [name, n] : named_numbers) {
       c.add(a.value.*n, b.value.*n, a.error.*n + (with_other ? b.error.*n : 0), row + name);
     }
     for (const auto& [name, n] : named_vectors) {
       for (int k = 0; k < 3; ++k) {
-        c.add((a.value.*n)[k], (b.value.*n)[k], (a.error.*n)[k] + (with_other ? (b.error.*n)[k] : 0), row + name + "xyz"[k]);
+        const double bar = (a.error.*n)[k] + (with_other ? (b.error.*n)[k] : 0);
+        c.add((a.value.*n)[k], (b.value.*n)[k], bar, row + name + "xyz"[k]);
       }
     }
   }
