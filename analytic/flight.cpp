@@ -63,10 +63,12 @@ void finish(const PlanarBody& body, const Departure& departure, Flight& flight) 
 /// Vertices whose height at the arrival is zero to rounding arrive together.
 VertexSet together(const std::array<VertexHeight, max_vertices>& heights, int count,
                    const Arrival& arrival) {
-  VertexSet set = 0;
+  VertexSet set = static_cast<VertexSet>(1u << arrival.vertex);
+  const detail::Turn turn(heights[0].rate * arrival.time);
   for (int i = 0; i < count; ++i) {
-    const auto [height, velocity, scale] = heights[i].at(arrival.time);
-    if (i == arrival.vertex || (std::fabs(height) <= 4 * epsilon * scale && velocity < 0)) {
+    if (i == arrival.vertex) continue;
+    const auto [height, velocity, scale] = heights[i].at(arrival.time, turn);
+    if (std::fabs(height) <= 4 * epsilon * scale && velocity < 0) {
       set |= static_cast<VertexSet>(1u << i);
     }
   }

@@ -1,11 +1,22 @@
 #include "analytic/units.hpp"
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 
 namespace clatter::analytic {
 namespace {
 
-void scale(double& value, int exponent) { value = std::ldexp(value, exponent); }
+/// std::ldexp, by a product where the factor is a normal double: rounded once, as by std::ldexp.
+void scale(double& value, int exponent) {
+  if (std::abs(exponent) > 1022) {
+    value = std::ldexp(value, exponent);
+    return;
+  }
+  constexpr int bias = 1023, fraction_bits = 52;
+  value *= std::bit_cast<double>(static_cast<std::uint64_t>(exponent + bias) << fraction_bits);
+}
 
 int exponent_of(double value) { return value == 0 ? 0 : std::ilogb(value); }
 
@@ -60,6 +71,12 @@ void Units::to_si(RowErrors& error) const {
   scale(error.energy_loss, mass_ + 2 * speed_);
 }
 
+void Units::to_si(NearMiss& miss) const {
+  scale(miss.clearance, length_);
+  scale(miss.margin, length_);
+  scale(miss.time, length_ - speed_);
+}
+
 void Units::to_si(ImpactRow& row) const {
   const int time = length_ - speed_;
   scale(row.start, time);
@@ -72,6 +89,7 @@ void Units::to_si(ImpactRow& row) const {
   scale(row.flight.arrival.time, time);
   scale(row.flight.arrival.bracket_low, time);
   scale(row.flight.arrival.bracket_high, time);
+  to_si(row.flight.near_miss);
   scale(row.departure.normal, speed_);
   scale(row.departure.angular, -time);
   scale(row.departure.gravity, 2 * speed_ - length_);
@@ -82,9 +100,7 @@ void Units::to_si(Sequence& sequence) const {
   for (ImpactRow& row : sequence.rows) to_si(row);
   scale(sequence.total_normal_impulse, mass_ + speed_);
   scale(sequence.total_normal_impulse_error, mass_ + speed_);
-  scale(sequence.near_miss.clearance, length_);
-  scale(sequence.near_miss.margin, length_);
-  scale(sequence.near_miss.time, length_ - speed_);
+  to_si(sequence.near_miss);
   if (!sequence.tail) return;
   Tail& tail = *sequence.tail;
   scale(tail.end_time, length_ - speed_);

@@ -19,6 +19,7 @@ class Units {
   void to_si(PlanarVelocity& v) const;
   void to_si(Impact& impact) const;
   void to_si(RowErrors& error) const;
+  void to_si(NearMiss& miss) const;
   void to_si(ImpactRow& row) const;
 
   int length_, speed_, mass_;  ///< exponents of two

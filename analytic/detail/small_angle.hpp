@@ -25,4 +25,19 @@ inline double sine_deficit(double x) {
   return x * (y * sum);
 }
 
+/// The functions of an angle turned that heights, velocities and their derivatives share.
+struct Turn {
+  double angle;         ///< x
+  double sine;          ///< sin x
+  double versine;       ///< 1 − cos x
+  double sine_deficit;  ///< x − sin x
+
+  explicit Turn(double x) : angle(x) {
+    const double half_sine = std::sin(x / 2), half_cosine = std::cos(x / 2);
+    sine = 2 * half_sine * half_cosine;
+    versine = 2 * half_sine * half_sine;
+    sine_deficit = std::fabs(x) < 0.5 ? detail::sine_deficit(x) : x - sine;
+  }
+};
+
 }  // namespace clatter::analytic::detail

@@ -140,6 +140,34 @@ BOOST_AUTO_TEST_CASE(powers_of_two_in_every_unit_change_no_bit) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_near_miss_of_a_body_1024_times_as_large_is_1024_times_as_far) {
+  std::mt19937_64 random(22);
+  int of_rows = 0, of_ends = 0;
+  const auto is_larger = [](const NearMiss& small, const NearMiss& large) {
+    return same_bits(1024 * small.clearance, large.clearance) && same_bits(1024 * small.margin, large.margin) &&
+           same_bits(1024 * small.time, large.time);
+  };
+  for (int i = 0; i < 300; ++i) {
+    const Drop drop = random_drop(random);
+    Drop large = drop;
+    large.body.gyration_square *= 1024 * 1024;
+    for (Vertex& v : large.body.vertices) v = {1024 * v.x, 1024 * v.z};
+    large.velocity.angular /= 1024;
+    large.gravity /= 1024;
+    const Sequence a = impact_sequence(drop, {.impacts = 12}), b = impact_sequence(large, {.impacts = 12});
+    BOOST_REQUIRE(a.rows.size() == b.rows.size());
+    for (std::size_t k = 1; k < a.rows.size(); ++k) {
+      const NearMiss &small = a.rows[k].flight.near_miss, &far = b.rows[k].flight.near_miss;
+      if (std::isfinite(small.clearance)) ++of_rows;
+      BOOST_REQUIRE(is_larger(small, far));
+    }
+    if (a.outcome == Outcome::no_further_impact && std::isfinite(a.near_miss.clearance)) ++of_ends;
+    BOOST_REQUIRE(is_larger(a.near_miss, b.near_miss));
+  }
+  BOOST_TEST(of_rows >= 20);
+  BOOST_TEST(of_ends >= 5);
+}
+
 BOOST_AUTO_TEST_CASE(the_mirror_image_has_the_mirrored_sequence) {
   std::mt19937_64 random(16);
   for (int i = 0; i < 300; ++i) {
