@@ -46,6 +46,7 @@ BodyMotion::BodyMotion(const PlanarBody& body, const Angle& inclination,
   if (body.uniform_thin_rod && velocity.normal < 0) {
     frame_ = {.speed = -velocity.normal, .sextant = 3};
     remainder_.normal = 0;
+    renew_frame_velocity();
     collapse_frame();
   }
   centre_height_ = -contact_point(std::countr_zero(lowest_vertices())).normal;
@@ -65,10 +66,14 @@ VertexSet BodyMotion::lowest_vertices() const {
 
 PlanarVelocity BodyMotion::velocity() const {
   if (frame_.speed == 0) return remainder_;
-  const double length = body_.vertices[1].x - body_.vertices[0].x;
-  return {.normal = frame_.normal() + remainder_.normal,
+  return {.normal = frame_velocity_.normal + remainder_.normal,
           .tangential = remainder_.tangential,
-          .angular = frame_.angular(length) + remainder_.angular};
+          .angular = frame_velocity_.angular + remainder_.angular};
+}
+
+void BodyMotion::renew_frame_velocity() {
+  const double length = body_.vertices[1].x - body_.vertices[0].x;
+  frame_velocity_ = {.normal = frame_.normal(), .angular = frame_.angular(length)};
 }
 
 /// The frame helps while the rod lies low and the remainder is the smaller part; otherwise the two
@@ -179,6 +184,7 @@ void BodyMotion::strike_framed(int vertex, Impact& impact) {
   const double of_frame = frame_.contact_velocity(axis);
   const double of_remainder = normal_velocity(remainder_, d);
   const double elastic = frame_.reflect(axis);
+  renew_frame_velocity();
   const double difference = of_frame * ((1 - e) * inertia - 2 * coupled) / (inertia * denominator) -
                             (1 + e) * of_remainder / denominator;
   const double normal = elastic + difference;

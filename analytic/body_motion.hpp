@@ -94,6 +94,7 @@ class BodyMotion {
   [[nodiscard]] bool frame_carries(int vertex, const ContactVelocity& contact) const;
   Impact strike_point(int vertex, const ImpactLaw& law);
   void strike_framed(int vertex, Impact& impact);
+  void renew_frame_velocity();
   void collapse_frame();
   void refine(Arrival& arrival);
 
@@ -108,6 +109,7 @@ class BodyMotion {
   int elastic_flights_ = 0;  ///< flights so far on the frame alone; −1: it has been left
   double offset_ = 0;        ///< η or ε (elastic_offsets.hpp) of the last of them
   ElasticFrame frame_;
+  PlanarVelocity frame_velocity_;  ///< of frame_, while it carries something
   PlanarVelocity remainder_;
   VertexSet touching_ = 0;
   int reference_ = 0;

@@ -72,19 +72,18 @@ void BodyMotion::keep_contact_velocity(const ContactPoint& d, Impact& impact) {
 /// both at the touch.
 void BodyMotion::carry(const Departure& departure, const Arrival& arrival) {
   const VertexHeight height = vertex_height(turned_, departure, arrival.vertex);
-  const double turned = departure.angular * arrival.time;
-  const double half = std::sin(turned / 2);
-  const double sine_part = height.sine * std::sin(std::fabs(turned));
-  const double versine_part = height.versine * 2 * half * half;
+  const detail::Turn turn(height.rate * arrival.time);
+  const double sine_part = height.sine * turn.sine;
+  const double versine_part = height.versine * turn.versine;
   const auto [along, offset] = departure.offset(turned_, reference_, arrival.vertex);
   const double of_start = departure.rebound_speed + std::fabs(departure.angular * along);
   const double scale = std::fabs(offset) + std::fabs(versine_part) + std::fabs(sine_part);
   carried_ = {.vertex = arrival.vertex,
-              .velocity = {height.at(arrival.time).velocity,
+              .velocity = {height.at(arrival.time, turn).velocity,
                            slip_ + departure.angular * (offset + versine_part - sine_part)},
               .normal_scale = of_start + height.velocity_scale(arrival.time),
               .slip_scale = std::fabs(slip_) + std::fabs(departure.angular) *
-                                                   (scale + std::fmax(std::fabs(turned) - 1, 0))};
+                                                   (scale + std::fmax(turn.angle - 1, 0))};
 }
 
 }  // namespace clatter::analytic

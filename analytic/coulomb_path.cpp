@@ -3,33 +3,40 @@
 #include <cmath>
 #include <limits>
 
+#include "analytic/contact_impulse.hpp"
 #include "analytic/viscoelastic_contact.hpp"
 
 namespace clatter::analytic {
 namespace {
 
+using detail::value_of;
+
 /// A straight stretch of the path.
+template <class Number>
 struct Phase {
-  double ratio;   ///< r = dP_t/dP_n
-  double slope;   ///< du/dP
-  double length;  ///< in P; infinite for the last phase
+  Number ratio{};   ///< r = dP_t/dP_n
+  Number slope{};   ///< du/dP
+  Number length{};  ///< in P; infinite for the last phase
 };
 
+template <class Number>
 struct Phases {
-  Phase first;
-  Phase second;  ///< meaningful if first.length is finite
+  Phase<Number> first;
+  Phase<Number> second;  ///< meaningful if first.length is finite
   ImpactMode mode_first;
   ImpactMode mode_second;
 };
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-Phase phase(const PathCoefficients& path, double ratio, double length) {
+template <class Number>
+Phase<Number> phase(const PathCoefficients<Number>& path, const Number& ratio,
+                    const Number& length) {
   return {ratio, path.normal - path.normal_coupling * ratio, length};
 }
 
 /// Without slip at the start: stick, or slip the way the drift pushes.
-Phases from_rest(const PathCoefficients& path, double friction) {
+Phases<double> from_rest(const PathCoefficients<>& path, double friction) {
   const double sticking = path.slip_drift / path.tangential;
   if (friction >= std::fabs(sticking)) {
     return {phase(path, sticking, endless), {}, ImpactMode::stick, ImpactMode::stick};
@@ -38,23 +45,39 @@ Phases from_rest(const PathCoefficients& path, double friction) {
   return {phase(path, ratio, endless), {}, ImpactMode::slip, ImpactMode::slip};
 }
 
-Phases from_slip(const PathCoefficients& path, double slip, double friction) {
-  const double ratio = -std::copysign(friction, slip);
+/// @param sense of the slip, 1 or −1
+template <class Number>
+Phases<Number> from_slip(const PathCoefficients<Number>& path, const Number& slip, double sense,
+                         double friction) {
+  const Number ratio = -sense * friction;
   // Rate at which |s| falls with P.
-  const double slowing =
-      path.tangential * friction + (slip > 0 ? path.slip_drift : -path.slip_drift);
-  const double length = slowing > 0 ? std::fabs(slip) / slowing : endless;
-  const Phase first = phase(path, ratio, length);
-  const double sticking = path.slip_drift / path.tangential;
-  if (friction >= std::fabs(sticking)) {
-    return {first, phase(path, sticking, endless), ImpactMode::slip, ImpactMode::slip_stick};
+  const Number slowing = path.tangential * friction + sense * path.slip_drift;
+  const Number length = slowing > 0 ? sense * slip / slowing : Number(endless);
+  const Phase<Number> first = phase(path, ratio, length);
+  const Number sticking = path.slip_drift / path.tangential;
+  if (friction >= std::fabs(value_of(sticking))) {
+    return {first, phase(path, sticking, Number(endless)), ImpactMode::slip,
+            ImpactMode::slip_stick};
   }
-  return {first, phase(path, -ratio, endless), ImpactMode::slip, ImpactMode::reverse_slip};
+  return {first, phase(path, -ratio, Number(endless)), ImpactMode::slip, ImpactMode::reverse_slip};
+}
+
+Phases<double> phases_of(const PathCoefficients<>& path, double slip, double friction) {
+  if (slip == 0) return from_rest(path, friction);
+  return from_slip(path, slip, std::copysign(1.0, slip), friction);
+}
+
+template <std::size_t size>
+Phases<detail::Dual<size>> phases_of(const PathCoefficients<detail::Dual<size>>& path,
+                                     const detail::Dual<size>& slip, double friction) {
+  const double sense = slip.value == 0 ? path.slip_drift.value : slip.value;
+  return from_slip(path, slip, std::copysign(1.0, sense), friction);
 }
 
 /// Impulse after which u has risen by `rise` > 0.
-double impulse_for_rise(const Phases& phases, double rise) {
-  const double in_first = phases.first.slope * phases.first.length;
+template <class Number>
+Number impulse_for_rise(const Phases<Number>& phases, const Number& rise) {
+  const Number in_first = phases.first.slope * phases.first.length;
   if (phases.first.length == endless || (phases.first.slope > 0 && rise <= in_first)) {
     return rise / phases.first.slope;
   }
@@ -62,81 +85,109 @@ double impulse_for_rise(const Phases& phases, double rise) {
 }
 
 /// −∫ u dP from the start to the end of compression, for approach speed v.
-double compression_work(const Phases& phases, double v, double compression) {
+template <class Number>
+Number compression_work(const Phases<Number>& phases, const Number& v, const Number& compression) {
   if (!(phases.first.length < compression)) return v * compression / 2;
-  const double length = phases.first.length;
-  const double speed = v - phases.first.slope * length;  // of approach, where slip stops
+  const Number length = phases.first.length;
+  const Number speed = v - phases.first.slope * length;  // of approach, where slip stops
   return (v + speed) / 2 * length + speed * (compression - length) / 2;
 }
 
 /// Impulse after compression that returns the work `work` of the normal force (Stronge).
-double impulse_for_work(const Phases& phases, double compression, double work) {
-  if (!(phases.first.length > compression)) return std::sqrt(2 * work / phases.second.slope);
-  if (phases.first.length == endless) return std::sqrt(2 * work / phases.first.slope);
-  const double left = phases.first.length - compression;
-  const double speed = phases.first.slope * left;
-  const double rest = work - speed * left / 2;
-  if (rest <= 0) return std::sqrt(2 * work / phases.first.slope);
-  return left + 2 * rest / (speed + std::sqrt(speed * speed + 2 * phases.second.slope * rest));
+template <class Number>
+Number impulse_for_work(const Phases<Number>& phases, const Number& compression,
+                        const Number& work) {
+  using std::sqrt;
+  if (!(phases.first.length > compression)) return sqrt(2 * work / phases.second.slope);
+  if (phases.first.length == endless) return sqrt(2 * work / phases.first.slope);
+  const Number left = phases.first.length - compression;
+  const Number speed = phases.first.slope * left;
+  const Number rest = work - speed * left / 2;
+  if (rest <= 0) return sqrt(2 * work / phases.first.slope);
+  return left + 2 * rest / (speed + sqrt(speed * speed + 2 * phases.second.slope * rest));
 }
 
 /// Rise of u by `impulse` after compression.
-double rise_after(const Phases& phases, double compression, double impulse) {
-  const double left = std::fmax(phases.first.length - compression, 0.0);
-  const double in_first = std::fmin(impulse, left);
-  const double of_first = in_first > 0 ? phases.first.slope * in_first : 0;
-  return impulse > left ? of_first + phases.second.slope * (impulse - left) : of_first;
+template <class Number>
+Number rise_after(const Phases<Number>& phases, const Number& compression, const Number& impulse) {
+  const Number left =
+      phases.first.length > compression ? phases.first.length - compression : Number(0);
+  if (!(impulse > left)) return phases.first.slope * impulse;
+  const Number of_first = left > 0 ? phases.first.slope * left : Number(0);
+  return of_first + phases.second.slope * (impulse - left);
 }
 
 /// Impulse and separation speed.
+template <class Number>
 struct Ending {
-  double impulse, separation;
+  Number impulse, separation;
 };
 
-/// Viscoelastic ground: if slip stops before the ground has given back what it stored, the rest is given back
-/// along the second phase; otherwise the velocities are those of the restitution e.
-Ending viscoelastic_ending(const Phases& phases, double v, const ImpactLaw& law) {
-  const double single = impulse_for_rise(phases, (1 + law.restitution) * v);
-  if (!(phases.first.length < endless)) return {single, law.restitution * v};
-  const double speed = phases.first.slope * phases.first.length - v;  // where slip stops
-  if (!(speed < law.restitution * v)) return {single, law.restitution * v};
-  const double work = stored_work(law.damping_per_stiffness, {.from = -v, .to = speed, .length = phases.first.length});
-  const Unloading rest{.from = speed, .slope = phases.second.slope, .work = work};
-  // Work that rounding alone has made negative would slow the body down again, by an impulse that pulls.
-  const double separation = std::fmax(separation_speed(law.damping_per_stiffness, rest), speed);
+/// Viscoelastic ground: if slip stops before the ground has given back what it stored, the rest is
+/// given back along the second phase; otherwise the velocities are those of the restitution e.
+template <class Number>
+Ending<Number> viscoelastic_ending(const Phases<Number>& phases, const PathStart<Number>& start,
+                                   double damping_per_stiffness) {
+  const Number &v = start.approach_speed, &e = start.restitution;
+  const Number single = impulse_for_rise<Number>(phases, (1 + e) * v);
+  if (!(phases.first.length < endless)) return {single, e * v};
+  const Number speed = phases.first.slope * phases.first.length - v;  // where slip stops
+  if (!(speed < e * v)) return {single, e * v};
+  const Number work =
+      stored_work(damping_per_stiffness,
+                  ImpulseStretch<Number>{.from = -v, .to = speed, .length = phases.first.length});
+  const Unloading<Number> rest{.from = speed, .slope = phases.second.slope, .work = work};
+  // Work that rounding alone has made negative would slow the body down again, by an impulse that
+  // pulls.
+  const Number given = separation_speed(damping_per_stiffness, rest);
+  const Number separation = given > speed ? given : speed;
   return {phases.first.length + (separation - speed) / phases.second.slope, separation};
 }
 
-Ending ending(const Phases& phases, double v, const ImpactLaw& law) {
-  const double e = law.restitution;
-  if (law.law == RestitutionLaw::viscoelastic) return viscoelastic_ending(phases, v, law);
-  if (law.law == RestitutionLaw::newton) return {impulse_for_rise(phases, (1 + e) * v), e * v};
-  const double compression = impulse_for_rise(phases, v);
+template <class Number>
+Ending<Number> ending(const Phases<Number>& phases, const PathStart<Number>& start,
+                      const ImpactLaw& law) {
+  const Number &v = start.approach_speed, &e = start.restitution;
+  if (law.law == RestitutionLaw::viscoelastic) {
+    return viscoelastic_ending(phases, start, law.damping_per_stiffness);
+  }
+  if (law.law == RestitutionLaw::newton) {
+    return {impulse_for_rise<Number>(phases, (1 + e) * v), e * v};
+  }
+  const Number compression = impulse_for_rise(phases, v);
   if (law.law == RestitutionLaw::poisson) {
-    return {(1 + e) * compression, rise_after(phases, compression, e * compression)};
+    return {(1 + e) * compression, rise_after<Number>(phases, compression, e * compression)};
   }
   // Work is taken in units of v² so that speeds of any magnitude can be squared.
-  const double work = e * e * (compression_work(phases, v, compression) / v / v);
-  const Phases scaled{{phases.first.ratio, phases.first.slope, phases.first.length / v},
-                      phases.second, phases.mode_first, phases.mode_second};
-  const double restitution = v * impulse_for_work(scaled, compression / v, work);
+  const Number work = e * e * (compression_work(phases, v, compression) / v / v);
+  const Phases<Number> scaled{{phases.first.ratio, phases.first.slope, phases.first.length / v},
+                              phases.second,
+                              phases.mode_first,
+                              phases.mode_second};
+  const Number restitution = v * impulse_for_work<Number>(scaled, compression / v, work);
   return {compression + restitution, rise_after(phases, compression, restitution)};
 }
 
 }  // namespace
 
-PathEnd coulomb_path(const PathCoefficients& path, const PathStart& start, const ImpactLaw& law) {
+template <class Number>
+PathEnd<Number> coulomb_path(const PathCoefficients<Number>& path, const PathStart<Number>& start,
+                             const ImpactLaw& law) {
   const double friction = law.friction_value;
-  const Phases phases = start.slip == 0 ? from_rest(path, friction)
-                                        : from_slip(path, start.slip, friction);
-  const auto [impulse, separation] = ending(phases, start.approach_speed, law);
+  const Phases<Number> phases = phases_of(path, start.slip, friction);
+  const auto [impulse, separation] = ending(phases, start, law);
   if (friction == 0) return {impulse, 0, separation, ImpactMode::frictionless};
   if (!(impulse > phases.first.length)) {
     return {impulse, phases.first.ratio * impulse, separation, phases.mode_first};
   }
-  const double second = impulse - phases.first.length;
-  return {impulse, phases.first.ratio * phases.first.length + phases.second.ratio * second, separation,
-          phases.mode_second};
+  const Number second = impulse - phases.first.length;
+  return {impulse, phases.first.ratio * phases.first.length + phases.second.ratio * second,
+          separation, phases.mode_second};
 }
+
+template PathEnd<double> coulomb_path(const PathCoefficients<double>&, const PathStart<double>&,
+                                      const ImpactLaw&);
+template PathEnd<ImpactDual> coulomb_path(const PathCoefficients<ImpactDual>&,
+                                          const PathStart<ImpactDual>&, const ImpactLaw&);
 
 }  // namespace clatter::analytic

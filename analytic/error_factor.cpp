@@ -1,55 +1,110 @@
 #include "analytic/error_factor.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace clatter::analytic {
 namespace {
 
-double norm(double a, double b) {
-  const double size = std::fmax(std::fabs(a), std::fabs(b));
-  if (!(size > 0)) return size;
-  const double x = a / size, y = b / size;
-  return size * std::sqrt(x * x + y * y);
+/// √Σ values² from `first` on, also where squares would leave the doubles; infinite for NaN.
+template <std::size_t size>
+double norm(const std::array<double, size>& values, std::size_t first = 0) {
+  constexpr double least = 1e-280, most = 1e280;  // of a sum whose small terms may underflow
+  double sum = 0;
+  for (std::size_t i = first; i < size; ++i) sum += values[i] * values[i];
+  if (sum >= least && sum <= most) return std::sqrt(sum);
+  if (std::isnan(sum)) return std::numeric_limits<double>::infinity();
+  double largest = 0;
+  for (std::size_t i = first; i < size; ++i) largest = std::fmax(largest, std::fabs(values[i]));
+  if (largest == 0 || !std::isfinite(largest)) return largest;
+  sum = 0;
+  for (std::size_t i = first; i < size; ++i) {
+    sum += (values[i] / largest) * (values[i] / largest);
+  }
+  return largest * std::sqrt(sum);
+}
+
+template <std::size_t size>
+bool all_finite(const std::array<double, size>& values) {
+  double zero = 0;
+  for (const double value : values) zero += 0 * value;
+  return zero == 0;
 }
 
 }  // namespace
 
-/// Each rotation of the columns i of F and the new one makes entry i of the new one vanish.
-void ErrorFactor::add(const StateVector& column) {
-  for (const double value : column) known_ = known_ && std::isfinite(value);
-  StateVector left = column;
+/// At most `state_size` columns with the same F Fᵀ, unless there is room: Householder's reflection
+/// of the columns from `first` on leaves the norm of row i in column `first` alone; rows above have
+/// nothing in these columns.  Rounding of a row is relative to the row's own norm.
+void ErrorFactor::make_room(std::size_t columns) {
+  if (columns_ + columns <= capacity) return;
+  std::size_t first = 0;
   for (std::size_t i = 0; i < state_size; ++i) {
-    const double length = norm(rows_[i][i], left[i]);
-    if (!(length > 0) || left[i] == 0) continue;
-    const double c = rows_[i][i] / length, s = left[i] / length;
-    for (std::size_t k = i; k < state_size; ++k) {
-      const double old = rows_[k][i];
-      rows_[k][i] = c * old + s * left[k];
-      left[k] = c * left[k] - s * old;
+    const double length = norm(rows_[i], first);
+    if (!(length > 0)) continue;
+    Row mirror{};
+    for (std::size_t k = first; k < capacity; ++k) mirror[k] = rows_[i][k] / length;
+    const double sign = std::copysign(1.0, mirror[first]);
+    const double scale = 1 + std::fabs(mirror[first]);
+    mirror[first] += sign;
+    std::fill(rows_[i].begin() + static_cast<std::ptrdiff_t>(first), rows_[i].end(), 0.0);
+    rows_[i][first] = -sign * length;
+    for (std::size_t below = i + 1; below < state_size; ++below) {
+      double along = 0;
+      for (std::size_t k = 0; k < capacity; ++k) along += mirror[k] * rows_[below][k];
+      along /= scale;
+      for (std::size_t k = 0; k < capacity; ++k) rows_[below][k] -= along * mirror[k];
     }
+    ++first;
   }
+  columns_ = first;
+}
+
+void ErrorFactor::add(const StateVector& column) {
+  known_ = known_ && all_finite(column);
+  make_room(1);
+  for (std::size_t i = 0; i < state_size; ++i) rows_[i][columns_] = column[i];
+  ++columns_;
+}
+
+void ErrorFactor::add(std::size_t number, double size) {
+  alone_[number] = norm(std::array{alone_[number], size});
+  known_ = known_ && std::isfinite(alone_[number]);
+}
+
+void ErrorFactor::append_alone() {
+  make_room(static_cast<std::size_t>(
+      std::count_if(alone_.begin(), alone_.end(), [](double size) { return size != 0; })));
+  for (std::size_t i = 0; i < state_size; ++i) {
+    if (alone_[i] != 0) rows_[i][columns_++] = alone_[i];
+  }
+  alone_ = {};
 }
 
 void ErrorFactor::advance(const StateMatrix& jacobian) {
-  const StateMatrix old = rows_;
-  rows_ = {};
-  for (std::size_t k = 0; k < state_size; ++k) {
-    StateVector column{};
-    for (std::size_t i = 0; i < state_size; ++i) column[i] = old[i][k];
-    add(product(jacobian, column));
+  append_alone();
+  const std::array<Row, state_size> old = rows_;
+  for (std::size_t i = 0; i < state_size; ++i) {
+    Row sum{};
+    for (std::size_t j = 0; j < state_size; ++j) {
+      if (jacobian[i][j] == 0) continue;
+      for (std::size_t k = 0; k < capacity; ++k) sum[k] += jacobian[i][j] * old[j][k];
+    }
+    known_ = known_ && all_finite(sum);
+    rows_[i] = sum;
   }
 }
 
 double ErrorFactor::deviation(const StateVector& gradient) const {
   if (!known_) return std::numeric_limits<double>::infinity();
-  double size = 0;
-  for (std::size_t k = 0; k < state_size; ++k) {
-    double sum = 0;
-    for (std::size_t i = k; i < state_size; ++i) sum += gradient[i] * rows_[i][k];
-    size = norm(size, sum);
+  std::array<double, capacity + state_size> parts{};
+  for (std::size_t i = 0; i < state_size; ++i) {
+    if (gradient[i] == 0) continue;
+    for (std::size_t k = 0; k < capacity; ++k) parts[k] += gradient[i] * rows_[i][k];
+    parts[capacity + i] = gradient[i] * alone_[i];
   }
-  return size;
+  return norm(parts);
 }
 
 StateVector product(const StateMatrix& jacobian, const StateVector& vector) {

@@ -24,13 +24,23 @@ class ErrorFactor {
  public:
   /// One more independent error.
   void add(const StateVector& column);
+  /// One more independent error, of one number alone.
+  void add(std::size_t number, double size);
   /// F ← J F.
   void advance(const StateMatrix& jacobian);
   /// Standard deviation of gradient · state; infinite once an error was not finite.
   [[nodiscard]] double deviation(const StateVector& gradient) const;
 
  private:
-  StateMatrix rows_{};  ///< F, lower triangular between two calls of add() and advance()
+  static constexpr std::size_t capacity = 16;
+  using Row = std::array<double, capacity>;
+
+  void make_room(std::size_t columns);
+  void append_alone();
+
+  std::array<Row, state_size> rows_{};  ///< of F but for `alone_`; zero beyond `columns_`
+  std::size_t columns_ = 0;
+  StateVector alone_{};  ///< errors of single numbers since the last advance(), each a column
   bool known_ = true;
 };
 

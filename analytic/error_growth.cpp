@@ -52,20 +52,19 @@ void ErrorGrowth::advance(const StateMatrix& jacobian) {
 }
 
 /// Another vertex that is as near the ground as the error of its height might have come first.
-void ErrorGrowth::check_arrival(const FlownState& flown, double height_rounding) {
+void ErrorGrowth::check_arrival(const FlownState& flown, const Moment& touch, const Fall& fall) {
   const Arrival& arrival = flown.arrival;
-  const StateVector of_first = height_gradient(flown, arrival.vertex, arrival.time);
-  const double fall =
-      vertex_height(flown.body, flown.departure, arrival.vertex).at(arrival.time).velocity;
+  const StateVector of_first = height_gradient(flown, arrival.vertex, touch);
   for (int i = 0; i < flown.body.vertex_count; ++i) {
     if (i == arrival.vertex) continue;
     const auto [height, velocity, scale] =
-        vertex_height(flown.body, flown.departure, i).at(arrival.time);
-    StateVector gradient = height_gradient(flown, i, arrival.time);
-    for (std::size_t k = 0; k < state_size; ++k) gradient[k] -= velocity / fall * of_first[k];
+        vertex_height(flown.body, flown.departure, i).at(touch.time, touch.turn);
+    const double share = velocity / fall.velocity;
+    StateVector gradient = height_gradient(flown, i, touch);
+    for (std::size_t k = 0; k < state_size; ++k) gradient[k] -= share * of_first[k];
     const double propagated = alone(gradient);
     const bool together = holds(arrival.vertices, i);
-    const double rounding = 4 * epsilon * scale + std::fabs(velocity / fall) * height_rounding;
+    const double rounding = 4 * epsilon * scale + std::fabs(share) * fall.height_rounding;
     if (together ? !(propagated <= 0) : !(height >= propagated + rounding)) predictable_ = false;
   }
 }
@@ -78,7 +77,7 @@ void ErrorGrowth::check_passes(const FlownState& flown, const Passes& passes, do
       pass = first_root(vertex_height(flown.body, flown.departure, i), until).near_miss;
     }
     if (!std::isfinite(pass.clearance) || (pass.time == 0 && pass.margin == 0)) continue;
-    const double error = alone(height_gradient(flown, i, pass.time));
+    const double error = alone(height_gradient(flown, i, Moment(flown.departure, pass.time)));
     if (!(pass.clearance >= 2 * (error + pass.margin))) predictable_ = false;
   }
 }
@@ -91,17 +90,18 @@ void ErrorGrowth::fly(const BodyMotion& motion, const FlownState& flown) {
   if (!predictable_) return;
   const Arrival& arrival = flown.arrival;
   const Departure& from = flown.departure;
-  const FlightDerivatives f = flight_derivatives(flown);
+  const Moment touch(from, arrival.time);
+  const FlightDerivatives f = flight_derivatives(flown, touch);
   const VertexHeight height = vertex_height(flown.body, from, arrival.vertex);
   const double reach = std::fabs(height.versine) + std::fabs(height.sine);
-  const double turned = std::fabs(from.angular * arrival.time);
+  const double turned = touch.turn.angle;
   const double of_phase = turned > 1 ? turned * reach : 0;
   // v₀ is the difference of two parts.
   const ContactPoint offset = from.offset(flown.body, from.reference, arrival.vertex);
   const double of_start = from.rebound_speed + std::fabs(from.angular * offset.tangential);
-  const double height_rounding =
-      2 * epsilon * (height.at(arrival.time).scale + of_start * arrival.time + of_phase);
-  check_arrival(flown, height_rounding);
+  const VertexHeight::Value value = height.at(arrival.time, touch.turn);
+  const double height_rounding = 2 * epsilon * (value.scale + of_start * arrival.time + of_phase);
+  check_arrival(flown, touch, {.velocity = value.velocity, .height_rounding = height_rounding});
   check_passes(flown, motion.passes(), arrival.time);
   if (arrival.within_margin) predictable_ = false;
 
@@ -113,11 +113,7 @@ void ErrorGrowth::fly(const BodyMotion& motion, const FlownState& flown) {
       arrival.time + motion.time(), turned > 0 ? std::fabs(from.inclination) + turned : 0,
       of_start + motion.normal_scale(arrival.vertex) + of_phase * std::fabs(from.angular),
       motion.slip_scale(arrival.vertex)};
-  for (std::size_t i = 0; i < 4; ++i) {
-    StateVector alone{};
-    alone[i] = epsilon * roundings[i];
-    factor_.add(alone);
-  }
+  for (std::size_t i = 0; i < 4; ++i) factor_.add(i, epsilon * roundings[i]);
   StateVector speed{}, angle{};
   speed[at_normal] = angle[at_angle] = 1;
   const double late = std::fmax(alone(speed) / std::fabs(f.velocity), alone(angle));

@@ -44,7 +44,12 @@ class ErrorGrowth {
   [[nodiscard]] double amplification(const ImpactDerivatives& d, const ImpactRow& row) const;
   void add_rounding(const StruckState& struck, const Impact& impact);
   void advance(const StateMatrix& jacobian);
-  void check_arrival(const FlownState& flown, double height_rounding);
+  /// Of the vertex that arrives.
+  struct Fall {
+    double velocity;         ///< h′ [m/s]
+    double height_rounding;  ///< [m]
+  };
+  void check_arrival(const FlownState& flown, const Moment& touch, const Fall& fall);
   void check_passes(const FlownState& flown, const Passes& passes, double until);
 
   /// Bounds are this many standard deviations of the errors assumed.

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "analytic/error_growth.hpp"
-#include "analytic/errors.hpp"
 
 namespace clatter::analytic {
 namespace {
@@ -128,48 +127,36 @@ void ErrorGrowth::fill(const BodyMotion& motion, const StruckState& struck,
 }
 
 void ErrorGrowth::add_rounding(const StruckState& struck, const Impact& impact) {
-  const ImpactResponse jump{.normal = impact.normal_impulse,
-                            .tangential = impact.tangential_impulse,
-                            .separation = impact.separation_speed,
-                            .push = impact.slip_after - impact.slip_before,
-                            .turn = impact.after.angular - struck.before.angular};
+  const double push = impact.slip_after - impact.slip_before;
   const double mass = struck.body.mass, square = struck.body.gyration_square;
   const double of_impulse = impulse_rounding(struck, impact);
   StateVector of_jump{};
-  of_jump[at_normal] = jump.separation;
-  of_jump[at_slip] = impact.slip_after == 0 ? 0 : jump.push;
-  of_jump[at_turn] = jump.turn;
-  of_jump[at_sum] = jump.normal;
+  of_jump[at_normal] = impact.separation_speed;
+  of_jump[at_slip] = impact.slip_after == 0 ? 0 : push;
+  of_jump[at_turn] = impact.after.angular - struck.before.angular;
+  of_jump[at_sum] = impact.normal_impulse;
   for (double& entry : of_jump) entry *= of_impulse;
   factor_.add(of_jump);
   const double moment = struck.flat
                             ? std::fabs(struck.before.angular)
                             : (tangential_size(struck, impact) * std::fabs(struck.place.normal) +
-                               std::fabs(jump.normal * struck.place.tangential)) /
+                               std::fabs(impact.normal_impulse * struck.place.tangential)) /
                                   (mass * square);
   // Where slip stops during restitution is the difference of two impulses.
   const bool stops =
       impact.mode == ImpactMode::slip_stick || impact.mode == ImpactMode::reverse_slip;
-  StateVector alone{};
   if (stops && struck.law.law != RestitutionLaw::newton && !struck.flat) {
     const ContactInertia inertia = contact_inertia(square, struck.place);
-    alone[at_normal] = 4 * epsilon *
-                       (inertia.normal * jump.normal +
-                        std::fabs(inertia.coupling) * tangential_size(struck, impact)) /
-                       mass;
-    factor_.add(alone);
-    alone = {};
+    factor_.add(at_normal, 4 * epsilon *
+                               (inertia.normal * impact.normal_impulse +
+                                std::fabs(inertia.coupling) * tangential_size(struck, impact)) /
+                               mass);
   }
-  alone[at_slip] = impact.slip_after == 0
-                       ? 0
-                       : 2 * epsilon * (std::fabs(impact.slip_before) + std::fabs(jump.push));
-  factor_.add(alone);
-  alone = {};
-  alone[at_turn] = 2 * epsilon * (std::fabs(struck.before.angular) + moment);
-  factor_.add(alone);
-  alone = {};
-  alone[at_sum] = epsilon * total_impulse_;
-  factor_.add(alone);
+  if (impact.slip_after != 0) {
+    factor_.add(at_slip, 2 * epsilon * (std::fabs(impact.slip_before) + std::fabs(push)));
+  }
+  factor_.add(at_turn, 2 * epsilon * (std::fabs(struck.before.angular) + moment));
+  factor_.add(at_sum, epsilon * total_impulse_);
 }
 
 void ErrorGrowth::strike(const BodyMotion& motion, const ImpactLaw& law, ImpactRow& row) {
@@ -183,18 +170,11 @@ void ErrorGrowth::strike(const BodyMotion& motion, const ImpactLaw& law, ImpactR
     row.error = RowErrors::unknown();
     return;
   }
-  try {
-    const ImpactDerivatives d = impact_derivatives(struck, row.impact);
-    row.error.predictable = true;
-    fill(motion, struck, d, row);
-    row.amplification = amplification(d, row);
-    advance(d.state);
-    add_rounding(struck, row.impact);
-  } catch (const OutsideModelError&) {  // jams within the step of the derivative
-    predictable_ = false;
-    row.error = RowErrors::unknown();
-    return;
-  }
+  const ImpactDerivatives d = impact_derivatives(struck, row.impact.mode);
+  fill(motion, struck, d, row);
+  row.amplification = amplification(d, row);
+  advance(d.state);
+  add_rounding(struck, row.impact);
   const PlanarVelocity& after = row.impact.after;
   const MotionGradients moves(struck.body, struck.place, after, motion.local_departure().gravity);
   StateVector turn{};

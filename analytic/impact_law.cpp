@@ -4,10 +4,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "analytic/coulomb_path.hpp"
+#include "analytic/contact_impulse.hpp"
 #include "analytic/errors.hpp"
-#include "analytic/impact_limits.hpp"
-#include "analytic/restitution_map.hpp"
 
 namespace clatter::analytic {
 namespace {
@@ -17,56 +15,6 @@ namespace {
   text.precision(17);
   text << field << " = " << value << ": must be " << allowed;
   throw std::domain_error(text.str());
-}
-
-[[noreturn]] void jam(double ratio, double limit) {
-  std::ostringstream text;
-  text.precision(6);
-  text << "jamming (Painlevé's paradox): the impulse ratio " << ratio
-       << " is at or beyond the limit " << limit
-       << " at which the contact point can no longer leave the ground";
-  throw OutsideModelError(text.str());
-}
-
-/// The law with the restitution that holds at this approach speed.
-ImpactLaw at_speed(ImpactLaw law, double approach_speed) {
-  if (law.law == RestitutionLaw::viscoelastic) {
-    law.restitution = restitution_of_damping(law.damping_per_stiffness * approach_speed);
-  }
-  return law;
-}
-
-/// Eq. 8 for an impulse ratio as given, per unit mass.
-PathEnd ratio_impulse(const ContactInertia& inertia, double approach_speed, const ImpactLaw& law) {
-  const double ratio = law.friction == FrictionKind::none ? 0 : law.friction_value;
-  const double denominator = std::fma(-ratio, inertia.coupling, inertia.normal);
-  if (!(denominator > 0)) jam(ratio, jamming_ratio(inertia));
-  const double impulse = (1 + law.restitution) * approach_speed / denominator;
-  return {impulse, ratio * impulse, law.restitution * approach_speed,
-          ratio == 0 ? ImpactMode::frictionless : ImpactMode::slip};
-}
-
-PathEnd point_impulse(const ContactInertia& inertia, const PathStart& start, const ImpactLaw& law) {
-  if (law.friction != FrictionKind::coulomb) {
-    return ratio_impulse(inertia, start.approach_speed, law);
-  }
-  return coulomb_path({.normal = inertia.normal,
-                       .normal_coupling = inertia.coupling,
-                       .slip_drift = inertia.coupling,
-                       .tangential = inertia.tangential},
-                      start, law);
-}
-
-/// Impulse (2) of a flat landing, per unit mass.  The body's turning, which reverses in step with the
-/// normal impulse, moves the face along the ground by ω d_n: a drift for the slip.
-PathEnd flat_impulse(const PathStart& start, double angular, double depth, const ImpactLaw& law) {
-  if (law.friction != FrictionKind::coulomb) return ratio_impulse({}, start.approach_speed, law);
-  const double impulse = (1 + law.restitution) * start.approach_speed;
-  return coulomb_path({.normal = 1,
-                       .normal_coupling = 0,
-                       .slip_drift = (1 + law.restitution) * angular * depth / impulse,
-                       .tangential = 1},
-                      start, law);
 }
 
 }  // namespace
@@ -117,17 +65,21 @@ Impact strike(const PlanarBody& body, const PlanarVelocity& before, const Contac
 }
 
 Impact strike(const PlanarBody& body, const PlanarVelocity& before, const ContactVelocity& velocity,
-              const ContactPoint& contact, const ImpactLaw& given) {
-  given.validate();
+              const ContactPoint& contact, const ImpactLaw& law) {
+  law.validate();
   const auto [u, s] = velocity;
   Impact impact{.approach_speed = -u, .separation_speed = u, .slip_before = s, .slip_after = s,
                 .after = before};
   if (!(u < 0)) return impact;
 
-  const ImpactLaw law = at_speed(given, -u);
   const ContactInertia inertia = contact_inertia(body.gyration_square, contact);
-  const auto [normal, tangential, separation, mode] =
-      point_impulse(inertia, {.approach_speed = -u, .slip = s}, law);
+  const PathCoefficients<> path{.normal = inertia.normal,
+                                .normal_coupling = inertia.coupling,
+                                .slip_drift = inertia.coupling,
+                                .tangential = inertia.tangential};
+  const PathStart<> start{
+      .approach_speed = -u, .slip = s, .restitution = restitution_at(law, -u)};
+  const auto [normal, tangential, separation, mode] = point_impulse(path, start, law);
   impact.normal_impulse = body.mass * normal;
   impact.tangential_impulse = body.mass * tangential;
   impact.mode = mode;
@@ -154,15 +106,16 @@ Impact strike(const PlanarBody& body, const PlanarVelocity& before, const Contac
 
 std::optional<Impact> strike_flat(const PlanarBody& body, const PlanarVelocity& before,
                                   const ContactPoint& first, const ContactPoint& second,
-                                  const ImpactLaw& given) {
-  given.validate();
+                                  const ImpactLaw& law) {
+  law.validate();
   if (!(normal_velocity(before, first) < 0 && normal_velocity(before, second) < 0)) return {};
-  const ImpactLaw law = at_speed(given, std::fmax(-before.normal, 0.0));
-  const double e = law.restitution;
+  if (!(-before.normal > 0)) return {};
+  const double e = restitution_at(law, -before.normal);
   const double depth = first.normal;
-  const PathStart start{.approach_speed = -before.normal, .slip = slip_velocity(before, first)};
-  if (!(start.approach_speed > 0)) return {};
-  const PathEnd path = flat_impulse(start, before.angular, depth, law);
+  const PathStart<> start{.approach_speed = -before.normal,
+                          .slip = slip_velocity(before, first),
+                          .restitution = e};
+  const PathEnd<> path = flat_impulse(start, before.angular * depth, law);
   const double normal = path.normal_impulse, tangential = path.tangential_impulse;
 
   // Shares of the two vertices, from the angular momentum that they must supply together.

@@ -70,6 +70,14 @@ double restitution_loss_of_damping(double s) {
   return 1 - product(s) / s;
 }
 
+double restitution_slope_of_damping(double s) {
+  if (!(s > 1e-160)) return -2.0 / 3;
+  if (std::isinf(s)) return 0;
+  if (s < 1) return restitution_slope(s, restitution_of_damping(s), restitution_loss_of_damping(s));
+  const double y = product(s);
+  return (s / (1 + s) * ((1 - y) / y) - y / s) / s;
+}
+
 double restitution_of_damping(double s) {
   if (s >= small && !std::isinf(s)) return product(s) / s;
   return 1 - restitution_loss_of_damping(s);

@@ -15,6 +15,9 @@ namespace clatter::analytic {
 /// 1 − e(s), with its relative accuracy for small s as well.  Accuracy: 8 ulp.
 [[nodiscard]] double restitution_loss_of_damping(double damping_number);
 
+/// de/ds; −2/3 at s = 0.  Accuracy: 1e-12 relative.
+[[nodiscard]] double restitution_slope_of_damping(double damping_number);
+
 /// The inverse s(e): 0 at e = 1, infinite at e = 0.  Accuracy: (4 + 2 × condition number) ulp.
 /// @throws std::domain_error unless 0 <= e <= 1.
 [[nodiscard]] double damping_of_restitution(double restitution);

@@ -1,124 +1,119 @@
 #include "analytic/step_jacobians.hpp"
 
-#include <cmath>
-
-#include "analytic/detail/small_angle.hpp"
+#include "analytic/contact_impulse.hpp"
 
 namespace clatter::analytic {
 namespace {
 
-/// An impact whose state differs from the one given.
-struct Shift {
-  double angle = 0, normal = 0, slip = 0, turn = 0;
+/// What an impact does, as functions of the state before it.
+struct ImpactResponse {
+  ImpactDual normal;      ///< P_n [N·s]
+  ImpactDual tangential;  ///< P_t [N·s]
+  ImpactDual separation;  ///< u after it [m/s]
+  ImpactDual push;        ///< change of s [m/s]
+  ImpactDual turn;        ///< change of Ω [rad/s]
 };
 
-/// d of a vertex when the body is inclined by `angle` more: d_t′ = −d_n, d_n′ = d_t.
-ContactPoint inclined(const ContactPoint& d, double angle) {
-  const double s = std::sin(angle), c = std::cos(angle);
-  return {.tangential = d.tangential * c - d.normal * s, .normal = d.normal * c + d.tangential * s};
+/// Where ImpactDual has the derivative with respect to a number of the state.
+constexpr std::size_t slot(std::size_t index) { return index - at_angle; }
+
+ImpactDual variable(StateIndex index, double value) {
+  ImpactDual number(value);
+  number.slope[slot(index)] = 1;
+  return number;
 }
 
-ImpactResponse point_response(const StruckState& struck, const Shift& by) {
-  const ContactPoint d = inclined(struck.place, by.angle);
-  const ContactVelocity contact{struck.contact.normal + by.normal, struck.contact.slip + by.slip};
-  const double turn = struck.before.angular + by.turn;
-  const PlanarVelocity before{.normal = contact.normal + turn * d.tangential,
-                              .tangential = contact.slip - turn * d.normal,
-                              .angular = turn};
-  const Impact impact = strike(struck.body, before, contact, d, struck.law);
-  const double mass = struck.body.mass;
-  const double normal = impact.normal_impulse / mass, tangential = impact.tangential_impulse / mass;
-  const ContactInertia inertia = contact_inertia(struck.body.gyration_square, d);
-  return {.normal = impact.normal_impulse,
-          .tangential = impact.tangential_impulse,
-          .separation = impact.separation_speed,
-          .push = inertia.tangential * tangential - inertia.coupling * normal,
-          .turn = (tangential * d.normal - normal * d.tangential) / struck.body.gyration_square};
+ImpactDual of_angle(double value, double slope) {
+  ImpactDual number(value);
+  number.slope[slot(at_angle)] = slope;
+  return number;
+}
+
+ImpactResponse point_response(const StruckState& struck) {
+  const double mass = struck.body.mass, square = struck.body.gyration_square;
+  const ContactPoint& d = struck.place;
+  // d_t′ = −d_n, d_n′ = d_t, and with them A′ = −2B, B′ = A − C, C′ = 2B.
+  const ImpactDual along = of_angle(d.tangential, -d.normal), up = of_angle(d.normal, d.tangential);
+  const auto [a, b, c] = contact_inertia(square, d);
+  const ImpactDual coupling = of_angle(b, a - c), tangential = of_angle(c, 2 * b);
+  const ImpactDual approach = -variable(at_normal, struck.contact.normal);
+  const PathEnd<ImpactDual> end =
+      point_impulse<ImpactDual>({.normal = of_angle(a, -2 * b),
+                                 .normal_coupling = coupling,
+                                 .slip_drift = coupling,
+                                 .tangential = tangential},
+                                {.approach_speed = approach,
+                                 .slip = variable(at_slip, struck.contact.slip),
+                                 .restitution = restitution_at(struck.law, approach)},
+                                struck.law);
+  return {.normal = mass * end.normal_impulse,
+          .tangential = mass * end.tangential_impulse,
+          .separation = end.separation_speed,
+          .push = tangential * end.tangential_impulse - coupling * end.normal_impulse,
+          .turn = (end.tangential_impulse * up - end.normal_impulse * along) / square};
 }
 
 /// A flat landing keeps its inclination.
-ImpactResponse flat_response(const StruckState& struck, const Shift& by, const Impact& as_it_was) {
+ImpactResponse flat_response(const StruckState& struck) {
+  const double mass = struck.body.mass;
   const ContactPoint& d = struck.place;
-  const double u = struck.contact.normal + by.normal, s = struck.contact.slip + by.slip;
-  const double turn = struck.before.angular + by.turn;
-  const PlanarVelocity before{
-      .normal = u + turn * d.tangential, .tangential = s - turn * d.normal, .angular = turn};
-  const Impact impact =
-      strike_flat(struck.body, before, d, struck.second, struck.law).value_or(as_it_was);
-  return {.normal = impact.normal_impulse,
-          .tangential = impact.tangential_impulse,
-          .separation = normal_velocity(impact.after, d),
-          .push = impact.slip_after - s,
-          .turn = impact.after.angular - turn};
+  const ImpactDual turning = variable(at_turn, struck.before.angular);
+  const ImpactDual normal = variable(at_normal, struck.contact.normal);
+  const ImpactDual approach = -(normal + turning * d.tangential);
+  const ImpactDual e = restitution_at(struck.law, approach);
+  const PathEnd<ImpactDual> end =
+      flat_impulse<ImpactDual>({.approach_speed = approach,
+                                .slip = variable(at_slip, struck.contact.slip),
+                                .restitution = e},
+                               turning * d.normal, struck.law);
+  return {.normal = mass * end.normal_impulse,
+          .tangential = mass * end.tangential_impulse,
+          .separation = -e * normal,
+          .push = end.tangential_impulse - (1 + e) * turning * d.normal,
+          .turn = -(1 + e) * turning};
 }
 
-ImpactResponse response(const StruckState& struck, const Shift& by, const Impact& as_it_was) {
-  return struck.flat ? flat_response(struck, by, as_it_was) : point_response(struck, by);
-}
-
-bool sticks(const Impact& impact) {
-  return impact.mode == ImpactMode::stick || impact.mode == ImpactMode::slip_stick;
-}
+bool sticks(ImpactMode mode) { return mode == ImpactMode::stick || mode == ImpactMode::slip_stick; }
 
 }  // namespace
 
-ImpactDerivatives impact_derivatives(const StruckState& struck, const Impact& impact) {
-  constexpr double part = 1e-5;  // errors: its square, and rounding over it
-  const double speed = std::fabs(struck.contact.normal);
-  const double reach = std::hypot(struck.place.tangential, struck.place.normal);
-  const double slip = std::fmax(std::fabs(struck.contact.slip), speed);
-  const double turn = std::fmax(std::fabs(struck.before.angular), speed / reach);
-  const struct {
-    std::size_t index;
-    double step;
-    double Shift::*member;
-  } directions[] = {{at_angle, struck.flat ? 0 : part, &Shift::angle},
-                    {at_normal, part * speed, &Shift::normal},
-                    {at_slip, part * slip, &Shift::slip},
-                    {at_turn, struck.flat ? part * turn : 0, &Shift::turn}};
+ImpactDerivatives impact_derivatives(const StruckState& struck, ImpactMode mode) {
+  const ImpactResponse response = struck.flat ? flat_response(struck) : point_response(struck);
   ImpactDerivatives d;
   for (std::size_t i = 0; i < state_size; ++i) d.state[i][i] = 1;
-  for (const auto& [index, step, member] : directions) {
-    if (!(step > 0)) continue;
-    Shift up, down;
-    up.*member = step;
-    down.*member = -step;
-    const ImpactResponse more = response(struck, up, impact), less = response(struck, down, impact);
-    const auto slope = [&](double ImpactResponse::*of) {
-      return (more.*of - less.*of) / (2 * step);
-    };
-    d.normal[index] = slope(&ImpactResponse::normal);
-    d.tangential[index] = slope(&ImpactResponse::tangential);
-    d.state[at_normal][index] = slope(&ImpactResponse::separation);
-    d.state[at_slip][index] += slope(&ImpactResponse::push);
-    d.state[at_turn][index] += slope(&ImpactResponse::turn);
-    d.state[at_sum][index] += d.normal[index];
+  for (std::size_t i = at_angle; i <= at_turn; ++i) {
+    d.normal[i] = response.normal.slope[slot(i)];
+    d.tangential[i] = response.tangential.slope[slot(i)];
+    d.state[at_normal][i] = response.separation.slope[slot(i)];
+    d.state[at_slip][i] += response.push.slope[slot(i)];
+    d.state[at_turn][i] += response.turn.slope[slot(i)];
+    d.state[at_sum][i] = d.normal[i];
   }
-  if (sticks(impact) && !struck.flat) d.state[at_slip] = {};
+  if (sticks(mode) && !struck.flat) d.state[at_slip] = {};
   return d;
 }
 
-StateVector height_gradient(const FlownState& flown, int vertex, double time) {
+StateVector height_gradient(const FlownState& flown, int vertex, const Moment& moment) {
   const Departure& from = flown.departure;
   const ContactPoint d = flown.body.contact_point(vertex, from.sine, from.cosine);
   const ContactPoint offset = from.offset(flown.body, from.reference, vertex);
-  const double turned = from.angular * time;
-  const double vers = detail::versine(turned), sine = std::sin(turned);
+  const double sense = from.angular < 0 ? -1 : 1;
+  const double along = offset.tangential - d.tangential * moment.turn.versine;
   StateVector gradient{};
-  gradient[at_angle] = offset.tangential - d.tangential * vers -
-                       d.normal * detail::sine_deficit(turned) + turned * offset.normal;
-  gradient[at_normal] = time;
-  gradient[at_turn] = -time * (offset.tangential - d.tangential * vers + d.normal * sine);
+  gradient[at_angle] =
+      along + sense * (moment.turn.angle * offset.normal - d.normal * moment.turn.sine_deficit);
+  gradient[at_normal] = moment.time;
+  gradient[at_turn] = -moment.time * (along + sense * d.normal * moment.turn.sine);
   return gradient;
 }
 
-FlightDerivatives flight_derivatives(const FlownState& flown) {
+FlightDerivatives flight_derivatives(const FlownState& flown, const Moment& touch) {
   const Departure& from = flown.departure;
   const int vertex = flown.arrival.vertex;
-  const double time = flown.arrival.time, rate = from.angular, turned = rate * time;
+  const double time = touch.time, rate = from.angular, turned = rate * time;
   const ContactPoint d = flown.body.contact_point(vertex, from.sine, from.cosine);
   const ContactPoint offset = from.offset(flown.body, from.reference, vertex);
-  const double vers = detail::versine(turned), sine = std::sin(turned);
+  const double vers = touch.turn.versine, sine = rate < 0 ? -touch.turn.sine : touch.turn.sine;
   const ContactPoint to{.tangential = d.tangential + (d.normal * sine - d.tangential * vers),
                         .normal = d.normal - (d.tangential * sine + d.normal * vers)};
   // d_t and d_n of the arriving vertex at the touch, from those of the departing one before.
@@ -138,7 +133,7 @@ FlightDerivatives flight_derivatives(const FlownState& flown) {
   f.state[at_normal][at_turn] = -along - turned * to.normal;
   f.state[at_slip][at_angle] = rate * along;
   f.state[at_slip][at_turn] = up - turned * to.tangential;
-  const StateVector height = height_gradient(flown, vertex, time);
+  const StateVector height = height_gradient(flown, vertex, touch);
   for (std::size_t i = 0; i < state_size; ++i) {
     for (std::size_t k = 0; k < state_size; ++k)
       f.state[i][k] -= f.of_time[i] * height[k] / f.velocity;

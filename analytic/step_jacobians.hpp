@@ -4,6 +4,8 @@
 // that vertex's normal velocity u and slip s; α that of local_departure().
 #pragma once
 
+#include <cmath>
+
 #include "analytic/error_factor.hpp"
 #include "analytic/flight.hpp"
 #include "analytic/impact_law.hpp"
@@ -24,23 +26,14 @@ struct StruckState {
   bool flat = false;
 };
 
-/// An impulse and what it changes.
-struct ImpactResponse {
-  double normal = 0;      ///< P_n [N·s]
-  double tangential = 0;  ///< P_t [N·s]
-  double separation = 0;  ///< u after it [m/s]
-  double push = 0;        ///< change of s [m/s]
-  double turn = 0;        ///< change of Ω [rad/s]
-};
-
 /// Derivatives of an impact with respect to the state before it.
 struct ImpactDerivatives {
   StateVector normal{}, tangential{};
   StateMatrix state{};  ///< of the state after it
 };
-/// By central differences of strike() and strike_flat(), which are homogeneous in the velocities;
-/// relative accuracy 1e-9.
-[[nodiscard]] ImpactDerivatives impact_derivatives(const StruckState& struck, const Impact& impact);
+/// From the equations of strike() and strike_flat() by forward-mode differentiation; of the branch
+/// of the law that the impact has taken.  Relative accuracy: 1e-9.
+[[nodiscard]] ImpactDerivatives impact_derivatives(const StruckState& struck, ImpactMode mode);
 
 /// A flight for its Jacobian.
 struct FlownState {
@@ -49,9 +42,19 @@ struct FlownState {
   Arrival arrival;
 };
 
+/// A moment of a flight.
+struct Moment {
+  double time;        ///< since the departure [s]
+  detail::Turn turn;  ///< |Ω| × time
+
+  Moment(const Departure& departure, double at)
+      : time(at), turn(std::fabs(departure.angular) * at) {}
+};
+
 /// Derivatives of h of a vertex at a fixed time after the departure, with respect to the state
 /// there.
-[[nodiscard]] StateVector height_gradient(const FlownState& flown, int vertex, double time);
+[[nodiscard]] StateVector height_gradient(const FlownState& flown, int vertex,
+                                          const Moment& moment);
 /// Derivatives of a flight from touch to touch.
 struct FlightDerivatives {
   StateMatrix state{};      ///< of the state at the arrival
@@ -59,7 +62,8 @@ struct FlightDerivatives {
   double velocity = 0;      ///< h′ of the arriving vertex [m/s]
   double acceleration = 0;  ///< h″ [m/s²]
 };
-[[nodiscard]] FlightDerivatives flight_derivatives(const FlownState& flown);
+/// @param touch that of the arrival
+[[nodiscard]] FlightDerivatives flight_derivatives(const FlownState& flown, const Moment& touch);
 
 /// Gradients of V_n, V_t and the energy of the body as functions of the state.
 struct MotionGradients {

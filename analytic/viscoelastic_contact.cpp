@@ -13,7 +13,8 @@ using detail::log1p_minus;
 /// ψ(x) = −x − ln(1−x), x²/2 for small x.
 double psi(double x) { return -log1p_minus(-x); }
 
-/// x in [0, 1) with ψ(x) = y, by Newton's method for z = −ln(1−x), in which ψ is convex; the start lies above.
+/// x in [0, 1) with ψ(x) = y, by Newton's method for z = −ln(1−x), in which ψ is convex; the start
+/// lies above.
 double inverse_psi(double y) {
   double z = y + std::sqrt(2 * y);
   double x = -std::expm1(-z);
@@ -29,12 +30,13 @@ double inverse_psi(double y) {
 
 }  // namespace
 
-double stored_work(double damping_per_stiffness, const ImpulseStretch& stretch) {
+double stored_work(double damping_per_stiffness, const ImpulseStretch<>& stretch) {
   const double a = damping_per_stiffness * stretch.from;
   const double d = damping_per_stiffness * (stretch.to - stretch.from);
   const double mean = (stretch.from + stretch.to) / 2;
   // Below this the ground is elastic to rounding, and ψ of the speeds would underflow.
-  if (std::fabs(a) + std::fabs(d) < std::numeric_limits<double>::epsilon()) return -mean * stretch.length;
+  if (std::fabs(a) + std::fabs(d) < std::numeric_limits<double>::epsilon())
+    return -mean * stretch.length;
   if (std::fabs(d) < std::numeric_limits<double>::epsilon()) {
     return -stretch.from / (1 - a) * stretch.length;
   }
@@ -43,11 +45,12 @@ double stored_work(double damping_per_stiffness, const ImpulseStretch& stretch) 
   return -mean_rate / damping_per_stiffness * stretch.length;
 }
 
-double separation_speed(double damping_per_stiffness, const Unloading& unloading) {
+double separation_speed(double damping_per_stiffness, const Unloading<>& unloading) {
   const double square = unloading.from * unloading.from + 2 * unloading.slope * unloading.work;
   const double elastic = std::sqrt(std::fmax(square, 0.0));
   if (damping_per_stiffness * elastic < std::numeric_limits<double>::epsilon()) return elastic;
-  const double gain = unloading.slope * damping_per_stiffness * damping_per_stiffness * unloading.work;
+  const double gain =
+      unloading.slope * damping_per_stiffness * damping_per_stiffness * unloading.work;
   const double target = psi(damping_per_stiffness * unloading.from) + gain;
   return target > 0 ? inverse_psi(target) / damping_per_stiffness : 0;
 }

@@ -75,6 +75,12 @@ void three_impact_sequence(benchmark::State& state) {
 }
 BENCHMARK(three_impact_sequence);
 
+void three_impact_sequence_with_error_bars(benchmark::State& state) {
+  const Drop drop{.body = make_rod({}), .inclination = Angle::from_degrees(10), .velocity = {.normal = -1}, .gravity = 0, .law = {}};
+  for (auto _ : state) benchmark::DoNotOptimize(impact_sequence(drop, {.impacts = 3}));
+}
+BENCHMARK(three_impact_sequence_with_error_bars);
+
 void three_impact_box_with_gravity_and_friction(benchmark::State& state) {
   const Drop drop{.body = make_box({.mass = 0.088, .length = 0.106, .width = 0.044, .thickness = 0.019}),
                   .inclination = Angle::from_degrees(10), .velocity = {.normal = -4.4}, .gravity = 9.81,
