@@ -34,12 +34,9 @@ double stored_work(double damping_per_stiffness, const ImpulseStretch<>& stretch
   const double a = damping_per_stiffness * stretch.from;
   const double d = damping_per_stiffness * (stretch.to - stretch.from);
   const double mean = (stretch.from + stretch.to) / 2;
-  // Below this the ground is elastic to rounding, and ψ of the speeds would underflow.
-  if (std::fabs(a) + std::fabs(d) < std::numeric_limits<double>::epsilon())
-    return -mean * stretch.length;
-  if (std::fabs(d) < std::numeric_limits<double>::epsilon()) {
-    return -stretch.from / (1 - a) * stretch.length;
-  }
+  // Over so short a stretch u/(1 − τu) is linear to rounding; for smaller d its ψ would underflow.
+  if (std::fabs(d) < std::numeric_limits<double>::epsilon())
+    return -mean / (1 - a) * stretch.length;
   // [ψ(a+d) − ψ(a)]/d without its cancellation for small d.
   const double mean_rate = a / (1 - a) - log1p_minus(-d / (1 - a)) / d;
   return -mean_rate / damping_per_stiffness * stretch.length;

@@ -90,6 +90,7 @@ Measured bars_of_the_discrete_model(Laboratory& laboratory) {
   for (int index = 0; index < scene_count; ++index) {
     if (!laboratory.goes_on()) throw Laboratory::Interrupted{};
     judge_bars(random_bar_scene(family, index), discrete_impacts, coverage);
+    judge_bars(random_damped_bar_scene(family, index), discrete_impacts, coverage);
   }
   const double inside = static_cast<double>(coverage.rows_inside) / static_cast<double>(coverage.predictable);
   const bool holds = inside >= least_covered_discrete && coverage.median_ratio() <= widest_discrete_median &&

@@ -4,31 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "analytic/sequence.hpp"
+#include "validation/verify/bar_scene.hpp"
 
 namespace clatter::validation {
-
-enum class BarShape { thin_rod, rod, box };
-
-/// A drop in numbers that the model and the simulation put together each for itself.
-struct BarScene {
-  BarShape shape = BarShape::thin_rod;
-  double mass = 1, length = 1;
-  double half_thickness = 0;  ///< of a box, or the rod's radius [m]
-  double degrees = 0;         ///< inclination
-  analytic::PlanarVelocity velocity;
-  double gravity = 0;
-  analytic::ImpactLaw law;  ///< not the viscoelastic one
-  int digits = 6;           ///< SequenceOptions::digits
-
-  [[nodiscard]] analytic::Drop drop() const;
-  [[nodiscard]] std::string words() const;
-};
-
-/// Scene number `index` of a family: rods and boxes of any tilt, e from 0.001 to 0.98, all laws of
-/// restitution but the viscoelastic one, no friction, an impulse ratio or Coulomb's law, with
-/// gravity or, one in eight, without.
-[[nodiscard]] BarScene random_bar_scene(unsigned family, int index);
 
 /// How many numbers lie within their bars.
 struct BarCoverage {
@@ -46,7 +24,8 @@ struct BarCoverage {
   [[nodiscard]] double median_ratio() const;
 };
 
-/// Runs a scene to its end in both ways, or up to `impacts`, and adds what was found.
+/// Runs a scene to its end, or up to `impacts`, in the model, and as far in the simulation as what
+/// the model says needs for being judged; adds what was found.
 void judge_bars(const BarScene& scene, int impacts, BarCoverage& coverage);
 
 }  // namespace clatter::validation

@@ -30,16 +30,17 @@ struct EventBody {
   std::vector<EventVertex<Real>> vertices;
 };
 
-enum class EventRestitution { newton, poisson, stronge };
+enum class EventRestitution { newton, poisson, stronge, viscoelastic };
 enum class EventFriction { none, ratio, coulomb };
 
 template <class Real>
 struct EventLaw {
-  Real restitution = 1;
+  Real restitution = 1;  ///< not of a viscoelastic ground
   EventRestitution kind = EventRestitution::newton;
   EventFriction friction = EventFriction::none;
   Real friction_value = 0;
   Real gravity = 0;
+  Real damping = 0;  ///< c_G/k_G of a viscoelastic ground [s/m]
 };
 
 template <class Real>
@@ -142,8 +143,12 @@ class EventSimulation {
          ++i) {
       if (impacts[i].vertex != last.vertex) return EventEnd::face_rests;
     }
-    const Real bounce = last.time - impacts[impacts.size() - 2].time;
-    const Real left = bounce * law_.restitution / (1 - law_.restitution);
+    const std::size_t n = impacts.size();
+    const Real bounce = last.time - impacts[n - 2].time;
+    const Real shrinks =
+        n < 3 ? law_.restitution : Real(bounce / (impacts[n - 2].time - impacts[n - 3].time));
+    if (!(shrinks < 1)) return EventEnd::limit;
+    const Real left = bounce * shrinks / (1 - shrinks);
     const Offset from = offset(last.vertex);
     for (std::size_t i = 0; i < body_.vertices.size(); ++i) {
       if (i == last.vertex) continue;
@@ -167,6 +172,12 @@ class EventSimulation {
 
   using Path = ImpulsePath<Real>;
 
+  /// Along one segment the ground has stored as much as it gives back: G is the same at both ends.
+  [[nodiscard]] Real damped_rebound(const Real& fast) const {
+    const DampedGround<Real> ground{law_.damping};
+    return ground.speed_at(ground.G(-fast));
+  }
+
   void follow(Path& path) const {
     const Real& e = law_.restitution;
     const Real fast = -path.u;
@@ -174,8 +185,11 @@ class EventSimulation {
       const Real ratio = law_.friction == EventFriction::ratio ? law_.friction_value : Real(0);
       const Real slope = path.A - path.B * ratio;
       if (!(slope > 0)) throw std::runtime_error("the contact jams");
-      return path.go(ratio, (1 + e) * fast / slope, false);
+      const Real rebound =
+          law_.kind == EventRestitution::viscoelastic ? damped_rebound(fast) : Real(e * fast);
+      return path.go(ratio, (fast + rebound) / slope, false);
     }
+    if (law_.kind == EventRestitution::viscoelastic) return path.push_off(law_.damping);
     if (law_.kind == EventRestitution::newton) return path.rise_to(e * fast);
     const Real work = path.compression_work();
     path.rise_to(Real(0));

@@ -6,6 +6,32 @@
 
 namespace clatter::oracle {
 
+/// G(u) = ∫ u/(1 − τu) du from 0, and the u > 0 where G has a value.
+template <class Real>
+struct DampedGround {
+  Real damping;  ///< τ
+
+  [[nodiscard]] Real G(const Real& u) const {
+    using std::log;
+    if (damping == 0) return u * u / 2;
+    return (-damping * u - log(1 - damping * u)) / (damping * damping);
+  }
+  /// With z = −ln(1 − τu), z − 1 + exp(−z) = τ² G is convex: Newton's steps from beyond its root
+  /// come down to it until rounding ends them.
+  [[nodiscard]] Real speed_at(const Real& value) const {
+    using std::exp, std::sqrt;
+    if (damping == 0) return sqrt(2 * value);
+    const Real target = damping * damping * value;
+    Real z = 1;
+    while (z - 1 + exp(-z) < target) z *= 2;
+    for (;;) {
+      const Real fraction = 1 - exp(-z), next = z - (z - fraction - target) / fraction;
+      if (!(next < z)) return fraction / damping;
+      z = next;
+    }
+  }
+};
+
 /// (u, s) after the impulses so far: du = (A − B r) dP, ds = (C r − B) dP, r the ratio that
 /// friction allows.
 template <class Real>
@@ -61,6 +87,26 @@ struct ImpulsePath {
       const Real need = (sqrt(u * u + 2 * slope * work) - u) / slope;
       if (stop < 0 || need <= stop) return go(r, need, false);
       work -= u * stop + slope * stop * stop / 2;
+      go(r, stop, true);
+    }
+  }
+  /// On until a ground that pushes with K (1 − τu), τ = `damping`, K growing with depth in any way,
+  /// has given back all it stored.  Its energy changes by K dδ = −u dP/(1 − τu), which along a
+  /// segment with du = slope dP is −[G(u_after) − G(u)]/slope, G′ = u/(1 − τu).
+  void push_off(const Real& damping) {
+    const DampedGround<Real> ground{damping};
+    Real stored = 0;
+    for (int segment = 0; segment < 4; ++segment) {
+      const Real r = ratio(), slope = A - B * r, stop = until_slip_stops(r);
+      if (slope > 0) {
+        const Real need = (ground.speed_at(ground.G(u) + slope * stored) - u) / slope;
+        if (stop < 0 || need <= stop) return go(r, need, false);
+      } else if (stop < 0) {
+        throw std::runtime_error("the contact jams");
+      }
+      const Real after = u + slope * stop;
+      stored -= slope == 0 ? Real(u / (1 - damping * u) * stop)
+                           : Real((ground.G(after) - ground.G(u)) / slope);
       go(r, stop, true);
     }
   }
