@@ -1,6 +1,5 @@
 #include "analytic/error_factor.hpp"
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <random>
@@ -9,7 +8,7 @@
 namespace {
 
 using namespace clatter::analytic;
-using Real = boost::multiprecision::cpp_bin_float_100;
+using Real = long double;
 using Column = std::array<Real, state_size>;
 
 constexpr double rounding = 1e-13;  // relative to the row norms: 40 steps of a few eps each
@@ -40,7 +39,7 @@ struct AllColumns {
       for (std::size_t i = 0; i < state_size; ++i) part += Real(gradient[i]) * column[i];
       sum += part * part;
     }
-    return sqrt(sum);
+    return std::sqrt(sum);
   }
 };
 
@@ -85,9 +84,10 @@ class Campaign {
       Real parts = 0;
       for (std::size_t i = 0; i < state_size; ++i) {
         gradient[i] = k < 6 ? (static_cast<std::size_t>(k) == i ? 1 : 0) : uniform() / sizes_[i];
-        parts += abs(Real(gradient[i])) * all_.deviation(unit(i));
+        parts += std::fabs(Real(gradient[i])) * all_.deviation(unit(i));
       }
-      const Real error = abs(Real(factor_.deviation(gradient)) - all_.deviation(gradient)) / parts;
+      const Real error =
+          std::fabs(Real(factor_.deviation(gradient)) - all_.deviation(gradient)) / parts;
       worst = std::fmax(worst, static_cast<double>(error));
     }
     return worst;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int family = 9;
 constexpr int scene_count = 60;
-constexpr int discrete_impacts = 3000;  ///< of a sequence that does not end before
+constexpr int discrete_impacts = 400;  ///< of a sequence that does not end before
 constexpr double least_covered = 0.95;
 constexpr double widest_median = 10;
 /// Bars of the discrete model hold an ulp of each number given, too, which the drop of the check does not have.
