@@ -68,6 +68,11 @@ std::optional<Tail> bouncing_tail(const BodyMotion& motion, const ImpactLaw& law
               .after_error = {}};
 }
 
+bool may_accumulate(const ImpactLaw& law) {
+  return law.restitution < 1 || law.law == RestitutionLaw::viscoelastic ||
+         law.friction == FrictionKind::coulomb;
+}
+
 bool Accumulation::repeats(int period) const {
   const int count = static_cast<int>(events_.size());
   if (count < blocks * period) return false;

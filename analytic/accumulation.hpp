@@ -16,6 +16,9 @@ namespace clatter::analytic {
 [[nodiscard]] std::optional<Tail> bouncing_tail(const BodyMotion& motion, const ImpactLaw& law,
                                                 double gravity, const BodyMotion::Strike& last);
 
+/// Whether impacts by this law can take energy away.
+[[nodiscard]] bool may_accumulate(const ImpactLaw& law);
+
 /// Recognises an accumulation from the flight times and impulses of the impacts so far.
 ///
 /// Near its end an accumulation of one vertex, or of the two of a face that rattles, is the same motion over and over on a

@@ -137,7 +137,7 @@ class Run {
     row.impact = strike.impact;
     row.energy_after = motion_.energy();
     result_.total_normal_impulse += row.impact.normal_impulse;
-    if (may_accumulate() && !result_.rows.empty()) {
+    if (may_accumulate(law_) && !result_.rows.empty()) {
       accumulation_.add({row.vertices, row.impact.mode, flight.arrival.time, row.impact.normal_impulse,
                          row.impact.tangential_impulse});
     }
@@ -145,12 +145,6 @@ class Run {
     if (growth_) growth_->strike(motion_, law_, row);
     result_.rows.push_back(row);
     return strike;
-  }
-
-  /// Whether impacts can take energy away.
-  [[nodiscard]] bool may_accumulate() const {
-    return law_.restitution < 1 || law_.law == RestitutionLaw::viscoelastic ||
-           law_.friction == FrictionKind::coulomb;
   }
 
   void warn_of_energy(const Impact& impact) {
