@@ -92,18 +92,19 @@ int run_angles(const AnglesInput& input) {
 
 }  // namespace
 
-Action add_angles_command(CLI::App& app) {
+Command angles_command() {
   auto input = std::make_shared<AnglesInput>();
-  CLI::App* command = app.add_subcommand("angles", "contact angles and impulses of the thin rod");
-  add_sweep_options(*command, input->sweep, "angle theta in degrees (0 to 90 by 5)");
-  add_rod_options(*command, input->rod);
-  command->add_flag("--as-printed", input->as_printed,
-                    "beta by the paper's printed gravity term beside the corrected one")->group("Rod");
-  add_output_options(*command, input->output);
-  add_plot_options(*command, input->plot);
-  add_text(*command, "--digits", input->digits, "N", "significant digits in tables (6)")->group("Output");
-  command->footer("Example: clatter angles --from 0 --to 60 --step 2.5 --gravity-number 0.1");
-  return [input] { return run_angles(*input); };
+  Command command{.name = "angles", .help = "contact angles and impulses of the thin rod"};
+  add_sweep_options(command, input->sweep, "angle theta in degrees (0 to 90 by 5)");
+  add_rod_options(command, input->rod);
+  command.add_flag("--as-printed", input->as_printed,
+                    "beta by the paper's printed gravity term beside the corrected one", "Rod");
+  add_output_options(command, input->output);
+  add_plot_options(command, input->plot);
+  command.add_text("--digits", input->digits, "N", "significant digits in tables (6)", "Output");
+  command.footer = "Example: clatter angles --from 0 --to 60 --step 2.5 --gravity-number 0.1";
+  command.run = [input] { return run_angles(*input); };
+  return command;
 }
 
 }  // namespace clatter::validation

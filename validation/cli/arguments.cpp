@@ -10,49 +10,54 @@
 namespace clatter::validation {
 namespace {
 
-std::vector<std::string> option_names(const CLI::App& command) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  }
-  return names;
+/// What stands before a command: the program's own options.
+const Command& program_options() {
+  static bool version = false;  // the parser has the target that counts
+  static const Command options = [] {
+    Command program;
+    program.add_flag("--version", version, "");
+    return program;
+  }();
+  return options;
 }
 
-const CLI::App* find_command(const CLI::App& app, const std::string& name) {
+const Command& find_command(const std::vector<Command>& commands, const std::string& name) {
   std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    if (command->get_name() == name) return command;
-    names.push_back(command->get_name());
+  for (const Command& command : commands) {
+    if (command.name == name) return command;
+    names.push_back(command.name);
   }
   throw BadInput(fmt::format("command '{}': unknown; did you mean {}?", name, nearest_name(name, names)));
 }
 
-const CLI::Option& find_option(const CLI::App& command, const std::string& name) {
-  const std::vector<std::string> names = option_names(command);
-  if (std::find(names.begin(), names.end(), name) != names.end()) return *command.get_option(name);
+/// The argument of that name; none for --help, which every command has.
+const Argument* find_option(const Command& command, const std::string& name) {
+  if (name == "--help") return nullptr;
+  for (const Argument& argument : command.arguments) {
+    if (argument.name == name && argument.is_option()) return &argument;
+  }
   static const std::set<std::string> of_simulator{"--tolerance", "--step", "--history"};
-  if (command.get_name() == "sequence" && of_simulator.contains(name)) {
+  if (command.name == "sequence" && of_simulator.contains(name)) {
     throw BadInput(fmt::format("{}: the discrete model takes no time steps and has no such option", name));
   }
   throw BadInput(fmt::format("option {}: unknown{}; did you mean {}?", name,
-                             command.get_name().empty() ? "" : " for " + command.get_name(),
-                             nearest_name(name, names)));
+                             command.name.empty() ? "" : " for " + command.name,
+                             nearest_name(name, command.option_names())));
 }
 
 /// Takes one command's arguments apart.
 class Scan {
  public:
-  Scan(const CLI::App& command, std::vector<std::string>& out) : command_(command), out_(out) {}
+  Scan(const Command& command, std::vector<std::string>& out) : command_(command), out_(out) {}
 
   void option(const std::string& argument, const std::string* next, bool& used_next) {
     const std::size_t equal = argument.find('=');
     const std::string name = argument.substr(0, equal);
-    const CLI::Option& option = find_option(command_, name);
-    const bool may_repeat = option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
+    const Argument* option = find_option(command_, name);
+    const bool may_repeat = option && option->repeats;
     if (!seen_.insert(name).second && !may_repeat) throw BadInput(fmt::format("{}: given twice", name));
-    list_ = option.get_items_expected_max() > 1 && !may_repeat ? name : "";
-    const bool takes_value = option.get_items_expected_max() > 0;
-    if (!takes_value) {
+    list_ = option && option->is_list() ? name : "";
+    if (!option || option->is_flag()) {
       if (equal != std::string::npos) throw BadInput(fmt::format("{}: takes no value", name));
       out_.push_back(name);
       return;
@@ -74,15 +79,15 @@ class Scan {
       return;
     }
     std::size_t allowed = 0;
-    for (const CLI::Option* option : command_.get_options()) allowed += option->get_positional() ? 1 : 0;
+    for (const Argument& one : command_.arguments) allowed += one.is_option() ? 0 : 1;
     if (++positionals_ > allowed) {
-      throw BadInput(fmt::format("'{}': unexpected argument for {}", argument, command_.get_name()));
+      throw BadInput(fmt::format("'{}': unexpected argument for {}", argument, command_.name));
     }
     out_.push_back(argument);
   }
 
  private:
-  const CLI::App& command_;
+  const Command& command_;
   std::vector<std::string>& out_;
   std::set<std::string> seen_;
   std::size_t positionals_ = 0;
@@ -97,14 +102,14 @@ bool is_short_option(const std::string& argument) {
 
 }  // namespace
 
-std::vector<std::string> checked_arguments(const CLI::App& app,
+std::vector<std::string> checked_arguments(const std::vector<Command>& commands,
                                            const std::vector<std::string>& arguments) {
   std::vector<std::string> out;
   if (arguments.empty()) throw BadInput("a command is required; clatter --help lists them");
-  const CLI::App* command = &app;
+  const Command* command = &program_options();
   std::size_t begin = 0;
   if (!arguments[0].starts_with('-')) {
-    command = find_command(app, arguments[0]);
+    command = &find_command(commands, arguments[0]);
     out.push_back(arguments[0]);
     begin = 1;
   }
@@ -117,7 +122,7 @@ std::vector<std::string> checked_arguments(const CLI::App& app,
       scan.option(argument, i + 1 < arguments.size() ? &arguments[i + 1] : nullptr, used_next);
     } else if (is_short_option(argument)) {
       throw BadInput(fmt::format("option {}: unknown; options begin with two dashes", argument));
-    } else if (command == &app) {
+    } else if (begin == 0) {
       throw BadInput(fmt::format("'{}': a command comes before its options", argument));
     } else {
       scan.positional(argument);

@@ -1,28 +1,27 @@
-// The commands of the program.  Each adds its options to the parser and returns what runs it.
+// The commands of the program.
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <functional>
+#include "validation/cli/command.hpp"
 
 namespace clatter::validation {
 
-/// Runs a command after parsing; returns the exit status.
-using Action = std::function<int()>;
+[[nodiscard]] Command sequence_command();
+[[nodiscard]] Command angles_command();
+[[nodiscard]] Command regimes_command();
+[[nodiscard]] Command explain_command();
+[[nodiscard]] Command simulate_command();
+[[nodiscard]] Command compare_command();
+[[nodiscard]] Command sweep_command();
+[[nodiscard]] Command verify_command();
+[[nodiscard]] Command figures_command();
+[[nodiscard]] Command plan_command();
+[[nodiscard]] Command tradeoff_command();
+[[nodiscard]] Command extremes_command();
+[[nodiscard]] Command demo_command();
+[[nodiscard]] Command completion_command();
+[[nodiscard]] Command man_command();
 
-[[nodiscard]] Action add_sequence_command(CLI::App& app);
-[[nodiscard]] Action add_angles_command(CLI::App& app);
-[[nodiscard]] Action add_regimes_command(CLI::App& app);
-[[nodiscard]] Action add_explain_command(CLI::App& app);
-[[nodiscard]] Action add_simulate_command(CLI::App& app);
-[[nodiscard]] Action add_compare_command(CLI::App& app);
-[[nodiscard]] Action add_sweep_command(CLI::App& app);
-[[nodiscard]] Action add_verify_command(CLI::App& app);
-[[nodiscard]] Action add_figures_command(CLI::App& app);
-[[nodiscard]] Action add_plan_command(CLI::App& app);
-[[nodiscard]] Action add_tradeoff_command(CLI::App& app);
-[[nodiscard]] Action add_extremes_command(CLI::App& app);
-[[nodiscard]] Action add_demo_command(CLI::App& app);
-[[nodiscard]] Action add_completion_command(CLI::App& app);
-[[nodiscard]] Action add_man_command(CLI::App& app);
+/// All of them, in the order of the help.
+[[nodiscard]] const std::vector<Command>& all_commands();
 
 }  // namespace clatter::validation

@@ -96,18 +96,19 @@ int run_compare(const CompareInput& input) {
 
 }  // namespace
 
-Action add_compare_command(CLI::App& app) {
+Command compare_command() {
   auto input = std::make_shared<CompareInput>();
-  CLI::App* command = app.add_subcommand("compare", "both models side by side, and why they differ");
-  add_scene_flags(*command, input->scene);
-  add_output_options(*command, input->output);
-  add_plot_options(*command, input->plot);
-  command->footer(
+  Command command{.name = "compare", .help = "both models side by side, and why they differ"};
+  add_scene_flags(command, input->scene);
+  add_output_options(command, input->output);
+  add_plot_options(command, input->plot);
+  command.footer =
       "Example: clatter compare validation/cases/phone-damped.toml --impacts 2\n"
       "Exit status 1 if the stiff limit of the continuous model misses the discrete value,\n"
       "3 if a limit or a number that could not be computed left fewer impacts than asked for,\n"
-      "4 if nothing can be compared.");
-  return [input] { return run_compare(*input); };
+      "4 if nothing can be compared.";
+  command.run = [input] { return run_compare(*input); };
+  return command;
 }
 
 }  // namespace clatter::validation

@@ -89,15 +89,16 @@ int run_demo(const DemoInput& input) {
 
 }  // namespace
 
-Action add_demo_command(CLI::App& app) {
+Command demo_command() {
   auto input = std::make_shared<DemoInput>();
-  CLI::App* command = app.add_subcommand("demo", "a page to play with, in the browser");
-  add_text(*command, "--port", input->port, "N", fmt::format("of 127.0.0.1 ({}, or a free one)", usual_port));
-  add_text(*command, "--seconds", input->seconds, "S", fmt::format("that an answer may take ({})", usual_seconds));
-  add_text(*command, "--export", input->file, "FILE", "write a copy of the page that needs no program (HTML), and end");
-  command->add_option("--scene", input->scenes, "scenes of the copy (all)")->type_name("NAME");
-  command->footer("Example: clatter demo\nIt serves the page to this machine alone, until Ctrl-C.");
-  return [input] { return run_demo(*input); };
+  Command command{.name = "demo", .help = "a page to play with, in the browser"};
+  command.add_text("--port", input->port, "N", fmt::format("of 127.0.0.1 ({}, or a free one)", usual_port));
+  command.add_text("--seconds", input->seconds, "S", fmt::format("that an answer may take ({})", usual_seconds));
+  command.add_text("--export", input->file, "FILE", "write a copy of the page that needs no program (HTML), and end");
+  command.add_list("--scene", input->scenes, "NAME", "scenes of the copy (all)");
+  command.footer = "Example: clatter demo\nIt serves the page to this machine alone, until Ctrl-C.";
+  command.run = [input] { return run_demo(*input); };
+  return command;
 }
 
 }  // namespace clatter::validation

@@ -153,14 +153,16 @@ int run_explain(const ExplainInput& input) {
 
 }  // namespace
 
-Action add_explain_command(CLI::App& app) {
+Command explain_command() {
   auto input = std::make_shared<ExplainInput>();
-  CLI::App* command = app.add_subcommand("explain", "how impact N came about, step by step");
-  command->add_option("N", input->number, "number of the impact, from 1")->type_name("")->required();
-  add_scene_options(*command, input->scene);
-  add_output_options(*command, input->output);
-  command->footer("Example: clatter explain 2 --angle 10");
-  return [input] { return run_explain(*input); };
+  Command command{.name = "explain", .help = "how impact N came about, step by step"};
+  command.add({.name = "N", .target = &input->number, .type = "", .help = "number of the impact, from 1",
+               .required = true});
+  add_scene_options(command, input->scene);
+  add_output_options(command, input->output);
+  command.footer = "Example: clatter explain 2 --angle 10";
+  command.run = [input] { return run_explain(*input); };
+  return command;
 }
 
 }  // namespace clatter::validation

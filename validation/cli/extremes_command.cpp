@@ -68,23 +68,24 @@ int run_extremes(const ExtremesInput& input) {
 
 }  // namespace
 
-Action add_extremes_command(CLI::App& app) {
+Command extremes_command() {
   auto input = std::make_shared<ExtremesInput>();
-  CLI::App* command = app.add_subcommand("extremes", "the map of what holds, to every quantity's ends");
-  command->add_option("--only", input->only, "these quantities, such as angle speed")->type_name("AXIS");
-  command->add_flag("--quick", input->quick, "without the long runs (impacts, random scenes)");
-  add_text(*command, "--seed", input->seed, "S", "of the random scenes (1)");
-  add_text(*command, "--seconds", input->seconds, "S", "that a cell may take (1)");
-  add_text(*command, "--plot", input->plot, "FILE", "also a picture, .svg");
-  add_output_options(*command, input->output);
-  command->footer(
+  Command command{.name = "extremes", .help = "the map of what holds, to every quantity's ends"};
+  command.add_list("--only", input->only, "AXIS", "these quantities, such as angle speed");
+  command.add_flag("--quick", input->quick, "without the long runs (impacts, random scenes)");
+  command.add_text("--seed", input->seed, "S", "of the random scenes (1)");
+  command.add_text("--seconds", input->seconds, "S", "that a cell may take (1)");
+  command.add_text("--plot", input->plot, "FILE", "also a picture, .svg");
+  add_output_options(command, input->output);
+  command.footer =
       "Example: clatter extremes --only angle restitution --plot extremes.svg\n"
       "Quantities: angle, stiffness, damping, restitution, ratio, friction, speed,\n"
       "gravity, size, mass, turns, impacts, long.\n"
       "The table has one row per region, --format csv and json all cells. Each cell\n"
       "ends within a second with a number and its error or with a typed refusal;\n"
-      "exit status 1 if one does not, or if an error is beyond its bound.");
-  return [input] { return run_extremes(*input); };
+      "exit status 1 if one does not, or if an error is beyond its bound.";
+  command.run = [input] { return run_extremes(*input); };
+  return command;
 }
 
 }  // namespace clatter::validation

@@ -55,15 +55,16 @@ int run_figures(const FiguresInput& input) {
 
 }  // namespace
 
-Action add_figures_command(CLI::App& app) {
+Command figures_command() {
   auto input = std::make_shared<FiguresInput>();
-  CLI::App* command = app.add_subcommand("figures", "the data of the paper's figures, one CSV each");
-  add_text(*command, "--output", input->folder, "DIR", "folder for figure_07.csv, ...; made if it is not there");
-  command->add_option("--only", input->only, "numbers of figures")->type_name("N");
-  command->footer(
+  Command command{.name = "figures", .help = "the data of the paper's figures, one CSV each"};
+  command.add_text("--output", input->folder, "DIR", "folder for figure_07.csv, ...; made if it is not there");
+  command.add_list("--only", input->only, "N", "numbers of figures");
+  command.footer =
       "Example: clatter figures --only 7 14 --output figures\n"
-      "clatter verify --html FILE draws them.");
-  return [input] { return run_figures(*input); };
+      "clatter verify --html FILE draws them.";
+  command.run = [input] { return run_figures(*input); };
+  return command;
 }
 
 }  // namespace clatter::validation

@@ -11,14 +11,9 @@
 
 namespace clatter::validation {
 
-CLI::Option* add_text(CLI::App& command, const std::string& name, std::optional<std::string>& text,
-                      const std::string& type, const std::string& help) {
-  return command.add_option(name, text, help)->type_name(type);
-}
-
-void add_scene_options(CLI::App& command, SceneTexts& t) {
+void add_scene_options(Command& command, SceneTexts& t) {
   const auto add = [&](const char* name, std::optional<std::string>& text, const char* type,
-                       const char* help) { add_text(command, name, text, type, help)->group("Scene"); };
+                       const char* help) { command.add_text(name, text, type, help, "Scene"); };
   add("--angle", t.angle, "DEG", "inclination at the first impact, end a low; 0 flat, 90 upright (required)");
   add("--speed", t.speed, "M/S", "downward speed of the centre of mass at the first touch (1)");
   add("--height", t.height, "M", "or the height of the centre of mass at release from rest");
@@ -36,15 +31,13 @@ void add_scene_options(CLI::App& command, SceneTexts& t) {
   add("--size", t.size, "LxWxT", "of the box in m: L along the inclination, T upright at 0 degrees");
   add("--impacts", t.impacts, "N", "most impacts to report (6)");
   add("--digits", t.digits, "N", "significant digits in tables, accuracy of an extrapolated end (6)");
-  command.add_flag_callback("--require-digits", [&t] { t.require_digits = "true"; },
-                            "exit status 3 if fewer digits are known")->group("Scene");
+  command.add_flag("--require-digits", t.require_digits, "exit status 3 if fewer digits are known", "Scene");
 }
 
-void add_output_options(CLI::App& command, OutputTexts& t) {
-  add_text(command, "--format", t.format, "table|csv|json|markdown|latex", "form of the output (table)")
-      ->group("Output");
-  add_text(command, "--output", t.output, "FILE", "write there, whole or not at all")->group("Output");
-  command.add_flag("--ascii", t.ascii, "plain ASCII in tables")->group("Output");
+void add_output_options(Command& command, OutputTexts& t) {
+  command.add_text("--format", t.format, "table|csv|json|markdown|latex", "form of the output (table)", "Output");
+  command.add_text("--output", t.output, "FILE", "write there, whole or not at all", "Output");
+  command.add_flag("--ascii", t.ascii, "plain ASCII in tables", "Output");
 }
 
 OutputChoice read_output(const OutputTexts& texts) {
@@ -84,11 +77,11 @@ void write_report(const OutputChoice& choice, const std::function<Json()>& json,
   }
 }
 
-void add_sweep_options(CLI::App& command, SweepTexts& t, const std::string& what) {
-  add_text(command, "--from", t.from, "X", "first " + what)->group("Range");
-  add_text(command, "--to", t.to, "X", "last " + what)->group("Range");
-  add_text(command, "--step", t.step, "X", "step from one to the next")->group("Range");
-  add_text(command, "--count", t.count, "N", "or the number of values, both ends included")->group("Range");
+void add_sweep_options(Command& command, SweepTexts& t, const std::string& what) {
+  command.add_text("--from", t.from, "X", "first " + what, "Range");
+  command.add_text("--to", t.to, "X", "last " + what, "Range");
+  command.add_text("--step", t.step, "X", "step from one to the next", "Range");
+  command.add_text("--count", t.count, "N", "or the number of values, both ends included", "Range");
 }
 
 double Sweep::value(long long i) const {

@@ -1,12 +1,12 @@
 // Options that several commands share.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "validation/cli/command.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/run_files.hpp"
 #include "validation/output/table.hpp"
@@ -26,11 +26,8 @@ struct OutputChoice {
   std::string path;
 };
 
-void add_scene_options(CLI::App& command, SceneTexts& texts);
-void add_output_options(CLI::App& command, OutputTexts& texts);
-/// A value option whose text is checked later.
-CLI::Option* add_text(CLI::App& command, const std::string& name, std::optional<std::string>& text,
-                      const std::string& type, const std::string& help);
+void add_scene_options(Command& command, SceneTexts& texts);
+void add_output_options(Command& command, OutputTexts& texts);
 
 [[nodiscard]] OutputChoice read_output(const OutputTexts& texts);
 
@@ -52,7 +49,7 @@ void write_report(const OutputChoice& choice, const std::function<Json()>& json,
 struct SweepTexts {
   std::optional<std::string> from, to, step, count;
 };
-void add_sweep_options(CLI::App& command, SweepTexts& texts, const std::string& what);
+void add_sweep_options(Command& command, SweepTexts& texts, const std::string& what);
 
 struct Sweep {
   double from = 0;

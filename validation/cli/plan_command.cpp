@@ -57,16 +57,17 @@ int run_plan(const PlanInput& input) {
 
 }  // namespace
 
-Action add_plan_command(CLI::App& app) {
+Command plan_command() {
   auto input = std::make_shared<PlanInput>();
-  CLI::App* command = app.add_subcommand("plan", "the smallest model that serves, and its cost");
-  add_scene_flags(*command, input->scene);
-  add_text(*command, "--within", input->within, "MS", "that the run may take; alone: as accurate as fits");
-  add_output_options(*command, input->output);
-  command->footer(
+  Command command{.name = "plan", .help = "the smallest model that serves, and its cost"};
+  add_scene_flags(command, input->scene);
+  command.add_text("--within", input->within, "MS", "that the run may take; alone: as accurate as fits");
+  add_output_options(command, input->output);
+  command.footer =
       "Example: clatter plan validation/cases/phone-damped.toml --digits 4\n"
-      "Exit status 3 if no model gives the digits; the best is shown all the same.");
-  return [input] { return run_plan(*input); };
+      "Exit status 3 if no model gives the digits; the best is shown all the same.";
+  command.run = [input] { return run_plan(*input); };
+  return command;
 }
 
 }  // namespace clatter::validation

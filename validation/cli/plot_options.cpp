@@ -25,9 +25,9 @@ PictureFormat format_of(const std::string& file) {
 
 }  // namespace
 
-void add_plot_options(CLI::App& command, PlotTexts& texts) {
-  add_text(command, "--plot", texts.plot, "FILE", "also a picture, .svg or .png (needs gnuplot)")->group("Output");
-  command.add_flag(script_option, texts.script, "and beside it the gnuplot script that draws it")->group("Output");
+void add_plot_options(Command& command, PlotTexts& texts) {
+  command.add_text("--plot", texts.plot, "FILE", "also a picture, .svg or .png (needs gnuplot)", "Output");
+  command.add_flag(script_option, texts.script, "and beside it the gnuplot script that draws it", "Output");
 }
 
 std::vector<std::string> run_words(const std::string& command, const std::string& what, const Json& scene) {

@@ -1,11 +1,11 @@
 // --plot and --plot-script of the commands that draw what they have computed.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "validation/cli/command.hpp"
 #include "validation/figures/picture.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/run_files.hpp"
@@ -17,7 +17,7 @@ struct PlotTexts {
   std::optional<std::string> plot;
   bool script = false;
 };
-void add_plot_options(CLI::App& command, PlotTexts& texts);
+void add_plot_options(Command& command, PlotTexts& texts);
 
 /// The files of these options, whether wanted or not.  @throws BadInput if the script is wanted without a picture.
 [[nodiscard]] std::vector<RunFile> plot_files(const PlotTexts& texts);

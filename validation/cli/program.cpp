@@ -1,16 +1,11 @@
 #include "validation/cli/program.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <map>
 #include <stdexcept>
 
 #include "analytic/errors.hpp"
 #include "numeric/errors.hpp"
-#include "validation/cli/arguments.hpp"
 #include "validation/cli/commands.hpp"
-#include "validation/cli/version.hpp"
+#include "validation/cli/parser.hpp"
 #include "validation/output/message.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/scene/bad_input.hpp"
@@ -25,49 +20,13 @@ int complain(const std::string& what, Status status) {
   return status;
 }
 
-int print_text(const std::string& text) {
+int parse_and_run(const std::vector<std::string>& given) {
+  const ParsedLine line = parse_line(all_commands(), given);
+  if (line.command) return line.command->run();
   Sink sink("");
-  sink.write(text);
+  sink.write(line.text);
   sink.commit();
   return done;
-}
-
-int parse_and_run(const std::vector<std::string>& given) {
-  CLI::App app("impact sequences of falling rigid bodies", "clatter");
-  app.footer("Example: clatter sequence --angle 10\nclatter COMMAND --help tells more.");
-  app.set_help_flag("--help", "print this help and exit");
-  bool show_version = false;
-  app.add_flag("--version", show_version, "print the version and exit");
-  std::map<std::string, Action> actions;
-  actions["sequence"] = add_sequence_command(app);
-  actions["angles"] = add_angles_command(app);
-  actions["regimes"] = add_regimes_command(app);
-  actions["explain"] = add_explain_command(app);
-  actions["simulate"] = add_simulate_command(app);
-  actions["compare"] = add_compare_command(app);
-  actions["sweep"] = add_sweep_command(app);
-  actions["verify"] = add_verify_command(app);
-  actions["figures"] = add_figures_command(app);
-  actions["plan"] = add_plan_command(app);
-  actions["tradeoff"] = add_tradeoff_command(app);
-  actions["extremes"] = add_extremes_command(app);
-  actions["demo"] = add_demo_command(app);
-  actions["completion"] = add_completion_command(app);
-  actions["man"] = add_man_command(app);
-  std::vector<std::string> arguments = checked_arguments(app, given);
-  std::reverse(arguments.begin(), arguments.end());  // as CLI11's parse(vector) wants them
-  try {
-    app.parse(arguments);
-  } catch (const CLI::CallForHelp&) {
-    const auto chosen = app.get_subcommands();
-    return print_text((chosen.empty() ? &app : chosen[0])->help());
-  } catch (const CLI::ParseError& error) {
-    throw BadInput(error.what());
-  }
-  if (show_version) return print_text(fmt::format("clatter {}\n", version));
-  const auto chosen = app.get_subcommands();
-  if (chosen.empty()) throw BadInput("a command is required; clatter --help lists them");
-  return actions.at(chosen[0]->get_name())();
 }
 
 }  // namespace

@@ -186,19 +186,20 @@ int run_regimes(const RegimesInput& input) {
 
 }  // namespace
 
-Action add_regimes_command(CLI::App& app) {
+Command regimes_command() {
   auto input = std::make_shared<RegimesInput>();
-  CLI::App* command = app.add_subcommand("regimes", "number of impacts and fold angles");
-  add_text(*command, "--over", input->over, "gravity-number|restitution|impulse-ratio",
-           "what to vary (gravity-number)")->group("Range");
-  add_sweep_options(*command, input->sweep, "value");
-  command->add_flag("--log", input->logarithmic, "values in geometric progression")->group("Range");
-  add_rod_options(*command, input->rod);
-  add_output_options(*command, input->output);
-  add_plot_options(*command, input->plot);
-  add_text(*command, "--digits", input->digits, "N", "significant digits in tables (8)")->group("Output");
-  command->footer("Example: clatter regimes --over restitution --from 0.2 --to 1 --step 0.1");
-  return [input] { return run_regimes(*input); };
+  Command command{.name = "regimes", .help = "number of impacts and fold angles"};
+  command.add_text("--over", input->over, "gravity-number|restitution|impulse-ratio",
+           "what to vary (gravity-number)", "Range");
+  add_sweep_options(command, input->sweep, "value");
+  command.add_flag("--log", input->logarithmic, "values in geometric progression", "Range");
+  add_rod_options(command, input->rod);
+  add_output_options(command, input->output);
+  add_plot_options(command, input->plot);
+  command.add_text("--digits", input->digits, "N", "significant digits in tables (8)", "Output");
+  command.footer = "Example: clatter regimes --over restitution --from 0.2 --to 1 --step 0.1";
+  command.run = [input] { return run_regimes(*input); };
+  return command;
 }
 
 }  // namespace clatter::validation

@@ -10,9 +10,9 @@
 
 namespace clatter::validation {
 
-void add_rod_options(CLI::App& command, RodTexts& t) {
+void add_rod_options(Command& command, RodTexts& t) {
   const auto add = [&](const char* name, std::optional<std::string>& text, const char* type,
-                       const char* help) { add_text(command, name, text, type, help)->group("Rod"); };
+                       const char* help) { command.add_text(name, text, type, help, "Rod"); };
   add("--gravity-number", t.gravity_number, "G", "G = g L/v_n^2 (0)");
   add("--gravity", t.gravity, "M/S2", "or gravity, with --length and --speed (0)");
   add("--length", t.length, "M", "of the rod, for --gravity (1)");

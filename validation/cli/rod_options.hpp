@@ -1,10 +1,10 @@
 // Options of the commands that deal with the thin rod's contact angles.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 
+#include "validation/cli/command.hpp"
 #include "analytic/contact_angles.hpp"
 #include "validation/output/json.hpp"
 
@@ -13,7 +13,7 @@ namespace clatter::validation {
 struct RodTexts {
   std::optional<std::string> gravity_number, gravity, length, speed, restitution, impulse_ratio;
 };
-void add_rod_options(CLI::App& command, RodTexts& texts);
+void add_rod_options(Command& command, RodTexts& texts);
 /// @throws BadInput as read_scene().
 [[nodiscard]] analytic::RodParameters read_rod(const RodTexts& texts);
 /// The parameters under their names in JSON.

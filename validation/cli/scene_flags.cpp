@@ -47,16 +47,20 @@ constexpr Flag flags[] = {
 
 }  // namespace
 
-void add_scene_flags(CLI::App& command, SceneFlags& given) {
+void add_scene_argument(Command& command, std::string& file) {
+  command.add({.name = "SCENE", .target = &file, .type = "FILE", .help = "scene file (TOML)", .required = true});
+}
+
+void add_scene_flags(Command& command, SceneFlags& given) {
   const char* const group = "Scene (each overrides its key in the file)";
-  command.add_option("SCENE", given.file, "scene file (TOML)")->required()->type_name("FILE");
+  add_scene_argument(command, given.file);
   given.texts.resize(std::size(flags));
   for (std::size_t i = 0; i < std::size(flags); ++i) {
-    add_text(command, flags[i].name, given.texts[i], flags[i].type, flags[i].help)->group(group);
+    command.add_text(flags[i].name, given.texts[i], flags[i].type, flags[i].help, group);
   }
-  command.add_flag("--planar", given.planar, "keep the motion in its plane")->group(group);
-  command.add_flag("--require-digits", given.require_digits, "exit status 3 if fewer digits are known")->group(group);
-  command.add_flag("--no-contact-gravity", given.no_contact_gravity, "let gravity act in flight only")->group(group);
+  command.add_flag("--planar", given.planar, "keep the motion in its plane", group);
+  command.add_flag("--require-digits", given.require_digits, "exit status 3 if fewer digits are known", group);
+  command.add_flag("--no-contact-gravity", given.no_contact_gravity, "let gravity act in flight only", group);
 }
 
 SimulationScene read_scene_flags(const SceneFlags& given) {

@@ -1,11 +1,11 @@
 // A scene file and the flags that override its keys, for the commands that take one.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "validation/cli/command.hpp"
 #include "validation/output/run_files.hpp"
 #include "validation/scene/simulation_scene.hpp"
 
@@ -18,8 +18,10 @@ struct SceneFlags {
   bool planar = false, require_digits = false, no_contact_gravity = false;
 };
 
+/// Adds the argument SCENE.
+void add_scene_argument(Command& command, std::string& file);
 /// Adds SCENE and the flags.
-void add_scene_flags(CLI::App& command, SceneFlags& flags);
+void add_scene_flags(Command& command, SceneFlags& flags);
 /// @throws BadInput with one line.
 [[nodiscard]] SimulationScene read_scene_flags(const SceneFlags& flags);
 /// Whether the flag ("--history") was typed.

@@ -45,16 +45,17 @@ int run_sequence(const SequenceInput& input) {
 
 }  // namespace
 
-Action add_sequence_command(CLI::App& app) {
+Command sequence_command() {
   auto input = std::make_shared<SequenceInput>();
-  CLI::App* command = app.add_subcommand("sequence", "impact sequence of a falling rod or box");
-  add_scene_options(*command, input->scene);
-  add_text(*command, "--method", input->method, "NAME", "auto, closed-form (Eqs. 9 and 12) or discrete (auto)")
-      ->group("Scene");
-  add_output_options(*command, input->output);
-  add_plot_options(*command, input->plot);
-  command->footer("Example: clatter sequence --angle 10 --gravity 9.81 --restitution 0.8 --impacts 20");
-  return [input] { return run_sequence(*input); };
+  Command command{.name = "sequence", .help = "impact sequence of a falling rod or box"};
+  add_scene_options(command, input->scene);
+  command.add_text("--method", input->method, "NAME", "auto, closed-form (Eqs. 9 and 12) or discrete (auto)",
+                   "Scene");
+  add_output_options(command, input->output);
+  add_plot_options(command, input->plot);
+  command.footer = "Example: clatter sequence --angle 10 --gravity 9.81 --restitution 0.8 --impacts 20";
+  command.run = [input] { return run_sequence(*input); };
+  return command;
 }
 
 }  // namespace clatter::validation

@@ -14,77 +14,59 @@
 namespace clatter::validation {
 namespace {
 
-std::vector<const CLI::App*> commands_of(const CLI::App& app) {
-  return app.get_subcommands([](const CLI::App*) { return true; });
-}
+constexpr const char* file_type = "FILE";
+const Argument help_option{.name = "--help", .target = static_cast<bool*>(nullptr), .type = "",
+                           .help = "print this help and exit"};
 
-std::string long_name(const CLI::Option& option) {
-  return option.get_lnames().empty() ? "" : "--" + option.get_lnames()[0];
+/// The options of a command as shells complete them, --help first.
+std::vector<const Argument*> options_of(const Command& command) {
+  std::vector<const Argument*> options{&help_option};
+  for (const Argument& argument : command.arguments) {
+    if (argument.is_option()) options.push_back(&argument);
+  }
+  return options;
 }
-
-/// "a|b|c" as a list, where an option's type is such a choice.
-std::vector<std::string> choices(const CLI::Option& option) {
-  std::vector<std::string> list;
-  const std::string type = option.get_type_name();
-  if (type.find('|') == std::string::npos) return list;
-  std::istringstream stream(type);
-  for (std::string word; std::getline(stream, word, '|');) list.push_back(word);
-  return list;
-}
-
-bool is_file(const CLI::Option& option) { return option.get_type_name() == "FILE"; }
 
 /// Options of any command that take a file, each once.
-std::vector<std::string> file_options(const CLI::App& app) {
+std::vector<std::string> file_options() {
   std::vector<std::string> names;
-  for (const CLI::App* command : commands_of(app)) {
-    for (const CLI::Option* option : command->get_options()) {
-      const std::string name = long_name(*option);
-      if (name.empty() || !is_file(*option) || std::find(names.begin(), names.end(), name) != names.end()) continue;
-      names.push_back(name);
+  for (const Command& command : all_commands()) {
+    for (const Argument& argument : command.arguments) {
+      const bool known = std::find(names.begin(), names.end(), argument.name) != names.end();
+      if (argument.is_option() && argument.type == file_type && !known) names.push_back(argument.name);
     }
   }
   return names;
 }
 
-std::string words(const CLI::App& command) {
-  std::string all;
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string name = long_name(*option);
-    if (!name.empty()) all += (all.empty() ? "" : " ") + name;
-  }
-  return all;
+std::string command_words() {
+  std::vector<std::string> names;
+  for (const Command& command : all_commands()) names.push_back(command.name);
+  return fmt::format("{}", fmt::join(names, " "));
 }
 
-std::string command_words(const CLI::App& app) {
-  std::string all;
-  for (const CLI::App* command : commands_of(app)) all += (all.empty() ? "" : " ") + command->get_name();
-  return all;
-}
-
-std::string bash_completion(const CLI::App& app) {
+std::string bash_completion() {
   std::string out =
       "# bash completion for clatter\n_clatter() {\n"
       "  local word=\"${COMP_WORDS[COMP_CWORD]}\" previous=\"${COMP_WORDS[COMP_CWORD-1]}\" list=\"\"\n"
       "  case \"$previous\" in\n";
   std::vector<std::string> done;
-  for (const CLI::App* command : commands_of(app)) {
-    for (const CLI::Option* option : command->get_options()) {
-      const auto list = choices(*option);
-      const std::string name = long_name(*option);
-      if (list.empty() || name.empty() || std::find(done.begin(), done.end(), name) != done.end()) continue;
-      done.push_back(name);
-      out += fmt::format("    {}) COMPREPLY=($(compgen -W \"{}\" -- \"$word\")); return ;;\n", name,
+  for (const Command& command : all_commands()) {
+    for (const Argument* option : options_of(command)) {
+      const auto list = option->choices();
+      if (list.empty() || std::find(done.begin(), done.end(), option->name) != done.end()) continue;
+      done.push_back(option->name);
+      out += fmt::format("    {}) COMPREPLY=($(compgen -W \"{}\" -- \"$word\")); return ;;\n", option->name,
                          fmt::join(list, " "));
     }
   }
   out += fmt::format("    {}) COMPREPLY=($(compgen -f -- \"$word\")); return ;;\n  esac\n",
-                     fmt::join(file_options(app), "|"));
+                     fmt::join(file_options(), "|"));
   out += fmt::format("  if ((COMP_CWORD == 1)); then list=\"{} --help --version\"; else\n"
-                     "    case \"${{COMP_WORDS[1]}}\" in\n", command_words(app));
-  for (const CLI::App* command : commands_of(app)) {
-    const std::string extra = command->get_name() == "completion" ? " bash zsh fish" : "";
-    out += fmt::format("      {}) list=\"{}{}\" ;;\n", command->get_name(), words(*command), extra);
+                     "    case \"${{COMP_WORDS[1]}}\" in\n", command_words());
+  for (const Command& command : all_commands()) {
+    const std::string extra = command.name == "completion" ? " bash zsh fish" : "";
+    out += fmt::format("      {}) list=\"{}{}\" ;;\n", command.name, fmt::join(command.option_names(), " "), extra);
   }
   return out + "    esac\n  fi\n  COMPREPLY=($(compgen -W \"$list\" -- \"$word\"))\n}\n"
                "complete -F _clatter clatter\n";
@@ -96,43 +78,39 @@ std::string plain(std::string text) {
   return text;
 }
 
-std::string zsh_completion(const CLI::App& app) {
+std::string zsh_completion() {
   std::string out = "#compdef clatter\n_clatter() {\n  local -a commands\n  commands=(\n";
-  for (const CLI::App* command : commands_of(app)) {
-    out += fmt::format("    '{}:{}'\n", command->get_name(), plain(command->get_description()));
+  for (const Command& command : all_commands()) {
+    out += fmt::format("    '{}:{}'\n", command.name, plain(command.help));
   }
   out += "  )\n  if ((CURRENT == 2)); then _describe command commands; return; fi\n"
          "  case $words[2] in\n";
-  for (const CLI::App* command : commands_of(app)) {
-    out += fmt::format("    {}) _arguments", command->get_name());
-    for (const CLI::Option* option : command->get_options()) {
-      const std::string name = long_name(*option);
-      if (name.empty()) continue;
-      const auto list = choices(*option);
-      const std::string value = option->get_items_expected_max() == 0 ? ""
-                                : list.empty() ? (is_file(*option) ? ":file:_files" : ":value: ")
+  for (const Command& command : all_commands()) {
+    out += fmt::format("    {}) _arguments", command.name);
+    for (const Argument* option : options_of(command)) {
+      const auto list = option->choices();
+      const std::string value = option->is_flag() ? ""
+                                : list.empty() ? (option->type == file_type ? ":file:_files" : ":value: ")
                                                : fmt::format(":value:({})", fmt::join(list, " "));
-      out += fmt::format(" \\\n      '{}[{}]{}'", name, plain(option->get_description()), value);
+      out += fmt::format(" \\\n      '{}[{}]{}'", option->name, plain(option->help), value);
     }
     out += " ;;\n";
   }
   return out + "  esac\n}\n_clatter \"$@\"\n";
 }
 
-std::string fish_completion(const CLI::App& app) {
+std::string fish_completion() {
   std::string out = "# fish completion for clatter\n";
-  for (const CLI::App* command : commands_of(app)) {
+  for (const Command& command : all_commands()) {
     out += fmt::format("complete -c clatter -f -n __fish_use_subcommand -a {} -d '{}'\n",
-                       command->get_name(), plain(command->get_description()));
-    for (const CLI::Option* option : command->get_options()) {
-      const std::string name = long_name(*option);
-      if (name.empty()) continue;
-      const auto list = choices(*option);
-      const std::string value = option->get_items_expected_max() == 0 ? ""
-                                : list.empty() ? (is_file(*option) ? " -r -F" : " -x")
+                       command.name, plain(command.help));
+    for (const Argument* option : options_of(command)) {
+      const auto list = option->choices();
+      const std::string value = option->is_flag() ? ""
+                                : list.empty() ? (option->type == file_type ? " -r -F" : " -x")
                                                : fmt::format(" -x -a '{}'", fmt::join(list, " "));
       out += fmt::format("complete -c clatter -n '__fish_seen_subcommand_from {}' -l {}{} -d '{}'\n",
-                         command->get_name(), name.substr(2), value, plain(option->get_description()));
+                         command.name, option->name.substr(2), value, plain(option->help));
     }
   }
   return out;
@@ -148,26 +126,26 @@ std::string roff(const std::string& text) {
   return out.starts_with('.') || out.starts_with('\'') ? "\\&" + out : out;
 }
 
-std::string man_options(const CLI::App& command) {
-  std::string out;
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string name = long_name(*option);
-    const std::string value = option->get_items_expected_max() == 0 ? "" : " \\fI" + roff(option->get_type_name()) + "\\fR";
-    out += ".TP\n\\fB" + roff(name.empty() ? option->get_name() : name) + "\\fR" + value + "\n" +
-           roff(option->get_description()) + "\n";
-  }
+std::string man_option(const Argument& argument) {
+  const std::string value = argument.is_flag() ? "" : " \\fI" + roff(argument.type) + "\\fR";
+  return ".TP\n\\fB" + roff(argument.name) + "\\fR" + value + "\n" + roff(argument.help) + "\n";
+}
+
+std::string man_options(const Command& command) {
+  std::string out = man_option(help_option);
+  for (const Argument& argument : command.arguments) out += man_option(argument);
   return out;
 }
 
-std::string man_page(const CLI::App& app) {
+std::string man_page() {
   std::string out = fmt::format(
       ".TH CLATTER 1 \"\" \"clatter {}\" \"User Commands\"\n.SH NAME\nclatter \\- {}\n.SH SYNOPSIS\n"
       ".B clatter\n.I command\n[\\fIoptions\\fR]\n.SH DESCRIPTION\n"
       "Impact sequences of a rod or box that falls on the ground at an angle.  Data go to standard "
-      "output, messages to standard error.\n.SH COMMANDS\n", version, roff(app.get_description()));
-  for (const CLI::App* command : commands_of(app)) {
-    out += ".SS " + command->get_name() + "\n" + roff(command->get_description()) + "\n" +
-           man_options(*command) + ".PP\n" + roff(command->get_footer()) + "\n";
+      "output, messages to standard error.\n.SH COMMANDS\n", version, roff("impact sequences of falling rigid bodies"));
+  for (const Command& command : all_commands()) {
+    out += ".SS " + command.name + "\n" + roff(command.help) + "\n" +
+           man_options(command) + ".PP\n" + roff(command.footer) + "\n";
   }
   return out +
          ".SH EXIT STATUS\n.TP\n0\ndone\n.TP\n1\na check failed\n.TP\n2\nbad input\n.TP\n3\n"
@@ -185,24 +163,26 @@ int print(const std::string& text) {
 
 }  // namespace
 
-Action add_completion_command(CLI::App& app) {
+Command completion_command() {
   auto shell = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("completion", "print the completion script of a shell");
-  command->add_option("SHELL", *shell, "bash, zsh or fish")->type_name("")->required();
-  command->footer("Example: clatter completion bash > ~/.local/share/bash-completion/completions/clatter");
-  return [shell, &app] {
+  Command command{.name = "completion", .help = "print the completion script of a shell"};
+  command.add({.name = "SHELL", .target = shell.get(), .type = "", .help = "bash, zsh or fish", .required = true});
+  command.footer = "Example: clatter completion bash > ~/.local/share/bash-completion/completions/clatter";
+  command.run = [shell] {
     switch (read_name_option("completion", *shell, {"bash", "zsh", "fish"})) {
-      case 0: return print(bash_completion(app));
-      case 1: return print(zsh_completion(app));
-      default: return print(fish_completion(app));
+      case 0: return print(bash_completion());
+      case 1: return print(zsh_completion());
+      default: return print(fish_completion());
     }
   };
+  return command;
 }
 
-Action add_man_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("man", "print the manual page (roff)");
-  command->footer("Example: clatter man | man -l -");
-  return [&app] { return print(man_page(app)); };
+Command man_command() {
+  Command command{.name = "man", .help = "print the manual page (roff)"};
+  command.footer = "Example: clatter man | man -l -";
+  command.run = [] { return print(man_page()); };
+  return command;
 }
 
 }  // namespace clatter::validation

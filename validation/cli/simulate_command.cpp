@@ -159,16 +159,17 @@ int run_simulate(const SimulateInput& input) {
 
 }  // namespace
 
-Action add_simulate_command(CLI::App& app) {
+Command simulate_command() {
   auto input = std::make_shared<SimulateInput>();
-  CLI::App* command = app.add_subcommand("simulate", "drop of any body, continuous contact");
-  add_scene_flags(*command, input->scene);
-  add_output_options(*command, input->output);
-  add_plot_options(*command, input->plot);
-  command->footer(
+  Command command{.name = "simulate", .help = "drop of any body, continuous contact"};
+  add_scene_flags(command, input->scene);
+  add_output_options(command, input->output);
+  add_plot_options(command, input->plot);
+  command.footer =
       "Example: clatter simulate validation/cases/phone-damped.toml --digits 8\n"
-      "validation/cases/every-key.toml explains the keys of scene files.");
-  return [input] { return run_simulate(*input); };
+      "validation/cases/every-key.toml explains the keys of scene files.";
+  command.run = [input] { return run_simulate(*input); };
+  return command;
 }
 
 }  // namespace clatter::validation

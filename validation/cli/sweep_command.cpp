@@ -215,27 +215,25 @@ int run_processes(const SweepInput& input) {
 
 }  // namespace
 
-Action add_sweep_command(CLI::App& app) {
+Command sweep_command() {
   auto input = std::make_shared<SweepInput>();
-  CLI::App* command = app.add_subcommand("sweep", "many scenes: grids or random values, rows as CSV");
+  Command command{.name = "sweep", .help = "many scenes: grids or random values, rows as CSV"};
   SweepRequest& request = input->request;
-  command->add_option("SCENE", request.file, "scene file (TOML)")->required()->type_name("FILE");
-  command
-      ->add_option("--set", request.sets, "values of a key of the scene file; may be repeated, the last varies fastest")
-      ->type_name("KEY=VALUE|FROM:TO:STEP")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  add_text(*command, "--random", request.random, "N",
+  add_scene_argument(command, request.file);
+  command.add({.name = "--set", .target = &request.sets, .type = "KEY=VALUE|FROM:TO:STEP",
+               .help = "values of a key of the scene file; may be repeated, the last varies fastest",
+               .repeats = true});
+  command.add_text("--random", request.random, "N",
            "N scenes with random values, --set KEY=LOW:HIGH or LOW:HIGH:log");
-  add_text(*command, "--seed", request.seed, "S", "of the random values (1)");
-  add_text(*command, "--model", request.model, "discrete|continuous", "(continuous if the scene has a ground)");
-  add_text(*command, "--rows", request.rows, "scene|impact", "one row per scene or per impact (scene)");
-  add_text(*command, "--output", input->output, "FILE", "write there; until it is complete the rows are in FILE.part");
-  command->add_flag("--no-errors", request.no_errors, "neither errors nor whether rows can be predicted; half the cost");
-  command->add_flag("--require-digits", request.require_digits, "a scene of which fewer digits are known falls short");
-  command->add_flag("--restart", input->restart, "begin anew where FILE.part is there, instead of going on");
-  add_text(*command, "--threads", input->threads, "N", "computing threads (all cores)");
-  command->footer(
+  command.add_text("--seed", request.seed, "S", "of the random values (1)");
+  command.add_text("--model", request.model, "discrete|continuous", "(continuous if the scene has a ground)");
+  command.add_text("--rows", request.rows, "scene|impact", "one row per scene or per impact (scene)");
+  command.add_text("--output", input->output, "FILE", "write there; until it is complete the rows are in FILE.part");
+  command.add_flag("--no-errors", request.no_errors, "neither errors nor whether rows can be predicted; half the cost");
+  command.add_flag("--require-digits", request.require_digits, "a scene of which fewer digits are known falls short");
+  command.add_flag("--restart", input->restart, "begin anew where FILE.part is there, instead of going on");
+  command.add_text("--threads", input->threads, "N", "computing threads (all cores)");
+  command.footer =
       "Example: clatter sweep validation/cases/phone-damped.toml --set drop.angle_deg=5:85:5 "
       "--set ground.damping=0:2e7:1e6 --set run.impacts=2 --output phone.csv\n"
       "An interrupted sweep goes on when the same command is given again. The discrete model takes the impact.* keys.\n"
@@ -243,8 +241,9 @@ Action add_sweep_command(CLI::App& app) {
       "known.\n"
       "A scene that is refused or fails is a row with its outcome, refused, outside-model or not-computed, and reason.\n"
       "Exit status 3 if a number could not be computed, a limit left fewer impacts than asked for, or required digits\n"
-      "are not known, in any scene; its row says why.");
-  return [input] { return run_processes(*input); };
+      "are not known, in any scene; its row says why.";
+  command.run = [input] { return run_processes(*input); };
+  return command;
 }
 
 }  // namespace clatter::validation

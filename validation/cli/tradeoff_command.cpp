@@ -56,16 +56,17 @@ int run_tradeoff(const TradeoffInput& input) {
 
 }  // namespace
 
-Action add_tradeoff_command(CLI::App& app) {
+Command tradeoff_command() {
   auto input = std::make_shared<TradeoffInput>();
-  CLI::App* command = app.add_subcommand("tradeoff", "what accuracy costs: models, methods, tolerances");
-  add_scene_flags(*command, input->scene);
-  add_output_options(*command, input->output);
-  add_plot_options(*command, input->plot);
-  command->footer(
+  Command command{.name = "tradeoff", .help = "what accuracy costs: models, methods, tolerances"};
+  add_scene_flags(command, input->scene);
+  add_output_options(command, input->output);
+  add_plot_options(command, input->plot);
+  command.footer =
       "Example: clatter tradeoff validation/cases/rod-45.toml --plot tradeoff.svg\n"
-      "The table shows the front, --format csv all points.");
-  return [input] { return run_tradeoff(*input); };
+      "The table shows the front, --format csv all points.";
+  command.run = [input] { return run_tradeoff(*input); };
+  return command;
 }
 
 }  // namespace clatter::validation

@@ -55,15 +55,16 @@ int run_verify(const VerifyInput& input) {
 
 }  // namespace
 
-Action add_verify_command(CLI::App& app) {
+Command verify_command() {
   auto input = std::make_shared<VerifyInput>();
-  CLI::App* command = app.add_subcommand("verify", "every claim of the paper, checked");
-  command->add_flag("--quick", input->quick, "leave out the checks that take long");
-  command->add_option("--only", input->only, "these checks, such as C1 E2")->type_name("ID");
-  add_text(*command, "--html", input->html, "FILE", "also a page with the verdicts and all figures (needs gnuplot)");
-  add_output_options(*command, input->output);
-  command->footer("Example: clatter verify --quick --html verification.html\nExit status 1 if a check fails.");
-  return [input] { return run_verify(*input); };
+  Command command{.name = "verify", .help = "every claim of the paper, checked"};
+  command.add_flag("--quick", input->quick, "leave out the checks that take long");
+  command.add_list("--only", input->only, "ID", "these checks, such as C1 E2");
+  command.add_text("--html", input->html, "FILE", "also a page with the verdicts and all figures (needs gnuplot)");
+  add_output_options(command, input->output);
+  command.footer = "Example: clatter verify --quick --html verification.html\nExit status 1 if a check fails.";
+  command.run = [input] { return run_verify(*input); };
+  return command;
 }
 
 }  // namespace clatter::validation

@@ -21,8 +21,7 @@ const std::map<std::string, Member> members{{"angle", &SceneTexts::angle},
                                             {"radius", &SceneTexts::radius},
                                             {"size", &SceneTexts::size},
                                             {"impacts", &SceneTexts::impacts},
-                                            {"digits", &SceneTexts::digits},
-                                            {"require_digits", &SceneTexts::require_digits}};
+                                            {"digits", &SceneTexts::digits}};
 
 const std::map<std::string, std::string> keys{{"angle", "drop.angle_deg"},
                                               {"tilt", "drop.tilt_deg"},
@@ -61,7 +60,10 @@ const std::map<std::string, std::string> keys{{"angle", "drop.angle_deg"},
 
 SceneTexts scene_texts(const NamedTexts& given) {
   SceneTexts texts;
-  for (const auto& [name, text] : given) texts.*named(members, name) = text;
+  for (const auto& [name, text] : given) {
+    if (name == "require_digits") texts.require_digits = read_name_option(name, text, {"false", "true"}) == 1;
+    else texts.*named(members, name) = text;
+  }
   return texts;
 }
 

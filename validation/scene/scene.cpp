@@ -163,9 +163,7 @@ Scene read_scene(const SceneTexts& texts) {
   read_speed(texts, scene);
   if (texts.impacts) scene.impacts = read_integer_option("--impacts", *texts.impacts, 1, 1000000);
   if (texts.digits) scene.digits = read_integer_option("--digits", *texts.digits, 1, 15);
-  if (texts.require_digits) {
-    scene.require_digits = read_name_option("--require-digits", *texts.require_digits, {"false", "true"}) == 1;
-  }
+  scene.require_digits = texts.require_digits;
   return scene;
 }
 

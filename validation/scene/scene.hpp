@@ -13,8 +13,8 @@ namespace clatter::validation {
 /// The texts of the scene options, empty where not given.  Names are those of the flags.
 struct SceneTexts {
   std::optional<std::string> angle, speed, height, tangential_velocity, spin, gravity, restitution,
-      restitution_law, impulse_ratio, friction, body, mass, length, radius, size, impacts, digits,
-      require_digits;
+      restitution_law, impulse_ratio, friction, body, mass, length, radius, size, impacts, digits;
+  bool require_digits = false;
 };
 
 /// A checked scene.

@@ -1,0 +1,23 @@
+#include "validation/cli/command.hpp"
+
+#include <sstream>
+
+namespace clatter::validation {
+
+std::vector<std::string> Argument::choices() const {
+  std::vector<std::string> list;
+  if (type.find('|') == std::string::npos || type.find('=') != std::string::npos) return list;
+  std::istringstream stream(type);
+  for (std::string word; std::getline(stream, word, '|');) list.push_back(word);
+  return list;
+}
+
+std::vector<std::string> Command::option_names() const {
+  std::vector<std::string> names{"--help"};
+  for (const Argument& argument : arguments) {
+    if (argument.is_option()) names.push_back(argument.name);
+  }
+  return names;
+}
+
+}  // namespace clatter::validation
