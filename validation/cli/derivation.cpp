@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "validation/cli/sequence_report.hpp"
 #include "validation/cli/version.hpp"

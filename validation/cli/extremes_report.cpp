@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "validation/cli/impact_records.hpp"
 #include "validation/cli/options.hpp"

@@ -1,6 +1,7 @@
 #include "validation/cli/impact_records.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "validation/output/number.hpp"
 

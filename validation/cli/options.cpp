@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "validation/cli/version.hpp"
 #include "validation/output/number.hpp"

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "validation/cli/impact_records.hpp"
 #include "validation/cli/options.hpp"

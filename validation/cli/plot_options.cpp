@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "validation/cli/options.hpp"
 #include "validation/figures/gnuplot.hpp"

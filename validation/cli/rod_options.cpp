@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "validation/cli/options.hpp"
 #include "validation/output/number.hpp"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "validation/cli/impact_records.hpp"
 #include "validation/cli/options.hpp"

@@ -1,6 +1,7 @@
 #include "validation/cli/verify_report.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "validation/cli/impact_records.hpp"
 #include "validation/cli/options.hpp"

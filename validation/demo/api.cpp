@@ -6,6 +6,7 @@
 #include <exception>
 #include <map>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "analytic/errors.hpp"

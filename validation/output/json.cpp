@@ -1,6 +1,7 @@
 #include "validation/output/json.hpp"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "validation/output/number.hpp"
 

@@ -1,7 +1,7 @@
-// JSON text.
+// JSON text.  Sources that make or take values include <nlohmann/json.hpp>, which takes a second to compile, themselves.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace clatter::validation {

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "analytic/body_motion.hpp"
 #include "validation/output/number.hpp"

@@ -1,5 +1,6 @@
 #include "report.hpp"
 
+#include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
 
 #include "validation/output/html.hpp"
