@@ -96,8 +96,8 @@ set_up() {
   make_stubs
   write_program
   echo 0 >"$settings/uid"
-  printf '%s\n' libgsl-dev libboost-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libfmt-dev libtomlplusplus-dev gnuplot-nox \
-    nodejs npm >"$settings/installed"
+  printf '%s\n' libgsl-dev libboost-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libfmt-dev libtomlplusplus-dev \
+    >"$settings/installed"
   cd "$scratch/$1"
 }
 
@@ -341,7 +341,7 @@ test_root_installs_all_that_is_missing_at_once() {
   expect "exit status" 0 "$status"
   expect_calls 1 "apt-get"
   expect "what is installed" "cmake ninja-build g++ libgsl-dev libboost-dev libeigen3-dev libcli11-dev\
- nlohmann-json3-dev libfmt-dev libtomlplusplus-dev gnuplot-nox nodejs npm" "$(sed -n 's/^apt-get .*--no-install-recommends //p' \
+ nlohmann-json3-dev libfmt-dev libtomlplusplus-dev" "$(sed -n 's/^apt-get .*--no-install-recommends //p' \
     "$settings/calls")"
 }
 
@@ -396,11 +396,34 @@ test_user_without_sudo_is_told_one_line_to_run() {
     "$(grep apt-get "$settings/err")"
 }
 
+what_is_installed() { sed -n 's/^apt-get .*--no-install-recommends //p' "$settings/calls"; }
+
+test_the_page_s_packages_come_when_the_page_is_first_asked_for() {
+  build_first
+  launch demo
+  expect "exit status" 0 "$status"
+  expect "what is installed" "nodejs npm" "$(what_is_installed)"
+  expect_calls 1 "cmake --build"
+  mkdir -p "$tree/build/release/page"
+  touch "$tree/build/release/page/installed"
+  launch demo
+  expect "calls" "" "$(<"$settings/calls")"
+}
+
+test_gnuplot_comes_when_a_picture_is_first_asked_for() {
+  build_first
+  launch sequence --plot a.svg
+  expect "what is installed" "gnuplot-nox" "$(what_is_installed)"
+  stub gnuplot </dev/null
+  launch sequence --plot a.svg
+  expect "calls" "" "$(<"$settings/calls")"
+  launch verify --html=a.html
+  expect "calls" "" "$(<"$settings/calls")"
+}
+
 test_user_without_sudo_builds_without_the_page() {
   become_user
-  remove_package npm
-  remove_package nodejs
-  launch
+  launch demo
   expect "exit status" 0 "$status"
   expect_calls 0 "apt-get"
 }

@@ -8,16 +8,20 @@
 # Debian's own version (1.74 on Debian 12) and holds Math and Multiprecision.
 # shellcheck disable=SC2034  # the lists are read by the callers
 program_packages=(cmake ninja-build g++ libgsl-dev libboost-dev libeigen3-dev libcli11-dev
-                  nlohmann-json3-dev libfmt-dev libtomlplusplus-dev gnuplot-nox)
-# Node.js bundles the page of clatter demo.  Without it all else is there.
+                  nlohmann-json3-dev libfmt-dev libtomlplusplus-dev)
+# Node.js bundles the page of clatter demo, gnuplot draws pictures.  They come when they are first asked for:
+# without them all else is there.
 # shellcheck disable=SC2034
 page_packages=(nodejs npm)
-# Without the shells and groff the tests of completion and man page would be skipped;
-# Chromium opens the page that clatter verify writes; OpenMPI shares a sweep among processes.
+# shellcheck disable=SC2034
+picture_packages=(gnuplot-nox)
+# shellcheck disable=SC2034
+test_packages=(libboost-test-dev python3)
+# What `tests/run --full` alone needs.  Without the shells and groff the tests of completion and man page would be
+# skipped; Chromium opens the pages; OpenMPI shares a sweep among processes.
 # The Python module, the figures and the notebooks take the line of Python packages.
 # shellcheck disable=SC2034
-test_packages=(libgmsh-dev libboost-test-dev libbenchmark-dev python3 zsh fish groff-base
-               chromium chromium-driver libopenmpi-dev openmpi-bin
+full_packages=(libgmsh-dev libbenchmark-dev zsh fish groff-base chromium chromium-driver libopenmpi-dev openmpi-bin
                pybind11-dev python3-dev python3-numpy python3-matplotlib jupyter-nbconvert python3-ipykernel mypy)
 
 say() { printf '%s: %s\n' "$speaker" "$*" >&2; }

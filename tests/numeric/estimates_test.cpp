@@ -26,7 +26,7 @@ MotionState dropped(const Body& body, double angle, double tilt = 0) {
 }
 
 #ifdef CLATTER_TEST_SLOW_BUILD
-constexpr int random_drops = 20;
+constexpr int random_drops = 8;
 #else
 constexpr int random_drops = 120;
 #endif

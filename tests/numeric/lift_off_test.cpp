@@ -119,11 +119,11 @@ BOOST_AUTO_TEST_CASE(a_flat_or_upright_landing_with_friction_is_the_plain_reboun
   }
 }
 
-BOOST_AUTO_TEST_CASE(three_hundred_scenes_with_friction_end_in_numbers) {
+BOOST_AUTO_TEST_CASE(random_scenes_with_friction_end_in_numbers) {
 #ifdef CLATTER_TEST_SLOW_BUILD
-  const unsigned count = 40;
+  const unsigned count = 8;
 #else
-  const unsigned count = 300;
+  const unsigned count = 100;
 #endif
   for (unsigned number = 1; number <= count; ++number) {
     Scene scene(number);
@@ -220,8 +220,13 @@ BOOST_AUTO_TEST_CASE(a_late_release_does_not_depend_on_the_steps) {
 
 /// Deep in the bed the faces that look up were once driven along their slip.
 BOOST_AUTO_TEST_CASE(friction_over_faces_that_look_up_from_below_the_ground_never_drives) {
+#ifdef CLATTER_TEST_SLOW_BUILD
+  const std::vector<double> grounds{1e5, 1e7};
+#else
+  const std::vector<double> grounds{1e5, 3e5, 1e6, 1e7};
+#endif
   for (const FrictionLaw law : {FrictionLaw::regularised, FrictionLaw::coulomb}) {
-    for (const double stiffness : {1e5, 3e5, 1e6, 1e7}) {
+    for (const double stiffness : grounds) {
       for (const double tilt : {0.0, 20.0}) {
         const Body body = box_body({0.2, 0.1, 0.02}, 0.5);
         Options options = plain_options();
