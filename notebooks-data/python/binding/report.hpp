@@ -1,6 +1,7 @@
 // What a run came to, for Python: the program's own JSON, tables and records.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <pybind11/pybind11.h>
 
 #include <functional>
