@@ -61,12 +61,12 @@ std::string words_for(const Simulation& run, const Options& options, double time
   return text.str();
 }
 
-/// The input has been checked: a contract that the run breaks is no fault of the input.
+/// The input has been checked: a value that leaves the domain of a formula during the run is no fault of the input.
 DropRun run_checked(const Body& body, const Ground& ground, const MotionState& start, const Options& options,
                     const Accuracy& accuracy, const RunExtras& extras) {
   try {
     return run_drop(body, ground, start, options, accuracy, extras);
-  } catch (const std::logic_error& error) {
+  } catch (const std::domain_error& error) {
     throw NumericalError(std::string("the drop cannot be computed in double precision: ") + error.what());
   }
 }

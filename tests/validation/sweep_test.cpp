@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -17,7 +18,7 @@
 #include <utility>
 
 #include "validation/scene/bad_input.hpp"
-#include "validation/scene/number_keys.hpp"
+#include "validation/scene/keys.hpp"
 #include "validation/sweep/counter_random.hpp"
 #include "validation/sweep/grid.hpp"
 #include "validation/sweep/sweep_file.hpp"
@@ -210,10 +211,10 @@ BOOST_AUTO_TEST_CASE(every_number_of_a_scene_can_be_put_where_the_reader_puts_it
   const std::vector<std::string> shapes{"[body]\nshape = 'rod'\n", "[body]\nshape = 'box'\nsize = [1, 1, 1]\n",
                                         "[body]\nshape = 'mesh'\nmesh = { file = 'a.msh' }\n"};
   int put = 0;
-  for (const std::string& key : scene_keys()) {
-    const NumberKey* const number = find_number_key(key);
-    if (number == nullptr) continue;
-    const std::string text = number->whole ? "5" : "0.0625";
+  for (const Key& number : all_keys()) {
+    if (!number.is_number()) continue;
+    const std::string key = number.name;
+    const std::string text = number.is_whole() ? "5" : "0.0625";
     const std::vector<SceneOverride> overrides{{key, "--set", text}};
     bool read = false;
     for (const std::string& shape : shapes) {
@@ -221,9 +222,9 @@ BOOST_AUTO_TEST_CASE(every_number_of_a_scene_can_be_put_where_the_reader_puts_it
       try {
         const SimulationScene expected = read_simulation_scene(values, overrides, Model::continuous);
         SimulationScene scene =
-            read_simulation_scene(values, {{key, "--set", number->whole ? "4" : "0.03125"}}, Model::continuous);
+            read_simulation_scene(values, {{key, "--set", number.is_whole() ? "4" : "0.03125"}}, Model::continuous);
         BOOST_TEST(scene.json() != expected.json(), key);
-        number->put(scene, std::stod(text));
+        number.put_number(scene, std::stod(text));
         BOOST_TEST(scene.json() == expected.json(), key);
         read = true;
       } catch (const BadInput&) {  // a key of another shape

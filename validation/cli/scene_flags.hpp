@@ -1,6 +1,7 @@
 // A scene file and the flags that override its keys, for the commands that take one.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,11 +12,11 @@
 
 namespace clatter::validation {
 
-/// What was typed; texts in the order of the flags.
+/// What was typed, by the name of the flag.
 struct SceneFlags {
   std::string file;
-  std::vector<std::optional<std::string>> texts;
-  bool planar = false, require_digits = false, no_contact_gravity = false;
+  std::map<std::string, std::optional<std::string>> texts;
+  std::map<std::string, bool> truths;
 };
 
 /// Adds the argument SCENE.

@@ -149,7 +149,7 @@ std::string man_page() {
   }
   return out +
          ".SH EXIT STATUS\n.TP\n0\ndone\n.TP\n1\na check failed\n.TP\n2\nbad input\n.TP\n3\n"
-         "a number could not be computed\n.TP\n4\noutside the model's range, such as jamming\n.TP\n130\n"
+         "a number could not be computed\n.TP\n4\noutside the model's range, such as jamming\n.TP\n70\na defect of the program\n.TP\n130\n"
          "interrupted\n.SH ENVIRONMENT\n.TP\nNO_COLOR, TERM\nno progress is shown with NO_COLOR set or "
          "TERM=dumb, nor off a terminal\n";
 }

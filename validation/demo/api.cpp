@@ -3,14 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <exception>
 #include <map>
-#include <new>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "analytic/errors.hpp"
-#include "numeric/errors.hpp"
 #include "validation/cli/angles_report.hpp"
 #include "validation/cli/comparison_report.hpp"
 #include "validation/cli/derivation.hpp"
@@ -22,6 +18,8 @@
 #include "validation/plan/planned_run.hpp"
 #include "validation/plan/sequence_method.hpp"
 #include "validation/scene/bad_input.hpp"
+#include "validation/scene/failure.hpp"
+#include "validation/scene/keys.hpp"
 #include "validation/scene/named_texts.hpp"
 
 namespace clatter::validation {
@@ -152,8 +150,6 @@ const std::map<std::string, Answer> answers{{"/api/sequence", sequence},
                                             {"/api/simulate", simulate},
                                             {"/api/compare", compare}};
 
-constexpr int bad_input = 2, not_computed = 3, outside_model = 4;
-
 bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
 
 /// Without the place "scene:1:2: ", since the text of a scene is not the user's.
@@ -180,10 +176,6 @@ std::string with_arguments(std::string words) {
   return words;
 }
 
-ApiAnswer refusal(int http_status, const std::exception& error, int exit_status) {
-  return {http_status, error_json(with_arguments(without_place(error.what())), exit_status)};
-}
-
 }  // namespace
 
 std::string error_json(const std::string& words, int exit_status) {
@@ -205,21 +197,13 @@ std::string cases_json() {
 
 ApiAnswer answer_request(const std::string& path, const std::string& body) {
   const auto found = answers.find(path);
-  if (found == answers.end()) return {404, error_json("no such path: " + path, bad_input)};
+  if (found == answers.end()) return {404, error_json("no such path: " + path, exit_status(FailureKind::bad_input))};
   try {
     return {200, json_text(found->second(texts_of(body)))};
-  } catch (const BadInput& error) {
-    return refusal(400, error, bad_input);
-  } catch (const numeric::MeshError& error) {
-    return refusal(400, error, bad_input);
-  } catch (const analytic::OutsideModelError& error) {
-    return refusal(422, error, outside_model);
-  } catch (const std::logic_error& error) {  // a scene that the library refuses
-    return refusal(400, error, bad_input);
-  } catch (const std::bad_alloc&) {
-    return {422, error_json("the answer takes more memory than there is", not_computed)};
-  } catch (const std::exception& error) {
-    return refusal(422, error, not_computed);
+  } catch (...) {
+    const Failure failure = current_failure();
+    const int http_status = failure.kind == FailureKind::bad_input ? 400 : failure.kind == FailureKind::defect ? 500 : 422;
+    return {http_status, error_json(with_arguments(without_place(failure.message)), exit_status(failure.kind))};
   }
 }
 

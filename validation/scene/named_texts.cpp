@@ -1,5 +1,7 @@
 #include "validation/scene/named_texts.hpp"
 
+#include "validation/scene/keys.hpp"
+
 namespace clatter::validation {
 namespace {
 
@@ -23,38 +25,17 @@ const std::map<std::string, Member> members{{"angle", &SceneTexts::angle},
                                             {"impacts", &SceneTexts::impacts},
                                             {"digits", &SceneTexts::digits}};
 
-const std::map<std::string, std::string> keys{{"angle", "drop.angle_deg"},
-                                              {"tilt", "drop.tilt_deg"},
-                                              {"speed", "drop.speed"},
-                                              {"height", "drop.height"},
-                                              {"tangential_velocity", "drop.tangential_velocity"},
-                                              {"spin", "drop.spin"},
-                                              {"gravity", "world.gravity"},
-                                              {"restitution", "impact.restitution"},
-                                              {"restitution_law", "impact.law"},
-                                              {"impulse_ratio", "impact.impulse_ratio"},
-                                              {"friction", "impact.friction"},
-                                              {"body", "body.shape"},
-                                              {"mass", "body.mass"},
-                                              {"length", "body.length"},
-                                              {"radius", "body.radius"},
-                                              {"size", "body.size"},
-                                              {"stiffness", "ground.stiffness"},
-                                              {"damping", "ground.damping"},
-                                              {"static_friction", "ground.static_friction"},
-                                              {"sliding_friction", "ground.sliding_friction"},
-                                              {"area", "ground.area"},
-                                              {"impacts", "run.impacts"},
-                                              {"digits", "run.digits"},
-                                              {"require_digits", "run.require_digits"},
-                                              {"method", "run.method"},
-                                              {"tolerance", "run.tolerance"},
-                                              {"step", "run.step"},
-                                              {"planar", "run.planar"},
-                                              {"contact_gravity", "run.contact_gravity"},
-                                              {"errors", "run.errors"},
-                                              {"amplification", "run.amplification"},
-                                              {"evaluation_limit", "run.evaluation_limit"}};
+/// Keys by the names of their arguments.
+const std::map<std::string, std::string>& keys() {
+  static const std::map<std::string, std::string> names = [] {
+    std::map<std::string, std::string> map;
+    for (const Key& key : all_keys()) {
+      if (!key.is_file()) map[key.argument()] = key.name;
+    }
+    return map;
+  }();
+  return names;
+}
 
 }  // namespace
 
@@ -69,7 +50,7 @@ SceneTexts scene_texts(const NamedTexts& given) {
 
 std::vector<SceneOverride> scene_overrides(const NamedTexts& given) {
   std::vector<SceneOverride> overrides;
-  for (const auto& [name, text] : given) overrides.push_back({named(keys, name), name, text});
+  for (const auto& [name, text] : given) overrides.push_back({named(keys(), name), name, text});
   return overrides;
 }
 

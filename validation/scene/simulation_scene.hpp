@@ -37,6 +37,8 @@ struct BodyScene {
   std::vector<double> inertia;                     ///< of an STL body: 3 or 6 numbers [kg·m²]
   std::vector<double> centre;                      ///< of mass of an STL body, in the file's frame [m]
   bool merge = true;
+
+  [[nodiscard]] bool is_stl() const;
 };
 
 /// Values of one quantity for which the drop is repeated.
@@ -87,8 +89,6 @@ struct SimulationScene {
 [[nodiscard]] SimulationScene read_simulation_scene(const std::string& path,
                                                     const std::vector<SceneOverride>& overrides);
 
-/// The keys that a scene file may have.
-[[nodiscard]] const std::vector<std::string>& scene_keys();
 /// The values of a scene file, to be read with one set of overrides after another.  @throws BadInput as SceneValues.
 [[nodiscard]] SceneValues read_scene_values(const std::string& path);
 [[nodiscard]] SimulationScene read_simulation_scene(const SceneValues& values,

@@ -1,16 +1,24 @@
 #include "validation/sweep/scene_runner.hpp"
 
 #include <new>
-#include <stdexcept>
 
-#include "analytic/errors.hpp"
-#include "numeric/errors.hpp"
-#include "validation/plan/shortfall.hpp"
 #include "validation/compare/discrete_scene.hpp"
 #include "validation/plan/planned_run.hpp"
-#include "validation/scene/bad_input.hpp"
+#include "validation/plan/shortfall.hpp"
+#include "validation/scene/failure.hpp"
 
 namespace clatter::validation {
+namespace {
+
+const char* outcome_of(FailureKind kind) {
+  switch (kind) {
+    case FailureKind::bad_input: return "refused";
+    case FailureKind::outside_model: return "outside-model";
+    default: return "not-computed";
+  }
+}
+
+}  // namespace
 
 SweepBody make_sweep_body(const SweepPlan& plan, const SimulationScene& scene) {
   if (plan.model == Model::discrete) return {nominal_body(scene), nullptr};
@@ -76,21 +84,11 @@ bool SceneRunner::append_scene(long long index, std::string& out) {
     return append_result(form);
   } catch (const std::bad_alloc&) {
     throw;  // not the scene's fault, and another time it may have enough
-  } catch (const analytic::OutsideModelError& error) {
-    outcome = "outside-model";
-    form.reason = error.what();
-  } catch (const BadInput& error) {
-    outcome = "refused";
-    form.reason = error.what();
-  } catch (const numeric::MeshError& error) {
-    outcome = "refused";
-    form.reason = error.what();
-  } catch (const std::logic_error& error) {  // domain_error of the library: a scene it refuses
-    outcome = "refused";
-    form.reason = error.what();
-  } catch (const std::exception& error) {
-    outcome = "not-computed";
-    form.reason = error.what();
+  } catch (...) {
+    const Failure failure = current_failure();
+    if (failure.kind == FailureKind::defect) throw;
+    outcome = outcome_of(failure.kind);
+    form.reason = failure.message;
   }
   append_failure(form, plan_.model, outcome);
   return true;

@@ -21,13 +21,34 @@ const char* const sliding_friction = "ground.sliding_friction";
 const char* const box_size = "body.size";
 const std::vector<std::string> box_sides{"body.size.length", "body.size.width", "body.size.thickness"};
 
+/// The sides of the box, each a number where the file has one list.
+const std::vector<Key>& side_keys() {
+  static const Range range = std::get<ListValue>(key_named(box_size).value).range;
+  static const std::vector<Key> keys{
+      {"body.size.length", "", "M", "m", "", NumberValue{[](SimulationScene& s) -> double& { return s.body.size.x(); }, range}},
+      {"body.size.width", "", "M", "m", "", NumberValue{[](SimulationScene& s) -> double& { return s.body.size.y(); }, range}},
+      {"body.size.thickness", "", "M", "m", "",
+       NumberValue{[](SimulationScene& s) -> double& { return s.body.size.z(); }, range}}};
+  return keys;
+}
+
+/// The key of that name, or none if its value is no number, as "body.shape".
+const Key* find_number_key(const std::string& name) {
+  for (const std::vector<Key>* keys : {&side_keys(), &all_keys()}) {
+    for (const Key& key : *keys) {
+      if (key.name == name && key.is_number()) return &key;
+    }
+  }
+  return nullptr;
+}
+
 const std::vector<std::string> model_names{"discrete", "continuous"};
 const std::vector<std::string> row_names{"scene", "impact"};
 
 /// One --set KEY=TEXT.
 struct Setting {
   std::string key, text;
-  const NumberKey* number = nullptr;
+  const Key* number = nullptr;
   std::optional<SweepAxis> axis;  ///< none: one value
 };
 
@@ -52,8 +73,8 @@ Setting read_setting(const std::string& given, bool random) {
   if (setting.text.empty()) throw BadInput(fmt::format("--set {}: the value is empty", setting.key));
   setting.number = find_number_key(setting.key);
   if (setting.number == nullptr || setting.text.find(':') == std::string::npos) return setting;
-  setting.axis = random ? read_random_axis(setting.key, setting.text, setting.number->whole)
-                        : read_grid_axis(setting.key, setting.text, setting.number->whole);
+  setting.axis = random ? read_random_axis(setting.key, setting.text, setting.number->is_whole())
+                        : read_grid_axis(setting.key, setting.text, setting.number->is_whole());
   return setting;
 }
 
@@ -169,7 +190,8 @@ void choose_setters(const SceneValues& values, const std::vector<Setting>& setti
   for (const Setting& setting : settings) {
     if (!setting.axis) continue;
     if (setting.number->is_of_body()) plan.body_axes.push_back(plan.put.size());
-    plan.put.push_back(is_both_frictions(setting, values, settings) ? put_both_frictions : setting.number->put);
+    if (is_both_frictions(setting, values, settings)) plan.put.emplace_back(put_both_frictions);
+    else plan.put.emplace_back([key = setting.number](SimulationScene& scene, double value) { key->put_number(scene, value); });
   }
 }
 

@@ -1,11 +1,12 @@
 // What a sweep computes: scenes that differ in the values of a few keys.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "validation/scene/number_keys.hpp"
+#include "validation/scene/keys.hpp"
 #include "validation/scene/simulation_scene.hpp"
 #include "validation/sweep/grid.hpp"
 
@@ -28,7 +29,7 @@ struct SweepPlan {
   RowKind rows = RowKind::scene;
   SweepPoints points;
   /// What puts the value of each axis into a scene.
-  std::vector<void (*)(SimulationScene&, double)> put;
+  std::vector<std::function<void(SimulationScene&, double)>> put;
   /// Axes that make the body another one.
   std::vector<std::size_t> body_axes;
   /// How it was asked for: the values set, and how many scenes there are.

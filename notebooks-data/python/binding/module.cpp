@@ -1,12 +1,10 @@
 // The compiled part of the Python module: clatter._clatter.  What users see is in clatter/*.py.
 #include <pybind11/pybind11.h>
 
-#include "analytic/errors.hpp"
-#include "numeric/errors.hpp"
 #include "report.hpp"
 #include "runs.hpp"
 #include "validation/cli/version.hpp"
-#include "validation/scene/bad_input.hpp"
+#include "validation/scene/failure.hpp"
 
 namespace clatter::python {
 namespace {
@@ -14,28 +12,28 @@ namespace {
 namespace py = pybind11;
 
 /// The classes are Python's own, so that they can have bases and docstrings there.
-void raise(const char* name, const std::exception& error) {
+void raise(const char* name, const std::string& message) {
   const py::object type = py::module_::import("clatter.errors").attr(name);
-  PyErr_SetString(type.ptr(), error.what());
+  PyErr_SetString(type.ptr(), message.c_str());
 }
 
 void translate(std::exception_ptr pointer) {
+  using validation::FailureKind;
+  if (!pointer) return;
   try {
-    if (pointer) std::rethrow_exception(pointer);
-  } catch (const validation::BadInput& error) {
-    raise("BadInput", error);
-  } catch (const numeric::MeshError& error) {
-    raise("BadInput", error);
-  } catch (const analytic::NumericalError& error) {
-    raise("NotComputed", error);
-  } catch (const analytic::OutsideModelError& error) {
-    raise("OutsideModel", error);
-  } catch (const std::logic_error& error) {  // a scene that the library refuses
-    raise("BadInput", error);
+    std::rethrow_exception(pointer);
   } catch (const py::builtin_exception&) {  // pybind11's own
     throw;
-  } catch (const std::runtime_error& error) {
-    raise("NotComputed", error);
+  } catch (const py::error_already_set&) {
+    throw;
+  } catch (...) {
+    const validation::Failure failure = validation::current_failure();
+    switch (failure.kind) {
+      case FailureKind::bad_input: return raise("BadInput", failure.message);
+      case FailureKind::not_computed: return raise("NotComputed", failure.message);
+      case FailureKind::outside_model: return raise("OutsideModel", failure.message);
+      case FailureKind::defect: return PyErr_SetString(PyExc_RuntimeError, failure.message.c_str());
+    }
   }
 }
 

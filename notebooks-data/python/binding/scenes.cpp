@@ -12,6 +12,7 @@
 #include "validation/cli/simulation_report.hpp"
 #include "validation/embedded/embedded.hpp"
 #include "validation/plan/planned_run.hpp"
+#include "validation/scene/keys.hpp"
 #include "validation/scene/named_texts.hpp"
 
 namespace clatter::python {

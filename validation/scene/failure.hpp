@@ -1,0 +1,27 @@
+// What an exception says of a run: one classification for the command line, sweeps, the server and Python.
+#pragma once
+
+#include <string>
+
+namespace clatter::validation {
+
+enum class FailureKind {
+  bad_input,      ///< what was given cannot be used
+  not_computed,   ///< a number could not be computed
+  outside_model,  ///< the model does not hold there, as with jamming
+  defect,         ///< the program broke a contract of its own
+};
+
+struct Failure {
+  FailureKind kind = FailureKind::defect;
+  std::string message;  ///< one line
+};
+
+/// Of the exception that is being handled.  A std::domain_error is a value that a library refuses, any other
+/// std::logic_error a defect.  @pre called in a handler
+[[nodiscard]] Failure current_failure();
+
+/// 2, 3, 4 or 70.
+[[nodiscard]] int exit_status(FailureKind kind);
+
+}  // namespace clatter::validation

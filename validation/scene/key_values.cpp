@@ -1,0 +1,116 @@
+// What is done with the rows of keys.cpp, whatever their kind.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "validation/scene/keys.hpp"
+
+namespace clatter::validation {
+namespace {
+
+template <class... Cases>
+struct Overloaded : Cases... {
+  using Cases::operator()...;
+};
+
+void put_given(const SceneValues& values, const Key& key, SimulationScene& scene) {
+  const std::string name = key.name;
+  std::visit(
+      Overloaded{
+          [&](const NumberValue& v) { v.at(scene) = values.number(name, 0, v.range); },
+          [&](const OptionalNumber& v) { v.at(scene) = values.number(name, 0, v.range); },
+          [&](const WholeNumber& v) { v.at(scene) = static_cast<int>(values.integer(name, 0, v.low, v.high)); },
+          [&](const LongNumber& v) { v.at(scene) = static_cast<long>(values.integer(name, 0, v.low, v.high)); },
+          [&](const TruthValue& v) { v.at(scene) = values.truth(name, false); },
+          [&](const TextValue& v) { v.at(scene) = values.text(name); },
+          [&](const NameValue& v) { v.put(scene, values.name(name, 0, *v.names)); },
+          [&](const ListValue& v) { v.put(scene, values.numbers(name, v.sizes, v.range, v.words)); },
+      },
+      key.value);
+}
+
+Json value_json(const Key& key, SimulationScene& scene) {
+  return std::visit(
+      Overloaded{
+          [&](const OptionalNumber& v) { return v.at(scene) ? Json(*v.at(scene)) : Json(nullptr); },
+          [&](const TextValue& v) { return text_json(v.at(scene)); },
+          [&](const NameValue& v) { return Json((*v.names)[v.get(scene)]); },
+          [&](const ListValue& v) { return Json(v.get(scene)); },
+          [&](const auto& v) { return Json(v.at(scene)); },
+      },
+      key.value);
+}
+
+}  // namespace
+
+std::string Key::argument() const {
+  std::string name_ = flag;
+  if (name_.empty() || name_.starts_with("--no-")) return std::string(name).substr(std::string(name).rfind('.') + 1);
+  name_.erase(0, 2);
+  std::replace(name_.begin(), name_.end(), '-', '_');
+  return name_;
+}
+
+bool Key::is_whole() const {
+  return std::holds_alternative<WholeNumber>(value) || std::holds_alternative<LongNumber>(value);
+}
+
+bool Key::is_number() const {
+  return is_whole() || std::holds_alternative<NumberValue>(value) || std::holds_alternative<OptionalNumber>(value);
+}
+
+void Key::put_number(SimulationScene& scene, double number) const {
+  std::visit(
+      Overloaded{
+          [&](const NumberValue& v) { v.at(scene) = number; },
+          [&](const OptionalNumber& v) { v.at(scene) = number; },
+          [&](const WholeNumber& v) { v.at(scene) = static_cast<int>(number); },
+          [&](const LongNumber& v) { v.at(scene) = static_cast<long>(number); },
+          [&](const auto&) { throw std::logic_error(std::string(name) + " is no number"); },
+      },
+      value);
+}
+
+const Key& key_named(std::string_view name) {
+  const auto found =
+      std::find_if(all_keys().begin(), all_keys().end(), [&](const Key& key) { return key.name == name; });
+  if (found == all_keys().end()) throw std::out_of_range("no key " + std::string(name));
+  return *found;
+}
+
+const std::vector<std::string>& scene_keys() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list;
+    for (const Key& key : all_keys()) list.emplace_back(key.name);
+    for (const std::string& swept : sweep_names()) {
+      for (const char* part : {".from", ".to", ".step"}) list.push_back("sweep." + swept + part);
+    }
+    return list;
+  }();
+  return names;
+}
+
+void put_values(const SceneValues& values, SimulationScene& scene) {
+  for (const Key& key : all_keys()) {
+    if (values.has(key.name)) put_given(values, key, scene);
+  }
+}
+
+Json keys_json(const SimulationScene& scene) {
+  SimulationScene shown = scene;  // the places are those of a scene that may be changed
+  Json json = Json::object();
+  for (const Key& key : all_keys()) {
+    const Echo echo = key.echo ? key.echo(scene) : Echo::value;
+    if (echo == Echo::absent) continue;
+    Json* place = &json;
+    std::string name = key.name;
+    for (std::size_t dot = name.find('.'); dot != std::string::npos; dot = name.find('.')) {
+      place = &(*place)[name.substr(0, dot)];
+      name.erase(0, dot + 1);
+    }
+    (*place)[name] = echo == Echo::null ? Json(nullptr) : value_json(key, shown);
+  }
+  return json;
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,225 @@
+#include "validation/scene/keys.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace clatter::validation {
+namespace {
+
+using Scene = SimulationScene;
+using Shape = BodyScene::Shape;
+
+constexpr double largest = std::numeric_limits<double>::max();
+constexpr int most = 100'000;  // elements along an edge of a mesh
+constexpr Range any{-largest, largest, false, "finite"};
+constexpr Range positive{0, largest, true, "greater than 0"};
+constexpr Range not_negative{0, largest, false, "at least 0"};
+constexpr Range sizes{1e-100, 1e100, false, "from 1e-100 to 1e100"};
+constexpr Range radii{0, 1e100, false, "from 0 to 1e100"};
+constexpr Range masses{1e-100, 1e100, false, "from 1e-100 to 1e100"};
+constexpr Range speeds{0, 1e9, true, "greater than 0 and at most 1e9"};
+constexpr Range velocities{-1e9, 1e9, false, "from -1e9 to 1e9"};
+constexpr Range gravities{0, 1e9, false, "from 0 to 1e9"};
+constexpr Range heights{0, 1e12, true, "greater than 0 and at most 1e12"};
+constexpr Range angles{0, 90, false, "from 0 to 90 degrees"};
+constexpr Range tilts{-180, 180, false, "from -180 to 180 degrees"};
+constexpr Range restitutions{0, 1, false, "from 0 to 1"};
+constexpr Range tolerances{numeric::least_tolerance, 0.1, false, "from 5e-14 to 0.1"};
+
+const std::vector<std::string> law_names{"newton", "poisson", "stronge"};
+const char* const kept = "of the discrete model (kept, not used here)";
+
+Echo null_if(bool none) { return none ? Echo::null : Echo::value; }
+Echo only_if(bool shown) { return shown ? Echo::value : Echo::absent; }
+Echo of_rod(const Scene& scene) { return only_if(scene.body.shape == Shape::rod); }
+Echo of_box(const Scene& scene) { return only_if(scene.body.shape == Shape::box); }
+Echo of_mesh(const Scene& scene) { return only_if(scene.body.shape == Shape::mesh); }
+
+template <class Enum>
+std::size_t index_of(Enum value) {
+  return static_cast<std::size_t>(value);
+}
+
+void append_drop(std::vector<Key>& keys) {
+  keys.insert(keys.end(), {
+      {"drop.angle_deg", "--angle", "DEG", "°", "inclination at the first impact, end a low",
+       NumberValue{[](Scene& s) -> double& { return s.angle_deg; }, angles}},
+      {"drop.tilt_deg", "--tilt", "DEG", "°", "rotation about the body's long axis before that",
+       NumberValue{[](Scene& s) -> double& { return s.tilt_deg; }, tilts}},
+      {"drop.speed", "--speed", "M/S", "m/s", "downward, of the centre of mass at first touch",
+       NumberValue{[](Scene& s) -> double& { return s.speed; }, speeds},
+       [](const Scene& s) { return null_if(s.height.has_value()); }},
+      {"drop.height", "--height", "M", "m", "or its height at release from rest",
+       OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.height; }, heights}},
+      {"drop.tangential_velocity", "--tangential-velocity", "M/S", "m/s", "of the centre of mass, to the right",
+       NumberValue{[](Scene& s) -> double& { return s.tangential_velocity; }, velocities}},
+      {"drop.spin", "--spin", "RAD/S", "rad/s", "clockwise, as Omega in Eq. 8",
+       NumberValue{[](Scene& s) -> double& { return s.spin; }, velocities}},
+      {"world.gravity", "--gravity", "M/S2", "m/s²", "gravity",
+       NumberValue{[](Scene& s) -> double& { return s.options.gravity; }, gravities}},
+  });
+}
+
+void append_impact(std::vector<Key>& keys) {
+  keys.insert(keys.end(), {
+      {"impact.restitution", "--restitution", "E", "", kept,
+       NumberValue{[](Scene& s) -> double& { return s.impact.restitution; }, restitutions}},
+      {"impact.law", "--restitution-law", "NAME", "", kept,
+       NameValue{&law_names,
+                 [](const Scene& s) {
+                   return index_of(std::find(law_names.begin(), law_names.end(), s.impact.law) - law_names.begin());
+                 },
+                 [](Scene& s, std::size_t i) { s.impact.law = law_names[i]; }}},
+      {"impact.impulse_ratio", "--impulse-ratio", "MU_I", "", kept,
+       OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.impact.impulse_ratio; }, any}},
+      {"impact.friction", "--friction", "MU", "", kept,
+       OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.impact.friction; }, not_negative}},
+  });
+}
+
+void append_body(std::vector<Key>& keys) {
+  keys.insert(keys.end(), {
+      {"body.shape", "--body", "rod|box|mesh", "", "shape of the body",
+       NameValue{&shape_names(), [](const Scene& s) { return index_of(s.body.shape); },
+                 [](Scene& s, std::size_t i) { s.body.shape = static_cast<Shape>(i); }}},
+      {"body.mass", "--mass", "KG", "kg", "mass", NumberValue{[](Scene& s) -> double& { return s.body.mass; }, masses}},
+      {"body.length", "--length", "M", "m", "of the rod",
+       NumberValue{[](Scene& s) -> double& { return s.body.length; }, sizes}, of_rod},
+      {"body.radius", "--radius", "M", "m", "of the rod",
+       NumberValue{[](Scene& s) -> double& { return s.body.radius; }, radii}, of_rod},
+      {"body.size", "--size", "LxWxT", "m", "of the box in m",
+       ListValue{[](const Scene& s) { return std::vector<double>{s.body.size.x(), s.body.size.y(), s.body.size.z()}; },
+                 [](Scene& s, const std::vector<double>& v) { s.body.size = {v[0], v[1], v[2]}; },
+                 {3}, sizes, "three lengths in m greater than 0, as in [0.106, 0.044, 0.019]"}, of_box},
+      {"body.mesh.sectors", "", "N", "", "elements around the rod",
+       WholeNumber{[](Scene& s) -> int& { return s.body.sectors; }, 3, most}, of_rod},
+      {"body.mesh.rings", "", "N", "", "from its axis outward",
+       WholeNumber{[](Scene& s) -> int& { return s.body.rings; }, 1, most}, of_rod},
+      {"body.mesh.layers", "", "N", "", "along it",
+       WholeNumber{[](Scene& s) -> int& { return s.body.layers; }, 1, most}, of_rod},
+      {"body.mesh.nx", "", "N", "", "elements along the box",
+       WholeNumber{[](Scene& s) -> int& { return s.body.nx; }, 1, most}, of_box},
+      {"body.mesh.ny", "", "N", "", "across it",
+       WholeNumber{[](Scene& s) -> int& { return s.body.ny; }, 1, most}, of_box},
+      {"body.mesh.nz", "", "N", "", "through its thickness",
+       WholeNumber{[](Scene& s) -> int& { return s.body.nz; }, 1, most}, of_box},
+      {"body.mesh.file", "", "FILE", "", "Gmsh (.msh, .geo) or STL",
+       TextValue{[](Scene& s) -> std::string& { return s.body.file; }}, of_mesh},
+      {"body.mesh.unit", "", "M", "m", "of the file's coordinates",
+       NumberValue{[](Scene& s) -> double& { return s.body.unit; }, positive}, of_mesh},
+      {"body.mesh.density", "", "KG/M3", "kg/m³", "of a Gmsh file's elements, or body.mass",
+       OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.body.density; }, positive},
+       [](const Scene& s) { return only_if(s.body.density.has_value()); }},
+      {"body.inertia", "", "LIST", "kg m²", "of an STL body about its centre, principal or xx, yy, zz, xy, xz, yz",
+       ListValue{[](const Scene& s) { return s.body.inertia; },
+                 [](Scene& s, const std::vector<double>& v) { s.body.inertia = v; },
+                 {3, 6}, any, "three principal moments in kg m2, or six numbers xx, yy, zz, xy, xz, yz"},
+       [](const Scene& s) { return only_if(!s.body.inertia.empty()); }},
+      {"body.centre", "", "X,Y,Z", "", "of mass of an STL body, in the file's unit",
+       ListValue{[](const Scene& s) { return s.body.centre; },
+                 [](Scene& s, const std::vector<double>& v) { s.body.centre = v; },
+                 {3}, any, "three coordinates in the file's unit"},
+       [](const Scene& s) { return only_if(!s.body.centre.empty()); }},
+      {"body.merge", "", "true|false", "", "coplanar elements become one facet",
+       TruthValue{[](Scene& s) -> bool& { return s.body.merge; }}},
+  });
+}
+
+void append_ground(std::vector<Key>& keys) {
+  keys.insert(keys.end(), {
+      {"ground.stiffness", "--stiffness", "N/M3", "N/m³", "k_G",
+       NumberValue{[](Scene& s) -> double& { return s.ground.stiffness; }, positive},
+       [](const Scene& s) { return null_if(!(s.ground.stiffness > 0)); }},
+      {"ground.damping", "--damping", "N.S/M4", "N·s/m⁴", "c_G",
+       NumberValue{[](Scene& s) -> double& { return s.ground.damping; }, not_negative}},
+      {"ground.static_friction", "--static-friction", "MU", "", "of the ground",
+       NumberValue{[](Scene& s) -> double& { return s.ground.static_friction; }, not_negative}},
+      {"ground.sliding_friction", "--sliding-friction", "MU", "", "of the ground",
+       NumberValue{[](Scene& s) -> double& { return s.ground.sliding_friction; }, not_negative}},
+      {"ground.area", "--area", "surface|projected", "", "area over which the load is integrated",
+       NameValue{&area_names(), [](const Scene& s) { return index_of(s.ground.area); },
+                 [](Scene& s, std::size_t i) { s.ground.area = static_cast<numeric::AreaMeasure>(i); }}},
+      {"ground.friction_law", "", "NAME", "", "coulomb, regularised or local",
+       NameValue{&friction_law_names(), [](const Scene& s) { return index_of(s.ground.friction); },
+                 [](Scene& s, std::size_t i) { s.ground.friction = static_cast<numeric::FrictionLaw>(i); }}},
+      {"ground.regularisation_speed", "", "M/S", "m/s", "v_r of the regularised law",
+       NumberValue{[](Scene& s) -> double& { return s.ground.regularisation_speed; }, positive}},
+  });
+}
+
+void append_run(std::vector<Key>& keys) {
+  keys.insert(keys.end(), {
+      {"run.impacts", "--impacts", "N", "", "most impacts to report",
+       WholeNumber{[](Scene& s) -> int& { return s.options.impacts; }, 1, 1'000'000}},
+      {"run.digits", "--digits", "N", "", "significant digits, 2 to 12",
+       WholeNumber{[](Scene& s) -> int& { return s.options.digits; }, 2, 12}},
+      {"run.require_digits", "--require-digits", "", "", "exit status 3 if fewer digits are known",
+       TruthValue{[](Scene& s) -> bool& { return s.require_digits; }}},
+      {"run.method", "--method", "NAME", "", "auto, tvd-rk3, rk4, rkf45, rkck or rk8pd",
+       NameValue{&method_names(), [](const Scene& s) { return index_of(s.options.method); },
+                 [](Scene& s, std::size_t i) { s.options.method = static_cast<numeric::Method>(i); }}},
+      {"run.tolerance", "--tolerance", "TOL", "", "local error per step of an adaptive method",
+       NumberValue{[](Scene& s) -> double& { return s.options.tolerance; }, tolerances},
+       [](const Scene& s) { return null_if(!(s.options.tolerance > 0)); }},
+      {"run.step", "--step", "S", "s", "of tvd-rk3",
+       NumberValue{[](Scene& s) -> double& { return s.options.step; }, positive},
+       [](const Scene& s) { return null_if(!(s.options.step > 0)); }},
+      {"run.history", "--history", "FILE", "", "time history as CSV",
+       TextValue{[](Scene& s) -> std::string& { return s.history; }},
+       [](const Scene& s) { return null_if(s.history.empty()); }},
+      {"run.planar", "--planar", "", "", "keep the motion in its plane",
+       TruthValue{[](Scene& s) -> bool& { return s.options.planar; }}},
+      {"run.contact_gravity", "--no-contact-gravity", "", "", "let gravity act in flight only",
+       TruthValue{[](Scene& s) -> bool& { return s.options.gravity_in_contact; }}},
+      {"run.evaluation_limit", "", "N", "", "of the contact forces; then the run ends with the rows so far",
+       LongNumber{[](Scene& s) -> long& { return s.options.evaluation_limit; }, 1, 1'000'000'000'000}},
+      {"run.errors", "", "true|false", "", "estimate errors by a second run",
+       TruthValue{[](Scene& s) -> bool& { return s.options.error_estimates; }}},
+      {"run.amplification", "", "true|false", "", "and the growth of errors by a neighbouring one",
+       TruthValue{[](Scene& s) -> bool& { return s.options.amplification; }}},
+  });
+}
+
+}  // namespace
+
+const std::vector<std::string>& shape_names() {
+  static const std::vector<std::string> names{"rod", "box", "mesh"};
+  return names;
+}
+
+const std::vector<std::string>& area_names() {
+  static const std::vector<std::string> names{"surface", "projected"};
+  return names;
+}
+
+const std::vector<std::string>& friction_law_names() {
+  static const std::vector<std::string> names{"coulomb", "regularised", "local"};
+  return names;
+}
+
+const std::vector<std::string>& method_names() {
+  static const std::vector<std::string> names{"auto", "tvd-rk3", "rk4", "rkf45", "rkck", "rk8pd"};
+  return names;
+}
+
+const std::vector<std::string>& sweep_names() {
+  static const std::vector<std::string> names{"angle_deg", "sliding_friction"};
+  return names;
+}
+
+const std::vector<Key>& all_keys() {
+  static const std::vector<Key> keys = [] {
+    std::vector<Key> rows;
+    append_drop(rows);
+    append_impact(rows);
+    append_body(rows);
+    append_ground(rows);
+    append_run(rows);
+    return rows;
+  }();
+  return keys;
+}
+
+}  // namespace clatter::validation

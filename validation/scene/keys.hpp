@@ -1,0 +1,99 @@
+// The language of scenes: one row a key.  From the rows come the reader of files, the flags of the commands, the JSON
+// echo, what a sweep may set, and the arguments of Python and of the page.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "validation/output/json.hpp"
+#include "validation/scene/scene_values.hpp"
+#include "validation/scene/simulation_scene.hpp"
+
+namespace clatter::validation {
+
+// The kinds of values: where one stands in a scene, and what is allowed.
+
+struct NumberValue {
+  double& (*at)(SimulationScene& scene);
+  Range range;
+};
+struct OptionalNumber {
+  std::optional<double>& (*at)(SimulationScene& scene);
+  Range range;
+};
+struct WholeNumber {
+  int& (*at)(SimulationScene& scene);
+  int low, high;
+};
+struct LongNumber {
+  long& (*at)(SimulationScene& scene);
+  long long low, high;
+};
+struct TruthValue {
+  bool& (*at)(SimulationScene& scene);
+};
+struct TextValue {
+  std::string& (*at)(SimulationScene& scene);
+};
+struct NameValue {
+  const std::vector<std::string>* names;
+  std::size_t (*get)(const SimulationScene& scene);
+  void (*put)(SimulationScene& scene, std::size_t index);
+};
+struct ListValue {
+  std::vector<double> (*get)(const SimulationScene& scene);
+  void (*put)(SimulationScene& scene, const std::vector<double>& numbers);
+  std::vector<std::size_t> sizes;
+  Range range;
+  const char* words;  ///< what is allowed
+};
+using KeyValue =
+    std::variant<NumberValue, OptionalNumber, WholeNumber, LongNumber, TruthValue, TextValue, NameValue, ListValue>;
+
+/// How a key stands in the JSON echo of a scene.
+enum class Echo { value, null, absent };
+
+struct Key {
+  const char* name;        ///< "drop.angle_deg"
+  const char* flag;        ///< "--angle"; empty: it has none
+  const char* type;        ///< of the flag's value, in help: "DEG", "rod|box|mesh"; empty: a flag without a value
+  const char* unit;        ///< empty: none
+  const char* help;
+  KeyValue value;
+  Echo (*echo)(const SimulationScene& scene) = nullptr;  ///< none: always its value
+
+  /// Name of the argument in Python and on the page: the flag's, or without one the key's last word.
+  [[nodiscard]] std::string argument() const;
+  [[nodiscard]] bool is_truth() const { return std::holds_alternative<TruthValue>(value); }
+  [[nodiscard]] bool is_number() const;
+  [[nodiscard]] bool is_whole() const;
+  [[nodiscard]] bool is_of_body() const { return std::string_view(name).starts_with("body."); }
+  /// Whether its value names a file, which only the command line and scene files may.
+  [[nodiscard]] bool is_file() const { return std::string_view(type) == "FILE"; }
+  /// Puts a number in its place; whether it is in range is for the reader to say.  @pre is_number()
+  void put_number(SimulationScene& scene, double number) const;
+};
+
+/// In the order of the echo.
+[[nodiscard]] const std::vector<Key>& all_keys();
+/// @throws std::out_of_range
+[[nodiscard]] const Key& key_named(std::string_view name);
+/// Names of the keys, and of those that a file's sweep has.
+[[nodiscard]] const std::vector<std::string>& scene_keys();
+
+/// Puts each key that is given in its place.  @throws BadInput where one is out of its range.
+void put_values(const SceneValues& values, SimulationScene& scene);
+/// Every key under its table's name.
+[[nodiscard]] Json keys_json(const SimulationScene& scene);
+
+/// Names of choices, in the order of their enumerators.
+[[nodiscard]] const std::vector<std::string>& shape_names();
+[[nodiscard]] const std::vector<std::string>& area_names();
+[[nodiscard]] const std::vector<std::string>& friction_law_names();
+[[nodiscard]] const std::vector<std::string>& method_names();
+[[nodiscard]] const std::vector<std::string>& sweep_names();
+
+}  // namespace clatter::validation

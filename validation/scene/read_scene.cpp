@@ -1,0 +1,171 @@
+// How a scene file and the flags that override it become a checked scene: each key by its row, then what keys have to do
+// with each other.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "validation/embedded/embedded.hpp"
+#include "validation/output/number.hpp"
+#include "validation/scene/bad_input.hpp"
+#include "validation/scene/keys.hpp"
+#include "validation/scene/simulation_scene.hpp"
+
+namespace clatter::validation {
+namespace {
+
+constexpr Range thick{1e-100, 1e100, false, "from 1e-100 to 1e100"};
+
+const Range& range_of(std::string_view key) { return std::get<NumberValue>(key_named(key).value).range; }
+
+void only_for(const SceneValues& values, const std::vector<std::string>& keys, const std::string& what) {
+  for (const std::string& key : keys) {
+    if (values.has(key)) values.refuse(key, "left out: it is only for " + what);
+  }
+}
+
+void refuse_both(const std::vector<SceneOverride>& overrides, const char* first, const char* second) {
+  const auto of = [&](const char* key) {
+    return std::find_if(overrides.begin(), overrides.end(), [&](const SceneOverride& o) { return o.key == key; });
+  };
+  const auto one = of(first), other = of(second);
+  if (one == overrides.end() || other == overrides.end()) return;
+  throw BadInput(fmt::format("{} and {}: give one of them, not both", one->flag, other->flag));
+}
+
+void check_mesh(const SceneValues& values, BodyScene& body) {
+  values.require("body.mesh.file", "a Gmsh or STL file");
+  const std::filesystem::path file = body.file;
+  body.file = (file.is_absolute() ? file : std::filesystem::path(values.path()).parent_path() / file).string();
+  if (body.is_stl()) {
+    only_for(values, {"body.mesh.density"}, "a Gmsh file");
+    values.require("body.mass", "an STL surface has none");
+    values.require("body.inertia", "an STL surface has none");
+    if (body.centre.empty()) body.centre = {0, 0, 0};
+    return;
+  }
+  only_for(values, {"body.inertia", "body.centre"}, "an STL file");
+  values.exclude("body.mass", "body.mesh.density");
+}
+
+void check_body(const SceneValues& values, BodyScene& body, Model model) {
+  using Shape = BodyScene::Shape;
+  if (body.shape != Shape::rod) {
+    only_for(values, {"body.length", "body.radius", "body.mesh.sectors", "body.mesh.rings", "body.mesh.layers"}, "a rod");
+  }
+  if (body.shape != Shape::box) {
+    only_for(values, {"body.size", "body.mesh.nx", "body.mesh.ny", "body.mesh.nz"}, "a box");
+  }
+  if (body.shape != Shape::mesh) {
+    only_for(values, {"body.mesh.file", "body.mesh.unit", "body.mesh.density", "body.inertia", "body.centre"}, "a mesh");
+  }
+  if (model == Model::continuous) static_cast<void>(values.number("body.radius", 1, thick));
+  if (body.shape == Shape::box) values.require("body.size", "the box's [L, W, T] in m");
+  if (body.shape == Shape::mesh) check_mesh(values, body);
+}
+
+void check_ground(const SceneValues& values, numeric::Ground& ground, Model model) {
+  if (model == Model::continuous) values.require("ground.stiffness", "k_G in N/m3");
+  // One coefficient given is both.
+  if (!values.has("ground.sliding_friction")) ground.sliding_friction = ground.static_friction;
+  if (!values.has("ground.static_friction")) ground.static_friction = ground.sliding_friction;
+  if (!(ground.static_friction >= ground.sliding_friction)) {
+    values.refuse("ground.static_friction",
+                  fmt::format("at least ground.sliding_friction, {}", shortest(ground.sliding_friction)));
+  }
+}
+
+void check_options(const SceneValues& values, const numeric::Options& options) {
+  using numeric::Method;
+  const bool takes_step = options.method == Method::automatic || options.method == Method::tvd_rk3;
+  if (values.has("run.step") && !takes_step) {
+    values.refuse("run.step", fmt::format("left out: {} chooses its own", method_name(options.method)));
+  }
+  if (values.has("run.tolerance") && (options.step > 0 || options.method == Method::tvd_rk3)) {
+    values.refuse("run.tolerance", "left out: a fixed step has none");
+  }
+}
+
+std::optional<SceneSweep> read_sweep_table(const SceneValues& values) {
+  constexpr Range positive{0, 1e300, true, "greater than 0"};
+  std::optional<SceneSweep> sweep;
+  for (std::size_t i = 0; i < sweep_names().size(); ++i) {
+    const std::string table = "sweep." + sweep_names()[i];
+    if (!values.has_table(table)) continue;
+    if (sweep) throw BadInput(fmt::format("{}: {}: only one quantity can be swept", values.path(), table));
+    const Range& range = range_of(i == 0 ? "drop.angle_deg" : "ground.sliding_friction");
+    for (const char* key : {".from", ".to", ".step"}) values.require(table + key, "a sweep has from, to and step");
+    sweep = SceneSweep{static_cast<SceneSweep::Quantity>(i), values.number(table + ".from", 0, range),
+                       values.number(table + ".to", 0, range), values.number(table + ".step", 1, positive)};
+    if (!(sweep->to >= sweep->from)) values.refuse(table + ".to", "at least the sweep's from");
+    if (!((sweep->to - sweep->from) / sweep->step <= 1e6)) values.refuse(table + ".step", "at most 1000000 values");
+  }
+  return sweep;
+}
+
+void check_sweep(const SceneValues& values, SimulationScene& scene) {
+  const std::string other = "a scene that does not sweep it";
+  if (!scene.sweep) return;
+  if (scene.sweep->quantity == SceneSweep::Quantity::angle_deg) {
+    only_for(values, {"drop.angle_deg"}, other);
+    scene.angle_deg = scene.sweep->from;
+  } else {
+    only_for(values, {"ground.static_friction", "ground.sliding_friction"}, other);
+  }
+  if (!scene.history.empty()) values.refuse("run.history", "left out in a sweep");
+}
+
+void check_drop(const SceneValues& values, const SimulationScene& scene) {
+  const bool swept = scene.sweep && scene.sweep->quantity == SceneSweep::Quantity::angle_deg;
+  if (!swept) values.require("drop.angle_deg", "the inclination at the first impact");
+  values.exclude("drop.speed", "drop.height");
+  if (scene.height && !(scene.options.gravity > 0)) values.refuse("drop.height", "left out where world.gravity is 0");
+}
+
+SimulationScene read_values(SceneValues values, const std::vector<SceneOverride>& overrides, Model model) {
+  refuse_both(overrides, "drop.speed", "drop.height");
+  refuse_both(overrides, "run.tolerance", "run.step");
+  for (const SceneOverride& flag : overrides) {
+    if (flag.key == "drop.speed") values.drop("drop.height");
+    if (flag.key == "drop.height") values.drop("drop.speed");
+    if (flag.key == "run.method") values.drop(flag.text == "tvd-rk3" ? "run.tolerance" : "run.step");
+    if (flag.key == "run.step") values.drop("run.tolerance");
+    if (flag.key == "run.tolerance") values.drop("run.step");
+    if (flag.key == "drop.angle_deg") {
+      for (const char* key : {".from", ".to", ".step"}) values.drop(std::string("sweep.angle_deg") + key);
+    }
+    values.set(flag.key, flag.flag, flag.text);
+  }
+  SimulationScene scene;
+  scene.path = values.path();
+  scene.options.gravity = 9.81;
+  scene.sweep = read_sweep_table(values);
+  put_values(values, scene);
+  check_sweep(values, scene);
+  check_drop(values, scene);
+  check_options(values, scene.options);
+  values.exclude("impact.impulse_ratio", "impact.friction");
+  check_body(values, scene.body, model);
+  check_ground(values, scene.ground, model);
+  return scene;
+}
+
+}  // namespace
+
+SimulationScene read_simulation_scene(const std::string& path, const std::vector<SceneOverride>& overrides) {
+  return read_values(SceneValues(path, scene_keys()), overrides, Model::continuous);
+}
+
+SceneValues read_scene_values(const std::string& path) { return {path, scene_keys()}; }
+
+SimulationScene read_simulation_scene(const SceneValues& values, const std::vector<SceneOverride>& overrides,
+                                      Model model) {
+  return read_values(values, overrides, model);
+}
+
+SimulationScene case_scene(const std::string& name, const std::vector<SceneOverride>& overrides) {
+  const std::string path = "validation/cases/" + name + ".toml";
+  return read_values(SceneValues(path, embedded_text(path), scene_keys()), overrides, Model::continuous);
+}
+
+}  // namespace clatter::validation
