@@ -244,7 +244,7 @@ class Errors(unittest.TestCase):
         self.refused("angle '95': must be from 0 to 90 degrees", clatter.sequence, 95)
         self.refused("angle 'nan'", clatter.sequence, float("nan"))
         self.refused("impulse_ratio 0.1 and friction 0.2", clatter.sequence, 10, impulse_ratio=0.1, friction=0.2)
-        self.refused("height 2: needs gravity", clatter.sequence, 10, height=2)
+        self.refused("height '2': must be left out where world.gravity is 0", clatter.sequence, 10, height=2)
         self.refused("restitution_law 'newtn'", clatter.sequence, 10, restitution_law="newtn")
         self.refused("impacts '2.5'", clatter.sequence, 10, impacts=2.5)
         self.refused("closed_form: does not apply".replace("_", "-"), clatter.sequence, 10, friction=0.1, method="closed-form")

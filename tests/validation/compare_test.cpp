@@ -5,7 +5,7 @@
 
 #include "analytic/errors.hpp"
 #include "validation/compare/comparison.hpp"
-#include "validation/compare/discrete_scene.hpp"
+#include "validation/scene/discrete_scene.hpp"
 #include "validation/compare/random_scenes.hpp"
 
 namespace {
@@ -20,14 +20,14 @@ constexpr int random_scene_count = 40;  // the sanitizers cost a factor of ten
 constexpr int random_scene_count = 200;
 #endif
 
-SimulationScene box_scene(double angle_deg) {
-  SimulationScene scene = case_scene("phone-elastic");
+Scene box_scene(double angle_deg) {
+  Scene scene = case_scene("phone-elastic");
   scene.angle_deg = angle_deg;
   scene.options.error_estimates = false;
   return scene;
 }
 
-Comparison compared(const SimulationScene& scene) { return compare_models(scene, scene.make_body()); }
+Comparison compared(const Scene& scene) { return compare_models(scene, scene.make_body()); }
 
 bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
@@ -49,10 +49,10 @@ BOOST_AUTO_TEST_CASE(the_planar_body_of_a_box_has_its_corners_and_inertia) {
 }
 
 BOOST_AUTO_TEST_CASE(bodies_and_drops_that_leave_the_plane_are_refused_by_name) {
-  SimulationScene tilted = box_scene(10);
+  Scene tilted = box_scene(10);
   tilted.tilt_deg = 5;
   BOOST_CHECK_EXCEPTION(compared(tilted), analytic::OutsideModelError, says("drop.tilt_deg"));
-  SimulationScene creeping = box_scene(10);
+  Scene creeping = box_scene(10);
   creeping.ground.static_friction = creeping.ground.sliding_friction = 0.1;
   creeping.ground.friction = numeric::FrictionLaw::regularised;
   BOOST_CHECK_EXCEPTION(compared(creeping), analytic::OutsideModelError, says("regularised"));
@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(bodies_and_drops_that_leave_the_plane_are_refused_by_name) 
 /// The sequence that begins with a row is the rest of the sequence: mirrored or turned over, but with the same angles,
 /// impulses and intervals.
 BOOST_AUTO_TEST_CASE(a_drop_that_begins_with_a_row_goes_on_like_the_sequence) {
-  const SimulationScene scene = case_scene("rod-from-2m");
+  const Scene scene = case_scene("rod-from-2m");
   const analytic::Drop drop = discrete_drop(scene, scene.make_body());
   const analytic::Sequence whole = impact_sequence(drop, {.impacts = 5, .amplification = false});
   for (std::size_t from = 1; from < 4; ++from) {
@@ -116,7 +116,7 @@ BOOST_AUTO_TEST_CASE(a_lopsided_body_goes_on_like_its_sequence_too) {
 BOOST_AUTO_TEST_CASE(deviations_have_the_predicted_size_and_fall_with_the_contact_time) {
   double before = 0;
   for (const double stiffness : {1e12, 8e12, 64e12}) {
-    SimulationScene scene = box_scene(20);
+    Scene scene = box_scene(20);
     scene.options.impacts = 1;
     scene.ground.stiffness = stiffness;
     const ComparedImpact impact = compared(scene).impacts.at(0);
@@ -134,7 +134,7 @@ BOOST_AUTO_TEST_CASE(deviations_have_the_predicted_size_and_fall_with_the_contac
 }
 
 BOOST_AUTO_TEST_CASE(gravity_alone_adds_its_momentum_to_a_flat_landing) {
-  SimulationScene scene = box_scene(0);
+  Scene scene = box_scene(0);
   scene.options.impacts = 1;
   scene.options.digits = 10;
   const Comparison comparison = compared(scene);
@@ -149,7 +149,7 @@ BOOST_AUTO_TEST_CASE(gravity_alone_adds_its_momentum_to_a_flat_landing) {
 }
 
 BOOST_AUTO_TEST_CASE(a_second_touch_before_the_first_has_ended_is_said_and_agrees_on_stiffer_ground) {
-  SimulationScene scene = box_scene(3);
+  Scene scene = box_scene(3);
   scene.options.impacts = 2;
   const Comparison comparison = compared(scene);
   BOOST_TEST(mentions(comparison.impacts.at(0).reason, "another place touches"));
@@ -160,7 +160,7 @@ BOOST_AUTO_TEST_CASE(a_second_touch_before_the_first_has_ended_is_said_and_agree
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_predicted_in_space_is_said) {
-  SimulationScene scene = box_scene(10);
+  Scene scene = box_scene(10);
   scene.ground.stiffness = 1e9;
   scene.options.impacts = 4;
   const Comparison comparison = compared(scene);
@@ -169,7 +169,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_predicted_in_space_is_said) {
 }
 
 BOOST_AUTO_TEST_CASE(friction_beyond_the_limit_of_painleve_is_named) {
-  SimulationScene scene = case_scene("rod-45");
+  Scene scene = case_scene("rod-45");
   scene.angle_deg = 63.4;  // tan θ = 2, where a thin rod jams from 4/3 on
   scene.ground.static_friction = scene.ground.sliding_friction = 1.5;
   scene.options.error_estimates = false;
@@ -178,7 +178,7 @@ BOOST_AUTO_TEST_CASE(friction_beyond_the_limit_of_painleve_is_named) {
 
 /// A deliberate disagreement: the continuous model on damped ground against an elastic discrete one.
 BOOST_AUTO_TEST_CASE(a_limit_that_misses_the_discrete_value_is_found) {
-  SimulationScene scene = case_scene("phone-damped");
+  Scene scene = case_scene("phone-damped");
   scene.options.impacts = 1;
   Comparison comparison = compared(scene);
   BOOST_TEST(comparison.agrees());

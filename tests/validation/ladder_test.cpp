@@ -18,7 +18,7 @@ constexpr RungSetting fine(Rung rung) {
 }
 
 /// How far two rungs are apart on a scene.
-double apart(const SimulationScene& scene, Rung rung, Rung other) {
+double apart(const Scene& scene, Rung rung, Rung other) {
   const Ladder ladder(scene);
   const int impacts = scene.options.impacts;
   const numeric::Simulation run = ladder.simulate(fine(Rung::planar), impacts);
@@ -30,14 +30,14 @@ double apart(const SimulationScene& scene, Rung rung, Rung other) {
 double order(double first, double second, double factor) { return std::log(first / second) / std::log(factor); }
 
 /// What a scene's run changes by without a part.
-double change_without(const SimulationScene& scene, Part part) {
+double change_without(const Scene& scene, Part part) {
   const Ladder with(scene), reduced(without(scene, part));
   const numeric::Simulation run = with.simulate(fine(Rung::planar), scene.options.impacts);
   const MotionNumbers sizes = motion_sizes(run, run.impacts.size(), with.body());
   return distance(reduced.run(fine(Rung::planar), scene.options.impacts).rows, motion_rows(run), sizes);
 }
 
-bool is_mirrored(const SimulationScene& scene) {
+bool is_mirrored(const Scene& scene) {
   const numeric::Body body = scene.make_body();
   return is_mirror_image(body, scene.start(body));
 }
@@ -146,7 +146,7 @@ BOOST_AUTO_TEST_CASE(what_is_left_out_changes_the_less_the_less_there_is_of_it) 
 }
 
 BOOST_AUTO_TEST_CASE(merged_faces_change_nothing) {
-  SimulationScene scene = case_scene("phone-damped", {{"run.impacts", "--impacts", "2"}});
+  Scene scene = case_scene("phone-damped", {{"run.impacts", "--impacts", "2"}});
   scene.body.nx = scene.body.ny = scene.body.nz = 4;
   scene.body.merge = false;
   // Steps differ by rounding: the error per step of rk8pd at 1e-12, over two contacts.

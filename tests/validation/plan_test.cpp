@@ -37,14 +37,14 @@ double slope(const std::vector<double>& x, const std::vector<double>& y) {
 }
 
 /// The scene's plane and its first impacts.
-SimulationScene planar_case(const char* name, int impacts) {
-  SimulationScene scene = case_scene(name);
+Scene planar_case(const char* name, int impacts) {
+  Scene scene = case_scene(name);
   scene.options.impacts = impacts;
   scene.options.planar = true;
   return scene;
 }
 
-double true_error(const SimulationScene& scene, const numeric::Simulation& run) {
+double true_error(const Scene& scene, const numeric::Simulation& run) {
   const Truth truth = true_values(Ladder(scene));
   return distance(motion_rows(run), truth.rows, truth.sizes);
 }
@@ -71,7 +71,7 @@ BOOST_AUTO_TEST_CASE(plans_of_random_scenes_keep_their_word_and_are_hardly_deare
 BOOST_AUTO_TEST_CASE(true_error_falls_with_the_tolerance_over_six_decades) {
   using numeric::Method;
   for (const char* name : {"rod-damped", "phone-damped"}) {
-    const SimulationScene scene = planar_case(name, 3);
+    const Scene scene = planar_case(name, 3);
     const Ladder ladder(scene);
     const Truth truth = true_values(ladder);
     for (const Method method : {Method::rkf45, Method::rkck, Method::rk8pd}) {
@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_CASE(true_error_falls_with_the_tolerance_over_six_decades) {
 BOOST_AUTO_TEST_CASE(true_error_of_a_planned_run_falls_with_the_digits_asked_over_six_decades) {
   std::vector<double> asked, achieved;
   for (const char* name : {"rod-10", "rod-damped", "rod-friction-03", "phone-damped"}) {
-    SimulationScene scene = planar_case(name, std::min(case_scene(name).options.impacts, 3));
+    Scene scene = planar_case(name, std::min(case_scene(name).options.impacts, 3));
     const numeric::Body body = scene.make_body();
     for (int digits = 3; digits <= 9; ++digits) {
       scene.options.digits = digits;
@@ -111,16 +111,16 @@ BOOST_AUTO_TEST_CASE(true_error_of_a_planned_run_falls_with_the_digits_asked_ove
 }
 
 BOOST_AUTO_TEST_CASE(plan_takes_the_discrete_model_on_a_stiff_ground_and_leaves_it_for_more_digits) {
-  const SimulationScene scene = case_scene("rod-45", {{"ground.stiffness", "--stiffness", "1e15"}});
+  const Scene scene = case_scene("rod-45", {{"ground.stiffness", "--stiffness", "1e15"}});
   BOOST_TEST((make_plan(scene, {.digits = 2}).choice.rung == Rung::discrete));
   BOOST_TEST((make_plan(scene, {.digits = 6}).choice.rung == Rung::planar));
-  const SimulationScene thin = case_scene("rod-45", {{"ground.stiffness", "--stiffness", "1e18"},
+  const Scene thin = case_scene("rod-45", {{"ground.stiffness", "--stiffness", "1e18"},
                                                      {"body.radius", "--radius", "1e-4"}});
   BOOST_TEST((make_plan(thin, {.digits = 2}).choice.rung == Rung::closed_form));
 }
 
 BOOST_AUTO_TEST_CASE(plan_leaves_out_what_changes_less_than_asked) {
-  const SimulationScene scene = case_scene("rod-45", {{"ground.sliding_friction", "--sliding-friction", "1e-9"},
+  const Scene scene = case_scene("rod-45", {{"ground.sliding_friction", "--sliding-friction", "1e-9"},
                                                       {"ground.damping", "--damping", "1"}});
   const Plan plan = make_plan(scene, {.digits = 5});
   BOOST_TEST(!plan.scene.ground.has_friction());
@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(plan_leaves_out_what_changes_less_than_asked) {
 }
 
 BOOST_AUTO_TEST_CASE(plan_within_a_time_takes_the_most_accurate_that_fits) {
-  const SimulationScene scene = case_scene("phone-damped", {{"run.impacts", "--impacts", "2"}});
+  const Scene scene = case_scene("phone-damped", {{"run.impacts", "--impacts", "2"}});
   const Plan ample = make_plan(scene, {.digits = 6, .within_ms = 1e6, .most_accurate = true});
   const Plan hasty = make_plan(scene, {.digits = 6, .within_ms = 0.1, .most_accurate = true});
   BOOST_TEST(ample.error < 1e-9);
@@ -142,7 +142,7 @@ BOOST_AUTO_TEST_CASE(plan_within_a_time_takes_the_most_accurate_that_fits) {
 }
 
 BOOST_AUTO_TEST_CASE(plan_says_what_cannot_be_had) {
-  const SimulationScene scene = case_scene("phone-elastic");
+  const Scene scene = case_scene("phone-elastic");
   const Plan plan = make_plan(scene, {.digits = 12});
   BOOST_TEST(!plan.serves);
   BOOST_TEST(!plan_shortfall(plan).empty());
@@ -153,7 +153,7 @@ BOOST_AUTO_TEST_CASE(plan_says_what_cannot_be_had) {
 // The finer run that judges the others once ended before its first impact, and the plan with an exception.
 BOOST_AUTO_TEST_CASE(plan_says_so_if_its_runs_end_early) {
   for (const char* limit : {"20", "300", "1000", "2500", "4000"}) {
-    SimulationScene scene = case_scene("phone-damped");
+    Scene scene = case_scene("phone-damped");
     scene.options.evaluation_limit = std::atol(limit);
     const Plan plan = make_plan(scene, {.digits = 6});
     BOOST_TEST(plan.serves == plan_shortfall(plan).empty());
@@ -164,7 +164,7 @@ BOOST_AUTO_TEST_CASE(plan_says_so_if_its_runs_end_early) {
 // With rkck the switch to stick of this scene's first contact is met in a step that cannot be made small enough, at three
 // tolerances of four; the plan once said that nothing could be computed.
 BOOST_AUTO_TEST_CASE(plan_and_run_get_past_a_step_that_gets_too_small) {
-  SimulationScene scene = random_scene(71, 9);
+  Scene scene = random_scene(71, 9);
   scene.options.impacts = 3;
   const numeric::Body body = scene.make_body();
   const Plan plan = make_plan(scene, {.digits = 3});
@@ -181,7 +181,7 @@ BOOST_AUTO_TEST_CASE(discrete_models_own_account_of_its_error_is_not_far_off) {
   int there = 0, covered = 0;
   std::vector<double> ratios;
   for (int i = 0; i < random_scenes; ++i) {
-    SimulationScene scene = random_scene(19, i);
+    Scene scene = random_scene(19, i);
     scene.options.impacts = 2;
     scene.options.evaluation_limit = 100'000;
     const Plan plan = make_plan(scene, {.digits = 3});
@@ -201,14 +201,14 @@ BOOST_AUTO_TEST_CASE(discrete_models_own_account_of_its_error_is_not_far_off) {
 }
 
 BOOST_AUTO_TEST_CASE(same_plan_again) {
-  const SimulationScene scene = case_scene("phone-corner");
+  const Scene scene = case_scene("phone-corner");
   const Plan first = make_plan(scene, {.digits = 5}), second = make_plan(scene, {.digits = 5});
   BOOST_TEST(command_line(first) == command_line(second));
   BOOST_TEST(first.error == second.error);
 }
 
 BOOST_AUTO_TEST_CASE(command_line_of_a_plan_names_what_it_leaves_out) {
-  const SimulationScene scene = case_scene("rod-45", {{"ground.sliding_friction", "--sliding-friction", "1e-9"}});
+  const Scene scene = case_scene("rod-45", {{"ground.sliding_friction", "--sliding-friction", "1e-9"}});
   const std::string line = command_line(make_plan(scene, {.digits = 5}));
   BOOST_TEST(line.find("--sliding-friction 0") != std::string::npos);
   BOOST_TEST(line.find("--planar") != std::string::npos);
@@ -230,7 +230,7 @@ BOOST_AUTO_TEST_CASE(table_of_costs_is_read_and_refused) {
 }
 
 BOOST_AUTO_TEST_CASE(run_is_repeated_until_its_own_estimates_keep_to_the_digits) {
-  SimulationScene scene = planar_case("phone-damped", 4);
+  Scene scene = planar_case("phone-damped", 4);
   const numeric::Body body = scene.make_body();
   for (int digits = 3; digits <= 6; ++digits) {  // errors grow a hundredfold; the first guess misses some of these
     scene.options.digits = digits;
@@ -240,7 +240,7 @@ BOOST_AUTO_TEST_CASE(run_is_repeated_until_its_own_estimates_keep_to_the_digits)
 }
 
 BOOST_AUTO_TEST_CASE(run_with_a_method_given_is_left_alone) {
-  SimulationScene scene = case_scene("rod-45");
+  Scene scene = case_scene("rod-45");
   scene.options.method = numeric::Method::rkf45;
   const numeric::Body body = scene.make_body();
   const PlannedRun planned = run_to_digits(body, scene.ground, scene.start(body), scene.options);

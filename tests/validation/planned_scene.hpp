@@ -49,7 +49,7 @@ inline double cheapest_that_serves(const Ladder& ladder, const Truth& truth, dou
 
 /// Scene `index` of family `seed`, 2 to 9 digits of its first three impacts asked for.
 inline PlannedScene plan_and_judge(std::uint64_t seed, int index) {
-  SimulationScene scene = random_scene(seed, index);
+  Scene scene = random_scene(seed, index);
   scene.options.impacts = 3;
   scene.options.evaluation_limit = 300'000;
   PlannedScene result;

@@ -162,7 +162,7 @@ class BadInput(Folder):
     def test_a_file_that_cannot_be_read_is_named(self):
         self.assertIn("nowhere.toml", self.refuse(self.path("nowhere.toml")))
         self.assertIn("not a file", self.refuse(self.folder))
-        self.assertIn("SCENE", self.refuse())
+        self.assertIn("--angle: required", self.refuse())
 
     def test_a_history_that_cannot_be_written_is_named(self):
         self.assertIn("--history", self.refuse(self.scene(), "--history", self.path("no/h.csv")))

@@ -220,9 +220,9 @@ BOOST_AUTO_TEST_CASE(every_number_of_a_scene_can_be_put_where_the_reader_puts_it
     for (const std::string& shape : shapes) {
       const SceneValues values("scene.toml", drop + shape, scene_keys());
       try {
-        const SimulationScene expected = read_simulation_scene(values, overrides, Model::continuous);
-        SimulationScene scene =
-            read_simulation_scene(values, {{key, "--set", number.is_whole() ? "4" : "0.03125"}}, Model::continuous);
+        const Scene expected = read_scene(values, overrides, Model::continuous);
+        Scene scene =
+            read_scene(values, {{key, "--set", number.is_whole() ? "4" : "0.03125"}}, Model::continuous);
         BOOST_TEST(scene.json() != expected.json(), key);
         number.put_number(scene, std::stod(text));
         BOOST_TEST(scene.json() == expected.json(), key);
@@ -245,13 +245,13 @@ BOOST_AUTO_TEST_CASE(every_number_of_a_scene_can_be_put_where_the_reader_puts_it
 
 BOOST_AUTO_TEST_CASE(only_the_discrete_model_takes_a_scene_without_ground_or_a_thin_rod) {
   const SceneValues bare("scene.toml", "[drop]\nangle_deg = 10\n", scene_keys());
-  BOOST_CHECK_EXCEPTION(static_cast<void>(read_simulation_scene(bare, {}, Model::continuous)), BadInput,
+  BOOST_CHECK_EXCEPTION(static_cast<void>(read_scene(bare, {}, Model::continuous)), BadInput,
                         says("ground.stiffness: required"));
-  BOOST_TEST(read_simulation_scene(bare, {}, Model::discrete).json()["ground"]["stiffness"].is_null());
+  BOOST_TEST(read_scene(bare, {}, Model::discrete).json()["ground"]["stiffness"].is_null());
   const std::vector<SceneOverride> thin{{"body.radius", "--set body.radius", "0"}};
-  BOOST_TEST(read_simulation_scene(bare, thin, Model::discrete).body.radius == 0);
+  BOOST_TEST(read_scene(bare, thin, Model::discrete).body.radius == 0);
   const SceneValues grounded("scene.toml", "[drop]\nangle_deg = 10\n[ground]\nstiffness = 1\n", scene_keys());
-  BOOST_CHECK_EXCEPTION(static_cast<void>(read_simulation_scene(grounded, thin, Model::continuous)), BadInput,
+  BOOST_CHECK_EXCEPTION(static_cast<void>(read_scene(grounded, thin, Model::continuous)), BadInput,
                         says("--set body.radius '0'"));
 }
 

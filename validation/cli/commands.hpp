@@ -18,6 +18,8 @@ namespace clatter::validation {
 [[nodiscard]] Command tradeoff_command();
 [[nodiscard]] Command extremes_command();
 [[nodiscard]] Command demo_command();
+[[nodiscard]] Command keys_command();
+[[nodiscard]] Command init_command();
 [[nodiscard]] Command completion_command();
 [[nodiscard]] Command man_command();
 

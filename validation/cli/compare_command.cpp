@@ -28,7 +28,7 @@ struct CompareInput {
   PlotTexts plot;
 };
 
-int compare_one(const SimulationScene& scene, const OutputChoice& choice, PlotFile& plot) {
+int compare_one(const Scene& scene, const OutputChoice& choice, PlotFile& plot) {
   const Comparison comparison = compare_models(scene, scene.make_body());
   write_report(
       choice, [&] { return comparison_json(scene, comparison); }, [&] { return comparison_records(scene, comparison); },
@@ -58,7 +58,7 @@ int shortfall_status(const std::vector<SweptComparison>& swept) {
   return not_computed;
 }
 
-int compare_swept(const SimulationScene& scene, const OutputChoice& choice, PlotFile& plot) {
+int compare_swept(const Scene& scene, const OutputChoice& choice, PlotFile& plot) {
   const CooperativeInterrupt interrupt;
   const std::vector<double> values = scene.sweep->values();
   const numeric::Body body = scene.make_body();
@@ -87,7 +87,7 @@ int compare_swept(const SimulationScene& scene, const OutputChoice& choice, Plot
 }
 
 int run_compare(const CompareInput& input) {
-  const SimulationScene scene = read_scene_flags(input.scene);
+  const Scene scene = read_scene_flags(input.scene);
   const OutputChoice choice = read_output(input.output);
   if (is_given(input.scene, "--history")) throw BadInput("--history: compare writes none; clatter simulate does");
   check_files(choice, plot_files(input.plot), files_of(scene));

@@ -75,7 +75,7 @@ std::vector<PicturePanel> panels(const XAxis& axis, const std::vector<std::vecto
 
 }  // namespace
 
-Picture comparison_picture(const SimulationScene& scene, const Comparison& comparison) {
+Picture comparison_picture(const Scene& scene, const Comparison& comparison) {
   std::vector<std::vector<double>> rows;
   for (const ComparedImpact& impact : comparison.impacts) rows.push_back(row_of(impact.n, comparison, impact));
   const XAxis axis{.column = {"x", "1", "number of the impact"},
@@ -86,7 +86,7 @@ Picture comparison_picture(const SimulationScene& scene, const Comparison& compa
           .panels = panels(axis, rows)};
 }
 
-Picture swept_comparison_picture(const SimulationScene& scene, const std::vector<SweptComparison>& swept) {
+Picture swept_comparison_picture(const Scene& scene, const std::vector<SweptComparison>& swept) {
   std::vector<std::vector<double>> rows;
   for (const auto& [value, comparison] : swept) {
     if (!comparison.impacts.empty()) rows.push_back(row_of(value, comparison, comparison.impacts[0]));

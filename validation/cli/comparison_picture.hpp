@@ -9,9 +9,9 @@
 namespace clatter::validation {
 
 /// Normal impulses over the number of the impact, and how far each impact's worst number deviates.
-[[nodiscard]] Picture comparison_picture(const SimulationScene& scene, const Comparison& comparison);
+[[nodiscard]] Picture comparison_picture(const Scene& scene, const Comparison& comparison);
 
 /// The same of the first impact over the swept value.
-[[nodiscard]] Picture swept_comparison_picture(const SimulationScene& scene, const std::vector<SweptComparison>& swept);
+[[nodiscard]] Picture swept_comparison_picture(const Scene& scene, const std::vector<SweptComparison>& swept);
 
 }  // namespace clatter::validation

@@ -123,7 +123,7 @@ std::string verdict_words(const Comparison& comparison) {
                      comparison.impacts.size());
 }
 
-std::vector<std::string> head_of(const SimulationScene& scene) {
+std::vector<std::string> head_of(const Scene& scene) {
   std::vector<std::string> head{headline("compare", what_it_is)};
   for (const std::string& line : scene.summary()) head.push_back(line);
   head.push_back("discrete model: real corners and inertia, e from the damping at each impact's speed, Coulomb's μₖ");
@@ -188,7 +188,7 @@ Json result_json(const Comparison& comparison) {
   return json;
 }
 
-Json head_json(const SimulationScene& scene) {
+Json head_json(const Scene& scene) {
   return {{"clatter", version}, {"model", "comparison"}, {"scene", scene.json()}};
 }
 
@@ -205,7 +205,7 @@ void add_records(const Comparison& comparison, const std::vector<Cell>& front, T
   }
 }
 
-Table records_table(const SimulationScene& scene) {
+Table records_table(const Scene& scene) {
   Table table{.head = {headline("compare", what_it_is), "scene: " + scene.json().dump()},
               .columns = {},
               .rows = {},
@@ -254,7 +254,7 @@ WorstNumber worst_number(const Comparison& comparison, const ComparedImpact& imp
   return worst;
 }
 
-Table comparison_table(const SimulationScene& scene, const Comparison& comparison) {
+Table comparison_table(const Scene& scene, const Comparison& comparison) {
   Table table{.head = head_of(scene), .columns = {}, .rows = {}, .notes = {}};
   table.columns = {{"n", "n", ""},
                    {"end", "end", ""},
@@ -277,13 +277,13 @@ Table comparison_table(const SimulationScene& scene, const Comparison& compariso
   return table;
 }
 
-Json comparison_json(const SimulationScene& scene, const Comparison& comparison) {
+Json comparison_json(const Scene& scene, const Comparison& comparison) {
   Json json = head_json(scene);
   json.update(result_json(comparison));
   return json;
 }
 
-Table comparison_records(const SimulationScene& scene, const Comparison& comparison) {
+Table comparison_records(const Scene& scene, const Comparison& comparison) {
   Table table = records_table(scene);
   add_records(comparison, {}, table);
   if (!comparison.shortfall.empty()) table.notes.push_back(comparison.shortfall);
@@ -291,7 +291,7 @@ Table comparison_records(const SimulationScene& scene, const Comparison& compari
   return table;
 }
 
-Table swept_comparison_table(const SimulationScene& scene, const std::vector<SweptComparison>& swept) {
+Table swept_comparison_table(const Scene& scene, const std::vector<SweptComparison>& swept) {
   Table table{.head = head_of(scene), .columns = {}, .rows = {}, .notes = {}};
   table.columns = {swept_column(*scene.sweep),
                    {"n", "n", ""},
@@ -327,7 +327,7 @@ Table swept_comparison_table(const SimulationScene& scene, const std::vector<Swe
   return table;
 }
 
-Json swept_comparison_json(const SimulationScene& scene, const std::vector<SweptComparison>& swept) {
+Json swept_comparison_json(const Scene& scene, const std::vector<SweptComparison>& swept) {
   Json json = head_json(scene);
   json["runs"] = Json::array();
   for (const auto& [value, comparison] : swept) {
@@ -340,7 +340,7 @@ Json swept_comparison_json(const SimulationScene& scene, const std::vector<Swept
   return json;
 }
 
-Table swept_comparison_records(const SimulationScene& scene, const std::vector<SweptComparison>& swept) {
+Table swept_comparison_records(const Scene& scene, const std::vector<SweptComparison>& swept) {
   Table table = records_table(scene);
   table.columns.insert(table.columns.begin(), swept_record_column(*scene.sweep));
   for (const auto& [value, comparison] : swept) add_records(comparison, {Cell(value, 17)}, table);

@@ -9,10 +9,10 @@
 
 namespace clatter::validation {
 
-[[nodiscard]] Table comparison_table(const SimulationScene& scene, const Comparison& comparison);
-[[nodiscard]] Json comparison_json(const SimulationScene& scene, const Comparison& comparison);
+[[nodiscard]] Table comparison_table(const Scene& scene, const Comparison& comparison);
+[[nodiscard]] Json comparison_json(const Scene& scene, const Comparison& comparison);
 /// One row per impact and number with the JSON's names as columns.
-[[nodiscard]] Table comparison_records(const SimulationScene& scene, const Comparison& comparison);
+[[nodiscard]] Table comparison_records(const Scene& scene, const Comparison& comparison);
 
 /// The number of an impact that deviates most for its size: deviation over scale, its error
 /// and what was predicted of it; the
@@ -29,8 +29,8 @@ struct SweptComparison {
   Comparison comparison;
 };
 /// One row per value and impact: the worst number of each.
-[[nodiscard]] Table swept_comparison_table(const SimulationScene& scene, const std::vector<SweptComparison>& swept);
-[[nodiscard]] Json swept_comparison_json(const SimulationScene& scene, const std::vector<SweptComparison>& swept);
-[[nodiscard]] Table swept_comparison_records(const SimulationScene& scene, const std::vector<SweptComparison>& swept);
+[[nodiscard]] Table swept_comparison_table(const Scene& scene, const std::vector<SweptComparison>& swept);
+[[nodiscard]] Json swept_comparison_json(const Scene& scene, const std::vector<SweptComparison>& swept);
+[[nodiscard]] Table swept_comparison_records(const Scene& scene, const std::vector<SweptComparison>& swept);
 
 }  // namespace clatter::validation

@@ -13,6 +13,7 @@
 #include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
 #include "validation/plan/shortfall.hpp"
+#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -24,7 +25,7 @@ using analytic::ImpactRow;
 class Derivation {
  public:
   Derivation(const Scene& scene, const analytic::Sequence& sequence)
-      : scene_(scene), drop_(scene.drop()), sequence_(sequence) {}
+      : scene_(scene), drop_(impact_drop(scene)), sequence_(sequence) {}
 
   std::vector<Step> impact(int n) {
     const auto index = static_cast<std::size_t>(n - 1);
@@ -56,7 +57,7 @@ class Derivation {
 
  private:
   [[nodiscard]] std::string num(double value) const {
-    const std::string text = known_text({value, error_.relative * std::fabs(value)}, {.digits = scene_.digits});
+    const std::string text = known_text({value, error_.relative * std::fabs(value)}, {.digits = scene_.options.digits});
     return value < 0 ? "(" + text + ")" : text;
   }
 
@@ -100,7 +101,7 @@ class Derivation {
   void rod_equation(Step& step, const ImpactRow& row) {
     const analytic::Departure& d = row.departure;
     const double rate = std::fabs(d.angular);
-    const double length = scene_.rod.length;
+    const double length = scene_.body.length;
     const double k = 2 * d.normal / (length * rate);
     const double gamma = d.gravity / (length * rate * rate);
     const double start = std::fabs(d.inclination);
@@ -156,7 +157,7 @@ class Derivation {
   }
 
   void point_impact(const ImpactRow& row) {
-    const analytic::ImpactLaw& law = scene_.law;
+    const analytic::ImpactLaw& law = drop_.law;
     const analytic::PlanarVelocity& v = row.before;
     const double angle = row.inclination;
     const bool upright = steps_.size() == 1 && scene_.angle_deg == 90;
@@ -182,7 +183,7 @@ class Derivation {
                       "m (V_n − v_n) = P_n,  m (V_t − v_t) = μᵢ P_n,  I (Ω − ω) = μᵢ P_n d_n − P_n d_t,  "
                       "V_n − Ω d_t = −e (v_n − ω d_t)");
     const analytic::PlanarVelocity& after = row.impact.after;
-    const double mass = scene_.rod.mass;
+    const double mass = drop_.body.mass;
     const double p = row.impact.normal_impulse;
     const std::string denominator = ratio == 0 ? num(a) : fmt::format("({} − {}·{})", num(a), num(ratio), num(b));
     const double e = row.impact.restitution();
@@ -201,8 +202,8 @@ class Derivation {
   void flat_landing(const ImpactRow& row) {
     Step& step = open("Eq. 10: vertices strike together (flat landing)",
                       "m (V_n − v_n) = P_n,  m (V_t − v_t) = μᵢ P_n,  V_n = −e v_n;  Ω = −e ω");
-    const double mass = scene_.rod.mass;
-    const double e = scene_.law.restitution;
+    const double mass = drop_.body.mass;
+    const double e = drop_.law.restitution;
     step.equations = {
         {"P_n", "−(1+e) m v_n", fmt::format("−(1+{})·{}·{}", num(e), num(mass), num(row.before.normal)),
          row.impact.normal_impulse, "N·s"},
@@ -240,9 +241,9 @@ std::vector<Step> derive_impact(const Scene& scene, const analytic::Sequence& se
 }
 
 Explanation explain_impact(Scene scene, int n) {
-  scene.impacts = std::max(scene.impacts, n);
+  scene.options.impacts = std::max(scene.options.impacts, n);
   const analytic::Sequence sequence =
-      analytic::impact_sequence(scene.drop(), {.impacts = n, .digits = scene.digits});
+      analytic::impact_sequence(impact_drop(scene), {.impacts = n, .digits = scene.options.digits});
   const bool has_impact = static_cast<std::size_t>(n) <= sequence.rows.size();
   const bool falls_short = scene.require_digits || !has_impact;
   return {.scene = scene,
@@ -268,7 +269,7 @@ Json explanation_json(const Explanation& explanation) {
   }
   return {{"clatter", version},
           {"model", "discrete"},
-          {"scene", explanation.scene.json()},
+          {"scene", explanation.scene.json(Model::discrete)},
           {"impact", explanation.impact},
           {"shortfall", explanation.shortfall.empty() ? Json(nullptr) : Json(explanation.shortfall)},
           {"steps", steps}};

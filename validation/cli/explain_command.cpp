@@ -7,6 +7,7 @@
 #include "validation/cli/commands.hpp"
 #include "validation/cli/derivation.hpp"
 #include "validation/cli/options.hpp"
+#include "validation/cli/scene_flags.hpp"
 #include "validation/output/message.hpp"
 #include "validation/output/estimated.hpp"
 #include "validation/output/number.hpp"
@@ -18,7 +19,7 @@ constexpr int not_computed = 3;
 
 struct ExplainInput {
   std::string number;
-  SceneTexts scene;
+  SceneFlags scene;
   OutputTexts output;
 };
 
@@ -129,21 +130,21 @@ Table as_table(const std::vector<std::string>& head, const std::vector<Step>& st
 
 int run_explain(const ExplainInput& input) {
   const int n = read_integer_option("explain N", input.number, 1, 1000000);
-  const Scene scene = read_scene(input.scene);
+  const Scene scene = read_scene_flags(input.scene);
   const OutputChoice choice = read_output(input.output);
   check_files(choice, {});
   const Explanation explanation = explain_impact(scene, n);
   for (const std::string& warning : explanation.warnings) say(warning);
   const std::vector<Step>& steps = explanation.steps;
   std::vector<std::string> head{headline("explain", fmt::format("impact {} step by step", n))};
-  for (const std::string& line : explanation.scene.summary()) head.push_back(line);
+  for (const std::string& line : explanation.scene.summary(Model::discrete)) head.push_back(line);
   std::string text;
   switch (choice.style.format) {
     case Format::json: text = json_text(explanation_json(explanation)); break;
     case Format::csv: text = table_text(as_table(head, steps), choice.style); break;
-    case Format::markdown: text = as_markdown(head, steps, scene.digits); break;
-    case Format::latex: text = as_latex(head, steps, scene.digits); break;
-    case Format::table: text = as_text(head, steps, scene.digits, choice.style.ascii); break;
+    case Format::markdown: text = as_markdown(head, steps, scene.options.digits); break;
+    case Format::latex: text = as_latex(head, steps, scene.options.digits); break;
+    case Format::table: text = as_text(head, steps, scene.options.digits, choice.style.ascii); break;
   }
   write_out(choice, text);
   if (explanation.shortfall.empty()) return 0;
@@ -158,7 +159,7 @@ Command explain_command() {
   Command command{.name = "explain", .help = "how impact N came about, step by step"};
   command.add({.name = "N", .target = &input->number, .type = "", .help = "number of the impact, from 1",
                .required = true});
-  add_scene_options(command, input->scene);
+  add_scene_flags(command, input->scene, Model::discrete);
   add_output_options(command, input->output);
   command.footer = "Example: clatter explain 2 --angle 10";
   command.run = [input] { return run_explain(*input); };

@@ -12,29 +12,6 @@
 
 namespace clatter::validation {
 
-void add_scene_options(Command& command, SceneTexts& t) {
-  const auto add = [&](const char* name, std::optional<std::string>& text, const char* type,
-                       const char* help) { command.add_text(name, text, type, help, "Scene"); };
-  add("--angle", t.angle, "DEG", "inclination at the first impact, end a low; 0 flat, 90 upright (required)");
-  add("--speed", t.speed, "M/S", "downward speed of the centre of mass at the first touch (1)");
-  add("--height", t.height, "M", "or the height of the centre of mass at release from rest");
-  add("--tangential-velocity", t.tangential_velocity, "M/S", "of the centre of mass, to the right (0)");
-  add("--spin", t.spin, "RAD/S", "clockwise, as Omega in Eq. 8 (0)");
-  add("--gravity", t.gravity, "M/S2", "gravity between impacts (0)");
-  add("--restitution", t.restitution, "E", "coefficient of restitution, 0 to 1 (1)");
-  add("--restitution-law", t.restitution_law, "newton|poisson|stronge", "what the coefficient relates (newton)");
-  add("--impulse-ratio", t.impulse_ratio, "MU_I", "Eq. 8's ratio of tangential to normal impulse, as given (0)");
-  add("--friction", t.friction, "MU", "or Coulomb's coefficient of friction");
-  add("--body", t.body, "rod|box", "shape of the body (rod)");
-  add("--mass", t.mass, "KG", "(1)");
-  add("--length", t.length, "M", "of the rod (1)");
-  add("--radius", t.radius, "M", "of the rod; 0 is the paper's thin rod (0)");
-  add("--size", t.size, "LxWxT", "of the box in m: L along the inclination, T upright at 0 degrees");
-  add("--impacts", t.impacts, "N", "most impacts to report (6)");
-  add("--digits", t.digits, "N", "significant digits in tables, accuracy of an extrapolated end (6)");
-  command.add_flag("--require-digits", t.require_digits, "exit status 3 if fewer digits are known", "Scene");
-}
-
 void add_output_options(Command& command, OutputTexts& t) {
   command.add_text("--format", t.format, "table|csv|json|markdown|latex", "form of the output (table)", "Output");
   command.add_text("--output", t.output, "FILE", "write there, whole or not at all", "Output");

@@ -10,7 +10,7 @@
 #include "validation/output/json.hpp"
 #include "validation/output/run_files.hpp"
 #include "validation/output/table.hpp"
-#include "validation/scene/scene.hpp"
+#include "validation/scene/option_values.hpp"
 
 namespace clatter::validation {
 
@@ -26,7 +26,6 @@ struct OutputChoice {
   std::string path;
 };
 
-void add_scene_options(Command& command, SceneTexts& texts);
 void add_output_options(Command& command, OutputTexts& texts);
 
 [[nodiscard]] OutputChoice read_output(const OutputTexts& texts);

@@ -22,7 +22,7 @@ struct PlanInput {
   OutputTexts output;
 };
 
-PlanTarget read_target(const PlanInput& input, const SimulationScene& scene) {
+PlanTarget read_target(const PlanInput& input, const Scene& scene) {
   PlanTarget target{.digits = scene.options.digits};
   if (!input.within) return target;
   target.within_ms = read_number_option("--within", *input.within, {0, 1e9, true, "greater than 0"});
@@ -38,7 +38,7 @@ void refuse_what_it_plans(const PlanInput& input) {
 }
 
 int run_plan(const PlanInput& input) {
-  const SimulationScene scene = read_scene_flags(input.scene);
+  const Scene scene = read_scene_flags(input.scene);
   const OutputChoice choice = read_output(input.output);
   const PlanTarget target = read_target(input, scene);
   refuse_what_it_plans(input);

@@ -124,7 +124,7 @@ std::string plan_shortfall(const Plan& plan) {
   return fmt::format("{} digits cannot be had{}; {}", plan.target.digits, within, best);
 }
 
-Table plan_table(const SimulationScene& scene, const Plan& plan) {
+Table plan_table(const Scene& scene, const Plan& plan) {
   Table table{.head = {headline("plan", what_it_is(plan))}, .columns = {}, .rows = {}, .notes = {}};
   for (const std::string& line : scene.summary()) table.head.push_back(line);
   table.columns = {{.name = "model", .heading = "model", .unit = "", .words = true},
@@ -162,7 +162,7 @@ Table plan_table(const SimulationScene& scene, const Plan& plan) {
   return table;
 }
 
-Table plan_records(const SimulationScene& scene, const Plan& plan) {
+Table plan_records(const Scene& scene, const Plan& plan) {
   Table table{.head = {headline("plan", what_it_is(plan)), "scene: " + scene.json().dump()},
               .columns = {},
               .rows = {},
@@ -172,7 +172,7 @@ Table plan_records(const SimulationScene& scene, const Plan& plan) {
   return table;
 }
 
-Json plan_json(const SimulationScene& scene, const Plan& plan) {
+Json plan_json(const Scene& scene, const Plan& plan) {
   Json json{{"clatter", version}, {"model", "plan"}, {"scene", scene.json()}, {"asked", plan.asked},
             {"within_ms", plan.target.within_ms ? Json(*plan.target.within_ms) : Json(nullptr)}};
   json["choice"] = std::isnan(plan.error) ? Json(nullptr) : choice_json(plan);

@@ -7,9 +7,9 @@
 
 namespace clatter::validation {
 
-[[nodiscard]] Table plan_table(const SimulationScene& scene, const Plan& plan);
-[[nodiscard]] Table plan_records(const SimulationScene& scene, const Plan& plan);
-[[nodiscard]] Json plan_json(const SimulationScene& scene, const Plan& plan);
+[[nodiscard]] Table plan_table(const Scene& scene, const Plan& plan);
+[[nodiscard]] Table plan_records(const Scene& scene, const Plan& plan);
+[[nodiscard]] Json plan_json(const Scene& scene, const Plan& plan);
 
 /// Why the plan does not give what was asked, one sentence; empty: it does.
 [[nodiscard]] std::string plan_shortfall(const Plan& plan);

@@ -8,26 +8,27 @@
 
 #include "validation/cli/command.hpp"
 #include "validation/output/run_files.hpp"
-#include "validation/scene/simulation_scene.hpp"
+#include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
 
 /// What was typed, by the name of the flag.
 struct SceneFlags {
-  std::string file;
+  std::string source;  ///< scene file or case; empty: flags alone
+  Model model = Model::continuous;
   std::map<std::string, std::optional<std::string>> texts;
   std::map<std::string, bool> truths;
 };
 
 /// Adds the argument SCENE.
-void add_scene_argument(Command& command, std::string& file);
-/// Adds SCENE and the flags.
-void add_scene_flags(Command& command, SceneFlags& flags);
+void add_scene_argument(Command& command, std::string& source, bool required);
+/// Adds SCENE and the flags of the keys that the model has.
+void add_scene_flags(Command& command, SceneFlags& flags, Model model = Model::continuous);
 /// @throws BadInput with one line.
-[[nodiscard]] SimulationScene read_scene_flags(const SceneFlags& flags);
+[[nodiscard]] Scene read_scene_flags(const SceneFlags& flags);
 /// Whether the flag ("--history") was typed.
 [[nodiscard]] bool is_given(const SceneFlags& flags, const std::string& name);
 /// What a run of the scene reads: the scene's file and its mesh's.
-[[nodiscard]] std::vector<RunFile> files_of(const SimulationScene& scene);
+[[nodiscard]] std::vector<RunFile> files_of(const Scene& scene);
 
 }  // namespace clatter::validation

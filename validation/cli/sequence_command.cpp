@@ -5,6 +5,7 @@
 
 #include "validation/cli/commands.hpp"
 #include "validation/cli/options.hpp"
+#include "validation/cli/scene_flags.hpp"
 #include "validation/cli/plot_options.hpp"
 #include "validation/cli/sequence_picture.hpp"
 #include "validation/cli/sequence_report.hpp"
@@ -18,17 +19,17 @@ namespace {
 constexpr int not_computed = 3;
 
 struct SequenceInput {
-  SceneTexts scene;
+  SceneFlags scene;
   std::optional<std::string> method;
   OutputTexts output;
   PlotTexts plot;
 };
 
 int run_sequence(const SequenceInput& input) {
-  const Scene scene = read_scene(input.scene);
+  const Scene scene = read_scene_flags(input.scene);
   const OutputChoice choice = read_output(input.output);
   const SequenceMethod method = read_sequence_method(input.method.value_or("auto"));
-  check_files(choice, plot_files(input.plot));
+  check_files(choice, plot_files(input.plot), files_of(scene));
   PlotFile plot(input.plot);
   const analytic::Sequence sequence = sequence_by_method(scene, method);
   for (const std::string& warning : sequence.warnings) say(warning);
@@ -36,7 +37,7 @@ int run_sequence(const SequenceInput& input) {
                [&] { return sequence_records(scene, sequence); },
                [&] { return sequence_table(scene, sequence); });
   if (plot.is_wanted()) {
-    plot.write(sequence_picture(scene, sequence), run_words("sequence", "impact sequence, discrete model", scene.json()));
+    plot.write(sequence_picture(scene, sequence), run_words("sequence", "impact sequence, discrete model", scene.json(Model::discrete)));
   }
   const std::string why = shortfall(scene, sequence);
   if (why.empty()) return 0;
@@ -49,7 +50,7 @@ int run_sequence(const SequenceInput& input) {
 Command sequence_command() {
   auto input = std::make_shared<SequenceInput>();
   Command command{.name = "sequence", .help = "impact sequence of a falling rod or box"};
-  add_scene_options(command, input->scene);
+  add_scene_flags(command, input->scene, Model::discrete);
   command.add_text("--method", input->method, "NAME", "auto, closed-form (Eqs. 9 and 12) or discrete (auto)",
                    "Scene");
   add_output_options(command, input->output);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "validation/output/number.hpp"
+#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -57,7 +58,7 @@ struct Flight {
 class HeightCurve {
  public:
   HeightCurve(const Scene& scene, const Sequence& sequence)
-      : body_(scene.body()), gravity_(scene.gravity), rows_(sequence.rows), whole_(whole_time(sequence)) {
+      : body_(nominal_body(scene)), gravity_(scene.options.gravity), rows_(sequence.rows), whole_(whole_time(sequence)) {
     add_part(flight(rows_.front(), rows_.front().before), -approach());
     std::reverse(samples_.begin(), samples_.end());
     for (std::size_t i = 0; i + 1 < rows_.size(); ++i) {
@@ -172,7 +173,7 @@ PicturePanel impulse_panel(const Scene& scene, const Sequence& sequence) {
                               .curves = {},
                               .x = {},
                               .y = {0, none}}};
-  const PlanarBody body = scene.body();
+  const PlanarBody body = nominal_body(scene);
   bool is_used[5] = {};
   for (const ImpactRow& row : sequence.rows) {
     auto& numbers = panel.rows.emplace_back(std::vector<double>{row.start, none, none, none, none});
@@ -197,12 +198,13 @@ std::vector<std::string> words_of(const Scene& scene) {
   std::string drop = fmt::format("{}° at {} m/s", shortest(scene.angle_deg), shortest(scene.speed));
   if (scene.tangential_velocity != 0) drop += fmt::format(", tangential {} m/s", shortest(scene.tangential_velocity));
   if (scene.spin != 0) drop += fmt::format(", spin {} rad/s", shortest(scene.spin));
-  drop += fmt::format(", gravity {} m/s²", shortest(scene.gravity));
-  std::string impact = fmt::format("e = {} ({})", shortest(scene.law.restitution), law_name(scene.law.law));
-  if (scene.law.friction == analytic::FrictionKind::coulomb) impact += ", Coulomb friction μ = ";
-  if (scene.law.friction == analytic::FrictionKind::impulse_ratio) impact += ", impulse ratio μᵢ = ";
-  if (scene.law.friction != analytic::FrictionKind::none) impact += shortest(scene.law.friction_value);
-  return {scene.summary().front(), drop, impact};
+  drop += fmt::format(", gravity {} m/s²", shortest(scene.options.gravity));
+  const analytic::ImpactLaw law = impact_law(scene);
+  std::string impact = fmt::format("e = {} ({})", shortest(law.restitution), law_name(law.law));
+  if (law.friction == analytic::FrictionKind::coulomb) impact += ", Coulomb friction μ = ";
+  if (law.friction == analytic::FrictionKind::impulse_ratio) impact += ", impulse ratio μᵢ = ";
+  if (law.friction != analytic::FrictionKind::none) impact += shortest(law.friction_value);
+  return {scene.summary(Model::discrete).front(), drop, impact};
 }
 
 }  // namespace

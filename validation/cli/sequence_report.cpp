@@ -15,6 +15,7 @@
 #include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/totals.hpp"
+#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -70,7 +71,7 @@ Sizes sizes_of(const Sequence& sequence) {
 }
 
 bool with_friction(const Scene& scene) {
-  return scene.law.friction != analytic::FrictionKind::none;
+  return impact_law(scene).friction != analytic::FrictionKind::none;
 }
 
 bool loses_energy(const Sequence& sequence) {
@@ -83,7 +84,7 @@ bool loses_energy(const Sequence& sequence) {
 std::string accuracy_words(const Scene& scene, const Sequence& sequence) {
   const double error = largest_error(sequence);
   if (!std::isfinite(error)) return "";
-  return fmt::format("asked {} digits, achieved {:.1f}: what rounding leaves", scene.digits,
+  return fmt::format("asked {} digits, achieved {:.1f}: what rounding leaves", scene.options.digits,
                      std::max(-std::log10(error), 0.0));
 }
 
@@ -103,7 +104,7 @@ std::string with_error(const Estimated& number, const Shown& shown) {
 std::string tail_words(const Scene& scene, const analytic::Tail& tail) {
   const Estimated end{tail.end_time, tail.end_time_error};
   return fmt::format("…: the last row sums up all further impacts; they end at {} s, {}",
-                     with_error(end, {.digits = scene.digits + 3}),
+                     with_error(end, {.digits = scene.options.digits + 3}),
                      tail.closed_form ? "in closed form" : "by extrapolation");
 }
 
@@ -115,7 +116,7 @@ std::vector<std::string> closing_notes(const Scene& scene, const Sequence& seque
   if (sequence.tail) add(tail_words(scene, *sequence.tail));
   add(trust_words(sequence.rows));
   add(fmt::format("Sum of normal impulses: {} N·s",
-                  known_text(totals(sequence).normal_impulse, {.digits = scene.digits})));
+                  known_text(totals(sequence).normal_impulse, {.digits = scene.options.digits})));
   add(accuracy_words(scene, sequence));
   add(fmt::format("{}: {}", outcome_name(sequence.outcome), sequence.message));
   const analytic::NearMiss& miss = sequence.near_miss;
@@ -123,14 +124,14 @@ std::vector<std::string> closing_notes(const Scene& scene, const Sequence& seque
     const analytic::RowErrors& last = sequence.rows.back().error;
     const Estimated clearance{miss.clearance, last.predictable ? miss.margin : last.start};
     add(fmt::format("closest approach after the last impact: {} m above the ground",
-                    known_text(clearance, {.digits = std::min(scene.digits, 6)})));
+                    known_text(clearance, {.digits = std::min(scene.options.digits, 6)})));
   }
   return notes;
 }
 
 std::vector<Cell> impact_cells(const Scene& scene, const ImpactRow& row, const Sizes& sizes, int n) {
   const auto cell = [&](double value, double its_error, double size) {
-    return known_cell({value, its_error}, {scene.digits, size});
+    return known_cell({value, its_error}, {scene.options.digits, size});
   };
   const analytic::Impact& impact = row.impact;
   const analytic::RowErrors& error = row.error;
@@ -148,7 +149,7 @@ std::vector<Cell> impact_cells(const Scene& scene, const ImpactRow& row, const S
 
 std::vector<Cell> tail_cells(const Scene& scene, const analytic::Tail& tail, const Sizes& sizes) {
   const auto cell = [&](double value, double error, double size) {
-    return known_cell({value, error}, {scene.digits, size});
+    return known_cell({value, error}, {scene.options.digits, size});
   };
   return {Cell("…"),
           Cell(analytic::PlanarBody::vertex_set_name(tail.vertices)),
@@ -164,7 +165,7 @@ std::vector<Cell> tail_cells(const Scene& scene, const analytic::Tail& tail, con
 
 std::vector<std::string> head_of(const Scene& scene) {
   std::vector<std::string> head{headline("sequence", "impact sequence, discrete model")};
-  for (const std::string& line : scene.summary()) head.push_back(line);
+  for (const std::string& line : scene.summary(Model::discrete)) head.push_back(line);
   return head;
 }
 
@@ -183,12 +184,12 @@ Table sequence_table(const Scene& scene, const Sequence& sequence) {
   int n = 0;
   for (const ImpactRow& row : sequence.rows) table.rows.push_back(impact_cells(scene, row, sizes, ++n));
   if (sequence.tail) table.rows.push_back(tail_cells(scene, *sequence.tail, sizes));
-  fit_columns(table, scene.digits, {5, 2});
+  fit_columns(table, scene.options.digits, {5, 2});
   return table;
 }
 
 Json sequence_json(const Scene& scene, const Sequence& sequence) {
-  Json json{{"clatter", version}, {"model", "discrete"}, {"scene", scene.json()},
+  Json json{{"clatter", version}, {"model", "discrete"}, {"scene", scene.json(Model::discrete)},
             {"impacts", Json::array()}};
   int n = 0;
   for (const ImpactRow& row : sequence.rows) json["impacts"].push_back(impact_json(scene, row, ++n));
@@ -201,7 +202,7 @@ Json sequence_json(const Scene& scene, const Sequence& sequence) {
                          {"margin", sequence.near_miss.margin},
                          {"within_margin", sequence.near_miss.within_margin()}};
   }
-  json["accuracy"] = {{"asked", std::pow(10.0, -scene.digits)}, {"achieved", number_or_null(largest_error(sequence))}};
+  json["accuracy"] = {{"asked", std::pow(10.0, -scene.options.digits)}, {"achieved", number_or_null(largest_error(sequence))}};
   const Totals sums = totals(sequence);
   json["total_normal_impulse"] = number_or_null(sums.normal_impulse.value);
   json["total_normal_impulse_error"] = error_or_null(sums.normal_impulse);

@@ -9,7 +9,7 @@
 #include "validation/cli/commands.hpp"
 #include "validation/cli/version.hpp"
 #include "validation/output/sink.hpp"
-#include "validation/scene/scene.hpp"
+#include "validation/scene/option_values.hpp"
 
 namespace clatter::validation {
 namespace {

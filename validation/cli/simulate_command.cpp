@@ -35,7 +35,7 @@ struct SimulateInput {
 constexpr int not_computed = 3;
 constexpr long evaluations_before_progress = 200'000;
 
-PlannedRun run_scene(const SimulationScene& scene, const numeric::Body& body, const CooperativeInterrupt& interrupt,
+PlannedRun run_scene(const Scene& scene, const numeric::Body& body, const CooperativeInterrupt& interrupt,
                      const std::function<void(int, long)>& show, numeric::HistoryRecorder* history) {
   numeric::Options options = scene.options;
   options.history = history;
@@ -52,7 +52,7 @@ void warn(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) say(fmt::format("warning: {}", warning));
 }
 
-int status_of(const SimulationScene& scene, const PlannedRun& planned) {
+int status_of(const Scene& scene, const PlannedRun& planned) {
   if (planned.run.outcome == Outcome::interrupted) return interrupted_status;
   const std::string why = shortfall(scene, planned);
   if (why.empty()) return 0;
@@ -75,7 +75,7 @@ int status_of(const std::vector<SweptRun>& runs) {
 }
 
 /// The history's picture, unless there is none to draw.
-void draw(const SimulationScene& scene, const Simulation& run, const PictureHistory& history, PlotFile& plot) {
+void draw(const Scene& scene, const Simulation& run, const PictureHistory& history, PlotFile& plot) {
   if (run.outcome == Outcome::interrupted)
     plot.leave_out("interrupted");
   else if (run.impacts.empty())
@@ -84,7 +84,7 @@ void draw(const SimulationScene& scene, const Simulation& run, const PictureHist
     plot.write(simulation_picture(scene, history), run_words("simulate", "impact sequence, continuous contact", scene.json()));
 }
 
-int run_single(const SimulationScene& scene, const numeric::Body& body, const OutputChoice& choice, PlotFile& plot) {
+int run_single(const Scene& scene, const numeric::Body& body, const OutputChoice& choice, PlotFile& plot) {
   const CooperativeInterrupt interrupt;
   std::optional<HistoryFile> history;
   if (!scene.history.empty()) {
@@ -112,7 +112,7 @@ int run_single(const SimulationScene& scene, const numeric::Body& body, const Ou
   return status_of(scene, planned);
 }
 
-int run_sweep(const SimulationScene& scene, const numeric::Body& body, const OutputChoice& choice, PlotFile& plot) {
+int run_sweep(const Scene& scene, const numeric::Body& body, const OutputChoice& choice, PlotFile& plot) {
   const CooperativeInterrupt interrupt;
   const std::vector<double> values = scene.sweep->values();
   std::vector<SweptRun> runs;
@@ -148,7 +148,7 @@ int run_sweep(const SimulationScene& scene, const numeric::Body& body, const Out
 }
 
 int run_simulate(const SimulateInput& input) {
-  const SimulationScene scene = read_scene_flags(input.scene);
+  const Scene scene = read_scene_flags(input.scene);
   const OutputChoice choice = read_output(input.output);
   std::vector<RunFile> written = plot_files(input.plot);
   written.insert(written.begin(), {"--history", scene.history});

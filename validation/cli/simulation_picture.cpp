@@ -66,7 +66,7 @@ void PictureHistory::record(const numeric::HistorySample& s) {
                    s.energy_rotation, s.energy_potential, s.energy_ground, s.energy_total()});
 }
 
-Picture simulation_picture(const SimulationScene& scene, const PictureHistory& history) {
+Picture simulation_picture(const Scene& scene, const PictureHistory& history) {
   Picture picture{.what = "Impact sequence, continuous contact",
                   .scene = scene.summary(),
                   .panels = {history_panel(history, "height [m]",
@@ -81,7 +81,7 @@ Picture simulation_picture(const SimulationScene& scene, const PictureHistory& h
   return picture;
 }
 
-Picture sweep_picture(const SimulationScene& scene, const std::vector<SweptRun>& runs) {
+Picture sweep_picture(const Scene& scene, const std::vector<SweptRun>& runs) {
   const SceneSweep& sweep = *scene.sweep;
   const std::vector<FigureColumn> columns{{"value", swept_column(sweep).unit.empty() ? "1" : "°", swept_words(sweep)},
                                           {"Vz", "m/s", "normal velocity of the mass centre after impact 1"},

@@ -36,9 +36,9 @@ class HistoryFan : public numeric::HistoryRecorder {
 };
 
 /// Heights, contact force and energies over time.
-[[nodiscard]] Picture simulation_picture(const SimulationScene& scene, const PictureHistory& history);
+[[nodiscard]] Picture simulation_picture(const Scene& scene, const PictureHistory& history);
 
 /// What the first impact of each value left: normal velocity, angular velocity, impulse, energy loss.
-[[nodiscard]] Picture sweep_picture(const SimulationScene& scene, const std::vector<SweptRun>& runs);
+[[nodiscard]] Picture sweep_picture(const Scene& scene, const std::vector<SweptRun>& runs);
 
 }  // namespace clatter::validation

@@ -37,7 +37,7 @@ Json impact_json(const ImpactRecord& row, int n) {
 }
 
 /// Whether rounding or the method's error has outgrown the row by itself; what follows such a row is no better.
-bool doubtful(const SimulationScene& scene, const ImpactRecord& row) {
+bool doubtful(const Scene& scene, const ImpactRecord& row) {
   const double gap_of_method = std::max(1e-6, std::pow(10.0, -scene.options.digits));
   if (!row.predictable || !(std::fabs(row.ledger_gap) <= gap_of_method)) return true;
   if (!scene.options.error_estimates) return false;
@@ -45,7 +45,7 @@ bool doubtful(const SimulationScene& scene, const ImpactRecord& row) {
 }
 
 /// The number of impacts before the first doubtful one.
-std::size_t trusted_impacts(const SimulationScene& scene, const Simulation& run) {
+std::size_t trusted_impacts(const Scene& scene, const Simulation& run) {
   const auto first = std::find_if(run.impacts.begin(), run.impacts.end(),
                                   [&](const ImpactRecord& row) { return doubtful(scene, row); });
   return static_cast<std::size_t>(first - run.impacts.begin());
@@ -55,7 +55,7 @@ std::size_t trusted_impacts(const SimulationScene& scene, const Simulation& run)
 /// be trusted.  Without estimates (run.errors = false) two digits, which a tolerance of 1e-4 and less leaves.
 class Known {
  public:
-  Known(const SimulationScene& scene, bool trusted) : scene_(scene), trusted_(trusted) {}
+  Known(const Scene& scene, bool trusted) : scene_(scene), trusted_(trusted) {}
 
   [[nodiscard]] Cell operator()(double value, double error, double size) const {
     if (!trusted_) return {value, 0};
@@ -65,7 +65,7 @@ class Known {
 
  private:
   static constexpr int digits_without_estimate = 2;
-  const SimulationScene& scene_;
+  const Scene& scene_;
   bool trusted_;
 };
 
@@ -76,7 +76,7 @@ struct Sizes {
 };
 
 /// The sum of the normal impulses as far as it is known.
-std::string total_words(const SimulationScene& scene, const PlannedRun& planned) {
+std::string total_words(const Scene& scene, const PlannedRun& planned) {
   const Estimated total = totals(planned.run).normal_impulse;
   const bool trusted = trusted_impacts(scene, planned.run) == planned.run.impacts.size();
   return shown_text(Known(scene, trusted)(total.value, total.error, 0));
@@ -89,7 +89,7 @@ std::string method_words(const Simulation& run) {
                      run.force_evaluations);
 }
 
-std::string trust_words(const SimulationScene& scene, const Simulation& run) {
+std::string trust_words(const Scene& scene, const Simulation& run) {
   const std::size_t last_trusted = trusted_impacts(scene, run);
   if (last_trusted == run.impacts.size()) return "";
   const auto first = run.impacts.begin() + static_cast<std::ptrdiff_t>(last_trusted);
@@ -102,7 +102,7 @@ std::string trust_words(const SimulationScene& scene, const Simulation& run) {
 }
 
 /// What was asked against what came out, by the estimates.
-std::string accuracy_words(const SimulationScene& scene, const PlannedRun& planned) {
+std::string accuracy_words(const Scene& scene, const PlannedRun& planned) {
   if (std::isnan(planned.achieved)) return "";
   const int known = planned.known_impacts, impacts = static_cast<int>(planned.run.impacts.size());
   const std::string of = known < impacts ? fmt::format(" of the first {} impacts", known) : "";
@@ -115,7 +115,7 @@ std::string accuracy_words(const SimulationScene& scene, const PlannedRun& plann
 }
 
 /// What the scene's law of friction leaves out, if that exceeds the digits asked.
-std::string local_slip_words(const SimulationScene& scene, const Simulation& run) {
+std::string local_slip_words(const Scene& scene, const Simulation& run) {
   double largest = 0;
   std::size_t worst = 0;
   for (std::size_t i = 0; i < run.impacts.size(); ++i) {
@@ -128,7 +128,7 @@ std::string local_slip_words(const SimulationScene& scene, const Simulation& run
                      worst + 1, significant(run.impacts[worst].local_slip, 1));
 }
 
-std::vector<std::string> notes_of(const SimulationScene& scene, const PlannedRun& planned) {
+std::vector<std::string> notes_of(const Scene& scene, const PlannedRun& planned) {
   const Simulation& run = planned.run;
   std::vector<std::string> notes;
   const std::string trust = trust_words(scene, run);
@@ -149,7 +149,7 @@ std::vector<std::string> notes_of(const SimulationScene& scene, const PlannedRun
   return notes;
 }
 
-std::vector<std::string> head_of(const SimulationScene& scene, const std::string& what) {
+std::vector<std::string> head_of(const Scene& scene, const std::string& what) {
   std::vector<std::string> head{headline("simulate", what)};
   for (const std::string& line : scene.summary()) head.push_back(line);
   return head;
@@ -162,12 +162,12 @@ Cell loss_cell(const Known& known, const Simulation& run, const ImpactRecord& ro
   return known(row.value.energy_loss * percent, row.error.energy_loss * percent, 100);
 }
 
-Json shortfall_json(const SimulationScene& scene, const PlannedRun& planned) {
+Json shortfall_json(const Scene& scene, const PlannedRun& planned) {
   const std::string why = shortfall(scene, planned);
   return why.empty() ? Json(nullptr) : Json(why);
 }
 
-Json quantity_json(const SimulationScene& scene, const SweptRun& swept) {
+Json quantity_json(const Scene& scene, const SweptRun& swept) {
   Json json{{scene.sweep->name(), swept.value},
             {"outcome", outcome_name(swept.planned.run.outcome)},
             {"message", swept.planned.run.message},
@@ -180,7 +180,7 @@ Json quantity_json(const SimulationScene& scene, const SweptRun& swept) {
 
 }  // namespace
 
-Table simulation_table(const SimulationScene& scene, const PlannedRun& planned) {
+Table simulation_table(const Scene& scene, const PlannedRun& planned) {
   const Simulation& run = planned.run;
   const bool friction = scene.ground.has_friction();
   const bool loses = friction || scene.ground.damping > 0;
@@ -210,7 +210,7 @@ Table simulation_table(const SimulationScene& scene, const PlannedRun& planned) 
   return table;
 }
 
-Json simulation_json(const SimulationScene& scene, const PlannedRun& planned) {
+Json simulation_json(const Scene& scene, const PlannedRun& planned) {
   const Simulation& run = planned.run;
   Json json{{"clatter", version}, {"model", "continuous"}, {"scene", scene.json()}, {"impacts", Json::array()}};
   int n = 0;
@@ -235,7 +235,7 @@ Json simulation_json(const SimulationScene& scene, const PlannedRun& planned) {
   return json;
 }
 
-Table simulation_records(const SimulationScene& scene, const PlannedRun& planned) {
+Table simulation_records(const Scene& scene, const PlannedRun& planned) {
   const Json json = simulation_json(scene, planned);
   Table table{.head = {headline("simulate", what_it_is), "scene: " + json["scene"].dump()}, .columns = {}, .rows = {},
               .notes = notes_of(scene, planned)};
@@ -244,7 +244,7 @@ Table simulation_records(const SimulationScene& scene, const PlannedRun& planned
   return table;
 }
 
-Table sweep_table(const SimulationScene& scene, const std::vector<SweptRun>& runs) {
+Table sweep_table(const Scene& scene, const std::vector<SweptRun>& runs) {
   Table table{.head = head_of(scene, "first impacts, continuous contact"), .columns = {}, .rows = {}, .notes = {}};
   table.columns = {swept_column(*scene.sweep),
                    {"touches", "touches", ""}, {"impulse_normal", "Pₙ", "N·s"}, {"impulse_ratio", "Pₜ/Pₙ", ""},
@@ -279,7 +279,7 @@ Table sweep_table(const SimulationScene& scene, const std::vector<SweptRun>& run
   return table;
 }
 
-Json sweep_json(const SimulationScene& scene, const std::vector<SweptRun>& runs) {
+Json sweep_json(const Scene& scene, const std::vector<SweptRun>& runs) {
   Json json{{"clatter", version}, {"model", "continuous"}, {"scene", scene.json()}, {"runs", Json::array()}};
   for (const SweptRun& swept : runs) json["runs"].push_back(quantity_json(scene, swept));
   const std::size_t values = scene.sweep->values().size();
@@ -288,7 +288,7 @@ Json sweep_json(const SimulationScene& scene, const std::vector<SweptRun>& runs)
   return json;
 }
 
-Table sweep_records(const SimulationScene& scene, const std::vector<SweptRun>& runs) {
+Table sweep_records(const Scene& scene, const std::vector<SweptRun>& runs) {
   Table table{.head = {headline("simulate", "impacts over a sweep, continuous contact"),
                        "scene: " + scene.json().dump()},
               .columns = {}, .rows = {}, .notes = {}};

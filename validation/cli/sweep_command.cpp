@@ -219,7 +219,7 @@ Command sweep_command() {
   auto input = std::make_shared<SweepInput>();
   Command command{.name = "sweep", .help = "many scenes: grids or random values, rows as CSV"};
   SweepRequest& request = input->request;
-  add_scene_argument(command, request.file);
+  add_scene_argument(command, request.file, true);
   command.add({.name = "--set", .target = &request.sets, .type = "KEY=VALUE|FROM:TO:STEP",
                .help = "values of a key of the scene file; may be repeated, the last varies fastest",
                .repeats = true});

@@ -5,7 +5,7 @@
 
 #include "validation/figures/figure.hpp"
 #include "validation/output/table.hpp"
-#include "validation/scene/simulation_scene.hpp"
+#include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
 

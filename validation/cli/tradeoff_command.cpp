@@ -25,7 +25,7 @@ struct TradeoffInput {
 };
 
 int run_tradeoff(const TradeoffInput& input) {
-  const SimulationScene scene = read_scene_flags(input.scene);
+  const Scene scene = read_scene_flags(input.scene);
   const OutputChoice choice = read_output(input.output);
   check_files(choice, plot_files(input.plot), files_of(scene));
   if (scene.sweep)

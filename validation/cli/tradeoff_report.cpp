@@ -61,7 +61,7 @@ Json point_json(const TradePoint& point) {
           {"failure", point.failure.empty() ? Json(nullptr) : Json(point.failure)}};
 }
 
-std::vector<std::string> head_of(const SimulationScene& scene) {
+std::vector<std::string> head_of(const Scene& scene) {
   std::vector<std::string> head{headline("tradeoff", what_it_is)};
   for (const std::string& line : scene.summary()) head.push_back(line);
   return head;
@@ -74,7 +74,7 @@ std::string reference_words(const Tradeoff& tradeoff) {
 
 }  // namespace
 
-Table tradeoff_table(const SimulationScene& scene, const Tradeoff& tradeoff) {
+Table tradeoff_table(const Scene& scene, const Tradeoff& tradeoff) {
   Table table{.head = head_of(scene), .columns = {}, .rows = {}, .notes = {}};
   table.columns = {{.name = "model", .heading = "model", .unit = "", .words = true},
                    {.name = "method", .heading = "method", .unit = "", .words = true},
@@ -101,7 +101,7 @@ Table tradeoff_table(const SimulationScene& scene, const Tradeoff& tradeoff) {
   return table;
 }
 
-Table tradeoff_records(const SimulationScene& scene, const Tradeoff& tradeoff) {
+Table tradeoff_records(const Scene& scene, const Tradeoff& tradeoff) {
   Table table{.head = {headline("tradeoff", what_it_is), "scene: " + scene.json().dump()},
               .columns = {},
               .rows = {},
@@ -112,7 +112,7 @@ Table tradeoff_records(const SimulationScene& scene, const Tradeoff& tradeoff) {
   return table;
 }
 
-Json tradeoff_json(const SimulationScene& scene, const Tradeoff& tradeoff) {
+Json tradeoff_json(const Scene& scene, const Tradeoff& tradeoff) {
   Json json{{"clatter", version}, {"model", "tradeoff"}, {"scene", scene.json()}, {"points", Json::array()}};
   for (const TradePoint& point : tradeoff.points) json["points"].push_back(point_json(point));
   json["reference"] = tradeoff.reference;
@@ -123,7 +123,7 @@ Json tradeoff_json(const SimulationScene& scene, const Tradeoff& tradeoff) {
   return json;
 }
 
-Picture tradeoff_picture(const SimulationScene& scene, const Tradeoff& tradeoff) {
+Picture tradeoff_picture(const Scene& scene, const Tradeoff& tradeoff) {
   PicturePanel panel{.columns = {{"curve", "1", "number of the model and method"},
                                  {"cost", "ms", "least wall time"},
                                  {"error", "1", "true error"}},

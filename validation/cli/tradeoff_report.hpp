@@ -9,11 +9,11 @@
 namespace clatter::validation {
 
 /// The front of points that nothing beats in both cost and error, and what failed.
-[[nodiscard]] Table tradeoff_table(const SimulationScene& scene, const Tradeoff& tradeoff);
+[[nodiscard]] Table tradeoff_table(const Scene& scene, const Tradeoff& tradeoff);
 /// All points.
-[[nodiscard]] Table tradeoff_records(const SimulationScene& scene, const Tradeoff& tradeoff);
-[[nodiscard]] Json tradeoff_json(const SimulationScene& scene, const Tradeoff& tradeoff);
+[[nodiscard]] Table tradeoff_records(const Scene& scene, const Tradeoff& tradeoff);
+[[nodiscard]] Json tradeoff_json(const Scene& scene, const Tradeoff& tradeoff);
 /// Error over cost, one curve for each model and method.
-[[nodiscard]] Picture tradeoff_picture(const SimulationScene& scene, const Tradeoff& tradeoff);
+[[nodiscard]] Picture tradeoff_picture(const Scene& scene, const Tradeoff& tradeoff);
 
 }  // namespace clatter::validation

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "analytic/impact_limits.hpp"
-#include "validation/compare/discrete_scene.hpp"
+#include "validation/scene/discrete_scene.hpp"
 #include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
 
@@ -78,7 +78,7 @@ std::string reason_in_principle(const Comparison& comparison, std::size_t i) {
 }
 
 /// Why row i cannot be compared at the scene's stiffness; empty if it can.
-std::string reason_against(const Comparison& comparison, const SimulationScene& scene, std::size_t i) {
+std::string reason_against(const Comparison& comparison, const Scene& scene, std::size_t i) {
   const auto& rows = comparison.sequence.rows;
   const auto& impacts = comparison.run.impacts;
   if (i >= rows.size()) return "the discrete sequence has ended: " + comparison.sequence.message;
@@ -159,7 +159,7 @@ void add_impact(Comparison& comparison, std::size_t i, const std::vector<Predict
 
 /// The stiff limit holds the friction of the sequence: with two coefficients it may stick where the discrete model
 /// slips, and is then no limit of it.
-void drop_unlike_limits(Comparison& comparison, const SimulationScene& scene) {
+void drop_unlike_limits(Comparison& comparison, const Scene& scene) {
   bool alike = true;
   for (std::size_t i = 0; i < comparison.impacts.size(); ++i) {
     ComparedImpact& impact = comparison.impacts[i];
@@ -185,7 +185,7 @@ double largest_error(const Comparison& comparison) {
   return worst;
 }
 
-std::string shortfall_of(const Comparison& comparison, const SimulationScene& scene) {
+std::string shortfall_of(const Comparison& comparison, const Scene& scene) {
   const auto words = [](const char* model, const auto& ended) {
     return fmt::format("{} model: {}: {}", model, outcome_name(ended.outcome), ended.message);
   };
@@ -215,7 +215,7 @@ bool Comparison::agrees() const {
                      [](const ComparedImpact& impact) { return !impact.has_landing() || impact.lands(); });
 }
 
-Comparison compare_models(const SimulationScene& scene, const numeric::Body& body) {
+Comparison compare_models(const Scene& scene, const numeric::Body& body) {
   Comparison comparison{.drop = discrete_drop(scene, body), .sequence = {}, .run = {}, .limit = {}, .impacts = {}, .shortfall = {}};
   comparison.sequence = impact_sequence(comparison.drop, {.impacts = scene.options.impacts});
   numeric::Options options = scene.options;

@@ -10,7 +10,7 @@
 #include "validation/compare/prediction.hpp"
 #include "validation/compare/quantities.hpp"
 #include "validation/compare/stiff_limit.hpp"
-#include "validation/scene/simulation_scene.hpp"
+#include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
 
@@ -49,6 +49,6 @@ struct Comparison {
 
 /// Runs the scene through both models and over ever stiffer grounds.
 /// @throws analytic::OutsideModelError if the discrete model cannot represent the scene.
-[[nodiscard]] Comparison compare_models(const SimulationScene& scene, const numeric::Body& body);
+[[nodiscard]] Comparison compare_models(const Scene& scene, const numeric::Body& body);
 
 }  // namespace clatter::validation

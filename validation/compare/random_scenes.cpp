@@ -65,9 +65,9 @@ void summarise(RandomScenesResult& result) {
 
 }  // namespace
 
-SimulationScene random_scene(std::uint64_t seed, int index) {
+Scene random_scene(std::uint64_t seed, int index) {
   Uniform random(seed, index);
-  SimulationScene scene;
+  Scene scene;
   scene.path = fmt::format("random scene {} of family {}", index, seed);
   choose_body(random, scene.body);
   const double size = scene.body.shape == BodyScene::Shape::rod ? scene.body.length : scene.body.size.x();
@@ -90,7 +90,7 @@ RandomScenesResult run_random_scenes(const RandomScenes& scenes) {
   for (int index = 0; index < scenes.count; ++index) {
     result.complete = scenes.goes_on();
     if (!result.complete) break;
-    SimulationScene scene = random_scene(scenes.seed, index);
+    Scene scene = random_scene(scenes.seed, index);
     scene.options.impacts = scenes.impacts;
     scene.options.error_estimates = false;
     scene.options.evaluation_limit = 100'000;  // soft grounds may hold a body for thousands of oscillations

@@ -5,13 +5,13 @@
 #include <functional>
 #include <vector>
 
-#include "validation/scene/simulation_scene.hpp"
+#include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
 
 /// Scene number `index` of the random family `seed`: a rod or a box of random size with random k_G, e (by c_G at the
 /// speed of the drop), μ, angle, spin, tangential velocity and gravity.  The same on every machine.
-[[nodiscard]] SimulationScene random_scene(std::uint64_t seed, int index);
+[[nodiscard]] Scene random_scene(std::uint64_t seed, int index);
 
 /// Which scenes of a family to run.
 struct RandomScenes {

@@ -27,7 +27,7 @@ constexpr double settled_change = 1e-6;        // from one triple of runs to the
 constexpr long evaluations_per_run = 200'000;  // contacts that are short take some thousand each
 
 /// Length below which the contact sees the shape that it has in the limit [m].
-double feature(const SimulationScene& scene, const numeric::Body& body) {
+double feature(const Scene& scene, const numeric::Body& body) {
   switch (scene.body.shape) {
     case BodyScene::Shape::rod:
       return scene.body.radius * (1 - std::cos(2 * std::numbers::pi / scene.body.sectors));
@@ -176,7 +176,7 @@ bool take_limit(const std::vector<Simulation>& ladder, const numeric::Body& body
 
 }  // namespace
 
-StiffLimit stiff_limit(const SimulationScene& scene, const numeric::Body& body, int impacts) {
+StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, int impacts) {
   numeric::Options options = scene.options;
   options.method = numeric::Method::automatic;
   options.step = 0;

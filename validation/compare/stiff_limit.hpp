@@ -5,7 +5,7 @@
 
 #include "numeric/body.hpp"
 #include "validation/compare/quantities.hpp"
-#include "validation/scene/simulation_scene.hpp"
+#include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
 
@@ -33,6 +33,6 @@ struct StiffLimit {
 /// indentation against the body's smallest feature; then a + b T + c T² through three runs (T^(1+1/p) in place of T²
 /// where a contact sticks and lets go) gives the value at T = 0, and the changes from one triple of runs to the next
 /// its error.  Impacts whose relative error bar stays above 1e-3 have no limit here, nor do those after them.
-[[nodiscard]] StiffLimit stiff_limit(const SimulationScene& scene, const numeric::Body& body, int impacts);
+[[nodiscard]] StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, int impacts);
 
 }  // namespace clatter::validation

@@ -18,6 +18,7 @@
 #include "validation/plan/planned_run.hpp"
 #include "validation/plan/sequence_method.hpp"
 #include "validation/scene/bad_input.hpp"
+#include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/failure.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/scene/named_texts.hpp"
@@ -64,8 +65,8 @@ void limit(const char* what, long long count, long long most) {
 }
 
 Scene discrete_scene(const NamedTexts& texts) {
-  Scene scene = read_scene(scene_texts(texts));
-  limit("impacts", scene.impacts, most_impacts);
+  Scene scene = read_discrete_scene(scene_values(""), scene_overrides(texts));
+  limit("impacts", scene.options.impacts, most_impacts);
   return scene;
 }
 
@@ -86,7 +87,7 @@ Json angles(NamedTexts texts) {
 }
 
 /// A scene that comes with the program, or an empty one, with the arguments in it.
-SimulationScene continuous_scene(NamedTexts texts) {
+Scene continuous_scene(NamedTexts texts) {
   const std::string name = taken(texts, "case");
   std::string_view text;
   if (!name.empty()) {
@@ -97,7 +98,7 @@ SimulationScene continuous_scene(NamedTexts texts) {
     if (text.empty()) throw BadInput(fmt::format("case '{}': there is none of this name", name));
   }
   const SceneValues values("scene", text, scene_keys());
-  SimulationScene scene = read_simulation_scene(values, scene_overrides(texts), Model::continuous);
+  Scene scene = read_scene(values, scene_overrides(texts), Model::continuous);
   if (scene.body.shape == BodyScene::Shape::mesh)
     throw BadInput("body 'mesh': must be rod or box; a page can name no file");
   if (scene.sweep) throw BadInput(fmt::format("case '{}': sweeps a quantity; give another", name));
@@ -125,7 +126,7 @@ class HistoryColumns : public numeric::HistoryRecorder {
 
 Json simulate(NamedTexts texts) {
   const bool with_history = taken(texts, "history") == "true";
-  const SimulationScene scene = continuous_scene(std::move(texts));
+  const Scene scene = continuous_scene(std::move(texts));
   const numeric::Body body = scene.make_body();
   const numeric::MotionState start = scene.start(body);
   HistoryColumns history;
@@ -139,7 +140,7 @@ Json simulate(NamedTexts texts) {
 }
 
 Json compare(NamedTexts texts) {
-  const SimulationScene scene = continuous_scene(std::move(texts));
+  const Scene scene = continuous_scene(std::move(texts));
   return comparison_json(scene, compare_models(scene, scene.make_body()));
 }
 
@@ -189,7 +190,7 @@ std::string cases_json() {
     if (!file.name.starts_with(folder)) continue;
     const std::string_view base = file.name.substr(folder.size());
     const std::string name(base.substr(0, base.size() - extension.size()));
-    const SimulationScene scene = case_scene(name);
+    const Scene scene = case_scene(name);
     if (!scene.sweep) cases[name] = scene.json();
   }
   return json_text({{"cases", cases}});

@@ -42,7 +42,7 @@ bool is_other_end(const numeric::ImpactRecord& before, const numeric::ImpactReco
 
 /// Radius 1e-4 m on a ground so stiff that indentations are far below it: the thin rod to about 1e-4.
 FirstImpacts continuous(double theta_deg, double gravity) {
-  SimulationScene scene;
+  Scene scene;
   scene.angle_deg = theta_deg;
   scene.body.radius = 1e-4;
   scene.body.layers = 1;

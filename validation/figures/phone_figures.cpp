@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "analytic/sequence.hpp"
-#include "validation/compare/discrete_scene.hpp"
+#include "validation/scene/discrete_scene.hpp"
 #include "validation/figures/figures.hpp"
 #include "validation/figures/history_panels.hpp"
 
@@ -138,7 +138,7 @@ Figure figure_phone_over_angle(Laboratory& laboratory) {
                             {"Omega_discrete", "rad/s", "angular velocity, discrete model of the corner"}},
                 .rows = {},
                 .plots = {}};
-  const SimulationScene scene = laboratory_scene(name, {});
+  const Scene scene = laboratory_scene(name, {});
   const numeric::Body body = scene.make_body();
   for (const SweptSimulation& swept : laboratory.sweep(name)) {
     const numeric::ImpactRecord& first = swept.run.impacts.at(0);

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "analytic/sequence.hpp"
-#include "validation/compare/discrete_scene.hpp"
+#include "validation/scene/discrete_scene.hpp"
 #include "validation/figures/figures.hpp"
 #include "validation/figures/history_panels.hpp"
 
@@ -108,7 +108,7 @@ Figure figure_rod_over_angle(Laboratory& laboratory) {
        {"continuous", "continuous model", "continuous", Style::points}},
       {.title = "", .x_label = "impact contact angle θ [°]", .y_label = "", .curves = {}, .x = {0, 90}, .y = {}});
   figure.plots.back().y = {-0.05, 0.05};  // the losses are zero to nine digits
-  const SimulationScene scene = laboratory_scene(name, {});
+  const Scene scene = laboratory_scene(name, {});
   const numeric::Body body = scene.make_body();
   for (const SweptSimulation& swept : laboratory.sweep(name)) {
     add_row(figure, swept.value, numbers,
@@ -139,7 +139,7 @@ Figure figure_rod_over_friction(Laboratory& laboratory) {
               .x = {0, 0.8},
               .y = {}});
   figure.columns.push_back({"ratio_continuous", "1", "impulse ratio that came out of the continuous model"});
-  const SimulationScene scene = laboratory_scene(name, {});
+  const Scene scene = laboratory_scene(name, {});
   const numeric::Body body = scene.make_body();
   for (const SweptSimulation& swept : laboratory.sweep(name)) {
     const analytic::ImpactLaw as_given{.friction = analytic::FrictionKind::impulse_ratio,

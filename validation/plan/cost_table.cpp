@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "validation/embedded/embedded.hpp"
-#include "validation/scene/simulation_scene.hpp"
+#include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "analytic/errors.hpp"
-#include "validation/compare/discrete_scene.hpp"
+#include "validation/scene/discrete_scene.hpp"
 #include "validation/output/names.hpp"
 #include "validation/plan/closed_form.hpp"
 #include "validation/plan/symmetry.hpp"
@@ -50,7 +50,7 @@ const char* part_name(Part part) {
   return "";
 }
 
-bool has_part(const SimulationScene& scene, Part part) {
+bool has_part(const Scene& scene, Part part) {
   switch (part) {
     case Part::friction: return scene.ground.has_friction();
     case Part::damping: return scene.ground.damping > 0;
@@ -60,7 +60,7 @@ bool has_part(const SimulationScene& scene, Part part) {
   return false;
 }
 
-SimulationScene without(SimulationScene scene, Part part) {
+Scene without(Scene scene, Part part) {
   switch (part) {
     case Part::friction: scene.ground.static_friction = scene.ground.sliding_friction = 0; break;
     case Part::damping: scene.ground.damping = 0; break;
@@ -70,13 +70,13 @@ SimulationScene without(SimulationScene scene, Part part) {
   return scene;
 }
 
-SimulationScene limited(SimulationScene scene) {
+Scene limited(Scene scene) {
   constexpr long evaluations_per_run = 2'000'000;
   scene.options.evaluation_limit = std::min(scene.options.evaluation_limit, evaluations_per_run);
   return scene;
 }
 
-Ladder::Ladder(SimulationScene scene)
+Ladder::Ladder(Scene scene)
     : scene_(std::move(scene)), body_(scene_.make_body()), start_(scene_.start(body_)) {
   try {
     drop_ = discrete_drop(scene_, body_);

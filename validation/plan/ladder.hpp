@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "validation/compare/motion_numbers.hpp"
-#include "validation/scene/simulation_scene.hpp"
+#include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
 
@@ -34,12 +34,12 @@ enum class Part {
 inline constexpr Part all_parts[] = {Part::friction, Part::damping, Part::gravity_in_contact, Part::unmerged_faces};
 [[nodiscard]] const char* part_name(Part part);
 /// Whether the scene has it, so that something is left out without it.
-[[nodiscard]] bool has_part(const SimulationScene& scene, Part part);
+[[nodiscard]] bool has_part(const Scene& scene, Part part);
 /// The scene without it.
-[[nodiscard]] SimulationScene without(SimulationScene scene, Part part);
+[[nodiscard]] Scene without(Scene scene, Part part);
 
 /// The scene with no more evaluations than a run of a plan or a measurement may take, 2 million.
-[[nodiscard]] SimulationScene limited(SimulationScene scene);
+[[nodiscard]] Scene limited(Scene scene);
 
 /// How a rung is run.  Method, tolerance and step are for the continuous rungs.
 struct RungSetting {
@@ -59,10 +59,10 @@ struct RungResult {
 /// A scene with what its rungs share.
 class Ladder {
  public:
-  /// @throws as SimulationScene::make_body and start.
-  explicit Ladder(SimulationScene scene);
+  /// @throws as Scene::make_body and start.
+  explicit Ladder(Scene scene);
 
-  [[nodiscard]] const SimulationScene& scene() const { return scene_; }
+  [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const numeric::Body& body() const { return body_; }
   /// As the discrete rung has it, if it applies.
   [[nodiscard]] const std::optional<analytic::Drop>& drop() const { return drop_; }
@@ -81,7 +81,7 @@ class Ladder {
   [[nodiscard]] std::string find_closed_form();
   [[nodiscard]] std::string reason_against_planar() const;
 
-  SimulationScene scene_;
+  Scene scene_;
   numeric::Body body_;
   numeric::MotionState start_;
   std::optional<analytic::Drop> drop_, thin_rod_;

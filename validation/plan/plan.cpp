@@ -38,7 +38,7 @@ double least_seconds_of(int repeats, const std::function<void()>& work) {
 /// One plan in the making.
 class Planner {
  public:
-  Planner(const SimulationScene& scene, const PlanTarget& target)
+  Planner(const Scene& scene, const PlanTarget& target)
       : ladder_(limited(without(scene, Part::unmerged_faces))), full_(ladder_.full()) {
     plan_.target = target;
     plan_.asked = std::pow(10.0, -target.digits);
@@ -270,7 +270,7 @@ class Planner {
 
 }  // namespace
 
-Plan make_plan(const SimulationScene& scene, const PlanTarget& target) { return Planner(scene, target).make(); }
+Plan make_plan(const Scene& scene, const PlanTarget& target) { return Planner(scene, target).make(); }
 
 namespace {
 
@@ -289,7 +289,7 @@ std::string quoted(const std::string& name) {
 }  // namespace
 
 std::string command_line(const Plan& plan) {
-  const SimulationScene& scene = plan.scene;
+  const Scene& scene = plan.scene;
   std::string line = fmt::format("clatter {} {}", is_continuous(plan.choice.rung) ? "simulate" : "compare",
                                  quoted(scene.path));
   if (!is_continuous(plan.choice.rung)) return line;

@@ -44,7 +44,7 @@ struct WeighedPart {
 struct Plan {
   PlanTarget target;
   double asked = 0;            ///< relative error
-  SimulationScene scene;       ///< without what is left out
+  Scene scene;       ///< without what is left out
   RungSetting choice;
   bool serves = false;         ///< whether the choice is expected to meet what was asked
   double error = std::numeric_limits<double>::quiet_NaN();  ///< predicted, relative; NaN: nothing could be planned
@@ -70,7 +70,7 @@ struct Plan {
 /// compared with the pilot.  The setting of the continuous rung is then checked against a finer run and moved by half
 /// decades of the tolerance until its error lies just below what is asked.
 /// Only counts decide, never times, unless `within_ms` is given: the plan is the same on every machine.
-[[nodiscard]] Plan make_plan(const SimulationScene& scene, const PlanTarget& target);
+[[nodiscard]] Plan make_plan(const Scene& scene, const PlanTarget& target);
 
 /// The command line that runs the plan's choice.
 [[nodiscard]] std::string command_line(const Plan& plan);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "validation/compare/motion_numbers.hpp"
-#include "validation/scene/simulation_scene.hpp"
+#include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
 

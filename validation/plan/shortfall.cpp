@@ -34,10 +34,10 @@ std::string shortfall(const Asked& asked, const analytic::Sequence& sequence) {
 }
 
 std::string shortfall(const Scene& scene, const analytic::Sequence& sequence) {
-  return shortfall(Asked{scene.digits, scene.require_digits}, sequence);
+  return shortfall(Asked{scene.options.digits, scene.require_digits}, sequence);
 }
 
-std::string shortfall(const SimulationScene& scene, const PlannedRun& planned) {
+std::string shortfall(const Scene& scene, const PlannedRun& planned) {
   const numeric::Simulation& run = planned.run;
   if (is_cut_short(run.outcome)) return fmt::format("{}: {}", outcome_name(run.outcome), run.message);
   if (!scene.require_digits || run.impacts.empty()) return "";

@@ -5,7 +5,7 @@
 
 #include "analytic/sequence.hpp"
 #include "validation/plan/planned_run.hpp"
-#include "validation/scene/scene.hpp"
+#include "validation/scene/option_values.hpp"
 
 namespace clatter::validation {
 
@@ -15,7 +15,7 @@ namespace clatter::validation {
 /// In one line why there are fewer impacts than asked for, where a number that could not be computed or a limit is the
 /// reason, or, with run.require_digits, that fewer digits are known than asked for; empty: neither.
 [[nodiscard]] std::string shortfall(const Scene& scene, const analytic::Sequence& sequence);
-[[nodiscard]] std::string shortfall(const SimulationScene& scene, const PlannedRun& planned);
+[[nodiscard]] std::string shortfall(const Scene& scene, const PlannedRun& planned);
 /// The same of a sequence with other settings.
 struct Asked {
   int digits = 6;

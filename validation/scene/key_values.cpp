@@ -1,4 +1,6 @@
 // What is done with the rows of keys.cpp, whatever their kind.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -13,23 +15,30 @@ struct Overloaded : Cases... {
   using Cases::operator()...;
 };
 
-void put_given(const SceneValues& values, const Key& key, SimulationScene& scene) {
+const Range& allowed(const Range& range, const Range* wide, Model model) {
+  return wide && model == Model::discrete ? *wide : range;
+}
+
+void put_given(const SceneValues& values, const Key& key, Scene& scene, Model model) {
+  const bool wide = model == Model::discrete;
   const std::string name = key.name;
   std::visit(
       Overloaded{
-          [&](const NumberValue& v) { v.at(scene) = values.number(name, 0, v.range); },
-          [&](const OptionalNumber& v) { v.at(scene) = values.number(name, 0, v.range); },
-          [&](const WholeNumber& v) { v.at(scene) = static_cast<int>(values.integer(name, 0, v.low, v.high)); },
+          [&](const NumberValue& v) { v.at(scene) = values.number(name, 0, allowed(v.range, v.wide, model)); },
+          [&](const OptionalNumber& v) { v.at(scene) = values.number(name, 0, allowed(v.range, v.wide, model)); },
+          [&](const WholeNumber& v) {
+            v.at(scene) = static_cast<int>(values.integer(name, 0, wide ? v.wide_low : v.low, wide ? v.wide_high : v.high));
+          },
           [&](const LongNumber& v) { v.at(scene) = static_cast<long>(values.integer(name, 0, v.low, v.high)); },
           [&](const TruthValue& v) { v.at(scene) = values.truth(name, false); },
           [&](const TextValue& v) { v.at(scene) = values.text(name); },
           [&](const NameValue& v) { v.put(scene, values.name(name, 0, *v.names)); },
-          [&](const ListValue& v) { v.put(scene, values.numbers(name, v.sizes, v.range, v.words)); },
+          [&](const ListValue& v) { v.put(scene, values.numbers(name, v.sizes, allowed(v.range, v.wide, model), v.words)); },
       },
       key.value);
 }
 
-Json value_json(const Key& key, SimulationScene& scene) {
+Json value_json(const Key& key, Scene& scene) {
   return std::visit(
       Overloaded{
           [&](const OptionalNumber& v) { return v.at(scene) ? Json(*v.at(scene)) : Json(nullptr); },
@@ -42,6 +51,26 @@ Json value_json(const Key& key, SimulationScene& scene) {
 }
 
 }  // namespace
+
+std::string Key::allowed() const {
+  return std::visit(
+      Overloaded{
+          [](const WholeNumber& v) { return fmt::format("a whole number from {} to {}", v.low, v.high); },
+          [](const LongNumber& v) { return fmt::format("a whole number from {} to {}", v.low, v.high); },
+          [](const TruthValue&) { return std::string("true or false"); },
+          [](const TextValue&) { return std::string("a text"); },
+          [](const NameValue& v) { return fmt::format("one of {}", fmt::join(*v.names, ", ")); },
+          [](const ListValue& v) { return std::string(v.words); },
+          [](const auto& v) { return std::string(v.range.words); },
+      },
+      value);
+}
+
+Json Key::get(const Scene& scene) const {
+  Scene shown = scene;  // the places are those of a scene that may be changed
+  const Echo shows = echo ? echo(scene, Model::continuous) : Echo::value;
+  return shows == Echo::value ? value_json(*this, shown) : Json(nullptr);
+}
 
 std::string Key::argument() const {
   std::string name_ = flag;
@@ -59,7 +88,7 @@ bool Key::is_number() const {
   return is_whole() || std::holds_alternative<NumberValue>(value) || std::holds_alternative<OptionalNumber>(value);
 }
 
-void Key::put_number(SimulationScene& scene, double number) const {
+void Key::put_number(Scene& scene, double number) const {
   std::visit(
       Overloaded{
           [&](const NumberValue& v) { v.at(scene) = number; },
@@ -90,17 +119,19 @@ const std::vector<std::string>& scene_keys() {
   return names;
 }
 
-void put_values(const SceneValues& values, SimulationScene& scene) {
+void put_values(const SceneValues& values, Scene& scene, Model model) {
   for (const Key& key : all_keys()) {
-    if (values.has(key.name)) put_given(values, key, scene);
+    if (values.has(key.name)) put_given(values, key, scene, model);
   }
 }
 
-Json keys_json(const SimulationScene& scene) {
-  SimulationScene shown = scene;  // the places are those of a scene that may be changed
+Json keys_json(const Scene& scene, Model model) {
+  Scene shown = scene;  // the places are those of a scene that may be changed
+  if (model == Model::discrete && !shown.impact.impulse_ratio) shown.impact.impulse_ratio = 0;  // none is a ratio of 0
   Json json = Json::object();
   for (const Key& key : all_keys()) {
-    const Echo echo = key.echo ? key.echo(scene) : Echo::value;
+    if (!key.is_for(model)) continue;
+    const Echo echo = key.echo ? key.echo(scene, model) : Echo::value;
     if (echo == Echo::absent) continue;
     Json* place = &json;
     std::string name = key.name;

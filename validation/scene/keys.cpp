@@ -8,7 +8,6 @@
 namespace clatter::validation {
 namespace {
 
-using Scene = SimulationScene;
 using Shape = BodyScene::Shape;
 
 constexpr double largest = std::numeric_limits<double>::max();
@@ -19,6 +18,10 @@ constexpr Range not_negative{0, largest, false, "at least 0"};
 constexpr Range sizes{1e-100, 1e100, false, "from 1e-100 to 1e100"};
 constexpr Range radii{0, 1e100, false, "from 0 to 1e100"};
 constexpr Range masses{1e-100, 1e100, false, "from 1e-100 to 1e100"};
+// The discrete model scales its units: only squares of lengths must not overflow.
+constexpr Range wide_sizes{1e-150, 1e150, false, "from 1e-150 to 1e150"};
+constexpr Range wide_radii{0, 1e150, false, "from 0 to 1e150"};
+constexpr Range wide_masses{1e-200, 1e200, false, "from 1e-200 to 1e200"};
 constexpr Range speeds{0, 1e9, true, "greater than 0 and at most 1e9"};
 constexpr Range velocities{-1e9, 1e9, false, "from -1e9 to 1e9"};
 constexpr Range gravities{0, 1e9, false, "from 0 to 1e9"};
@@ -28,14 +31,16 @@ constexpr Range tilts{-180, 180, false, "from -180 to 180 degrees"};
 constexpr Range restitutions{0, 1, false, "from 0 to 1"};
 constexpr Range tolerances{numeric::least_tolerance, 0.1, false, "from 5e-14 to 0.1"};
 
-const std::vector<std::string> law_names{"newton", "poisson", "stronge"};
-const char* const kept = "of the discrete model (kept, not used here)";
 
 Echo null_if(bool none) { return none ? Echo::null : Echo::value; }
 Echo only_if(bool shown) { return shown ? Echo::value : Echo::absent; }
-Echo of_rod(const Scene& scene) { return only_if(scene.body.shape == Shape::rod); }
-Echo of_box(const Scene& scene) { return only_if(scene.body.shape == Shape::box); }
-Echo of_mesh(const Scene& scene) { return only_if(scene.body.shape == Shape::mesh); }
+/// Nothing there is null for the continuous model, to which all keys are shown.
+Echo in_discrete_only_if(bool given, Model model) {
+  return given || model == Model::continuous ? Echo::value : Echo::absent;
+}
+Echo of_rod(const Scene& scene, Model) { return only_if(scene.body.shape == Shape::rod); }
+Echo of_box(const Scene& scene, Model) { return only_if(scene.body.shape == Shape::box); }
+Echo of_mesh(const Scene& scene, Model) { return only_if(scene.body.shape == Shape::mesh); }
 
 template <class Enum>
 std::size_t index_of(Enum value) {
@@ -44,140 +49,139 @@ std::size_t index_of(Enum value) {
 
 void append_drop(std::vector<Key>& keys) {
   keys.insert(keys.end(), {
-      {"drop.angle_deg", "--angle", "DEG", "°", "inclination at the first impact, end a low",
-       NumberValue{[](Scene& s) -> double& { return s.angle_deg; }, angles}},
-      {"drop.tilt_deg", "--tilt", "DEG", "°", "rotation about the body's long axis before that",
+      {"drop.angle_deg", Use::both, "--angle", "DEG", "°", "inclination at the first impact, end a low; 0 flat, 90 upright",
+       NumberValue{[](Scene& s) -> double& { return s.angle_deg; }, angles}, nullptr, true},
+      {"drop.tilt_deg", Use::continuous, "--tilt", "DEG", "°", "rotation about the body's long axis before that",
        NumberValue{[](Scene& s) -> double& { return s.tilt_deg; }, tilts}},
-      {"drop.speed", "--speed", "M/S", "m/s", "downward, of the centre of mass at first touch",
-       NumberValue{[](Scene& s) -> double& { return s.speed; }, speeds},
-       [](const Scene& s) { return null_if(s.height.has_value()); }},
-      {"drop.height", "--height", "M", "m", "or its height at release from rest",
-       OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.height; }, heights}},
-      {"drop.tangential_velocity", "--tangential-velocity", "M/S", "m/s", "of the centre of mass, to the right",
-       NumberValue{[](Scene& s) -> double& { return s.tangential_velocity; }, velocities}},
-      {"drop.spin", "--spin", "RAD/S", "rad/s", "clockwise, as Omega in Eq. 8",
-       NumberValue{[](Scene& s) -> double& { return s.spin; }, velocities}},
-      {"world.gravity", "--gravity", "M/S2", "m/s²", "gravity",
-       NumberValue{[](Scene& s) -> double& { return s.options.gravity; }, gravities}},
+      {"drop.speed", Use::both, "--speed", "M/S", "m/s", "downward, of the centre of mass at first touch",
+       NumberValue{[](Scene& s) -> double& { return s.speed; }, speeds, &positive},
+       [](const Scene& s, Model model) { return null_if(s.height.has_value() && model == Model::continuous); }},
+      {"drop.height", Use::both, "--height", "M", "m", "or its height at release from rest",
+       OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.height; }, heights, &positive}},
+      {"drop.tangential_velocity", Use::both, "--tangential-velocity", "M/S", "m/s", "of the centre of mass, to the right",
+       NumberValue{[](Scene& s) -> double& { return s.tangential_velocity; }, velocities, &any}},
+      {"drop.spin", Use::both, "--spin", "RAD/S", "rad/s", "clockwise, as Omega in Eq. 8",
+       NumberValue{[](Scene& s) -> double& { return s.spin; }, velocities, &any}},
+      {"world.gravity", Use::both, "--gravity", "M/S2", "m/s²", "acceleration of free fall",
+       NumberValue{[](Scene& s) -> double& { return s.options.gravity; }, gravities, &not_negative}},
   });
 }
 
 void append_impact(std::vector<Key>& keys) {
   keys.insert(keys.end(), {
-      {"impact.restitution", "--restitution", "E", "", kept,
+      {"impact.restitution", Use::both, "--restitution", "E", "", "coefficient of restitution of the discrete model",
        NumberValue{[](Scene& s) -> double& { return s.impact.restitution; }, restitutions}},
-      {"impact.law", "--restitution-law", "NAME", "", kept,
-       NameValue{&law_names,
-                 [](const Scene& s) {
-                   return index_of(std::find(law_names.begin(), law_names.end(), s.impact.law) - law_names.begin());
-                 },
-                 [](Scene& s, std::size_t i) { s.impact.law = law_names[i]; }}},
-      {"impact.impulse_ratio", "--impulse-ratio", "MU_I", "", kept,
-       OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.impact.impulse_ratio; }, any}},
-      {"impact.friction", "--friction", "MU", "", kept,
-       OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.impact.friction; }, not_negative}},
+      {"impact.law", Use::both, "--restitution-law", "newton|poisson|stronge", "", "what the coefficient relates",
+       NameValue{&law_names(), [](const Scene& s) { return index_of(s.impact.law); },
+                 [](Scene& s, std::size_t i) { s.impact.law = static_cast<analytic::RestitutionLaw>(i); }}},
+      {"impact.impulse_ratio", Use::both, "--impulse-ratio", "MU_I", "", "Eq. 8's ratio of tangential to normal impulse",
+       OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.impact.impulse_ratio; }, any},
+       [](const Scene& s, Model model) { return in_discrete_only_if(!s.impact.friction.has_value(), model); }},
+      {"impact.friction", Use::both, "--friction", "MU", "", "or Coulomb's coefficient of friction",
+       OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.impact.friction; }, not_negative},
+       [](const Scene& s, Model model) { return in_discrete_only_if(s.impact.friction.has_value(), model); }},
   });
 }
 
 void append_body(std::vector<Key>& keys) {
   keys.insert(keys.end(), {
-      {"body.shape", "--body", "rod|box|mesh", "", "shape of the body",
+      {"body.shape", Use::both, "--body", "rod|box|mesh", "", "shape of what falls",
        NameValue{&shape_names(), [](const Scene& s) { return index_of(s.body.shape); },
                  [](Scene& s, std::size_t i) { s.body.shape = static_cast<Shape>(i); }}},
-      {"body.mass", "--mass", "KG", "kg", "mass", NumberValue{[](Scene& s) -> double& { return s.body.mass; }, masses}},
-      {"body.length", "--length", "M", "m", "of the rod",
-       NumberValue{[](Scene& s) -> double& { return s.body.length; }, sizes}, of_rod},
-      {"body.radius", "--radius", "M", "m", "of the rod",
-       NumberValue{[](Scene& s) -> double& { return s.body.radius; }, radii}, of_rod},
-      {"body.size", "--size", "LxWxT", "m", "of the box in m",
+      {"body.mass", Use::both, "--mass", "KG", "kg", "mass", NumberValue{[](Scene& s) -> double& { return s.body.mass; }, masses, &wide_masses}},
+      {"body.length", Use::both, "--length", "M", "m", "of the rod",
+       NumberValue{[](Scene& s) -> double& { return s.body.length; }, sizes, &wide_sizes}, of_rod},
+      {"body.radius", Use::both, "--radius", "M", "m", "of the rod",
+       NumberValue{[](Scene& s) -> double& { return s.body.radius; }, radii, &wide_radii}, of_rod},
+      {"body.size", Use::both, "--size", "LxWxT", "m", "of the box: along the inclination, across, upright at 0 degrees",
        ListValue{[](const Scene& s) { return std::vector<double>{s.body.size.x(), s.body.size.y(), s.body.size.z()}; },
                  [](Scene& s, const std::vector<double>& v) { s.body.size = {v[0], v[1], v[2]}; },
-                 {3}, sizes, "three lengths in m greater than 0, as in [0.106, 0.044, 0.019]"}, of_box},
-      {"body.mesh.sectors", "", "N", "", "elements around the rod",
+                 {3}, sizes, "three lengths in m greater than 0, as in [0.106, 0.044, 0.019]", &wide_sizes}, of_box},
+      {"body.mesh.sectors", Use::continuous, "", "N", "", "elements around the rod",
        WholeNumber{[](Scene& s) -> int& { return s.body.sectors; }, 3, most}, of_rod},
-      {"body.mesh.rings", "", "N", "", "from its axis outward",
+      {"body.mesh.rings", Use::continuous, "", "N", "", "from its axis outward",
        WholeNumber{[](Scene& s) -> int& { return s.body.rings; }, 1, most}, of_rod},
-      {"body.mesh.layers", "", "N", "", "along it",
+      {"body.mesh.layers", Use::continuous, "", "N", "", "along it",
        WholeNumber{[](Scene& s) -> int& { return s.body.layers; }, 1, most}, of_rod},
-      {"body.mesh.nx", "", "N", "", "elements along the box",
+      {"body.mesh.nx", Use::continuous, "", "N", "", "elements along the box",
        WholeNumber{[](Scene& s) -> int& { return s.body.nx; }, 1, most}, of_box},
-      {"body.mesh.ny", "", "N", "", "across it",
+      {"body.mesh.ny", Use::continuous, "", "N", "", "across it",
        WholeNumber{[](Scene& s) -> int& { return s.body.ny; }, 1, most}, of_box},
-      {"body.mesh.nz", "", "N", "", "through its thickness",
+      {"body.mesh.nz", Use::continuous, "", "N", "", "through its thickness",
        WholeNumber{[](Scene& s) -> int& { return s.body.nz; }, 1, most}, of_box},
-      {"body.mesh.file", "", "FILE", "", "Gmsh (.msh, .geo) or STL",
+      {"body.mesh.file", Use::both, "", "FILE", "", "Gmsh (.msh, .geo) or STL",
        TextValue{[](Scene& s) -> std::string& { return s.body.file; }}, of_mesh},
-      {"body.mesh.unit", "", "M", "m", "of the file's coordinates",
+      {"body.mesh.unit", Use::both, "", "M", "m", "of the file's coordinates",
        NumberValue{[](Scene& s) -> double& { return s.body.unit; }, positive}, of_mesh},
-      {"body.mesh.density", "", "KG/M3", "kg/m³", "of a Gmsh file's elements, or body.mass",
+      {"body.mesh.density", Use::both, "", "KG/M3", "kg/m³", "of a Gmsh file's elements, or body.mass",
        OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.body.density; }, positive},
-       [](const Scene& s) { return only_if(s.body.density.has_value()); }},
-      {"body.inertia", "", "LIST", "kg m²", "of an STL body about its centre, principal or xx, yy, zz, xy, xz, yz",
+       [](const Scene& s, Model) { return only_if(s.body.density.has_value()); }},
+      {"body.inertia", Use::both, "", "LIST", "kg m²", "of an STL body about its centre, principal or xx, yy, zz, xy, xz, yz",
        ListValue{[](const Scene& s) { return s.body.inertia; },
                  [](Scene& s, const std::vector<double>& v) { s.body.inertia = v; },
                  {3, 6}, any, "three principal moments in kg m2, or six numbers xx, yy, zz, xy, xz, yz"},
-       [](const Scene& s) { return only_if(!s.body.inertia.empty()); }},
-      {"body.centre", "", "X,Y,Z", "", "of mass of an STL body, in the file's unit",
+       [](const Scene& s, Model) { return only_if(!s.body.inertia.empty()); }},
+      {"body.centre", Use::both, "", "X,Y,Z", "", "of mass of an STL body, in the file's unit",
        ListValue{[](const Scene& s) { return s.body.centre; },
                  [](Scene& s, const std::vector<double>& v) { s.body.centre = v; },
                  {3}, any, "three coordinates in the file's unit"},
-       [](const Scene& s) { return only_if(!s.body.centre.empty()); }},
-      {"body.merge", "", "true|false", "", "coplanar elements become one facet",
+       [](const Scene& s, Model) { return only_if(!s.body.centre.empty()); }},
+      {"body.merge", Use::continuous, "", "true|false", "", "coplanar elements become one facet",
        TruthValue{[](Scene& s) -> bool& { return s.body.merge; }}},
   });
 }
 
 void append_ground(std::vector<Key>& keys) {
   keys.insert(keys.end(), {
-      {"ground.stiffness", "--stiffness", "N/M3", "N/m³", "k_G",
+      {"ground.stiffness", Use::continuous, "--stiffness", "N/M3", "N/m³", "k_G",
        NumberValue{[](Scene& s) -> double& { return s.ground.stiffness; }, positive},
-       [](const Scene& s) { return null_if(!(s.ground.stiffness > 0)); }},
-      {"ground.damping", "--damping", "N.S/M4", "N·s/m⁴", "c_G",
+       [](const Scene& s, Model) { return null_if(!(s.ground.stiffness > 0)); }, true},
+      {"ground.damping", Use::continuous, "--damping", "N.S/M4", "N·s/m⁴", "c_G",
        NumberValue{[](Scene& s) -> double& { return s.ground.damping; }, not_negative}},
-      {"ground.static_friction", "--static-friction", "MU", "", "of the ground",
+      {"ground.static_friction", Use::continuous, "--static-friction", "MU", "", "of the ground",
        NumberValue{[](Scene& s) -> double& { return s.ground.static_friction; }, not_negative}},
-      {"ground.sliding_friction", "--sliding-friction", "MU", "", "of the ground",
+      {"ground.sliding_friction", Use::continuous, "--sliding-friction", "MU", "", "of the ground",
        NumberValue{[](Scene& s) -> double& { return s.ground.sliding_friction; }, not_negative}},
-      {"ground.area", "--area", "surface|projected", "", "area over which the load is integrated",
+      {"ground.area", Use::continuous, "--area", "surface|projected", "", "area over which the load is integrated",
        NameValue{&area_names(), [](const Scene& s) { return index_of(s.ground.area); },
                  [](Scene& s, std::size_t i) { s.ground.area = static_cast<numeric::AreaMeasure>(i); }}},
-      {"ground.friction_law", "", "NAME", "", "coulomb, regularised or local",
+      {"ground.friction_law", Use::continuous, "", "NAME", "", "what friction does where the face slips unevenly",
        NameValue{&friction_law_names(), [](const Scene& s) { return index_of(s.ground.friction); },
                  [](Scene& s, std::size_t i) { s.ground.friction = static_cast<numeric::FrictionLaw>(i); }}},
-      {"ground.regularisation_speed", "", "M/S", "m/s", "v_r of the regularised law",
+      {"ground.regularisation_speed", Use::continuous, "", "M/S", "m/s", "v_r of the regularised law",
        NumberValue{[](Scene& s) -> double& { return s.ground.regularisation_speed; }, positive}},
   });
 }
 
 void append_run(std::vector<Key>& keys) {
   keys.insert(keys.end(), {
-      {"run.impacts", "--impacts", "N", "", "most impacts to report",
+      {"run.impacts", Use::both, "--impacts", "N", "", "most impacts to report",
        WholeNumber{[](Scene& s) -> int& { return s.options.impacts; }, 1, 1'000'000}},
-      {"run.digits", "--digits", "N", "", "significant digits, 2 to 12",
-       WholeNumber{[](Scene& s) -> int& { return s.options.digits; }, 2, 12}},
-      {"run.require_digits", "--require-digits", "", "", "exit status 3 if fewer digits are known",
+      {"run.digits", Use::both, "--digits", "N", "", "significant digits asked for",
+       WholeNumber{[](Scene& s) -> int& { return s.options.digits; }, 2, 12, 1, 15}},
+      {"run.require_digits", Use::both, "--require-digits", "", "", "exit status 3 if fewer digits are known",
        TruthValue{[](Scene& s) -> bool& { return s.require_digits; }}},
-      {"run.method", "--method", "NAME", "", "auto, tvd-rk3, rk4, rkf45, rkck or rk8pd",
+      {"run.method", Use::continuous, "--method", "NAME", "", "auto, tvd-rk3, rk4, rkf45, rkck or rk8pd",
        NameValue{&method_names(), [](const Scene& s) { return index_of(s.options.method); },
                  [](Scene& s, std::size_t i) { s.options.method = static_cast<numeric::Method>(i); }}},
-      {"run.tolerance", "--tolerance", "TOL", "", "local error per step of an adaptive method",
+      {"run.tolerance", Use::continuous, "--tolerance", "TOL", "", "local error per step of an adaptive method",
        NumberValue{[](Scene& s) -> double& { return s.options.tolerance; }, tolerances},
-       [](const Scene& s) { return null_if(!(s.options.tolerance > 0)); }},
-      {"run.step", "--step", "S", "s", "of tvd-rk3",
+       [](const Scene& s, Model) { return null_if(!(s.options.tolerance > 0)); }},
+      {"run.step", Use::continuous, "--step", "S", "s", "of tvd-rk3",
        NumberValue{[](Scene& s) -> double& { return s.options.step; }, positive},
-       [](const Scene& s) { return null_if(!(s.options.step > 0)); }},
-      {"run.history", "--history", "FILE", "", "time history as CSV",
+       [](const Scene& s, Model) { return null_if(!(s.options.step > 0)); }},
+      {"run.history", Use::continuous, "--history", "FILE", "", "time history as CSV",
        TextValue{[](Scene& s) -> std::string& { return s.history; }},
-       [](const Scene& s) { return null_if(s.history.empty()); }},
-      {"run.planar", "--planar", "", "", "keep the motion in its plane",
+       [](const Scene& s, Model) { return null_if(s.history.empty()); }},
+      {"run.planar", Use::continuous, "--planar", "", "", "keep the motion in its plane",
        TruthValue{[](Scene& s) -> bool& { return s.options.planar; }}},
-      {"run.contact_gravity", "--no-contact-gravity", "", "", "let gravity act in flight only",
+      {"run.contact_gravity", Use::continuous, "--no-contact-gravity", "", "", "let gravity act in flight only",
        TruthValue{[](Scene& s) -> bool& { return s.options.gravity_in_contact; }}},
-      {"run.evaluation_limit", "", "N", "", "of the contact forces; then the run ends with the rows so far",
+      {"run.evaluation_limit", Use::continuous, "", "N", "", "of the contact forces; then the run ends with the rows so far",
        LongNumber{[](Scene& s) -> long& { return s.options.evaluation_limit; }, 1, 1'000'000'000'000}},
-      {"run.errors", "", "true|false", "", "estimate errors by a second run",
+      {"run.errors", Use::continuous, "", "true|false", "", "estimate errors by a second run",
        TruthValue{[](Scene& s) -> bool& { return s.options.error_estimates; }}},
-      {"run.amplification", "", "true|false", "", "and the growth of errors by a neighbouring one",
+      {"run.amplification", Use::continuous, "", "true|false", "", "and the growth of errors by a neighbouring one",
        TruthValue{[](Scene& s) -> bool& { return s.options.amplification; }}},
   });
 }
@@ -186,6 +190,11 @@ void append_run(std::vector<Key>& keys) {
 
 const std::vector<std::string>& shape_names() {
   static const std::vector<std::string> names{"rod", "box", "mesh"};
+  return names;
+}
+
+const std::vector<std::string>& law_names() {
+  static const std::vector<std::string> names{"newton", "poisson", "stronge"};
   return names;
 }
 

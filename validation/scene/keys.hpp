@@ -10,45 +10,49 @@
 
 #include "validation/output/json.hpp"
 #include "validation/scene/scene_values.hpp"
-#include "validation/scene/simulation_scene.hpp"
+#include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
 
 // The kinds of values: where one stands in a scene, and what is allowed.
 
 struct NumberValue {
-  double& (*at)(SimulationScene& scene);
+  double& (*at)(Scene& scene);
   Range range;
+  const Range* wide = nullptr;  ///< for the discrete model, where it allows more
 };
 struct OptionalNumber {
-  std::optional<double>& (*at)(SimulationScene& scene);
+  std::optional<double>& (*at)(Scene& scene);
   Range range;
+  const Range* wide = nullptr;
 };
 struct WholeNumber {
-  int& (*at)(SimulationScene& scene);
+  int& (*at)(Scene& scene);
   int low, high;
+  int wide_low = low, wide_high = high;
 };
 struct LongNumber {
-  long& (*at)(SimulationScene& scene);
+  long& (*at)(Scene& scene);
   long long low, high;
 };
 struct TruthValue {
-  bool& (*at)(SimulationScene& scene);
+  bool& (*at)(Scene& scene);
 };
 struct TextValue {
-  std::string& (*at)(SimulationScene& scene);
+  std::string& (*at)(Scene& scene);
 };
 struct NameValue {
   const std::vector<std::string>* names;
-  std::size_t (*get)(const SimulationScene& scene);
-  void (*put)(SimulationScene& scene, std::size_t index);
+  std::size_t (*get)(const Scene& scene);
+  void (*put)(Scene& scene, std::size_t index);
 };
 struct ListValue {
-  std::vector<double> (*get)(const SimulationScene& scene);
-  void (*put)(SimulationScene& scene, const std::vector<double>& numbers);
+  std::vector<double> (*get)(const Scene& scene);
+  void (*put)(Scene& scene, const std::vector<double>& numbers);
   std::vector<std::size_t> sizes;
   Range range;
   const char* words;  ///< what is allowed
+  const Range* wide = nullptr;
 };
 using KeyValue =
     std::variant<NumberValue, OptionalNumber, WholeNumber, LongNumber, TruthValue, TextValue, NameValue, ListValue>;
@@ -56,25 +60,36 @@ using KeyValue =
 /// How a key stands in the JSON echo of a scene.
 enum class Echo { value, null, absent };
 
+/// Which model a key is for.
+enum class Use { both, continuous };
+
 struct Key {
   const char* name;        ///< "drop.angle_deg"
+  Use use;
   const char* flag;        ///< "--angle"; empty: it has none
   const char* type;        ///< of the flag's value, in help: "DEG", "rod|box|mesh"; empty: a flag without a value
   const char* unit;        ///< empty: none
   const char* help;
   KeyValue value;
-  Echo (*echo)(const SimulationScene& scene) = nullptr;  ///< none: always its value
+  Echo (*echo)(const Scene& scene, Model model) = nullptr;  ///< none: always its value
+
+  bool is_required = false;                              ///< no scene of the continuous model is without it
 
   /// Name of the argument in Python and on the page: the flag's, or without one the key's last word.
   [[nodiscard]] std::string argument() const;
+  [[nodiscard]] bool is_for(Model model) const { return use == Use::both || model == Model::continuous; }
   [[nodiscard]] bool is_truth() const { return std::holds_alternative<TruthValue>(value); }
   [[nodiscard]] bool is_number() const;
   [[nodiscard]] bool is_whole() const;
   [[nodiscard]] bool is_of_body() const { return std::string_view(name).starts_with("body."); }
   /// Whether its value names a file, which only the command line and scene files may.
   [[nodiscard]] bool is_file() const { return std::string_view(type) == "FILE"; }
+  /// What is allowed, in words: "greater than 0", "one of rod, box, mesh".
+  [[nodiscard]] std::string allowed() const;
+  /// Its value in a scene, null or absent as in the echo.
+  [[nodiscard]] Json get(const Scene& scene) const;
   /// Puts a number in its place; whether it is in range is for the reader to say.  @pre is_number()
-  void put_number(SimulationScene& scene, double number) const;
+  void put_number(Scene& scene, double number) const;
 };
 
 /// In the order of the echo.
@@ -85,12 +100,13 @@ struct Key {
 [[nodiscard]] const std::vector<std::string>& scene_keys();
 
 /// Puts each key that is given in its place.  @throws BadInput where one is out of its range.
-void put_values(const SceneValues& values, SimulationScene& scene);
-/// Every key under its table's name.
-[[nodiscard]] Json keys_json(const SimulationScene& scene);
+void put_values(const SceneValues& values, Scene& scene, Model model);
+/// Every key of the model under its table's name.
+[[nodiscard]] Json keys_json(const Scene& scene, Model model);
 
 /// Names of choices, in the order of their enumerators.
 [[nodiscard]] const std::vector<std::string>& shape_names();
+[[nodiscard]] const std::vector<std::string>& law_names();
 [[nodiscard]] const std::vector<std::string>& area_names();
 [[nodiscard]] const std::vector<std::string>& friction_law_names();
 [[nodiscard]] const std::vector<std::string>& method_names();

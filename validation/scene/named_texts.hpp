@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "validation/scene/bad_input.hpp"
+#include "validation/scene/option_values.hpp"
 #include "validation/scene/scene.hpp"
-#include "validation/scene/simulation_scene.hpp"
 
 namespace clatter::validation {
 
@@ -22,9 +22,6 @@ template <class Value>
   for (const auto& entry : table) names.push_back(entry.first);
   throw BadInput(name + ": unknown argument; did you mean " + nearest_name(name, names) + "?");
 }
-
-/// Flags of `clatter sequence`.  @throws BadInput for an unknown name, with the nearest.
-[[nodiscard]] SceneTexts scene_texts(const NamedTexts& given);
 
 /// Flags of `clatter simulate` and the keys of the scene file whose place they take; also planar, contact_gravity,
 /// errors, amplification and evaluation_limit.  @throws BadInput for an unknown name, with the nearest.

@@ -9,7 +9,7 @@
 #include "validation/output/number.hpp"
 #include "validation/scene/bad_input.hpp"
 #include "validation/scene/keys.hpp"
-#include "validation/scene/simulation_scene.hpp"
+#include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -103,7 +103,7 @@ std::optional<SceneSweep> read_sweep_table(const SceneValues& values) {
   return sweep;
 }
 
-void check_sweep(const SceneValues& values, SimulationScene& scene) {
+void check_sweep(const SceneValues& values, Scene& scene) {
   const std::string other = "a scene that does not sweep it";
   if (!scene.sweep) return;
   if (scene.sweep->quantity == SceneSweep::Quantity::angle_deg) {
@@ -115,14 +115,24 @@ void check_sweep(const SceneValues& values, SimulationScene& scene) {
   if (!scene.history.empty()) values.refuse("run.history", "left out in a sweep");
 }
 
-void check_drop(const SceneValues& values, const SimulationScene& scene) {
+void check_drop(const SceneValues& values, const Scene& scene) {
   const bool swept = scene.sweep && scene.sweep->quantity == SceneSweep::Quantity::angle_deg;
   if (!swept) values.require("drop.angle_deg", "the inclination at the first impact");
   values.exclude("drop.speed", "drop.height");
   if (scene.height && !(scene.options.gravity > 0)) values.refuse("drop.height", "left out where world.gravity is 0");
 }
 
-SimulationScene read_values(SceneValues values, const std::vector<SceneOverride>& overrides, Model model) {
+/// Flags alone begin with the paper's thin rod without gravity, scene files with a body that can be dropped on the earth.
+Scene default_scene(const std::string& path, Model model) {
+  Scene scene;
+  scene.path = path;
+  scene.ground.stiffness = 0;  // none, until it is given
+  scene.options.gravity = path.empty() ? 0 : 9.81;
+  if (path.empty() && model == Model::discrete) scene.body.radius = 0;
+  return scene;
+}
+
+Scene read_values(SceneValues values, const std::vector<SceneOverride>& overrides, Model model) {
   refuse_both(overrides, "drop.speed", "drop.height");
   refuse_both(overrides, "run.tolerance", "run.step");
   for (const SceneOverride& flag : overrides) {
@@ -136,11 +146,9 @@ SimulationScene read_values(SceneValues values, const std::vector<SceneOverride>
     }
     values.set(flag.key, flag.flag, flag.text);
   }
-  SimulationScene scene;
-  scene.path = values.path();
-  scene.options.gravity = 9.81;
+  Scene scene = default_scene(values.path(), model);
   scene.sweep = read_sweep_table(values);
-  put_values(values, scene);
+  put_values(values, scene, model);
   check_sweep(values, scene);
   check_drop(values, scene);
   check_options(values, scene.options);
@@ -150,22 +158,45 @@ SimulationScene read_values(SceneValues values, const std::vector<SceneOverride>
   return scene;
 }
 
-}  // namespace
+/// Whether a source that is no file could be the name of a case.
+bool is_plain_name(const std::string& source) { return source.find_first_of("./\\") == std::string::npos; }
 
-SimulationScene read_simulation_scene(const std::string& path, const std::vector<SceneOverride>& overrides) {
-  return read_values(SceneValues(path, scene_keys()), overrides, Model::continuous);
+std::string case_path(const std::string& name) { return "validation/cases/" + name + ".toml"; }
+
+std::vector<std::string> case_names() {
+  std::vector<std::string> names;
+  const std::string before = case_path(""), folder = before.substr(0, before.rfind('/') + 1);
+  for (const EmbeddedFile& file : embedded_files()) {
+    const std::filesystem::path path(file.name);
+    if (std::string_view(file.name).starts_with(folder)) names.push_back(path.stem().string());
+  }
+  return names;
 }
 
-SceneValues read_scene_values(const std::string& path) { return {path, scene_keys()}; }
+}  // namespace
 
-SimulationScene read_simulation_scene(const SceneValues& values, const std::vector<SceneOverride>& overrides,
-                                      Model model) {
+SceneValues scene_values(const std::string& source) {
+  if (source.empty()) return {"", "", scene_keys()};
+  std::error_code error;
+  if (!is_plain_name(source) || std::filesystem::exists(source, error)) return {source, scene_keys()};
+  const std::vector<std::string> names = case_names();
+  if (std::find(names.begin(), names.end(), source) != names.end()) {
+    return {case_path(source), embedded_text(case_path(source)), scene_keys()};
+  }
+  throw BadInput(fmt::format("{}: neither a file nor a case; did you mean {}?", source, nearest_name(source, names)));
+}
+
+Scene read_scene(const SceneValues& values, const std::vector<SceneOverride>& overrides, Model model) {
   return read_values(values, overrides, model);
 }
 
-SimulationScene case_scene(const std::string& name, const std::vector<SceneOverride>& overrides) {
-  const std::string path = "validation/cases/" + name + ".toml";
-  return read_values(SceneValues(path, embedded_text(path), scene_keys()), overrides, Model::continuous);
+Scene read_scene(const std::string& source, const std::vector<SceneOverride>& overrides, Model model) {
+  return read_values(scene_values(source), overrides, model);
+}
+
+Scene case_scene(const std::string& name, const std::vector<SceneOverride>& overrides) {
+  const std::string path = case_path(name);
+  return read_values({path, embedded_text(path), scene_keys()}, overrides, Model::continuous);
 }
 
 }  // namespace clatter::validation

@@ -2,222 +2,142 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <bit>
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
-#include "analytic/body_motion.hpp"
 #include "validation/output/number.hpp"
-#include "validation/scene/bad_input.hpp"
+#include "validation/scene/keys.hpp"
 
 namespace clatter::validation {
 namespace {
 
-using analytic::FrictionKind;
-using analytic::RestitutionLaw;
+using numeric::FrictionLaw;
 
-constexpr double largest = std::numeric_limits<double>::max();
-constexpr Range any{-largest, largest, false, "a finite number"};
-constexpr Range positive{0, largest, true, "greater than 0"};
-constexpr Range not_negative{0, largest, false, "at least 0"};
-// Squares of lengths must not overflow.
-constexpr Range size_range{1e-150, 1e150, false, "from 1e-150 to 1e150"};
-constexpr Range mass_range{1e-200, 1e200, false, "from 1e-200 to 1e200"};
-
-const std::vector<std::string> law_names{"newton", "poisson", "stronge"};
-
-using Text = std::optional<std::string>;
-
-void exclude(const Text& first, const char* first_name, const Text& second, const char* second_name) {
-  if (!first || !second) return;
-  throw BadInput(fmt::format("{} {} and {} {}: give one of them, not both", first_name, *first,
-                             second_name, *second));
+std::string body_words(const BodyScene& body) {
+  switch (body.shape) {
+    case BodyScene::Shape::rod:
+      return fmt::format("rod {} m, radius {} m, {} kg; {} elements ({} sectors, {} rings, {} layers)",
+                         shortest(body.length), shortest(body.radius), shortest(body.mass),
+                         static_cast<long long>(body.sectors) * body.rings * body.layers, body.sectors, body.rings,
+                         body.layers);
+    case BodyScene::Shape::box:
+      return fmt::format("box {} × {} × {} m, {} kg; {} × {} × {} elements", shortest(body.size.x()),
+                         shortest(body.size.y()), shortest(body.size.z()), shortest(body.mass), body.nx, body.ny,
+                         body.nz);
+    case BodyScene::Shape::mesh: break;
+  }
+  return fmt::format("mesh {}", body.file);
 }
 
-void only_for(const Text& text, const char* option, const char* body) {
-  if (text) throw BadInput(fmt::format("{} {}: only for --body {}", option, *text, body));
-}
-
-void read_into(double& value, const char* option, const Text& text, const Range& range) {
-  if (text) value = read_number_option(option, *text, range);
-}
-
-/// "LxWxT" or "L,W,T".
-std::array<double, 3> read_size(const std::string& text) {
-  std::array<double, 3> size{};
-  std::size_t begin = 0;
-  for (int i = 0; i < 3; ++i) {
-    const std::size_t end = i < 2 ? text.find_first_of("x,", begin) : text.size();
-    if (end == std::string::npos) {
-      throw BadInput(fmt::format("--size '{}': must be three lengths in m, as in 0.106x0.044x0.019", text));
+/// 1e11 instead of 100000000000.
+std::string in_powers(double value) {
+  if (value != 0 && (value >= 1e6 || value < 1e-4)) {
+    const std::string digits = shortest(value / std::pow(10, std::floor(std::log10(value))));
+    const int exponent = static_cast<int>(std::floor(std::log10(value)));
+    double back = 0;
+    if (read_number(fmt::format("{}e{}", digits, exponent), back) && back == value) {
+      return fmt::format("{}e{}", digits, exponent);
     }
-    size[static_cast<std::size_t>(i)] =
-        read_number_option("--size", text.substr(begin, end - begin), size_range);
-    begin = end + 1;
   }
-  return size;
+  return shortest(value);
 }
 
-void read_body(const SceneTexts& texts, Scene& scene) {
-  if (texts.body) scene.is_box = read_name_option("--body", *texts.body, {"rod", "box"}) == 1;
-  double mass = 1;
-  read_into(mass, "--mass", texts.mass, mass_range);
-  scene.rod.mass = scene.box.mass = mass;
-  if (!scene.is_box) {
-    only_for(texts.size, "--size", "box");
-    read_into(scene.rod.length, "--length", texts.length, size_range);
-    read_into(scene.rod.radius, "--radius", texts.radius, {0, 1e150, false, "from 0 to 1e150"});
-    return;
+std::string friction_words(const numeric::Ground& ground) {
+  if (!ground.has_friction()) return "no friction";
+  std::string law;
+  if (ground.friction == FrictionLaw::regularised) {
+    law = fmt::format(", regularised at {} m/s", shortest(ground.regularisation_speed));
   }
-  only_for(texts.length, "--length", "rod");
-  only_for(texts.radius, "--radius", "rod");
-  if (!texts.size) throw BadInput("--size: required with --body box, as in 0.106x0.044x0.019 (m)");
-  const auto [length, width, thickness] = read_size(*texts.size);
-  scene.box = {.mass = mass, .length = length, .width = width, .thickness = thickness};
+  if (ground.friction == FrictionLaw::local) law = ", each place by its own slip";
+  if (ground.static_friction == ground.sliding_friction) {
+    return fmt::format("friction μ = {}{}", shortest(ground.sliding_friction), law);
+  }
+  return fmt::format("friction μₛ = {}, μₖ = {}{}", shortest(ground.static_friction),
+                     shortest(ground.sliding_friction), law);
 }
 
-void read_law(const SceneTexts& texts, Scene& scene) {
-  exclude(texts.impulse_ratio, "--impulse-ratio", texts.friction, "--friction");
-  read_into(scene.law.restitution, "--restitution", texts.restitution, {0, 1, false, "from 0 to 1"});
-  if (texts.restitution_law) {
-    scene.law.law = static_cast<RestitutionLaw>(
-        read_name_option("--restitution-law", *texts.restitution_law, law_names));
+std::string discrete_body_words(const BodyScene& body) {
+  switch (body.shape) {
+    case BodyScene::Shape::rod:
+      if (!(body.radius > 0)) return fmt::format("thin rod {} m, {} kg", shortest(body.length), shortest(body.mass));
+      return fmt::format("rod {} m, radius {} m, {} kg", shortest(body.length), shortest(body.radius), shortest(body.mass));
+    case BodyScene::Shape::box:
+      return fmt::format("box {} × {} × {} m, {} kg", shortest(body.size.x()), shortest(body.size.y()),
+                         shortest(body.size.z()), shortest(body.mass));
+    case BodyScene::Shape::mesh: break;
   }
-  if (texts.impulse_ratio) scene.law.friction = FrictionKind::impulse_ratio;
-  read_into(scene.law.friction_value, "--impulse-ratio", texts.impulse_ratio, any);
-  if (texts.friction) scene.law.friction = FrictionKind::coulomb;
-  read_into(scene.law.friction_value, "--friction", texts.friction, not_negative);
+  return body_words(body);
 }
 
-/// Height of the centre of mass when the body first touches the ground.
-double touch_height(const Scene& scene) {
-  const analytic::PlanarBody body = scene.body();
-  return analytic::BodyMotion(body, analytic::Angle::from_degrees(scene.angle_deg), {}, 0)
-      .centre_height();
+std::string discrete_friction_words(const DiscreteImpact& impact) {
+  if (impact.friction) return fmt::format("Coulomb friction μ = {}", shortest(*impact.friction));
+  if (impact.impulse_ratio) return fmt::format("impulse ratio μᵢ = {}", shortest(*impact.impulse_ratio));
+  return "no friction";
 }
 
-void read_speed(const SceneTexts& texts, Scene& scene) {
-  exclude(texts.speed, "--speed", texts.height, "--height");
-  read_into(scene.speed, "--speed", texts.speed, positive);
-  if (!texts.height) return;
-  const double height = read_number_option("--height", *texts.height, positive);
-  if (!(scene.gravity > 0)) {
-    throw BadInput(fmt::format("--height {}: needs --gravity greater than 0", *texts.height));
-  }
-  const double touch = touch_height(scene);
-  if (!(height > touch)) {
-    throw BadInput(fmt::format(
-        "--height {}: must be greater than {} m, the height of the centre of mass at the first touch",
-        *texts.height, significant(touch, 6)));
-  }
-  scene.height = height;
-  scene.speed = std::sqrt(2 * scene.gravity * (height - touch));
-}
-
-std::string friction_summary(const analytic::ImpactLaw& law) {
-  if (law.friction == FrictionKind::none) return "no friction";
-  const char* name = law.friction == FrictionKind::coulomb ? "Coulomb friction μ" : "impulse ratio μᵢ";
-  return fmt::format("{} = {}", name, shortest(law.friction_value));
+std::vector<std::string> discrete_summary(const Scene& scene) {
+  std::string motion = fmt::format("drop: {}° at {} m/s", shortest(scene.angle_deg), shortest(scene.speed));
+  if (scene.height) motion += fmt::format(" (from {} m)", shortest(*scene.height));
+  motion += fmt::format(", tangential {} m/s, spin {} rad/s, gravity {} m/s²", shortest(scene.tangential_velocity),
+                        shortest(scene.spin), shortest(scene.options.gravity));
+  return {discrete_body_words(scene.body), motion,
+          fmt::format("impact: e = {} ({}), {}; at most {} impacts, {} digits", shortest(scene.impact.restitution),
+                      law_name(scene.impact.law), discrete_friction_words(scene.impact), scene.options.impacts,
+                      scene.options.digits)};
 }
 
 }  // namespace
 
-const char* law_name(RestitutionLaw law) { return law_names[static_cast<std::size_t>(law)].c_str(); }
+const char* method_name(numeric::Method method) { return method_names()[static_cast<std::size_t>(method)].c_str(); }
 
-double read_number_option(const std::string& option, const std::string& text, const Range& range) {
-  double value = 0;
-  const bool inside = read_number(text, value) && value >= range.low && value <= range.high &&
-                      !(range.low_open && value == range.low);
-  if (!inside) throw BadInput(fmt::format("{} '{}': must be {}", option, text, range.words));
-  return value;
-}
+const char* law_name(analytic::RestitutionLaw law) { return law_names()[static_cast<std::size_t>(law)].c_str(); }
 
-int read_integer_option(const std::string& option, const std::string& text, int low, int high) {
-  long long value = 0;
-  if (!read_integer(text, value) || value < low || value > high) {
-    throw BadInput(
-        fmt::format("{} '{}': must be a whole number from {} to {}", option, text, low, high));
+std::vector<double> SceneSweep::values() const {
+  std::vector<double> values;
+  const auto last = static_cast<long long>(std::floor((to - from) / step * (1 + 1e-12) + 1e-12));
+  for (long long i = 0; i <= last; ++i) {
+    values.push_back(std::min(clean_step(from, step, i), to));
   }
-  return static_cast<int>(value);
+  return values;
 }
 
-std::size_t read_name_option(const std::string& option, const std::string& text,
-                             const std::vector<std::string>& names) {
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i] == text) return i;
+const std::string& SceneSweep::name() const { return sweep_names()[static_cast<std::size_t>(quantity)]; }
+
+Scene Scene::at(double value) const {
+  Scene one = *this;
+  if (sweep->quantity == SceneSweep::Quantity::angle_deg) one.angle_deg = value;
+  else one.ground.static_friction = one.ground.sliding_friction = value;
+  one.sweep.reset();
+  return one;
+}
+
+Json Scene::json(Model model) const {
+  Json json = Json::object();
+  if (!path.empty()) json["file"] = text_json(path);
+  json.update(keys_json(*this, model));
+  if (sweep) {
+    json["sweep"][sweep->name()] = {{"from", sweep->from}, {"to", sweep->to}, {"step", sweep->step}};
   }
-  throw BadInput(fmt::format("{} '{}': must be one of {}; did you mean {}?", option, text,
-                             fmt::join(names, ", "), nearest_name(text, names)));
+  return json;
 }
 
-Scene read_scene(const SceneTexts& texts) {
-  Scene scene;
-  if (!texts.angle) throw BadInput("--angle: required, the inclination at the first impact in degrees");
-  read_into(scene.angle_deg, "--angle", texts.angle, {0, 90, false, "from 0 to 90 degrees"});
-  read_into(scene.gravity, "--gravity", texts.gravity, not_negative);
-  read_into(scene.tangential_velocity, "--tangential-velocity", texts.tangential_velocity, any);
-  read_into(scene.spin, "--spin", texts.spin, any);
-  read_body(texts, scene);
-  read_law(texts, scene);
-  read_speed(texts, scene);
-  if (texts.impacts) scene.impacts = read_integer_option("--impacts", *texts.impacts, 1, 1000000);
-  if (texts.digits) scene.digits = read_integer_option("--digits", *texts.digits, 1, 15);
-  scene.require_digits = texts.require_digits;
-  return scene;
-}
-
-analytic::PlanarBody Scene::body() const {
-  return is_box ? analytic::make_box(box) : analytic::make_rod(rod);
-}
-
-analytic::Drop Scene::drop() const {
-  return {.body = body(),
-          .inclination = analytic::Angle::from_degrees(angle_deg),
-          .velocity = {.normal = -speed, .tangential = tangential_velocity, .angular = spin},
-          .gravity = gravity,
-          .law = law};
-}
-
-Json Scene::json() const {
-  Json impact{{"restitution", law.restitution}, {"law", law_name(law.law)}};
-  impact[law.friction == FrictionKind::coulomb ? "friction" : "impulse_ratio"] = law.friction_value;
-  Json shape{{"shape", is_box ? "box" : "rod"}, {"mass", rod.mass}};
-  if (is_box) {
-    shape["size"] = Json::array({box.length, box.width, box.thickness});
-  } else {
-    shape["length"] = rod.length;
-    shape["radius"] = rod.radius;
-  }
-  return Json{{"drop",
-               {{"angle_deg", angle_deg},
-                {"speed", number_or_null(speed)},
-                {"height", height ? Json(*height) : Json(nullptr)},
-                {"tangential_velocity", tangential_velocity},
-                {"spin", spin}}},
-              {"world", {{"gravity", gravity}}},
-              {"impact", impact},
-              {"body", shape},
-              {"run", {{"impacts", impacts}, {"digits", digits}, {"require_digits", require_digits}}}};
-}
-
-std::vector<std::string> Scene::summary() const {
-  const std::string what =
-      is_box ? fmt::format("box {} × {} × {} m, {} kg", shortest(box.length), shortest(box.width),
-                           shortest(box.thickness), shortest(box.mass))
-      : rod.radius > 0
-          ? fmt::format("rod {} m, radius {} m, {} kg", shortest(rod.length), shortest(rod.radius),
-                        shortest(rod.mass))
-          : fmt::format("thin rod {} m, {} kg", shortest(rod.length), shortest(rod.mass));
-  std::string motion = fmt::format("drop: {}° at {} m/s", shortest(angle_deg), shortest(speed));
-  if (height) motion += fmt::format(" (from {} m)", shortest(*height));
-  motion += fmt::format(", tangential {} m/s, spin {} rad/s, gravity {} m/s²",
-                        shortest(tangential_velocity), shortest(spin), shortest(gravity));
-  return {what, motion,
-          fmt::format("impact: e = {} ({}), {}; at most {} impacts, {} digits",
-                      shortest(law.restitution), law_name(law.law), friction_summary(law), impacts,
-                      digits)};
+std::vector<std::string> Scene::summary(Model model) const {
+  if (model == Model::discrete) return discrete_summary(*this);
+  const bool sweeps_friction = sweep && sweep->quantity == SceneSweep::Quantity::friction;
+  std::string drop = sweep && sweep->quantity == SceneSweep::Quantity::angle_deg
+                         ? fmt::format("drop: {}° to {}°", shortest(sweep->from), shortest(sweep->to))
+                         : fmt::format("drop: {}°", shortest(angle_deg));
+  if (tilt_deg != 0) drop += fmt::format(", tilted by {}°", shortest(tilt_deg));
+  drop += height ? fmt::format(" from {} m", shortest(*height)) : fmt::format(" at {} m/s", shortest(speed));
+  if (tangential_velocity != 0) drop += fmt::format(", tangential {} m/s", shortest(tangential_velocity));
+  if (spin != 0) drop += fmt::format(", spin {} rad/s", shortest(spin));
+  drop += fmt::format(", gravity {} m/s²{}", shortest(options.gravity), options.planar ? ", kept in its plane" : "");
+  return {body_words(body), drop,
+          fmt::format("ground: k = {} N/m³, c = {} N·s/m⁴ over the {} area, {}", in_powers(ground.stiffness),
+                      in_powers(ground.damping), area_names()[static_cast<std::size_t>(ground.area)],
+                      sweeps_friction ? fmt::format("friction μ = {} to {}", shortest(sweep->from), shortest(sweep->to))
+                                      : friction_words(ground))};
 }
 
 }  // namespace clatter::validation

@@ -1,65 +1,104 @@
-// A scene of the discrete model as the user gives it: flags, defaults, checks.
+// A scene: what falls, how, on what ground, and what is asked of either model.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "analytic/sequence.hpp"
+#include "analytic/impact_law.hpp"
+#include "numeric/simulate.hpp"
 #include "validation/output/json.hpp"
+#include "validation/scene/scene_values.hpp"
 
 namespace clatter::validation {
 
-/// The texts of the scene options, empty where not given.  Names are those of the flags.
-struct SceneTexts {
-  std::optional<std::string> angle, speed, height, tangential_velocity, spin, gravity, restitution,
-      restitution_law, impulse_ratio, friction, body, mass, length, radius, size, impacts, digits;
-  bool require_digits = false;
+/// A flag as given, and the key of the scene file that it overrides.
+struct SceneOverride {
+  std::string key, flag, text;
 };
+
+/// The discrete model's part of a scene, carried along for the commands that run both models.
+struct DiscreteImpact {
+  double restitution = 1;
+  analytic::RestitutionLaw law = analytic::RestitutionLaw::newton;
+  std::optional<double> impulse_ratio, friction;
+};
+
+/// What the body is made of.
+struct BodyScene {
+  enum class Shape { rod, box, mesh } shape = Shape::rod;
+  double mass = 1;                                 ///< [kg]
+  double length = 1, radius = 0.01;                ///< of a rod [m]
+  numeric::Vector3 size{0, 0, 0};                  ///< of a box [m]
+  int sectors = 16, rings = 4, layers = 30;        ///< of a rod's mesh
+  int nx = 1, ny = 1, nz = 1;                      ///< of a box's mesh
+  std::string file;                                ///< Gmsh (.msh, .geo) or STL, resolved
+  double unit = 1;                                 ///< of the file's coordinates [m]
+  std::optional<double> density;                   ///< of a Gmsh file's elements [kg/m³]
+  std::vector<double> inertia;                     ///< of an STL body: 3 or 6 numbers [kg·m²]
+  std::vector<double> centre;                      ///< of mass of an STL body, in the file's frame [m]
+  bool merge = true;
+
+  [[nodiscard]] bool is_stl() const;
+};
+
+/// Values of one quantity for which the drop is repeated.
+struct SceneSweep {
+  enum class Quantity { angle_deg, friction } quantity = Quantity::angle_deg;
+  double from = 0, to = 0, step = 1;
+  [[nodiscard]] std::vector<double> values() const;
+  /// Key of the scene file under "sweep", and the quantity's name in JSON and CSV.
+  [[nodiscard]] const std::string& name() const;
+};
+
+/// The model that a scene is read for.  The discrete one needs no ground, and its rod may be thin (body.radius = 0).
+enum class Model { discrete, continuous };
 
 /// A checked scene.
 struct Scene {
-  double angle_deg = 0;              ///< [°]
-  double speed = 1;                  ///< of the centre of mass at the first touch, downward [m/s]
-  std::optional<double> height;      ///< of the centre of mass at release, if given [m]
-  double tangential_velocity = 0;    ///< [m/s]
-  double spin = 0;                   ///< [rad/s]
-  double gravity = 0;                ///< [m/s²]
-  analytic::ImpactLaw law;
-  bool is_box = false;
-  analytic::RodSize rod;
-  analytic::BoxSize box;
-  int impacts = 6;
-  int digits = 6;
-  bool require_digits = false;       ///< fewer known digits are exit status 3
+  std::string path;
+  double angle_deg = 0, tilt_deg = 0;
+  double speed = 1;                ///< of the centre of mass at the first touch, downward [m/s]
+  std::optional<double> height;    ///< of the centre of mass at release, if given [m]
+  double tangential_velocity = 0;  ///< [m/s]
+  double spin = 0;                 ///< [rad/s]
+  DiscreteImpact impact;
+  BodyScene body;
+  numeric::Ground ground;          ///< stiffness 0: none given, for the discrete model
+  numeric::Options options;
+  bool require_digits = false;     ///< fewer known digits are exit status 3
+  std::string history;             ///< file for the time history; empty: none
+  std::optional<SceneSweep> sweep;
 
-  [[nodiscard]] analytic::PlanarBody body() const;
-  [[nodiscard]] analytic::Drop drop() const;
-  /// Everything, defaults included, under the names of scene files.
-  [[nodiscard]] Json json() const;
+  /// The scene with the swept quantity at one value, and no sweep.
+  [[nodiscard]] Scene at(double value) const;
+  [[nodiscard]] numeric::Body make_body() const;
+  /// State at the first touch; with `height` the speed there follows from the fall.
+  /// @throws BadInput if `height` is not above the centre of mass at the touch, or no touching vertex comes down.
+  [[nodiscard]] numeric::MotionState start(const numeric::Body& body) const;
+  /// The keys of the model, defaults included, under the names of the file; all of them for the continuous one.
+  [[nodiscard]] Json json(Model model = Model::continuous) const;
   /// The same for a reader: a few lines.
-  [[nodiscard]] std::vector<std::string> summary() const;
+  [[nodiscard]] std::vector<std::string> summary(Model model = Model::continuous) const;
+
+ private:
+  /// Speed of the fall from `height` to the touch [m/s].
+  [[nodiscard]] double fallen_speed(const numeric::MotionState& touch) const;
 };
 
-/// @throws BadInput with one line that names the option, what was given and what is allowed.
-[[nodiscard]] Scene read_scene(const SceneTexts& texts);
+/// The values of a scene file, of a case that comes with the program (by its name, "phone-damped"), or of neither ("":
+/// flags alone), to be read with one set of overrides after another.  @throws BadInput as SceneValues.
+[[nodiscard]] SceneValues scene_values(const std::string& source);
 
-/// What a number may be.
-struct Range {
-  double low, high;
-  bool low_open = false;  ///< low itself is not allowed
-  const char* words;      ///< what is allowed, in words
-};
+/// @throws BadInput with one line "file:line:column: key ..." or "--flag ...".
+[[nodiscard]] Scene read_scene(const SceneValues& values, const std::vector<SceneOverride>& overrides, Model model);
+[[nodiscard]] Scene read_scene(const std::string& source, const std::vector<SceneOverride>& overrides,
+                               Model model = Model::continuous);
 
-/// @throws BadInput unless `text` is a finite number in `range`; `option` is as typed ("--angle").
-[[nodiscard]] double read_number_option(const std::string& option, const std::string& text,
-                                        const Range& range);
-[[nodiscard]] int read_integer_option(const std::string& option, const std::string& text, int low,
-                                      int high);
-/// Index of `text` among `names`.  @throws BadInput naming the nearest.
-[[nodiscard]] std::size_t read_name_option(const std::string& option, const std::string& text,
-                                           const std::vector<std::string>& names);
+/// The scene of a case.  @throws std::out_of_range if there is none of this name.
+[[nodiscard]] Scene case_scene(const std::string& name, const std::vector<SceneOverride>& overrides = {});
 
+[[nodiscard]] const char* method_name(numeric::Method method);
 [[nodiscard]] const char* law_name(analytic::RestitutionLaw law);
 
 }  // namespace clatter::validation

@@ -13,7 +13,7 @@
 #include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/bad_input.hpp"
-#include "validation/scene/simulation_scene.hpp"
+#include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -51,7 +51,7 @@ bool BodyScene::is_stl() const {
   return extension == ".stl";
 }
 
-numeric::Body SimulationScene::make_body() const {
+numeric::Body Scene::make_body() const {
   switch (body.shape) {
     case BodyScene::Shape::rod:
       return numeric::Body(numeric::rod_mesh({.length = body.length, .radius = body.radius, .mass = body.mass,
@@ -67,7 +67,7 @@ numeric::Body SimulationScene::make_body() const {
   return gmsh_body(body);
 }
 
-numeric::MotionState SimulationScene::start(const numeric::Body& dropped) const {
+numeric::MotionState Scene::start(const numeric::Body& dropped) const {
   numeric::MotionState state = numeric::touching_state(
       dropped, {.inclination = angle_deg * degree, .velocity = {tangential_velocity, 0, -speed}, .spin = spin,
                 .out_of_plane_tilt = tilt_deg * degree});
@@ -80,7 +80,7 @@ numeric::MotionState SimulationScene::start(const numeric::Body& dropped) const 
   return state;
 }
 
-double SimulationScene::fallen_speed(const numeric::MotionState& state) const {
+double Scene::fallen_speed(const numeric::MotionState& state) const {
   const double touch = state.centre.z();
   if (!(*height > touch)) {
     throw BadInput(fmt::format("{}: drop.height = {}: must be greater than {} m, the height of the centre of mass at the first touch",

@@ -10,6 +10,8 @@
 
 #include "validation/output/number.hpp"
 #include "validation/scene/bad_input.hpp"
+#include "validation/scene/keys.hpp"
+#include "validation/scene/option_values.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -142,19 +144,29 @@ bool SceneValues::has_table(const std::string& name) const {
                      [&](const auto& entry) { return entry.first.starts_with(name + "."); });
 }
 
+std::string SceneValues::place_of(const std::string& key) const {
+  if (!path_.empty()) return path_ + ": " + key;
+  const std::string flag = key_named(key).flag;
+  return flag.empty() ? key : flag;
+}
+
 void SceneValues::require(const std::string& key, const std::string& what) const {
-  if (!has(key)) throw BadInput(fmt::format("{}: {}: required, {}", path_, key, what));
+  if (!has(key)) throw BadInput(fmt::format("{}: required, {}", place_of(key), what));
 }
 
 void SceneValues::exclude(const std::string& first, const std::string& second) const {
   if (!has(first) || !has(second)) return;
+  if (at(first).is_flag && at(second).is_flag) {
+    const auto typed = [&](const std::string& key) { return at(key).where + " " + std::get<std::string>(at(key).value); };
+    throw BadInput(fmt::format("{} and {}: give one of them, not both", typed(first), typed(second)));
+  }
   throw BadInput(fmt::format("{} = {}: excludes {}; give one of them, not both", at(second).where, at(second).shown,
                              first));
 }
 
 void SceneValues::refuse(const std::string& key, const std::string& allowed) const {
   const auto entry = entries_.find(key);
-  if (entry == entries_.end()) throw BadInput(fmt::format("{}: {}: must be {}", path_, key, allowed));
+  if (entry == entries_.end()) throw BadInput(fmt::format("{}: must be {}", place_of(key), allowed));
   const Entry& given = entry->second;
   throw BadInput(fmt::format("{}{}{}: must be {}", given.where, given.is_flag ? " " : " = ", given.shown, allowed));
 }

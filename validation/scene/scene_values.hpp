@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "validation/scene/scene.hpp"
+#include "validation/scene/option_values.hpp"
 
 namespace clatter::validation {
 
@@ -58,6 +58,8 @@ class SceneValues {
   friend class SceneParser;
 
   [[nodiscard]] const Entry& at(const std::string& key) const { return entries_.at(key); }
+  /// "file: key", or without a file the flag.
+  [[nodiscard]] std::string place_of(const std::string& key) const;
 
   std::string path_;
   std::map<std::string, Entry> entries_;

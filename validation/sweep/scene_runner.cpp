@@ -2,7 +2,7 @@
 
 #include <new>
 
-#include "validation/compare/discrete_scene.hpp"
+#include "validation/scene/discrete_scene.hpp"
 #include "validation/plan/planned_run.hpp"
 #include "validation/plan/shortfall.hpp"
 #include "validation/scene/failure.hpp"
@@ -20,7 +20,7 @@ const char* outcome_of(FailureKind kind) {
 
 }  // namespace
 
-SweepBody make_sweep_body(const SweepPlan& plan, const SimulationScene& scene) {
+SweepBody make_sweep_body(const SweepPlan& plan, const Scene& scene) {
   if (plan.model == Model::discrete) return {nominal_body(scene), nullptr};
   return {{}, std::make_shared<const numeric::Body>(scene.make_body())};
 }

@@ -19,8 +19,8 @@ struct SweepBody {
   analytic::PlanarBody planar;
   std::shared_ptr<const numeric::Body> solid;
 };
-/// The body of one scene of the plan, swept sizes and all.  @throws as SimulationScene::make_body and nominal_body.
-[[nodiscard]] SweepBody make_sweep_body(const SweepPlan& plan, const SimulationScene& scene);
+/// The body of one scene of the plan, swept sizes and all.  @throws as Scene::make_body and nominal_body.
+[[nodiscard]] SweepBody make_sweep_body(const SweepPlan& plan, const Scene& scene);
 
 /// One thread's part in a sweep.  A scene that the model refuses or cannot compute is a row whose outcome is "refused"
 /// (speed and spin do not bring the contact down, a size is out of range, ...), "outside-model" (jamming, a body that
@@ -44,7 +44,7 @@ class SceneRunner {
 
   const SweepPlan& plan_;
   std::function<bool()> stop_;
-  SimulationScene scene_;
+  Scene scene_;
   SweepBody body_;
   std::vector<double> values_;
   std::vector<double> body_values_;  ///< of the body axes that body_ was made with

@@ -25,10 +25,10 @@ const std::vector<std::string> box_sides{"body.size.length", "body.size.width", 
 const std::vector<Key>& side_keys() {
   static const Range range = std::get<ListValue>(key_named(box_size).value).range;
   static const std::vector<Key> keys{
-      {"body.size.length", "", "M", "m", "", NumberValue{[](SimulationScene& s) -> double& { return s.body.size.x(); }, range}},
-      {"body.size.width", "", "M", "m", "", NumberValue{[](SimulationScene& s) -> double& { return s.body.size.y(); }, range}},
-      {"body.size.thickness", "", "M", "m", "",
-       NumberValue{[](SimulationScene& s) -> double& { return s.body.size.z(); }, range}}};
+      {"body.size.length", Use::both, "", "M", "m", "", NumberValue{[](Scene& s) -> double& { return s.body.size.x(); }, range}},
+      {"body.size.width", Use::both, "", "M", "m", "", NumberValue{[](Scene& s) -> double& { return s.body.size.y(); }, range}},
+      {"body.size.thickness", Use::both, "", "M", "m", "",
+       NumberValue{[](Scene& s) -> double& { return s.body.size.z(); }, range}}};
   return keys;
 }
 
@@ -135,7 +135,7 @@ void make_room(SceneValues& values, const std::vector<Setting>& settings) {
   for (const char* key : {".from", ".to", ".step"}) values.drop(std::string("sweep.sliding_friction") + key);
 }
 
-void put_both_frictions(SimulationScene& scene, double value) {
+void put_both_frictions(Scene& scene, double value) {
   scene.ground.static_friction = scene.ground.sliding_friction = value;
 }
 
@@ -156,8 +156,8 @@ void read_scene(const SweepRequest& request, const std::vector<Setting>& setting
                 SweepPlan& plan) {
   make_room(values, settings);
   plan.model = read_model(request, values, settings);
-  plan.scene = read_simulation_scene(values, overrides_at(values, settings, &SweepAxis::first), plan.model);
-  static_cast<void>(read_simulation_scene(values, overrides_at(values, settings, &SweepAxis::last), plan.model));
+  plan.scene = read_scene(values, overrides_at(values, settings, &SweepAxis::first), plan.model);
+  static_cast<void>(read_scene(values, overrides_at(values, settings, &SweepAxis::last), plan.model));
   if (plan.scene.sweep) {
     throw BadInput(
         fmt::format("{}: sweep: must be left out here; give --set drop.angle_deg=FROM:TO:STEP", request.file));
@@ -191,7 +191,7 @@ void choose_setters(const SceneValues& values, const std::vector<Setting>& setti
     if (!setting.axis) continue;
     if (setting.number->is_of_body()) plan.body_axes.push_back(plan.put.size());
     if (is_both_frictions(setting, values, settings)) plan.put.emplace_back(put_both_frictions);
-    else plan.put.emplace_back([key = setting.number](SimulationScene& scene, double value) { key->put_number(scene, value); });
+    else plan.put.emplace_back([key = setting.number](Scene& scene, double value) { key->put_number(scene, value); });
   }
 }
 
@@ -199,7 +199,7 @@ void choose_setters(const SceneValues& values, const std::vector<Setting>& setti
 
 SweepPlan read_sweep_plan(const SweepRequest& request) {
   SweepPlan plan;
-  SceneValues values = read_scene_values(request.file);
+  SceneValues values = scene_values(request.file);
   std::vector<std::string> sets = request.sets;
   if (request.no_errors) sets.emplace_back("run.errors=false");
   if (request.require_digits) sets.emplace_back("run.require_digits=true");

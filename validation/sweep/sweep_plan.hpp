@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "validation/scene/keys.hpp"
-#include "validation/scene/simulation_scene.hpp"
+#include "validation/scene/scene.hpp"
 #include "validation/sweep/grid.hpp"
 
 namespace clatter::validation {
@@ -24,12 +24,12 @@ struct SweepRequest {
 enum class RowKind { scene, impact };
 
 struct SweepPlan {
-  SimulationScene scene;  ///< the swept keys have their first values
+  Scene scene;  ///< the swept keys have their first values
   Model model = Model::discrete;
   RowKind rows = RowKind::scene;
   SweepPoints points;
   /// What puts the value of each axis into a scene.
-  std::vector<std::function<void(SimulationScene&, double)>> put;
+  std::vector<std::function<void(Scene&, double)>> put;
   /// Axes that make the body another one.
   std::vector<std::size_t> body_axes;
   /// How it was asked for: the values set, and how many scenes there are.

@@ -42,7 +42,7 @@ std::string without_truth(const Truth& truth) {
   return "the reference run has no impact that can be trusted" + why;
 }
 
-std::string shortfall_of(const Truth& truth, const SimulationScene& scene) {
+std::string shortfall_of(const Truth& truth, const Scene& scene) {
   if (!truth.cut_short.empty()) {
     return fmt::format("{} of {} impacts have a reference: {}", truth.rows.size(), scene.options.impacts,
                        truth.cut_short);
@@ -55,7 +55,7 @@ std::string shortfall_of(const Truth& truth, const SimulationScene& scene) {
 /// The bench: the scene, its truth, and the points so far.
 class Bench {
  public:
-  Bench(const SimulationScene& scene, const TradeoffOptions& options)
+  Bench(const Scene& scene, const TradeoffOptions& options)
       : ladder_(limited(scene)), options_(options), truth_(true_values(ladder_)) {
     if (truth_.rows.empty()) throw numeric::NumericalError(without_truth(truth_));
     result_.impacts = impacts();
@@ -131,7 +131,7 @@ class Bench {
   /// Other meshes of the same body: a rod's sectors change its shape, a box's elements only its cost.
   void add_meshes() {
     for (const int factor : mesh_factors) {
-      SimulationScene scene = ladder_.scene();
+      Scene scene = ladder_.scene();
       std::string mesh;
       if (scene.body.shape == BodyScene::Shape::rod) {
         scene.body.sectors = 8 * factor;
@@ -168,7 +168,7 @@ class Bench {
 
 double trade_tolerance(int index) { return std::max(std::pow(10.0, -1 - index), numeric::least_tolerance); }
 
-Tradeoff measure_tradeoff(const SimulationScene& scene, const TradeoffOptions& options) {
+Tradeoff measure_tradeoff(const Scene& scene, const TradeoffOptions& options) {
   return Bench(scene, options).run();
 }
 

@@ -47,6 +47,6 @@ inline constexpr int tolerance_count = 13;
 /// paper's over eleven steps, and over mesh densities.  True values: see true_values().
 /// Methods that fail are points with their reason.
 /// @throws numeric::NumericalError if the scene has no impact with a reference that can be trusted.
-[[nodiscard]] Tradeoff measure_tradeoff(const SimulationScene& scene, const TradeoffOptions& options);
+[[nodiscard]] Tradeoff measure_tradeoff(const Scene& scene, const TradeoffOptions& options);
 
 }  // namespace clatter::validation

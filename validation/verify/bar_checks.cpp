@@ -51,7 +51,7 @@ class BarSample {
 };
 
 /// The same drop by another method, at a tolerance that is as good as none.
-numeric::Simulation truth_of(const SimulationScene& scene, const numeric::Body& body) {
+numeric::Simulation truth_of(const Scene& scene, const numeric::Body& body) {
   numeric::Options options = scene.options;
   options.method = numeric::Method::rkf45;
   options.tolerance = 2e-13;
@@ -63,7 +63,7 @@ Measured bars_of_the_simulator(Laboratory& laboratory) {
   BarSample sample;
   for (int index = 0; index < scene_count; ++index) {
     if (!laboratory.goes_on()) throw Laboratory::Interrupted{};
-    SimulationScene scene = random_scene(family, index);
+    Scene scene = random_scene(family, index);
     scene.options.digits = 9;
     scene.options.impacts = 2;
     scene.options.evaluation_limit = 300'000;  // soft grounds may hold a body for thousands of oscillations

@@ -171,7 +171,7 @@ Measured energy_ledger(Laboratory& laboratory) {
 
 /// Change of the end state from step to step of the paper's method.
 Measured runge_kutta_order(Laboratory&) {
-  SimulationScene scene = laboratory_scene("phone-damped", {.impacts = 1});
+  Scene scene = laboratory_scene("phone-damped", {.impacts = 1});
   scene.options.method = numeric::Method::tvd_rk3;
   const numeric::Body body = scene.make_body();
   const auto velocity = [&](double step) {
@@ -220,13 +220,13 @@ Measured hydrostatic_force(Laboratory&) {
 Measured contact_time_powers(Laboratory&) {
   double worst = 0;
   std::string found;
-  const auto power = [&](const SimulationScene& scene, double exact, const char* what) {
+  const auto power = [&](const Scene& scene, double exact, const char* what) {
     const double measured = stiff_limit(scene, scene.make_body(), 1).power;
     worst = std::max(worst, std::fabs(measured - exact));
     found += fmt::format("{}{} {}", found.empty() ? "" : ", ", what, significant(measured, 5));
     return measured;
   };
-  SimulationScene flat = laboratory_scene("phone-elastic", {.impacts = 1});
+  Scene flat = laboratory_scene("phone-elastic", {.impacts = 1});
   flat.angle_deg = 0;
   power(flat, 1.0 / 2, "face");
   power(laboratory_scene("phone-elastic", {.impacts = 1}), 1.0 / 3, "edge");

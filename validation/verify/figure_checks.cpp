@@ -65,7 +65,7 @@ Measured figure_8(Laboratory& laboratory) {
 
 /// ½mV² + ½IΩ² after the impact is ½mv² before it: from the velocities alone.
 Measured figure_14(Laboratory& laboratory) {
-  const SimulationScene scene = laboratory_scene("rod-sweep", {});
+  const Scene scene = laboratory_scene("rod-sweep", {});
   const numeric::Body body = scene.make_body();
   double worst = 0, least = 1;
   for (const SweptSimulation& swept : laboratory.sweep("rod-sweep")) {
@@ -80,7 +80,7 @@ Measured figure_14(Laboratory& laboratory) {
 
 /// What friction dissipates is what the velocities lack.
 Measured figure_15(Laboratory& laboratory) {
-  const SimulationScene scene = laboratory_scene("rod-friction-sweep", {});
+  const Scene scene = laboratory_scene("rod-friction-sweep", {});
   const numeric::Body body = scene.make_body();
   double worst = 0, most = 0;
   for (const SweptSimulation& swept : laboratory.sweep("rod-friction-sweep")) {
@@ -137,7 +137,7 @@ Measured figure_19(Laboratory& laboratory) {
 }
 
 /// m (V_z − v_z) = Σ P_n − m g t at the end of the last impact: the normal impulses are those that stop the fall.
-Measured momentum_balance(const SimulationScene& scene, const Simulation& run) {
+Measured momentum_balance(const Scene& scene, const Simulation& run) {
   const numeric::Body body = scene.make_body();
   const ImpactNumbers& last = run.impacts.back().value;
   const double before = scene.start(body).velocity.z();
@@ -168,7 +168,7 @@ Measured figure_22(Laboratory& laboratory) {
 }
 
 Measured figure_24(Laboratory& laboratory) {
-  SimulationScene scene = laboratory_scene("phone-sweep", {});
+  Scene scene = laboratory_scene("phone-sweep", {});
   double worst = 0, most = 0;
   for (const SweptSimulation& swept : laboratory.sweep("phone-sweep")) {
     worst = std::max(worst, momentum_balance(scene.at(swept.value), swept.run).error);

@@ -24,8 +24,8 @@ std::string RunOptions::key() const {
   return fmt::format("{}/{}/{}/{}/{}", digits, impacts, planar, static_cast<int>(method), static_cast<int>(area));
 }
 
-SimulationScene laboratory_scene(const std::string& name, const RunOptions& options) {
-  SimulationScene scene = case_scene(name);
+Scene laboratory_scene(const std::string& name, const RunOptions& options) {
+  Scene scene = case_scene(name);
   if (options.digits > 0) scene.options.digits = options.digits;
   if (options.impacts > 0) scene.options.impacts = options.impacts;
   if (options.planar) scene.options.planar = true;
@@ -50,7 +50,7 @@ const Result& Laboratory::once(Shelf<Result>& shelf, const std::string& key, con
 
 const numeric::Simulation& Laboratory::run(const std::string& name, const RunOptions& options) {
   return once<numeric::Simulation>(runs_, name + options.key(), [&] {
-    const SimulationScene scene = laboratory_scene(name, options);
+    const Scene scene = laboratory_scene(name, options);
     const numeric::Body body = scene.make_body();
     return numeric::simulate(body, scene.ground, scene.start(body), scene.options);
   });
@@ -58,7 +58,7 @@ const numeric::Simulation& Laboratory::run(const std::string& name, const RunOpt
 
 const RecordedRun& Laboratory::history(const std::string& name, const RunOptions& options) {
   return once<RecordedRun>(histories_, name + options.key(), [&] {
-    SimulationScene scene = laboratory_scene(name, options);
+    Scene scene = laboratory_scene(name, options);
     const numeric::Body body = scene.make_body();
     RecordedRun recorded;
     SampleList list(recorded.samples);
@@ -72,12 +72,12 @@ const RecordedRun& Laboratory::history(const std::string& name, const RunOptions
 
 const std::vector<SweptSimulation>& Laboratory::sweep(const std::string& name, const RunOptions& options) {
   return once<std::vector<SweptSimulation>>(sweeps_, name + options.key(), [&] {
-    SimulationScene scene = laboratory_scene(name, options);
+    Scene scene = laboratory_scene(name, options);
     scene.options.amplification = false;
     const numeric::Body body = scene.make_body();
     std::vector<SweptSimulation> swept;
     for (const double value : scene.sweep->values()) {
-      const SimulationScene one = scene.at(value);
+      const Scene one = scene.at(value);
       swept.push_back({value, numeric::simulate(body, one.ground, one.start(body), one.options)});
     }
     return swept;
@@ -86,7 +86,7 @@ const std::vector<SweptSimulation>& Laboratory::sweep(const std::string& name, c
 
 const Comparison& Laboratory::comparison(const std::string& name, int impacts) {
   return once<Comparison>(comparisons_, fmt::format("{}/{}", name, impacts), [&] {
-    SimulationScene scene = laboratory_scene(name, {});
+    Scene scene = laboratory_scene(name, {});
     if (impacts > 0) scene.options.impacts = impacts;
     return compare_models(scene, scene.make_body());
   });
@@ -94,7 +94,7 @@ const Comparison& Laboratory::comparison(const std::string& name, int impacts) {
 
 const std::vector<Laboratory::SweptComparison>& Laboratory::swept_comparison(const std::string& name) {
   return once<std::vector<SweptComparison>>(swept_comparisons_, name, [&] {
-    const SimulationScene scene = laboratory_scene(name, {});
+    const Scene scene = laboratory_scene(name, {});
     const numeric::Body body = scene.make_body();
     std::vector<SweptComparison> swept;
     for (const double value : scene.sweep->values()) swept.push_back({value, compare_models(scene.at(value), body)});

@@ -10,7 +10,7 @@
 
 #include "numeric/simulate.hpp"
 #include "validation/compare/comparison.hpp"
-#include "validation/scene/simulation_scene.hpp"
+#include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
 
@@ -76,6 +76,6 @@ class Laboratory {
 };
 
 /// The case's scene with the options put in.
-[[nodiscard]] SimulationScene laboratory_scene(const std::string& name, const RunOptions& options);
+[[nodiscard]] Scene laboratory_scene(const std::string& name, const RunOptions& options);
 
 }  // namespace clatter::validation

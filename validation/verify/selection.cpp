@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "validation/scene/bad_input.hpp"
-#include "validation/scene/scene.hpp"
+#include "validation/scene/option_values.hpp"
 
 namespace clatter::validation {
 

@@ -14,6 +14,7 @@
 #include "validation/cli/sequence_report.hpp"
 #include "validation/plan/sequence_method.hpp"
 #include "validation/scene/bad_input.hpp"
+#include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/named_texts.hpp"
 
 namespace clatter::python {
@@ -30,7 +31,7 @@ struct DiscreteRun {
 };
 
 Report sequence(const Given& given, const std::string& method) {
-  const Scene scene = validation::read_scene(validation::scene_texts(given));
+  const Scene scene = validation::read_discrete_scene(validation::scene_values(""), validation::scene_overrides(given));
   const py::gil_scoped_release release;
   const auto run = std::make_shared<const DiscreteRun>(
       DiscreteRun{scene, validation::sequence_by_method(scene, validation::read_sequence_method(method))});

@@ -4,7 +4,7 @@
 #include <pybind11/stl.h>
 
 #include "validation/output/html.hpp"
-#include "validation/scene/scene.hpp"
+#include "validation/scene/option_values.hpp"
 
 namespace clatter::python {
 namespace {

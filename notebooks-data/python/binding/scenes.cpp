@@ -21,16 +21,16 @@ namespace {
 namespace py = pybind11;
 using validation::NamedTexts;
 using validation::PlannedRun;
-using validation::SimulationScene;
+using validation::Scene;
 
 /// `text`: the scene file's content, `name` what messages call it; without a text the file `name` is read.
-SimulationScene read_scene(const std::string& name, const std::optional<std::string>& text, const NamedTexts& given) {
+Scene read_scene(const std::string& name, const std::optional<std::string>& text, const NamedTexts& given) {
   const validation::SceneValues values =
-      text ? validation::SceneValues(name, *text, validation::scene_keys()) : validation::read_scene_values(name);
-  return read_simulation_scene(values, validation::scene_overrides(given), validation::Model::continuous);
+      text ? validation::SceneValues(name, *text, validation::scene_keys()) : validation::scene_values(name);
+  return read_scene(values, validation::scene_overrides(given), validation::Model::continuous);
 }
 
-PlannedRun run_scene(const SimulationScene& scene, const std::function<bool()>& goes_on,
+PlannedRun run_scene(const Scene& scene, const std::function<bool()>& goes_on,
                      numeric::HistoryRecorder* history) {
   const numeric::Body body = scene.make_body();
   numeric::Options options = scene.options;
@@ -42,27 +42,27 @@ PlannedRun run_scene(const SimulationScene& scene, const std::function<bool()>& 
 }
 
 struct ContinuousRun {
-  SimulationScene scene;
+  Scene scene;
   PlannedRun planned;
 };
 
 struct SweptRuns {
-  SimulationScene scene;
+  Scene scene;
   std::vector<validation::SweptRun> runs;
 };
 
-Report single_report(SimulationScene scene, PlannedRun planned) {
+Report single_report(Scene scene, PlannedRun planned) {
   const auto run = std::make_shared<const ContinuousRun>(ContinuousRun{std::move(scene), std::move(planned)});
   return {.json = [run] { return validation::simulation_json(run->scene, run->planned); },
           .table = [run] { return validation::simulation_table(run->scene, run->planned); },
           .records = [run] { return validation::simulation_records(run->scene, run->planned); }};
 }
 
-Report swept_report(const SimulationScene& scene, const std::function<bool()>& goes_on) {
+Report swept_report(const Scene& scene, const std::function<bool()>& goes_on) {
   SweptRuns swept{scene, {}};
   for (const double value : scene.sweep->values()) {
     if (!goes_on()) break;
-    const SimulationScene one = scene.at(value);
+    const Scene one = scene.at(value);
     swept.runs.push_back({value, one, run_scene(one, goes_on, nullptr)});
   }
   const auto run = std::make_shared<const SweptRuns>(std::move(swept));
@@ -74,7 +74,7 @@ Report swept_report(const SimulationScene& scene, const std::function<bool()>& g
 /// (report, history or None)
 py::tuple simulate(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes,
                    bool with_history) {
-  const SimulationScene scene = read_scene(name, text, changes);
+  const Scene scene = read_scene(name, text, changes);
   History history;
   Report report = run_interruptible([&](const std::function<bool()>& goes_on) {
     if (scene.sweep) return swept_report(scene, goes_on);
@@ -84,12 +84,12 @@ py::tuple simulate(const std::string& name, const std::optional<std::string>& te
 }
 
 struct ComparedScene {
-  SimulationScene scene;
+  Scene scene;
   std::vector<validation::SweptComparison> values;  ///< one, or one per swept value
 };
 
 Report compare(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes) {
-  const SimulationScene scene = read_scene(name, text, changes);
+  const Scene scene = read_scene(name, text, changes);
   ComparedScene compared{scene, {}};
   run_interruptible([&](const std::function<bool()>& goes_on) {
     const numeric::Body body = scene.make_body();

@@ -1,4 +1,4 @@
-#include "validation/compare/discrete_scene.hpp"
+#include "validation/scene/discrete_scene.hpp"
 
 #include <fmt/format.h>
 
@@ -67,23 +67,6 @@ void require_symmetric(const numeric::Body& body, const std::vector<Vertex>& cor
   }
 }
 
-analytic::ImpactLaw impact_law(const DiscreteImpact& impact) {
-  using analytic::RestitutionLaw;
-  analytic::ImpactLaw law{.restitution = impact.restitution};
-  for (const RestitutionLaw one : {RestitutionLaw::newton, RestitutionLaw::poisson, RestitutionLaw::stronge}) {
-    if (impact.law == law_name(one)) law.law = one;
-  }
-  if (impact.impulse_ratio) {
-    law.friction = analytic::FrictionKind::impulse_ratio;
-    law.friction_value = *impact.impulse_ratio;
-  }
-  if (impact.friction) {
-    law.friction = analytic::FrictionKind::coulomb;
-    law.friction_value = *impact.friction;
-  }
-  return law;
-}
-
 /// Downward speed at the touch, of a centre of mass that fell from `height`.
 double fallen_speed(double height, double gravity, const analytic::PlanarBody& body,
                     const analytic::Angle& inclination) {
@@ -118,7 +101,7 @@ analytic::PlanarBody planar_body(const numeric::Body& body) {
   return planar;
 }
 
-analytic::Drop discrete_drop(const SimulationScene& scene, const numeric::Body& body) {
+analytic::Drop discrete_drop(const Scene& scene, const numeric::Body& body) {
   if (scene.tilt_deg != 0) outside("drop.tilt_deg turns the body out of it");
   const numeric::Ground& ground = scene.ground;
   if (ground.has_friction() && ground.friction == numeric::FrictionLaw::regularised) {
@@ -138,7 +121,7 @@ analytic::Drop discrete_drop(const SimulationScene& scene, const numeric::Body& 
           .law = law};
 }
 
-analytic::PlanarBody nominal_body(const SimulationScene& scene) {
+analytic::PlanarBody nominal_body(const Scene& scene) {
   const BodyScene& body = scene.body;
   switch (body.shape) {
     case BodyScene::Shape::rod:
@@ -151,7 +134,21 @@ analytic::PlanarBody nominal_body(const SimulationScene& scene) {
   return planar_body(scene.make_body());
 }
 
-analytic::Drop impact_drop(const SimulationScene& scene, const analytic::PlanarBody& body) {
+analytic::ImpactLaw impact_law(const Scene& scene) {
+  const DiscreteImpact& impact = scene.impact;
+  analytic::ImpactLaw law{.restitution = impact.restitution, .law = impact.law};
+  if (impact.impulse_ratio) {
+    law.friction = analytic::FrictionKind::impulse_ratio;
+    law.friction_value = *impact.impulse_ratio;
+  }
+  if (impact.friction) {
+    law.friction = analytic::FrictionKind::coulomb;
+    law.friction_value = *impact.friction;
+  }
+  return law;
+}
+
+analytic::Drop impact_drop(const Scene& scene, const analytic::PlanarBody& body) {
   if (scene.tilt_deg != 0) outside("drop.tilt_deg turns the body out of it");
   const analytic::Angle inclination = analytic::Angle::from_degrees(scene.angle_deg);
   const double gravity = scene.options.gravity;
@@ -160,7 +157,18 @@ analytic::Drop impact_drop(const SimulationScene& scene, const analytic::PlanarB
           .inclination = inclination,
           .velocity = {.normal = -speed, .tangential = scene.tangential_velocity, .angular = scene.spin},
           .gravity = gravity,
-          .law = impact_law(scene.impact)};
+          .law = impact_law(scene)};
+}
+
+analytic::Drop impact_drop(const Scene& scene) { return impact_drop(scene, nominal_body(scene)); }
+
+Scene read_discrete_scene(const SceneValues& values, const std::vector<SceneOverride>& overrides) {
+  Scene scene = read_scene(values, overrides, Model::discrete);
+  if (scene.sweep && scene.sweep->quantity == SceneSweep::Quantity::angle_deg) {
+    throw BadInput(fmt::format("{}: sweep.angle_deg: must be left out here; give --angle", values.path()));
+  }
+  if (scene.height) scene.speed = -impact_drop(scene).velocity.normal;
+  return scene;
 }
 
 }  // namespace clatter::validation

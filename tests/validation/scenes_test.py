@@ -1,0 +1,159 @@
+#!/usr/bin/python3
+"""One language of scenes for every command: files, cases and flags alone; what clatter keys and clatter init say of it."""
+
+import json
+import os
+import re
+import unittest
+
+from run_folder import CASES, Folder
+
+FORMS = {"sequence": [], "explain": ["2"], "simulate": [], "compare": [], "plan": ["--digits", "3"]}
+DISCRETE = ("sequence", "explain")
+
+
+def leaves(scene, prefix=""):
+    """Dotted keys and their values, lists whole."""
+    for name, value in scene.items():
+        key = f"{prefix}{name}"
+        if isinstance(value, dict):
+            yield from leaves(value, key + ".")
+        else:
+            yield key, value
+
+
+class Sources(Folder):
+    def json_of(self, command, *arguments):
+        done = self.run_program(command, *FORMS[command], *arguments, "--impacts", "2", "--format", "json")
+        self.assertIn(done.returncode, (0, 3), (command, arguments, done.stderr))
+        return json.loads(done.stdout)
+
+    def flags_of(self, scene):
+        """The flags that say what the echo of a scene says."""
+        flags = {key["key"]: key["flag"] for key in json.loads(self.run_program("keys", "--format", "json").stdout)["keys"]}
+        words = []
+        for key, value in leaves(scene):
+            flag = flags.get(key)
+            if flag is None or value is None or isinstance(value, bool) or key in ("run.digits", "run.impacts", "run.method"):
+                continue
+            if key == "impact.impulse_ratio" and value == 0:  # so an echo says that there is no friction
+                continue
+            if key == "drop.speed" and scene["drop"]["height"] is not None:
+                continue
+            text = "x".join(map(repr, value)) if isinstance(value, list) else str(value)
+            words.append(f"{flag}={text}")
+        return words
+
+    def test_every_command_takes_a_file_the_name_of_a_case_and_flags_alone(self):
+        with open(os.path.join(CASES, "phone-damped.toml"), encoding="utf-8") as file:
+            self.write("mine.toml", file.read())
+        for command in FORMS:
+            with self.subTest(command):
+                case = self.json_of(command, "phone-damped")
+                file = self.json_of(command, "mine.toml")
+                self.assertEqual(case["scene"].pop("file"), "validation/cases/phone-damped.toml")
+                self.assertEqual(file["scene"].pop("file"), "mine.toml")
+                flags = self.json_of(command, *self.flags_of(case["scene"]))
+                self.assertNotIn("file", flags["scene"])
+                for run in (case, file, flags):
+                    run.pop("times", None)
+                if command == "plan":  # what a run takes is measured
+                    self.assertEqual(case["scene"], flags["scene"])
+                    continue
+                self.assertEqual(case, file)
+                self.assertEqual(case, flags)
+
+    def test_a_flag_takes_the_place_of_the_key_in_either_form(self):
+        for command in ("sequence", "simulate"):
+            scene = self.json_of(command, "phone-damped", "--angle", "33.5")["scene"]
+            self.assertEqual(scene["drop"]["angle_deg"], 33.5)
+
+    def test_a_name_that_is_neither_a_file_nor_a_case_gets_the_nearest_case(self):
+        for command in FORMS:
+            self.refused("phone-dampd: neither a file nor a case; did you mean phone-damped?", command, *FORMS[command], "phone-dampd")
+
+    def test_a_file_comes_before_a_case_of_the_same_name(self):
+        self.write("phone-damped", "[drop]\nangle_deg = 7\n")
+        self.assertEqual(self.json_of("sequence", "phone-damped")["scene"]["drop"]["angle_deg"], 7)
+
+    def test_what_flags_alone_lack_is_named_by_its_flag(self):
+        self.refused("--angle: required", "sequence")
+        self.refused("--angle: required", "simulate", "--stiffness", "1e9")
+        self.refused("--stiffness: required", "simulate", "--angle", "10")
+        self.refused("--size: required", "sequence", "--angle", "10", "--body", "box")
+
+    def test_flags_alone_have_no_gravity_and_for_the_discrete_model_a_thin_rod(self):
+        scene = self.json_of("sequence", "--angle", "10")["scene"]
+        self.assertEqual((scene["world"]["gravity"], scene["body"]["radius"]), (0, 0))
+        scene = self.json_of("simulate", "--angle", "10", "--stiffness", "1e9")["scene"]
+        self.assertEqual((scene["world"]["gravity"], scene["body"]["radius"]), (0, 0.01))
+
+    def test_the_discrete_model_refuses_a_file_that_sweeps_its_angle_unless_one_is_given(self):
+        self.write("swept.toml", "[body]\nshape = 'box'\nsize = [1, 0.1, 0.1]\n[sweep]\nangle_deg = { from = 10, to = 20, step = 5 }\n")
+        self.refused("give --angle", "sequence", "swept.toml")
+        self.assertEqual(self.json_of("sequence", "swept.toml", "--angle", "12")["scene"]["drop"]["angle_deg"], 12)
+
+
+class Keys(Folder):
+    def keys(self):
+        return json.loads(self.run_program("keys", "--format", "json").stdout)["keys"]
+
+    def test_every_key_of_an_echo_is_a_row(self):
+        names = {key["key"] for key in self.keys()}
+        for case in ("phone-damped", "rod-10"):
+            scene = json.loads(self.run_program("simulate", case, "--impacts", "1", "--format", "json").stdout)["scene"]
+            self.assertLessEqual({key for key, _ in leaves(scene)} - {"file"}, names)
+
+    def test_every_flag_of_simulate_that_is_a_key_s_is_in_its_help(self):
+        for command in ("sequence", "simulate", "compare"):
+            text = self.run_program(command, "--help").stdout
+            for key in self.keys():
+                if key["flag"] and not (command == "sequence" and key["flag"] not in text):
+                    self.assertIn(key["flag"] + " ", text + " ", command)
+
+    def test_the_text_fits_80_columns_and_has_a_default_or_says_required(self):
+        text = self.run_program("keys").stdout
+        self.assertLessEqual(max(map(len, text.splitlines())), 80)
+        self.assertIn("drop.angle_deg  --angle  (required)", text)
+        self.assertIn("world.gravity  --gravity  (9.81)", text)
+
+    def test_every_format_has_every_key(self):
+        for form in ("csv", "markdown", "latex"):
+            text = self.run_program("keys", "--format", form).stdout.replace("\\_", "_")
+            for key in self.keys():
+                self.assertIn(key["key"], text, form)
+
+
+class Init(Folder):
+    def test_the_file_runs_with_either_model(self):
+        self.assertEqual(self.run_program("init", "--output", "new.toml").returncode, 0)
+        for command in ("simulate", "sequence", "compare"):
+            done = self.run_program(command, "new.toml", "--impacts", "1", "--digits", "3", "--format", "json")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(json.loads(done.stdout)["scene"]["drop"]["angle_deg"], 10)
+
+    def test_every_line_that_is_a_comment_is_a_setting_of_a_key_that_is_known(self):
+        text = self.run_program("init").stdout
+        lines = re.findall(r"^# ([a-z_.]+ = .*)$", text, re.MULTILINE)
+        self.assertGreater(len(lines), 10)
+        for line in lines:
+            self.write("one.toml", text.replace("# " + line, line))
+            said = self.run_program("simulate", "one.toml", "--impacts", "1", "--digits", "3").stderr
+            self.assertNotIn("unknown", said, line)
+            self.assertNotIn("error while parsing", said.lower(), line)
+
+    def test_each_key_has_its_line(self):
+        text = self.run_program("init").stdout
+        keys = json.loads(self.run_program("keys", "--format", "json").stdout)["keys"]
+        table = ""
+        found = set()
+        for line in text.splitlines():
+            if header := re.fullmatch(r"\[(\w+)\]", line):
+                table = header.group(1)
+            if setting := re.match(r"(?:# )?([a-z_.]+) = ", line):
+                found.add(f"{table}.{setting.group(1)}")
+        self.assertEqual(found, {key["key"] for key in keys})
+
+
+if __name__ == "__main__":
+    unittest.main()

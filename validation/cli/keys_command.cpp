@@ -1,0 +1,145 @@
+// `clatter keys` and `clatter init`: the language of scenes, and a scene file to begin with.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "validation/cli/commands.hpp"
+#include "validation/cli/options.hpp"
+#include "validation/cli/version.hpp"
+#include "validation/output/number.hpp"
+#include "validation/scene/keys.hpp"
+
+namespace clatter::validation {
+namespace {
+
+/// A scene of the shape, with what each needs to be run.
+Scene begun_scene(BodyScene::Shape shape) {
+  Scene scene;
+  scene.angle_deg = 10;
+  scene.options.gravity = 9.81;
+  scene.ground.stiffness = 1e9;
+  scene.body.shape = shape;
+  return scene;
+}
+
+std::string value_words(const Json& value) {
+  return value.is_number_float() ? shortest(value.get<double>()) : value.dump();
+}
+
+/// "required", or the value that a scene file has without the key; empty: none.
+std::string default_words(const Key& key) {
+  if (key.is_required) return "required";
+  if (std::holds_alternative<ListValue>(key.value)) return "";
+  for (const auto shape : {BodyScene::Shape::rod, BodyScene::Shape::box, BodyScene::Shape::mesh}) {
+    const Json value = key.get(begun_scene(shape));
+    if (!value.is_null() && value != Json("")) return value_words(value);
+  }
+  return "";
+}
+
+std::string meaning(const Key& key) {
+  const std::string unit = *key.unit == '\0' ? "" : fmt::format(" [{}]", key.unit);
+  return fmt::format("{}{}; {}", key.help, unit, key.allowed());
+}
+
+Table keys_table() {
+  Table table{.head = {headline("keys", "the language of scenes")},
+              .columns = {{"key", "key", "", true, true}, {"flag", "flag", "", true, true},
+                          {"default", "default", "", true, true}, {"unit", "unit", "", true, true},
+                          {"allowed", "allowed", "", true, true}, {"meaning", "meaning", "", true, true}},
+              .rows = {},
+              .notes = {}};
+  for (const Key& key : all_keys()) {
+    table.rows.push_back({std::string(key.name), std::string(key.flag), default_words(key), std::string(key.unit),
+                          key.allowed(), std::string(key.help)});
+  }
+  return table;
+}
+
+Json keys_as_json() {
+  Json keys = Json::array();
+  for (const Key& key : all_keys()) {
+    keys.push_back({{"key", key.name}, {"flag", *key.flag ? Json(key.flag) : Json(nullptr)}, {"default", default_words(key)},
+                    {"unit", key.unit}, {"allowed", key.allowed()}, {"meaning", key.help}});
+  }
+  return {{"clatter", version}, {"keys", keys}};
+}
+
+/// Two lines a key, since a table of all columns is wider than a terminal.
+std::string keys_text(bool ascii) {
+  std::string text = headline("keys", "the language of scenes: keys of files, flags of commands") + "\n";
+  for (const Key& key : all_keys()) {
+    const std::string given = default_words(key);
+    text += fmt::format("\n{}{}{}\n", key.name, *key.flag ? fmt::format("  {}", key.flag) : "",
+                        given.empty() ? "" : given == "required" ? "  (required)" : fmt::format("  ({})", given));
+    text += wrapped("    " + meaning(key), 79, "    ") + "\n";
+  }
+  return ascii ? to_ascii(text) : text;
+}
+
+/// A value to begin with, for a key that has none by itself.
+std::string example(const Key& key) {
+  if (const auto* list = std::get_if<ListValue>(&key.value)) {
+    std::string ones = "1";
+    for (std::size_t i = 1; i < list->sizes.front(); ++i) ones += ", 1";
+    return fmt::format("[{}]", ones);
+  }
+  if (std::holds_alternative<TextValue>(key.value)) return "\"name\"";
+  return std::holds_alternative<NumberValue>(key.value) ? "1e-6" : "1";
+}
+
+/// A scene file with every key: those of the rod are given, the others are comments.
+std::string scene_file() {
+  const Scene scene = begun_scene(BodyScene::Shape::rod);
+  std::string text = "# A scene: clatter simulate FILE, sequence FILE, compare FILE.  clatter keys explains the keys.\n";
+  std::string table;
+  for (const Key& key : all_keys()) {
+    const std::string name = key.name;
+    const std::size_t dot = name.find('.');
+    if (name.substr(0, dot) != table) {
+      table = name.substr(0, dot);
+      text += fmt::format("\n[{}]\n", table);
+    }
+    const Json value = key.get(scene);
+    const std::string setting =
+        fmt::format("{}{} = {}", value.is_null() ? "# " : "", name.substr(dot + 1), value.is_null() ? example(key) : value_words(value));
+    text += fmt::format("{:<34} # {}\n", setting, meaning(key));
+  }
+  return text;
+}
+
+int run_keys(const OutputTexts& texts) {
+  const OutputChoice choice = read_output(texts);
+  check_files(choice, {});
+  if (choice.style.format == Format::table) write_out(choice, keys_text(choice.style.ascii));
+  else write_report(choice, keys_as_json, keys_table, keys_table);
+  return 0;
+}
+
+}  // namespace
+
+Command keys_command() {
+  auto output = std::make_shared<OutputTexts>();
+  Command command{.name = "keys", .help = "every key of scenes, its flag and default"};
+  add_output_options(command, *output);
+  command.footer = "Example: clatter keys --format markdown";
+  command.run = [output] { return run_keys(*output); };
+  return command;
+}
+
+Command init_command() {
+  auto file = std::make_shared<std::optional<std::string>>();
+  Command command{.name = "init", .help = "a commented scene file to begin with"};
+  command.add_text("--output", *file, "FILE", "write there, whole or not at all");
+  command.footer = "Example: clatter init --output scene.toml";
+  command.run = [file] {
+    const OutputChoice choice{.style = {}, .path = file->value_or("")};
+    check_files(choice, {});
+    write_out(choice, scene_file());
+    return 0;
+  };
+  return command;
+}
+
+}  // namespace clatter::validation

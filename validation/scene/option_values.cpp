@@ -1,0 +1,36 @@
+#include "validation/scene/option_values.hpp"
+
+#include <fmt/format.h>
+
+#include "validation/output/number.hpp"
+#include "validation/scene/bad_input.hpp"
+
+namespace clatter::validation {
+
+double read_number_option(const std::string& option, const std::string& text, const Range& range) {
+  double value = 0;
+  const bool inside = read_number(text, value) && value >= range.low && value <= range.high &&
+                      !(range.low_open && value == range.low);
+  if (!inside) throw BadInput(fmt::format("{} '{}': must be {}", option, text, range.words));
+  return value;
+}
+
+int read_integer_option(const std::string& option, const std::string& text, int low, int high) {
+  long long value = 0;
+  if (!read_integer(text, value) || value < low || value > high) {
+    throw BadInput(
+        fmt::format("{} '{}': must be a whole number from {} to {}", option, text, low, high));
+  }
+  return static_cast<int>(value);
+}
+
+std::size_t read_name_option(const std::string& option, const std::string& text,
+                             const std::vector<std::string>& names) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == text) return i;
+  }
+  throw BadInput(fmt::format("{} '{}': must be one of {}; did you mean {}?", option, text,
+                             fmt::join(names, ", "), nearest_name(text, names)));
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,25 @@
+// The texts of options, read and checked one by one.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace clatter::validation {
+
+/// What a number may be.
+struct Range {
+  double low, high;
+  bool low_open = false;  ///< low itself is not allowed
+  const char* words;      ///< what is allowed, in words
+};
+
+/// @throws BadInput unless `text` is a finite number in `range`; `option` is as typed ("--angle").
+[[nodiscard]] double read_number_option(const std::string& option, const std::string& text,
+                                        const Range& range);
+[[nodiscard]] int read_integer_option(const std::string& option, const std::string& text, int low,
+                                      int high);
+/// Index of `text` among `names`.  @throws BadInput naming the nearest.
+[[nodiscard]] std::size_t read_name_option(const std::string& option, const std::string& text,
+                                           const std::vector<std::string>& names);
+
+}  // namespace clatter::validation
