@@ -68,9 +68,9 @@ class Run {
     try {
       go_on(lowest);
     } catch (const NumericalError& error) {
-      if (result_.rows.empty()) throw;
-      result_.outcome = Outcome::not_computed;
-      result_.message = error.what();
+      end_early(Outcome::not_computed, error);
+    } catch (const OutsideModelError& error) {
+      end_early(Outcome::outside_model, error);
     }
     result_.end_predictable = growth_ && growth_->predictable();
     if (growth_ && !growth_->predictable()) {
@@ -82,6 +82,13 @@ class Run {
   }
 
  private:
+  /// Called while the error is handled; the rows so far are kept.
+  void end_early(Outcome outcome, const std::exception& error) {
+    if (result_.rows.empty()) throw;
+    result_.outcome = outcome;
+    result_.message = error.what();
+  }
+
   void go_on(VertexSet arriving) {
     Flight flight;
     Departure departure;

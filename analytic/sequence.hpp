@@ -64,6 +64,7 @@ enum class Outcome {
   sustained_contact,  ///< a vertex stays on the ground (after infinitely many impacts, or with e = 0)
                       ///< while the body still turns: beyond the model
   not_computed,       ///< a number of the next flight or impact could not be had; the rows so far hold
+  outside_model,      ///< the next impact jams; the rows so far hold
 };
 
 /// The remaining impacts after the last row: infinitely many in a finite time.
@@ -106,9 +107,9 @@ struct Sequence {
 /// two in turn, accepted when its error meets `digits` (accumulation.hpp); there is no velocity threshold.
 /// Results scale exactly with powers of two of every unit.
 /// A number that cannot be had after the first impact (a flight so long that its end has no digit, say) ends the
-/// sequence as not_computed.
+/// sequence as not_computed, an impact after the first that jams as outside_model.
 /// @throws std::domain_error for a drop whose first contact does not approach the ground, or whose
-///         parameters are out of range; OutsideModelError for jamming; NumericalError if gravity, tangential
+///         parameters are out of range; OutsideModelError if the first impact jams; NumericalError if gravity, tangential
 ///         velocity or spin in units of the body's length and downward speed, or results in SI units, are beyond the
 ///         doubles, or the first impact cannot be computed.
 [[nodiscard]] Sequence impact_sequence(const Drop& drop, const SequenceOptions& options);

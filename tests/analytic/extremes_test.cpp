@@ -39,7 +39,7 @@ void run(const Drop& drop, Counts& counts) {
     if (s.tail) BOOST_REQUIRE(std::isfinite(s.tail->end_time) && std::isfinite(s.tail->normal_impulse));
     const bool ends_early = s.outcome == Outcome::not_computed;
     if (ends_early) require_reason(drop, s.message);
-    ++(ends_early ? counts.refusals : counts.results);
+    ++(ends_early || s.outcome == Outcome::outside_model ? counts.refusals : counts.results);
   } catch (const OutsideModelError&) {
     ++counts.refusals;
   } catch (const NumericalError& error) {

@@ -124,6 +124,8 @@ class TheSameBits(unittest.TestCase):
                              ({"gravity": 9.81, "as_printed": True, "restitution": 0.9}, ["--gravity", "9.81", "--as-printed", "--restitution", "0.9"])):
             with self.subTest(given=given):
                 rows = json.loads(printed("angles", *flags, "--format", "json"))["rows"]
+                for row in rows:
+                    del row["error_estimate"]  # the arrays are the numbers alone
                 result = clatter.angles(**given)
                 for name in rows[0]:
                     expected = np.array([np.nan if row[name] is None else row[name] for row in rows])

@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from decimal import Decimal
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from waiting import sizes, until  # noqa: E402
@@ -109,6 +110,24 @@ class BadInput(unittest.TestCase):
 
     def test_jamming_is_refused_by_name_with_status_4(self):
         self.assertIn("jamming", self.refuse("sequence", "--angle", "63.4", "--impulse-ratio", "1.5", status=4))
+
+    def test_rows_before_an_impact_that_jams_are_printed_with_status_4(self):
+        jammed = 0
+        for angle in range(5, 90, 5):
+            for ratio in ("-1.5", "1.5", "2.5", "-2.5"):
+                done = run("sequence", "--angle", str(angle), f"--impulse-ratio={ratio}", "--gravity", "9.81", "--restitution", "0.7",
+                           "--format", "json")
+                if done.returncode != 4 or not done.stdout:
+                    continue
+                data = json.loads(done.stdout)
+                jammed += 1
+                self.assertEqual(data["outcome"], "outside-model")
+                self.assertGreaterEqual(len(data["impacts"]), 1)
+                self.assertRegex(done.stderr.splitlines()[-1], "^clatter: outside-model: jamming")
+                number = str(len(data["impacts"]) + 1)
+                self.assertEqual(run("explain", number, "--angle", str(angle), f"--impulse-ratio={ratio}", "--gravity", "9.81",
+                                     "--restitution", "0.7").returncode, 4)
+        self.assertGreater(jammed, 0)
 
     def test_a_file_that_cannot_be_written_is_bad_input(self):
         for path in ["/nonexistent/folder/file", "/dev"]:
@@ -209,6 +228,28 @@ class Output(unittest.TestCase):
             for field in filter(None, line.split(",")):
                 digits = len(repr(float(field)).replace("-", "").replace(".", "").split("e")[0].strip("0"))
                 self.assertLessEqual(len(field.replace("-", "").replace(".", "").split("e")[0].strip("0")), digits)
+
+    def test_the_errors_of_angles_cover_those_against_30_digit_references_and_are_small(self):
+        folder = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "analytic", "reference")
+        compared = 0
+        for name in ("rod_sequence_no_gravity.csv", "rod_sequence_gravity.csv"):
+            with open(os.path.join(folder, name), encoding="utf-8") as file:
+                rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+            for exact in rows:
+                arguments = ["angles", "--from", exact["theta_deg"], "--count", "1", "--gravity-number", exact["G"]]
+                data = json.loads(run(*arguments, "--format", "json").stdout)["rows"][0]
+                lines = [line for line in run(*arguments, "--format", "csv").stdout.splitlines() if not line.startswith("#")]
+                record = next(csv.DictReader(lines))
+                for key in ("beta_deg", "gamma_deg", "P1", "P2", "P3", "V1", "Omega1", "V2", "Omega2", "V3", "Omega3", "T1", "T2"):
+                    if not exact[key] or data[key] is None:
+                        continue
+                    error = data["error_estimate"][key]
+                    self.assertEqual((float(record[key]), float(record[key + "_error"])), (data[key], error), (exact["theta_deg"], key))
+                    off = abs(Decimal(data[key]) - Decimal(exact[key]))
+                    self.assertLessEqual(off, Decimal(error), (exact["theta_deg"], exact["G"], key))
+                    self.assertLess(error, 1e-6, (exact["theta_deg"], exact["G"], key))
+                    compared += 1
+        self.assertGreater(compared, 500)
 
     def test_steps_give_clean_decimals_and_both_ends(self):
         lines = [l for l in run("angles", "--step", "0.1", "--format", "csv").stdout.splitlines() if l[0].isdigit()]

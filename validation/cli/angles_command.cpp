@@ -41,7 +41,7 @@ void show_progress(long long done, long long count) {
 /// Blocks of rows, two at a time on two threads, written in order.
 int write_csv(const AnglesRequest& request, const OutputChoice& choice) {
   Sink sink(choice.path);
-  Table frame = angles_frame(request);
+  Table frame = angles_csv_frame(request);
   const std::vector<std::string> notes = std::exchange(frame.notes, {});
   sink.write(table_text(frame, choice.style));
   const CooperativeInterrupt interrupt;

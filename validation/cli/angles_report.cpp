@@ -33,44 +33,21 @@ struct AnglesTexts {
 };
 
 using AnglesText = std::optional<std::string>& (*)(AnglesTexts&);
-const std::map<std::string, AnglesText> members{{"from", [](AnglesTexts& texts) -> auto& {return texts.range.from;
-}  // namespace
-}  // namespace clatter::validation
-, {"to", [](AnglesTexts& texts) -> auto& {return texts.range.to;
-}
-}
-, {"step", [](AnglesTexts& texts) -> auto& {return texts.range.step;
-}
-}
-, {"count", [](AnglesTexts& texts) -> auto& {return texts.range.count;
-}
-}
-, {"gravity_number", [](AnglesTexts& texts) -> auto& {return texts.rod.gravity_number;
-}
-}
-, {"gravity", [](AnglesTexts& texts) -> auto& {return texts.rod.gravity;
-}
-}
-, {"length", [](AnglesTexts& texts) -> auto& {return texts.rod.length;
-}
-}
-, {"speed", [](AnglesTexts& texts) -> auto& {return texts.rod.speed;
-}
-}
-, {"restitution", [](AnglesTexts& texts) -> auto& {return texts.rod.restitution;
-}
-}
-, {"impulse_ratio", [](AnglesTexts& texts) -> auto& {return texts.rod.impulse_ratio;
-}
-}
-, {"digits", [](AnglesTexts& texts) -> auto& {return texts.digits;
-}
-}
-, {
-  "as_printed", [](AnglesTexts & texts) -> auto& { return texts.as_printed; }
-}
-}
-;
+
+/// Where the text of each argument goes.
+const std::map<std::string, AnglesText> members{
+    {"from", [](AnglesTexts& texts) -> auto& { return texts.range.from; }},
+    {"to", [](AnglesTexts& texts) -> auto& { return texts.range.to; }},
+    {"step", [](AnglesTexts& texts) -> auto& { return texts.range.step; }},
+    {"count", [](AnglesTexts& texts) -> auto& { return texts.range.count; }},
+    {"gravity_number", [](AnglesTexts& texts) -> auto& { return texts.rod.gravity_number; }},
+    {"gravity", [](AnglesTexts& texts) -> auto& { return texts.rod.gravity; }},
+    {"length", [](AnglesTexts& texts) -> auto& { return texts.rod.length; }},
+    {"speed", [](AnglesTexts& texts) -> auto& { return texts.rod.speed; }},
+    {"restitution", [](AnglesTexts& texts) -> auto& { return texts.rod.restitution; }},
+    {"impulse_ratio", [](AnglesTexts& texts) -> auto& { return texts.rod.impulse_ratio; }},
+    {"digits", [](AnglesTexts& texts) -> auto& { return texts.digits; }},
+    {"as_printed", [](AnglesTexts& texts) -> auto& { return texts.as_printed; }}};
 
 double angle_or_missing(const analytic::ContactAngle& angle) {
   return angle.next == NextImpact::other_end ? angle.angle * degrees_per_radian : NAN;
@@ -79,6 +56,9 @@ double angle_or_missing(const analytic::ContactAngle& angle) {
 std::size_t column_count(const AnglesRequest& request) {
   return request.as_printed ? std::tuple_size_v<AnglesRow> : plain_columns;
 }
+
+/// θ is as given and the number of impacts is counted.
+bool has_error(std::size_t column) { return column != 0 && column != impacts_column; }
 
 std::vector<std::string> notes_of(const AnglesRequest& request) {
   if (!request.as_printed)
@@ -210,6 +190,30 @@ Table angles_frame(const AnglesRequest& request) {
           .notes = notes_of(request)};
 }
 
+Table angles_csv_frame(const AnglesRequest& request) {
+  Table frame = angles_frame(request);
+  const std::vector<Column> values = frame.columns;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (has_error(k)) frame.columns.push_back({values[k].name + "_error", values[k].name + "_error", values[k].unit});
+  }
+  return frame;
+}
+
+Table angles_records(const AnglesRequest& request) {
+  Table table = angles_csv_frame(request);
+  const auto cell = [](double number) { return std::isfinite(number) ? Cell(number + 0.0, 17) : Cell(); };
+  for (long long i = 0; i < request.count; ++i) {
+    const AnglesRow row = angles_row(request, i);
+    const AnglesRow errors = errors_of(row, request);
+    auto& cells = table.rows.emplace_back();
+    for (std::size_t k = 0; k < column_count(request); ++k) cells.push_back(cell(row[k]));
+    for (std::size_t k = 0; k < column_count(request); ++k) {
+      if (has_error(k)) cells.push_back(cell(errors[k]));
+    }
+  }
+  return table;
+}
+
 Table angles_table(const AnglesRequest& request) {
   Table table = angles_frame(request);
   for (long long i = 0; i < request.count; ++i) {
@@ -231,9 +235,11 @@ Json angles_json(const AnglesRequest& request) {
   Json rows = Json::array();
   for (long long i = 0; i < request.count; ++i) {
     const AnglesRow row = angles_row(request, i);
+    const AnglesRow errors = errors_of(row, request);
     Json item = Json::object();
     for (std::size_t k = 0; k < columns.size(); ++k) {
       item[columns[k].name] = k == impacts_column ? Json(static_cast<int>(row[k])) : number_or_null(row[k]);
+      if (has_error(k)) item["error_estimate"][columns[k].name] = number_or_null(errors[k]);
     }
     rows.push_back(item);
   }
@@ -242,11 +248,20 @@ Json angles_json(const AnglesRequest& request) {
 
 std::string angles_csv_rows(const AnglesRequest& request, long long begin, long long end) {
   fmt::memory_buffer out;
+  const auto append = [&](double number) {
+    if (std::isfinite(number)) fmt::format_to(std::back_inserter(out), "{}", number + 0.0);
+  };
   for (long long i = begin; i < end; ++i) {
     const AnglesRow row = angles_row(request, i);
+    const AnglesRow errors = errors_of(row, request);
     for (std::size_t k = 0; k < column_count(request); ++k) {
       if (k > 0) out.push_back(',');
-      if (!std::isnan(row[k])) fmt::format_to(std::back_inserter(out), "{}", row[k] + 0.0);
+      append(row[k]);
+    }
+    for (std::size_t k = 0; k < column_count(request); ++k) {
+      if (!has_error(k)) continue;
+      out.push_back(',');
+      append(errors[k]);
     }
     out.push_back('\n');
   }

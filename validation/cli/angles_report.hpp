@@ -35,9 +35,12 @@ using AnglesRow = std::array<double, 19>;
 
 /// Head, columns and notes; no rows.
 [[nodiscard]] Table angles_frame(const AnglesRequest& request);
+/// The same with a column NAME_error for each number that is computed: a bound, as of contact_angles().
+[[nodiscard]] Table angles_csv_frame(const AnglesRequest& request);
+[[nodiscard]] Table angles_records(const AnglesRequest& request);
 [[nodiscard]] Table angles_table(const AnglesRequest& request);
 [[nodiscard]] Json angles_json(const AnglesRequest& request);
-/// CSV of the rows from `begin` up to `end`; empty fields for what does not happen.
+/// CSV of the rows from `begin` up to `end`; empty fields for what does not happen, and for errors that are not known.
 [[nodiscard]] std::string angles_csv_rows(const AnglesRequest& request, long long begin, long long end);
 
 }  // namespace clatter::validation

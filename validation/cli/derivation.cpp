@@ -250,7 +250,8 @@ Explanation explain_impact(Scene scene, int n) {
           .impact = n,
           .steps = derive_impact(scene, sequence, n),
           .warnings = sequence.warnings,
-          .shortfall = falls_short ? shortfall(scene, sequence) : ""};
+          .shortfall = falls_short ? shortfall(scene, sequence) : "",
+          .shortfall_status = shortfall_status(sequence.outcome)};
 }
 
 Json explanation_json(const Explanation& explanation) {

@@ -42,6 +42,7 @@ struct Explanation {
   std::vector<Step> steps;
   std::vector<std::string> warnings;
   std::string shortfall;  ///< as of the sequence up to this impact
+  int shortfall_status = 0;  ///< exit status that goes with it
 };
 [[nodiscard]] Explanation explain_impact(Scene scene, int n);
 [[nodiscard]] Json explanation_json(const Explanation& explanation);

@@ -15,8 +15,6 @@
 namespace clatter::validation {
 namespace {
 
-constexpr int not_computed = 3;
-
 struct ExplainInput {
   std::string number;
   SceneFlags scene;
@@ -149,7 +147,7 @@ int run_explain(const ExplainInput& input) {
   write_out(choice, text);
   if (explanation.shortfall.empty()) return 0;
   say(explanation.shortfall);
-  return not_computed;
+  return explanation.shortfall_status;
 }
 
 }  // namespace

@@ -16,8 +16,6 @@
 namespace clatter::validation {
 namespace {
 
-constexpr int not_computed = 3;
-
 struct SequenceInput {
   SceneFlags scene;
   std::optional<std::string> method;
@@ -42,7 +40,7 @@ int run_sequence(const SequenceInput& input) {
   const std::string why = shortfall(scene, sequence);
   if (why.empty()) return 0;
   say(why);
-  return not_computed;
+  return shortfall_status(sequence.outcome);
 }
 
 }  // namespace

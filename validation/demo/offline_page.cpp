@@ -35,12 +35,19 @@ void round_history(Json& answer) {
   }
 }
 
+/// The page draws contact angles without their errors.
+void leave_out_errors(Json& answer) {
+  if (!answer.contains("rows")) return;
+  for (Json& row : answer["rows"]) row.erase("error_estimate");
+}
+
 /// @throws std::logic_error if the page's own request is refused.
 Json answered(const Json& request) {
   const ApiAnswer answer = answer_request("/api/" + request.at("path").get<std::string>(), request.at("body").dump());
   if (answer.status != 200) throw std::logic_error("the page's request for an offline copy: " + answer.body);
   Json json = Json::parse(answer.body);
   round_history(json);
+  leave_out_errors(json);
   return json;
 }
 

@@ -11,11 +11,13 @@
 
 namespace clatter::validation {
 
-/// The sequence of a drop.  @throws analytic::NumericalError if a number of it could not be computed.
+/// The sequence of a drop.  @throws analytic::NumericalError if a number of it could not be computed, OutsideModelError
+/// if an impact jams.
 [[nodiscard]] inline analytic::Sequence whole_sequence(const analytic::Drop& drop,
                                                        const analytic::SequenceOptions& options) {
   analytic::Sequence sequence = impact_sequence(drop, options);
   if (sequence.outcome == analytic::Outcome::not_computed) throw analytic::NumericalError(sequence.message);
+  if (sequence.outcome == analytic::Outcome::outside_model) throw analytic::OutsideModelError(sequence.message);
   return sequence;
 }
 

@@ -34,6 +34,8 @@ const char* outcome_name(analytic::Outcome outcome) {
       return "sustained-contact";
     case analytic::Outcome::not_computed:
       return "not-computed";
+    case analytic::Outcome::outside_model:
+      return "outside-model";
   }
   return "";
 }
@@ -62,7 +64,9 @@ const char* outcome_name(Outcome outcome) {
   return "";
 }
 
-bool is_cut_short(analytic::Outcome outcome) { return outcome == analytic::Outcome::not_computed; }
+bool is_cut_short(analytic::Outcome outcome) {
+  return outcome == analytic::Outcome::not_computed || outcome == analytic::Outcome::outside_model;
+}
 
 bool is_cut_short(Outcome outcome) {
   switch (outcome) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "validation/output/names.hpp"
+#include "validation/scene/failure.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -35,6 +36,11 @@ std::string shortfall(const Asked& asked, const analytic::Sequence& sequence) {
 
 std::string shortfall(const Scene& scene, const analytic::Sequence& sequence) {
   return shortfall(Asked{scene.options.digits, scene.require_digits}, sequence);
+}
+
+int shortfall_status(analytic::Outcome outcome) {
+  const bool outside = outcome == analytic::Outcome::outside_model;
+  return exit_status(outside ? FailureKind::outside_model : FailureKind::not_computed);
 }
 
 std::string shortfall(const Scene& scene, const PlannedRun& planned) {

@@ -16,6 +16,8 @@ namespace clatter::validation {
 /// reason, or, with run.require_digits, that fewer digits are known than asked for; empty: neither.
 [[nodiscard]] std::string shortfall(const Scene& scene, const analytic::Sequence& sequence);
 [[nodiscard]] std::string shortfall(const Scene& scene, const PlannedRun& planned);
+/// Exit status of a sequence that falls short: 4 where it leaves the model, else 3.
+[[nodiscard]] int shortfall_status(analytic::Outcome outcome);
 /// The same of a sequence with other settings.
 struct Asked {
   int digits = 6;

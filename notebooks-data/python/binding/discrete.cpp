@@ -88,7 +88,7 @@ py::tuple angles(const std::optional<Numbers>& theta, const Given& given) {
   }
   return py::make_tuple(Report{.json = [request] { return validation::angles_json(request); },
                                .table = [request] { return validation::angles_table(request); },
-                               .records = [request] { return validation::angles_table(request); }},
+                               .records = [request] { return validation::angles_records(request); }},
                         arrays);
 }
 

@@ -29,7 +29,7 @@ __all__ = [
 ]
 
 # Outcomes after which rows are missing because a number could not be computed.
-_CUT_SHORT = {"evaluation-limit", "step-too-small", "not-representable", "flight-undecided", "not-computed"}
+_CUT_SHORT = {"evaluation-limit", "step-too-small", "not-representable", "flight-undecided", "not-computed", "outside-model"}
 
 
 def _check(run: Run) -> None:
