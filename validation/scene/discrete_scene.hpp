@@ -1,4 +1,4 @@
-// A scene of the continuous model as the discrete model sees it.
+// A scene as the discrete model sees it: by the real body and ground, or by sizes and the impact.* keys alone.
 #pragma once
 
 #include "analytic/sequence.hpp"
