@@ -179,6 +179,19 @@ AnglesRow angles_row(const AnglesRequest& request, long long i) {
   return row_of(request.theta(i), request.rod, request.as_printed);
 }
 
+namespace {
+
+struct KnownRow {
+  AnglesRow value, error;
+};
+
+KnownRow known_row(const AnglesRequest& request, long long i) {
+  const AnglesRow row = angles_row(request, i);
+  return {row, errors_of(row, request)};
+}
+
+}  // namespace
+
 Table angles_frame(const AnglesRequest& request) {
   const std::string range = request.count == 0 ? "no θ"
                                                : fmt::format("θ from {}° to {}°, {} values", shortest(request.theta(0)),
@@ -203,8 +216,7 @@ Table angles_records(const AnglesRequest& request) {
   Table table = angles_csv_frame(request);
   const auto cell = [](double number) { return std::isfinite(number) ? Cell(number + 0.0, 17) : Cell(); };
   for (long long i = 0; i < request.count; ++i) {
-    const AnglesRow row = angles_row(request, i);
-    const AnglesRow errors = errors_of(row, request);
+    const auto [row, errors] = known_row(request, i);
     auto& cells = table.rows.emplace_back();
     for (std::size_t k = 0; k < column_count(request); ++k) cells.push_back(cell(row[k]));
     for (std::size_t k = 0; k < column_count(request); ++k) {
@@ -217,8 +229,7 @@ Table angles_records(const AnglesRequest& request) {
 Table angles_table(const AnglesRequest& request) {
   Table table = angles_frame(request);
   for (long long i = 0; i < request.count; ++i) {
-    const AnglesRow row = angles_row(request, i);
-    const AnglesRow errors = errors_of(row, request);
+    const auto [row, errors] = known_row(request, i);
     auto& cells = table.rows.emplace_back();
     for (std::size_t k = 0; k < column_count(request); ++k) {
       const Cell known(row[k], std::min(request.digits, known_digits(row[k], errors[k])));
@@ -234,8 +245,7 @@ Json angles_json(const AnglesRequest& request) {
   const std::vector<Column> columns = angles_columns(request);
   Json rows = Json::array();
   for (long long i = 0; i < request.count; ++i) {
-    const AnglesRow row = angles_row(request, i);
-    const AnglesRow errors = errors_of(row, request);
+    const auto [row, errors] = known_row(request, i);
     Json item = Json::object();
     for (std::size_t k = 0; k < columns.size(); ++k) {
       item[columns[k].name] = k == impacts_column ? Json(static_cast<int>(row[k])) : number_or_null(row[k]);
@@ -252,8 +262,7 @@ std::string angles_csv_rows(const AnglesRequest& request, long long begin, long 
     if (std::isfinite(number)) fmt::format_to(std::back_inserter(out), "{}", number + 0.0);
   };
   for (long long i = begin; i < end; ++i) {
-    const AnglesRow row = angles_row(request, i);
-    const AnglesRow errors = errors_of(row, request);
+    const auto [row, errors] = known_row(request, i);
     for (std::size_t k = 0; k < column_count(request); ++k) {
       if (k > 0) out.push_back(',');
       append(row[k]);
