@@ -50,8 +50,8 @@ std::optional<Tail> bouncing_tail(const BodyMotion& motion, const ImpactLaw& law
   const PlanarVelocity v = motion.velocity();
   if (v.angular != 0 || !(gravity > 0) || !(law.restitution < 1)) return {};
   const bool upright = std::popcount(last.vertices) == 1;
-  if (upright && (motion.contact_point(std::countr_zero(last.vertices)).tangential != 0 ||
-                  last.impact.tangential_impulse != 0)) {
+  if (upright &&
+      (motion.contact_point(std::countr_zero(last.vertices)).tangential != 0 || last.impact.tangential_impulse != 0)) {
     return {};
   }
   const double w = last.impact.separation_speed;
@@ -69,8 +69,7 @@ std::optional<Tail> bouncing_tail(const BodyMotion& motion, const ImpactLaw& law
 }
 
 bool may_accumulate(const ImpactLaw& law) {
-  return law.restitution < 1 || law.law == RestitutionLaw::viscoelastic ||
-         law.friction == FrictionKind::coulomb;
+  return law.restitution < 1 || law.law == RestitutionLaw::viscoelastic || law.friction == FrictionKind::coulomb;
 }
 
 bool Accumulation::repeats(int period) const {
@@ -94,7 +93,8 @@ double Accumulation::block(int period, int index, double Event::*quantity) const
 
 VertexSet Accumulation::vertices(int last) const {
   VertexSet set = 0;
-  for (std::size_t i = events_.size() - static_cast<std::size_t>(last); i < events_.size(); ++i) set |= events_[i].vertices;
+  for (std::size_t i = events_.size() - static_cast<std::size_t>(last); i < events_.size(); ++i)
+    set |= events_[i].vertices;
   return set;
 }
 
@@ -138,7 +138,8 @@ std::optional<Tail> Accumulation::vanishing(const Tolerance& tolerance) const {
   };
   const double time = remainder(&Event::flight_time), impulse = remainder(&Event::normal_impulse);
   if (!(4 * time <= tolerance.time && 4 * impulse <= tolerance.impulse)) return {};
-  const double ratio = block(period, blocks - 1, &Event::tangential_impulse) / block(period, blocks - 1, &Event::normal_impulse);
+  const double ratio =
+      block(period, blocks - 1, &Event::tangential_impulse) / block(period, blocks - 1, &Event::normal_impulse);
   return Tail{.end_time = time,
               .end_time_error = 4 * time,
               .normal_impulse = impulse,
@@ -173,13 +174,14 @@ void end_state(const BodyMotion& motion, Tail& tail) {
   }
   const ContactPoint d = motion.contact_point(std::countr_zero(tail.vertices));
   const double inertia = body.mass * body.gyration_square;
-  const double way = (std::fabs(v.angular) + (normal + std::fabs(tangential)) * body.reach() / inertia) * body.reach() *
-                     tail.end_time;
+  const double way =
+      (std::fabs(v.angular) + (normal + std::fabs(tangential)) * body.reach() / inertia) * body.reach() * tail.end_time;
   tail.after.angular = v.angular + (tangential * d.normal - normal * d.tangential) / inertia;
   tail.after.normal = tail.after.angular * d.tangential;
-  tail.after_error.angular = (tail.tangential_impulse_error * std::fabs(d.normal) +
-                              tail.normal_impulse_error * std::fabs(d.tangential) +
-                              way * (normal + std::fabs(tangential))) / inertia;
+  tail.after_error.angular =
+      (tail.tangential_impulse_error * std::fabs(d.normal) + tail.normal_impulse_error * std::fabs(d.tangential) +
+       way * (normal + std::fabs(tangential))) /
+      inertia;
   tail.after_error.normal = tail.after_error.angular * std::fabs(d.tangential) + way * std::fabs(tail.after.angular);
 }
 
@@ -189,9 +191,10 @@ bool keeps_its_mode(const BodyMotion& motion, const Tail& tail, ImpactMode mode)
   const ContactInertia inertia =
       contact_inertia(body.gyration_square, motion.contact_point(motion.local_departure().reference));
   const double turning = std::fabs(motion.velocity().angular);
-  const double change = (inertia.tangential * std::fabs(tail.tangential_impulse) +
-                         std::fabs(inertia.coupling) * tail.normal_impulse) / body.mass +
-                        turning * turning * body.reach() * tail.end_time;
+  const double change =
+      (inertia.tangential * std::fabs(tail.tangential_impulse) + std::fabs(inertia.coupling) * tail.normal_impulse) /
+          body.mass +
+      turning * turning * body.reach() * tail.end_time;
   return 2 * change < std::fabs(motion.slip());
 }
 

@@ -13,18 +13,18 @@ namespace clatter::analytic {
 /// that the next impacts leave so, flight times form a geometric series. Remaining time 2w/(g(1−e)),
 /// normal impulse m (1+e) w/(1−e), tangential impulse by the friction law until slip stops.
 /// Nothing if the body turns, is elastic, has no gravity, or would be turned by friction.
-[[nodiscard]] std::optional<Tail> bouncing_tail(const BodyMotion& motion, const ImpactLaw& law,
-                                                double gravity, const BodyMotion::Strike& last);
+[[nodiscard]] std::optional<Tail> bouncing_tail(const BodyMotion& motion, const ImpactLaw& law, double gravity,
+                                                const BodyMotion::Strike& last);
 
 /// Whether impacts by this law can take energy away.
 [[nodiscard]] bool may_accumulate(const ImpactLaw& law);
 
 /// Recognises an accumulation from the flight times and impulses of the impacts so far.
 ///
-/// Near its end an accumulation of one vertex, or of the two of a face that rattles, is the same motion over and over on a
-/// scale that shrinks.  Impacts whose vertices and modes repeat with a period are summed over each period; the sums
-/// then shrink geometrically in the limit, Aitken's extrapolation gives their remainder, and what it changed last, summed
-/// over the changes still to come, its error.  A rattling that never becomes periodic is followed until all that
+/// Near its end an accumulation of one vertex, or of the two of a face that rattles, is the same motion over and over
+/// on a scale that shrinks.  Impacts whose vertices and modes repeat with a period are summed over each period; the
+/// sums then shrink geometrically in the limit, Aitken's extrapolation gives their remainder, and what it changed last,
+/// summed over the changes still to come, its error.  A rattling that never becomes periodic is followed until all that
 /// remains is below the resolution of the sums that it would be added to.
 class Accumulation {
  public:

@@ -11,9 +11,7 @@ namespace {
 constexpr double radians_high = 0.017453292519943295;
 constexpr double radians_low = 2.9486522708701687e-19;
 
-double radians_of(double degrees) {
-  return std::fma(degrees, radians_high, degrees * radians_low);
-}
+double radians_of(double degrees) { return std::fma(degrees, radians_high, degrees * radians_low); }
 
 void require_finite(double angle) {
   if (!std::isfinite(angle)) {
@@ -37,8 +35,6 @@ Angle Angle::from_radians(double radians) {
   return {radians, radians * degrees_per_radian, std::sin(radians), std::cos(radians)};
 }
 
-double acute_angle(double inclination) {
-  return std::fabs(std::remainder(inclination, pi));
-}
+double acute_angle(double inclination) { return std::fabs(std::remainder(inclination, pi)); }
 
 }  // namespace clatter::analytic

@@ -38,8 +38,7 @@ Pair outermost(const BodyMotion& motion, VertexSet set) {
 
 }  // namespace
 
-BodyMotion::BodyMotion(const PlanarBody& body, const Angle& inclination,
-                       const PlanarVelocity& velocity, double gravity)
+BodyMotion::BodyMotion(const PlanarBody& body, const Angle& inclination, const PlanarVelocity& velocity, double gravity)
     : body_(body), turned_(body), gravity_(gravity), inclination_(inclination.radians), sine_(inclination.sine),
       cosine_(inclination.cosine), initial_(inclination), remainder_(velocity) {
   turn_to_face_below();
@@ -80,8 +79,8 @@ void BodyMotion::renew_frame_velocity() {
 /// would cancel each other, and everything goes to the remainder.
 void BodyMotion::collapse_frame() {
   if (frame_.speed == 0) return;
-  const double square = remainder_.normal * remainder_.normal +
-                        body_.gyration_square * (remainder_.angular * remainder_.angular);
+  const double square =
+      remainder_.normal * remainder_.normal + body_.gyration_square * (remainder_.angular * remainder_.angular);
   if (std::fabs(cosine_) >= 0.5 && square <= frame_.speed * frame_.speed / 4) return;
   remainder_ = velocity();
   frame_ = {};
@@ -123,12 +122,12 @@ BodyMotion::Strike BodyMotion::strike(VertexSet vertices, const ImpactLaw& law) 
   if (std::popcount(vertices) > 1) {
     const auto [first, second] = outermost(*this, vertices);
     const PlanarVelocity before = velocity();
-    const auto impact =
-        strike_flat(body_, before, contact_point(first), contact_point(second), law);
+    const auto impact = strike_flat(body_, before, contact_point(first), contact_point(second), law);
     if (impact) {
       frame_ = {};
       remainder_ = impact->after;
-      scale_ = {.normal = std::fabs(before.normal), .tangential = std::fabs(before.tangential) + std::fabs(impact->slip_after)};
+      scale_ = {.normal = std::fabs(before.normal),
+                .tangential = std::fabs(before.tangential) + std::fabs(impact->slip_after)};
       touching_ = vertices;
       reference_ = first;
       slip_ = impact->slip_after;
@@ -136,8 +135,8 @@ BodyMotion::Strike BodyMotion::strike(VertexSet vertices, const ImpactLaw& law) 
       rebound_speed_ = -e * normal_velocity(before, contact_point(first));
       return {*impact, vertices};
     }
-    const bool first_faster = normal_velocity(before, contact_point(first)) <=
-                              normal_velocity(before, contact_point(second));
+    const bool first_faster =
+        normal_velocity(before, contact_point(first)) <= normal_velocity(before, contact_point(second));
     vertices = only(first_faster ? first : second);
   }
   return {strike_point(std::countr_zero(vertices), law), vertices};
@@ -179,19 +178,18 @@ void BodyMotion::strike_framed(int vertex, Impact& impact) {
   const double inertia = std::fma(3 * cosine_, cosine_, 1.0);
   const double denominator = inertia - coupled;
 
-  const bool from_fall = frame_.sextant == 3 && frame_.deviation == 0 && remainder_.normal == 0 &&
-                         remainder_.angular == 0;
+  const bool from_fall =
+      frame_.sextant == 3 && frame_.deviation == 0 && remainder_.normal == 0 && remainder_.angular == 0;
   const double of_frame = frame_.contact_velocity(axis);
   const double of_remainder = normal_velocity(remainder_, d);
   const double elastic = frame_.reflect(axis);
   renew_frame_velocity();
-  const double difference = of_frame * ((1 - e) * inertia - 2 * coupled) / (inertia * denominator) -
-                            (1 + e) * of_remainder / denominator;
+  const double difference =
+      of_frame * ((1 - e) * inertia - 2 * coupled) / (inertia * denominator) - (1 + e) * of_remainder / denominator;
   const double normal = elastic + difference;
   remainder_.normal += difference;
   remainder_.tangential += ratio * normal;
-  remainder_.angular +=
-      (ratio * normal * d.normal - difference * d.tangential) / body_.gyration_square;
+  remainder_.angular += (ratio * normal * d.normal - difference * d.tangential) / body_.gyration_square;
 
   impact.approach_speed = -(of_frame + of_remainder);
   impact.separation_speed = e * impact.approach_speed;
@@ -215,9 +213,15 @@ Departure BodyMotion::departure() const {
 
 Departure BodyMotion::local_departure() const {
   const PlanarVelocity v = velocity();
-  return {.inclination = inclination_, .sine = sine_, .cosine = cosine_, .normal = v.normal,
-          .angular = v.angular, .gravity = gravity_, .touching = touching_,
-          .reference = reference_, .rebound_speed = rebound_speed_};
+  return {.inclination = inclination_,
+          .sine = sine_,
+          .cosine = cosine_,
+          .normal = v.normal,
+          .angular = v.angular,
+          .gravity = gravity_,
+          .touching = touching_,
+          .reference = reference_,
+          .rebound_speed = rebound_speed_};
 }
 
 Flight BodyMotion::fly() {
@@ -240,9 +244,10 @@ Flight BodyMotion::fly() {
   return flight;
 }
 
-/// Whole turns go by way of sine and cosine: the double next to 2π, taken off k times, would leave an inclination that is
-/// off from them by k ulp, and the next flight would be put together from the two.  They go by those of the given body's
-/// inclination, since after many turns that of the turned body, which differs by quarters, rounds to another angle.
+/// Whole turns go by way of sine and cosine: the double next to 2π, taken off k times, would leave an inclination that
+/// is off from them by k ulp, and the next flight would be put together from the two.  They go by those of the given
+/// body's inclination, since after many turns that of the turned body, which differs by quarters, rounds to another
+/// angle.
 void BodyMotion::turn_to(double local, double given) {
   if (std::fabs(local) <= pi) {
     inclination_ = local;
@@ -259,22 +264,20 @@ void BodyMotion::turn_to(double local, double given) {
 /// The first two flights of a thin rod that is carried by its frame alone, a → b → a, have their angles
 /// from elastic_offsets.hpp.
 void BodyMotion::refine(Arrival& arrival) {
-  const bool on_frame = frame_.speed != 0 && gravity_ == 0 && remainder_.normal == 0 &&
-                        remainder_.angular == 0 && initial_.radians != 0;
-  const bool expected = arrival.vertex != reference_ && arrival.time > 0 &&
-                        std::fabs(arrival.inclination) < pi / 2 && !arrival.within_margin;
+  const bool on_frame =
+      frame_.speed != 0 && gravity_ == 0 && remainder_.normal == 0 && remainder_.angular == 0 && initial_.radians != 0;
+  const bool expected = arrival.vertex != reference_ && arrival.time > 0 && std::fabs(arrival.inclination) < pi / 2 &&
+                        !arrival.within_margin;
   if (!on_frame || !expected || elastic_flights_ < 0 || elastic_flights_ > 1) {
     elastic_flights_ = -1;
     return;
   }
-  const Angle start{std::fabs(initial_.radians), std::fabs(initial_.degrees),
-                    std::fabs(initial_.sine), initial_.cosine};
+  const Angle start{std::fabs(initial_.radians), std::fabs(initial_.degrees), std::fabs(initial_.sine),
+                    initial_.cosine};
   const double found = std::fabs(arrival.inclination);
   const double before = std::fabs(inclination_);
-  offset_ = elastic_flights_ == 0 ? first_offset(start, found)
-                                  : second_offset(start, offset_, found);
-  const double angle = elastic_flights_ == 0 ? start.radians / 2 + offset_
-                                             : start.radians + offset_;
+  offset_ = elastic_flights_ == 0 ? first_offset(start, found) : second_offset(start, offset_, found);
+  const double angle = elastic_flights_ == 0 ? start.radians / 2 + offset_ : start.radians + offset_;
   arrival.inclination = std::copysign(angle, arrival.inclination);
   arrival.time = (before + angle) / std::fabs(velocity().angular);
   ++elastic_flights_;
@@ -282,9 +285,9 @@ void BodyMotion::refine(Arrival& arrival) {
 
 double BodyMotion::energy() const {
   const PlanarVelocity v = velocity();
-  return body_.mass * ((v.normal * v.normal + v.tangential * v.tangential +
-                        body_.gyration_square * (v.angular * v.angular)) / 2 +
-                       gravity_ * centre_height_);
+  return body_.mass *
+         ((v.normal * v.normal + v.tangential * v.tangential + body_.gyration_square * (v.angular * v.angular)) / 2 +
+          gravity_ * centre_height_);
 }
 
 }  // namespace clatter::analytic

@@ -17,14 +17,13 @@ namespace clatter::analytic {
 /// remainder (gravity, restitution below 1, friction) is the smaller part; any other body has it all in
 /// the remainder.
 ///
-/// Bounces that become ever smaller keep their digits: the velocity of the vertex that arrives is carried from the one that
-/// struck last wherever V_n − Ω d_t would cancel, and a body that has turned over is described by the inclination of
-/// the face that is now below, which is small where that face comes to rest.
+/// Bounces that become ever smaller keep their digits: the velocity of the vertex that arrives is carried from the one
+/// that struck last wherever V_n − Ω d_t would cancel, and a body that has turned over is described by the inclination
+/// of the face that is now below, which is small where that face comes to rest.
 class BodyMotion {
  public:
   /// The body with the given inclination, touching the ground with its lowest vertices.
-  BodyMotion(const PlanarBody& body, const Angle& inclination, const PlanarVelocity& velocity,
-             double gravity);
+  BodyMotion(const PlanarBody& body, const Angle& inclination, const PlanarVelocity& velocity, double gravity);
 
   /// Vertices at the height of the lowest one, to rounding of the inclination given.
   [[nodiscard]] VertexSet lowest_vertices() const;
@@ -50,9 +49,7 @@ class BodyMotion {
   [[nodiscard]] double contact_angle() const;
   [[nodiscard]] double time() const { return time_; }
   [[nodiscard]] double centre_height() const { return centre_height_; }
-  [[nodiscard]] ContactPoint contact_point(int vertex) const {
-    return turned_.contact_point(vertex, sine_, cosine_);
-  }
+  [[nodiscard]] ContactPoint contact_point(int vertex) const { return turned_.contact_point(vertex, sine_, cosine_); }
   /// Velocity of the contact point of `vertex`, from V, Ω, or from what was carried if `vertex` arrived last.
   [[nodiscard]] ContactVelocity contact_velocity(int vertex) const;
   /// Translational, rotational and potential energy.
@@ -86,7 +83,8 @@ class BodyMotion {
   void turn_to_face_below();
   /// inclination() less that of turned_body(): quarters, and a whole turn where inclination() leaves one out.
   [[nodiscard]] double beyond_turned_body() const;
-  /// Sets the inclination of turned_body(), `local`, which is that of the given body, `given`, less whole turns and quarters.
+  /// Sets the inclination of turned_body(), `local`, which is that of the given body, `given`, less whole turns and
+  /// quarters.
   void turn_to(double local, double given);
   void carry(const Departure& departure, const Arrival& arrival);
   void keep_contact_velocity(const ContactPoint& d, Impact& impact);
@@ -101,7 +99,7 @@ class BodyMotion {
   PlanarBody body_;
   PlanarBody turned_;  ///< body_ turned by `quarters_` times 90°
   double gravity_;
-  int quarters_ = 0;  ///< in −1..2
+  int quarters_ = 0;                    ///< in −1..2
   double inclination_, sine_, cosine_;  ///< of turned_
   double time_ = 0;
   double centre_height_ = 0;

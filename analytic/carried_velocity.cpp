@@ -11,8 +11,7 @@ ContactVelocity BodyMotion::contact_velocity(int vertex) const {
   const PlanarVelocity v = velocity();
   ContactVelocity found{normal_velocity(v, d), slip_velocity(v, d)};
   if (vertex != carried_.vertex) return found;
-  if (4 * carried_.normal_scale < absolute_scale(vertex).normal)
-    found.normal = carried_.velocity.normal;
+  if (4 * carried_.normal_scale < absolute_scale(vertex).normal) found.normal = carried_.velocity.normal;
   if (4 * carried_.slip_scale < absolute_scale(vertex).slip) found.slip = carried_.velocity.slip;
   return found;
 }
@@ -20,22 +19,18 @@ ContactVelocity BodyMotion::contact_velocity(int vertex) const {
 ContactVelocity BodyMotion::absolute_scale(int vertex) const {
   const ContactPoint d = contact_point(vertex);
   const PlanarVelocity v = velocity();
-  return {
-      .normal = std::fmax(std::fabs(v.normal), scale_.normal) + std::fabs(v.angular * d.tangential),
-      .slip =
-          std::fmax(std::fabs(v.tangential), scale_.tangential) + std::fabs(v.angular * d.normal)};
+  return {.normal = std::fmax(std::fabs(v.normal), scale_.normal) + std::fabs(v.angular * d.tangential),
+          .slip = std::fmax(std::fabs(v.tangential), scale_.tangential) + std::fabs(v.angular * d.normal)};
 }
 
 double BodyMotion::normal_scale(int vertex) const {
   const double absolute = absolute_scale(vertex).normal;
-  return vertex == carried_.vertex && 4 * carried_.normal_scale < absolute ? carried_.normal_scale
-                                                                           : absolute;
+  return vertex == carried_.vertex && 4 * carried_.normal_scale < absolute ? carried_.normal_scale : absolute;
 }
 
 double BodyMotion::slip_scale(int vertex) const {
   const double absolute = absolute_scale(vertex).slip;
-  return vertex == carried_.vertex && 4 * carried_.slip_scale < absolute ? carried_.slip_scale
-                                                                         : absolute;
+  return vertex == carried_.vertex && 4 * carried_.slip_scale < absolute ? carried_.slip_scale : absolute;
 }
 
 /// Whether frame and remainder give the normal velocity of the contact point without cancelling
@@ -54,8 +49,7 @@ void BodyMotion::keep_contact_velocity(const ContactPoint& d, Impact& impact) {
   const PlanarVelocity before = velocity();
   const double turn = impact.after.angular;
   scale_ = {.normal = std::fabs(before.normal) + impact.normal_impulse / body_.mass,
-            .tangential =
-                std::fabs(before.tangential) + std::fabs(impact.tangential_impulse) / body_.mass};
+            .tangential = std::fabs(before.tangential) + std::fabs(impact.tangential_impulse) / body_.mass};
   const double normal_scale = impact.separation_speed + std::fabs(turn * d.tangential);
   if (-impact.approach_speed != normal_velocity(before, d) || normal_scale < scale_.normal) {
     impact.after.normal = impact.separation_speed + turn * d.tangential;
@@ -82,8 +76,7 @@ void BodyMotion::carry(const Departure& departure, const Arrival& arrival) {
               .velocity = {height.at(arrival.time, turn).velocity,
                            slip_ + departure.angular * (offset + versine_part - sine_part)},
               .normal_scale = of_start + height.velocity_scale(arrival.time),
-              .slip_scale = std::fabs(slip_) + std::fabs(departure.angular) *
-                                                   (scale + std::fmax(turn.angle - 1, 0))};
+              .slip_scale = std::fabs(slip_) + std::fabs(departure.angular) * (scale + std::fmax(turn.angle - 1, 0))};
 }
 
 }  // namespace clatter::analytic

@@ -37,8 +37,7 @@ ImpactLaw impact_law(const RodParameters& parameters) {
 /// Reads a flight as the decision about the next contact angle.
 ContactAngle decide(const Flight& flight, const Departure& departure, int other_end) {
   ContactAngle result{.clearance = flight.near_miss.clearance,
-                      .closest_angle = std::fabs(departure.inclination -
-                                                 departure.angular * flight.near_miss.time),
+                      .closest_angle = std::fabs(departure.inclination - departure.angular * flight.near_miss.time),
                       .evaluations = flight.evaluations};
   if (flight.end == FlightEnd::stays_touching) {
     result.next = NextImpact::stays_touching;
@@ -88,8 +87,7 @@ class Chain {
     if (result_.gamma.next != NextImpact::other_end) return result_;
     strike(2, end_a);
     result_.impulse_deficit = impulse_deficit(motion_, result_, parameters_.gravity_number);
-    result_.gamma_minus_theta =
-        motion_.elastic_offset().value_or(result_.gamma.angle - result_.theta.radians);
+    result_.gamma_minus_theta = motion_.elastic_offset().value_or(result_.gamma.angle - result_.theta.radians);
     return result_;
   }
 
@@ -113,8 +111,7 @@ class Chain {
 };
 
 void require_contact_angle(const Angle& theta) {
-  require(theta.radians >= 0 && theta.radians <= pi / 2, "theta", theta.radians,
-          "between 0 and π/2");
+  require(theta.radians >= 0 && theta.radians <= pi / 2, "theta", theta.radians, "between 0 and π/2");
 }
 
 }  // namespace

@@ -31,12 +31,12 @@ enum class NextImpact {
 /// One contact angle as a decision: whether it exists, by how much, and its value.
 struct ContactAngle {
   NextImpact next = NextImpact::not_reached;
-  double angle = 0;  ///< β or γ [rad]; defined if next == other_end
-  double time = 0;   ///< T of the flight to it [L/|v_n|]; defined if a contact exists
+  double angle = 0;            ///< β or γ [rad]; defined if next == other_end
+  double time = 0;             ///< T of the flight to it [L/|v_n|]; defined if a contact exists
   bool within_margin = false;  ///< so near a fold that rounding decides
-  double clearance = 0;  ///< height by which a vertex missed the ground on the way [L]; infinite: none did
-  double closest_angle = 0;  ///< contact angle at that closest approach [rad]
-  int evaluations = 0;   ///< evaluations of the height functions
+  double clearance = 0;        ///< height by which a vertex missed the ground on the way [L]; infinite: none did
+  double closest_angle = 0;    ///< contact angle at that closest approach [rad]
+  int evaluations = 0;         ///< evaluations of the height functions
 };
 
 /// The first three impacts (index 0, 1, 2).  Entries of impacts that do not happen are NaN.
@@ -44,11 +44,11 @@ struct ContactAngles {
   Angle theta;
   ContactAngle beta;
   ContactAngle gamma;
-  double impulse[3];   ///< P₁, P₂, P₃ [m|v_n|]
-  double velocity[3];  ///< V₁, V₂, V₃ after each impact [|v_n|]
-  double angular[3];   ///< Ω₁, Ω₂, Ω₃ [|v_n|/L]
-  double gamma_minus_theta;  ///< γ − θ without cancellation if e = 1, μ_i = 0, G = 0 [rad]
-  double impulse_deficit;    ///< 2 − P₁ − P₂ − P₃ likewise; the flat landing's impulse is 2
+  double impulse[3];                  ///< P₁, P₂, P₃ [m|v_n|]
+  double velocity[3];                 ///< V₁, V₂, V₃ after each impact [|v_n|]
+  double angular[3];                  ///< Ω₁, Ω₂, Ω₃ [|v_n|/L]
+  double gamma_minus_theta;           ///< γ − θ without cancellation if e = 1, μ_i = 0, G = 0 [rad]
+  double impulse_deficit;             ///< 2 − P₁ − P₂ − P₃ likewise; the flat landing's impulse is 2
   [[nodiscard]] int impacts() const;  ///< 1, 2 or 3
 };
 
@@ -80,10 +80,10 @@ enum class BoundaryKind {
 /// The largest θ up to which an impact happens.
 struct RegimeBoundary {
   BoundaryKind kind = BoundaryKind::never;
-  double theta = 0;          ///< [rad]
-  double beta = 0;           ///< contact angles there [rad]; gamma NaN for the second impact
+  double theta = 0;  ///< [rad]
+  double beta = 0;   ///< contact angles there [rad]; gamma NaN for the second impact
   double gamma = 0;
-  double uncertainty = 0;    ///< bound on the error of theta [rad]
+  double uncertainty = 0;  ///< bound on the error of theta [rad]
 };
 
 enum class ImpactNumber { second = 2, third = 3 };

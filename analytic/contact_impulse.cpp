@@ -14,8 +14,7 @@ using detail::value_of;
 [[noreturn]] void jam(double ratio, double limit) {
   std::ostringstream text;
   text.precision(6);
-  text << "jamming (Painlevé's paradox): the impulse ratio " << ratio
-       << " is at or beyond the limit " << limit
+  text << "jamming (Painlevé's paradox): the impulse ratio " << ratio << " is at or beyond the limit " << limit
        << " at which the contact point can no longer leave the ground";
   throw OutsideModelError(text.str());
 }
@@ -61,27 +60,22 @@ PathEnd<Number> point_impulse(const PathCoefficients<Number>& path, const PathSt
 }
 
 template <class Number>
-PathEnd<Number> flat_impulse(const PathStart<Number>& start, const Number& turning,
-                             const ImpactLaw& law) {
+PathEnd<Number> flat_impulse(const PathStart<Number>& start, const Number& turning, const ImpactLaw& law) {
   if (law.friction != FrictionKind::coulomb) {
     return ratio_impulse(PathCoefficients<Number>{}, start, law);
   }
   const Number impulse = (1 + start.restitution) * start.approach_speed;
-  const PathCoefficients<Number> path{.normal = 1,
-                                      .normal_coupling = 0,
-                                      .slip_drift = (1 + start.restitution) * turning / impulse,
-                                      .tangential = 1};
+  const PathCoefficients<Number> path{
+      .normal = 1, .normal_coupling = 0, .slip_drift = (1 + start.restitution) * turning / impulse, .tangential = 1};
   return coulomb_path(path, start, law);
 }
 
 template double restitution_at(const ImpactLaw&, const double&);
 template ImpactDual restitution_at(const ImpactLaw&, const ImpactDual&);
-template PathEnd<double> point_impulse(const PathCoefficients<double>&, const PathStart<double>&,
-                                       const ImpactLaw&);
-template PathEnd<ImpactDual> point_impulse(const PathCoefficients<ImpactDual>&,
-                                           const PathStart<ImpactDual>&, const ImpactLaw&);
+template PathEnd<double> point_impulse(const PathCoefficients<double>&, const PathStart<double>&, const ImpactLaw&);
+template PathEnd<ImpactDual> point_impulse(const PathCoefficients<ImpactDual>&, const PathStart<ImpactDual>&,
+                                           const ImpactLaw&);
 template PathEnd<double> flat_impulse(const PathStart<double>&, const double&, const ImpactLaw&);
-template PathEnd<ImpactDual> flat_impulse(const PathStart<ImpactDual>&, const ImpactDual&,
-                                          const ImpactLaw&);
+template PathEnd<ImpactDual> flat_impulse(const PathStart<ImpactDual>&, const ImpactDual&, const ImpactLaw&);
 
 }  // namespace clatter::analytic

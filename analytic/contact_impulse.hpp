@@ -17,14 +17,13 @@ template <class Number>
 /// Coulomb's law.  `path` holds A, B, B and C of impact_law.hpp (b).
 /// @throws OutsideModelError if the impulse ratio is at or beyond the jamming limit.
 template <class Number>
-[[nodiscard]] PathEnd<Number> point_impulse(const PathCoefficients<Number>& path,
-                                            const PathStart<Number>& start, const ImpactLaw& law);
+[[nodiscard]] PathEnd<Number> point_impulse(const PathCoefficients<Number>& path, const PathStart<Number>& start,
+                                            const ImpactLaw& law);
 
 /// Impulse of a flat landing, per unit mass.  The body's turning, which reverses in step with the
 /// normal impulse, moves the face along the ground by ω d_n: a drift for the slip.
 /// @param turning ω d_n [m/s]
 template <class Number>
-[[nodiscard]] PathEnd<Number> flat_impulse(const PathStart<Number>& start, const Number& turning,
-                                           const ImpactLaw& law);
+[[nodiscard]] PathEnd<Number> flat_impulse(const PathStart<Number>& start, const Number& turning, const ImpactLaw& law);
 
 }  // namespace clatter::analytic

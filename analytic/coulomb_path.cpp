@@ -30,8 +30,7 @@ struct Phases {
 constexpr double endless = std::numeric_limits<double>::infinity();
 
 template <class Number>
-Phase<Number> phase(const PathCoefficients<Number>& path, const Number& ratio,
-                    const Number& length) {
+Phase<Number> phase(const PathCoefficients<Number>& path, const Number& ratio, const Number& length) {
   return {ratio, path.normal - path.normal_coupling * ratio, length};
 }
 
@@ -47,8 +46,7 @@ Phases<double> from_rest(const PathCoefficients<>& path, double friction) {
 
 /// @param sense of the slip, 1 or −1
 template <class Number>
-Phases<Number> from_slip(const PathCoefficients<Number>& path, const Number& slip, double sense,
-                         double friction) {
+Phases<Number> from_slip(const PathCoefficients<Number>& path, const Number& slip, double sense, double friction) {
   const Number ratio = -sense * friction;
   // Rate at which |s| falls with P.
   const Number slowing = path.tangential * friction + sense * path.slip_drift;
@@ -56,8 +54,7 @@ Phases<Number> from_slip(const PathCoefficients<Number>& path, const Number& sli
   const Phase<Number> first = phase(path, ratio, length);
   const Number sticking = path.slip_drift / path.tangential;
   if (friction >= std::fabs(value_of(sticking))) {
-    return {first, phase(path, sticking, Number(endless)), ImpactMode::slip,
-            ImpactMode::slip_stick};
+    return {first, phase(path, sticking, Number(endless)), ImpactMode::slip, ImpactMode::slip_stick};
   }
   return {first, phase(path, -ratio, Number(endless)), ImpactMode::slip, ImpactMode::reverse_slip};
 }
@@ -68,8 +65,8 @@ Phases<double> phases_of(const PathCoefficients<>& path, double slip, double fri
 }
 
 template <std::size_t size>
-Phases<detail::Dual<size>> phases_of(const PathCoefficients<detail::Dual<size>>& path,
-                                     const detail::Dual<size>& slip, double friction) {
+Phases<detail::Dual<size>> phases_of(const PathCoefficients<detail::Dual<size>>& path, const detail::Dual<size>& slip,
+                                     double friction) {
   const double sense = slip.value == 0 ? path.slip_drift.value : slip.value;
   return from_slip(path, slip, std::copysign(1.0, sense), friction);
 }
@@ -95,8 +92,7 @@ Number compression_work(const Phases<Number>& phases, const Number& v, const Num
 
 /// Impulse after compression that returns the work `work` of the normal force (Stronge).
 template <class Number>
-Number impulse_for_work(const Phases<Number>& phases, const Number& compression,
-                        const Number& work) {
+Number impulse_for_work(const Phases<Number>& phases, const Number& compression, const Number& work) {
   using std::sqrt;
   if (!(phases.first.length > compression)) return sqrt(2 * work / phases.second.slope);
   if (phases.first.length == endless) return sqrt(2 * work / phases.first.slope);
@@ -110,8 +106,7 @@ Number impulse_for_work(const Phases<Number>& phases, const Number& compression,
 /// Rise of u by `impulse` after compression.
 template <class Number>
 Number rise_after(const Phases<Number>& phases, const Number& compression, const Number& impulse) {
-  const Number left =
-      phases.first.length > compression ? phases.first.length - compression : Number(0);
+  const Number left = phases.first.length > compression ? phases.first.length - compression : Number(0);
   if (!(impulse > left)) return phases.first.slope * impulse;
   const Number of_first = left > 0 ? phases.first.slope * left : Number(0);
   return of_first + phases.second.slope * (impulse - left);
@@ -133,9 +128,8 @@ Ending<Number> viscoelastic_ending(const Phases<Number>& phases, const PathStart
   if (!(phases.first.length < endless)) return {single, e * v};
   const Number speed = phases.first.slope * phases.first.length - v;  // where slip stops
   if (!(speed < e * v)) return {single, e * v};
-  const Number work =
-      stored_work(damping_per_stiffness,
-                  ImpulseStretch<Number>{.from = -v, .to = speed, .length = phases.first.length});
+  const Number work = stored_work(damping_per_stiffness,
+                                  ImpulseStretch<Number>{.from = -v, .to = speed, .length = phases.first.length});
   const Unloading<Number> rest{.from = speed, .slope = phases.second.slope, .work = work};
   // Work that rounding alone has made negative would slow the body down again, by an impulse that
   // pulls.
@@ -145,8 +139,7 @@ Ending<Number> viscoelastic_ending(const Phases<Number>& phases, const PathStart
 }
 
 template <class Number>
-Ending<Number> ending(const Phases<Number>& phases, const PathStart<Number>& start,
-                      const ImpactLaw& law) {
+Ending<Number> ending(const Phases<Number>& phases, const PathStart<Number>& start, const ImpactLaw& law) {
   const Number &v = start.approach_speed, &e = start.restitution;
   if (law.law == RestitutionLaw::viscoelastic) {
     return viscoelastic_ending(phases, start, law.damping_per_stiffness);
@@ -181,13 +174,12 @@ PathEnd<Number> coulomb_path(const PathCoefficients<Number>& path, const PathSta
     return {impulse, phases.first.ratio * impulse, separation, phases.mode_first};
   }
   const Number second = impulse - phases.first.length;
-  return {impulse, phases.first.ratio * phases.first.length + phases.second.ratio * second,
-          separation, phases.mode_second};
+  return {impulse, phases.first.ratio * phases.first.length + phases.second.ratio * second, separation,
+          phases.mode_second};
 }
 
-template PathEnd<double> coulomb_path(const PathCoefficients<double>&, const PathStart<double>&,
-                                      const ImpactLaw&);
-template PathEnd<ImpactDual> coulomb_path(const PathCoefficients<ImpactDual>&,
-                                          const PathStart<ImpactDual>&, const ImpactLaw&);
+template PathEnd<double> coulomb_path(const PathCoefficients<double>&, const PathStart<double>&, const ImpactLaw&);
+template PathEnd<ImpactDual> coulomb_path(const PathCoefficients<ImpactDual>&, const PathStart<ImpactDual>&,
+                                          const ImpactLaw&);
 
 }  // namespace clatter::analytic

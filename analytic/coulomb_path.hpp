@@ -41,7 +41,7 @@ struct PathEnd {
 /// Derivatives at s = 0 are those for an s that is then stopped.
 /// Number: double, or ImpactDual for derivatives (contact_impulse.hpp).
 template <class Number>
-[[nodiscard]] PathEnd<Number> coulomb_path(const PathCoefficients<Number>& path,
-                                           const PathStart<Number>& start, const ImpactLaw& law);
+[[nodiscard]] PathEnd<Number> coulomb_path(const PathCoefficients<Number>& path, const PathStart<Number>& start,
+                                           const ImpactLaw& law);
 
 }  // namespace clatter::analytic

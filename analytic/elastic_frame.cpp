@@ -16,13 +16,10 @@ int wrap(int sextant) { return ((sextant % 6) + 6) % 6; }
 
 /// cos(nπ/3) − cos(nπ/3 + deviation): the exact part is left out, so that it can be added last.
 double shortfall(int sextant, double deviation) {
-  return cosines[sextant] * detail::versine(deviation) +
-         root3 / 2 * (sines[sextant] * std::sin(deviation));
+  return cosines[sextant] * detail::versine(deviation) + root3 / 2 * (sines[sextant] * std::sin(deviation));
 }
 
-double cosine_of(int sextant, double deviation) {
-  return cosines[sextant] - shortfall(sextant, deviation);
-}
+double cosine_of(int sextant, double deviation) { return cosines[sextant] - shortfall(sextant, deviation); }
 
 }  // namespace
 
@@ -43,8 +40,7 @@ double ElasticFrame::normal() const { return speed * cosine_of(sextant, deviatio
 
 double ElasticFrame::angular(double length) const {
   return speed / length *
-         (3 * sines[sextant] * (1 - detail::versine(deviation)) +
-          2 * root3 * (cosines[sextant] * std::sin(deviation)));
+         (3 * sines[sextant] * (1 - detail::versine(deviation)) + 2 * root3 * (cosines[sextant] * std::sin(deviation)));
 }
 
 double ElasticFrame::contact_velocity(const ReflectionAxis& axis) const {
@@ -56,8 +52,7 @@ double ElasticFrame::reflect(const ReflectionAxis& axis) {
   // 2 cos(χ − ψ) cos ψ = cos χ + cos(χ − 2ψ)
   const int mirrored = wrap(sextant - 2 * axis.sense);
   const double exact = cosines[sextant] + cosines[mirrored];
-  const double small = shortfall(sextant, deviation) +
-                       shortfall(mirrored, deviation + 2 * axis.sense * axis.tilt);
+  const double small = shortfall(sextant, deviation) + shortfall(mirrored, deviation + 2 * axis.sense * axis.tilt);
   sextant = wrap(2 * axis.sense + 3 - sextant);
   deviation = -2 * axis.sense * axis.tilt - deviation;
   return speed * (small - exact);

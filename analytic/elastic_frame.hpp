@@ -25,8 +25,8 @@ struct ReflectionAxis {
 
 /// Velocity state (V, Ω) of a rod of length L: speed·(cos χ, sin χ) with χ = sextant·π/3 + deviation.
 struct ElasticFrame {
-  double speed = 0;  ///< √(V² + k²Ω²) [m/s]; 0: the frame carries nothing
-  int sextant = 0;   ///< in 0..5
+  double speed = 0;      ///< √(V² + k²Ω²) [m/s]; 0: the frame carries nothing
+  int sextant = 0;       ///< in 0..5
   double deviation = 0;  ///< [rad]
 
   [[nodiscard]] double normal() const;                ///< V [m/s]

@@ -45,8 +45,7 @@ double second_offset(const Angle& theta, double eta, double gamma) {
   const double single = 3 * (u1 + u2) / (1 - 3 * u1 * u2);      // √3 tan(δ₁ + δ₂)
   const double twice = 2 * single / (1 - single * single / 3);  // √3 tan(2δ₁ + 2δ₂)
   const double k2 = 4 * twice / (9 - 3 * twice);
-  const double rise =
-      1.5 * k2 * t + (k2 + 4.0 / 3) * eta + sine_deficit(t) - sine_deficit(beta);
+  const double rise = 1.5 * k2 * t + (k2 + 4.0 / 3) * eta + sine_deficit(t) - sine_deficit(beta);
   return solve_offset(t, k2 + 1.0 / 3, rise, gamma - t);
 }
 

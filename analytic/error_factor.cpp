@@ -74,8 +74,8 @@ void ErrorFactor::add(std::size_t number, double size) {
 }
 
 void ErrorFactor::append_alone() {
-  make_room(static_cast<std::size_t>(
-      std::count_if(alone_.begin(), alone_.end(), [](double size) { return size != 0; })));
+  make_room(
+      static_cast<std::size_t>(std::count_if(alone_.begin(), alone_.end(), [](double size) { return size != 0; })));
   for (std::size_t i = 0; i < state_size; ++i) {
     if (alone_[i] != 0) rows_[i][columns_++] = alone_[i];
   }

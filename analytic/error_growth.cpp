@@ -23,8 +23,7 @@ bool holds(const VertexSet set, int vertex) { return (set >> vertex & 1) != 0; }
 ErrorGrowth::ErrorGrowth(const BodyMotion& motion, double angle) {
   const ContactPoint d = motion.contact_point(std::countr_zero(motion.lowest_vertices()));
   const PlanarVelocity v = motion.velocity();
-  const bool exact =
-      motion.local_departure().sine == 0 || d.tangential == 0;  // 0° and 90° are what they are
+  const bool exact = motion.local_departure().sine == 0 || d.tangential == 0;  // 0° and 90° are what they are
   const double size = exact ? 0 : std::fabs(angle);
   of_angle_[at_angle] = size;
   of_angle_[at_normal] = v.angular * d.normal * size;
@@ -57,8 +56,7 @@ void ErrorGrowth::check_arrival(const FlownState& flown, const Moment& touch, co
   const StateVector of_first = height_gradient(flown, arrival.vertex, touch);
   for (int i = 0; i < flown.body.vertex_count; ++i) {
     if (i == arrival.vertex) continue;
-    const auto [height, velocity, scale] =
-        vertex_height(flown.body, flown.departure, i).at(touch.time, touch.turn);
+    const auto [height, velocity, scale] = vertex_height(flown.body, flown.departure, i).at(touch.time, touch.turn);
     const double share = velocity / fall.velocity;
     StateVector gradient = height_gradient(flown, i, touch);
     for (std::size_t k = 0; k < state_size; ++k) gradient[k] -= share * of_first[k];
@@ -109,10 +107,9 @@ void ErrorGrowth::fly(const BodyMotion& motion, const FlownState& flown) {
   for (double& entry : of_height) entry *= height_rounding / f.velocity;
   advance(f.state);
   factor_.add(of_height);
-  const double roundings[] = {
-      arrival.time + motion.time(), turned > 0 ? std::fabs(from.inclination) + turned : 0,
-      of_start + motion.normal_scale(arrival.vertex) + of_phase * std::fabs(from.angular),
-      motion.slip_scale(arrival.vertex)};
+  const double roundings[] = {arrival.time + motion.time(), turned > 0 ? std::fabs(from.inclination) + turned : 0,
+                              of_start + motion.normal_scale(arrival.vertex) + of_phase * std::fabs(from.angular),
+                              motion.slip_scale(arrival.vertex)};
   for (std::size_t i = 0; i < 4; ++i) factor_.add(i, epsilon * roundings[i]);
   StateVector speed{}, angle{};
   speed[at_normal] = angle[at_angle] = 1;
@@ -141,16 +138,15 @@ void ErrorGrowth::add_to(const BodyMotion& motion, Tail& tail) const {
   StateVector time{}, speed{}, turn{};
   time[at_time] = speed[at_normal] = turn[at_turn] = 1;
   const double relative = bound(speed, 2 * epsilon * from.rebound_speed) / from.rebound_speed;
-  tail.end_time_error +=
-      bound(time, epsilon * motion.time()) + relative * (tail.end_time - motion.time());
+  tail.end_time_error += bound(time, epsilon * motion.time()) + relative * (tail.end_time - motion.time());
   tail.normal_impulse_error += relative * tail.normal_impulse;
   tail.tangential_impulse_error += relative * std::fabs(tail.tangential_impulse);
   tail.after_error.tangential += bound(moves.tangential, 2 * epsilon * std::fabs(v.tangential)) +
                                  relative * std::fabs(tail.after.tangential - v.tangential);
   if (tail.after.angular == 0) return;
   tail.after_error.normal += bound(moves.normal, 2 * epsilon * std::fabs(v.normal));
-  tail.after_error.angular += bound(turn, epsilon * std::fabs(v.angular)) +
-                              relative * std::fabs(tail.after.angular - v.angular);
+  tail.after_error.angular +=
+      bound(turn, epsilon * std::fabs(v.angular)) + relative * std::fabs(tail.after.angular - v.angular);
 }
 
 }  // namespace clatter::analytic

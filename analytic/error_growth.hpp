@@ -36,11 +36,8 @@ class ErrorGrowth {
 
  private:
   [[nodiscard]] double bound(const StateVector& gradient, double rounding) const;
-  [[nodiscard]] double alone(const StateVector& gradient) const {
-    return deviations * factor_.deviation(gradient);
-  }
-  void fill(const BodyMotion& motion, const StruckState& struck, const ImpactDerivatives& d,
-            ImpactRow& row) const;
+  [[nodiscard]] double alone(const StateVector& gradient) const { return deviations * factor_.deviation(gradient); }
+  void fill(const BodyMotion& motion, const StruckState& struck, const ImpactDerivatives& d, ImpactRow& row) const;
   [[nodiscard]] double amplification(const ImpactDerivatives& d, const ImpactRow& row) const;
   void add_rounding(const StruckState& struck, const Impact& impact);
   void advance(const StateMatrix& jacobian);
@@ -58,7 +55,7 @@ class ErrorGrowth {
   ErrorFactor factor_;
   StateVector of_angle_{}, of_speed_{};  ///< changes of the state for relative changes of the
                                          ///< drop's angle and speed by 1
-  double curvature_ = 0;  ///< largest share of the second order so far, relative to the first
+  double curvature_ = 0;                 ///< largest share of the second order so far, relative to the first
   double total_impulse_ = 0;
   bool predictable_ = true;
 };

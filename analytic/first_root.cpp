@@ -41,8 +41,7 @@ class Search {
     // Where in its period the curvature stands at the start.
     const double place = std::remainder(h_.rate * start - phase_, 2 * pi);
     bool convex = std::fabs(place) < half_width_ || half_width_ == pi;
-    const double left =
-        convex ? half_width_ - place : (place > 0 ? 2 * pi : 0) - half_width_ - place;
+    const double left = convex ? half_width_ - place : (place > 0 ? 2 * pi : 0) - half_width_ - place;
     double boundary = start + std::fmax(left, 0) / h_.rate;
     if (half_width_ == 0 || half_width_ == pi) boundary = never;
     while (node.t < end) {
@@ -68,9 +67,7 @@ class Search {
     return true;
   }
 
-  [[nodiscard]] static bool rises_from_ground(const Node& node) {
-    return node.t == 0 && node.value.height == 0;
-  }
+  [[nodiscard]] static bool rises_from_ground(const Node& node) { return node.t == 0 && node.value.height == 0; }
 
   /// Root in (node, stop) of a piece that ends below the ground, from the cubic through the start's
   /// height, velocity and curvature and the end's height.
@@ -81,12 +78,9 @@ class Search {
     const double h0 = node.value.height, v0 = node.value.velocity;
     const double a0 = h_.acceleration(node.t) / 2;
     const double cubic = (last.value.height - h0 - span * (v0 + span * a0)) / (span * span * span);
-    double x = rising && a0 < 0 ? std::min(-v0 / a0, span)
-               : v0 < 0         ? std::min(-h0 / v0, span)
-                                : span / 2;
+    double x = rising && a0 < 0 ? std::min(-v0 / a0, span) : v0 < 0 ? std::min(-h0 / v0, span) : span / 2;
     for (int i = 0; i < 3; ++i) {
-      const double value =
-          rising ? v0 + x * (a0 + x * cubic) : h0 + x * (v0 + x * (a0 + x * cubic));
+      const double value = rising ? v0 + x * (a0 + x * cubic) : h0 + x * (v0 + x * (a0 + x * cubic));
       const double slope = rising ? a0 + 2 * x * cubic : v0 + x * (2 * a0 + 3 * x * cubic);
       const double next = x - value / slope;
       if (!(next > 0 && next < span)) break;
@@ -145,8 +139,8 @@ class Search {
       const auto [height, velocity, scale] = h_.at(t);
       return {velocity, h_.acceleration(t), 0};
     };
-    const detail::Root lowest = detail::bracketed_root(
-        detail::FunctionView(sample), {node.t, last.t}, lowest_guess(node, last), true);
+    const detail::Root lowest =
+        detail::bracketed_root(detail::FunctionView(sample), {node.t, last.t}, lowest_guess(node, last), true);
     found_.evaluations += lowest.evaluations;
     const Node bottom = at(lowest.value);
     const double margin = height_noise * bottom.value.scale;
@@ -161,8 +155,7 @@ class Search {
     found_.within_margin = -bottom.value.height <= margin;
     // From the nearer end: a tangent at the start, a parabola at the lowest point.
     const double tangent = node.t - node.value.height / node.value.velocity;
-    const double parabola =
-        bottom.t - std::sqrt(-2 * bottom.value.height / h_.acceleration(bottom.t));
+    const double parabola = bottom.t - std::sqrt(-2 * bottom.value.height / h_.acceleration(bottom.t));
     const bool near_start = node.value.height < -bottom.value.height;
     return solve({node.t, bottom.t}, near_start ? tangent : parabola);
   }
@@ -188,9 +181,7 @@ struct Centre {
   double height, velocity, gravity, reach;
 
   explicit Centre(const VertexHeight& h)
-      : height(h.height + h.versine),
-        velocity(h.velocity + h.rate * h.sine),
-        gravity(h.gravity),
+      : height(h.height + h.versine), velocity(h.velocity + h.rate * h.sine), gravity(h.gravity),
         reach(std::hypot(h.versine, h.sine)) {}
 
   /// Last time at which the centre is at this height (infinite if it never comes down to it).
@@ -219,8 +210,8 @@ FirstRoot parabola_root(const VertexHeight& h, double end) {
   double t = never;
   if (h.gravity > 0) {
     // From the ground itself without squares: those of the smallest bounces would underflow.
-    const double root = h.height > 0 ? std::sqrt(h.velocity * h.velocity + 2 * h.gravity * h.height)
-                                     : std::fabs(h.velocity);
+    const double root =
+        h.height > 0 ? std::sqrt(h.velocity * h.velocity + 2 * h.gravity * h.height) : std::fabs(h.velocity);
     t = h.velocity > 0 ? (h.velocity + root) / h.gravity : 2 * h.height / (root - h.velocity);
   } else if (h.velocity < 0) {
     t = h.height / -h.velocity;
@@ -267,8 +258,7 @@ FirstRoot first_root(const VertexHeight& height, double end) {
   const bool comes_down = centre.gravity > 0 || certain < never;
   const bool told = turn > 8 * epsilon * start && start < certain;
   if (start <= end && comes_down && !told) {
-    throw NumericalError(
-        "the flight is so long that double precision leaves the phase at its end no digit");
+    throw NumericalError("the flight is so long that double precision leaves the phase at its end no digit");
   }
   // The vertex points straight down once in this turn, with the centre no higher than its reach;
   // the second turn is for rounding.

@@ -25,9 +25,9 @@ struct NearMiss {
 struct FirstRoot {
   std::optional<double> time;                ///< [s]; nothing: no root
   double bracket_low = 0, bracket_high = 0;  ///< certified bracket of the root [s]
-  bool within_margin = false;  ///< the graze is so slight that rounding decides whether it happens
-  NearMiss near_miss;          ///< the lowest turning point that was passed above the ground
-  int evaluations = 0;         ///< of h or its derivatives
+  bool within_margin = false;                ///< the graze is so slight that rounding decides whether it happens
+  NearMiss near_miss;                        ///< the lowest turning point that was passed above the ground
+  int evaluations = 0;                       ///< of h or its derivatives
 };
 
 /// First root of h in (0, end], with h > 0 or a rising start at t = 0; nothing if there is none.

@@ -36,11 +36,9 @@ struct FinalHeight {
   [[nodiscard]] double polish(double alpha) const {
     const double t = (alpha0 - alpha) / angular;
     const double vers = detail::versine(alpha);
-    const double height = std::fma(alpha, slope, constant) -
-                          target.x * detail::sine_deficit(alpha) - target.z * vers -
+    const double height = std::fma(alpha, slope, constant) - target.x * detail::sine_deficit(alpha) - target.z * vers -
                           gravity / 2 * t * t;
-    const double derivative =
-        slope - target.x * vers - target.z * std::sin(alpha) + gravity * t / angular;
+    const double derivative = slope - target.x * vers - target.z * std::sin(alpha) + gravity * t / angular;
     const double step = height / derivative;
     return std::fabs(step) <= 1e-8 * std::fabs(alpha0 - alpha) ? alpha - step : alpha;
   }
@@ -61,8 +59,7 @@ void finish(const PlanarBody& body, const Departure& departure, Flight& flight) 
 }
 
 /// Vertices whose height at the arrival is zero to rounding arrive together.
-VertexSet together(const std::array<VertexHeight, max_vertices>& heights, int count,
-                   const Arrival& arrival) {
+VertexSet together(const std::array<VertexHeight, max_vertices>& heights, int count, const Arrival& arrival) {
   VertexSet set = static_cast<VertexSet>(1u << arrival.vertex);
   const detail::Turn turn(heights[0].rate * arrival.time);
   for (int i = 0; i < count; ++i) {
@@ -76,9 +73,7 @@ VertexSet together(const std::array<VertexHeight, max_vertices>& heights, int co
 }
 
 /// A touching vertex that already approaches again arrives at once.
-bool arrives_at_once(const VertexHeight& height) {
-  return height.height == 0 && height.velocity < 0;
-}
+bool arrives_at_once(const VertexHeight& height) { return height.height == 0 && height.velocity < 0; }
 
 bool cannot_leave(const VertexHeight& height) {
   return height.height == 0 && height.velocity == 0 && !(height.acceleration(0) > 0);

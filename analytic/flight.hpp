@@ -21,8 +21,8 @@ struct Departure {
   double angular = 0;      ///< Ω [rad/s]
   double gravity = 0;      ///< g >= 0 [m/s²]
   VertexSet touching = 0;
-  int reference = 0;        ///< a touching vertex
-  double rebound_speed = 0; ///< normal velocity of the reference vertex, known exactly: e |u| [m/s]
+  int reference = 0;         ///< a touching vertex
+  double rebound_speed = 0;  ///< normal velocity of the reference vertex, known exactly: e |u| [m/s]
 
   /// d_j − d_i from vertex i of the body to vertex j, without the cancellation of parts that they share.
   [[nodiscard]] ContactPoint offset(const PlanarBody& body, int from, int to) const;
@@ -43,9 +43,9 @@ struct Arrival {
 using Passes = std::array<NearMiss, max_vertices>;
 
 enum class FlightEnd {
-  contact,        ///< `arrival` holds
-  no_contact,     ///< nothing reaches the ground any more; `near_miss` holds
-  stays_touching, ///< the reference vertex does not leave the ground: e|u| = 0 and no lift
+  contact,         ///< `arrival` holds
+  no_contact,      ///< nothing reaches the ground any more; `near_miss` holds
+  stays_touching,  ///< the reference vertex does not leave the ground: e|u| = 0 and no lift
 };
 
 struct Flight {
@@ -56,8 +56,7 @@ struct Flight {
 };
 
 /// Height function of `vertex` for a departure.
-[[nodiscard]] VertexHeight vertex_height(const PlanarBody& body, const Departure& departure,
-                                         int vertex);
+[[nodiscard]] VertexHeight vertex_height(const PlanarBody& body, const Departure& departure, int vertex);
 
 /// Earliest time t > 0 at which a vertex reaches the ground, proven earliest by first_root().
 /// Accuracy of time and inclination: about 2 ulp × (1 + condition number); the inclination keeps its

@@ -17,9 +17,7 @@ ContactPoint partner(const BodyMotion& motion, VertexSet vertices, int reference
   ContactPoint farthest = motion.contact_point(reference);
   for (int i = 0; i < motion.body().vertex_count; ++i) {
     const ContactPoint d = motion.contact_point(i);
-    if ((vertices >> i & 1) != 0 &&
-        std::fabs(d.tangential - x) > std::fabs(farthest.tangential - x))
-      farthest = d;
+    if ((vertices >> i & 1) != 0 && std::fabs(d.tangential - x) > std::fabs(farthest.tangential - x)) farthest = d;
   }
   return farthest;
 }
@@ -49,8 +47,7 @@ double impulse_rounding(const StruckState& struck, const Impact& impact) {
 /// Size of the parts that make up P_t: with Coulomb's law those before and after slip has stopped.
 double tangential_size(const StruckState& struck, const Impact& impact) {
   const bool parts = struck.law.friction == FrictionKind::coulomb;
-  return std::fmax(std::fabs(impact.tangential_impulse),
-                   parts ? struck.law.friction_value * impact.normal_impulse : 0);
+  return std::fmax(std::fabs(impact.tangential_impulse), parts ? struck.law.friction_value * impact.normal_impulse : 0);
 }
 
 }  // namespace
@@ -89,8 +86,8 @@ double ErrorGrowth::amplification(const ImpactDerivatives& d, const ImpactRow& r
 }
 
 /// The numbers of the row before the errors have gone through the impact.
-void ErrorGrowth::fill(const BodyMotion& motion, const StruckState& struck,
-                       const ImpactDerivatives& d, ImpactRow& row) const {
+void ErrorGrowth::fill(const BodyMotion& motion, const StruckState& struck, const ImpactDerivatives& d,
+                       ImpactRow& row) const {
   const Impact& impact = row.impact;
   const double u = struck.contact.normal, w = impact.separation_speed;
   const double of_impulse = impulse_rounding(struck, impact);
@@ -118,12 +115,10 @@ void ErrorGrowth::fill(const BodyMotion& motion, const StruckState& struck,
     e.impulse_ratio = bound(ratio, 2 * of_impulse * std::fabs(impact.impulse_ratio()));
   }
   const double size = std::fabs(row.energy_before) + std::fabs(row.energy_after);
-  e.energy_before = bound(MotionGradients(struck.body, struck.place, row.before, gravity).energy,
-                          2 * epsilon * size);
-  e.energy_loss = bound(
-      loss, of_impulse * (impact.normal_impulse * (std::fabs(u) + w) +
-                          std::fabs(impact.tangential_impulse) *
-                              (std::fabs(impact.slip_before) + std::fabs(impact.slip_after))));
+  e.energy_before = bound(MotionGradients(struck.body, struck.place, row.before, gravity).energy, 2 * epsilon * size);
+  e.energy_loss = bound(loss, of_impulse * (impact.normal_impulse * (std::fabs(u) + w) +
+                                            std::fabs(impact.tangential_impulse) *
+                                                (std::fabs(impact.slip_before) + std::fabs(impact.slip_after))));
 }
 
 void ErrorGrowth::add_rounding(const StruckState& struck, const Impact& impact) {
@@ -137,14 +132,12 @@ void ErrorGrowth::add_rounding(const StruckState& struck, const Impact& impact) 
   of_jump[at_sum] = impact.normal_impulse;
   for (double& entry : of_jump) entry *= of_impulse;
   factor_.add(of_jump);
-  const double moment = struck.flat
-                            ? std::fabs(struck.before.angular)
-                            : (tangential_size(struck, impact) * std::fabs(struck.place.normal) +
-                               std::fabs(impact.normal_impulse * struck.place.tangential)) /
-                                  (mass * square);
+  const double moment = struck.flat ? std::fabs(struck.before.angular)
+                                    : (tangential_size(struck, impact) * std::fabs(struck.place.normal) +
+                                       std::fabs(impact.normal_impulse * struck.place.tangential)) /
+                                          (mass * square);
   // Where slip stops during restitution is the difference of two impulses.
-  const bool stops =
-      impact.mode == ImpactMode::slip_stick || impact.mode == ImpactMode::reverse_slip;
+  const bool stops = impact.mode == ImpactMode::slip_stick || impact.mode == ImpactMode::reverse_slip;
   if (stops && struck.law.law != RestitutionLaw::newton && !struck.flat) {
     const ContactInertia inertia = contact_inertia(square, struck.place);
     factor_.add(at_normal, 4 * epsilon *
@@ -180,20 +173,16 @@ void ErrorGrowth::strike(const BodyMotion& motion, const ImpactLaw& law, ImpactR
   StateVector turn{};
   turn[at_turn] = 1;
   row.error.after = {
-      .normal = bound(moves.normal,
-                      2 * epsilon * (std::fabs(row.before.normal) + std::fabs(after.normal))),
+      .normal = bound(moves.normal, 2 * epsilon * (std::fabs(row.before.normal) + std::fabs(after.normal))),
       .tangential =
-          bound(moves.tangential,
-                2 * epsilon * (std::fabs(row.before.tangential) + std::fabs(after.tangential))),
+          bound(moves.tangential, 2 * epsilon * (std::fabs(row.before.tangential) + std::fabs(after.tangential))),
       .angular = bound(turn, epsilon * std::fabs(after.angular))};
-  const auto relative = [](double error, double value) {
-    return error > 0 ? error / std::fabs(value) : 0;
-  };
-  row.error.relative = std::max({relative(row.error.start, row.start),
-                                 relative(row.error.contact_angle, row.contact_angle),
-                                 relative(row.error.normal_impulse, row.impact.normal_impulse)});
-  row.error.energy_after = bound(
-      moves.energy, 2 * epsilon * (std::fabs(row.energy_before) + std::fabs(row.energy_after)));
+  const auto relative = [](double error, double value) { return error > 0 ? error / std::fabs(value) : 0; };
+  row.error.relative =
+      std::max({relative(row.error.start, row.start), relative(row.error.contact_angle, row.contact_angle),
+                relative(row.error.normal_impulse, row.impact.normal_impulse)});
+  row.error.energy_after =
+      bound(moves.energy, 2 * epsilon * (std::fabs(row.energy_before) + std::fabs(row.energy_after)));
 }
 
 }  // namespace clatter::analytic

@@ -34,8 +34,8 @@ enum class RestitutionLaw {
   newton,   ///< velocities: u_after = −e u_before
   poisson,  ///< impulses: P_restitution = e P_compression
   stronge,  ///< work of the normal force: W_restitution = −e² W_compression
-  /// A ground that pushes with (k_G + c_G δ̇) K(δ), any growth K: e follows from `damping_per_stiffness` and each contact's
-  /// own approach speed (restitution_map.hpp), and from the work along the path if slip stops on the way
+  /// A ground that pushes with (k_G + c_G δ̇) K(δ), any growth K: e follows from `damping_per_stiffness` and each
+  /// contact's own approach speed (restitution_map.hpp), and from the work along the path if slip stops on the way
   /// (viscoelastic_contact.hpp).  Without damping it is Stronge's law with e = 1.
   viscoelastic,
 };
@@ -50,7 +50,7 @@ struct ImpactLaw {
   double restitution = 1;  ///< e in [0, 1]; 1 for the viscoelastic law, which computes its own
   RestitutionLaw law = RestitutionLaw::newton;
   FrictionKind friction = FrictionKind::none;
-  double friction_value = 0;  ///< μ_i (any finite value) or Coulomb's μ >= 0
+  double friction_value = 0;         ///< μ_i (any finite value) or Coulomb's μ >= 0
   double damping_per_stiffness = 0;  ///< τ = c_G/k_G >= 0 of the viscoelastic law [s/m]
 
   /// @throws std::domain_error naming the field, its value and what is allowed.
@@ -75,7 +75,7 @@ struct Impact {
   double slip_before = 0;         ///< s before [m/s]
   double slip_after = 0;          ///< s after [m/s]
   ImpactMode mode = ImpactMode::frictionless;
-  PlanarVelocity after;  ///< of the centre of mass
+  PlanarVelocity after;    ///< of the centre of mass
   double energy_loss = 0;  ///< [J]; negative: the impulse ratio as given creates energy
 
   /// P_t/P_n, 0 without an impulse.
@@ -104,8 +104,8 @@ struct ContactVelocity {
 /// @throws OutsideModelError if the impulse ratio given is at or beyond the jamming limit
 ///         (A − μ_i B <= 0); NumericalError if so close to it that the impulse overflows;
 ///         std::domain_error as ImpactLaw::validate().
-[[nodiscard]] Impact strike(const PlanarBody& body, const PlanarVelocity& before,
-                            const ContactPoint& contact, const ImpactLaw& law);
+[[nodiscard]] Impact strike(const PlanarBody& body, const PlanarVelocity& before, const ContactPoint& contact,
+                            const ImpactLaw& law);
 
 /// The same with a velocity of the contact point that is known better than v_n − ω d_t and v_t + ω d_n are: impulse and
 /// separation then keep the relative accuracy of u, however small beside v_n.
@@ -120,7 +120,7 @@ struct ContactVelocity {
 /// Returns nothing if one of the two impulses that (2) needs would have to pull: then the vertices
 /// strike one after the other, the faster approach first.
 [[nodiscard]] std::optional<Impact> strike_flat(const PlanarBody& body, const PlanarVelocity& before,
-                                                const ContactPoint& first,
-                                                const ContactPoint& second, const ImpactLaw& law);
+                                                const ContactPoint& first, const ContactPoint& second,
+                                                const ImpactLaw& law);
 
 }  // namespace clatter::analytic

@@ -18,9 +18,7 @@ double quotient(double numerator, double denominator) {
 
 double sticking_ratio(const ContactInertia& inertia) { return inertia.coupling / inertia.tangential; }
 
-double jamming_ratio(const ContactInertia& inertia) {
-  return quotient(inertia.normal, inertia.coupling);
-}
+double jamming_ratio(const ContactInertia& inertia) { return quotient(inertia.normal, inertia.coupling); }
 
 double slip_stopping_ratio(const ContactInertia& inertia, const LimitState& state) {
   const double rise = -(1 + state.restitution) * state.approach_speed;  // (1+e) u
@@ -49,8 +47,7 @@ double energy_neutral_ratio(const ContactInertia& inertia, const LimitState& sta
 }
 
 double admissible_ratio(const ContactInertia& inertia, const LimitState& state) {
-  return std::min(std::fabs(slip_stopping_ratio(inertia, state)),
-                  std::fabs(energy_neutral_ratio(inertia, state)));
+  return std::min(std::fabs(slip_stopping_ratio(inertia, state)), std::fabs(energy_neutral_ratio(inertia, state)));
 }
 
 }  // namespace clatter::analytic

@@ -32,8 +32,7 @@ struct EnergyNeutralRatios {
   double lower = 0;
   double upper = 0;
 };
-[[nodiscard]] EnergyNeutralRatios energy_neutral_ratios(const ContactInertia& inertia,
-                                                        const LimitState& state);
+[[nodiscard]] EnergyNeutralRatios energy_neutral_ratios(const ContactInertia& inertia, const LimitState& state);
 
 /// μ_T: the energy-neutral ratio on the side of μ_O (the side that friction acts to).
 [[nodiscard]] double energy_neutral_ratio(const ContactInertia& inertia, const LimitState& state);

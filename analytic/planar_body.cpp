@@ -61,8 +61,7 @@ PlanarBody make_rod(const RodSize& size) {
     refuse("radius", size.radius, "at least 0 and finite");
   }
   if (size.radius > 0) {
-    const double gyration_square =
-        (size.length * size.length + 3 * size.radius * size.radius) / 12;
+    const double gyration_square = (size.length * size.length + 3 * size.radius * size.radius) / 12;
     return with_rim(size.mass, size.length / 2, size.radius, gyration_square);
   }
   PlanarBody body{.mass = size.mass,

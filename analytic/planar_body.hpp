@@ -29,8 +29,8 @@ struct ContactPoint {
 /// A rigid body in the x–z plane.  Inertia enters as k² = I/m, so that m·L², which would overflow for
 /// extreme masses and lengths, is never formed.  Lengths within 1e-150 … 1e150 m are safe.
 struct PlanarBody {
-  double mass = 1;            ///< m [kg]
-  double gyration_square = 0; ///< k² = I/m about the y axis through the centre of mass [m²]
+  double mass = 1;             ///< m [kg]
+  double gyration_square = 0;  ///< k² = I/m about the y axis through the centre of mass [m²]
   int vertex_count = 0;
   std::array<Vertex, max_vertices> vertices{};
   /// Uniform rod without thickness: 12 k² = L².  Its elastic sequences have closed forms

@@ -27,8 +27,8 @@ BoundaryKind kind_of(const ContactAngle& below, const ContactAngle& above) {
   return above.next == NextImpact::beyond_upright ? BoundaryKind::upright : BoundaryKind::order;
 }
 
-/// Rounding margin of the clearance over the rate at which it opens with θ; not finite at the upright, beyond which there
-/// is nothing to see.
+/// Rounding margin of the clearance over the rate at which it opens with θ; not finite at the upright, beyond which
+/// there is nothing to see.
 double fold_uncertainty(double theta, ImpactNumber impact, const RodParameters& parameters) {
   const double apart = std::min(1e-6, (pi / 2 - theta) / 2);
   const auto clearance_at = [&](double t) {
@@ -49,7 +49,8 @@ RegimeBoundary describe(const Sides& sides, ImpactNumber impact, const RodParame
   boundary.beta = impact == ImpactNumber::second ? angle : sides.above.beta.angle;
   if (impact == ImpactNumber::third) boundary.gamma = angle;
   if (boundary.kind == BoundaryKind::fold) boundary.uncertainty = fold_uncertainty(theta, impact, parameters);
-  if (!(boundary.uncertainty >= 0 && boundary.uncertainty < 1)) boundary.uncertainty = sides.above.theta.radians - theta;
+  if (!(boundary.uncertainty >= 0 && boundary.uncertainty < 1))
+    boundary.uncertainty = sides.above.theta.radians - theta;
   return boundary;
 }
 
@@ -69,9 +70,7 @@ Sides bisect(Sides sides, ImpactNumber impact, const RodParameters& parameters) 
 
 RegimeBoundary regime_boundary(ImpactNumber impact, const RodParameters& parameters) {
   const int number = static_cast<int>(impact);
-  const auto at = [&](double degrees) {
-    return contact_angles(Angle::from_degrees(degrees), parameters);
-  };
+  const auto at = [&](double degrees) { return contact_angles(Angle::from_degrees(degrees), parameters); };
   constexpr double step = 0.25;  // degrees; regimes narrower than this are not looked for
   ContactAngles below = at(step / 1024);
   RegimeBoundary boundary{.beta = missing, .gamma = missing};

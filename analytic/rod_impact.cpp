@@ -6,8 +6,7 @@
 
 namespace clatter::analytic {
 
-RodImpact rod_impact(const Angle& theta, const RodApproach& before, double restitution,
-                     double impulse_ratio) {
+RodImpact rod_impact(const Angle& theta, const RodApproach& before, double restitution, double impulse_ratio) {
   const double c = theta.cosine;
   const double s = theta.sine;
   const double friction = 3 * impulse_ratio * s * c;

@@ -29,7 +29,6 @@ struct RodApproach {
                                    double impulse_ratio);
 
 /// Eq. 11 for any e: flat landing, V_n = −e v_n, V_t = v_t + μ_i P_n, P_n = −(1+e) v_n, Ω = 0.
-[[nodiscard]] RodImpact flat_rod_impact(const RodApproach& before, double restitution,
-                                        double impulse_ratio);
+[[nodiscard]] RodImpact flat_rod_impact(const RodApproach& before, double restitution, double impulse_ratio);
 
 }  // namespace clatter::analytic

@@ -9,9 +9,8 @@ namespace clatter::analytic {
 /// that cannot be predicted. They hold what errors of the start (one unit in the last place of each
 /// number given) and rounding have grown to.
 struct RowErrors {
-  bool predictable = false;  ///< errors have not grown so far that another sequence may follow
-  double relative =
-      0;  ///< largest of start, contact angle and normal impulse, beside the number itself
+  bool predictable = false;   ///< errors have not grown so far that another sequence may follow
+  double relative = 0;        ///< largest of start, contact angle and normal impulse, beside the number itself
   double start = 0;           ///< [s]
   double inclination = 0;     ///< [rad]
   double contact_angle = 0;   ///< [rad]

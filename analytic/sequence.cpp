@@ -29,13 +29,11 @@ void require(bool holds, const char* field, double value, const char* allowed) {
 
 void validate(const Drop& drop) {
   drop.law.validate();
-  require(drop.inclination.radians >= 0 && drop.inclination.radians <= pi / 2, "inclination",
-          drop.inclination.degrees, "between 0 and 90 degrees");
-  require(drop.gravity >= 0 && std::isfinite(drop.gravity), "gravity", drop.gravity,
-          "at least 0 and finite");
+  require(drop.inclination.radians >= 0 && drop.inclination.radians <= pi / 2, "inclination", drop.inclination.degrees,
+          "between 0 and 90 degrees");
+  require(drop.gravity >= 0 && std::isfinite(drop.gravity), "gravity", drop.gravity, "at least 0 and finite");
   require(std::isfinite(drop.velocity.normal), "normal velocity", drop.velocity.normal, "finite");
-  require(std::isfinite(drop.velocity.tangential), "tangential velocity", drop.velocity.tangential,
-          "finite");
+  require(std::isfinite(drop.velocity.tangential), "tangential velocity", drop.velocity.tangential, "finite");
   require(std::isfinite(drop.velocity.angular), "spin", drop.velocity.angular, "finite");
   require(drop.body.vertex_count >= 1, "vertex count", drop.body.vertex_count, "at least 1");
   // k² of lengths beyond 1e±150 m overflows or loses its digits.
@@ -48,8 +46,9 @@ void require_representable(const Drop& drop, const Drop& internal) {
   const PlanarVelocity& v = internal.velocity;
   const bool keeps_gravity = std::isfinite(internal.gravity) && (internal.gravity > 0) == (drop.gravity > 0);
   if (keeps_gravity && std::isfinite(v.tangential) && std::isfinite(v.angular)) return;
-  throw NumericalError("the ratio of the downward speed to gravity, tangential velocity or spin is beyond double "
-                       "precision");
+  throw NumericalError(
+      "the ratio of the downward speed to gravity, tangential velocity or spin is beyond double "
+      "precision");
 }
 
 /// The loop of impacts, in internal units.
@@ -134,10 +133,16 @@ class Run {
   }
 
   BodyMotion::Strike record(VertexSet arriving, const Flight& flight, const Departure& departure) {
-    ImpactRow row{.start = motion_.time(), .inclination = motion_.inclination(),
-                  .centre_height = motion_.centre_height(), .before = motion_.velocity(),
-                  .impact = {}, .energy_before = motion_.energy(), .amplification = missing, .error = RowErrors::unknown(),
-                  .flight = flight, .departure = departure};
+    ImpactRow row{.start = motion_.time(),
+                  .inclination = motion_.inclination(),
+                  .centre_height = motion_.centre_height(),
+                  .before = motion_.velocity(),
+                  .impact = {},
+                  .energy_before = motion_.energy(),
+                  .amplification = missing,
+                  .error = RowErrors::unknown(),
+                  .flight = flight,
+                  .departure = departure};
     row.contact_angle = motion_.contact_angle();
     const BodyMotion::Strike strike = motion_.strike(arriving, law_);
     row.vertices = strike.vertices;
@@ -161,9 +166,7 @@ class Run {
     first_creating_ = first_creating_ == 0 ? static_cast<int>(result_.rows.size()) + 1 : first_creating_;
   }
 
-  [[nodiscard]] bool last_row() const {
-    return static_cast<int>(result_.rows.size()) >= options_.impacts;
-  }
+  [[nodiscard]] bool last_row() const { return static_cast<int>(result_.rows.size()) >= options_.impacts; }
 
   bool full() {
     if (!last_row()) return false;
@@ -222,17 +225,17 @@ class Run {
   void rest(const PlanarVelocity& after, VertexSet vertices, const std::string& how) {
     const bool turns = after.angular != 0;
     result_.outcome = turns ? Outcome::sustained_contact : Outcome::at_rest;
-    result_.message = how + "; " + (turns ? "end " + PlanarBody::vertex_set_name(vertices) +
-                                                " stays on the ground while the body still turns, "
-                                                "which impacts do not describe"
-                                    : after.tangential != 0 ? "the body slides on"
-                                                            : "the body is at rest");
+    result_.message = how + "; " +
+                      (turns ? "end " + PlanarBody::vertex_set_name(vertices) +
+                                   " stays on the ground while the body still turns, "
+                                   "which impacts do not describe"
+                       : after.tangential != 0 ? "the body slides on"
+                                               : "the body is at rest");
   }
 
   void end_without_contact(const Flight& flight) {
     if (flight.end == FlightEnd::stays_touching) {
-      rest(motion_.velocity(), static_cast<VertexSet>(1u << flight.arrival.vertex),
-           "no rebound (e = 0)");
+      rest(motion_.velocity(), static_cast<VertexSet>(1u << flight.arrival.vertex), "no rebound (e = 0)");
       return;
     }
     result_.outcome = Outcome::no_further_impact;
@@ -283,8 +286,9 @@ Sequence internal_sequence(const Drop& drop, const SequenceOptions& options, con
     std::ostringstream text;
     text.precision(6);
     const bool coulomb = drop.law.friction == FrictionKind::coulomb;
-    text << (coulomb ? "the law of restitution, with friction," : "the impulse ratio") << " creates energy: " << units.energy(run.created())
-         << " J in all, from impact " << run.first_creating() << " on";
+    text << (coulomb ? "the law of restitution, with friction," : "the impulse ratio")
+         << " creates energy: " << units.energy(run.created()) << " J in all, from impact " << run.first_creating()
+         << " on";
     sequence.warnings.push_back(text.str());
   }
   return sequence;

@@ -27,8 +27,8 @@ struct SequenceOptions {
   /// Relative error to which the end of an accumulation of impacts must be known before the sequence
   /// is cut there: 10^−digits of the remaining time.  In [1, 15].
   int digits = 6;
-  /// Also follow how errors of the drop and of rounding grow: `error` and `amplification` of each row, and the errors of
-  /// tail and total.
+  /// Also follow how errors of the drop and of rounding grow: `error` and `amplification` of each row, and the errors
+  /// of tail and total.
   bool amplification = true;
 
   /// @throws std::domain_error naming the field, its value and what is allowed.
@@ -37,14 +37,14 @@ struct SequenceOptions {
 
 /// One impact.
 struct ImpactRow {
-  double start = 0;              ///< time since the first impact [s]
-  VertexSet vertices = 0;        ///< which strike
-  double inclination = 0;        ///< α, reduced to (−π, π] [rad]; a lower: positive
-  double contact_angle = 0;      ///< acute angle to the ground [rad]
-  double centre_height = 0;      ///< z of the centre of mass [m]
+  double start = 0;          ///< time since the first impact [s]
+  VertexSet vertices = 0;    ///< which strike
+  double inclination = 0;    ///< α, reduced to (−π, π] [rad]; a lower: positive
+  double contact_angle = 0;  ///< acute angle to the ground [rad]
+  double centre_height = 0;  ///< z of the centre of mass [m]
   PlanarVelocity before;
-  Impact impact;                 ///< impulse, speeds and velocity after
-  double energy_before = 0;      ///< translational + rotational + potential (z = 0 at the ground) [J]
+  Impact impact;             ///< impulse, speeds and velocity after
+  double energy_before = 0;  ///< translational + rotational + potential (z = 0 at the ground) [J]
   double energy_after = 0;
   /// Relative change of this row's quantities per relative change of the drop (angle, speed): the
   /// largest over contact angle, time and impulse.  NaN if it could not be had, or is so large that the row cannot be
@@ -71,25 +71,25 @@ enum class Outcome {
 /// Errors are bounds on those of the extrapolation, with SequenceOptions::amplification on all that the sums begin from
 /// as well; infinite where the last row cannot be predicted.
 struct Tail {
-  double end_time = 0;            ///< time since the first impact [s]
-  double end_time_error = 0;      ///< [s]
-  double normal_impulse = 0;      ///< sum over the remaining impacts [N·s]
+  double end_time = 0;        ///< time since the first impact [s]
+  double end_time_error = 0;  ///< [s]
+  double normal_impulse = 0;  ///< sum over the remaining impacts [N·s]
   double normal_impulse_error = 0;
   double tangential_impulse = 0;  ///< likewise
   double tangential_impulse_error = 0;
   VertexSet vertices = 0;
   bool closed_form = false;
-  PlanarVelocity after;        ///< at the end
+  PlanarVelocity after;  ///< at the end
   PlanarVelocity after_error;
 };
 
 struct Sequence {
   std::vector<ImpactRow> rows;
   Outcome outcome = Outcome::no_further_impact;
-  std::string message;       ///< why it ended, one sentence
+  std::string message;                ///< why it ended, one sentence
   std::vector<std::string> warnings;  ///< such as energy created by an impulse ratio
   std::optional<Tail> tail;
-  NearMiss near_miss;        ///< of the last flight, if no_further_impact
+  NearMiss near_miss;               ///< of the last flight, if no_further_impact
   double total_normal_impulse = 0;  ///< rows and tail [N·s]
   /// Bound on its error; infinite without SequenceOptions::amplification or if a row cannot be predicted [N·s].
   double total_normal_impulse_error = 0;
@@ -109,9 +109,9 @@ struct Sequence {
 /// A number that cannot be had after the first impact (a flight so long that its end has no digit, say) ends the
 /// sequence as not_computed, an impact after the first that jams as outside_model.
 /// @throws std::domain_error for a drop whose first contact does not approach the ground, or whose
-///         parameters are out of range; OutsideModelError if the first impact jams; NumericalError if gravity, tangential
-///         velocity or spin in units of the body's length and downward speed, or results in SI units, are beyond the
-///         doubles, or the first impact cannot be computed.
+///         parameters are out of range; OutsideModelError if the first impact jams; NumericalError if gravity,
+///         tangential velocity or spin in units of the body's length and downward speed, or results in SI units, are
+///         beyond the doubles, or the first impact cannot be computed.
 [[nodiscard]] Sequence impact_sequence(const Drop& drop, const SequenceOptions& options);
 
 }  // namespace clatter::analytic

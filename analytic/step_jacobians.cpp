@@ -37,15 +37,12 @@ ImpactResponse point_response(const StruckState& struck) {
   const auto [a, b, c] = contact_inertia(square, d);
   const ImpactDual coupling = of_angle(b, a - c), tangential = of_angle(c, 2 * b);
   const ImpactDual approach = -variable(at_normal, struck.contact.normal);
-  const PathEnd<ImpactDual> end =
-      point_impulse<ImpactDual>({.normal = of_angle(a, -2 * b),
-                                 .normal_coupling = coupling,
-                                 .slip_drift = coupling,
-                                 .tangential = tangential},
-                                {.approach_speed = approach,
-                                 .slip = variable(at_slip, struck.contact.slip),
-                                 .restitution = restitution_at(struck.law, approach)},
-                                struck.law);
+  const PathEnd<ImpactDual> end = point_impulse<ImpactDual>(
+      {.normal = of_angle(a, -2 * b), .normal_coupling = coupling, .slip_drift = coupling, .tangential = tangential},
+      {.approach_speed = approach,
+       .slip = variable(at_slip, struck.contact.slip),
+       .restitution = restitution_at(struck.law, approach)},
+      struck.law);
   return {.normal = mass * end.normal_impulse,
           .tangential = mass * end.tangential_impulse,
           .separation = end.separation_speed,
@@ -61,11 +58,9 @@ ImpactResponse flat_response(const StruckState& struck) {
   const ImpactDual normal = variable(at_normal, struck.contact.normal);
   const ImpactDual approach = -(normal + turning * d.tangential);
   const ImpactDual e = restitution_at(struck.law, approach);
-  const PathEnd<ImpactDual> end =
-      flat_impulse<ImpactDual>({.approach_speed = approach,
-                                .slip = variable(at_slip, struck.contact.slip),
-                                .restitution = e},
-                               turning * d.normal, struck.law);
+  const PathEnd<ImpactDual> end = flat_impulse<ImpactDual>(
+      {.approach_speed = approach, .slip = variable(at_slip, struck.contact.slip), .restitution = e},
+      turning * d.normal, struck.law);
   return {.normal = mass * end.normal_impulse,
           .tangential = mass * end.tangential_impulse,
           .separation = -e * normal,
@@ -100,8 +95,7 @@ StateVector height_gradient(const FlownState& flown, int vertex, const Moment& m
   const double sense = from.angular < 0 ? -1 : 1;
   const double along = offset.tangential - d.tangential * moment.turn.versine;
   StateVector gradient{};
-  gradient[at_angle] =
-      along + sense * (moment.turn.angle * offset.normal - d.normal * moment.turn.sine_deficit);
+  gradient[at_angle] = along + sense * (moment.turn.angle * offset.normal - d.normal * moment.turn.sine_deficit);
   gradient[at_normal] = moment.time;
   gradient[at_turn] = -moment.time * (along + sense * d.normal * moment.turn.sine);
   return gradient;
@@ -135,14 +129,13 @@ FlightDerivatives flight_derivatives(const FlownState& flown, const Moment& touc
   f.state[at_slip][at_turn] = up - turned * to.tangential;
   const StateVector height = height_gradient(flown, vertex, touch);
   for (std::size_t i = 0; i < state_size; ++i) {
-    for (std::size_t k = 0; k < state_size; ++k)
-      f.state[i][k] -= f.of_time[i] * height[k] / f.velocity;
+    for (std::size_t k = 0; k < state_size; ++k) f.state[i][k] -= f.of_time[i] * height[k] / f.velocity;
   }
   return f;
 }
 
-MotionGradients::MotionGradients(const PlanarBody& body, const ContactPoint& d,
-                                 const PlanarVelocity& v, double gravity) {
+MotionGradients::MotionGradients(const PlanarBody& body, const ContactPoint& d, const PlanarVelocity& v,
+                                 double gravity) {
   normal[at_angle] = -v.angular * d.normal;
   normal[at_normal] = 1;
   normal[at_turn] = d.tangential;

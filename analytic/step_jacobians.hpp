@@ -47,14 +47,12 @@ struct Moment {
   double time;        ///< since the departure [s]
   detail::Turn turn;  ///< |Ω| × time
 
-  Moment(const Departure& departure, double at)
-      : time(at), turn(std::fabs(departure.angular) * at) {}
+  Moment(const Departure& departure, double at) : time(at), turn(std::fabs(departure.angular) * at) {}
 };
 
 /// Derivatives of h of a vertex at a fixed time after the departure, with respect to the state
 /// there.
-[[nodiscard]] StateVector height_gradient(const FlownState& flown, int vertex,
-                                          const Moment& moment);
+[[nodiscard]] StateVector height_gradient(const FlownState& flown, int vertex, const Moment& moment);
 /// Derivatives of a flight from touch to touch.
 struct FlightDerivatives {
   StateMatrix state{};      ///< of the state at the arrival
@@ -70,8 +68,7 @@ struct MotionGradients {
   StateVector normal{}, tangential{}, energy{};
 
   /// @param d of the vertex that touches; gravity [m/s²]
-  MotionGradients(const PlanarBody& body, const ContactPoint& d, const PlanarVelocity& v,
-                  double gravity);
+  MotionGradients(const PlanarBody& body, const ContactPoint& d, const PlanarVelocity& v, double gravity);
 };
 
 }  // namespace clatter::analytic

@@ -11,8 +11,8 @@ VertexHeight::Value VertexHeight::at(double t, const detail::Turn& turn) const {
   const double sine_term = sine * turn.sine_deficit;
   return {.height = height + linear - fall + versine_term + sine_term,
           .velocity = velocity - gravity * t + rate * (versine * turn.sine + sine * turn.versine),
-          .scale = std::fabs(height) + std::fabs(linear) + std::fabs(fall) +
-                   std::fabs(versine_term) + std::fabs(sine_term)};
+          .scale =
+              std::fabs(height) + std::fabs(linear) + std::fabs(fall) + std::fabs(versine_term) + std::fabs(sine_term)};
 }
 
 double VertexHeight::acceleration(double t) const {
@@ -23,8 +23,8 @@ double VertexHeight::acceleration(double t) const {
 double VertexHeight::velocity_scale(double t) const {
   const double turned = rate * t;
   const double reach = std::fabs(versine) + std::fabs(sine);
-  const double of_turning = rate * (std::fabs(versine) * std::fmin(turned, 1) +
-                                    std::fabs(sine) * std::fmin(turned * turned, 1));
+  const double of_turning =
+      rate * (std::fabs(versine) * std::fmin(turned, 1) + std::fabs(sine) * std::fmin(turned * turned, 1));
   return std::fabs(velocity) + gravity * t + of_turning + (turned > 1 ? turned * rate * reach : 0);
 }
 

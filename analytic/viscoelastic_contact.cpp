@@ -35,8 +35,7 @@ double stored_work(double damping_per_stiffness, const ImpulseStretch<>& stretch
   const double d = damping_per_stiffness * (stretch.to - stretch.from);
   const double mean = (stretch.from + stretch.to) / 2;
   // Over so short a stretch u/(1 − τu) is linear to rounding; for smaller d its ψ would underflow.
-  if (std::fabs(d) < std::numeric_limits<double>::epsilon())
-    return -mean / (1 - a) * stretch.length;
+  if (std::fabs(d) < std::numeric_limits<double>::epsilon()) return -mean / (1 - a) * stretch.length;
   // [ψ(a+d) − ψ(a)]/d without its cancellation for small d.
   const double mean_rate = a / (1 - a) - log1p_minus(-d / (1 - a)) / d;
   return -mean_rate / damping_per_stiffness * stretch.length;
@@ -46,8 +45,7 @@ double separation_speed(double damping_per_stiffness, const Unloading<>& unloadi
   const double square = unloading.from * unloading.from + 2 * unloading.slope * unloading.work;
   const double elastic = std::sqrt(std::fmax(square, 0.0));
   if (damping_per_stiffness * elastic < std::numeric_limits<double>::epsilon()) return elastic;
-  const double gain =
-      unloading.slope * damping_per_stiffness * damping_per_stiffness * unloading.work;
+  const double gain = unloading.slope * damping_per_stiffness * damping_per_stiffness * unloading.work;
   const double target = psi(damping_per_stiffness * unloading.from) + gain;
   return target > 0 ? inverse_psi(target) / damping_per_stiffness : 0;
 }

@@ -51,20 +51,17 @@ template <std::size_t size>
   const double of_from = short_rise ? half : (mean - g(from.value)) / rise;
   const double of_to = short_rise ? half : (g(to.value) - mean) / rise;
   using Number = detail::Dual<size>;
-  const Number of_ends =
-      Number::combined(work, from, -length.value * of_from, to, -length.value * of_to);
+  const Number of_ends = Number::combined(work, from, -length.value * of_from, to, -length.value * of_to);
   return Number::combined(work, of_ends, 1, length, -mean);
 }
 template <std::size_t size>
 [[nodiscard]] detail::Dual<size> separation_speed(double damping_per_stiffness,
                                                   const Unloading<detail::Dual<size>>& unloading) {
   const auto& [from, slope, work] = unloading;
-  const double speed =
-      separation_speed(damping_per_stiffness, {from.value, slope.value, work.value});
+  const double speed = separation_speed(damping_per_stiffness, {from.value, slope.value, work.value});
   const auto g = [&](double u) { return u / (1 - damping_per_stiffness * u); };
   using Number = detail::Dual<size>;
-  const Number of_work =
-      Number::combined(speed, slope, work.value / g(speed), work, slope.value / g(speed));
+  const Number of_work = Number::combined(speed, slope, work.value / g(speed), work, slope.value / g(speed));
   return Number::combined(speed, of_work, 1, from, g(from.value) / g(speed));
 }
 

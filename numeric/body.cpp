@@ -23,17 +23,14 @@ void check_inertia(const Matrix3& inertia) {
 /// Products of lengths that leave the range of doubles give no normals.
 void check_surface(const Facets& facets, double radius) {
   const bool sound = !facets.facets.empty() && std::isfinite(radius) &&
-                     std::all_of(facets.facets.begin(), facets.facets.end(), [](const Facet& facet) {
-                       return std::fabs(facet.normal.squaredNorm() - 1) <= 1e-9;
-                     });
+                     std::all_of(facets.facets.begin(), facets.facets.end(),
+                                 [](const Facet& facet) { return std::fabs(facet.normal.squaredNorm() - 1) <= 1e-9; });
   if (!sound) throw NumericalError("the surface of the body is not representable in double precision");
 }
 
 }  // namespace
 
-Body::Body(const MassProperties& properties, const Surface& surface, bool merge) {
-  set_up(properties, surface, merge);
-}
+Body::Body(const MassProperties& properties, const Surface& surface, bool merge) { set_up(properties, surface, merge); }
 
 Body::Body(const Mesh& mesh, bool merge) { set_up(mass_properties(mesh), boundary_surface(mesh), merge); }
 

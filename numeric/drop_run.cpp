@@ -54,9 +54,10 @@ class Run {
  public:
   Run(const Body& body, const Ground& ground, const MotionState& start, const Options& options,
       const Accuracy& accuracy, const RunExtras& extras)
-      : body_(body), options_(options), extras_(extras), contact_gravity_(options.gravity_in_contact ? options.gravity : 0),
-        system_(body, ground, contact_gravity_, options.planar),
-        stepper_(make_stepper(accuracy.method)), contact_(system_, *stepper_), state_(options.planar ? in_plane(start) : start),
+      : body_(body), options_(options), extras_(extras),
+        contact_gravity_(options.gravity_in_contact ? options.gravity : 0),
+        system_(body, ground, contact_gravity_, options.planar), stepper_(make_stepper(accuracy.method)),
+        contact_(system_, *stepper_), state_(options.planar ? in_plane(start) : start),
         growth_(body, start, options.gravity, options.planar), history_(body, options.gravity, extras.history) {
     control_.tolerance = accuracy.tolerance;
     control_.step_cap = accuracy.step_cap;

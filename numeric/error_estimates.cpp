@@ -12,7 +12,8 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 constexpr double finer = 0.1;   ///< tolerance of the second run, over that of the main one
 constexpr double coarser = 10;  ///< the same where a finer one is not to be had
-/// Of the longest step, over that of the main run: where steps are as long as they may be, the tolerance changes nothing.
+/// Of the longest step, over that of the main run: where steps are as long as they may be, the tolerance changes
+/// nothing.
 constexpr double shorter_steps = 0.7;
 /// Errors of single numbers scatter about the power of the tolerance: of random drops 95 of 100 lie within these.
 constexpr double error_per_distance_of_finer = 4;
@@ -24,17 +25,16 @@ constexpr double error_per_distance_of_steps = 3;  ///< 8/7 where the step is sh
 /// the impulse's relative distance for what the same steps yield.
 constexpr double least_part = 0.1;
 
-constexpr Vector3 ImpactNumbers::* vectors[] = {&ImpactNumbers::impulse, &ImpactNumbers::velocity_after,
-                                                &ImpactNumbers::angular_velocity_after};
+constexpr Vector3 ImpactNumbers::*vectors[] = {&ImpactNumbers::impulse, &ImpactNumbers::velocity_after,
+                                               &ImpactNumbers::angular_velocity_after};
 
 template <class Use>
 void for_each_number(const ImpactNumbers& a, const ImpactNumbers& b, ImpactNumbers& out, Use&& use) {
   using Numbers = ImpactNumbers;
-  for (const auto member :
-       {&Numbers::start, &Numbers::duration, &Numbers::inclination, &Numbers::contact_angle, &Numbers::approach_speed,
-        &Numbers::restitution, &Numbers::peak_force, &Numbers::peak_time, &Numbers::energy_before,
-        &Numbers::energy_after, &Numbers::energy_loss, &Numbers::work_damping, &Numbers::work_friction,
-        &Numbers::work_released}) {
+  for (const auto member : {&Numbers::start, &Numbers::duration, &Numbers::inclination, &Numbers::contact_angle,
+                            &Numbers::approach_speed, &Numbers::restitution, &Numbers::peak_force, &Numbers::peak_time,
+                            &Numbers::energy_before, &Numbers::energy_after, &Numbers::energy_loss,
+                            &Numbers::work_damping, &Numbers::work_friction, &Numbers::work_released}) {
     out.*member = use(a.*member, b.*member);
   }
   for (const auto member : vectors) {

@@ -93,8 +93,8 @@ void ErrorGrowth::fly(const MotionState& start, double time) {
   if (planar_) {
     moved.segment<3>(3) += time * speed_ / radius * moved.tail<3>();
   } else {
-    const Turning end = integrate(
-        body_, {start.angular_velocity, speed_ / radius * moved.tail<3>(), moved.segment<3>(3)}, time);
+    const Turning end =
+        integrate(body_, {start.angular_velocity, speed_ / radius * moved.tail<3>(), moved.segment<3>(3)}, time);
     moved.segment<3>(3) = end.turn;
     moved.tail<3>() = radius / speed_ * end.omega_change;
   }

@@ -10,8 +10,8 @@ namespace clatter::numeric {
 /// neighbouring run, rescaled after each, so that a growth beyond 1/ε still shows.  Deviations are measured in
 /// one norm: position over the body's radius R, angle, speed over the start's (|V| + R|ω|), angular velocity
 /// times R over that.  The first deviation has equal parts in all of them (in the plane only, for a planar
-/// drop), so that growth in any direction shows, out of the plane of symmetry too.  Right to about 10 %, a factor of two in contacts
-/// that a deviation changes in kind.
+/// drop), so that growth in any direction shows, out of the plane of symmetry too.  Right to about 10 %, a factor of
+/// two in contacts that a deviation changes in kind.
 class ErrorGrowth {
  public:
   ErrorGrowth(const Body& body, const MotionState& start, double gravity, bool planar);

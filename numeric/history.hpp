@@ -7,7 +7,7 @@ namespace clatter::numeric {
 
 /// One instant.
 struct HistorySample {
-  double time = 0;                           ///< after the first touch-down [s]
+  double time = 0;  ///< after the first touch-down [s]
   MotionState state;
   Vector3 force = Vector3::Zero();           ///< of contact, world [N]
   Vector3 point_velocity = Vector3::Zero();  ///< of the body at the pressure centre, else at its lowest vertex [m/s]

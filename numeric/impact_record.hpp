@@ -8,16 +8,16 @@ namespace clatter::numeric {
 /// How friction acted during an impact: its phases in their order.
 enum class FrictionMode {
   frictionless,
-  slip,              ///< from beginning to end, in one direction
+  slip,  ///< from beginning to end, in one direction
   stick,
   slip_stick,
-  stick_slip,        ///< stick gives way
-  slip_stick_slip,   ///< slip stops, sticks and is let go again
+  stick_slip,       ///< stick gives way
+  slip_stick_slip,  ///< slip stops, sticks and is let go again
   stick_slip_stick,
-  alternating,       ///< more phases than three
-  reverse_slip,      ///< slip stops and goes on the other way at once
+  alternating,   ///< more phases than three
+  reverse_slip,  ///< slip stops and goes on the other way at once
   regularised,
-  local,             ///< each place slips for itself
+  local,  ///< each place slips for itself
 };
 
 /// Which ends of the body touched during the impact: by the sign of x′ of the vertices that went into the ground.
@@ -25,30 +25,30 @@ enum class ContactEnd { a, b, both, middle };
 
 /// The numbers of an impact.  The same struct holds their error estimates.
 struct ImpactNumbers {
-  double start = 0;     ///< touch-down, after that of impact 1 [s]
-  double duration = 0;  ///< until nothing touches any more [s]
-  double inclination = 0;     ///< of the body's x axis at touch-down, > 0: end a lower [rad]
-  double contact_angle = 0;   ///< acute angle between that axis and the ground [rad]
-  double approach_speed = 0;  ///< of the touching point, downward [m/s]
-  double restitution = 0;     ///< its speed of separation over that of approach; NaN with several touches
+  double start = 0;                   ///< touch-down, after that of impact 1 [s]
+  double duration = 0;                ///< until nothing touches any more [s]
+  double inclination = 0;             ///< of the body's x axis at touch-down, > 0: end a lower [rad]
+  double contact_angle = 0;           ///< acute angle between that axis and the ground [rad]
+  double approach_speed = 0;          ///< of the touching point, downward [m/s]
+  double restitution = 0;             ///< its speed of separation over that of approach; NaN with several touches
   Vector3 impulse = Vector3::Zero();  ///< of the contact force, world [N·s]
-  double peak_force = 0;      ///< largest normal force [N]
-  double peak_time = 0;       ///< when, after this touch-down [s]
+  double peak_force = 0;              ///< largest normal force [N]
+  double peak_time = 0;               ///< when, after this touch-down [s]
   Vector3 velocity_after = Vector3::Zero();          ///< world [m/s]
   Vector3 angular_velocity_after = Vector3::Zero();  ///< world [rad/s]
-  double energy_before = 0;   ///< translational + rotational + potential (m g z) [J]
-  double energy_after = 0;    ///< [J]
-  double energy_loss = 0;     ///< [J]
-  double work_damping = 0;    ///< dissipated by the ground's dampers [J], >= 0
-  double work_friction = 0;   ///< dissipated by friction [J]
-  double work_released = 0;   ///< elastic energy left in the ground where the clamp let go [J], >= 0
+  double energy_before = 0;                          ///< translational + rotational + potential (m g z) [J]
+  double energy_after = 0;                           ///< [J]
+  double energy_loss = 0;                            ///< [J]
+  double work_damping = 0;                           ///< dissipated by the ground's dampers [J], >= 0
+  double work_friction = 0;                          ///< dissipated by friction [J]
+  double work_released = 0;  ///< elastic energy left in the ground where the clamp let go [J], >= 0
 };
 
 struct ImpactRecord {
   ImpactNumbers value;
-  ImpactNumbers error;       ///< estimates; NaN if there is none
+  ImpactNumbers error;  ///< estimates; NaN if there is none
   ContactEnd end = ContactEnd::a;
-  int touches = 1;           ///< separate places that came down during this impact
+  int touches = 1;  ///< separate places that came down during this impact
   FrictionMode mode = FrictionMode::frictionless;
   /// Whether the whole body lay below the ground for a time: the foundation, a bed below the body, is then pressed from
   /// within, and its law stands for nothing real.
@@ -67,15 +67,15 @@ struct ImpactRecord {
 };
 
 enum class Outcome {
-  no_further_impact,   ///< nothing reaches the ground any more
-  impact_limit,        ///< as many impacts as asked for
-  at_rest,             ///< the body lies still on the ground
-  sustained_contact,   ///< it slides or spins on there steadily, and no friction stops it
-  evaluation_limit,    ///< contact goes on; the last row is unfinished and not listed
-  step_too_small,      ///< the integrator cannot reach the tolerance; the last row is not listed
-  not_representable,   ///< numbers of this scene leave the range or resolution of doubles
-  flight_undecided,    ///< the next touch-down could not be decided within the work allowed
-  interrupted,         ///< by `progress`
+  no_further_impact,  ///< nothing reaches the ground any more
+  impact_limit,       ///< as many impacts as asked for
+  at_rest,            ///< the body lies still on the ground
+  sustained_contact,  ///< it slides or spins on there steadily, and no friction stops it
+  evaluation_limit,   ///< contact goes on; the last row is unfinished and not listed
+  step_too_small,     ///< the integrator cannot reach the tolerance; the last row is not listed
+  not_representable,  ///< numbers of this scene leave the range or resolution of doubles
+  flight_undecided,   ///< the next touch-down could not be decided within the work allowed
+  interrupted,        ///< by `progress`
 };
 
 }  // namespace clatter::numeric

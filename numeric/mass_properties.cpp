@@ -40,8 +40,7 @@ void check_density(const Mesh& mesh, int index) {
   if (density > 0 && std::isfinite(density)) return;
   std::ostringstream text;
   text.precision(17);
-  text << element_name(mesh, index) << ": density " << density
-       << " must be greater than 0 and finite";
+  text << element_name(mesh, index) << ": density " << density << " must be greater than 0 and finite";
   throw MeshError(text.str());
 }
 

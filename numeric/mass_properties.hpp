@@ -6,9 +6,9 @@
 namespace clatter::numeric {
 
 struct MassProperties {
-  double mass = 0;                     ///< [kg]
-  Vector3 centre = Vector3::Zero();    ///< centre of mass in the mesh's frame [m]
-  Matrix3 inertia = Matrix3::Zero();   ///< ∫ρ (u·u 1 − u uᵀ) dV about the centre, axes of the mesh [kg·m²]
+  double mass = 0;                    ///< [kg]
+  Vector3 centre = Vector3::Zero();   ///< centre of mass in the mesh's frame [m]
+  Matrix3 inertia = Matrix3::Zero();  ///< ∫ρ (u·u 1 − u uᵀ) dV about the centre, axes of the mesh [kg·m²]
 };
 
 /// By Gauss quadrature over the elements, of a degree that is exact for straight-sided tetrahedra, prisms and

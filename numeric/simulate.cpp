@@ -28,8 +28,8 @@ Accuracy accuracy_for(const Options& options) {
   accuracy.method = options.method;
   if (options.method == Method::automatic) accuracy.method = chosen_method(options);
   accuracy.step = options.step;
-  accuracy.tolerance = options.tolerance > 0 ? options.tolerance
-                                             : std::max(std::pow(10.0, -options.digits - 4), least_tolerance);
+  accuracy.tolerance =
+      options.tolerance > 0 ? options.tolerance : std::max(std::pow(10.0, -options.digits - 4), least_tolerance);
   accuracy.steps_per_contact = 10 * std::pow(10.0, std::min(options.digits, 9) / 3.0);
   return accuracy;
 }
@@ -53,9 +53,7 @@ std::string words_for(const Simulation& run, const Options& options, double time
     case Outcome::not_representable:
       text << "the contact after " << time << " s is too shallow, too deep or too large for double precision";
       break;
-    case Outcome::flight_undecided:
-      text << "no touch-down found after " << time << " s within the work allowed";
-      break;
+    case Outcome::flight_undecided: text << "no touch-down found after " << time << " s within the work allowed"; break;
     case Outcome::interrupted: text << "stopped on request after " << time << " s of motion"; break;
   }
   return text.str();
@@ -98,11 +96,12 @@ Simulation simulate(const Body& body, const Ground& ground, const MotionState& s
   const double low = lowest_height(body, start);
   detail::require(low >= -1e-12 * body.radius(), "height of the lowest point", low, "at least 0");
   const Accuracy accuracy = accuracy_for(options);
-  DropRun main = run_checked(body, ground, start, options, accuracy,
-                             {.amplification = options.amplification,
-                           .local_slip = options.error_estimates && ground.has_friction() && ground.friction == FrictionLaw::coulomb,
-                           .history = options.history,
-                           .progress = options.progress ? &options.progress : nullptr});
+  DropRun main = run_checked(
+      body, ground, start, options, accuracy,
+      {.amplification = options.amplification,
+       .local_slip = options.error_estimates && ground.has_friction() && ground.friction == FrictionLaw::coulomb,
+       .history = options.history,
+       .progress = options.progress ? &options.progress : nullptr});
   Simulation simulation;
   simulation.outcome = main.outcome;
   simulation.method = accuracy.method;

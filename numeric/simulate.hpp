@@ -15,23 +15,23 @@ namespace clatter::numeric {
 struct Simulation {
   std::vector<ImpactRecord> impacts;
   Outcome outcome = Outcome::no_further_impact;
-  std::string message;  ///< the outcome in words, with numbers
-  Method method = Method::rk8pd;  ///< that was used
-  double tolerance = 0;           ///< relative, per step; 0 for a fixed step
-  double step = 0;                ///< fixed step [s]; 0 for an adaptive method
-  long force_evaluations = 0;     ///< of all runs, with those for error estimates and amplification
-  long root_evaluations = 0;      ///< of touch-down searches
-  double energy_start = 0;        ///< at the first touch-down [J]
-  MotionState final_state;        ///< at the end of the last listed impact
+  std::string message;                                ///< the outcome in words, with numbers
+  Method method = Method::rk8pd;                      ///< that was used
+  double tolerance = 0;                               ///< relative, per step; 0 for a fixed step
+  double step = 0;                                    ///< fixed step [s]; 0 for an adaptive method
+  long force_evaluations = 0;                         ///< of all runs, with those for error estimates and amplification
+  long root_evaluations = 0;                          ///< of touch-down searches
+  double energy_start = 0;                            ///< at the first touch-down [J]
+  MotionState final_state;                            ///< at the end of the last listed impact
   [[nodiscard]] double total_normal_impulse() const;  ///< [N·s]
 };
 
 /// How the body is dropped: attitude and velocity when its lowest point first touches.
 struct Drop {
   double inclination = 0;  ///< of the body's x axis [rad]: rotation about −y from the mesh's own attitude
-  Vector3 velocity = -Vector3::UnitZ();                ///< of the centre of mass, world [m/s]
-  double spin = 0;         ///< Ω = ω_y [rad/s]
-  double out_of_plane_tilt = 0;  ///< rotation about the body's x axis, before the inclination [rad]
+  Vector3 velocity = -Vector3::UnitZ();  ///< of the centre of mass, world [m/s]
+  double spin = 0;                       ///< Ω = ω_y [rad/s]
+  double out_of_plane_tilt = 0;          ///< rotation about the body's x axis, before the inclination [rad]
 };
 
 /// State at the first touch: the lowest vertex on z = 0, the centre of mass above x = y = 0.

@@ -11,7 +11,8 @@ namespace clatter::numeric {
 /// Body frame.
 [[nodiscard]] Vector3 touch_point(const Body& body, const MotionState& state);
 
-/// The vertices that touch_point averages: which ends of the body they are, and how fast the fastest of them comes down.
+/// The vertices that touch_point averages: which ends of the body they are, and how fast the fastest of them comes
+/// down.
 struct FirstTouch {
   ContactEnd end = ContactEnd::middle;
   double approach_speed = 0;  ///< [m/s]; not positive: no vertex there approaches the ground

@@ -19,9 +19,9 @@ picture_packages=(gnuplot-nox)
 test_packages=(libboost-test-dev python3)
 # What `tests/run --full` alone needs.  Without the shells and groff the tests of completion and man page would be
 # skipped; Chromium opens the pages; OpenMPI shares a sweep among processes.
-# The Python module, the figures and the notebooks take the line of Python packages.
+# clang-format holds the form of C++ files.  The Python module, the figures and the notebooks take the line of Python packages.
 # shellcheck disable=SC2034
-full_packages=(libgmsh-dev libbenchmark-dev zsh fish groff-base chromium chromium-driver libopenmpi-dev openmpi-bin
+full_packages=(clang-format libgmsh-dev libbenchmark-dev zsh fish groff-base chromium chromium-driver libopenmpi-dev openmpi-bin
                pybind11-dev python3-dev python3-numpy python3-matplotlib jupyter-nbconvert python3-ipykernel mypy)
 
 say() { printf '%s: %s\n' "$speaker" "$*" >&2; }

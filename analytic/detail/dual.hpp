@@ -16,16 +16,14 @@ struct Dual {
 
   Dual() = default;
   Dual(double constant) : value(constant) {}  // NOLINT: numbers are constants
-  Dual(double number, const std::array<double, size>& derivatives)
-      : value(number), slope(derivatives) {}
+  Dual(double number, const std::array<double, size>& derivatives) : value(number), slope(derivatives) {}
 
   /// f of this number, where `f_value` and `f_slope` are f and f′ there.
   [[nodiscard]] Dual mapped(double f_value, double f_slope) const {
     return combined(f_value, *this, f_slope, Dual(), 0);
   }
   /// f of two numbers, where `of_a` and `of_b` are the derivatives of f there.
-  [[nodiscard]] static Dual combined(double f_value, const Dual& a, double of_a, const Dual& b,
-                                     double of_b) {
+  [[nodiscard]] static Dual combined(double f_value, const Dual& a, double of_a, const Dual& b, double of_b) {
     Dual result(f_value);
     for (std::size_t i = 0; i < size; ++i) {
       result.slope[i] = of_a * a.slope[i] + of_b * b.slope[i];
@@ -34,15 +32,9 @@ struct Dual {
   }
 
   friend Dual operator-(const Dual& a) { return a.mapped(-a.value, -1); }
-  friend Dual operator+(const Dual& a, const Dual& b) {
-    return combined(a.value + b.value, a, 1, b, 1);
-  }
-  friend Dual operator-(const Dual& a, const Dual& b) {
-    return combined(a.value - b.value, a, 1, b, -1);
-  }
-  friend Dual operator*(const Dual& a, const Dual& b) {
-    return combined(a.value * b.value, a, b.value, b, a.value);
-  }
+  friend Dual operator+(const Dual& a, const Dual& b) { return combined(a.value + b.value, a, 1, b, 1); }
+  friend Dual operator-(const Dual& a, const Dual& b) { return combined(a.value - b.value, a, 1, b, -1); }
+  friend Dual operator*(const Dual& a, const Dual& b) { return combined(a.value * b.value, a, b.value, b, a.value); }
   friend Dual operator/(const Dual& a, const Dual& b) {
     const double quotient = a.value / b.value;
     return combined(quotient, a, 1 / b.value, b, -quotient / b.value);

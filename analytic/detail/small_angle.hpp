@@ -15,13 +15,13 @@ inline double versine(double x) {
 inline double sine_deficit(double x) {
   if (!(std::fabs(x) < 0.5)) return x - std::sin(x);
   const double y = x * x;
-  double sum = 1.0 / 1307674368000.0;            // 1/15!
-  sum = 1.0 / 6227020800.0 - y * sum;            // 1/13!
-  sum = 1.0 / 39916800.0 - y * sum;              // 1/11!
-  sum = 1.0 / 362880.0 - y * sum;                // 1/9!
-  sum = 1.0 / 5040.0 - y * sum;                  // 1/7!
-  sum = 1.0 / 120.0 - y * sum;                   // 1/5!
-  sum = 1.0 / 6.0 - y * sum;                     // 1/3!
+  double sum = 1.0 / 1307674368000.0;  // 1/15!
+  sum = 1.0 / 6227020800.0 - y * sum;  // 1/13!
+  sum = 1.0 / 39916800.0 - y * sum;    // 1/11!
+  sum = 1.0 / 362880.0 - y * sum;      // 1/9!
+  sum = 1.0 / 5040.0 - y * sum;        // 1/7!
+  sum = 1.0 / 120.0 - y * sum;         // 1/5!
+  sum = 1.0 / 6.0 - y * sum;           // 1/3!
   return x * (y * sum);
 }
 

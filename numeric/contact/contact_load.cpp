@@ -31,7 +31,7 @@ struct ContactLoader::Sums {
 
 struct ContactLoader::FacetView {
   const Vector3& normal;
-  double weight;       ///< of its area
+  double weight;  ///< of its area
   double weight_rate;
 };
 
@@ -124,8 +124,8 @@ void ContactLoader::add_below(const ContactPolygon& below, const FacetView& face
   }
   ContactPolygon part = below;
   part.corners = part_.data();
-  part.count = clip(below.corners, below.count, part_.data(),
-                    [&](const ContactCorner& corner) { return -pressure(corner); });
+  part.count =
+      clip(below.corners, below.count, part_.data(), [&](const ContactCorner& corner) { return -pressure(corner); });
   sums.load.release_power += facet.weight * depth_integrals(part).depth_rate;
   part.count = clip(below.corners, below.count, part_.data(), pressure);
   add_pressing(part, facet, sums);
@@ -141,8 +141,7 @@ double ContactLoader::add_pressing(const ContactPolygon& pressing, const FacetVi
   sums.rates->rates.add(rate_integrals(pressing), facet.weight);
   const double k = ground_.stiffness, c = ground_.damping;
   sums.rates->force_by_area += facet.weight_rate * (k * here.depth + c * here.depth_rate);
-  sums.rates->first_moment_by_area +=
-      facet.weight_rate * (k * here.depth_position + c * here.depth_rate_position);
+  sums.rates->first_moment_by_area += facet.weight_rate * (k * here.depth_position + c * here.depth_rate_position);
   return here.depth_squared;
 }
 

@@ -15,21 +15,19 @@ namespace clatter::numeric {
 /// point u: (reference.normal·u + reference.offset) + (turn·u + sink); the second part is the small change since
 /// touch-down, kept apart so that depths far below the body's size keep their digits.
 struct GroundView {
-  GroundPlane reference;               ///< at touch-down
-  Vector3 turn = Vector3::Zero();      ///< change of the ground's normal since then
-  double sink = 0;                     ///< change of the height of the centre of mass [m]
-  double vertical_speed = 0;           ///< of the centre of mass, upward [m/s]
+  GroundPlane reference;                       ///< at touch-down
+  Vector3 turn = Vector3::Zero();              ///< change of the ground's normal since then
+  double sink = 0;                             ///< change of the height of the centre of mass [m]
+  double vertical_speed = 0;                   ///< of the centre of mass, upward [m/s]
   Vector3 angular_velocity = Vector3::Zero();  ///< body frame [rad/s]
-  Vector3 east = Vector3::UnitX();     ///< world x in the body frame
-  Vector3 north = Vector3::UnitY();    ///< world y in the body frame
-  double east_speed = 0;               ///< of the centre of mass along world x and y [m/s]
+  Vector3 east = Vector3::UnitX();             ///< world x in the body frame
+  Vector3 north = Vector3::UnitY();            ///< world y in the body frame
+  double east_speed = 0;                       ///< of the centre of mass along world x and y [m/s]
   double north_speed = 0;
 
   [[nodiscard]] Vector3 normal() const { return reference.normal + turn; }
   [[nodiscard]] GroundPlane plane() const { return {normal(), reference.offset + sink}; }
-  [[nodiscard]] double height(const Vector3& u) const {
-    return reference.height(u) + (turn.dot(u) + sink);
-  }
+  [[nodiscard]] double height(const Vector3& u) const { return reference.height(u) + (turn.dot(u) + sink); }
 };
 
 /// Slip velocities of the patch, for friction whose direction varies over it.
@@ -40,9 +38,9 @@ struct SlipField {
     points,   ///< −v/√(v² + v_r²), v the velocity of each point
   };
   Kind kind = Kind::none;
-  bool planar = false;               ///< v has no part to the north
-  bool rough = false;                ///< for an estimate, right to some per cent
-  double regularisation = 0;         ///< v_r; 0: −v/|v| [m/s]
+  bool planar = false;        ///< v has no part to the north
+  bool rough = false;         ///< for an estimate, right to some per cent
+  double regularisation = 0;  ///< v_r; 0: −v/|v| [m/s]
   /// The v_r of a facet whose points slip alike, within `alike` of it: one that lies flat would else reverse the
   /// friction of all its area at once [m/s].
   double floor = 0;
@@ -63,16 +61,16 @@ struct SlipRange {
 
 /// The load, per unit of k_G and c_G as the law f_n = (k_G + c_G δ̇) δ combines them.
 struct ContactLoad {
-  double force = 0;                         ///< F_n [N]
-  Vector3 first_moment = Vector3::Zero();   ///< ∫f_n u, body frame [N·m]
-  double energy = 0;                        ///< ½ k_G ∫δ² over all that is below the ground [J]
-  double damping_power = 0;                 ///< c_G ∫δδ̇² where the ground presses [W]
-  double release_power = 0;                 ///< −k_G ∫δδ̇ where the clamp lets go [W]
-  double deepest = 0;                       ///< largest δ of a vertex near the ground [m]; not positive: nothing touches
-  double deepest_rate = 0;                  ///< its δ̇ [m/s]
-  double slip_east = 0, slip_north = 0;     ///< ∫f_n s, s the direction of the field [N]
-  Vector3 slip_moment = Vector3::Zero();    ///< ∫f_n u × s, body frame [N·m]
-  SlipRange slip_range;                     ///< of the field
+  double force = 0;                        ///< F_n [N]
+  Vector3 first_moment = Vector3::Zero();  ///< ∫f_n u, body frame [N·m]
+  double energy = 0;                       ///< ½ k_G ∫δ² over all that is below the ground [J]
+  double damping_power = 0;                ///< c_G ∫δδ̇² where the ground presses [W]
+  double release_power = 0;                ///< −k_G ∫δδ̇ where the clamp lets go [W]
+  double deepest = 0;                     ///< largest δ of a vertex near the ground [m]; not positive: nothing touches
+  double deepest_rate = 0;                ///< its δ̇ [m/s]
+  double slip_east = 0, slip_north = 0;   ///< ∫f_n s, s the direction of the field [N]
+  Vector3 slip_moment = Vector3::Zero();  ///< ∫f_n u × s, body frame [N·m]
+  SlipRange slip_range;                   ///< of the field
 
   [[nodiscard]] Vector3 pressure_centre() const { return first_moment / force; }
 };

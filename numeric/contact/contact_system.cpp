@@ -64,13 +64,13 @@ struct ContactSystem::Instant {
   const ContactLoad& load;
   const LoadRates& rates;
   Vector3 normal;
-  Vector3 centre;  ///< of pressure
-  Vector3 moment;  ///< of the normal load, body frame
-  double rise;     ///< vertical acceleration of the centre of mass
+  Vector3 centre;    ///< of pressure
+  Vector3 moment;    ///< of the normal load, body frame
+  double rise;       ///< vertical acceleration of the centre of mass
   AlongGround slip;  ///< velocity of the pressure centre
 
   struct Changes {
-    double force;        ///< dF_n/dt
+    double force;  ///< dF_n/dt
     Vector3 first_moment;
   };
   /// Rates of F_n and ∫f_n u for an angular acceleration, by δ̈ = −(V̇_z + h·u).
@@ -165,7 +165,8 @@ ContactSystem::Friction ContactSystem::friction(const Instant& at) {
     case Kind::slip: break;
   }
   if (!phase_.varies) return at_centre(at, unit_slip(at.slip, phase_, planar_) * (-mu * at.load.force));
-  SlipField field{.kind = SlipField::Kind::turning, .centre = at.centre, .spin = at.normal.dot(at.view.angular_velocity)};
+  SlipField field{
+      .kind = SlipField::Kind::turning, .centre = at.centre, .spin = at.normal.dot(at.view.angular_velocity)};
   const AlongGround slip = leaning_slip(at.slip, phase_);
   field.east = slip.east;
   field.north = slip.north;
@@ -196,8 +197,8 @@ ContactSystem::Friction ContactSystem::over_patch(const Instant& at, const Conta
     const Vector3 at_centre = at.centre.cross(along(at.view, force));
     friction.moment = at_centre + at.normal * at.normal.dot(friction.moment - at_centre);
   }
-  friction.power = -friction.force.dot({at.view.east_speed, at.view.north_speed}) -
-                   friction.moment.dot(at.view.angular_velocity);
+  friction.power =
+      -friction.force.dot({at.view.east_speed, at.view.north_speed}) - friction.moment.dot(at.view.angular_velocity);
   return friction;
 }
 
@@ -249,8 +250,14 @@ void ContactSystem::evaluate(const ContactState& y, ContactState& rate, ContactD
   const bool wants_rates = diagnosis || phase_.kind == Kind::stick;
   const ContactLoad load = loader_.load(view, field, wants_rates ? &rates : nullptr, submerged);
   const bool presses = load.force > 0;
-  Instant at{view, load, rates, view.normal(), presses ? load.pressure_centre() : Vector3::Zero(),
-             Vector3::Zero(), load.force / body_.mass() - gravity_, {}};
+  Instant at{view,
+             load,
+             rates,
+             view.normal(),
+             presses ? load.pressure_centre() : Vector3::Zero(),
+             Vector3::Zero(),
+             load.force / body_.mass() - gravity_,
+             {}};
   at.moment = load.first_moment.cross(at.normal);
   at.slip = slip_at(view, at.centre);
   const Friction friction = presses ? this->friction(at) : Friction{};
@@ -271,8 +278,14 @@ void ContactSystem::evaluate(const ContactState& y, ContactState& rate, ContactD
   rate[works + 1] = load.release_power;
   rate[works + 2] = friction.power;
   if (!diagnosis) return;
-  *diagnosis = {load, at.changes(ground_, alpha).force, friction.force, friction.hold, at.centre,
-                at.slip, at.normal.dot(omega), friction.moment - at.centre.cross(along(view, friction.force))};
+  *diagnosis = {load,
+                at.changes(ground_, alpha).force,
+                friction.force,
+                friction.hold,
+                at.centre,
+                at.slip,
+                at.normal.dot(omega),
+                friction.moment - at.centre.cross(along(view, friction.force))};
 }
 
 AlongGround ContactSystem::sticking_force(const ContactState& y) {
@@ -293,7 +306,8 @@ LocalFriction ContactSystem::local_friction(const ContactState& y, const AlongGr
   ++evaluations_;
   const GroundView view = this->view(y);
   const ContactLoad load = loader_.load(
-      view, {.kind = SlipField::Kind::points, .planar = planar_, .rough = true, .east = shift.east, .north = shift.north});
+      view,
+      {.kind = SlipField::Kind::points, .planar = planar_, .rough = true, .east = shift.east, .north = shift.north});
   if (!(load.force > 0)) return {};
   const double mu = ground_.sliding_friction;
   const AlongGround force{mu * load.slip_east, planar_ ? 0 : mu * load.slip_north};
@@ -320,8 +334,9 @@ double ContactSystem::vertical_spin(const ContactState& y) const {
 
 AlongGround ContactSystem::sticking_ratio(const Vector3& u) const {
   const auto acceleration = [&](const Vector3& force) {
-    const Vector3 alpha = planar_ ? Vector3(north_ * (north_.dot(u.cross(force)) / north_.dot(body_.inertia() * north_)))
-                                  : Vector3(body_.inverse_inertia() * u.cross(force));
+    const Vector3 alpha = planar_
+                              ? Vector3(north_ * (north_.dot(u.cross(force)) / north_.dot(body_.inertia() * north_)))
+                              : Vector3(body_.inverse_inertia() * u.cross(force));
     return Vector3(force / body_.mass() + alpha.cross(u));
   };
   const Vector3 free = acceleration(plane_.normal), by_east = acceleration(east_), by_north = acceleration(north_);

@@ -41,21 +41,21 @@ using ContactState = Eigen::Matrix<double, 16, 1>;
 /// Numbers of an instant that events and records need.
 struct ContactDiagnosis {
   ContactLoad load;
-  double force_rate = 0;         ///< dF_n/dt [N/s]
-  AlongGround friction;          ///< [N]
+  double force_rate = 0;  ///< dF_n/dt [N/s]
+  AlongGround friction;   ///< [N]
   /// Force that would hold the pressure centre in stick, cut off at 2 μ_s F_n; 0 in the other phases [N].
   AlongGround hold;
   Vector3 centre = Vector3::Zero();  ///< of pressure, body frame [m]
-  AlongGround slip;              ///< velocity of the body there, along the ground [m/s]
-  double spin = 0;               ///< angular velocity about the vertical [rad/s]
+  AlongGround slip;                  ///< velocity of the body there, along the ground [m/s]
+  double spin = 0;                   ///< angular velocity about the vertical [rad/s]
   Vector3 couple = Vector3::Zero();  ///< moment of friction about the pressure centre, body frame [N·m]
 };
 
 /// The local law's resultant and its moment about the pressure centre.
 struct LocalFriction {
-  AlongGround force;                  ///< [N]
-  Vector3 couple = Vector3::Zero();   ///< body frame [N·m]
-  double range = 0;                   ///< of slip velocities over the patch [m/s]
+  AlongGround force;                 ///< [N]
+  Vector3 couple = Vector3::Zero();  ///< body frame [N·m]
+  double range = 0;                  ///< of slip velocities over the patch [m/s]
 };
 
 ///     m V̇ = F_c − m g e_z,   I ω̇′ + ω′ × I ω′ = M′,   β̇ = ½ β ω′,
@@ -120,8 +120,7 @@ class ContactSystem {
  private:
   struct Instant;
   struct Friction;
-  void evaluate(const ContactState& y, ContactState& rate, ContactDiagnosis* diagnosis,
-                std::vector<int>* submerged);
+  void evaluate(const ContactState& y, ContactState& rate, ContactDiagnosis* diagnosis, std::vector<int>* submerged);
   [[nodiscard]] GroundView view(const ContactState& y) const;
   [[nodiscard]] Vector3 angular_acceleration(const Vector3& moment, const Vector3& omega) const;
   [[nodiscard]] Vector3 response(const Vector3& moment) const;

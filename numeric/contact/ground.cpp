@@ -11,8 +11,7 @@ void Ground::validate() const {
   require(sliding_friction >= 0, "ground.sliding_friction", sliding_friction, "finite and at least 0");
   require(static_friction >= sliding_friction, "ground.static_friction", static_friction,
           "finite and at least the sliding friction");
-  require(regularisation_speed > 0, "ground.regularisation_speed", regularisation_speed,
-          "finite and greater than 0");
+  require(regularisation_speed > 0, "ground.regularisation_speed", regularisation_speed, "finite and greater than 0");
 }
 
 }  // namespace clatter::numeric

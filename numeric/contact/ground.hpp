@@ -5,7 +5,7 @@ namespace clatter::numeric {
 
 /// Over which area the distributed load is integrated.
 enum class AreaMeasure {
-  surface,    ///< the body's own surface, the paper's reading: a steep side face counts in full
+  surface,  ///< the body's own surface, the paper's reading: a steep side face counts in full
   /// Its signed vertical component, a Winkler bed of springs: F = k_G × submerged volume.  Faces that look up from
   /// below the ground are pressed downward.  Friction of the regularised law acts on them as on the others, by what
   /// presses on each; friction of the coulomb law is that of the resultant.
@@ -38,10 +38,10 @@ enum class FrictionLaw {
 /// f_n = (k_G + c_G δ̇) δ per unit area where the surface lies δ > 0 below z = 0, clamped at zero: the ground
 /// never pulls.
 struct Ground {
-  double stiffness = 1e9;         ///< k_G [N/m³], > 0
-  double damping = 0;             ///< c_G [N·s/m⁴], >= 0
-  double static_friction = 0;     ///< μ_s, >= sliding_friction
-  double sliding_friction = 0;    ///< μ_k, >= 0
+  double stiffness = 1e9;       ///< k_G [N/m³], > 0
+  double damping = 0;           ///< c_G [N·s/m⁴], >= 0
+  double static_friction = 0;   ///< μ_s, >= sliding_friction
+  double sliding_friction = 0;  ///< μ_k, >= 0
   AreaMeasure area = AreaMeasure::surface;
   FrictionLaw friction = FrictionLaw::coulomb;
   double regularisation_speed = 1e-3;  ///< v_r of the regularised law [m/s], > 0

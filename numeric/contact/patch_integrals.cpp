@@ -50,7 +50,8 @@ Vector3 moment(const Values& a, const Triangle& t, const Vector3& position_sum) 
 Vector3 moment(const Values& a, const Values& b, const Triangle& t, const Vector3& position_sum) {
   const Values ab = times(a, b);
   return ((a.sum * b.sum + ab.sum) * position_sum + a.sum * weighted(b, t) + b.sum * weighted(a, t) +
-          2 * weighted(ab, t)) / 60;
+          2 * weighted(ab, t)) /
+         60;
 }
 
 }  // namespace
@@ -106,14 +107,14 @@ RateIntegrals rate_integrals(const ContactPolygon& polygon) {
       return (depth.sum + 2 * corner.depth) * (corner.position * corner.position.transpose());
     };
     const Matrix3 mixed = weighted(depth, t) * positions.transpose();
-    sums.depth_position_squared += area / 60 * (depth.sum * (positions * positions.transpose()) + mixed +
-                                                mixed.transpose() + outer(t.p) + outer(t.q) + outer(t.r));
+    sums.depth_position_squared += area / 60 *
+                                   (depth.sum * (positions * positions.transpose()) + mixed + mixed.transpose() +
+                                    outer(t.p) + outer(t.q) + outer(t.r));
   });
   const Matrix3 shift = polygon.origin * depth_position.transpose();
   sums.rate_position += sums.rate * polygon.origin;
   sums.rate_squared_position += sums.rate_squared * polygon.origin;
-  sums.depth_position_squared +=
-      shift + shift.transpose() + depth_sum * (polygon.origin * polygon.origin.transpose());
+  sums.depth_position_squared += shift + shift.transpose() + depth_sum * (polygon.origin * polygon.origin.transpose());
   return sums;
 }
 

@@ -7,23 +7,23 @@ namespace clatter::numeric {
 
 /// What the force, moment, powers and energy are made of; δ depth, δ̇ rate, u position in the body frame.
 struct LoadIntegrals {
-  double depth = 0;                              ///< ∫δ [m³]
-  double depth_rate = 0;                         ///< ∫δδ̇
-  double depth_squared = 0;                      ///< ∫δ²
-  double depth_rate_squared = 0;                 ///< ∫δδ̇²
-  Vector3 depth_position = Vector3::Zero();      ///< ∫δu
-  Vector3 depth_rate_position = Vector3::Zero(); ///< ∫δδ̇u
+  double depth = 0;                               ///< ∫δ [m³]
+  double depth_rate = 0;                          ///< ∫δδ̇
+  double depth_squared = 0;                       ///< ∫δ²
+  double depth_rate_squared = 0;                  ///< ∫δδ̇²
+  Vector3 depth_position = Vector3::Zero();       ///< ∫δu
+  Vector3 depth_rate_position = Vector3::Zero();  ///< ∫δδ̇u
 
   void add(const LoadIntegrals& other, double weight);
 };
 
 /// What the rates of change of force and pressure centre need besides.
 struct RateIntegrals {
-  double rate = 0;                               ///< ∫δ̇
-  double rate_squared = 0;                       ///< ∫δ̇²
-  Vector3 rate_position = Vector3::Zero();       ///< ∫δ̇u
-  Vector3 rate_squared_position = Vector3::Zero();  ///< ∫δ̇²u
-  Matrix3 depth_position_squared = Matrix3::Zero(); ///< ∫δuuᵀ
+  double rate = 0;                                   ///< ∫δ̇
+  double rate_squared = 0;                           ///< ∫δ̇²
+  Vector3 rate_position = Vector3::Zero();           ///< ∫δ̇u
+  Vector3 rate_squared_position = Vector3::Zero();   ///< ∫δ̇²u
+  Matrix3 depth_position_squared = Matrix3::Zero();  ///< ∫δuuᵀ
 
   void add(const RateIntegrals& other, double weight);
 };

@@ -12,15 +12,15 @@
 namespace clatter::numeric {
 namespace {
 
-constexpr double least_ellipse = 2.6;     ///< ρ from which Gauss's rule is taken
+constexpr double least_ellipse = 2.6;         ///< ρ from which Gauss's rule is taken
 constexpr double least_smooth_ellipse = 3.1;  ///< ρ from which it is taken for a whole triangle
-constexpr double cheap_ellipse = 10;  ///< ρ from which it costs less than a sum over the edges
+constexpr double cheap_ellipse = 10;          ///< ρ from which it costs less than a sum over the edges
 constexpr int rough_order = 6;
-constexpr double rough_rounding = 0.05;   ///< of the slip's variation
-constexpr double near_sizes = 3;          ///< distance of p₀ from the middle, in sizes, up to which (1) cancels little
-constexpr double least_part = 2e-8;       ///< of the size: a lower part errs by less than its square
-constexpr double flat_part = 1e-15;       ///< of the size: the height of an edge that is rounding
-constexpr double no_slip_part = 1e-15;    ///< of the largest slip: below it, rounding
+constexpr double rough_rounding = 0.05;  ///< of the slip's variation
+constexpr double near_sizes = 3;         ///< distance of p₀ from the middle, in sizes, up to which (1) cancels little
+constexpr double least_part = 2e-8;      ///< of the size: a lower part errs by less than its square
+constexpr double flat_part = 1e-15;      ///< of the size: the height of an edge that is rounding
+constexpr double no_slip_part = 1e-15;   ///< of the largest slip: below it, rounding
 
 double cross(const PlanePoint& a, const PlanePoint& b) { return a.x * b.y - a.y * b.x; }
 PlanePoint minus(const PlanePoint& a, const PlanePoint& b) { return {a.x - b.x, a.y - b.y}; }
@@ -31,8 +31,8 @@ PlanePoint between(const PlanePoint& a, const PlanePoint& b, double part) {
 /// A polygon with what slip_integrals must know to choose among its ways.
 struct Survey {
   PlanePoint middle;
-  double size = 0;  ///< largest distance of a corner from the middle
-  SlipVector slip;  ///< at the middle
+  double size = 0;                    ///< largest distance of a corner from the middle
+  SlipVector slip;                    ///< at the middle
   double variation = 0, fastest = 0;  ///< of the slip from that, and itself
 };
 
@@ -151,7 +151,8 @@ class Strips {
     const PlanePoint across{-steep_.y, steep_.x};
     drift_ = {e.along(across), n.along(across)};
     const double speed = std::sqrt(rise_.square());
-    const double sideways = std::fabs(rise_.cross(s.slip)) / speed + std::fabs(rise_.cross(drift_)) / speed * 2 * s.size;
+    const double sideways =
+        std::fabs(rise_.cross(s.slip)) / speed + std::fabs(rise_.cross(drift_)) / speed * 2 * s.size;
     // The line on which the slip has no part along its steep change, or the nearest one through the polygon.
     const double middle = turned(s.middle).along, least = middle - rise_.dot(s.slip) / rise_.square();
     reference_ = std::clamp(least, middle - s.size, middle + s.size);
@@ -242,7 +243,8 @@ class Strips {
     const double at_left = rise_.dot(slip(left, middle)), at_right = rise_.dot(slip(right, middle));
     const double half = (high - low) / 2;
     const auto along_side = [&](const Side& s) {
-      const SlipVector change{half * (drift_.east + s.slope * rise_.east), half * (drift_.north + s.slope * rise_.north)};
+      const SlipVector change{half * (drift_.east + s.slope * rise_.east),
+                              half * (drift_.north + s.slope * rise_.north)};
       return segment_ellipse(slip(s.along(middle), middle), change, patch_.rounding);
     };
     double ellipse = std::min(along_side(strip.left), along_side(strip.right));
@@ -266,11 +268,11 @@ class Strips {
   }
 
   const SlipPatch& patch_;
-  double size_;                ///< of the polygon [m]
-  PlanePoint steep_;           ///< unit vector along which the slip changes most
-  SlipVector rise_, drift_;    ///< its slopes along that and across
-  double reference_ = 0;       ///< coordinate along of the strips' common side [m]
-  bool aligned_ = false;       ///< all slip is along `rise_`, to rounding
+  double size_;              ///< of the polygon [m]
+  PlanePoint steep_;         ///< unit vector along which the slip changes most
+  SlipVector rise_, drift_;  ///< its slopes along that and across
+  double reference_ = 0;     ///< coordinate along of the strips' common side [m]
+  bool aligned_ = false;     ///< all slip is along `rise_`, to rounding
   SlipIntegrals sum_;
 };
 

@@ -144,7 +144,11 @@ class EdgeSum {
       const double slope = f.along(along_);
       return Linear{f.at(origin_) + along.value * slope, along.slope * slope};
     };
-    const Edge edge{along, across, on_line(patch_.depth), on_line(patch_.stiffness), patch_.depth.along(across_),
+    const Edge edge{along,
+                    across,
+                    on_line(patch_.depth),
+                    on_line(patch_.stiffness),
+                    patch_.depth.along(across_),
                     patch_.stiffness.along(across_)};
     const Linear slip{patch_.east.at(origin_) + along.value * steep_, along.slope * steep_};
     const double ellipse = segment_ellipse({slip.value, 0}, {slip.slope, 0}, patch_.rounding);

@@ -18,9 +18,10 @@ BodySlip body_slip(const Vector3& origin, const GroundView& view, const SlipFiel
     return {field.east + east_slope.dot(away), field.north + north_slope.dot(away), east_slope, north_slope};
   }
   // a·(ω × u) = (a × ω)·u
-  const Vector3 east_slope = view.east.cross(view.angular_velocity), north_slope = view.north.cross(view.angular_velocity);
-  return {view.east_speed + field.east + east_slope.dot(origin), view.north_speed + field.north + north_slope.dot(origin),
-          east_slope, north_slope};
+  const Vector3 east_slope = view.east.cross(view.angular_velocity),
+                north_slope = view.north.cross(view.angular_velocity);
+  return {view.east_speed + field.east + east_slope.dot(origin),
+          view.north_speed + field.north + north_slope.dot(origin), east_slope, north_slope};
 }
 
 void add_force(double east, const Vector3& east_moment, double weight, const Vector3& direction, double& sum,
@@ -41,8 +42,8 @@ void add_split(const ContactPolygon& polygon, double weight, const GroundView& v
     if (part.count < 3) continue;
     const LoadIntegrals here = load_integrals(part);
     const double k = ground.stiffness, c = ground.damping;
-    add_force(k * here.depth + c * here.depth_rate, k * here.depth_position + c * here.depth_rate_position, side * weight,
-              view.east, load.slip_east, load);
+    add_force(k * here.depth + c * here.depth_rate, k * here.depth_position + c * here.depth_rate_position,
+              side * weight, view.east, load.slip_east, load);
   }
 }
 
@@ -77,9 +78,13 @@ void add_slip(const ContactPolygon& polygon, double weight, const GroundView& vi
   };
   const Vector3 normal = view.normal(), rate_slope = normal.cross(view.angular_velocity);
   const double rate = -(view.vertical_speed + rate_slope.dot(polygon.origin));
-  SlipPatch patch{scratch.corners.data(), polygon.count, over_plane(-view.height(polygon.origin), -normal),
+  SlipPatch patch{scratch.corners.data(),
+                  polygon.count,
+                  over_plane(-view.height(polygon.origin), -normal),
                   over_plane(ground.stiffness + ground.damping * rate, -ground.damping * rate_slope),
-                  over_plane(slip.east, slip.east_slope), over_plane(slip.north, slip.north_slope), rounding};
+                  over_plane(slip.east, slip.east_slope),
+                  over_plane(slip.north, slip.north_slope),
+                  rounding};
   if (field.planar) patch.north = {};
   const SlipIntegrals sums = field.rough ? rough_slip_integrals(patch) : slip_integrals(patch);
   const auto moment = [&](double value, double x, double y) -> Vector3 {

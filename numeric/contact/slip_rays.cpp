@@ -45,10 +45,8 @@ class Rays {
  public:
   Rays(const SlipPatch& patch, const SlipSegment& segment)
       : g_(segment),
-        rounding_(patch.rounding),
-        change_{patch.east.along(segment.half), patch.north.along(segment.half)},
-        depth_change_(patch.depth.along(segment.half)),
-        stiffness_change_(patch.stiffness.along(segment.half)) {}
+        rounding_(patch.rounding), change_{patch.east.along(segment.half), patch.north.along(segment.half)},
+        depth_change_(patch.depth.along(segment.half)), stiffness_change_(patch.stiffness.along(segment.half)) {}
 
   SlipIntegrals sum() {
     add_part(-1, 1);

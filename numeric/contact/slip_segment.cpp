@@ -49,10 +49,11 @@ SegmentPolynomials polynomials(const SlipPatch& patch, const SlipSegment& g, dou
   const double d1 = patch.depth.along(g.half), f1 = patch.stiffness.along(g.half);
   const double d = g.depth_at_middle + at * d1, f = g.stiffness_at_middle + at * f1;
   const double x1 = g.half.x, y1 = g.half.y, x = g.middle.x + at * x1, y = g.middle.y + at * y1;
-  const auto pressure = [&](const double (&part)[3]) {
-    const double mixed = part[1] * (g.depth * f + g.stiffness * d), mixed1 = part[1] * (g.depth * f1 + g.stiffness * d1);
-    return Cubic{{part[0] * g.depth * g.stiffness + mixed + part[2] * d * f,
-                  mixed1 + part[2] * (d * f1 + d1 * f), part[2] * d1 * f1, 0}};
+  const auto pressure = [&](const double(&part)[3]) {
+    const double mixed = part[1] * (g.depth * f + g.stiffness * d),
+                 mixed1 = part[1] * (g.depth * f1 + g.stiffness * d1);
+    return Cubic{{part[0] * g.depth * g.stiffness + mixed + part[2] * d * f, mixed1 + part[2] * (d * f1 + d1 * f),
+                  part[2] * d1 * f1, 0}};
   };
   const auto times = [](const Cubic& q, double value, double slope) {
     return Cubic{{q.c[0] * value, q.c[1] * value + q.c[0] * slope, q.c[2] * value + q.c[1] * slope, q.c[2] * slope}};
@@ -80,7 +81,8 @@ RootIntegrals root_integrals(double from, double to, double width) {
   return r;
 }
 
-SlipIntegrals in_closed_form(const SlipPatch& patch, const SlipSegment& g, const SlipVector& change, const Slowest& place) {
+SlipIntegrals in_closed_form(const SlipPatch& patch, const SlipSegment& g, const SlipVector& change,
+                             const Slowest& place) {
   const SegmentPolynomials p = polynomials(patch, g, place.at);
   const RootIntegrals r = root_integrals(-1 - place.at, 1 - place.at, place.width);
   const double size = std::sqrt(change.square());
@@ -88,10 +90,15 @@ SlipIntegrals in_closed_form(const SlipPatch& patch, const SlipSegment& g, const
   // The slip at the slowest place is across its change; by the cross product it does not cancel.
   const double sideways = change.cross(g.slip) / (size * size);
   const SlipVector rest{-sideways * along.north, sideways * along.east};
-  const auto even = [&](const Cubic& q) { return q.c[0] * r.m[0] + q.c[1] * r.m[1] + q.c[2] * r.m[2] + q.c[3] * r.m[3]; };
-  const auto odd = [&](const Cubic& q) { return q.c[0] * r.m[1] + q.c[1] * r.m[2] + q.c[2] * r.m[3] + q.c[3] * r.m[4]; };
-  const double e = even(p.force), o = odd(p.force), ex = even(p.by_x), ox = odd(p.by_x), ey = even(p.by_y), oy = odd(p.by_y);
-  return {along.east * o + rest.east * e,   along.north * o + rest.north * e,  along.east * ox + rest.east * ex,
+  const auto even = [&](const Cubic& q) {
+    return q.c[0] * r.m[0] + q.c[1] * r.m[1] + q.c[2] * r.m[2] + q.c[3] * r.m[3];
+  };
+  const auto odd = [&](const Cubic& q) {
+    return q.c[0] * r.m[1] + q.c[1] * r.m[2] + q.c[2] * r.m[3] + q.c[3] * r.m[4];
+  };
+  const double e = even(p.force), o = odd(p.force), ex = even(p.by_x), ox = odd(p.by_x), ey = even(p.by_y),
+               oy = odd(p.by_y);
+  return {along.east * o + rest.east * e,   along.north * o + rest.north * e,   along.east * ox + rest.east * ex,
           along.east * oy + rest.east * ey, along.north * ox + rest.north * ex, along.north * oy + rest.north * ey};
 }
 
@@ -121,7 +128,8 @@ SlipIntegrals along_segment(const SlipPatch& patch, const SlipSegment& segment) 
   if (!(change.square() > 0)) return by_gauss(patch, segment, change, std::numeric_limits<double>::infinity());
   const Slowest place = slowest(segment.slip, change, patch.rounding);
   const double ellipse = finite_ellipse(place);
-  return ellipse >= far_ellipse ? by_gauss(patch, segment, change, ellipse) : in_closed_form(patch, segment, change, place);
+  return ellipse >= far_ellipse ? by_gauss(patch, segment, change, ellipse)
+                                : in_closed_form(patch, segment, change, place);
 }
 
 void add_point(const SlipPatch& patch, const PlanePoint& p, double weight, SlipIntegrals& sum) {

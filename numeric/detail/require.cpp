@@ -14,7 +14,9 @@ void require(bool condition, const char* field, double value, const char* allowe
   throw std::domain_error(text.str());
 }
 
-void require_positive(const char* field, double value) { require(value > 0, field, value, "finite and greater than 0"); }
+void require_positive(const char* field, double value) {
+  require(value > 0, field, value, "finite and greater than 0");
+}
 
 void require_at_least(const char* field, int value, int least) {
   const std::string allowed = "at least " + std::to_string(least);

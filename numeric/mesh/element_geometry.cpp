@@ -10,8 +10,7 @@ namespace clatter::numeric {
 namespace {
 
 constexpr Face tetrahedron_faces[] = {{0, 2, 1, -1}, {0, 1, 3, -1}, {0, 3, 2, -1}, {1, 2, 3, -1}};
-constexpr Face prism_faces[] = {
-    {0, 2, 1, -1}, {3, 4, 5, -1}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
+constexpr Face prism_faces[] = {{0, 2, 1, -1}, {3, 4, 5, -1}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
 constexpr Face hexahedron_faces[] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
                                      {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 
@@ -22,8 +21,8 @@ struct Factor {
 };
 
 Eigen::Vector4d product(const Factor& a, const Factor& b, const Factor& c) {
-  return {a.derivative * b.value * c.value, a.value * b.derivative * c.value,
-          a.value * b.value * c.derivative, a.value * b.value * c.value};
+  return {a.derivative * b.value * c.value, a.value * b.derivative * c.value, a.value * b.value * c.derivative,
+          a.value * b.value * c.value};
 }
 
 Factor linear(double end, double at) { return {(1 + end * at) / 2, end / 2}; }
@@ -40,13 +39,12 @@ ReferencePoint tetrahedron_point(const Vector3& at, double weight) {
 
 ReferencePoint prism_point(const Vector3& at, double weight) {
   ReferencePoint point{.weight = weight};
-  const Eigen::Vector3d triangle[] = {
-      {-1, -1, 1 - at.x() - at.y()}, {1, 0, at.x()}, {0, 1, at.y()}};
+  const Eigen::Vector3d triangle[] = {{-1, -1, 1 - at.x() - at.y()}, {1, 0, at.x()}, {0, 1, at.y()}};
   for (int i = 0; i < 6; ++i) {
     const Factor along = linear(i < 3 ? -1 : 1, at.z());
     const Eigen::Vector3d& across = triangle[i % 3];
-    point.shape.col(i) << across[0] * along.value, across[1] * along.value,
-        across[2] * along.derivative, across[2] * along.value;
+    point.shape.col(i) << across[0] * along.value, across[1] * along.value, across[2] * along.derivative,
+        across[2] * along.value;
   }
   return point;
 }
@@ -58,8 +56,7 @@ ReferencePoint hexahedron_point(const Vector3& at, double weight) {
   ReferencePoint point{.weight = weight};
   for (int i = 0; i < 8; ++i) {
     const auto& end = hexahedron_corners[i];
-    point.shape.col(i) =
-        product(linear(end[0], at.x()), linear(end[1], at.y()), linear(end[2], at.z()));
+    point.shape.col(i) = product(linear(end[0], at.x()), linear(end[1], at.y()), linear(end[2], at.z()));
   }
   return point;
 }
@@ -122,8 +119,7 @@ ReferenceElement make_hexahedron() {
   for (const auto& x : gauss()) {
     for (const auto& y : gauss()) {
       for (const auto& z : gauss()) {
-        element.quadrature.push_back(
-            hexahedron_point({x.at, y.at, z.at}, x.weight * y.weight * z.weight));
+        element.quadrature.push_back(hexahedron_point({x.at, y.at, z.at}, x.weight * y.weight * z.weight));
       }
     }
   }
@@ -139,8 +135,7 @@ void check_node(const Mesh& mesh, int index, int position) {
   const int node = nodes[position];
   const std::string name = "node " + std::to_string(node);
   if (!(node >= 0 && static_cast<std::size_t>(node) < mesh.nodes.size())) {
-    refuse_element(mesh, index,
-                   name + " is not one of the " + std::to_string(mesh.nodes.size()) + " nodes");
+    refuse_element(mesh, index, name + " is not one of the " + std::to_string(mesh.nodes.size()) + " nodes");
   }
   for (int i = 0; i < position; ++i) {
     if (nodes[i] == node) refuse_element(mesh, index, name + " is repeated");
@@ -189,8 +184,8 @@ ElementMap::Point ElementMap::at(const ReferencePoint& point) const {
   const double rounding = 32 * std::numeric_limits<double>::epsilon() * size.prod();
   if (!(volume > rounding)) {
     std::ostringstream text;
-    text << (volume < -rounding ? "inverted" : "degenerate") << ", its Jacobian determinant is "
-         << volume << " at " << (point.weight > 0 ? "a quadrature point" : "a corner");
+    text << (volume < -rounding ? "inverted" : "degenerate") << ", its Jacobian determinant is " << volume << " at "
+         << (point.weight > 0 ? "a quadrature point" : "a corner");
     refuse_element(mesh_, index_, text.str());
   }
   return {mapped.row(3).transpose(), volume};

@@ -27,9 +27,8 @@ struct ReferenceElement {
   const char* name;
   int node_count;
   std::span<const Face> faces;
-  std::vector<ReferencePoint> corners;  ///< weight 0
-  std::vector<ReferencePoint>
-      quadrature;  ///< exact for det J times every quadratic polynomial of x
+  std::vector<ReferencePoint> corners;     ///< weight 0
+  std::vector<ReferencePoint> quadrature;  ///< exact for det J times every quadratic polynomial of x
 };
 
 [[nodiscard]] const ReferenceElement& reference_element(ElementShape shape);
@@ -61,8 +60,7 @@ class ElementMap {
   const Mesh& mesh_;
   int index_;
   Vector3 origin_;
-  Eigen::Matrix<double, 8, 3> corners_ =
-      Eigen::Matrix<double, 8, 3>::Zero();  // relative to origin_
+  Eigen::Matrix<double, 8, 3> corners_ = Eigen::Matrix<double, 8, 3>::Zero();  // relative to origin_
 };
 
 /// @throws MeshError as ElementMap, at every corner and quadrature point.

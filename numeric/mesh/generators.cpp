@@ -72,8 +72,7 @@ void validate(const RodMesh& rod) {
   detail::require_at_least("sectors", rod.sectors, 3);
   detail::require_at_least("rings", rod.rings, 1);
   detail::require_at_least("layers", rod.layers, 1);
-  require_countable("sectors, rings, layers",
-                    (1. + 1. * rod.sectors * rod.rings) * (1. + rod.layers));
+  require_countable("sectors, rings, layers", (1. + 1. * rod.sectors * rod.rings) * (1. + rod.layers));
 }
 
 void add_slice(Mesh& mesh, const RodMesh& rod, int slice) {
@@ -92,13 +91,11 @@ void add_sector(Mesh& mesh, const RodMesh& rod, double density, int layer, int s
   const RodNumbering node{rod.sectors, rod.rings};
   const int top = node.per_slice(), s = sector, t = sector + 1;
   const int axis = node.axis(layer), p = node.rim(layer, 1, s), q = node.rim(layer, 1, t);
-  mesh.elements.push_back(
-      {ElementShape::prism, {axis, p, q, axis + top, p + top, q + top, -1, -1}, density});
+  mesh.elements.push_back({ElementShape::prism, {axis, p, q, axis + top, p + top, q + top, -1, -1}, density});
   for (int ring = 1; ring < rod.rings; ++ring) {
     const int a = node.rim(layer, ring, s), b = node.rim(layer, ring + 1, s);
     const int c = node.rim(layer, ring + 1, t), d = node.rim(layer, ring, t);
-    mesh.elements.push_back(
-        {ElementShape::hexahedron, {a, b, c, d, a + top, b + top, c + top, d + top}, density});
+    mesh.elements.push_back({ElementShape::hexahedron, {a, b, c, d, a + top, b + top, c + top, d + top}, density});
   }
 }
 
@@ -131,8 +128,7 @@ void add_box_elements(Mesh& mesh, const BoxMesh& box, double density) {
     for (int j = 0; j < box.ny; ++j) {
       for (int i = 0; i < box.nx; ++i) {
         const int a = k * top + j * row + i, b = a + 1, c = b + row, d = a + row;
-        mesh.elements.push_back(
-            {ElementShape::hexahedron, {a, b, c, d, a + top, b + top, c + top, d + top}, density});
+        mesh.elements.push_back({ElementShape::hexahedron, {a, b, c, d, a + top, b + top, c + top, d + top}, density});
       }
     }
   }

@@ -8,18 +8,18 @@ namespace clatter::numeric {
 /// A solid cylinder along x, centred at the origin.  Its faceted mesh has less volume than the round
 /// cylinder; the density is scaled so that the mass is `mass`.
 struct RodMesh {
-  double length = 1;   ///< [m], > 0
+  double length = 1;     ///< [m], > 0
   double radius = 0.01;  ///< of the rim nodes [m], > 0
-  double mass = 1;     ///< [kg], > 0
-  int sectors = 16;    ///< around, >= 3; one node of the rim lies exactly at the bottom, (y, z) = (0, −radius)
-  int rings = 4;       ///< from the axis to the rim, >= 1; the innermost are prisms, the others hexahedra
-  int layers = 30;     ///< along the axis, >= 1
+  double mass = 1;       ///< [kg], > 0
+  int sectors = 16;      ///< around, >= 3; one node of the rim lies exactly at the bottom, (y, z) = (0, −radius)
+  int rings = 4;         ///< from the axis to the rim, >= 1; the innermost are prisms, the others hexahedra
+  int layers = 30;       ///< along the axis, >= 1
 };
 
 /// A box centred at the origin with its edges along x, y, z.
 struct BoxMesh {
-  Vector3 size{1, 1, 1};  ///< [m], each > 0
-  double mass = 1;        ///< [kg], > 0
+  Vector3 size{1, 1, 1};       ///< [m], each > 0
+  double mass = 1;             ///< [kg], > 0
   int nx = 1, ny = 1, nz = 1;  ///< hexahedra along each edge, >= 1
 };
 

@@ -48,8 +48,7 @@ std::optional<double> density_in(const std::string& name) {
   double value = 0;
   const auto [last, error] = std::from_chars(name.data() + at + key.size(), end, value);
   if (error != std::errc() || last != end || !(value > 0 && std::isfinite(value))) {
-    throw MeshError("physical volume \"" + name +
-                    "\": must end in density=NUMBER, greater than 0 and finite");
+    throw MeshError("physical volume \"" + name + "\": must end in density=NUMBER, greater than 0 and finite");
   }
   return value;
 }
@@ -63,8 +62,7 @@ double volume_density(int volume, double otherwise) {
     gmsh::model::getPhysicalName(3, group, name);
     const std::optional<double> density = density_in(name);
     if (density && found && *density != *found) {
-      throw MeshError("volume " + std::to_string(volume) +
-                      ": its physical volumes give two densities");
+      throw MeshError("volume " + std::to_string(volume) + ": its physical volumes give two densities");
     }
     if (density) found = density;
   }
@@ -123,15 +121,13 @@ std::unordered_map<Tag, Vector3> tagged_nodes(double unit) {
   mesh_api::getNodes(tags, coordinates, parametric);
   std::unordered_map<Tag, Vector3> nodes(tags.size());
   for (std::size_t i = 0; i < tags.size(); ++i) {
-    nodes[tags[i]] =
-        unit * Vector3(coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]);
+    nodes[tags[i]] = unit * Vector3(coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]);
   }
   return nodes;
 }
 
 /// Numbers the nodes in the order in which the elements use them.
-Mesh assemble(const std::vector<TaggedElement>& elements,
-              const std::unordered_map<Tag, Vector3>& nodes) {
+Mesh assemble(const std::vector<TaggedElement>& elements, const std::unordered_map<Tag, Vector3>& nodes) {
   Mesh mesh;
   std::unordered_map<Tag, int> numbers;
   for (const TaggedElement& tagged : elements) {
@@ -139,11 +135,10 @@ Mesh assemble(const std::vector<TaggedElement>& elements,
     for (int i = 0; i < reference_element(tagged.shape).node_count; ++i) {
       const auto position = nodes.find(tagged.nodes[i]);
       if (position == nodes.end()) {
-        throw MeshError("the element with tag " + std::to_string(tagged.tag) +
-                        " has the unknown node " + std::to_string(tagged.nodes[i]));
+        throw MeshError("the element with tag " + std::to_string(tagged.tag) + " has the unknown node " +
+                        std::to_string(tagged.nodes[i]));
       }
-      const auto [entry, is_new] =
-          numbers.try_emplace(tagged.nodes[i], static_cast<int>(mesh.nodes.size()));
+      const auto [entry, is_new] = numbers.try_emplace(tagged.nodes[i], static_cast<int>(mesh.nodes.size()));
       if (is_new) mesh.nodes.push_back(position->second);
       element.nodes[i] = entry->second;
     }

@@ -52,8 +52,7 @@ class Builder {
   struct Hash {
     std::size_t operator()(const Key& key) const {
       std::uint64_t hash = 0;
-      for (const std::uint64_t word : key)
-        hash = (std::rotl(hash, 23) ^ word) * 0x9e3779b97f4a7c15U;
+      for (const std::uint64_t word : key) hash = (std::rotl(hash, 23) ^ word) * 0x9e3779b97f4a7c15U;
       return hash ^ hash >> 32;
     }
   };
@@ -127,8 +126,7 @@ class Words {
 };
 
 [[noreturn]] void refuse_word(const std::string& word, const std::string& expected) {
-  throw MeshError("expected " + expected + ", found " +
-                  (word.empty() ? "the end of the file" : word));
+  throw MeshError("expected " + expected + ", found " + (word.empty() ? "the end of the file" : word));
 }
 
 void expect(Words& words, std::string_view phrase) {
@@ -147,8 +145,7 @@ double number(Words& words) {
   double value = 0;
   const auto [last, error] = std::from_chars(begin, end, value);
   if (error == std::errc() && last == end) return value;
-  if (error == std::errc::result_out_of_range)
-    refuse_word(word, "a number within the range of double");
+  if (error == std::errc::result_out_of_range) refuse_word(word, "a number within the range of double");
   refuse_word(word, "a number");
 }
 
@@ -181,8 +178,7 @@ void read_text(Words& words, Builder& builder) {
 
 /// Binary files may begin with "solid" too, so their length decides.
 bool is_binary(std::string_view file) {
-  if (file.size() >= header_size &&
-      file.size() == header_size + triangle_size * word_at(file, 80)) {
+  if (file.size() >= header_size && file.size() == header_size + triangle_size * word_at(file, 80)) {
     return true;
   }
   return Words(file.substr(0, header_size)).next() != "solid" || file.find('\0') != file.npos;
@@ -194,9 +190,9 @@ void check_length(std::string_view file) {
   }
   const std::size_t count = word_at(file, 80), expected = header_size + triangle_size * count;
   if (file.size() == expected) return;
-  throw MeshError((file.size() < expected ? "truncated: " : "trailing data: ") +
-                  std::to_string(count) + " triangles take " + std::to_string(expected) +
-                  " bytes, the file has " + std::to_string(file.size()));
+  throw MeshError((file.size() < expected ? "truncated: " : "trailing data: ") + std::to_string(count) +
+                  " triangles take " + std::to_string(expected) + " bytes, the file has " +
+                  std::to_string(file.size()));
 }
 
 }  // namespace

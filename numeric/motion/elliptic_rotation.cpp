@@ -31,8 +31,7 @@ EllipticRotation::Constants EllipticRotation::constants(const PrincipalAxes& pri
                                                         const Vector3& angular_velocity) {
   const double a = principal.moments[0], b = principal.moments[1], c = principal.moments[2];
   const Vector3 along = principal.axes.transpose() * angular_velocity;
-  const bool circles_largest =
-      c * (c - b) * along[2] * along[2] >= a * (b - a) * along[0] * along[0];
+  const bool circles_largest = c * (c - b) * along[2] * along[2] >= a * (b - a) * along[0] * along[0];
 
   Constants k;
   k.moments = circles_largest ? principal.moments : principal.moments.reverse().eval();
@@ -40,18 +39,15 @@ EllipticRotation::Constants EllipticRotation::constants(const PrincipalAxes& pri
   const Vector3 w = k.axes.transpose() * angular_velocity;
   const Vector3 squares = w.cwiseAbs2();
   const Vector3& i = k.moments;
-  const double d12 = std::fabs(i[0] - i[1]), d13 = std::fabs(i[0] - i[2]),
-               d23 = std::fabs(i[1] - i[2]);
+  const double d12 = std::fabs(i[0] - i[1]), d13 = std::fabs(i[0] - i[2]), d23 = std::fabs(i[1] - i[2]);
   const double x = i[0] * d13 * squares[0] + i[1] * d23 * squares[1];
   const double y = i[1] * d12 * squares[1] + i[2] * d13 * squares[2];
   const double s = i[2] * d23 * squares[2] - i[0] * d12 * squares[0];
 
-  const Vector3 sizes(std::sqrt(x / (i[0] * d13)), std::sqrt(x / (i[1] * d23)),
-                      std::sqrt(y / (i[2] * d13)));
+  const Vector3 sizes(std::sqrt(x / (i[0] * d13)), std::sqrt(x / (i[1] * d23)), std::sqrt(y / (i[2] * d13)));
   // From I₂ ω̇₂ = (I₃ − I₁) ω₃ ω₁ at u = 0.
   const double order = circles_largest ? 1 : -1;
-  k.amplitudes = {std::copysign(sizes[0], w[0]),
-                  std::copysign(sizes[1], order * std::copysign(1.0, w[0]) * w[2]),
+  k.amplitudes = {std::copysign(sizes[0], w[0]), std::copysign(sizes[1], order * std::copysign(1.0, w[0]) * w[2]),
                   std::copysign(sizes[2], w[2])};
   k.rate = std::sqrt(d23 * y / (i[0] * i[1] * i[2]));
   k.complement = std::clamp(d13 * s / (d23 * y), smallest_complement, 1.0);
@@ -70,11 +66,8 @@ EllipticRotation::EllipticRotation(const Constants& constants, const Eigen::Quat
   const double smallest = c_.moments[reference_], largest = c_.moments[2 - reference_];
   const auto [sine, cosine] = c_.start;
   const JacobiFunctions::Values start{
-      .sn = sine,
-      .cn = cosine,
-      .dn = std::sqrt(cosine * cosine + c_.complement * sine * sine)};
-  const Vector3 momentum = c_.moments.cwiseProduct(
-      c_.amplitudes.cwiseProduct(Vector3(start.cn, start.sn, start.dn)));
+      .sn = sine, .cn = cosine, .dn = std::sqrt(cosine * cosine + c_.complement * sine * sine)};
+  const Vector3 momentum = c_.moments.cwiseProduct(c_.amplitudes.cwiseProduct(Vector3(start.cn, start.sn, start.dn)));
   start_frame_ = c_.axes * momentum_frame(momentum);
 
   modulation_ = c_.ratio * smallest / largest;

@@ -56,14 +56,14 @@ class EllipticRotation {
   Constants c_;
   JacobiFunctions jacobi_;
   Eigen::Quaterniond start_attitude_;
-  Matrix3 start_frame_;         ///< F₀, in the body frame
-  int reference_;               ///< index of the axis with the smallest moment
-  double start_argument_;       ///< u₀
-  double modulation_;           ///< h
-  double quarter_integral_;     ///< J(K)
-  double start_integral_;       ///< J(u₀)
-  double fastest_precession_;   ///< ψ̇ at sn² = 1
-  double precession_swing_;     ///< |L| r′ (c − a)/(c² λ)
+  Matrix3 start_frame_;        ///< F₀, in the body frame
+  int reference_;              ///< index of the axis with the smallest moment
+  double start_argument_;      ///< u₀
+  double modulation_;          ///< h
+  double quarter_integral_;    ///< J(K)
+  double start_integral_;      ///< J(u₀)
+  double fastest_precession_;  ///< ψ̇ at sn² = 1
+  double precession_swing_;    ///< |L| r′ (c − a)/(c² λ)
 };
 
 }  // namespace clatter::numeric

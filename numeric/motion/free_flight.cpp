@@ -33,8 +33,8 @@ struct Approach {
 double safe_time(const Approach& at) {
   const double height = std::max(at.height, 0.0);
   const double root = std::sqrt(at.rate * at.rate + 2 * at.acceleration * height);
-  if (at.rate > 0) return at.acceleration > 0 ? (at.rate + root) / at.acceleration
-                                              : std::numeric_limits<double>::infinity();
+  if (at.rate > 0)
+    return at.acceleration > 0 ? (at.rate + root) / at.acceleration : std::numeric_limits<double>::infinity();
   const double speed = root - at.rate;
   return speed > 0 ? 2 * height / speed : std::numeric_limits<double>::infinity();
 }
@@ -87,8 +87,7 @@ double sphere_time(double clearance, double vertical_speed, double gravity) {
 }  // namespace
 
 FreeFlight::FreeFlight(const Body& body, const MotionState& start, double gravity, bool planar)
-    : start_(start),
-      gravity_(gravity),
+    : start_(start), gravity_(gravity),
       rotation_(planar ? Matrix3(Matrix3::Identity()) : body.inertia(), {start.attitude, start.angular_velocity}) {}
 
 MotionState FreeFlight::at(double time) const {

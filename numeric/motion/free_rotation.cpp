@@ -9,10 +9,10 @@ namespace clatter::numeric {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double equal_moments = 4 * eps;           // relative to the larger one
-constexpr double negligible = 1e-120;               // part of |ω| whose square might underflow
-constexpr double bound_rounding = 1 + 16 * eps;     // what the bounds and at() may be off
-constexpr double largest_phase = 1e300;             // keeps angles finite
+constexpr double equal_moments = 4 * eps;        // relative to the larger one
+constexpr double negligible = 1e-120;            // part of |ω| whose square might underflow
+constexpr double bound_rounding = 1 + 16 * eps;  // what the bounds and at() may be off
+constexpr double largest_phase = 1e300;          // keeps angles finite
 
 /// Largest power of two <= size; 1 for zero.
 double power_of_two(double size) { return size > 0 ? std::ldexp(1.0, std::ilogb(size)) : 1; }
@@ -47,9 +47,7 @@ std::variant<SteadyPrecession, EllipticRotation> solve(PrincipalAxes body, const
   const Vector3 along = body.axes.transpose() * start.angular_velocity;
   if ((along.array().abs() > negligible).count() < 2) return SteadyPrecession(start);
   body.moments /= power_of_two(body.moments[2]);
-  const auto equal = [&](int i, int j) {
-    return body.moments[j] - body.moments[i] <= equal_moments * body.moments[j];
-  };
+  const auto equal = [&](int i, int j) { return body.moments[j] - body.moments[i] <= equal_moments * body.moments[j]; };
   if (equal(0, 1)) return symmetric(body, start, 2);
   if (equal(1, 2)) return symmetric(body, start, 0);
   return EllipticRotation(body, start);
@@ -70,14 +68,12 @@ Rotation FreeRotation::at(double time) const {
 }
 
 double FreeRotation::largest_speed() const {
-  return rate_ * bound_rounding *
-         std::visit([](const auto& rotation) { return rotation.largest_speed(); }, rotation_);
+  return rate_ * bound_rounding * std::visit([](const auto& rotation) { return rotation.largest_speed(); }, rotation_);
 }
 
 double FreeRotation::largest_acceleration() const {
   return rate_ * rate_ * bound_rounding *
-         std::visit([](const auto& rotation) { return rotation.largest_acceleration(); },
-                    rotation_);
+         std::visit([](const auto& rotation) { return rotation.largest_acceleration(); }, rotation_);
 }
 
 }  // namespace clatter::numeric

@@ -12,15 +12,13 @@ using Policy = boost::math::policies::policy<boost::math::policies::promote_doub
 
 }  // namespace
 
-JacobiFunctions::JacobiFunctions(double complementary_parameter)
-    : complement_(complementary_parameter) {
+JacobiFunctions::JacobiFunctions(double complementary_parameter) : complement_(complementary_parameter) {
   // The means agree to eps one step after they agree to its square root.
   constexpr double agreement = 1e-8;
   arithmetic_[0] = 1;
   geometric_[0] = std::sqrt(complement_);
   int n = 0;
-  while (std::fabs(arithmetic_[n] - geometric_[n]) > agreement * arithmetic_[n] &&
-         n + 2 < most_means) {
+  while (std::fabs(arithmetic_[n] - geometric_[n]) > agreement * arithmetic_[n] && n + 2 < most_means) {
     arithmetic_[n + 1] = (arithmetic_[n] + geometric_[n]) / 2;
     geometric_[n + 1] = std::sqrt(arithmetic_[n] * geometric_[n]);
     ++n;
@@ -53,8 +51,7 @@ double JacobiFunctions::argument(const Amplitude& amplitude) const {
 double JacobiFunctions::remaining_integral(const Values& values, double h) const {
   const auto [sn, cn, dn] = values;
   return cn * cn * cn / (3 * (1 + h) * std::sqrt(complement_)) *
-         boost::math::ellint_rj(sn * sn, 1.0, dn * dn / complement_, (1 + h * sn * sn) / (1 + h),
-                                Policy());
+         boost::math::ellint_rj(sn * sn, 1.0, dn * dn / complement_, (1 + h * sn * sn) / (1 + h), Policy());
 }
 
 }  // namespace clatter::numeric

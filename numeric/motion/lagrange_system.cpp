@@ -4,8 +4,7 @@
 
 namespace clatter::numeric {
 
-LagrangeSystem lagrange_system(const BodyInertia& body, const MotionState& state,
-                               const WorldWrench& wrench) {
+LagrangeSystem lagrange_system(const BodyInertia& body, const MotionState& state, const WorldWrench& wrench) {
   const Vector4 beta = euler_parameters(state.attitude);
   const Matrix34 g = rate_matrix(beta);
   const Vector3& omega = state.angular_velocity;
@@ -33,8 +32,7 @@ LagrangeAcceleration solve(const LagrangeSystem& system) {
   right << system.velocity_force + system.applied_force, -unit * system.beta_rate.squaredNorm();
 
   const Eigen::Matrix<double, 8, 1> solution = bordered.partialPivLu().solve(right);
-  return {.coordinates = solution.head<7>(),
-          .angular = rate_matrix(system.beta) * solution.segment<4>(3)};
+  return {.coordinates = solution.head<7>(), .angular = rate_matrix(system.beta) * solution.segment<4>(3)};
 }
 
 }  // namespace clatter::numeric

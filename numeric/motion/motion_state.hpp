@@ -9,10 +9,10 @@ namespace clatter::numeric {
 /// centre of mass.  `attitude` holds the Euler parameters (β₀; β₁, β₂, β₃) as (w; x, y, z) of a unit quaternion and
 /// takes body to world coordinates: x = centre + A(β) u′.
 struct MotionState {
-  Vector3 centre = Vector3::Zero();                             ///< of mass, world [m]
-  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity(); ///< body → world
-  Vector3 velocity = Vector3::Zero();                           ///< of the centre of mass, world [m/s]
-  Vector3 angular_velocity = Vector3::Zero();                   ///< body frame [rad/s]
+  Vector3 centre = Vector3::Zero();                              ///< of mass, world [m]
+  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  ///< body → world
+  Vector3 velocity = Vector3::Zero();                            ///< of the centre of mass, world [m/s]
+  Vector3 angular_velocity = Vector3::Zero();                    ///< body frame [rad/s]
 };
 
 }  // namespace clatter::numeric

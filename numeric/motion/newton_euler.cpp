@@ -6,8 +6,7 @@
 
 namespace clatter::numeric {
 
-NewtonEuler::NewtonEuler(double mass, const Matrix3& inertia)
-    : mass_(mass), inertia_(inertia), factors_(inertia) {
+NewtonEuler::NewtonEuler(double mass, const Matrix3& inertia) : mass_(mass), inertia_(inertia), factors_(inertia) {
   if (!(mass > 0 && std::isfinite(mass))) {
     throw std::domain_error("mass = " + std::to_string(mass) + ": must be positive and finite");
   }
@@ -16,8 +15,7 @@ NewtonEuler::NewtonEuler(double mass, const Matrix3& inertia)
   }
 }
 
-Acceleration NewtonEuler::acceleration(const Vector3& angular_velocity,
-                                       const BodyWrench& wrench) const {
+Acceleration NewtonEuler::acceleration(const Vector3& angular_velocity, const BodyWrench& wrench) const {
   const Vector3 gyroscopic = angular_velocity.cross(inertia_ * angular_velocity);
   return {.linear = wrench.force / mass_, .angular = factors_.solve(wrench.moment - gyroscopic)};
 }

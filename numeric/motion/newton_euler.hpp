@@ -28,8 +28,7 @@ class NewtonEuler {
   NewtonEuler(double mass, const Matrix3& inertia);
 
   /// Accuracy: backward stable.  No allocation.
-  [[nodiscard]] Acceleration acceleration(const Vector3& angular_velocity,
-                                          const BodyWrench& wrench) const;
+  [[nodiscard]] Acceleration acceleration(const Vector3& angular_velocity, const BodyWrench& wrench) const;
 
  private:
   double mass_;

@@ -36,8 +36,7 @@ PrincipalAxes of_full(const Matrix3& inertia, double largest) {
   const int exponent = std::ilogb(largest);
   const Matrix3 scaled = inertia.unaryExpr([&](double x) { return std::ldexp(x, -exponent); });
   const Eigen::SelfAdjointEigenSolver<Matrix3> solver((scaled + scaled.transpose()) / 2);
-  return {.moments = solver.eigenvalues().unaryExpr(
-              [&](double x) { return std::ldexp(x, exponent); }),
+  return {.moments = solver.eigenvalues().unaryExpr([&](double x) { return std::ldexp(x, exponent); }),
           .axes = solver.eigenvectors()};
 }
 
@@ -49,8 +48,7 @@ PrincipalAxes principal_axes(const Matrix3& inertia) {
   if (!((inertia - inertia.transpose()).cwiseAbs().maxCoeff() <= input_rounding * largest)) {
     refuse(inertia, "must be symmetric");
   }
-  PrincipalAxes result = inertia.isDiagonal(0) ? of_diagonal(inertia.diagonal())
-                                               : of_full(inertia, largest);
+  PrincipalAxes result = inertia.isDiagonal(0) ? of_diagonal(inertia.diagonal()) : of_full(inertia, largest);
   const Vector3& moments = result.moments;
   if (!(moments[0] > 0)) refuse(inertia, "must be positive definite");
   if (!(moments[2] - moments[1] <= moments[0] + input_rounding * moments[2])) {

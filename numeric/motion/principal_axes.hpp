@@ -6,8 +6,8 @@
 namespace clatter::numeric {
 
 struct PrincipalAxes {
-  Vector3 moments = Vector3::Ones();     ///< ascending, units of the tensor
-  Matrix3 axes = Matrix3::Identity();    ///< columns: unit axes, right-handed
+  Vector3 moments = Vector3::Ones();   ///< ascending, units of the tensor
+  Matrix3 axes = Matrix3::Identity();  ///< columns: unit axes, right-handed
 };
 
 /// I = axes · diag(moments) · axesᵀ.  A diagonal tensor keeps its numbers and axes exactly.

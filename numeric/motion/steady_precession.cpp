@@ -12,8 +12,7 @@ Eigen::Quaterniond turn(const Vector3& axis, double angle) {
 }  // namespace
 
 SteadyPrecession::SteadyPrecession(const Rotation& start, const Rates& rates)
-    : start_(start), precession_(rates.precession.norm()), spin_axis_(rates.spin_axis),
-      spin_(rates.spin) {
+    : start_(start), precession_(rates.precession.norm()), spin_axis_(rates.spin_axis), spin_(rates.spin) {
   if (precession_ > 0) precession_axis_ = rates.precession / precession_;
 }
 

@@ -18,8 +18,7 @@ class SteadyPrecession {
   };
   SteadyPrecession(const Rotation& start, const Rates& rates);
   /// About the fixed axis of the angular velocity.
-  explicit SteadyPrecession(const Rotation& start)
-      : SteadyPrecession(start, {.precession = start.angular_velocity}) {}
+  explicit SteadyPrecession(const Rotation& start) : SteadyPrecession(start, {.precession = start.angular_velocity}) {}
 
   [[nodiscard]] Rotation at(double time) const;
   [[nodiscard]] double largest_speed() const;

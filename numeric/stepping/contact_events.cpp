@@ -11,8 +11,8 @@ namespace {
 
 using Kind = FrictionPhase::Kind;
 
-constexpr int most_switches = 8;    ///< of friction without a step between them
-constexpr double faint_part = 1e-9; ///< of the contact's mean force: below it friction switches no more
+constexpr int most_switches = 8;     ///< of friction without a step between them
+constexpr double faint_part = 1e-9;  ///< of the contact's mean force: below it friction switches no more
 
 }  // namespace
 
@@ -117,8 +117,10 @@ double ContactRun::locate(Indicator indicator, double h, ContactInstant& at_root
   };
   const double resolution = 1e-14 * (scales_.time + now_.time);
   std::uintmax_t iterations = 50;
-  const double high = boost::math::tools::toms748_solve(
-      value, 0.0, h, at_start, at_end, [&](double a, double b) { return b - a <= resolution; }, iterations).second;
+  const double high =
+      boost::math::tools::toms748_solve(
+          value, 0.0, h, at_start, at_end, [&](double a, double b) { return b - a <= resolution; }, iterations)
+          .second;
   if (!try_step(now_, high, probe_)) return h;
   at_root = probe_;
   return high;

@@ -21,8 +21,8 @@ constexpr double slow_part = 0.1;
 /// Part of the speed and acceleration of a fall below which a body lies still, and how many times the tolerance the
 /// errors of steps keep up, so that a rough run ends too.
 constexpr double least_rest = 1e-6, largest_rest = 1e-5, noise_per_tolerance = 300;
-constexpr double least_spin = 1;             ///< times tolerance and the contact's speed: slip from spin that counts
-constexpr double fading_per_contact = 50;    ///< rate at which stick ends a remaining slip, times the contact time
+constexpr double least_spin = 1;           ///< times tolerance and the contact's speed: slip from spin that counts
+constexpr double fading_per_contact = 50;  ///< rate at which stick ends a remaining slip, times the contact time
 
 }  // namespace
 
@@ -85,9 +85,9 @@ void ContactRun::collect() {
   result_.local_slip = local_slip_.impulse();
   result_.touches = std::max(touches_.touches(), 1);
   result_.end = touches_.touched_a() && touches_.touched_b() ? ContactEnd::both
-                : touches_.touched_a()                        ? ContactEnd::a
-                : touches_.touched_b()                        ? ContactEnd::b
-                                                              : ContactEnd::middle;
+                : touches_.touched_a()                       ? ContactEnd::a
+                : touches_.touched_b()                       ? ContactEnd::b
+                                                             : ContactEnd::middle;
 }
 
 void ContactRun::weigh_errors() {
@@ -241,7 +241,8 @@ bool ContactRun::is_steady(const ContactInstant& at) const {
   const double depth = at.diagnosis.load.deepest;
   if (!(g > 0) || !(depth > 0)) return false;
   const double radius = system_.body().radius(), fall = std::sqrt(g * depth);
-  const double noise = stepper_.error_order() > 0 ? noise_per_tolerance * control_->tolerance * scales_.speed / fall : 0;
+  const double noise =
+      stepper_.error_order() > 0 ? noise_per_tolerance * control_->tolerance * scales_.speed / fall : 0;
   const double part = std::clamp(noise, least_rest, largest_rest);
   const double turning = at.state.segment<3>(10).norm(), spin = at.diagnosis.spin;
   const double tipping = std::sqrt(std::max(turning * turning - spin * spin, 0.0));

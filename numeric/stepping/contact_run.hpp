@@ -24,11 +24,12 @@ struct ContactInstant {
 /// How a contact is stepped.
 struct ContactControl {
   double tolerance = 1e-10;  ///< of an adaptive method: local error <= tolerance × scale, per step
-  double step = 0;           ///< of a fixed-step method [s], at most a quarter of scales.time; 0: scales.time / steps_per_contact
-  double first_step = 0;     ///< length of the first fixed step [s], at most `step`; 0: as the others
+  double step =
+      0;  ///< of a fixed-step method [s], at most a quarter of scales.time; 0: scales.time / steps_per_contact
+  double first_step = 0;  ///< length of the first fixed step [s], at most `step`; 0: as the others
   double steps_per_contact = 300;
-  double step_cap = 1;       ///< of an adaptive method: factor of the longest step and of the first one
-  long evaluation_limit = 0;  ///< of the system's count, at which the run stops
+  double step_cap = 1;               ///< of an adaptive method: factor of the longest step and of the first one
+  long evaluation_limit = 0;         ///< of the system's count, at which the run stops
   bool estimate_local_slip = false;  ///< see ContactResult::local_slip
   /// Called after every accepted step, and before that with a peak of the force inside it; return false to stop.
   std::function<bool(const ContactInstant&)> observe = nullptr;
@@ -46,12 +47,12 @@ enum class ContactEnding {
 
 struct ContactResult {
   ContactEnding ending = ContactEnding::lift_off;
-  double duration = 0;    ///< [s]
-  MotionState after;      ///< at the end
+  double duration = 0;                                            ///< [s]
+  MotionState after;                                              ///< at the end
   double work_damping = 0, work_released = 0, work_friction = 0;  ///< [J]
-  double energy_stored = 0;  ///< in the ground's springs at the end [J]
-  double peak_force = 0;  ///< largest F_n [N]
-  double peak_time = 0;   ///< after touch-down [s]
+  double energy_stored = 0;                                       ///< in the ground's springs at the end [J]
+  double peak_force = 0;                                          ///< largest F_n [N]
+  double peak_time = 0;                                           ///< after touch-down [s]
   FrictionMode mode = FrictionMode::frictionless;
   int touches = 0;
   bool submerged = false;  ///< see ImpactRecord
@@ -60,7 +61,7 @@ struct ContactResult {
   /// Change of the tangential impulse that FrictionLaw::local would make of a contact with FrictionLaw::coulomb,
   /// estimated (LocalSlipEstimate) if asked for [N·s].
   double local_slip = 0;
-  double step = 0;        ///< fixed step used [s]; 0: adaptive
+  double step = 0;  ///< fixed step used [s]; 0: adaptive
 };
 
 /// Steps a contact with touch-downs, lift-off and friction switches located as roots of the numerical solution:
@@ -120,7 +121,7 @@ class ContactRun {
   FrictionLog log_;
   LocalSlipEstimate local_slip_;
   double stopping_speed_ = 0;  ///< slip at which the slip phase ends [m/s]
-  int switches_ = 0;  ///< of friction since the last accepted step
+  int switches_ = 0;           ///< of friction since the last accepted step
 };
 
 }  // namespace clatter::numeric

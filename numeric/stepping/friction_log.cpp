@@ -7,7 +7,7 @@ namespace {
 
 using Kind = FrictionPhase::Kind;
 
-constexpr double minor_part = 1e-6;           ///< of energy or time: a phase below it does not name the mode
+constexpr double minor_part = 1e-6;             ///< of energy or time: a phase below it does not name the mode
 constexpr double minor_part_of_impulse = 0.01;  ///< slip without work, by μ_k = 0, counts from this part on
 constexpr std::size_t most_entries = 64;
 

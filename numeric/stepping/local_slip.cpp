@@ -11,14 +11,14 @@ namespace {
 
 using Kind = FrictionPhase::Kind;
 
-constexpr double slip_resolution = 100;  ///< times tolerance and the contact's speed: a range of slip that counts
+constexpr double slip_resolution = 100;       ///< times tolerance and the contact's speed: a range of slip that counts
 constexpr double least_resolution = 1e-9;     ///< of that speed
 constexpr double turning_resolution = 1e-13;  ///< of that speed: a range above it comes from turning, not rounding
-constexpr double steps_of_range = 4;     ///< of a fixed length within which friction may cross the range
-constexpr double enough = 1e-9;          ///< of the bound of friction: a difference of the laws that needs no solving
+constexpr double steps_of_range = 4;          ///< of a fixed length within which friction may cross the range
+constexpr double enough = 1e-9;  ///< of the bound of friction: a difference of the laws that needs no solving
 constexpr double parts_per_range = 4, most_parts = 32;  ///< of a step
 constexpr int sweeps = 2, most_trials = 12;
-constexpr double near = 0.05;            ///< relative, of the deviation
+constexpr double near = 0.05;  ///< relative, of the deviation
 
 /// The zero of a rising function between `low` and `high`, which are widened until they hold it.
 template <class Function>
@@ -89,10 +89,17 @@ void LocalSlipEstimate::part_of_step(ContactSystem& system, const ContactState& 
   AlongGround slip = slip_;
   if (misfit(slip).norm() > enough * h * bound) {
     for (int sweep = 0; sweep < (planar ? 1 : sweeps); ++sweep) {
-      slip.east = zero_of([&](double east) { return misfit({east, slip.north}).east; }, slip.east, by_east.east * h * bound);
+      slip.east = zero_of(
+          [&](double east) {
+            return misfit({east, slip.north}).east;
+          },
+          slip.east, by_east.east * h * bound);
       if (planar) continue;
-      slip.north = zero_of([&](double north) { return misfit({slip.east, north}).north; }, slip.north,
-                           by_north.north * h * bound);
+      slip.north = zero_of(
+          [&](double north) {
+            return misfit({slip.east, north}).north;
+          },
+          slip.north, by_north.north * h * bound);
     }
     static_cast<void>(misfit(slip));
   }
@@ -101,7 +108,8 @@ void LocalSlipEstimate::part_of_step(ContactSystem& system, const ContactState& 
   impulse_.north += needed.north;
 }
 
-/// Of the local law: between a patch that counts as a point, which can stick, and one whose points slip each for itself.
+/// Of the local law: between a patch that counts as a point, which can stick, and one whose points slip each for
+/// itself.
 void ContactRun::watch_local_slip() {
   const Ground& ground = system_.ground();
   if (ground.friction != FrictionLaw::local || !ground.has_friction()) return;

@@ -5,13 +5,14 @@
 
 namespace clatter::numeric {
 
-/// Carries, along a contact with FrictionLaw::coulomb, the deviation y that the slip of the pressure centre c would have
-/// under FrictionLaw::local, to first order in it:
+/// Carries, along a contact with FrictionLaw::coulomb, the deviation y that the slip of the pressure centre c would
+/// have under FrictionLaw::local, to first order in it:
 ///     ẏ = R (F_local(v + y) − F_coulomb) + [I⁻¹ (C_local(v + y) − C_coulomb) × c]_t,                           (1)
 /// R the response of the velocity at c to an impulse there, C friction's moment about c: places that slip forward and
 /// back lie at different depths, and so turn the body even where their forces cancel.  The equation is solved
 /// by Euler's implicit method over the accepted steps: (1) is stiff where the body sticks.  F_local falls with y
-/// (friction opposes slip), so that each step has a solution, found component by component.  Right to a factor of about 3 as long as the impulse's change is small.
+/// (friction opposes slip), so that each step has a solution, found component by component.  Right to a factor of about
+/// 3 as long as the impulse's change is small.
 class LocalSlipEstimate {
  public:
   void begin();

@@ -48,8 +48,8 @@ void TouchCounter::add_loop(const Loop& loop, std::vector<Edge>& edges) const {
   for (int c = loop.begin; c < loop.end; ++c) {
     const int next = c + 1 < loop.end ? c + 1 : loop.begin;
     const int from = facets.corners[static_cast<std::size_t>(c)], to = facets.corners[static_cast<std::size_t>(next)];
-    const double length = (facets.vertices[static_cast<std::size_t>(from)] -
-                           facets.vertices[static_cast<std::size_t>(to)]).norm();
+    const double length =
+        (facets.vertices[static_cast<std::size_t>(from)] - facets.vertices[static_cast<std::size_t>(to)]).norm();
     // The facet beyond the edge gives the other direction.
     edges.push_back({from, {to, length < longest ? Link::near : Link::far, -1}});
   }
@@ -63,9 +63,9 @@ void TouchCounter::begin() {
 
 bool TouchCounter::all_new(const std::vector<int>& submerged) const {
   return any_before_ && !submerged.empty() && std::none_of(submerged.begin(), submerged.end(), [&](int vertex) {
-    const int corner = body_.outline_vertex(vertex);
-    return corner >= 0 && stamp_of(corner) == now_;
-  });
+           const int corner = body_.outline_vertex(vertex);
+           return corner >= 0 && stamp_of(corner) == now_;
+         });
 }
 
 void TouchCounter::note_end(int vertex) {

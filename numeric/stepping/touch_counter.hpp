@@ -7,12 +7,12 @@
 
 namespace clatter::numeric {
 
-/// A new place is a set of the outline's vertices that go below the ground together, apart from all that were below before and from
-/// one another's: not connected, over vertices below the ground, by edges shorter than a quarter of the body's radius.
-/// (Along a longer edge the contact spreads as well, but what arrives at its far end is another blow.)  Between two
-/// updates vertices go below at once; longer edges, and facets that then lie below wholly, connect them too: a face or
-/// an edge that lands flat is one place, two feet are two.  Vertices within a face or a straight edge do not count, so that
-/// nothing depends on how a face is meshed.  No allocation after construction.
+/// A new place is a set of the outline's vertices that go below the ground together, apart from all that were below
+/// before and from one another's: not connected, over vertices below the ground, by edges shorter than a quarter of the
+/// body's radius. (Along a longer edge the contact spreads as well, but what arrives at its far end is another blow.)
+/// Between two updates vertices go below at once; longer edges, and facets that then lie below wholly, connect them
+/// too: a face or an edge that lands flat is one place, two feet are two.  Vertices within a face or a straight edge do
+/// not count, so that nothing depends on how a face is meshed.  No allocation after construction.
 class TouchCounter {
  public:
   explicit TouchCounter(const Body& body);
@@ -50,11 +50,11 @@ class TouchCounter {
   const Body& body_;
   std::vector<int> neighbour_begin_;
   std::vector<Neighbour> neighbours_;
-  std::vector<int> stamps_;       ///< update at which a vertex was last below the ground
-  std::vector<int> flooded_;      ///< update at which it was last flooded
-  std::vector<int> before_;       ///< update before the stamp at which it was below, for continuity
+  std::vector<int> stamps_;   ///< update at which a vertex was last below the ground
+  std::vector<int> flooded_;  ///< update at which it was last flooded
+  std::vector<int> before_;   ///< update before the stamp at which it was below, for continuity
   std::vector<int> stack_;
-  std::vector<int> corners_;      ///< of the outline, below the ground now
+  std::vector<int> corners_;  ///< of the outline, below the ground now
   int now_ = 2;
   int touches_ = 0;
   bool any_before_ = false;

@@ -2,8 +2,8 @@
 
 namespace clatter::numeric {
 
-bool TvdRk3::step(ContactSystem& system, const ContactState& y, const ContactState& rate, double h,
-                  ContactState& next, ContactState& error) {
+bool TvdRk3::step(ContactSystem& system, const ContactState& y, const ContactState& rate, double h, ContactState& next,
+                  ContactState& error) {
   ContactState slope;
   const ContactState first = y + h * rate;
   system.derivative(first, slope);

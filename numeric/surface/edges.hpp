@@ -28,8 +28,7 @@ class Edges {
   template <typename Visit>
   void for_each(Visit visit) const {
     for (std::size_t begin = 0, end = 0; begin < sides_.size(); begin = end) {
-      while (end < sides_.size() && sides_[end].low == sides_[begin].low &&
-             sides_[end].high == sides_[begin].high) {
+      while (end < sides_.size() && sides_[end].low == sides_[begin].low && sides_[end].high == sides_[begin].high) {
         ++end;
       }
       visit(std::span(sides_).subspan(begin, end - begin));

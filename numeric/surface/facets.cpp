@@ -29,9 +29,7 @@ struct Groups {
 class Grouping {
  public:
   Grouping(const Polygons& polygons, const std::vector<int>& opposite)
-      : polygons_(polygons),
-        opposite_(opposite),
-        offset_(length_tolerance * size_of(polygons.nodes)) {}
+      : polygons_(polygons), opposite_(opposite), offset_(length_tolerance * size_of(polygons.nodes)) {}
 
   [[nodiscard]] Groups separate() const {
     Groups groups;
@@ -125,8 +123,7 @@ double distance_to_segment(const Vector3& point, const Vector3& from, const Vect
 /// Finds the nodes within straight edges between two facets.
 class StraightNodes {
  public:
-  StraightNodes(const Polygons& polygons, const Outline& outline)
-      : polygons_(polygons), outline_(outline) {
+  StraightNodes(const Polygons& polygons, const Outline& outline) : polygons_(polygons), outline_(outline) {
     edges_from_.assign(polygons.nodes.size(), 0);
     for (int c = 0; c < corner_count(); ++c) {
       if (outline.contains(c)) ++edges_from_[polygons.corners[c]];
@@ -144,9 +141,7 @@ class StraightNodes {
 
  private:
   [[nodiscard]] int corner_count() const { return static_cast<int>(polygons_.corners.size()); }
-  [[nodiscard]] bool shared_by_two(int corner) const {
-    return edges_from_[polygons_.corners[corner]] == 2;
-  }
+  [[nodiscard]] bool shared_by_two(int corner) const { return edges_from_[polygons_.corners[corner]] == 2; }
 
   /// The chain from a node of three or more facets to the next such node separates the same two
   /// facets.  It is judged as a whole, so that small bends cannot add up.

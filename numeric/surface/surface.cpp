@@ -109,19 +109,17 @@ void check_edges(const std::vector<SurfaceElement>& elements, Name name) {
   sorted_edges(elements).for_each([&](std::span<const EdgeSide> sides) {
     if (is_manifold(sides)) return;
     std::ostringstream text;
-    text << name(sides.front().owner) << ": its edge between the nodes " << sides.front().low
-         << " and " << sides.front().high;
+    text << name(sides.front().owner) << ": its edge between the nodes " << sides.front().low << " and "
+         << sides.front().high;
     if (sides.size() == 1) text << " is open: no other face shares it";
-    if (sides.size() == 2)
-      text << " is run along in the same direction by " << name(sides[1].owner);
+    if (sides.size() == 2) text << " is run along in the same direction by " << name(sides[1].owner);
     if (sides.size() > 2) text << " belongs to " << sides.size() << " faces instead of 2";
     throw MeshError(text.str());
   });
 }
 
 /// Keeps the nodes that a face uses, in their order.
-std::vector<Vector3> compact_nodes(const std::vector<Vector3>& nodes,
-                                   std::vector<SurfaceElement>& faces) {
+std::vector<Vector3> compact_nodes(const std::vector<Vector3>& nodes, std::vector<SurfaceElement>& faces) {
   std::vector<int> renumbered(nodes.size(), -1);
   const auto each_node = [&](auto visit) {
     for (SurfaceElement& face : faces) {
@@ -149,14 +147,11 @@ void check_surface_nodes(const Surface& surface, int index) {
   const auto count = static_cast<std::size_t>(corner_count(element));
   for (std::size_t i = 0; i < count; ++i) {
     const int node = element.nodes[i];
-    const std::string name =
-        surface_element_name(surface, index) + ": node " + std::to_string(node);
+    const std::string name = surface_element_name(surface, index) + ": node " + std::to_string(node);
     if (!(node >= 0 && static_cast<std::size_t>(node) < surface.nodes.size())) {
-      throw MeshError(name + " is not one of the " + std::to_string(surface.nodes.size()) +
-                      " nodes");
+      throw MeshError(name + " is not one of the " + std::to_string(surface.nodes.size()) + " nodes");
     }
-    if (std::count(element.nodes.begin(), element.nodes.begin() + static_cast<std::ptrdiff_t>(i),
-                   node)) {
+    if (std::count(element.nodes.begin(), element.nodes.begin() + static_cast<std::ptrdiff_t>(i), node)) {
       throw MeshError(name + " is repeated");
     }
     if (!surface.nodes[node].allFinite()) {
@@ -168,9 +163,7 @@ void check_surface_nodes(const Surface& surface, int index) {
 /// A needle with edges in the ratio 1e6 passes; the rounding of a cross product does not.
 void check_area(const Surface& surface, int index) {
   const SurfaceElement& element = surface.elements[index];
-  const auto node = [&](std::size_t i) -> const Vector3& {
-    return surface.nodes[element.nodes[i]];
-  };
+  const auto node = [&](std::size_t i) -> const Vector3& { return surface.nodes[element.nodes[i]]; };
   const bool triangle = corner_count(element) == 3;
   const Vector3 a = triangle ? node(1) - node(0) : node(2) - node(0);
   const Vector3 b = triangle ? node(2) - node(0) : node(3) - node(1);
@@ -183,9 +176,7 @@ void check_area(const Surface& surface, int index) {
 /// Six times the volume between an element and the reference point.  For a quadrilateral the mean
 /// of its two ways to be cut into triangles, which is that of the bilinear patch.
 double cone(const Surface& surface, const SurfaceElement& element, const Vector3& reference) {
-  const auto arm = [&](std::size_t i) -> Vector3 {
-    return surface.nodes[element.nodes[i]] - reference;
-  };
+  const auto arm = [&](std::size_t i) -> Vector3 { return surface.nodes[element.nodes[i]] - reference; };
   if (corner_count(element) == 3) return arm(0).dot(arm(1).cross(arm(2)));
   double sum = 0;
   for (std::size_t i = 0; i < 4; ++i) sum += arm(i).dot(arm((i + 1) % 4).cross(arm((i + 2) % 4)));
@@ -198,8 +189,7 @@ Surface boundary_surface(const Mesh& mesh) {
   if (mesh.elements.empty()) throw MeshError("the mesh has no element");
   for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e) check_element(mesh, e);
   Surface surface{.nodes = {}, .elements = outer_faces(mesh)};
-  check_edges(surface.elements,
-              [&](int face) { return element_name(mesh, surface.elements[face].element); });
+  check_edges(surface.elements, [&](int face) { return element_name(mesh, surface.elements[face].element); });
   surface.nodes = compact_nodes(mesh.nodes, surface.elements);
   return surface;
 }
@@ -213,12 +203,10 @@ void check_closed(const Surface& surface) {
   check_edges(surface.elements, [&](int face) { return surface_element_name(surface, face); });
   const Vector3& reference = surface.nodes[surface.elements[0].nodes[0]];
   double volume = 0;
-  for (const SurfaceElement& element : surface.elements)
-    volume += cone(surface, element, reference) / 6;
+  for (const SurfaceElement& element : surface.elements) volume += cone(surface, element, reference) / 6;
   if (!(volume > 0)) {
     std::ostringstream text;
-    text << surface_element_name(surface, 0)
-         << " and the others face inward: they enclose the volume " << volume;
+    text << surface_element_name(surface, 0) << " and the others face inward: they enclose the volume " << volume;
     throw MeshError(text.str());
   }
 }

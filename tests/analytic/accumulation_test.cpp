@@ -10,8 +10,11 @@ using namespace clatter::analytic;
 constexpr double rounding = 20 * 2.2e-16;
 
 Drop bouncing(double degrees, double radius) {
-  return {.body = make_rod({.mass = 2, .length = 1, .radius = radius}), .inclination = Angle::from_degrees(degrees),
-          .velocity = {.normal = -3}, .gravity = 9.81, .law = {.restitution = 0.6}};
+  return {.body = make_rod({.mass = 2, .length = 1, .radius = radius}),
+          .inclination = Angle::from_degrees(degrees),
+          .velocity = {.normal = -3},
+          .gravity = 9.81,
+          .law = {.restitution = 0.6}};
 }
 
 }  // namespace
@@ -59,9 +62,11 @@ BOOST_AUTO_TEST_CASE(an_extrapolated_end_lies_within_its_error_of_the_end_found_
       BOOST_REQUIRE(coarse.tail.has_value());
       BOOST_REQUIRE(fine.tail.has_value());
       BOOST_TEST(coarse.rows.size() <= fine.rows.size());
-      BOOST_TEST(std::fabs(coarse.tail->end_time - fine.tail->end_time) <= coarse.tail->end_time_error + fine.tail->end_time_error + rounding);
+      BOOST_TEST(std::fabs(coarse.tail->end_time - fine.tail->end_time) <=
+                 coarse.tail->end_time_error + fine.tail->end_time_error + rounding);
       BOOST_TEST(std::fabs(coarse.total_normal_impulse - fine.total_normal_impulse) <=
-                 coarse.tail->normal_impulse_error + fine.tail->normal_impulse_error + 1e-13 * fine.total_normal_impulse);
+                 coarse.tail->normal_impulse_error + fine.tail->normal_impulse_error +
+                     1e-13 * fine.total_normal_impulse);
       // Either the rod still turns about one end, or both ends came to rest together.
       BOOST_CHECK((fine.outcome == Outcome::sustained_contact) == (fine.tail->after.angular != 0));
     }

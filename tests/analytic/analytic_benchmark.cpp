@@ -50,7 +50,9 @@ double textbook_beta(gsl_root_fsolver* solver, double theta) {
   if (gsl_root_fsolver_set(solver, &f, 0, pi / 2) != GSL_SUCCESS) return NAN;
   for (int i = 0; i < 100; ++i) {
     gsl_root_fsolver_iterate(solver);
-    if (gsl_root_test_interval(gsl_root_fsolver_x_lower(solver), gsl_root_fsolver_x_upper(solver), 0, 4e-16) == GSL_SUCCESS) break;
+    if (gsl_root_test_interval(gsl_root_fsolver_x_lower(solver), gsl_root_fsolver_x_upper(solver), 0, 4e-16) ==
+        GSL_SUCCESS)
+      break;
   }
   return gsl_root_fsolver_root(solver);
 }
@@ -70,20 +72,30 @@ void textbook_brent(benchmark::State& state) {
 BENCHMARK(textbook_brent);
 
 void three_impact_sequence(benchmark::State& state) {
-  const Drop drop{.body = make_rod({}), .inclination = Angle::from_degrees(10), .velocity = {.normal = -1}, .gravity = 0, .law = {}};
+  const Drop drop{.body = make_rod({}),
+                  .inclination = Angle::from_degrees(10),
+                  .velocity = {.normal = -1},
+                  .gravity = 0,
+                  .law = {}};
   for (auto _ : state) benchmark::DoNotOptimize(impact_sequence(drop, {.impacts = 3, .amplification = false}));
 }
 BENCHMARK(three_impact_sequence);
 
 void three_impact_sequence_with_error_bars(benchmark::State& state) {
-  const Drop drop{.body = make_rod({}), .inclination = Angle::from_degrees(10), .velocity = {.normal = -1}, .gravity = 0, .law = {}};
+  const Drop drop{.body = make_rod({}),
+                  .inclination = Angle::from_degrees(10),
+                  .velocity = {.normal = -1},
+                  .gravity = 0,
+                  .law = {}};
   for (auto _ : state) benchmark::DoNotOptimize(impact_sequence(drop, {.impacts = 3}));
 }
 BENCHMARK(three_impact_sequence_with_error_bars);
 
 void three_impact_box_with_gravity_and_friction(benchmark::State& state) {
   const Drop drop{.body = make_box({.mass = 0.088, .length = 0.106, .width = 0.044, .thickness = 0.019}),
-                  .inclination = Angle::from_degrees(10), .velocity = {.normal = -4.4}, .gravity = 9.81,
+                  .inclination = Angle::from_degrees(10),
+                  .velocity = {.normal = -4.4},
+                  .gravity = 9.81,
                   .law = {.restitution = 0.8, .friction = FrictionKind::coulomb, .friction_value = 0.075}};
   for (auto _ : state) benchmark::DoNotOptimize(impact_sequence(drop, {.impacts = 3, .amplification = false}));
 }

@@ -76,8 +76,8 @@ enum Region : std::size_t {
   region_count
 };
 
-constexpr std::array<const char*, region_count> region_names = {
-    "to 0°", "bulk", "to fold 3", "to fold 2", "to 90°", "G > 0", "e < 1, μ_i > 0"};
+constexpr std::array<const char*, region_count> region_names = {"to 0°",  "bulk",  "to fold 3",     "to fold 2",
+                                                                "to 90°", "G > 0", "e < 1, μ_i > 0"};
 
 struct Sample {
   Region region = bulk;
@@ -90,12 +90,8 @@ struct Rod {
   double impulse_ratio = 0;
 
   /// Without these γ − θ and 2 − ΣP have expressions of their own, free of cancellation.
-  [[nodiscard]] bool elastic() const {
-    return gravity_number == 0 && restitution == 1 && impulse_ratio == 0;
-  }
-  [[nodiscard]] analytic::RodParameters parameters() const {
-    return {gravity_number, restitution, impulse_ratio};
-  }
+  [[nodiscard]] bool elastic() const { return gravity_number == 0 && restitution == 1 && impulse_ratio == 0; }
+  [[nodiscard]] analytic::RodParameters parameters() const { return {gravity_number, restitution, impulse_ratio}; }
   template <class Real>
   [[nodiscard]] oracle::RodCase<Real> with(const Real& theta) const {
     return {theta, Real(gravity_number), Real(restitution), Real(impulse_ratio)};
@@ -103,45 +99,27 @@ struct Rod {
 };
 
 /// Distance of doubles at this magnitude, but at least at `smallest_checked`.
-double ulp_of(double value) {
-  return std::ldexp(1.0, std::ilogb(std::max(std::abs(value), smallest_checked)) - 52);
-}
+double ulp_of(double value) { return std::ldexp(1.0, std::ilogb(std::max(std::abs(value), smallest_checked)) - 52); }
 
 /// Which entry of the result is which quantity; `other_end` contacts only, but for times.
 double entry(const analytic::ContactAngles& result, Quantity q) {
   switch (q) {
-    case oracle::beta:
-      return result.beta.angle;
-    case oracle::gamma:
-      return result.gamma.angle;
-    case oracle::impulse_1:
-      return result.impulse[0];
-    case oracle::impulse_2:
-      return result.impulse[1];
-    case oracle::impulse_3:
-      return result.impulse[2];
-    case oracle::velocity_1:
-      return result.velocity[0];
-    case oracle::velocity_2:
-      return result.velocity[1];
-    case oracle::velocity_3:
-      return result.velocity[2];
-    case oracle::angular_1:
-      return result.angular[0];
-    case oracle::angular_2:
-      return result.angular[1];
-    case oracle::angular_3:
-      return result.angular[2];
-    case oracle::time_1:
-      return result.beta.time;
-    case oracle::time_2:
-      return result.gamma.time;
-    case oracle::gamma_minus_theta:
-      return result.gamma_minus_theta;
-    case oracle::impulse_deficit:
-      return result.impulse_deficit;
-    case oracle::quantity_count:
-      break;
+    case oracle::beta: return result.beta.angle;
+    case oracle::gamma: return result.gamma.angle;
+    case oracle::impulse_1: return result.impulse[0];
+    case oracle::impulse_2: return result.impulse[1];
+    case oracle::impulse_3: return result.impulse[2];
+    case oracle::velocity_1: return result.velocity[0];
+    case oracle::velocity_2: return result.velocity[1];
+    case oracle::velocity_3: return result.velocity[2];
+    case oracle::angular_1: return result.angular[0];
+    case oracle::angular_2: return result.angular[1];
+    case oracle::angular_3: return result.angular[2];
+    case oracle::time_1: return result.beta.time;
+    case oracle::time_2: return result.gamma.time;
+    case oracle::gamma_minus_theta: return result.gamma_minus_theta;
+    case oracle::impulse_deficit: return result.impulse_deficit;
+    case oracle::quantity_count: break;
   }
   return std::numeric_limits<double>::quiet_NaN();
 }
@@ -149,14 +127,10 @@ double entry(const analytic::ContactAngles& result, Quantity q) {
 analytic::NextImpact expected_next(const std::optional<oracle::Contact>& contact) {
   if (!contact) return analytic::NextImpact::not_reached;
   switch (*contact) {
-    case oracle::Contact::other_end:
-      return analytic::NextImpact::other_end;
-    case oracle::Contact::beyond_upright:
-      return analytic::NextImpact::beyond_upright;
-    case oracle::Contact::same_end:
-      return analytic::NextImpact::same_end;
-    case oracle::Contact::none:
-      break;
+    case oracle::Contact::other_end: return analytic::NextImpact::other_end;
+    case oracle::Contact::beyond_upright: return analytic::NextImpact::beyond_upright;
+    case oracle::Contact::same_end: return analytic::NextImpact::same_end;
+    case oracle::Contact::none: break;
   }
   return analytic::NextImpact::none;
 }
@@ -169,8 +143,7 @@ struct Deviation {
 template <class Real>
 double error_in_ulp(double computed, const Real& exact) {
   if (!std::isfinite(computed)) return std::numeric_limits<double>::quiet_NaN();
-  return static_cast<double>(
-      Real(abs(Real(computed) - exact) / ulp_of(static_cast<double>(exact))));
+  return static_cast<double>(Real(abs(Real(computed) - exact) / ulp_of(static_cast<double>(exact))));
 }
 
 Deviation deviation(double ulp, double condition) {
@@ -238,8 +211,7 @@ struct Report {
 
   void merge(const Report& other) {
     for (std::size_t r = 0; r < region_count; ++r)
-      for (std::size_t q = 0; q < oracle::quantity_count; ++q)
-        statistics[r][q].merge(other.statistics[r][q]);
+      for (std::size_t q = 0; q < oracle::quantity_count; ++q) statistics[r][q].merge(other.statistics[r][q]);
     within_margin.insert(other.within_margin.begin(), other.within_margin.end());
     wrong.insert(wrong.end(), other.wrong.begin(), other.wrong.end());
   }
@@ -255,8 +227,7 @@ class Judge {
       judge(sample, small_angles_.at(Digits150(sample.theta)), report);
     else if (sample.theta < fifty_digits_suffice_from)
       judge(sample, oracle::solve_rod(rod_.with(Digits150(sample.theta))), report);
-    else
-      judge(sample, oracle::solve_rod(rod_.with(Digits50(sample.theta))), report);
+    else judge(sample, oracle::solve_rod(rod_.with(Digits50(sample.theta))), report);
   }
 
  private:
@@ -268,42 +239,37 @@ class Judge {
       report.within_margin.insert(sample.theta);
       return;
     }
-    const bool right = result.beta.next == expected_next(exact.second) &&
-                       result.gamma.next == expected_next(exact.third);
+    const bool right =
+        result.beta.next == expected_next(exact.second) && result.gamma.next == expected_next(exact.third);
     if (!right) report.wrong.push_back(describe(sample, result, exact.second, exact.third));
     if (!right) return;
     // Towards θ = 0 these conditions tend to constants.
-    const Conditions others = other_conditions(
-        rod_.with(Digits50(std::max(sample.theta, fifty_digits_suffice_from))));
+    const Conditions others = other_conditions(rod_.with(Digits50(std::max(sample.theta, fifty_digits_suffice_from))));
     for (std::size_t i = 0; i < oracle::quantity_count; ++i)
       quantity(sample, result, exact, static_cast<Quantity>(i), others, report);
     if (result.beta.next == analytic::NextImpact::none)
-      clearance(sample, result.beta.clearance, static_cast<double>(exact.clearance),
-                clearance_tolerance, report);
+      clearance(sample, result.beta.clearance, static_cast<double>(exact.clearance), clearance_tolerance, report);
     // The second flight starts from β, whose error near its fold it inherits.
     if (result.gamma.next == analytic::NextImpact::none)
       clearance(sample, result.gamma.clearance, static_cast<double>(exact.clearance),
                 clearance_tolerance * (1 + condition(exact, oracle::beta)), report);
   }
 
-  static void clearance(const Sample& sample, double computed, double exact, double tolerance,
-                        Report& report) {
+  static void clearance(const Sample& sample, double computed, double exact, double tolerance, Report& report) {
     if (!(exact < near_miss) || std::abs(computed - exact) <= tolerance) return;
     std::ostringstream out;
-    out << std::setprecision(17) << "theta " << sample.theta << ": clearance " << computed
-        << " instead of " << exact;
+    out << std::setprecision(17) << "theta " << sample.theta << ": clearance " << computed << " instead of " << exact;
     report.wrong.push_back(out.str());
   }
 
   template <class Real>
-  void quantity(const Sample& sample, const analytic::ContactAngles& result,
-                const oracle::RodSolution<Real>& exact, Quantity q, const Conditions& others, Report& report) const {
+  void quantity(const Sample& sample, const analytic::ContactAngles& result, const oracle::RodSolution<Real>& exact,
+                Quantity q, const Conditions& others, Report& report) const {
     const bool difference = q == oracle::gamma_minus_theta || q == oracle::impulse_deficit;
     if (difference && !rod_.elastic()) return;
     if (!exact.quantities[q]) {
       if (must_be_nan(exact, q) && !std::isnan(entry(result, q)))
-        report.wrong.push_back(std::string(oracle::quantity_names[q]) +
-                               " of no impact is a number");
+        report.wrong.push_back(std::string(oracle::quantity_names[q]) + " of no impact is a number");
       return;
     }
     const double ulp = error_in_ulp(entry(result, q), exact.quantities[q]->value);
@@ -313,23 +279,18 @@ class Judge {
   /// Impulse and velocities of an impact that does not happen.
   template <class Real>
   static bool must_be_nan(const oracle::RodSolution<Real>& exact, Quantity q) {
-    const bool of_third =
-        q == oracle::impulse_3 || q == oracle::velocity_3 || q == oracle::angular_3;
-    const bool of_second =
-        q == oracle::impulse_2 || q == oracle::velocity_2 || q == oracle::angular_2;
+    const bool of_third = q == oracle::impulse_3 || q == oracle::velocity_3 || q == oracle::angular_3;
+    const bool of_second = q == oracle::impulse_2 || q == oracle::velocity_2 || q == oracle::angular_2;
     if (of_second) return exact.second == oracle::Contact::none;
-    return of_third &&
-           (exact.second == oracle::Contact::none || exact.third == oracle::Contact::none);
+    return of_third && (exact.second == oracle::Contact::none || exact.third == oracle::Contact::none);
   }
 
   [[nodiscard]] std::string describe(const Sample& sample, const analytic::ContactAngles& result,
-                                     oracle::Contact second,
-                                     const std::optional<oracle::Contact>& third) const {
+                                     oracle::Contact second, const std::optional<oracle::Contact>& third) const {
     std::ostringstream out;
-    out << std::setprecision(17) << "theta " << sample.theta << " G " << rod_.gravity_number
-        << " e " << rod_.restitution << " mu_i " << rod_.impulse_ratio << ": next "
-        << static_cast<int>(result.beta.next) << ", " << static_cast<int>(result.gamma.next)
-        << " instead of " << static_cast<int>(expected_next(second)) << ", "
+    out << std::setprecision(17) << "theta " << sample.theta << " G " << rod_.gravity_number << " e "
+        << rod_.restitution << " mu_i " << rod_.impulse_ratio << ": next " << static_cast<int>(result.beta.next) << ", "
+        << static_cast<int>(result.gamma.next) << " instead of " << static_cast<int>(expected_next(second)) << ", "
         << static_cast<int>(expected_next(third));
     return out.str();
   }
@@ -348,8 +309,7 @@ Report judge_all(const Rod& rod, const std::vector<Sample>& samples) {
   for (std::size_t k = 0; k < thread_count; ++k)
     threads.emplace_back([&, k] {
       try {
-        for (std::size_t i = k; i < samples.size(); i += thread_count)
-          judge.row(samples[i], reports[k]);
+        for (std::size_t i = k; i < samples.size(); i += thread_count) judge.row(samples[i], reports[k]);
       } catch (...) {
         failures[k] = std::current_exception();
       }
@@ -386,9 +346,7 @@ class Samples {
   std::vector<Sample> samples_;
 };
 
-double fold(oracle::Fold which) {
-  return static_cast<double>(oracle::elastic_fold<Digits50>(which));
-}
+double fold(oracle::Fold which) { return static_cast<double>(oracle::elastic_fold<Digits50>(which)); }
 
 constexpr double degree_decade = -1.758;  // log10 of 1° [rad]
 constexpr double ulp_decade = -15.5;      // about an ulp at the folds and at 90°
@@ -400,10 +358,8 @@ std::vector<Sample> elastic_samples() {
   samples.add_towards(to_0, 0, +1, {-8, degree_decade}, 4500);
   samples.add_towards(to_90, analytic::pi / 2, -1, {ulp_decade, degree_decade}, 4000);
   for (const int side : {-1, 1}) {
-    samples.add_towards(to_fold_2, fold(oracle::Fold::second), side, {ulp_decade, degree_decade},
-                        2000);
-    samples.add_towards(to_fold_3, fold(oracle::Fold::third), side, {ulp_decade, degree_decade},
-                        2000);
+    samples.add_towards(to_fold_2, fold(oracle::Fold::second), side, {ulp_decade, degree_decade}, 2000);
+    samples.add_towards(to_fold_3, fold(oracle::Fold::third), side, {ulp_decade, degree_decade}, 2000);
   }
   samples.add_uniform(bulk, 81000);
   return samples.all();
@@ -427,22 +383,20 @@ void check(const Report& report, double multiple) {
   for (std::size_t r = 0; r < region_count; ++r)
     for (std::size_t q = 0; q < oracle::quantity_count; ++q) {
       const Statistics& s = report.statistics[r][q];
-      BOOST_TEST(s.worst.ratio <= multiple,
-                 region_names[r] << ": " << oracle::quantity_names[q] << " errs by "
-                                 << s.worst.ratio << " of what is allowed at theta = "
-                                 << std::setprecision(17) << s.theta_of_worst_ratio << " rad");
+      BOOST_TEST(s.worst.ratio <= multiple, region_names[r]
+                                                << ": " << oracle::quantity_names[q] << " errs by " << s.worst.ratio
+                                                << " of what is allowed at theta = " << std::setprecision(17)
+                                                << s.theta_of_worst_ratio << " rad");
     }
   constexpr std::size_t shown = 5;
   BOOST_TEST(report.wrong.empty(), report.wrong.size() << " wrong decisions or clearances");
-  for (std::size_t i = 0; i < std::min(shown, report.wrong.size()); ++i)
-    BOOST_TEST_MESSAGE(report.wrong[i]);
+  for (std::size_t i = 0; i < std::min(shown, report.wrong.size()); ++i) BOOST_TEST_MESSAGE(report.wrong[i]);
   constexpr std::size_t folds = 2;
   BOOST_TEST(report.within_margin.size() <= folds * most_within_margin);
 }
 
 void check_case(const Rod& rod, const std::vector<Sample>& samples, double multiple = 1) {
-  BOOST_TEST_CONTEXT("G " << rod.gravity_number << " e " << rod.restitution << " mu_i "
-                          << rod.impulse_ratio) {
+  BOOST_TEST_CONTEXT("G " << rod.gravity_number << " e " << rod.restitution << " mu_i " << rod.impulse_ratio) {
     const Report report = judge_all(rod, samples);
     check(report, multiple);
     collected().merge(report);
@@ -456,10 +410,10 @@ void write_table(std::ostream& out) {
     for (std::size_t q = 0; q < oracle::quantity_count; ++q) {
       const Statistics& s = collected().statistics[r][q];
       if (s.rows == 0) continue;
-      out << "| " << region_names[r] << " | " << oracle::quantity_names[q] << " | " << s.rows
-          << " | " << std::setprecision(3) << s.worst.ulp << " | " << s.worst.ratio << " | "
-          << std::setprecision(9) << s.theta_of_worst_ratio * analytic::degrees_per_radian << " | "
-          << std::setprecision(2) << s.sum_ulp / static_cast<double>(s.rows) << " |\n";
+      out << "| " << region_names[r] << " | " << oracle::quantity_names[q] << " | " << s.rows << " | "
+          << std::setprecision(3) << s.worst.ulp << " | " << s.worst.ratio << " | " << std::setprecision(9)
+          << s.theta_of_worst_ratio * analytic::degrees_per_radian << " | " << std::setprecision(2)
+          << s.sum_ulp / static_cast<double>(s.rows) << " |\n";
     }
 }
 
@@ -503,13 +457,11 @@ oracle::RodSolution<Digits150> printed_solution(const oracle::ReferenceRow& row)
 void check_printed_row(const oracle::ReferenceRow& row) {
   const auto exact = printed_solution(row);
   const auto theta = analytic::Angle::from_degrees(std::stod(row.at("theta_deg")));
-  const auto result = analytic::contact_angles(
-      theta, {.gravity_number = std::stod(row.at("G")), .restitution = 1, .impulse_ratio = 0});
+  const auto result =
+      analytic::contact_angles(theta, {.gravity_number = std::stod(row.at("G")), .restitution = 1, .impulse_ratio = 0});
   BOOST_TEST_CONTEXT("theta " << row.at("theta_deg") << " G " << row.at("G")) {
-    BOOST_TEST((result.beta.next == analytic::NextImpact::other_end) ==
-               (row.count("beta_deg") == 1));
-    BOOST_TEST((result.gamma.next == analytic::NextImpact::other_end) ==
-               (row.count("gamma_deg") == 1));
+    BOOST_TEST((result.beta.next == analytic::NextImpact::other_end) == (row.count("beta_deg") == 1));
+    BOOST_TEST((result.gamma.next == analytic::NextImpact::other_end) == (row.count("gamma_deg") == 1));
     const Conditions others = other_conditions(printed_case(row));
     for (const auto& [name, quantity] : columns) {
       if (row.count(name) == 0) continue;
@@ -542,8 +494,7 @@ void check_fold(oracle::Fold which) {
   for (int i = -fold_neighbourhood; i <= fold_neighbourhood; ++i) {
     const double theta = nearest + i * ulp;
     const auto at = decision(theta, which);
-    const auto right =
-        Digits50(theta) < exact ? analytic::NextImpact::other_end : analytic::NextImpact::none;
+    const auto right = Digits50(theta) < exact ? analytic::NextImpact::other_end : analytic::NextImpact::none;
     if (at.within_margin) ++margin;
     if (at.next != right && !at.within_margin) ++wrong;
   }
@@ -562,16 +513,15 @@ BOOST_AUTO_TEST_CASE(elastic_rod_without_gravity_keeps_its_accuracy_at_100000_an
 
 BOOST_AUTO_TEST_CASE(gravity_keeps_the_accuracy) {
   for (const double g : {1e-6, 0.01, 1.0, 9.81})
-    check_case({.gravity_number = g, .restitution = 1, .impulse_ratio = 0},
-               fewer_samples(with_gravity), multiple_with_gravity);
+    check_case({.gravity_number = g, .restitution = 1, .impulse_ratio = 0}, fewer_samples(with_gravity),
+               multiple_with_gravity);
 }
 
 BOOST_AUTO_TEST_CASE(restitution_and_impulse_ratio_keep_the_accuracy) {
   for (const double e : {0.3, 0.9})
     for (const double mu : {0.1, 0.3})
       check_case({.gravity_number = 0, .restitution = e, .impulse_ratio = mu},
-                 fewer_samples(with_restitution_and_friction),
-                 multiple_with_restitution_and_friction);
+                 fewer_samples(with_restitution_and_friction), multiple_with_restitution_and_friction);
 }
 
 BOOST_AUTO_TEST_CASE(angles_in_degrees_reproduce_the_table_without_gravity) {

@@ -86,8 +86,7 @@ class Campaign {
         gradient[i] = k < 6 ? (static_cast<std::size_t>(k) == i ? 1 : 0) : uniform() / sizes_[i];
         parts += std::fabs(Real(gradient[i])) * all_.deviation(unit(i));
       }
-      const Real error =
-          std::fabs(Real(factor_.deviation(gradient)) - all_.deviation(gradient)) / parts;
+      const Real error = std::fabs(Real(factor_.deviation(gradient)) - all_.deviation(gradient)) / parts;
       worst = std::fmax(worst, static_cast<double>(error));
     }
     return worst;
@@ -108,8 +107,7 @@ class Campaign {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(
-    errors_put_together_keep_the_deviations_that_each_error_followed_by_itself_has) {
+BOOST_AUTO_TEST_CASE(errors_put_together_keep_the_deviations_that_each_error_followed_by_itself_has) {
   for (const double scale : {1.0, 1e-3, 1e-25, 1e25}) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
       Campaign campaign(seed, scale);

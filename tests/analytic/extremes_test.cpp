@@ -18,9 +18,10 @@ struct Counts {
 
 void require_reason(const Drop& drop, const std::string& what) {
   const bool jams = drop.law.friction == FrictionKind::impulse_ratio;  // or nearly, and is thrown up without end
-  BOOST_REQUIRE_MESSAGE((what.starts_with("the impulse overflows") && drop.law.friction_value > 1e100) ||
-                            (what.starts_with("the flight is so long") && drop.gravity > 0 && jams),
-                        "numerical error at inclination " << drop.inclination.degrees << ", gravity " << drop.gravity << ": " << what);
+  BOOST_REQUIRE_MESSAGE(
+      (what.starts_with("the impulse overflows") && drop.law.friction_value > 1e100) ||
+          (what.starts_with("the flight is so long") && drop.gravity > 0 && jams),
+      "numerical error at inclination " << drop.inclination.degrees << ", gravity " << drop.gravity << ": " << what);
 }
 
 /// A result without NaN, or a typed refusal; anything else fails.
@@ -31,8 +32,10 @@ void run(const Drop& drop, Counts& counts) {
     for (const ImpactRow& row : s.rows) {
       for (const double x : {row.start, row.contact_angle, row.impact.normal_impulse, row.impact.after.normal,
                              row.impact.after.tangential, row.impact.after.angular, row.centre_height}) {
-        BOOST_REQUIRE_MESSAGE(std::isfinite(x), "inclination " << drop.inclination.degrees << " gravity " << drop.gravity
-                                                               << " e " << drop.law.restitution << " friction " << drop.law.friction_value << " row " << (&row - s.rows.data()) << " value " << x);
+        BOOST_REQUIRE_MESSAGE(std::isfinite(x), "inclination " << drop.inclination.degrees << " gravity "
+                                                               << drop.gravity << " e " << drop.law.restitution
+                                                               << " friction " << drop.law.friction_value << " row "
+                                                               << (&row - s.rows.data()) << " value " << x);
       }
       BOOST_REQUIRE(row.impact.normal_impulse >= 0);
     }
@@ -50,11 +53,13 @@ void run(const Drop& drop, Counts& counts) {
 
 std::vector<Angle> extreme_angles() {
   std::vector<Angle> angles;
-  for (const double degrees : {0.0, 1e-300, 1e-15, 1e-8, 10.0, 45.0, 89.999999, 90.0}) angles.push_back(Angle::from_degrees(degrees));
+  for (const double degrees : {0.0, 1e-300, 1e-15, 1e-8, 10.0, 45.0, 89.999999, 90.0})
+    angles.push_back(Angle::from_degrees(degrees));
   angles.push_back(Angle::from_degrees(std::nextafter(90.0, 0.0)));
   for (const ImpactNumber number : {ImpactNumber::second, ImpactNumber::third}) {
     const double fold = regime_boundary(number, {}).theta;
-    for (const double t : {std::nextafter(fold, 0.0), fold, std::nextafter(fold, 2.0)}) angles.push_back(Angle::from_radians(t));
+    for (const double t : {std::nextafter(fold, 0.0), fold, std::nextafter(fold, 2.0)})
+      angles.push_back(Angle::from_radians(t));
   }
   return angles;
 }
@@ -67,7 +72,8 @@ std::vector<ImpactLaw> extreme_laws(const Angle& angle) {
   for (const double e : {0.0, 1e-12, 0.5, 1.0}) {
     laws.push_back({.restitution = e});
     for (const RestitutionLaw law : {RestitutionLaw::newton, RestitutionLaw::poisson, RestitutionLaw::stronge}) {
-      for (const double mu : {std::nextafter(sticking, 0.0), sticking, std::nextafter(sticking, 9.0), 1e-300, 0.5, 10.0, 1e300}) {
+      for (const double mu :
+           {std::nextafter(sticking, 0.0), sticking, std::nextafter(sticking, 9.0), 1e-300, 0.5, 10.0, 1e300}) {
         laws.push_back({.restitution = e, .law = law, .friction = FrictionKind::coulomb, .friction_value = mu});
       }
     }
@@ -86,7 +92,8 @@ BOOST_AUTO_TEST_CASE(every_corner_of_angle_law_and_gravity_ends_in_a_number_or_a
   for (const Angle& angle : extreme_angles()) {
     for (const ImpactLaw& law : extreme_laws(angle)) {
       for (const double gravity : {0.0, 1e-12, 1.0, 1e12}) {
-        run({.body = make_rod({}), .inclination = angle, .velocity = {.normal = -1}, .gravity = gravity, .law = law}, counts);
+        run({.body = make_rod({}), .inclination = angle, .velocity = {.normal = -1}, .gravity = gravity, .law = law},
+            counts);
       }
     }
   }
@@ -96,7 +103,11 @@ BOOST_AUTO_TEST_CASE(every_corner_of_angle_law_and_gravity_ends_in_a_number_or_a
 }
 
 BOOST_AUTO_TEST_CASE(masses_and_lengths_from_1e_minus_150_to_1e150_change_nothing_but_the_scale) {
-  const Drop unit{.body = make_rod({}), .inclination = Angle::from_degrees(10), .velocity = {.normal = -1}, .gravity = 0, .law = {}};
+  const Drop unit{.body = make_rod({}),
+                  .inclination = Angle::from_degrees(10),
+                  .velocity = {.normal = -1},
+                  .gravity = 0,
+                  .law = {}};
   const Sequence expected = impact_sequence(unit, {});
   for (const double mass : {1e-150, 1e-30, 1e150}) {
     for (const double length : {1e-150, 1e30, 1e150}) {
@@ -113,8 +124,11 @@ BOOST_AUTO_TEST_CASE(masses_and_lengths_from_1e_minus_150_to_1e150_change_nothin
 }
 
 BOOST_AUTO_TEST_CASE(a_fast_spin_makes_a_million_turns_with_few_evaluations_of_its_height) {
-  Drop drop{.body = make_rod({}), .inclination = Angle::from_degrees(30), .velocity = {.normal = -10, .tangential = 0, .angular = -1e7},
-            .gravity = 9.81, .law = {}};
+  Drop drop{.body = make_rod({}),
+            .inclination = Angle::from_degrees(30),
+            .velocity = {.normal = -10, .tangential = 0, .angular = -1e7},
+            .gravity = 9.81,
+            .law = {}};
   const Sequence s = impact_sequence(drop, {.impacts = 3});
   BOOST_TEST(s.rows.size() == 3u);
   BOOST_TEST(s.root_evaluations < 1000);

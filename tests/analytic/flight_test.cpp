@@ -22,8 +22,12 @@ long double plain_height(const VertexHeight& h, long double t) {
 
 VertexHeight random_height(std::mt19937_64& random) {
   const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<>(low, high)(random); };
-  return {.height = uniform(0, 1), .velocity = uniform(-3, 3), .gravity = random() % 3 == 0 ? 0 : uniform(0.01, 20),
-          .rate = uniform(0.1, 10), .versine = uniform(-0.5, 0.5), .sine = uniform(-0.5, 0.5)};
+  return {.height = uniform(0, 1),
+          .velocity = uniform(-3, 3),
+          .gravity = random() % 3 == 0 ? 0 : uniform(0.01, 20),
+          .rate = uniform(0.1, 10),
+          .versine = uniform(-0.5, 0.5),
+          .sine = uniform(-0.5, 0.5)};
 }
 
 }  // namespace

@@ -64,8 +64,7 @@ std::vector<RandomDrop> random_drops() {
 
 analytic::PlanarBody body_of(const RandomDrop& drop) {
   if (drop.shape == Shape::box)
-    return analytic::make_box(
-        {.mass = 1, .length = 1, .width = 1, .thickness = 2 * drop.half_thickness});
+    return analytic::make_box({.mass = 1, .length = 1, .width = 1, .thickness = 2 * drop.half_thickness});
   return analytic::make_rod({.mass = 1, .length = 1, .radius = drop.half_thickness});
 }
 
@@ -76,11 +75,9 @@ analytic::Sequence computed(const RandomDrop& drop) {
   scene.velocity = {.normal = -1, .tangential = 0, .angular = 0};
   scene.gravity = drop.gravity;
   scene.law.restitution = drop.restitution;
-  scene.law.friction = drop.impulse_ratio == 0 ? analytic::FrictionKind::none
-                                               : analytic::FrictionKind::impulse_ratio;
+  scene.law.friction = drop.impulse_ratio == 0 ? analytic::FrictionKind::none : analytic::FrictionKind::impulse_ratio;
   scene.law.friction_value = drop.impulse_ratio;
-  return analytic::impact_sequence(scene,
-                                   {.impacts = impacts, .digits = 15, .amplification = false});
+  return analytic::impact_sequence(scene, {.impacts = impacts, .digits = 15, .amplification = false});
 }
 
 /// Uniform solids: k² = (3r² + L²)/12 for the cylinder, (L² + T²)/12 for the box.
@@ -105,15 +102,13 @@ bool same_order(const oracle::MarchSequence& x, const oracle::MarchSequence& y) 
                     [](const auto& p, const auto& q) { return p.vertex == q.vertex; });
 }
 
-analytic::VertexSet only(std::size_t vertex) {
-  return static_cast<analytic::VertexSet>(1U << vertex);
-}
+analytic::VertexSet only(std::size_t vertex) { return static_cast<analytic::VertexSet>(1U << vertex); }
 
 /// Why the rows are not those of the march; empty if they are.
 std::string disagreement(const analytic::Sequence& sequence, const oracle::MarchSequence& exact,
                          const oracle::MarchSequence& neighbour) {
-  const bool accumulates = sequence.outcome == analytic::Outcome::at_rest ||
-                           sequence.outcome == analytic::Outcome::sustained_contact;
+  const bool accumulates =
+      sequence.outcome == analytic::Outcome::at_rest || sequence.outcome == analytic::Outcome::sustained_contact;
   const std::size_t rows = sequence.rows.size();
   if (rows > exact.impacts.size()) return "too many impacts";
   if (rows < exact.impacts.size() && !accumulates) return "too few impacts";
@@ -123,8 +118,7 @@ std::string disagreement(const analytic::Sequence& sequence, const oracle::March
     if (vertices != only(exact.impacts[i].vertex)) return "another vertex";
     if (in_tail) continue;
     const long double time = exact.impacts[i].time;
-    const long double allowed =
-        time_tolerance * time + time_amplification * std::abs(neighbour.impacts[i].time - time);
+    const long double allowed = time_tolerance * time + time_amplification * std::abs(neighbour.impacts[i].time - time);
     if (!(std::abs(sequence.rows[i].start - time) <= allowed)) return "another time";
   }
   return {};
@@ -144,13 +138,13 @@ struct Verdict {
   }
 };
 
-std::string describe(const RandomDrop& drop, const analytic::Sequence& sequence,
-                     const oracle::MarchSequence& exact, const std::string& reason) {
+std::string describe(const RandomDrop& drop, const analytic::Sequence& sequence, const oracle::MarchSequence& exact,
+                     const std::string& reason) {
   std::ostringstream out;
   out.precision(17);
-  out << reason << ": shape " << static_cast<int>(drop.shape) << " half thickness "
-      << drop.half_thickness << " theta " << drop.theta << " G " << drop.gravity << " e "
-      << drop.restitution << " mu_i " << drop.impulse_ratio << "\n  rows:";
+  out << reason << ": shape " << static_cast<int>(drop.shape) << " half thickness " << drop.half_thickness << " theta "
+      << drop.theta << " G " << drop.gravity << " e " << drop.restitution << " mu_i " << drop.impulse_ratio
+      << "\n  rows:";
   for (const auto& row : sequence.rows)
     out << ' ' << analytic::PlanarBody::vertex_set_name(row.vertices) << " at " << row.start;
   out << " (" << sequence.message << ")\n  march:";
@@ -200,9 +194,9 @@ Verdict judge_all(const std::vector<RandomDrop>& all) {
 BOOST_AUTO_TEST_CASE(number_and_order_of_impacts_agree_with_a_brute_force_march) {
   const Verdict verdict = judge_all(random_drops());
   BOOST_TEST_MESSAGE(verdict.compared << " drops compared, " << verdict.too_close
-                                      << " too close to call; with 1, 2, 3, 4 impacts: "
-                                      << verdict.by_count[1] << ' ' << verdict.by_count[2] << ' '
-                                      << verdict.by_count[3] << ' ' << verdict.by_count[4]);
+                                      << " too close to call; with 1, 2, 3, 4 impacts: " << verdict.by_count[1] << ' '
+                                      << verdict.by_count[2] << ' ' << verdict.by_count[3] << ' '
+                                      << verdict.by_count[4]);
   constexpr std::size_t shown = 10;
   for (std::size_t i = 0; i < std::min(shown, verdict.mismatches.size()); ++i)
     BOOST_TEST_MESSAGE(verdict.mismatches[i]);

@@ -27,9 +27,7 @@ struct Case {
 
 /// A random approaching contact of a random body.
 Case random_case(std::mt19937_64& random) {
-  const auto uniform = [&](double low, double high) {
-    return std::uniform_real_distribution<>(low, high)(random);
-  };
+  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<>(low, high)(random); };
   Case c{.body = {.mass = uniform(0.1, 3), .gyration_square = uniform(0.05, 2)},
          .before = {},
          .contact = {uniform(-1, 1), uniform(-1, -0.01)}};
@@ -40,8 +38,8 @@ Case random_case(std::mt19937_64& random) {
 }
 
 double energy(const PlanarBody& body, const PlanarVelocity& v) {
-  return body.mass * (v.normal * v.normal + v.tangential * v.tangential +
-                      body.gyration_square * v.angular * v.angular) / 2;
+  return body.mass *
+         (v.normal * v.normal + v.tangential * v.tangential + body.gyration_square * v.angular * v.angular) / 2;
 }
 
 /// Coulomb's law by following the impulse in small steps: velocities at the contact, compression and
@@ -137,9 +135,9 @@ BOOST_AUTO_TEST_CASE(the_general_solution_gives_equation_9_for_the_unit_rod) {
       for (const double e : {0.0, 0.4, 1.0}) {
         const Angle theta = Angle::from_degrees(degrees);
         const RodImpact closed = rod_impact(theta, {.normal = -1.5, .tangential = 0.25}, e, ratio);
-        const Impact general = strike(rod, {.normal = -1.5, .tangential = 0.25},
-                                      rod.contact_point(0, theta.sine, theta.cosine),
-                                      {.restitution = e, .friction = FrictionKind::impulse_ratio, .friction_value = ratio});
+        const Impact general =
+            strike(rod, {.normal = -1.5, .tangential = 0.25}, rod.contact_point(0, theta.sine, theta.cosine),
+                   {.restitution = e, .friction = FrictionKind::impulse_ratio, .friction_value = ratio});
         BOOST_REQUIRE(close(general.normal_impulse, closed.normal_impulse, rounding));
         BOOST_REQUIRE(close(general.after.normal, closed.after.normal, rounding));
         BOOST_REQUIRE(close(general.after.tangential, closed.after.tangential, rounding));
@@ -152,7 +150,8 @@ BOOST_AUTO_TEST_CASE(the_general_solution_gives_equation_9_for_the_unit_rod) {
 BOOST_AUTO_TEST_CASE(the_flat_landing_gives_equation_11) {
   const PlanarBody rod = make_rod({});
   const ImpactLaw law{.restitution = 0.7, .friction = FrictionKind::impulse_ratio, .friction_value = 0.2};
-  const auto flat = strike_flat(rod, {.normal = -2, .tangential = 1}, rod.contact_point(0, 0, 1), rod.contact_point(1, 0, 1), law);
+  const auto flat =
+      strike_flat(rod, {.normal = -2, .tangential = 1}, rod.contact_point(0, 0, 1), rod.contact_point(1, 0, 1), law);
   const RodImpact closed = flat_rod_impact({.normal = -2, .tangential = 1}, 0.7, 0.2);
   BOOST_REQUIRE(flat.has_value());
   BOOST_TEST(close(flat->normal_impulse, closed.normal_impulse, rounding));
@@ -181,7 +180,8 @@ BOOST_AUTO_TEST_CASE(rouths_closed_form_agrees_with_stepping_along_the_impulse) 
   for (int i = 0; i < 300; ++i) {
     const Case c = random_case(random);
     ImpactLaw law{.restitution = std::uniform_real_distribution<>(0.05, 1)(random),
-                  .law = static_cast<RestitutionLaw>(i % 4), .friction = FrictionKind::coulomb,
+                  .law = static_cast<RestitutionLaw>(i % 4),
+                  .friction = FrictionKind::coulomb,
                   .friction_value = std::uniform_real_distribution<>(0.02, 1.2)(random)};
     if (law.law == RestitutionLaw::viscoelastic) {
       law.restitution = 1;
@@ -210,7 +210,8 @@ BOOST_AUTO_TEST_CASE(the_restitution_laws_agree_as_long_as_slip_does_not_stop) {
     const Impact poisson = strike(c.body, c.before, c.contact, law);
     law.law = RestitutionLaw::stronge;
     const Impact stronge = strike(c.body, c.before, c.contact, law);
-    if (newton.mode != ImpactMode::slip || poisson.mode != ImpactMode::slip || stronge.mode != ImpactMode::slip) continue;
+    if (newton.mode != ImpactMode::slip || poisson.mode != ImpactMode::slip || stronge.mode != ImpactMode::slip)
+      continue;
     ++compared;
     BOOST_REQUIRE(close(newton.normal_impulse, poisson.normal_impulse, rounding));
     BOOST_REQUIRE(close(newton.normal_impulse, stronge.normal_impulse, rounding));
@@ -222,8 +223,10 @@ BOOST_AUTO_TEST_CASE(coulomb_friction_never_creates_energy_with_stronges_law) {
   std::mt19937_64 random(5);
   for (int i = 0; i < 20000; ++i) {
     const Case c = random_case(random);
-    const ImpactLaw law{.restitution = std::uniform_real_distribution<>(0, 1)(random), .law = RestitutionLaw::stronge,
-                        .friction = FrictionKind::coulomb, .friction_value = std::uniform_real_distribution<>(0, 5)(random)};
+    const ImpactLaw law{.restitution = std::uniform_real_distribution<>(0, 1)(random),
+                        .law = RestitutionLaw::stronge,
+                        .friction = FrictionKind::coulomb,
+                        .friction_value = std::uniform_real_distribution<>(0, 5)(random)};
     const Impact impact = strike(c.body, c.before, c.contact, law);
     BOOST_REQUIRE(impact.energy_loss >= -1e-12 * energy(c.body, c.before));
     BOOST_REQUIRE(close(impact.energy_loss, energy(c.body, c.before) - energy(c.body, impact.after), 1e-11));
@@ -234,7 +237,8 @@ BOOST_AUTO_TEST_CASE(a_viscoelastic_ground_without_damping_is_stronges_law_with_
   std::mt19937_64 random(6);
   for (int i = 0; i < 20000; ++i) {
     const Case c = random_case(random);
-    ImpactLaw law{.law = RestitutionLaw::stronge, .friction = FrictionKind::coulomb,
+    ImpactLaw law{.law = RestitutionLaw::stronge,
+                  .friction = FrictionKind::coulomb,
                   .friction_value = std::uniform_real_distribution<>(0, 2)(random)};
     const Impact stronge = strike(c.body, c.before, c.contact, law);
     law.law = RestitutionLaw::viscoelastic;
@@ -250,8 +254,10 @@ BOOST_AUTO_TEST_CASE(a_ground_damped_without_bound_lets_a_sticking_contact_separ
   const Case c{.body = {.gyration_square = 0.1}, .before = {.normal = -1, .tangential = 0.05}, .contact = {-0.3, -0.4}};
   for (const double tau : {1e2, 1e4, 1e6}) {
     const Impact impact = strike(c.body, c.before, c.contact,
-                                 {.law = RestitutionLaw::viscoelastic, .friction = FrictionKind::coulomb,
-                                  .friction_value = 0.9, .damping_per_stiffness = tau});
+                                 {.law = RestitutionLaw::viscoelastic,
+                                  .friction = FrictionKind::coulomb,
+                                  .friction_value = 0.9,
+                                  .damping_per_stiffness = tau});
     BOOST_TEST((impact.mode == ImpactMode::slip_stick));
     BOOST_TEST(impact.separation_speed > 0.9 / tau);
     BOOST_TEST(impact.separation_speed <= (1 + 1e-9) / tau);
@@ -264,7 +270,8 @@ BOOST_AUTO_TEST_CASE(a_viscoelastic_ground_without_friction_restores_by_its_exac
   const Angle theta = Angle::from_degrees(30);
   const ContactPoint d = rod.contact_point(0, theta.sine, theta.cosine);
   const auto restitution = [&](double tau) {
-    return strike(rod, {.normal = -2}, d, {.law = RestitutionLaw::viscoelastic, .damping_per_stiffness = tau}).restitution();
+    return strike(rod, {.normal = -2}, d, {.law = RestitutionLaw::viscoelastic, .damping_per_stiffness = tau})
+        .restitution();
   };
   BOOST_TEST(std::fabs(restitution(0.5) - 0.593624260040) < 1e-12);
   BOOST_TEST(std::fabs(restitution(0.05) - 0.937475579949905) < 2e-15);

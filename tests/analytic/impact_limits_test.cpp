@@ -53,7 +53,8 @@ BOOST_AUTO_TEST_CASE(an_impact_at_a_limit_does_what_the_limit_says) {
     const ContactInertia inertia = contact_inertia(body.gyration_square, d);
     const LimitState state{.approach_speed = 1, .slip = before.tangential, .restitution = e};
     const auto hit = [&](double ratio) {
-      return strike(body, before, d, {.restitution = e, .friction = FrictionKind::impulse_ratio, .friction_value = ratio});
+      return strike(body, before, d,
+                    {.restitution = e, .friction = FrictionKind::impulse_ratio, .friction_value = ratio});
     };
     constexpr double tolerance = 1e-11;  // rounding × 1/(1 − ratio/jamming limit) for the cases kept
     const double stopping = slip_stopping_ratio(inertia, state);

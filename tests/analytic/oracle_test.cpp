@@ -63,9 +63,7 @@ void check_table(const std::string& name) {
   for (const auto& row : rows) check_row(row);
 }
 
-Digits50 degrees(const Digits50& angle) {
-  return angle * 180 / boost::math::constants::pi<Digits50>();
-}
+Digits50 degrees(const Digits50& angle) { return angle * 180 / boost::math::constants::pi<Digits50>(); }
 
 Digits50 relative_difference(const Digits50& x, const Digits50& y) { return abs(x - y) / abs(y); }
 
@@ -74,9 +72,8 @@ const oracle::MarchBody thin_rod{1 / std::sqrt(12.0L), {{-0.5L, 0}, {0.5L, 0}}};
 /// The march's impacts as the rod oracle names them.
 oracle::Contact contact_of(const oracle::MarchSequence& sequence, std::size_t impact) {
   if (sequence.impacts.size() <= impact) return oracle::Contact::none;
-  return sequence.impacts[impact].vertex == sequence.impacts[impact - 1].vertex
-             ? oracle::Contact::same_end
-             : oracle::Contact::other_end;
+  return sequence.impacts[impact].vertex == sequence.impacts[impact - 1].vertex ? oracle::Contact::same_end
+                                                                                : oracle::Contact::other_end;
 }
 
 /// The march does not tell on which side of the vertical the other end strikes.
@@ -88,9 +85,8 @@ void compare_oracles(const oracle::RodCase<long double>& rod) {
   // Both round in long double.  Rounding inside a flight grows like the condition number of the
   // whole, but not in proportion to it; a wrong contact would be wrong by far more.
   constexpr long double tolerance = 4096 * std::numeric_limits<long double>::epsilon();
-  const auto march =
-      oracle::march_sequence(thin_rod, {rod.theta, -1, 0, 0}, 0,
-                             {rod.restitution, rod.impulse_ratio, rod.gravity_number}, 3);
+  const auto march = oracle::march_sequence(thin_rod, {rod.theta, -1, 0, 0}, 0,
+                                            {rod.restitution, rod.impulse_ratio, rod.gravity_number}, 3);
   if (march.close_call) return;
   const auto exact = oracle::solve_rod(rod);
   BOOST_TEST((contact_of(march, 1) == without_side(exact.second)));
@@ -108,9 +104,7 @@ BOOST_AUTO_TEST_CASE(the_rod_oracle_reproduces_the_table_without_gravity) {
   check_table("rod_sequence_no_gravity.csv");
 }
 
-BOOST_AUTO_TEST_CASE(the_rod_oracle_reproduces_the_table_with_gravity) {
-  check_table("rod_sequence_gravity.csv");
-}
+BOOST_AUTO_TEST_CASE(the_rod_oracle_reproduces_the_table_with_gravity) { check_table("rod_sequence_gravity.csv"); }
 
 BOOST_AUTO_TEST_CASE(the_folds_lie_at_the_known_angles) {
   const Digits50 last_digit("1e-12");  // [°], of the known values
@@ -128,8 +122,7 @@ BOOST_AUTO_TEST_CASE(the_first_impulse_is_the_closed_form_of_eq_8) {
     const auto solution = oracle::solve_rod<Digits50>({Digits50("0.6"), 0, e, mu}, 1);
     const Digits50 s = sin(Digits50("0.6")), c = cos(Digits50("0.6"));
     const Digits50 closed_form = (1 + e) / (1 + 3 * c * c - 3 * mu * s * c);
-    BOOST_TEST(relative_difference(solution.quantities[oracle::impulse_1]->value, closed_form) <=
-               tolerance);
+    BOOST_TEST(relative_difference(solution.quantities[oracle::impulse_1]->value, closed_form) <= tolerance);
   }
 }
 
@@ -147,8 +140,7 @@ BOOST_AUTO_TEST_CASE(the_small_angle_law_continues_the_direct_solution) {
   const auto direct = oracle::solve_rod<Digits150>({theta, 0, 1, 0});
   const auto by_law = law.at(theta);
   for (std::size_t q = 0; q < oracle::quantity_count; ++q)
-    BOOST_TEST(abs(by_law.quantities[q]->value / direct.quantities[q]->value - 1) <
-               Digits150("1e-20"));
+    BOOST_TEST(abs(by_law.quantities[q]->value / direct.quantities[q]->value - 1) < Digits150("1e-20"));
 }
 
 BOOST_AUTO_TEST_CASE(derivatives_agree_with_central_differences) {
@@ -169,8 +161,7 @@ BOOST_AUTO_TEST_CASE(derivatives_agree_with_central_differences) {
     const auto low = oracle::solve_rod(below);
     for (std::size_t q = 0; q < oracle::quantity_count; ++q) {
       BOOST_TEST_REQUIRE(at.quantities[q].has_value());
-      const Digits50 difference =
-          (high.quantities[q]->value - low.quantities[q]->value) / (2 * step * (rod.*field));
+      const Digits50 difference = (high.quantities[q]->value - low.quantities[q]->value) / (2 * step * (rod.*field));
       const Digits50 scale = abs(at.quantities[q]->value / (rod.*field));
       BOOST_TEST(abs(at.quantities[q]->slope - difference) <= tolerance * scale);
     }
@@ -192,8 +183,7 @@ BOOST_AUTO_TEST_CASE(search_and_march_agree_on_random_rods) {
 
 BOOST_AUTO_TEST_CASE(a_square_box_on_its_corner_bounces_in_a_geometric_series) {
   const long double e = 0.6L, g = 2;
-  const oracle::MarchBody box{std::sqrt(1 / 6.0L),
-                              {{-0.5L, -0.5L}, {0.5L, -0.5L}, {-0.5L, 0.5L}, {0.5L, 0.5L}}};
+  const oracle::MarchBody box{std::sqrt(1 / 6.0L), {{-0.5L, -0.5L}, {0.5L, -0.5L}, {-0.5L, 0.5L}, {0.5L, 0.5L}}};
   const long double balanced = std::acos(-1.0L) / 4;
   const auto sequence = oracle::march_sequence(box, {balanced, -1, 0, 0}, 0, {e, 0, g}, 4);
   BOOST_TEST_REQUIRE(sequence.impacts.size() == 4U);

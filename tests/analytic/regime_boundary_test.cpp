@@ -98,7 +98,8 @@ BOOST_AUTO_TEST_CASE(a_root_takes_at_most_20_evaluations_and_8_in_the_median) {
     counts.push_back(contact_angles(Angle::from_degrees(t), {}).beta.evaluations);
   }
   for (double apart = 1e-15; apart < 1e-2; apart *= 1.1) {
-    const ContactAngle beta = contact_angles(Angle::from_radians(regime_boundary(ImpactNumber::second, {}).theta - apart), {}).beta;
+    const ContactAngle beta =
+        contact_angles(Angle::from_radians(regime_boundary(ImpactNumber::second, {}).theta - apart), {}).beta;
     counts.push_back(beta.evaluations);
   }
   std::sort(counts.begin(), counts.end());

@@ -15,8 +15,11 @@ namespace {
 using namespace clatter::analytic;
 
 Drop rod_drop(double degrees) {
-  return {.body = make_rod({}), .inclination = Angle::from_degrees(degrees), .velocity = {.normal = -1},
-          .gravity = 0, .law = {}};
+  return {.body = make_rod({}),
+          .inclination = Angle::from_degrees(degrees),
+          .velocity = {.normal = -1},
+          .gravity = 0,
+          .law = {}};
 }
 
 Drop random_drop(std::mt19937_64& random) {
@@ -38,7 +41,8 @@ BOOST_AUTO_TEST_CASE(the_rod_dropped_at_10_degrees_has_the_three_impacts_of_the_
   BOOST_REQUIRE(s.rows.size() == 3);
   // 30-digit values of an independent computation (tests/analytic/reference).
   const double angles[] = {10, 5.08198288305537323797553338956, 10.5479772399858399151981804425};
-  const double impulses[] = {0.51156927586776329289718902056, 1.00284246496985494090956210113, 0.485090774171696977183309561393};
+  const double impulses[] = {0.51156927586776329289718902056, 1.00284246496985494090956210113,
+                             0.485090774171696977183309561393};
   const double eps = 2.2e-16;
   for (int i = 0; i < 3; ++i) {
     const ImpactRow& row = s.rows[static_cast<std::size_t>(i)];
@@ -98,10 +102,14 @@ BOOST_AUTO_TEST_CASE(every_impact_loses_the_energy_that_it_says) {
   std::mt19937_64 random(14);
   for (int i = 0; i < 500; ++i) {
     Drop drop = random_drop(random);
-    drop.law = {.restitution = 0.7, .law = static_cast<RestitutionLaw>(i % 3), .friction = FrictionKind::coulomb, .friction_value = 0.2};
+    drop.law = {.restitution = 0.7,
+                .law = static_cast<RestitutionLaw>(i % 3),
+                .friction = FrictionKind::coulomb,
+                .friction_value = 0.2};
     const Sequence s = impact_sequence(drop, {.impacts = 20, .amplification = false});
     for (const ImpactRow& row : s.rows) {
-      BOOST_REQUIRE(std::fabs(row.energy_before - row.energy_after - row.impact.energy_loss) <= 1e-13 * s.rows[0].energy_before);
+      BOOST_REQUIRE(std::fabs(row.energy_before - row.energy_after - row.impact.energy_loss) <=
+                    1e-13 * s.rows[0].energy_before);
     }
   }
 }
@@ -122,12 +130,14 @@ BOOST_AUTO_TEST_CASE(powers_of_two_in_every_unit_change_no_bit) {
   for (int i = 0; i < 300; ++i) {
     Drop drop = random_drop(random);
     drop.law.restitution = i % 2 ? 1 : 0.8;
-    const int m = static_cast<int>(random() % 41) - 20, l = static_cast<int>(random() % 41) - 20, t = static_cast<int>(random() % 41) - 20;
+    const int m = static_cast<int>(random() % 41) - 20, l = static_cast<int>(random() % 41) - 20,
+              t = static_cast<int>(random() % 41) - 20;
     Drop scaled = drop;
     scaled.body.mass = std::ldexp(drop.body.mass, m);
     scaled.body.gyration_square = std::ldexp(drop.body.gyration_square, 2 * l);
     for (Vertex& v : scaled.body.vertices) v = {std::ldexp(v.x, l), std::ldexp(v.z, l)};
-    scaled.velocity = {std::ldexp(drop.velocity.normal, l - t), std::ldexp(drop.velocity.tangential, l - t), std::ldexp(drop.velocity.angular, -t)};
+    scaled.velocity = {std::ldexp(drop.velocity.normal, l - t), std::ldexp(drop.velocity.tangential, l - t),
+                       std::ldexp(drop.velocity.angular, -t)};
     scaled.gravity = std::ldexp(drop.gravity, l - 2 * t);
     const Sequence a = impact_sequence(drop, {.impacts = 12}), b = impact_sequence(scaled, {.impacts = 12});
     BOOST_REQUIRE(a.rows.size() == b.rows.size());
@@ -179,7 +189,9 @@ BOOST_AUTO_TEST_CASE(the_mirror_image_has_the_mirrored_sequence) {
     const Angle& angle = drop.inclination;
     BodyMotion mirror(drop.body, {-angle.radians, -angle.degrees, -angle.sine, angle.cosine},
                       {drop.velocity.normal, -drop.velocity.tangential, -drop.velocity.angular}, drop.gravity);
-    const auto swapped = [](VertexSet set) { return static_cast<VertexSet>((set & 0b0101) << 1 | (set & 0b1010) >> 1); };
+    const auto swapped = [](VertexSet set) {
+      return static_cast<VertexSet>((set & 0b0101) << 1 | (set & 0b1010) >> 1);
+    };
     constexpr double grown = 1e-9;  // rounding, which three impacts may multiply by 10⁶
     VertexSet here = motion.lowest_vertices(), there = mirror.lowest_vertices();
     for (int k = 0; k < 3; ++k) {
@@ -232,7 +244,10 @@ BOOST_AUTO_TEST_CASE(an_impulse_ratio_beyond_the_limit_is_computed_with_a_warnin
 /// e v lasts 2 e v/g.
 BOOST_AUTO_TEST_CASE(a_flat_body_on_damped_ground_bounces_with_the_restitution_of_each_speed) {
   const double tau = 0.3, g = 9.81;
-  const Drop drop{.body = make_box({}), .inclination = Angle::from_degrees(0), .velocity = {.normal = -3}, .gravity = g,
+  const Drop drop{.body = make_box({}),
+                  .inclination = Angle::from_degrees(0),
+                  .velocity = {.normal = -3},
+                  .gravity = g,
                   .law = {.law = RestitutionLaw::viscoelastic, .damping_per_stiffness = tau}};
   const Sequence s = impact_sequence(drop, {.impacts = 4});
   double speed = 3, time = 0;
@@ -262,7 +277,8 @@ BOOST_AUTO_TEST_CASE(an_elastic_rod_keeps_its_energy_over_10000_impacts_however_
       const double first = s.rows[0].energy_before;
       for (std::size_t i = 0; i < s.rows.size(); ++i) {
         const double off = std::fabs(s.rows[i].energy_after - first) / first;
-        BOOST_REQUIRE_MESSAGE(off <= per_impact * static_cast<double>(i + 1), "impact " << i + 1 << " at " << speed << ": " << off);
+        BOOST_REQUIRE_MESSAGE(off <= per_impact * static_cast<double>(i + 1),
+                              "impact " << i + 1 << " at " << speed << ": " << off);
       }
     }
   }
@@ -288,7 +304,7 @@ BOOST_AUTO_TEST_CASE(a_fall_whose_end_no_double_can_tell_is_not_computed_and_not
   };
   for (const double speed : {1e12, 1e100}) breaks_off(speed, 9.81, 0);
   for (const double gravity : {1e-300, 1e-100, 1e-30}) breaks_off(1, gravity, 0);
-  breaks_off(1, 9.81, -2e9);  // 10¹⁸ turns
+  breaks_off(1, 9.81, -2e9);                                                       // 10¹⁸ turns
   for (const double speed : {1e-300, 1e-200, 1e200, 1e300}) refused(speed, 9.81);  // G is no double
   refused(1, 5e-324);
 }

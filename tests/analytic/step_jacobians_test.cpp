@@ -35,8 +35,7 @@ Response shifted(const StruckState& struck, const StateVector& by) {
   const double turn = struck.before.angular + by[at_turn];
   const PlanarVelocity before{u + turn * d.tangential, slip - turn * d.normal, turn};
   if (!struck.flat) return response_of(strike(struck.body, before, d, struck.law), d);
-  return response_of(strike_flat(struck.body, before, d, turned(struck.second), struck.law).value(),
-                     d);
+  return response_of(strike_flat(struck.body, before, d, turned(struck.second), struck.law).value(), d);
 }
 
 class RandomImpacts {
@@ -44,17 +43,15 @@ class RandomImpacts {
   /// An impact by `law`; nothing if it is none.
   std::optional<StruckState> next(bool flat, RestitutionLaw law, FrictionKind friction) {
     const double height = uniform(0.05, 0.4);
-    StruckState struck{
-        .body =
-            make_box({.mass = uniform(0.5, 2), .length = 1, .width = 1, .thickness = 2 * height}),
-        .law = {.restitution = law == RestitutionLaw::viscoelastic ? 1 : uniform(0, 1),
-                .law = law,
-                .friction = friction},
-        .before = {-uniform(0.5, 2), uniform(-2, 2), flat ? uniform(-0.5, 0.5) : uniform(-3, 3)},
-        .contact = {},
-        .place = {},
-        .second = {0.5, -height},
-        .flat = flat};
+    StruckState struck{.body = make_box({.mass = uniform(0.5, 2), .length = 1, .width = 1, .thickness = 2 * height}),
+                       .law = {.restitution = law == RestitutionLaw::viscoelastic ? 1 : uniform(0, 1),
+                               .law = law,
+                               .friction = friction},
+                       .before = {-uniform(0.5, 2), uniform(-2, 2), flat ? uniform(-0.5, 0.5) : uniform(-3, 3)},
+                       .contact = {},
+                       .place = {},
+                       .second = {0.5, -height},
+                       .flat = flat};
     if (friction == FrictionKind::impulse_ratio) struck.law.friction_value = uniform(-0.3, 0.3);
     if (friction == FrictionKind::coulomb) struck.law.friction_value = uniform(0.01, 1.2);
     if (law == RestitutionLaw::viscoelastic) {
@@ -62,8 +59,7 @@ class RandomImpacts {
     }
     const double angle = flat ? 0 : uniform(-1.5, 1.5);
     struck.place = struck.body.contact_point(0, std::sin(angle), std::cos(angle));
-    struck.contact = {normal_velocity(struck.before, struck.place),
-                      slip_velocity(struck.before, struck.place)};
+    struck.contact = {normal_velocity(struck.before, struck.place), slip_velocity(struck.before, struck.place)};
     if (!(struck.contact.normal < -0.1)) return {};
     if (flat && !strike_flat(struck.body, struck.before, struck.place, struck.second, struck.law)) {
       return {};
@@ -83,8 +79,7 @@ class RandomImpacts {
 bool compare(const StruckState& struck, double& worst) {
   const Response as_it_is = shifted(struck, {});
   const ImpactDerivatives d = impact_derivatives(struck, as_it_is.mode);
-  const StateVector* rows[] = {&d.normal, &d.tangential, &d.state[at_normal], &d.state[at_slip],
-                               &d.state[at_turn]};
+  const StateVector* rows[] = {&d.normal, &d.tangential, &d.state[at_normal], &d.state[at_slip], &d.state[at_turn]};
   for (std::size_t i = at_angle; i <= at_turn; ++i) {
     if (struck.flat && i == at_angle) continue;
     StateVector up{}, down{};
@@ -111,8 +106,7 @@ BOOST_AUTO_TEST_CASE(derivatives_of_an_impact_are_the_changes_that_small_shifts_
         double worst = 0;
         int compared = 0;
         for (int k = 0; k < 2000; ++k) {
-          const auto struck = impacts.next(flat, static_cast<RestitutionLaw>(law),
-                                           static_cast<FrictionKind>(friction));
+          const auto struck = impacts.next(flat, static_cast<RestitutionLaw>(law), static_cast<FrictionKind>(friction));
           if (struck && compare(*struck, worst)) ++compared;
         }
         BOOST_TEST_CONTEXT("flat " << flat << " law " << law << " friction " << friction) {
@@ -126,17 +120,15 @@ BOOST_AUTO_TEST_CASE(derivatives_of_an_impact_are_the_changes_that_small_shifts_
 
 BOOST_AUTO_TEST_CASE(an_impact_that_sticks_from_the_start_feels_a_slip_as_small_as_it_may_be) {
   // P_t stops the slip: dP_t/ds = −1/(C − B²/A) per unit mass where u' = −e u is kept (Newton).
-  StruckState struck{
-      .body = make_rod({}),
-      .law = {.restitution = 0.5, .friction = FrictionKind::coulomb, .friction_value = 2},
-      .before = {},
-      .contact = {.normal = -1, .slip = 0},
-      .place = {-0.4, -0.3},
-      .second = {}};
+  StruckState struck{.body = make_rod({}),
+                     .law = {.restitution = 0.5, .friction = FrictionKind::coulomb, .friction_value = 2},
+                     .before = {},
+                     .contact = {.normal = -1, .slip = 0},
+                     .place = {-0.4, -0.3},
+                     .second = {}};
   struck.before = {.normal = -1, .tangential = 0, .angular = 0};
   const ContactInertia inertia = contact_inertia(struck.body.gyration_square, struck.place);
   const ImpactDerivatives d = impact_derivatives(struck, ImpactMode::stick);
-  const double expected =
-      -1 / (inertia.tangential - inertia.coupling * inertia.coupling / inertia.normal);
+  const double expected = -1 / (inertia.tangential - inertia.coupling * inertia.coupling / inertia.normal);
   BOOST_TEST(std::fabs(d.tangential[at_slip] / expected - 1) <= 1e-14);
 }

@@ -57,8 +57,12 @@ BOOST_AUTO_TEST_CASE(the_counter_counts) {
 BOOST_AUTO_TEST_CASE(a_contact_allocates_nothing_while_it_is_stepped) {
   for (const Body& body : {phone(), phone(8, 6, 4, false), rod()}) {
     for (const Ground& ground :
-         {Ground{.stiffness = 1e8}, Ground{.stiffness = 1e8, .damping = 1e7, .static_friction = 0.1, .sliding_friction = 0.075},
-          Ground{.stiffness = 1e8, .static_friction = 0.5, .sliding_friction = 0.5, .friction = FrictionLaw::regularised}}) {
+         {Ground{.stiffness = 1e8},
+          Ground{.stiffness = 1e8, .damping = 1e7, .static_friction = 0.1, .sliding_friction = 0.075},
+          Ground{.stiffness = 1e8,
+          .static_friction = 0.5,
+          .sliding_friction = 0.5,
+          .friction = FrictionLaw::regularised}}) {
       for (const Method method : {Method::tvd_rk3, Method::rk8pd, Method::rkf45, Method::rk4}) {
         const MotionState touch = touching_state(
             body, {.inclination = 10 * degree, .velocity = {0.2, 0.1, -4}, .spin = 1, .out_of_plane_tilt = 0.1});

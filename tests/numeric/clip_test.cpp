@@ -13,7 +13,8 @@ namespace {
 using namespace clatter::numeric;
 
 /// Corners in the plane z = 0 whose depths are given: a surface element seen from its outside.
-std::vector<ContactCorner> element(const std::vector<std::array<double, 2>>& points, const std::vector<double>& depths) {
+std::vector<ContactCorner> element(const std::vector<std::array<double, 2>>& points,
+                                   const std::vector<double>& depths) {
   std::vector<ContactCorner> corners;
   for (std::size_t i = 0; i < points.size(); ++i) {
     corners.push_back({Vector3(points[i][0], points[i][1], 0), depths[i], 0});

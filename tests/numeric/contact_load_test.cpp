@@ -79,8 +79,9 @@ BOOST_AUTO_TEST_CASE(a_wedge_gives_the_closed_forms_of_force_moment_and_energy) 
                                on_sides * (edge + Vector3(bottom / 4, 0, end / 4));
       check_vector(load.first_moment, expected, relative * load.force * size.norm());
       const double side_square = surface ? 2 * bottom * end / 2 * depth * depth / 6 : 0;
-      const double energy = k / 2 * (bottom_weight * width * bottom * depth * depth / 3 +
-                                     end_weight * width * end * depth * depth / 3 + side_square);
+      const double energy = k / 2 *
+                            (bottom_weight * width * bottom * depth * depth / 3 +
+                             end_weight * width * end * depth * depth / 3 + side_square);
       BOOST_TEST(load.energy == energy, boost::test_tools::tolerance(relative));
     }
   }
@@ -94,11 +95,13 @@ BOOST_AUTO_TEST_CASE(a_tilted_plate_gives_the_closed_forms_of_force_and_moment) 
   const double sine = std::sin(angle), cosine = std::cos(angle);
   const double middle = depth - length / 2 * sine;  // below the ground of the lower face's middle
   const double volume = width * length * middle / cosine;
-  const ContactLoad load = load_at(body, {.stiffness = k, .area = AreaMeasure::projected}, {.inclination = angle}, depth);
+  const ContactLoad load =
+      load_at(body, {.stiffness = k, .area = AreaMeasure::projected}, {.inclination = angle}, depth);
   BOOST_TEST(load.force == k * volume, boost::test_tools::tolerance(relative));
   // ∫x h dx and ∫(z₀ + h/2) h dx over the trapezoid, h = (δ − x sin θ)/cos θ, z₀ the lower face.
   const double along = -width * sine / cosine * length * length * length / 12;
-  const double squares = width * (middle * middle * length + sine * sine * length * length * length / 12) / (cosine * cosine);
+  const double squares =
+      width * (middle * middle * length + sine * sine * length * length * length / 12) / (cosine * cosine);
   const double up = -thickness / 2 * volume + squares / 2;
   // The moment about y of k V at the centroid: −(x cos θ − z sin θ) F.
   const double expected = -k * (along * cosine - up * sine);
@@ -168,8 +171,8 @@ BOOST_AUTO_TEST_CASE(a_corner_gives_the_closed_forms_of_force_and_moment) {
 /// A round patch as a polygon: the rod standing upright, its end face a regular 16-gon with area 8 r² sin(π/8).
 BOOST_AUTO_TEST_CASE(a_polygonal_cap_gives_the_closed_form_of_the_force) {
   const double k = 1e9, depth = 1e-5, r = 0.01;
-  const ContactLoad load = load_at(rod(), {.stiffness = k, .area = AreaMeasure::projected}, {.inclination = 90 * degree},
-                                   depth);
+  const ContactLoad load =
+      load_at(rod(), {.stiffness = k, .area = AreaMeasure::projected}, {.inclination = 90 * degree}, depth);
   BOOST_TEST(load.force == k * depth * 8 * r * r * std::sin(std::numbers::pi / 8),
              boost::test_tools::tolerance(relative));
 }
@@ -214,8 +217,8 @@ BOOST_AUTO_TEST_CASE(a_triangulation_changes_nothing_beyond_rounding) {
   const int around[6] = {1, 2, 3, 7, 4, 5};  // the edges' path around the diagonal from 0 to 6
   for (int i = 0; i < 6; ++i) {
     const auto corner = [&](int j) { return n[static_cast<std::size_t>(around[j % 6])]; };
-    Element element{ElementShape::tetrahedron, {n[0], corner(i), corner(i + 1), n[6], -1, -1, -1, -1},
-                    box.elements[0].density};
+    Element element{
+        ElementShape::tetrahedron, {n[0], corner(i), corner(i + 1), n[6], -1, -1, -1, -1}, box.elements[0].density};
     cut.elements.push_back(element);
   }
   for (const bool merge : {true, false}) {

@@ -22,7 +22,8 @@ Options options_for(int digits, int impacts) {
 }
 
 MotionState dropped(const Body& body, double angle, double tilt = 0) {
-  return touching_state(body, {.inclination = angle * degree, .velocity = {0, 0, -4}, .out_of_plane_tilt = tilt * degree});
+  return touching_state(body,
+                        {.inclination = angle * degree, .velocity = {0, 0, -4}, .out_of_plane_tilt = tilt * degree});
 }
 
 #ifdef CLATTER_TEST_SLOW_BUILD
@@ -34,10 +35,14 @@ constexpr int random_drops = 120;
 /// A random drop of the phone or the rod, with friction or without.
 struct RandomDrop {
   RandomDrop(const Body& of, std::mt19937_64& random, int i) : body(of) {
-    const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+    const auto between = [&](double low, double high) {
+      return std::uniform_real_distribution<double>(low, high)(random);
+    };
     const double friction = i % 3 == 0 ? 0 : between(0, 0.8);
-    ground = {.stiffness = std::pow(10, between(7, 11)), .damping = i % 4 == 0 ? 0 : std::pow(10, between(5, 8)),
-              .static_friction = friction, .sliding_friction = friction};
+    ground = {.stiffness = std::pow(10, between(7, 11)),
+              .damping = i % 4 == 0 ? 0 : std::pow(10, between(5, 8)),
+              .static_friction = friction,
+              .sliding_friction = friction};
     start = dropped(body, between(1, 80), i % 5 == 0 ? between(0, 20) : 0);
   }
   [[nodiscard]] Simulation run(const Options& options) const { return simulate(body, ground, start, options); }
@@ -74,7 +79,8 @@ class Coverage {
       if (std::fabs(a - b) > 1e-13 * std::fabs(b)) ratios_.push_back(error / std::fabs(a - b));
     };
     using Numbers = ImpactNumbers;
-    for (const auto number : {&Numbers::duration, &Numbers::peak_force, &Numbers::energy_after, &Numbers::energy_loss}) {
+    for (const auto number :
+         {&Numbers::duration, &Numbers::peak_force, &Numbers::energy_after, &Numbers::energy_loss}) {
       judge(value.*number, exact.*number, bar.*number);
     }
     judge(value.impulse.x(), exact.impulse.x(), bar.impulse.x());
@@ -136,7 +142,8 @@ BOOST_AUTO_TEST_CASE(a_number_in_which_two_runs_agree_by_chance_is_not_taken_for
   row.value.approach_speed = row.value.restitution = row.value.peak_force = 1;
   row.value.impulse = row.value.velocity_after = row.value.angular_velocity_after = Vector3(1, 0, 2);
   std::vector<ImpactRecord> rows{row}, second{row};
-  for (const auto vector : {&ImpactNumbers::impulse, &ImpactNumbers::velocity_after, &ImpactNumbers::angular_velocity_after}) {
+  for (const auto vector :
+       {&ImpactNumbers::impulse, &ImpactNumbers::velocity_after, &ImpactNumbers::angular_velocity_after}) {
     (second[0].value.*vector).z() += distance;
   }
   estimate_errors(phone(), 1, rows, second);
@@ -150,7 +157,8 @@ BOOST_AUTO_TEST_CASE(a_number_in_which_two_runs_agree_by_chance_is_not_taken_for
   BOOST_TEST(error.peak_force > distance / 100);
 }
 
-/// Steps are then as long as they may be, whatever the tolerance: a second run at a tenth of it alone would be the same run.
+/// Steps are then as long as they may be, whatever the tolerance: a second run at a tenth of it alone would be the same
+/// run.
 BOOST_AUTO_TEST_CASE(error_bars_cover_where_the_tolerance_is_too_loose_to_shorten_a_step) {
   std::vector<Options> settings;
   for (const Method method : {Method::rkck, Method::rk8pd}) {
@@ -199,8 +207,9 @@ BOOST_AUTO_TEST_CASE(the_amplification_is_that_of_a_neighbouring_drop) {
   nudged.angular_velocity.y() += nudge * 4 / body.radius();
   const Simulation other = simulate(body, ground, nudged, options);
   BOOST_REQUIRE(drop.impacts.size() == 2 && other.impacts.size() == 2);
-  const double growth = (other.impacts[1].value.angular_velocity_after - drop.impacts[1].value.angular_velocity_after).norm() *
-                        body.radius() / 4 / nudge;
+  const double growth =
+      (other.impacts[1].value.angular_velocity_after - drop.impacts[1].value.angular_velocity_after).norm() *
+      body.radius() / 4 / nudge;
   BOOST_TEST(drop.impacts[1].amplification >= 0.1 * growth);
   BOOST_TEST(drop.impacts[1].amplification <= 100 * growth);
 }

@@ -141,10 +141,9 @@ BOOST_AUTO_TEST_CASE(bad_options_are_refused_by_name) {
   const Body body = phone();
   const MotionState start = dropped(body, 10, 1);
   const auto refused = [&](const Ground& ground, const Options& options, const std::string& word) {
-    BOOST_CHECK_EXCEPTION(static_cast<void>(simulate(body, ground, start, options)), std::domain_error,
-                          [&](const std::domain_error& error) {
-                            return std::string(error.what()).find(word) != std::string::npos;
-                          });
+    BOOST_CHECK_EXCEPTION(
+        static_cast<void>(simulate(body, ground, start, options)), std::domain_error,
+        [&](const std::domain_error& error) { return std::string(error.what()).find(word) != std::string::npos; });
   };
   const double nan = std::nan("");
   refused({.stiffness = 0}, {}, "ground.stiffness");

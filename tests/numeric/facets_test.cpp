@@ -44,8 +44,7 @@ struct AreaMoments {
 AreaMoments moments(const Facets& facets) {
   AreaMoments sum;
   for (const Facet& facet : facets.facets) {
-    for (int l = facet.begin; l < facet.end; ++l)
-      sum.add(corners(facets, facets.loops[l]), facet.normal);
+    for (int l = facet.begin; l < facet.end; ++l) sum.add(corners(facets, facets.loops[l]), facet.normal);
   }
   return sum;
 }
@@ -83,8 +82,7 @@ void check_sound(const Facets& facets) {
       const Loop& loop = facets.loops[l];
       BOOST_TEST(loop.end - loop.begin >= 3);
       for (int i = loop.begin; i < loop.end; ++i) {
-        const int from = facets.corners[i],
-                  to = facets.corners[i + 1 < loop.end ? i + 1 : loop.begin];
+        const int from = facets.corners[i], to = facets.corners[i + 1 < loop.end ? i + 1 : loop.begin];
         BOOST_TEST(std::fabs(facet.normal.dot(facets.vertices[from] - base)) <= 1e-11);
         edges.insert({from, to});
         used.insert(from);
@@ -101,20 +99,16 @@ void check_sound(const Facets& facets) {
 /// Facets with the normal, in the given plane.
 std::vector<Facet> facing(const Facets& facets, const Vector3& normal, double offset) {
   std::vector<Facet> found;
-  std::copy_if(facets.facets.begin(), facets.facets.end(), std::back_inserter(found),
-               [&](const Facet& facet) {
-                 const Vector3& corner =
-                     facets.vertices[facets.corners[facets.loops[facet.begin].begin]];
-                 return (facet.normal - normal).norm() < 1e-12 &&
-                        std::fabs(corner.dot(normal) - offset) < 1e-12;
-               });
+  std::copy_if(facets.facets.begin(), facets.facets.end(), std::back_inserter(found), [&](const Facet& facet) {
+    const Vector3& corner = facets.vertices[facets.corners[facets.loops[facet.begin].begin]];
+    return (facet.normal - normal).norm() < 1e-12 && std::fabs(corner.dot(normal) - offset) < 1e-12;
+  });
   return found;
 }
 
 std::vector<int> loop_sizes(const Facets& facets, const Facet& facet) {
   std::vector<int> sizes;
-  for (int l = facet.begin; l < facet.end; ++l)
-    sizes.push_back(facets.loops[l].end - facets.loops[l].begin);
+  for (int l = facet.begin; l < facet.end; ++l) sizes.push_back(facets.loops[l].end - facets.loops[l].begin);
   std::sort(sizes.begin(), sizes.end());
   return sizes;
 }
@@ -125,14 +119,33 @@ Facets facets_of(const Mesh& mesh) { return planar_facets(boundary_surface(mesh)
 /// off the other half's plane by only 1e-9 × bend.
 Facets facets_of_ridge(double bend) {
   const double fall = 1e-9;
-  return planar_facets({.nodes = {{-1, -1, 0}, {-1, 1, 0}, {1, -1, -fall}, {1, 1, -fall}, {0, -1, 0}, {0, 1, 0},
-                                  {bend, 0, 0}, {-1, -1, -1}, {-1, 1, -1}, {1, -1, -1}, {1, 1, -1}, {0, -1, -1},
+  return planar_facets({.nodes = {{-1, -1, 0},
+                                  {-1, 1, 0},
+                                  {1, -1, -fall},
+                                  {1, 1, -fall},
+                                  {0, -1, 0},
+                                  {0, 1, 0},
+                                  {bend, 0, 0},
+                                  {-1, -1, -1},
+                                  {-1, 1, -1},
+                                  {1, -1, -1},
+                                  {1, 1, -1},
+                                  {0, -1, -1},
                                   {0, 1, -1}},
-                        .elements = {{.nodes = {0, 4, 6, -1}}, {.nodes = {0, 6, 1, -1}}, {.nodes = {1, 6, 5, -1}},
-                                     {.nodes = {4, 2, 6, -1}}, {.nodes = {6, 2, 3, -1}}, {.nodes = {6, 3, 5, -1}},
-                                     {.nodes = {7, 11, 4, 0}}, {.nodes = {11, 9, 2, 4}}, {.nodes = {12, 8, 1, 5}},
-                                     {.nodes = {10, 12, 5, 3}}, {.nodes = {8, 7, 0, 1}}, {.nodes = {9, 10, 3, 2}},
-                                     {.nodes = {7, 8, 12, 11}}, {.nodes = {11, 12, 10, 9}}}});
+                        .elements = {{.nodes = {0, 4, 6, -1}},
+                                     {.nodes = {0, 6, 1, -1}},
+                                     {.nodes = {1, 6, 5, -1}},
+                                     {.nodes = {4, 2, 6, -1}},
+                                     {.nodes = {6, 2, 3, -1}},
+                                     {.nodes = {6, 3, 5, -1}},
+                                     {.nodes = {7, 11, 4, 0}},
+                                     {.nodes = {11, 9, 2, 4}},
+                                     {.nodes = {12, 8, 1, 5}},
+                                     {.nodes = {10, 12, 5, 3}},
+                                     {.nodes = {8, 7, 0, 1}},
+                                     {.nodes = {9, 10, 3, 2}},
+                                     {.nodes = {7, 8, 12, 11}},
+                                     {.nodes = {11, 12, 10, 9}}}});
 }
 
 }  // namespace
@@ -141,8 +154,7 @@ BOOST_AUTO_TEST_CASE(a_box_of_any_subdivision_and_attitude_has_six_facets_and_ei
   const Vector3 size(0.10566, 0.04394, 0.01905);
   for (const auto& [nx, ny, nz] : {std::array{1, 1, 1}, {2, 1, 3}, {7, 5, 4}, {40, 30, 20}}) {
     const Mesh mesh = box_mesh({.size = size, .nx = nx, .ny = ny, .nz = nz});
-    for (const Mesh& turned :
-         {mesh, moved(mesh, rotation(), Vector3(0.1, 0.2, -0.3)), renumbered(mesh, 5)}) {
+    for (const Mesh& turned : {mesh, moved(mesh, rotation(), Vector3(0.1, 0.2, -0.3)), renumbered(mesh, 5)}) {
       const Facets facets = facets_of(turned);
       check_sound(facets);
       BOOST_TEST(facets.facets.size() == 6u);
@@ -170,9 +182,7 @@ BOOST_AUTO_TEST_CASE(the_rod_of_the_paper_has_eighteen_facets) {
 }
 
 BOOST_AUTO_TEST_CASE(a_hole_is_a_loop_that_runs_the_other_way) {
-  const auto hole = [](const Vector3& centre) {
-    return centre.head<2>().cwiseAbs().maxCoeff() < 0.5;
-  };
+  const auto hole = [](const Vector3& centre) { return centre.head<2>().cwiseAbs().maxCoeff() < 0.5; };
   const Mesh plate = without(box_mesh({.size = {3, 3, 0.5}, .nx = 6, .ny = 6, .nz = 2}), hole);
   const Facets facets = facets_of(plate);
   check_sound(facets);
@@ -204,9 +214,7 @@ BOOST_AUTO_TEST_CASE(an_l_shape_has_eight_facets_and_keeps_its_inner_corner) {
 
 BOOST_AUTO_TEST_CASE(coplanar_faces_that_do_not_touch_stay_apart) {
   // A groove along x: two ridges of equal height.
-  const auto groove = [](const Vector3& centre) {
-    return std::fabs(centre.y()) < 0.2 && centre.z() > 0;
-  };
+  const auto groove = [](const Vector3& centre) { return std::fabs(centre.y()) < 0.2 && centre.z() > 0; };
   const Facets facets = facets_of(without(box_mesh({.nx = 2, .ny = 3, .nz = 2}), groove));
   check_sound(facets);
   BOOST_TEST(facing(facets, Vector3::UnitZ(), 0.5).size() == 2u);
@@ -218,8 +226,7 @@ BOOST_AUTO_TEST_CASE(an_outline_that_touches_itself_at_a_point_is_followed_aroun
   // A pit and a bump of the top face meet in one corner.
   const auto removed = [](const Vector3& centre) {
     const bool middle = centre.head<2>().cwiseAbs().maxCoeff() < 1;
-    const bool bump = middle && centre.x() > 0 && centre.y() > 0,
-               pit = middle && centre.x() < 0 && centre.y() < 0;
+    const bool bump = middle && centre.x() > 0 && centre.y() > 0, pit = middle && centre.x() < 0 && centre.y() < 0;
     return (centre.z() > 0.5 && !bump) || (centre.z() > -0.5 && pit);
   };
   const Mesh mesh = without(box_mesh({.size = {4, 4, 3}, .nx = 4, .ny = 4, .nz = 3}), removed);
@@ -254,9 +261,8 @@ BOOST_AUTO_TEST_CASE(a_warped_quadrilateral_becomes_four_triangles_around_its_mi
   for (const SurfaceElement& element : surface.elements) {
     Vector3 middle = Vector3::Zero();
     for (const int node : element.nodes) middle += surface.nodes[node] / 4;
-    BOOST_CHECK(
-        std::any_of(facets.vertices.begin(), facets.vertices.end(),
-                    [&](const Vector3& vertex) { return (vertex - middle).norm() <= 4 * eps; }));
+    BOOST_CHECK(std::any_of(facets.vertices.begin(), facets.vertices.end(),
+                            [&](const Vector3& vertex) { return (vertex - middle).norm() <= 4 * eps; }));
   }
   // The flux through the four triangles is that through the bilinear face.
   double flux = 0;
@@ -290,8 +296,7 @@ BOOST_AUTO_TEST_CASE(a_quadrilateral_is_warped_from_a_millionth_of_a_millionth_o
 
 BOOST_AUTO_TEST_CASE(a_fine_curve_does_not_creep_into_one_facet) {
   // Neighbours differ by 0.003 rad: never within the tolerance.
-  const Facets facets =
-      facets_of(rod_mesh({.radius = 0.3, .sectors = 2000, .rings = 1, .layers = 2}));
+  const Facets facets = facets_of(rod_mesh({.radius = 0.3, .sectors = 2000, .rings = 1, .layers = 2}));
   BOOST_TEST(facets.facets.size() == 2002u);
   // A ridge of 0.6e-12 rad from facet to facet: each agrees with its neighbour, not with the first.
   Mesh bent = box_mesh({.nx = 8});

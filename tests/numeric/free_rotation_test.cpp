@@ -29,9 +29,7 @@ struct Body {
 
 Matrix3 diagonal(const Vector3& moments) { return moments.asDiagonal(); }
 
-FreeRotation free_rotation(const Body& body) {
-  return {diagonal(body.moments), {.angular_velocity = body.omega}};
-}
+FreeRotation free_rotation(const Body& body) { return {diagonal(body.moments), {.angular_velocity = body.omega}}; }
 
 /// Largest difference of a component, velocities in units of |ω|.
 template <typename Real>
@@ -73,9 +71,7 @@ double worst_distance(const Body& body, double turns) {
   return worst;
 }
 
-Vector3 box_moments(double a, double b, double c) {
-  return Vector3(b * b + c * c, c * c + a * a, a * a + b * b) / 12;
-}
+Vector3 box_moments(double a, double b, double c) { return Vector3(b * b + c * c, c * c + a * a, a * a + b * b) / 12; }
 
 const Vector3 phone = box_moments(0.10566, 0.04394, 0.01905);
 
@@ -119,9 +115,7 @@ BOOST_AUTO_TEST_CASE(free_rotation_solves_euler_s_equations_over_1000_turns) {
       {"close to the separatrix", {1, 2, 3}, {0.03, 1, 0.03}},
   };
   for (const Body& body : bodies) {
-    BOOST_TEST_CONTEXT(body.name) {
-      BOOST_TEST((worst_distance<long double, 26>(body, turns)) <= tolerance);
-    }
+    BOOST_TEST_CONTEXT(body.name) { BOOST_TEST((worst_distance<long double, 26>(body, turns)) <= tolerance); }
   }
 }
 
@@ -204,8 +198,7 @@ BOOST_AUTO_TEST_CASE(a_symmetrical_body_precesses_steadily_about_its_momentum) {
   const FreeRotation rotation(diagonal({across, across, along}), {tilt, omega});
   for (const double time : {0.1, -3.0, 100.0}) {
     const double psi = momentum / across * time - std::numbers::pi / 2;
-    const Vector3 expected(std::sin(nutation) * std::cos(psi), std::sin(nutation) * std::sin(psi),
-                           std::cos(nutation));
+    const Vector3 expected(std::sin(nutation) * std::cos(psi), std::sin(nutation) * std::sin(psi), std::cos(nutation));
     const Vector3 axis = rotation.at(time).attitude * Vector3::UnitZ();
     BOOST_TEST((axis - expected).norm() <= 4 * eps * (1 + std::fabs(psi)));
   }
@@ -247,8 +240,7 @@ BOOST_AUTO_TEST_CASE(the_choice_of_body_axes_does_not_matter) {
 
 BOOST_AUTO_TEST_CASE(the_bounds_hold_and_the_speed_s_is_attained) {
   for (const Body& body : {Body{"phone", phone, {1, 20, 3}}, Body{"plate", {1, 2, 3}, {0.5, 0.5, 0.7}},
-                           Body{"disc", {1, 1, 2}, {0.5, 0.5, 0.7}},
-                           Body{"slow", {1, 2, 2.5}, {0.9, 0.2, -0.3}}}) {
+                           Body{"disc", {1, 1, 2}, {0.5, 0.5, 0.7}}, Body{"slow", {1, 2, 2.5}, {0.9, 0.2, -0.3}}}) {
     const FreeRotation rotation = free_rotation(body);
     const Matrix3 inertia = diagonal(body.moments);
     double speed = 0, acceleration = 0;

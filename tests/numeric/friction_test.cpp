@@ -57,8 +57,8 @@ BOOST_AUTO_TEST_CASE(a_body_that_slides_feels_the_sliding_friction_alone) {
   BOOST_TEST((rod_run.impacts[0].mode == FrictionMode::slip));
   BOOST_TEST(std::fabs(ratio(rod_run.impacts[0].value)) == sliding, boost::test_tools::tolerance(1e-9));
   // A plate that slides at 10 m/s, by a law over its whole patch: (v_r/v)²/2 below the coefficient.
-  const Ground local{.stiffness = 1e8, .static_friction = 0.5, .sliding_friction = sliding,
-                     .friction = FrictionLaw::regularised};
+  const Ground local{
+      .stiffness = 1e8, .static_friction = 0.5, .sliding_friction = sliding, .friction = FrictionLaw::regularised};
   const Body plate = phone();
   const MotionState start = touching_state(plate, {.velocity = {10, 0, -1}});
   const Simulation plate_run = simulate(plate, local, start, plain_options());
@@ -136,8 +136,8 @@ BOOST_AUTO_TEST_CASE(a_planar_drop_on_its_plane_and_in_space_are_the_same) {
 BOOST_AUTO_TEST_CASE(friction_knows_no_direction_of_the_ground) {
   const Body body = phone();
   const Ground ground{.stiffness = 1e8, .damping = 1e6, .static_friction = 0.3, .sliding_friction = 0.2};
-  MotionState start = touching_state(body, {.inclination = 0.4, .velocity = {1, 0.5, -2}, .spin = 3,
-                                            .out_of_plane_tilt = 0.2});
+  MotionState start =
+      touching_state(body, {.inclination = 0.4, .velocity = {1, 0.5, -2}, .spin = 3, .out_of_plane_tilt = 0.2});
   const ImpactNumbers straight = simulate(body, ground, start, plain_options()).impacts[0].value;
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.7, Vector3::UnitZ()));
   start.attitude = turn * start.attitude;
@@ -157,8 +157,11 @@ BOOST_AUTO_TEST_CASE(the_regularised_law_tends_to_coulombs) {
   const Vector3 coulomb = impulse({.stiffness = 1e11, .static_friction = 0.3, .sliding_friction = 0.3});
   double previous = 1;
   for (const double speed : {1e-2, 1e-3, 1e-4}) {
-    const Vector3 soft = impulse({.stiffness = 1e11, .static_friction = 0.3, .sliding_friction = 0.3,
-                                  .friction = FrictionLaw::regularised, .regularisation_speed = speed});
+    const Vector3 soft = impulse({.stiffness = 1e11,
+                                  .static_friction = 0.3,
+                                  .sliding_friction = 0.3,
+                                  .friction = FrictionLaw::regularised,
+                                  .regularisation_speed = speed});
     const double gap = (soft - coulomb).norm();
     BOOST_TEST(gap < 0.5 * previous);
     previous = gap;
@@ -171,8 +174,8 @@ BOOST_AUTO_TEST_CASE(the_regularised_law_slows_a_spinning_plate) {
   const Body body = phone();
   MotionState start = touching_state(body, {.velocity = {0, 0, -1}});
   start.angular_velocity = Vector3(0, 0, 10);
-  const Ground ground{.stiffness = 1e8, .static_friction = 0.3, .sliding_friction = 0.3,
-                      .friction = FrictionLaw::regularised};
+  const Ground ground{
+      .stiffness = 1e8, .static_friction = 0.3, .sliding_friction = 0.3, .friction = FrictionLaw::regularised};
   const Simulation run = simulate(body, ground, start, plain_options());
   const double spin = run.impacts[0].value.angular_velocity_after.z();
   BOOST_TEST(spin < 9.9);

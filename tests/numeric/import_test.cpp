@@ -28,8 +28,7 @@ constexpr double rounding = 100 * eps;
 class TemporaryFile {
  public:
   TemporaryFile(const std::string& name, const std::string& contents)
-      : path_(std::filesystem::temp_directory_path() /
-              ("clatter_" + std::to_string(getpid()) + "_" + name)) {
+      : path_(std::filesystem::temp_directory_path() / ("clatter_" + std::to_string(getpid()) + "_" + name)) {
     std::ofstream(path_, std::ios::binary) << contents;
   }
   ~TemporaryFile() { std::filesystem::remove(path_); }
@@ -48,12 +47,8 @@ std::vector<Triangle> box_triangles() {
   std::vector<Vector3> corner = unit_cube();
   for (Vector3& c : corner) c = c.cwiseProduct(Vector3(1, 2, 3));
   std::vector<Triangle> triangles;
-  for (const auto& [a, b, c, d] : {std::array{0, 3, 2, 1},
-                                   {4, 5, 6, 7},
-                                   {0, 1, 5, 4},
-                                   {1, 2, 6, 5},
-                                   {2, 3, 7, 6},
-                                   {3, 0, 4, 7}}) {
+  for (const auto& [a, b, c, d] :
+       {std::array{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}) {
     triangles.push_back({corner[a], corner[b], corner[c]});
     triangles.push_back({corner[a], corner[c], corner[d]});
   }
@@ -66,8 +61,7 @@ std::string text_stl(const std::vector<Triangle>& triangles) {
   text << "solid a box of 1 x 2 x 3\n\n";
   for (const Triangle& triangle : triangles) {
     text << "  facet normal 0 0 0\n    outer loop\n";
-    for (const Vector3& v : triangle)
-      text << "      vertex " << v.x() << ' ' << v.y() << " +" << v.z() << "e0\n";
+    for (const Vector3& v : triangle) text << "      vertex " << v.x() << ' ' << v.y() << " +" << v.z() << "e0\n";
     text << "    endloop\n  endfacet\n";
   }
   text << "endsolid a box of 1 x 2 x 3\n";
@@ -80,15 +74,13 @@ std::string little_endian(std::uint32_t word) {
   return bytes;
 }
 
-std::string binary_stl(const std::vector<Triangle>& triangles,
-                       std::string header = "made by a test") {
+std::string binary_stl(const std::vector<Triangle>& triangles, std::string header = "made by a test") {
   header.resize(80);
   std::string file = header + little_endian(static_cast<std::uint32_t>(triangles.size()));
   for (const Triangle& triangle : triangles) {
     file += std::string(12, '\0');
     for (const Vector3& v : triangle) {
-      for (const double x : v)
-        file += little_endian(std::bit_cast<std::uint32_t>(static_cast<float>(x)));
+      for (const double x : v) file += little_endian(std::bit_cast<std::uint32_t>(static_cast<float>(x)));
     }
     file += "\1\2";
   }
@@ -98,9 +90,7 @@ std::string binary_stl(const std::vector<Triangle>& triangles,
 double enclosed(const Surface& surface) {
   double sum = 0;
   for (const SurfaceElement& e : surface.elements) {
-    sum +=
-        surface.nodes[e.nodes[0]].dot(surface.nodes[e.nodes[1]].cross(surface.nodes[e.nodes[2]])) /
-        6;
+    sum += surface.nodes[e.nodes[0]].dot(surface.nodes[e.nodes[1]].cross(surface.nodes[e.nodes[2]])) / 6;
   }
   return sum;
 }
@@ -118,8 +108,7 @@ void check_box(const std::string& contents) {
 
 void check_refused(const std::string& contents, const std::string& where, const std::string& what) {
   const TemporaryFile file("bad.stl", contents);
-  BOOST_CHECK_EXCEPTION(static_cast<void>(read_stl(file.path())), MeshError,
-                        mentions(file.path() + where));
+  BOOST_CHECK_EXCEPTION(static_cast<void>(read_stl(file.path())), MeshError, mentions(file.path() + where));
   BOOST_CHECK_EXCEPTION(static_cast<void>(read_stl(file.path())), MeshError, mentions(what));
 }
 
@@ -146,11 +135,9 @@ std::string mixed_msh(const std::string& name = "heavy density=7") {
          "$EndElements\n";
 }
 
-void check_gmsh_refused(const std::string& name, const std::string& contents,
-                        const std::string& what) {
+void check_gmsh_refused(const std::string& name, const std::string& contents, const std::string& what) {
   const TemporaryFile file(name, contents);
-  BOOST_CHECK_EXCEPTION(static_cast<void>(read_gmsh(file.path(), 1)), MeshError,
-                        mentions(file.path()));
+  BOOST_CHECK_EXCEPTION(static_cast<void>(read_gmsh(file.path(), 1)), MeshError, mentions(file.path()));
   BOOST_CHECK_EXCEPTION(static_cast<void>(read_gmsh(file.path(), 1)), MeshError, mentions(what));
 }
 
@@ -182,12 +169,9 @@ BOOST_AUTO_TEST_CASE(text_and_binary_files_give_the_same_box) {
   check_box(binary_stl(box_triangles()));
 }
 
-BOOST_AUTO_TEST_CASE(a_binary_file_may_begin_with_solid) {
-  check_box(binary_stl(box_triangles(), "solid but binary"));
-}
+BOOST_AUTO_TEST_CASE(a_binary_file_may_begin_with_solid) { check_box(binary_stl(box_triangles(), "solid but binary")); }
 
-BOOST_AUTO_TEST_CASE(
-    text_may_come_in_capitals_with_other_line_ends_in_patches_and_with_negative_zeros) {
+BOOST_AUTO_TEST_CASE(text_may_come_in_capitals_with_other_line_ends_in_patches_and_with_negative_zeros) {
   std::string text = text_stl(box_triangles());
   std::string capitals, carriage_returns;
   for (const char c : text) {
@@ -214,20 +198,17 @@ BOOST_AUTO_TEST_CASE(a_truncated_file_is_refused) {
 }
 
 BOOST_AUTO_TEST_CASE(trailing_data_is_refused) {
-  check_refused(binary_stl(box_triangles()) + "x", ": trailing data",
-                "684 bytes, the file has 685");
+  check_refused(binary_stl(box_triangles()) + "x", ": trailing data", "684 bytes, the file has 685");
   check_refused(text_stl(box_triangles()) + "more\n", ":88: ", "found more");
 }
 
 BOOST_AUTO_TEST_CASE(wrong_words_and_numbers_are_refused_by_line) {
   const std::string text = text_stl(box_triangles());
   check_refused(replaced(text, "outer loop", "inner loop"), ":4: ", "expected outer, found inner");
-  check_refused(replaced(text, "vertex 0 2", "vertex zero 2"),
-                ":6: ", "expected a number, found zero");
+  check_refused(replaced(text, "vertex 0 2", "vertex zero 2"), ":6: ", "expected a number, found zero");
   check_refused(replaced(text, "vertex 0 2", "vertex 1e999 2"), ":6: ", "range");
   check_refused(replaced(text, "vertex 0 2", "vertex nan 2"), ":9: ", "not finite");
-  check_refused(replaced(text, "facet normal 0 0 0", "facet normal 0 0"),
-                ":4: ", "expected a number");
+  check_refused(replaced(text, "facet normal 0 0 0", "facet normal 0 0"), ":4: ", "expected a number");
 }
 
 BOOST_AUTO_TEST_CASE(bad_triangles_are_refused_by_number) {
@@ -260,8 +241,7 @@ BOOST_AUTO_TEST_CASE(files_that_cannot_be_read_and_senseless_units_are_refused) 
   const std::string folder = std::filesystem::temp_directory_path().string();
   BOOST_CHECK_EXCEPTION(static_cast<void>(read_stl(folder)), MeshError, mentions("cannot be read"));
   for (const double unit : {0., -1., std::nan(""), std::numeric_limits<double>::infinity()}) {
-    BOOST_CHECK_EXCEPTION(static_cast<void>(read_stl("box.stl", unit)), std::domain_error,
-                          mentions("unit = "));
+    BOOST_CHECK_EXCEPTION(static_cast<void>(read_stl("box.stl", unit)), std::domain_error, mentions("unit = "));
   }
 }
 
@@ -287,12 +267,11 @@ BOOST_AUTO_TEST_CASE(gmsh_files_of_mixed_elements_keep_their_order_and_densities
 }
 
 BOOST_AUTO_TEST_CASE(a_geometry_is_meshed, *boost::unit_test::precondition(with_gmsh)) {
-  const TemporaryFile file(
-      "box.geo",
-      "Point(1) = {0, 0, 0, 0.5};\n"
-      "l[] = Extrude {1, 0, 0} { Point{1}; };\ns[] = Extrude {0, 2, 0} { Line{l[1]}; };\n"
-      "v[] = Extrude {0, 0, 3} { Surface{s[1]}; };\n"
-      "Physical Volume(\"box, density=1.5\") = {v[1]};\n");
+  const TemporaryFile file("box.geo",
+                           "Point(1) = {0, 0, 0, 0.5};\n"
+                           "l[] = Extrude {1, 0, 0} { Point{1}; };\ns[] = Extrude {0, 2, 0} { Line{l[1]}; };\n"
+                           "v[] = Extrude {0, 0, 3} { Surface{s[1]}; };\n"
+                           "Physical Volume(\"box, density=1.5\") = {v[1]};\n");
   const Mesh mesh = read_gmsh(file.path(), 1);
   BOOST_TEST(mesh.elements.size() > 10u);
   const MassProperties body = mass_properties(mesh);
@@ -304,23 +283,16 @@ BOOST_AUTO_TEST_CASE(a_geometry_is_meshed, *boost::unit_test::precondition(with_
 BOOST_AUTO_TEST_CASE(gmsh_prints_nothing, *boost::unit_test::precondition(with_gmsh)) {
   const TemporaryFile good("good.msh", mixed_msh()), bad("bad.msh", "$MeshFormat\n99 0 8\n");
   BOOST_TEST(printed_by([&] { static_cast<void>(read_gmsh(good.path(), 1)); }).empty());
-  BOOST_TEST(printed_by([&] {
-               BOOST_CHECK_THROW(static_cast<void>(read_gmsh(bad.path(), 1)), MeshError);
-             }).empty());
+  BOOST_TEST(printed_by([&] { BOOST_CHECK_THROW(static_cast<void>(read_gmsh(bad.path(), 1)), MeshError); }).empty());
 }
 
-BOOST_AUTO_TEST_CASE(gmsh_files_with_other_elements_are_refused_by_tag,
-                     *boost::unit_test::precondition(with_gmsh)) {
-  check_gmsh_refused("pyramid.msh",
-                     replaced(mixed_msh(), "5 4 2 2 2 10 11 8 12", "5 7 2 2 2 5 6 7 8 12"),
+BOOST_AUTO_TEST_CASE(gmsh_files_with_other_elements_are_refused_by_tag, *boost::unit_test::precondition(with_gmsh)) {
+  check_gmsh_refused("pyramid.msh", replaced(mixed_msh(), "5 4 2 2 2 10 11 8 12", "5 7 2 2 2 5 6 7 8 12"), "tag 5");
+  check_gmsh_refused("second.msh", replaced(mixed_msh(), "5 4 2 2 2 10 11 8 12", "5 11 2 2 2 1 2 3 4 5 6 7 8 10 11"),
                      "tag 5");
-  check_gmsh_refused(
-      "second.msh",
-      replaced(mixed_msh(), "5 4 2 2 2 10 11 8 12", "5 11 2 2 2 1 2 3 4 5 6 7 8 10 11"), "tag 5");
 }
 
-BOOST_AUTO_TEST_CASE(gmsh_files_without_a_body_are_refused,
-                     *boost::unit_test::precondition(with_gmsh)) {
+BOOST_AUTO_TEST_CASE(gmsh_files_without_a_body_are_refused, *boost::unit_test::precondition(with_gmsh)) {
   const std::string flat =
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n"
       "$Elements\n1\n1 2 2 1 1 1 2 3\n$EndElements\n";
@@ -331,19 +303,15 @@ BOOST_AUTO_TEST_CASE(gmsh_files_without_a_body_are_refused,
   check_gmsh_refused("cut.msh", mixed_msh().substr(0, 200), "");
   check_gmsh_refused("broken.geo", "Point(1) = {0, 0;\n", "Gmsh says");
   check_gmsh_refused("mesh.txt", mixed_msh(), "neither");
-  BOOST_CHECK_EXCEPTION(static_cast<void>(read_gmsh("no/such.msh", 1)), MeshError,
-                        mentions("cannot be opened"));
+  BOOST_CHECK_EXCEPTION(static_cast<void>(read_gmsh("no/such.msh", 1)), MeshError, mentions("cannot be opened"));
 }
 
 BOOST_AUTO_TEST_CASE(senseless_densities_are_refused, *boost::unit_test::precondition(with_gmsh)) {
   for (const char* density : {"0", "-1", "x", "", "1 kg", "nan", "inf"}) {
-    check_gmsh_refused("density.msh", mixed_msh(std::string("density=") + density),
-                       "physical volume");
+    check_gmsh_refused("density.msh", mixed_msh(std::string("density=") + density), "physical volume");
   }
   for (const double value : {0., -1., std::nan("")}) {
-    BOOST_CHECK_EXCEPTION(static_cast<void>(read_gmsh("box.msh", value)), std::domain_error,
-                          mentions("density = "));
-    BOOST_CHECK_EXCEPTION(static_cast<void>(read_gmsh("box.msh", 1, value)), std::domain_error,
-                          mentions("unit = "));
+    BOOST_CHECK_EXCEPTION(static_cast<void>(read_gmsh("box.msh", value)), std::domain_error, mentions("density = "));
+    BOOST_CHECK_EXCEPTION(static_cast<void>(read_gmsh("box.msh", 1, value)), std::domain_error, mentions("unit = "));
   }
 }

@@ -56,8 +56,8 @@ BOOST_AUTO_TEST_CASE(a_flat_landing_under_gravity_has_its_closed_form) {
   const double stiffness = 1e5, speed = 0.3, mass = 2, area = 0.06, g = 9.81;
   Options options = plain_options();
   options.gravity = g;
-  const Simulation run =
-      drop(box_body({0.3, 0.2, 0.1}, mass), {.stiffness = stiffness, .area = AreaMeasure::projected}, 0, speed, options);
+  const Simulation run = drop(box_body({0.3, 0.2, 0.1}, mass), {.stiffness = stiffness, .area = AreaMeasure::projected},
+                              0, speed, options);
   BOOST_REQUIRE(run.impacts.size() == 1);
   const ImpactNumbers& n = run.impacts[0].value;
   const double frequency = std::sqrt(stiffness * area / mass);
@@ -122,16 +122,22 @@ BOOST_AUTO_TEST_CASE(elastic_frictionless_impacts_lose_no_energy) {
     Body body;
     double angle, tilt, stiffness;
   };
-  const Case cases[] = {{rod(), 45, 0, 1e11}, {rod(), 10, 0, 1e9}, {rod(), 0, 0, 1e9}, {phone(), 10, 0, 1e8},
-                        {phone(), 30, 20, 1e8}, {phone(), 3, 0, 1e7}, {phone(5, 4, 3, false), 60, 1, 1e10}};
+  const Case cases[] = {{rod(), 45, 0, 1e11},
+                        {rod(), 10, 0, 1e9},
+                        {rod(), 0, 0, 1e9},
+                        {phone(), 10, 0, 1e8},
+                        {phone(), 30, 20, 1e8},
+                        {phone(), 3, 0, 1e7},
+                        {phone(5, 4, 3, false), 60, 1, 1e10}};
   for (const auto& [digits, bound] : {std::pair{6, 1e-9}, {12, 1e-12}}) {
     for (const AreaMeasure area : {AreaMeasure::surface, AreaMeasure::projected}) {
       for (const Case& c : cases) {
         Options options = plain_options();
         options.digits = digits;
-        const MotionState start = touching_state(
-            c.body, {.inclination = c.angle * degree, .velocity = {0.3, 0, -1}, .spin = 0.5,
-                     .out_of_plane_tilt = c.tilt * degree});
+        const MotionState start = touching_state(c.body, {.inclination = c.angle * degree,
+                                                          .velocity = {0.3, 0, -1},
+                                                          .spin = 0.5,
+                                                          .out_of_plane_tilt = c.tilt * degree});
         const Simulation run = simulate(c.body, {.stiffness = c.stiffness, .area = area}, start, options);
         BOOST_REQUIRE(run.impacts.size() == 1);
         BOOST_TEST(std::fabs(run.impacts[0].value.energy_loss) <= bound * run.energy_start);
@@ -143,7 +149,8 @@ BOOST_AUTO_TEST_CASE(elastic_frictionless_impacts_lose_no_energy) {
 /// A vertical load has no moment about the vertical and no part along the ground, however the body spins.
 BOOST_AUTO_TEST_CASE(a_frictionless_contact_keeps_the_vertical_angular_momentum) {
   for (const Body& body : {phone(), box_body({0.3, 0.2, 0.05}, 1)}) {
-    MotionState start = touching_state(body, {.inclination = 0.5, .velocity = {0.4, -0.2, -3}, .out_of_plane_tilt = 0.3});
+    MotionState start =
+        touching_state(body, {.inclination = 0.5, .velocity = {0.4, -0.2, -3}, .out_of_plane_tilt = 0.3});
     start.angular_velocity = Vector3(20, -30, 40);
     const Simulation run = simulate(body, {.stiffness = 1e8, .damping = 1e6}, start, plain_options());
     BOOST_REQUIRE(run.impacts.size() == 1);
@@ -167,11 +174,14 @@ BOOST_AUTO_TEST_CASE(the_ledger_of_energy_closes) {
           options.gravity = 9.81;
           options.impacts = 4;
           const Body body = phone();
-          const Ground ground{.stiffness = 1e8, .damping = damping, .static_friction = 1.2 * friction,
-                              .sliding_friction = friction, .area = area, .friction = law};
-          const MotionState start =
-              touching_state(body, {.inclination = 0.3, .velocity = {0.5, 0.1, -3}, .spin = -20,
-                                    .out_of_plane_tilt = 0.1});
+          const Ground ground{.stiffness = 1e8,
+                              .damping = damping,
+                              .static_friction = 1.2 * friction,
+                              .sliding_friction = friction,
+                              .area = area,
+                              .friction = law};
+          const MotionState start = touching_state(
+              body, {.inclination = 0.3, .velocity = {0.5, 0.1, -3}, .spin = -20, .out_of_plane_tilt = 0.1});
           const Simulation run = simulate(body, ground, start, options);
           BOOST_REQUIRE(!run.impacts.empty());
           for (const ImpactRecord& row : run.impacts) {

@@ -26,7 +26,8 @@ struct Finite : HistoryRecorder {
   }
 };
 
-constexpr Method methods[] = {Method::automatic, Method::tvd_rk3, Method::rk4, Method::rkf45, Method::rkck, Method::rk8pd};
+constexpr Method methods[] = {Method::automatic, Method::tvd_rk3, Method::rk4,
+                              Method::rkf45,     Method::rkck,    Method::rk8pd};
 
 /// A box or rod that a hand could throw, by its number.
 struct Scene {
@@ -89,7 +90,8 @@ Body frame() {
 
 }  // namespace
 
-/// Nothing slips and nothing tips: P = 2 m v and no more.  The pressure centre's way was once divided by the force that fades.
+/// Nothing slips and nothing tips: P = 2 m v and no more.  The pressure centre's way was once divided by the force that
+/// fades.
 BOOST_AUTO_TEST_CASE(a_flat_or_upright_landing_with_friction_is_the_plain_rebound) {
   for (const Body& body : {rod(), phone()}) {
     for (const double angle : {0.0, 90.0}) {
@@ -143,7 +145,8 @@ BOOST_AUTO_TEST_CASE(random_scenes_with_friction_end_in_numbers) {
   }
 }
 
-/// Coulomb's bound in every row down to the last; and stick that has come to it slides from there on, with less friction.
+/// Coulomb's bound in every row down to the last; and stick that has come to it slides from there on, with less
+/// friction.
 BOOST_AUTO_TEST_CASE(sticking_never_takes_more_than_the_static_friction_gives_and_then_gives_way) {
   struct Bound : HistoryRecorder {
     double mu = 0, peak = 0;
@@ -171,8 +174,8 @@ BOOST_AUTO_TEST_CASE(sticking_never_takes_more_than_the_static_friction_gives_an
   }
 }
 
-/// A flat face that turns and has hardly any depth: its pressure centre runs away as δ falls, so that holding it asks for
-/// more than any friction gives.
+/// A flat face that turns and has hardly any depth: its pressure centre runs away as δ falls, so that holding it asks
+/// for more than any friction gives.
 BOOST_AUTO_TEST_CASE(stick_under_a_fading_force_is_bounded_and_knows_that_it_cannot_hold) {
   const double mu = 0.7;
   const Body body = box_body({0.3, 0.2, 0.1}, 1);
@@ -234,8 +237,12 @@ BOOST_AUTO_TEST_CASE(friction_over_faces_that_look_up_from_below_the_ground_neve
         options.gravity = 9.81;
         MotionState start = touching_state(
             body, {.inclination = 30 * degree, .velocity = {1, 0, -3}, .spin = -8, .out_of_plane_tilt = tilt * degree});
-        const Ground ground{.stiffness = stiffness, .damping = stiffness / 100, .static_friction = 1, .sliding_friction = 1,
-                            .area = AreaMeasure::projected, .friction = law};
+        const Ground ground{.stiffness = stiffness,
+                            .damping = stiffness / 100,
+                            .static_friction = 1,
+                            .sliding_friction = 1,
+                            .area = AreaMeasure::projected,
+                            .friction = law};
         const Simulation run = simulate(body, ground, start, options);
         BOOST_TEST_CONTEXT("law " << static_cast<int>(law) << " k " << stiffness << ": " << run.message) {
           BOOST_TEST(!run.impacts.empty());
@@ -255,7 +262,8 @@ BOOST_AUTO_TEST_CASE(a_body_that_sinks_wholly_is_flagged_and_no_other) {
   const Body body = box_body({0.2, 0.1, thickness}, mass);
   const double speed = thickness * std::sqrt(stiffness * area / mass);
   for (const double part : {0.5, 0.98, 1.02, 3.0}) {
-    const Simulation run = drop(body, {.stiffness = stiffness, .area = AreaMeasure::projected}, 0, part * speed, plain_options());
+    const Simulation run =
+        drop(body, {.stiffness = stiffness, .area = AreaMeasure::projected}, 0, part * speed, plain_options());
     BOOST_REQUIRE(run.impacts.size() == 1);
     BOOST_TEST(run.impacts[0].submerged == (part > 1));
   }
@@ -291,7 +299,8 @@ BOOST_AUTO_TEST_CASE(an_impact_has_the_name_of_its_phases_of_friction) {
     }
     return log.mode();
   };
-  const Part slip{Kind::slip, 1, 0.1}, back{Kind::slip, -1, 0.1}, instant{Kind::slip, 1, 1e-9}, stick{Kind::stick, 0, 0};
+  const Part slip{Kind::slip, 1, 0.1}, back{Kind::slip, -1, 0.1}, instant{Kind::slip, 1, 1e-9},
+      stick{Kind::stick, 0, 0};
   BOOST_TEST((name({slip}) == FrictionMode::slip));
   BOOST_TEST((name({stick, instant}) == FrictionMode::stick));
   BOOST_TEST((name({slip, stick}) == FrictionMode::slip_stick));

@@ -32,8 +32,10 @@ RandomScene random_scene(std::mt19937& random, bool planar) {
   scene.ground.stiffness = std::pow(10, draw(7, 9));
   scene.ground.damping = draw(0, 0.1) * scene.ground.stiffness;
   scene.ground.static_friction = scene.ground.sliding_friction = draw(0.05, 0.8);
-  scene.drop = {.inclination = draw(2, 80) * degree, .velocity = {draw(-0.5, 0.5), planar ? 0 : draw(-0.5, 0.5), -draw(0.5, 3)},
-                .spin = draw(-10, 10), .out_of_plane_tilt = planar ? 0 : draw(-40, 40) * degree};
+  scene.drop = {.inclination = draw(2, 80) * degree,
+                .velocity = {draw(-0.5, 0.5), planar ? 0 : draw(-0.5, 0.5), -draw(0.5, 3)},
+                .spin = draw(-10, 10),
+                .out_of_plane_tilt = planar ? 0 : draw(-40, 40) * degree};
   return scene;
 }
 
@@ -63,7 +65,8 @@ class PlanarBox {
   std::array<double, 2> run(double step) {
     const State start = state_;
     for (bool touched = false;;) {
-      const State a = rate(state_), b = rate(moved(a, step / 2)), c = rate(moved(b, step / 2)), d = rate(moved(c, step));
+      const State a = rate(state_), b = rate(moved(a, step / 2)), c = rate(moved(b, step / 2)),
+                  d = rate(moved(c, step));
       for (std::size_t i = 0; i < 6; ++i) state_[i] += step / 6 * (a[i] + 2 * b[i] + 2 * c[i] + d[i]);
       double low = 1;
       for (int i = 0; i < 4; ++i) low = std::min(low, corner(state_, i)[1]);
@@ -159,8 +162,8 @@ void check_mesh_independence(const Body& whole, const Body& meshed, const Ground
   const Comparison rows = compare_rows(one, other, true);
   BOOST_TEST(rows.unknown == 0);
   BOOST_TEST(rows.note == "");
-  BOOST_TEST(rows.within == rows.numbers, rows.within << " of " << rows.numbers << " within, worst " << rows.worst
-                                                      << ": " << rows.worst_number);
+  BOOST_TEST(rows.within == rows.numbers,
+             rows.within << " of " << rows.numbers << " within, worst " << rows.worst << ": " << rows.worst_number);
 }
 
 /// About a point inside the patch, with friction that turns with the place.
@@ -180,7 +183,10 @@ BOOST_AUTO_TEST_CASE(a_box_that_spins_on_its_corner_at_54_6_degrees_does_not_dep
 
 BOOST_AUTO_TEST_CASE(the_damped_phone_at_2_degrees_with_regularised_friction_does_not_depend_on_its_mesh) {
   const Body whole = phone(), meshed = phone(24, 10, 4, false);
-  const Ground ground{.stiffness = 1e8, .damping = 1e7, .static_friction = 0.075, .sliding_friction = 0.075,
+  const Ground ground{.stiffness = 1e8,
+                      .damping = 1e7,
+                      .static_friction = 0.075,
+                      .sliding_friction = 0.075,
                       .friction = FrictionLaw::regularised};
   Options options;
   options.digits = 9;

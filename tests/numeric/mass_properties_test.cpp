@@ -20,8 +20,7 @@ constexpr double rounding = 100 * eps;
 
 /// Whether two bodies agree to `tolerance` of the mass, the size and the largest moment.
 bool agree(const MassProperties& a, const MassProperties& b, double tolerance, double size = 1) {
-  return std::fabs(a.mass - b.mass) <= tolerance * b.mass &&
-         (a.centre - b.centre).norm() <= tolerance * size &&
+  return std::fabs(a.mass - b.mass) <= tolerance * b.mass && (a.centre - b.centre).norm() <= tolerance * size &&
          (a.inertia - b.inertia).norm() <= tolerance * b.inertia.norm();
 }
 
@@ -61,8 +60,7 @@ struct Polynomial {
   friend Polynomial operator*(const Polynomial& a, const Polynomial& b) {
     Polynomial product;
     for (const auto& [p, c] : a.terms) {
-      for (const auto& [q, d] : b.terms)
-        product.terms[{p[0] + q[0], p[1] + q[1], p[2] + q[2]}] += c * d;
+      for (const auto& [q, d] : b.terms) product.terms[{p[0] + q[0], p[1] + q[1], p[2] + q[2]}] += c * d;
     }
     return product;
   }
@@ -86,8 +84,7 @@ double integral(const Polynomial& polynomial, ElementShape shape) {
   for (const auto& [p, c] : polynomial.terms) {
     const auto [a, b, z] = p;
     if (shape == ElementShape::hexahedron) sum += c / ((a + 1) * (b + 1) * (z + 1));
-    if (shape == ElementShape::prism)
-      sum += c * factorial(a) * factorial(b) / factorial(a + b + 2) / (z + 1);
+    if (shape == ElementShape::prism) sum += c * factorial(a) * factorial(b) / factorial(a + b + 2) / (z + 1);
     if (shape == ElementShape::tetrahedron) {
       sum += c * factorial(a) * factorial(b) * factorial(z) / factorial(a + b + z + 3);
     }
@@ -100,8 +97,7 @@ std::vector<Polynomial> nodal_basis(ElementShape shape) {
   const Polynomial y = Polynomial::variable(1), z = Polynomial::variable(2);
   if (shape == ElementShape::tetrahedron) return {one - x - y - z, x, y, z};
   std::vector<Polynomial> basis{one - x - y, x, y};
-  if (shape == ElementShape::hexahedron)
-    basis = {(one - x) * (one - y), x * (one - y), x * y, (one - x) * y};
+  if (shape == ElementShape::hexahedron) basis = {(one - x) * (one - y), x * (one - y), x * y, (one - x) * y};
   for (std::size_t i = 0, half = basis.size(); i < half; ++i) basis.push_back(basis[i] * z);
   for (std::size_t i = 0; i < basis.size() / 2; ++i) basis[i] = basis[i] * (one - z);
   return basis;
@@ -137,34 +133,26 @@ BOOST_AUTO_TEST_CASE(a_box_of_any_subdivision_has_the_closed_form_in_any_positio
     const Mesh mesh = box_mesh({.size = size, .mass = 0.08814, .nx = nx, .ny = ny, .nz = nz});
     const MassProperties expected = uniform_box(size, 0.08814);
     BOOST_CHECK(agree(mass_properties(mesh), expected, rounding, size.norm()));
-    BOOST_CHECK(agree(mass_properties(moved(mesh, rotation(), shift)),
-                      moved(expected, rotation(), shift), rounding, size.norm()));
+    BOOST_CHECK(agree(mass_properties(moved(mesh, rotation(), shift)), moved(expected, rotation(), shift), rounding,
+                      size.norm()));
   }
 }
 
 BOOST_AUTO_TEST_CASE(a_rod_has_the_inertia_of_the_regular_polygonal_prism) {
   for (const int sectors : {3, 4, 5, 16, 17, 30}) {
     for (const int rings : {1, 4}) {
-      const RodMesh rod{.length = 1.5,
-                        .radius = 0.01,
-                        .mass = 2,
-                        .sectors = sectors,
-                        .rings = rings,
-                        .layers = 5};
+      const RodMesh rod{.length = 1.5, .radius = 0.01, .mass = 2, .sectors = sectors, .rings = rings, .layers = 5};
       const MassProperties body = mass_properties(rod_mesh(rod));
       // Triangle with one corner at the origin: ∫r² dA = A (a·a + a·b + b·b) / 6.
-      const double k2 =
-          rod.radius * rod.radius * (2 + std::cos(2 * std::numbers::pi / sectors)) / 6;
-      const double along = rod.mass * k2,
-                   across = rod.mass * (k2 / 2 + rod.length * rod.length / 12);
+      const double k2 = rod.radius * rod.radius * (2 + std::cos(2 * std::numbers::pi / sectors)) / 6;
+      const double along = rod.mass * k2, across = rod.mass * (k2 / 2 + rod.length * rod.length / 12);
       BOOST_TEST(std::fabs(body.mass - rod.mass) <= rounding * rod.mass);
       BOOST_TEST(body.centre.norm() <= rounding * rod.length);
       // The small moment about the axis to its own size, not to that of the large ones.
       BOOST_TEST(std::fabs(body.inertia(0, 0) - along) <= rounding * along);
       BOOST_TEST(std::fabs(body.inertia(1, 1) - across) <= rounding * across);
       BOOST_TEST(std::fabs(body.inertia(2, 2) - across) <= rounding * across);
-      BOOST_TEST((body.inertia - Matrix3(body.inertia.diagonal().asDiagonal())).norm() <=
-                 rounding * along);
+      BOOST_TEST((body.inertia - Matrix3(body.inertia.diagonal().asDiagonal())).norm() <= rounding * along);
     }
   }
 }
@@ -183,11 +171,10 @@ BOOST_AUTO_TEST_CASE(a_tetrahedron_has_the_second_moments_of_its_corners_and_the
 BOOST_AUTO_TEST_CASE(warped_prisms_and_hexahedra_are_integrated_exactly) {
   const std::vector<Vector3> wedge{{0, 0, 0.1},   {1.2, 0.1, -0.2}, {-0.1, 1.1, 0},
                                    {0.2, 0.1, 1}, {0.9, -0.1, 1.3}, {0.1, 1.4, 0.8}};
-  BOOST_CHECK(agree(mass_properties(single(ElementShape::prism, wedge)),
-                    exact(ElementShape::prism, wedge), rounding));
+  BOOST_CHECK(agree(mass_properties(single(ElementShape::prism, wedge)), exact(ElementShape::prism, wedge), rounding));
   const std::vector<Vector3> brick = warped_cube();
-  BOOST_CHECK(agree(mass_properties(single(ElementShape::hexahedron, brick)),
-                    exact(ElementShape::hexahedron, brick), rounding));
+  BOOST_CHECK(agree(mass_properties(single(ElementShape::hexahedron, brick)), exact(ElementShape::hexahedron, brick),
+                    rounding));
 }
 
 BOOST_AUTO_TEST_CASE(a_frustum_has_the_moments_of_the_pyramid_less_its_tip) {
@@ -220,8 +207,7 @@ BOOST_AUTO_TEST_CASE(each_element_weighs_by_its_own_density) {
 
 BOOST_AUTO_TEST_CASE(renumbering_changes_nothing_and_a_mirror_image_is_mirrored) {
   Mesh mesh = box_mesh({.size = {1, 2, 3}, .nx = 3, .ny = 2, .nz = 2});
-  for (Vector3& node : mesh.nodes)
-    node += 0.1 * Vector3(node.y() * node.z(), std::sin(node.x()), node.x() * node.x());
+  for (Vector3& node : mesh.nodes) node += 0.1 * Vector3(node.y() * node.z(), std::sin(node.x()), node.x() * node.x());
   const MassProperties body = mass_properties(mesh);
   BOOST_CHECK(agree(mass_properties(renumbered(mesh, 1)), body, rounding));
   const Matrix3 mirror = Vector3(-1, 1, 1).asDiagonal();
@@ -246,8 +232,7 @@ BOOST_AUTO_TEST_CASE(many_elements_and_a_far_origin_cost_only_the_rounding_of_th
 BOOST_AUTO_TEST_CASE(a_needle_of_aspect_ratio_a_million_is_sound) {
   for (const double thin : {1e-6, 1e-3, 1e6}) {
     std::vector<Vector3> nodes{{0, 0, 0}, {1, 0, 0}, {0.3, thin, 0}, {0.3, 0, thin}};
-    const MassProperties body =
-        mass_properties(moved(single(ElementShape::tetrahedron, nodes), rotation(), {0, 0, 0}));
+    const MassProperties body = mass_properties(moved(single(ElementShape::tetrahedron, nodes), rotation(), {0, 0, 0}));
     // Rotated coordinates are rounded to eps of the length, which is eps·1e6 of the thickness.
     BOOST_TEST(std::fabs(body.mass - thin * thin / 6) <= 10 * eps * 1e6 * body.mass);
   }

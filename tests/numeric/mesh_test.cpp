@@ -32,18 +32,16 @@ bool is_symmetric(const Mesh& mesh, int coordinate) {
 }
 
 bool has_node(const Mesh& mesh, const Vector3& place) {
-  return std::any_of(mesh.nodes.begin(), mesh.nodes.end(),
-                     [&](const Vector3& node) { return node == place; });
+  return std::any_of(mesh.nodes.begin(), mesh.nodes.end(), [&](const Vector3& node) { return node == place; });
 }
 
 template <typename Shape, typename Value>
-void check_refused(Value Shape::*field, std::initializer_list<Value> values,
-                   const std::string& name, Mesh (*make)(const Shape&)) {
+void check_refused(Value Shape::*field, std::initializer_list<Value> values, const std::string& name,
+                   Mesh (*make)(const Shape&)) {
   for (const Value value : values) {
     Shape shape;
     shape.*field = value;
-    BOOST_CHECK_EXCEPTION(static_cast<void>(make(shape)), std::domain_error,
-                          mentions(name + " = "));
+    BOOST_CHECK_EXCEPTION(static_cast<void>(make(shape)), std::domain_error, mentions(name + " = "));
   }
 }
 
@@ -81,8 +79,7 @@ BOOST_AUTO_TEST_CASE(the_rod_of_the_paper_has_its_numbers_of_elements) {
 BOOST_AUTO_TEST_CASE(the_coordinates_are_symmetric_to_the_bit) {
   for (int sectors = 3; sectors <= 40; ++sectors) {
     for (const int layers : {1, 2, 7}) {
-      const Mesh rod = rod_mesh(
-          {.length = 0.7, .radius = 0.013, .sectors = sectors, .rings = 3, .layers = layers});
+      const Mesh rod = rod_mesh({.length = 0.7, .radius = 0.013, .sectors = sectors, .rings = 3, .layers = layers});
       BOOST_CHECK(is_symmetric(rod, 0));
       BOOST_CHECK(is_symmetric(rod, 1));
       BOOST_CHECK(is_symmetric(rod, 2) == (sectors % 2 == 0));
@@ -94,8 +91,7 @@ BOOST_AUTO_TEST_CASE(the_coordinates_are_symmetric_to_the_bit) {
 
 BOOST_AUTO_TEST_CASE(the_rod_rests_on_a_rim_node_at_each_end) {
   for (int sectors = 3; sectors <= 40; ++sectors) {
-    const Mesh rod =
-        rod_mesh({.length = 0.7, .radius = 0.013, .sectors = sectors, .rings = 3, .layers = 7});
+    const Mesh rod = rod_mesh({.length = 0.7, .radius = 0.013, .sectors = sectors, .rings = 3, .layers = 7});
     for (const double x : {-0.35, 0.35}) {
       BOOST_CHECK(has_node(rod, {x, 0, -0.013}));
       if (sectors % 2 == 0) BOOST_CHECK(has_node(rod, {x, 0, 0.013}));
@@ -133,16 +129,14 @@ BOOST_AUTO_TEST_CASE(the_corners_of_the_box_are_exactly_half_its_size) {
 BOOST_AUTO_TEST_CASE(the_density_makes_up_for_the_facets) {
   const Mesh square = rod_mesh({.length = 2, .radius = 0.5, .mass = 3, .sectors = 4});
   // Cross-section 2 r², length 2.
-  for (const Element& element : square.elements)
-    BOOST_TEST(std::fabs(element.density - 3) <= 4 * eps * 3);
+  for (const Element& element : square.elements) BOOST_TEST(std::fabs(element.density - 3) <= 4 * eps * 3);
   const Mesh box = box_mesh({.size = {1, 2, 4}, .mass = 2, .nx = 3});
   for (const Element& element : box.elements) BOOST_TEST(element.density == 0.25);
 }
 
 BOOST_AUTO_TEST_CASE(senseless_bodies_are_refused_by_field_and_value) {
-  for (const auto& [field, name] : {std::pair{&RodMesh::length, "length"},
-                                    {&RodMesh::radius, "radius"},
-                                    {&RodMesh::mass, "mass"}}) {
+  for (const auto& [field, name] :
+       {std::pair{&RodMesh::length, "length"}, {&RodMesh::radius, "radius"}, {&RodMesh::mass, "mass"}}) {
     check_refused(field, {0., -1., not_a_number, inf}, name, rod_mesh);
   }
   check_refused(&RodMesh::sectors, {2, 0, -5}, "sectors", rod_mesh);
@@ -163,13 +157,11 @@ BOOST_AUTO_TEST_CASE(senseless_bodies_are_refused_by_field_and_value) {
 }
 
 BOOST_AUTO_TEST_CASE(bodies_beyond_the_numbers_of_the_machine_are_refused) {
-  BOOST_CHECK_EXCEPTION(static_cast<void>(rod_mesh(
-                            {.sectors = 2000000000, .rings = 2000000000, .layers = 2000000000})),
+  BOOST_CHECK_EXCEPTION(static_cast<void>(rod_mesh({.sectors = 2000000000, .rings = 2000000000, .layers = 2000000000})),
                         std::domain_error, mentions("sectors, rings, layers"));
-  BOOST_CHECK_EXCEPTION(static_cast<void>(box_mesh({.nx = 2000, .ny = 2000, .nz = 2000})),
-                        std::domain_error, mentions("nx, ny, nz"));
-  BOOST_CHECK_EXCEPTION(static_cast<void>(rod_mesh({.radius = 1e-200})), std::domain_error,
-                        mentions("mass / volume"));
+  BOOST_CHECK_EXCEPTION(static_cast<void>(box_mesh({.nx = 2000, .ny = 2000, .nz = 2000})), std::domain_error,
+                        mentions("nx, ny, nz"));
+  BOOST_CHECK_EXCEPTION(static_cast<void>(rod_mesh({.radius = 1e-200})), std::domain_error, mentions("mass / volume"));
   BOOST_CHECK_EXCEPTION(static_cast<void>(box_mesh({.size = {1e200, 1e200, 1}})), std::domain_error,
                         mentions("mass / volume"));
 }

@@ -40,7 +40,9 @@ class Random {
 };
 
 MotionState random_state(Random& random) {
-  return {.centre = random.vector(), .attitude = random.attitude(), .velocity = random.vector(),
+  return {.centre = random.vector(),
+          .attitude = random.attitude(),
+          .velocity = random.vector(),
           .angular_velocity = 10 * random.vector()};
 }
 
@@ -74,8 +76,7 @@ BOOST_AUTO_TEST_CASE(the_attitude_changes_at_the_rate_of_the_angular_velocity) {
   const Vector4 beta = euler_parameters(random.attitude());
   const Vector3 omega = random.vector();
   const Vector4 rate = euler_parameter_rates(beta, omega);
-  const Matrix3 difference =
-      (rotation_matrix(beta + step * rate) - rotation_matrix(beta - step * rate)) / (2 * step);
+  const Matrix3 difference = (rotation_matrix(beta + step * rate) - rotation_matrix(beta - step * rate)) / (2 * step);
   BOOST_TEST((difference - rotation_matrix(beta) * skew(omega)).norm() <= tolerance);
 }
 
@@ -87,18 +88,18 @@ BOOST_AUTO_TEST_CASE(the_paper_s_equations_are_those_of_newton_and_euler) {
     const MotionState state = random_state(random);
     const WorldWrench wrench{100 * random.vector(), 100 * random.vector()};
     const LagrangeAcceleration lagrange = solve(lagrange_system(body, state, wrench));
-    const Acceleration newton = NewtonEuler(body.mass, body.inertia)
-                                    .acceleration(state.angular_velocity,
-                                                  {.force = wrench.force,
-                                                   .moment = state.attitude.conjugate() * wrench.moment});
+    const Acceleration newton =
+        NewtonEuler(body.mass, body.inertia)
+            .acceleration(state.angular_velocity,
+                          {.force = wrench.force, .moment = state.attitude.conjugate() * wrench.moment});
     const double condition = body.inertia.norm() * body.inertia.inverse().norm();
     BOOST_REQUIRE((lagrange.coordinates.head<3>() - newton.linear).norm() <= tolerance * newton.linear.norm());
     BOOST_REQUIRE((lagrange.angular - newton.angular).norm() <=
                   tolerance * std::fmax(1.0, condition / 100) * newton.angular.norm());
     // β̈ is what differentiating β̇ = ½ β ω′ once more gives.
     const Vector4 beta = euler_parameters(state.attitude);
-    const Vector4 second = euler_parameter_rates(beta, newton.angular) -
-                           state.angular_velocity.squaredNorm() / 4 * beta;
+    const Vector4 second =
+        euler_parameter_rates(beta, newton.angular) - state.angular_velocity.squaredNorm() / 4 * beta;
     BOOST_REQUIRE((lagrange.coordinates.tail<4>() - second).norm() <=
                   tolerance * std::fmax(1.0, condition / 100) * second.norm());
   }

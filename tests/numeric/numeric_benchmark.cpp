@@ -43,7 +43,9 @@ Drop1 rod_drop() {
 /// Two impacts of the damped phone with friction; n hexahedra along its three edges.
 Drop1 phone_drop(int nx, int ny, int nz) {
   Drop1 drop{phone(nx, ny, nz),
-             {.stiffness = 1e8, .damping = 1e7, .static_friction = 0.075, .sliding_friction = 0.075}, {}, plain_options()};
+             {.stiffness = 1e8, .damping = 1e7, .static_friction = 0.075, .sliding_friction = 0.075},
+             {},
+             plain_options()};
   drop.options.impacts = 2;
   drop.options.gravity = 9.81;
   drop.start = dropped_from(drop.body, 10, 1);
@@ -185,7 +187,8 @@ double worst_error(const Simulation& run, const Simulation& reference) {
     const ImpactNumbers& exact = reference.impacts[i].value;
     if (i >= run.impacts.size()) return 1;
     const ImpactNumbers& n = run.impacts[i].value;
-    worst = std::max({worst, std::fabs(n.impulse.z() / exact.impulse.z() - 1), std::fabs(n.peak_force / exact.peak_force - 1)});
+    worst = std::max(
+        {worst, std::fabs(n.impulse.z() / exact.impulse.z() - 1), std::fabs(n.peak_force / exact.peak_force - 1)});
   }
   return worst;
 }
@@ -195,8 +198,11 @@ void print_trade(const char* name, Drop1 drop) {
   drop.options.digits = 12;
   const Simulation reference = run(drop);
   fmt::print("\n{}\n{:>9} {:>7} {:>12} {:>12} {:>10}\n", name, "method", "digits", "evaluations", "error", "time [us]");
-  for (const auto& [method, title] : {std::pair{Method::tvd_rk3, "tvd-rk3"}, {Method::rk4, "rk4"},
-                                      {Method::rkf45, "rkf45"}, {Method::rkck, "rkck"}, {Method::rk8pd, "rk8pd"}}) {
+  for (const auto& [method, title] : {std::pair{Method::tvd_rk3, "tvd-rk3"},
+                                      {Method::rk4, "rk4"},
+                                      {Method::rkf45, "rkf45"},
+                                      {Method::rkck, "rkck"},
+                                      {Method::rk8pd, "rk8pd"}}) {
     for (const int digits : {2, 3, 4, 6, 8, 10}) {
       if (method == Method::tvd_rk3 && digits > 8) continue;
       drop.options.method = method;

@@ -32,12 +32,12 @@ struct Scene {
 
 Scene scene(const Body& body, const Ground& ground, double angle, double tilt) {
   return {body, ground,
-          touching_state(body, {.inclination = angle * degree, .velocity = {0, 0, -1}, .out_of_plane_tilt = tilt * degree})};
+          touching_state(body,
+                         {.inclination = angle * degree, .velocity = {0, 0, -1}, .out_of_plane_tilt = tilt * degree})};
 }
 
 std::vector<Scene> scenes() {
-  return {scene(phone(), {.stiffness = 1e8}, 10, 0),
-          scene(phone(), {.stiffness = 1e8, .damping = 1e7}, 10, 0),
+  return {scene(phone(), {.stiffness = 1e8}, 10, 0), scene(phone(), {.stiffness = 1e8, .damping = 1e7}, 10, 0),
           scene(phone(), {.stiffness = 1e8, .damping = 1e7, .area = AreaMeasure::projected}, 20, 15),
           scene(phone(), {.stiffness = 1e8, .damping = 1e7, .area = AreaMeasure::projected}, 0, 0),
           scene(rod(), {.stiffness = 1e11, .damping = 1e9}, 45, 0)};
@@ -95,8 +95,8 @@ BOOST_AUTO_TEST_CASE(the_error_of_adaptive_methods_follows_the_tolerance_over_si
 BOOST_AUTO_TEST_CASE(the_euler_parameters_stay_of_unit_norm_over_a_million_steps) {
   const Body body = box_body({0.3, 0.2, 0.1}, 1);
   const Ground ground{.stiffness = 1e3, .area = AreaMeasure::projected};
-  const MotionState touch = touching_state(body, {.inclination = 0.3, .velocity = {0, 0, -0.1}, .spin = -1,
-                                                  .out_of_plane_tilt = 0.2});
+  const MotionState touch =
+      touching_state(body, {.inclination = 0.3, .velocity = {0, 0, -0.1}, .spin = -1, .out_of_plane_tilt = 0.2});
   ContactSystem system(body, ground, 9.81, false);
   const auto stepper = make_stepper(Method::tvd_rk3);
   long steps = 0;

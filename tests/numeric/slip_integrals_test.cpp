@@ -256,8 +256,8 @@ class Draw {
   std::mt19937 random_;
 };
 
-constexpr Middle places[] = {Middle::inside, Middle::on_an_edge, Middle::at_a_corner, Middle::beside, Middle::far,
-                             Middle::anywhere};
+constexpr Middle places[] = {Middle::inside, Middle::on_an_edge, Middle::at_a_corner,
+                             Middle::beside, Middle::far,        Middle::anywhere};
 #ifdef CLATTER_TEST_SLOW_BUILD
 constexpr int scenes_each = 1;
 #else

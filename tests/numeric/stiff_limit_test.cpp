@@ -13,9 +13,7 @@ using namespace clatter::numeric::test;
 
 /// V_z after an elastic frictionless impulse at the point (d_t, ·) of a body that falls with −1:
 ///     V = −1 + P/m,   P = 2/(1/m + d_t²/I).
-double rigid_velocity(double mass, double inertia, double arm) {
-  return -1 + 2 / (1 + mass * arm * arm / inertia);
-}
+double rigid_velocity(double mass, double inertia, double arm) { return -1 + 2 / (1 + mass * arm * arm / inertia); }
 
 double velocity_after(const Body& body, double angle, double stiffness) {
   Options options = plain_options();
@@ -36,8 +34,8 @@ double extrapolate(std::vector<double> x, std::vector<double> y) {
 }
 
 struct Limit {
-  double power;      ///< observed at the stiffest end
-  double distance;   ///< of the extrapolated from the rigid velocity
+  double power;     ///< observed at the stiffest end
+  double distance;  ///< of the extrapolated from the rigid velocity
 };
 
 /// k_G from `softest` to 1e13 in half decades, extrapolated in k^(−1/(p+1)) over the last `used`.

@@ -14,15 +14,11 @@ inline constexpr double eps = 2.220446049250313e-16;
 
 /// For BOOST_CHECK_EXCEPTION: the message contains the text.
 inline auto mentions(const std::string& text) {
-  return [text](const std::exception& error) {
-    return std::string(error.what()).find(text) != std::string::npos;
-  };
+  return [text](const std::exception& error) { return std::string(error.what()).find(text) != std::string::npos; };
 }
 
 /// A rotation about an axis off every coordinate plane.
-inline Matrix3 rotation() {
-  return Eigen::AngleAxisd(0.7, Vector3(1, -2, 3).normalized()).toRotationMatrix();
-}
+inline Matrix3 rotation() { return Eigen::AngleAxisd(0.7, Vector3(1, -2, 3).normalized()).toRotationMatrix(); }
 
 inline Mesh moved(Mesh mesh, const Matrix3& turn, const Vector3& shift) {
   for (Vector3& node : mesh.nodes) node = turn * node + shift;

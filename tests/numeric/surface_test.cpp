@@ -62,13 +62,10 @@ BOOST_AUTO_TEST_CASE(only_outer_faces_remain_and_each_names_its_element) {
   BOOST_TEST(surface.nodes.size() == 16u);
   for (const auto& [element, faces] : {std::pair{0, 5}, {1, 4}, {2, 5}}) {
     BOOST_TEST(std::count_if(surface.elements.begin(), surface.elements.end(),
-                             [e = element](const SurfaceElement& face) {
-                               return face.element == e;
-                             }) == faces);
+                             [e = element](const SurfaceElement& face) { return face.element == e; }) == faces);
   }
   for (const SurfaceElement& face : surface.elements) {
-    for (const int node : face.nodes)
-      BOOST_TEST(std::fabs(surface.nodes[node].x() - (face.element - 1)) <= 0.5);
+    for (const int node : face.nodes) BOOST_TEST(std::fabs(surface.nodes[node].x() - (face.element - 1)) <= 0.5);
   }
 }
 
@@ -79,20 +76,15 @@ BOOST_AUTO_TEST_CASE(nodes_within_the_body_are_dropped) {
 }
 
 BOOST_AUTO_TEST_CASE(faces_point_outward_so_that_they_enclose_the_volume_of_the_mesh) {
-  BOOST_TEST(std::fabs(enclosed(boundary_surface(
-                           box_mesh({.size = {1, 2, 3}, .nx = 2, .ny = 3, .nz = 4}))) -
-                       6) <= rounding * 6);
+  BOOST_TEST(std::fabs(enclosed(boundary_surface(box_mesh({.size = {1, 2, 3}, .nx = 2, .ny = 3, .nz = 4}))) - 6) <=
+             rounding * 6);
   const double hexagon = 1.5 * std::sqrt(3.);
-  BOOST_TEST(
-      std::fabs(enclosed(boundary_surface(rod_mesh({.length = 2, .radius = 1, .sectors = 6}))) -
-                2 * hexagon) <= rounding * 6);
-  const std::vector<Vector3> wedge{{0, 0, 0}, {1, 0, 0}, {0, 1, 0},
-                                   {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
-  BOOST_TEST(std::fabs(enclosed(boundary_surface(single(ElementShape::prism, wedge))) - 0.5) <=
+  BOOST_TEST(std::fabs(enclosed(boundary_surface(rod_mesh({.length = 2, .radius = 1, .sectors = 6}))) - 2 * hexagon) <=
+             rounding * 6);
+  const std::vector<Vector3> wedge{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
+  BOOST_TEST(std::fabs(enclosed(boundary_surface(single(ElementShape::prism, wedge))) - 0.5) <= rounding);
+  BOOST_TEST(std::fabs(enclosed(boundary_surface(single(ElementShape::tetrahedron, unit_tetrahedron()))) - 1. / 6) <=
              rounding);
-  BOOST_TEST(
-      std::fabs(enclosed(boundary_surface(single(ElementShape::tetrahedron, unit_tetrahedron()))) -
-                1. / 6) <= rounding);
   const Mesh warped = single(ElementShape::hexahedron, warped_cube());
   BOOST_TEST(std::fabs(enclosed(boundary_surface(warped)) - volume(warped)) <= rounding);
 }
@@ -151,17 +143,16 @@ BOOST_AUTO_TEST_CASE(degenerate_elements_are_refused_at_every_scale_and_position
   for (const double scale : {1e-20, 1e-3, 1., 1e20}) {
     std::vector<Vector3> flat = unit_tetrahedron();
     flat[3] = {0.3, 0.4, 0};
-    check_refused(
-        moved(single(ElementShape::tetrahedron, flat), scale * Matrix3::Identity(), {0, 0, 0}),
-        "element 0 (tetrahedron)", "degenerate");
+    check_refused(moved(single(ElementShape::tetrahedron, flat), scale * Matrix3::Identity(), {0, 0, 0}),
+                  "element 0 (tetrahedron)", "degenerate");
     std::vector<Vector3> collapsed = unit_cube();
     collapsed[1] = collapsed[0];
     check_refused(moved(single(ElementShape::hexahedron, collapsed), scale * rotation(), {0, 0, 0}),
                   "element 0 (hexahedron)", "degenerate");
     std::vector<Vector3> needle = unit_tetrahedron();
     for (Vector3& node : needle) node.tail<2>() *= 1e-6;
-    static_cast<void>(boundary_surface(
-        moved(single(ElementShape::tetrahedron, needle), scale * rotation(), {0, 0, 0})));
+    static_cast<void>(
+        boundary_surface(moved(single(ElementShape::tetrahedron, needle), scale * rotation(), {0, 0, 0})));
   }
 }
 
@@ -176,15 +167,13 @@ BOOST_AUTO_TEST_CASE(elements_that_overlap_are_refused_by_name) {
   check_refused(folded, "element 1 (tetrahedron)", "same side");
   // With a third on the other side between them.
   folded.nodes.emplace_back(0.2, 0.2, -1);
-  folded.elements.insert(folded.elements.begin() + 1,
-                         {ElementShape::tetrahedron, {0, 2, 1, 5, -1, -1, -1, -1}, 1});
-  check_refused(folded, "element 2 (tetrahedron)",
-                "shares a face with element 0 (tetrahedron) and another");
+  folded.elements.insert(folded.elements.begin() + 1, {ElementShape::tetrahedron, {0, 2, 1, 5, -1, -1, -1, -1}, 1});
+  check_refused(folded, "element 2 (tetrahedron)", "shares a face with element 0 (tetrahedron) and another");
 }
 
 BOOST_AUTO_TEST_CASE(bodies_that_touch_along_an_edge_are_refused_by_name) {
-  const Mesh mesh = without(box_mesh({.nx = 2, .ny = 2}),
-                            [](const Vector3& centre) { return centre.x() * centre.y() > 0; });
+  const Mesh mesh =
+      without(box_mesh({.nx = 2, .ny = 2}), [](const Vector3& centre) { return centre.x() * centre.y() > 0; });
   check_refused(mesh, "element 0 (hexahedron)", "4 faces instead of 2");
 }
 

@@ -5,8 +5,8 @@
 
 #include "analytic/errors.hpp"
 #include "validation/compare/comparison.hpp"
-#include "validation/scene/discrete_scene.hpp"
 #include "validation/compare/random_scenes.hpp"
+#include "validation/scene/discrete_scene.hpp"
 
 namespace {
 

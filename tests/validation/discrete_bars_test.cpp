@@ -31,12 +31,10 @@ int setting(const char* name, int otherwise) {
 
 void report(const BarCoverage& c) {
   for (const std::string& line : c.outside) std::cout << line << '\n';
-  std::cout << c.scenes << " scenes: " << c.rows_inside << " of " << c.predictable
-            << " predictable rows (of " << c.rows << ") and " << c.numbers_inside << " of "
-            << c.numbers << " numbers inside, bar/error " << c.median_ratio() << " in the median; "
-            << c.certain_ends_right << " of " << c.certain_ends << " certain ends right, "
-            << c.not_judged << " not judged; " << c.sums_inside << " of " << c.sums
-            << " sums inside\n";
+  std::cout << c.scenes << " scenes: " << c.rows_inside << " of " << c.predictable << " predictable rows (of " << c.rows
+            << ") and " << c.numbers_inside << " of " << c.numbers << " numbers inside, bar/error " << c.median_ratio()
+            << " in the median; " << c.certain_ends_right << " of " << c.certain_ends << " certain ends right, "
+            << c.not_judged << " not judged; " << c.sums_inside << " of " << c.sums << " sums inside\n";
 }
 
 analytic::Sequence sequence_of(const BarScene& scene, int impacts = to_rest) {
@@ -94,9 +92,7 @@ struct DampedContact {
   void run(double step) {
     for (bool ended = false; !ended;) {
       const double r = ratio(), sense = s;
-      const auto passed = [&](const DampedContact& x) {
-        return x.depth <= 0 || (sense != 0 && x.s * sense <= 0);
-      };
+      const auto passed = [&](const DampedContact& x) { return x.depth <= 0 || (sense != 0 && x.s * sense <= 0); };
       DampedContact next = after(step, r);
       if (passed(next)) {
         double low = 0, high = step;
@@ -120,24 +116,19 @@ BOOST_AUTO_TEST_CASE(
   const int scenes = setting("CLATTER_BARS_SCENES", 120);
   BarCoverage coverage;
   for (int i = 0; coverage.scenes < scenes; ++i) {
-    validation::judge_bars(
-        validation::random_bar_scene(static_cast<unsigned>(setting("CLATTER_BARS_FAMILY", 1)), i),
-        to_rest, coverage);
+    validation::judge_bars(validation::random_bar_scene(static_cast<unsigned>(setting("CLATTER_BARS_FAMILY", 1)), i),
+                           to_rest, coverage);
   }
   report(coverage);
-  BOOST_TEST(static_cast<double>(coverage.rows_inside) >=
-             0.995 * static_cast<double>(coverage.predictable));
-  BOOST_TEST(static_cast<double>(coverage.sums_inside) >=
-             0.99 * static_cast<double>(coverage.sums));
+  BOOST_TEST(static_cast<double>(coverage.rows_inside) >= 0.995 * static_cast<double>(coverage.predictable));
+  BOOST_TEST(static_cast<double>(coverage.sums_inside) >= 0.99 * static_cast<double>(coverage.sums));
   BOOST_TEST(coverage.median_ratio() <= 100);
   BOOST_TEST(coverage.certain_ends_right == coverage.certain_ends);
   BOOST_TEST(coverage.not_judged <= scenes / 50);
-  BOOST_TEST(static_cast<double>(coverage.certain_ends) >=
-             0.85 * static_cast<double>(coverage.scenes));
+  BOOST_TEST(static_cast<double>(coverage.certain_ends) >= 0.85 * static_cast<double>(coverage.scenes));
 }
 
-BOOST_AUTO_TEST_CASE(
-    on_damped_ground_99_of_100_rows_lie_within_their_bars_and_every_certain_end_is_the_true_one) {
+BOOST_AUTO_TEST_CASE(on_damped_ground_99_of_100_rows_lie_within_their_bars_and_every_certain_end_is_the_true_one) {
   const int scenes = setting("CLATTER_BARS_SCENES", 40);
   const auto family = static_cast<unsigned>(setting("CLATTER_BARS_FAMILY", 1));
   BarCoverage coverage;
@@ -145,8 +136,7 @@ BOOST_AUTO_TEST_CASE(
     validation::judge_bars(validation::random_damped_bar_scene(family, i), to_rest, coverage);
   }
   report(coverage);
-  BOOST_TEST(static_cast<double>(coverage.rows_inside) >=
-             0.995 * static_cast<double>(coverage.predictable));
+  BOOST_TEST(static_cast<double>(coverage.rows_inside) >= 0.995 * static_cast<double>(coverage.predictable));
   BOOST_TEST(coverage.predictable >= 10 * scenes);
   BOOST_TEST(coverage.median_ratio() <= 100);
   BOOST_TEST(coverage.certain_ends_right == coverage.certain_ends);
@@ -156,11 +146,9 @@ BOOST_AUTO_TEST_CASE(
 
 /// Errors of these grow 10⁵ times from the fourth impact to the sixth; bars used to fall back to
 /// rounding there.
-BOOST_AUTO_TEST_CASE(
-    where_errors_have_outgrown_the_motion_a_row_is_not_predictable_and_its_bars_are_infinite) {
+BOOST_AUTO_TEST_CASE(where_errors_have_outgrown_the_motion_a_row_is_not_predictable_and_its_bars_are_infinite) {
   BarCoverage coverage;
-  const BarScene elastic = sensitive_box(73.7020660990234, 1),
-                 damped = sensitive_box(75.2937, 0.834);
+  const BarScene elastic = sensitive_box(73.7020660990234, 1), damped = sensitive_box(75.2937, 0.834);
   validation::judge_bars(elastic, 6, coverage);
   validation::judge_bars(damped, to_rest, coverage);
   report(coverage);
@@ -229,8 +217,7 @@ BOOST_AUTO_TEST_CASE(with_next_to_no_rebound_a_sequence_ends_as_it_does_in_80_di
   BarCoverage coverage;
   for (const double e : {1e-10, 1e-6, 1e-4, 0.001, 0.003, 0.02, 0.05}) {
     for (const double gravity : {0.0, 9.81}) {
-      if (gravity == 0 && e < 0.02)
-        continue;  // heights shrink beyond the simulation's digits before speeds do
+      if (gravity == 0 && e < 0.02) continue;  // heights shrink beyond the simulation's digits before speeds do
       for (const BarShape shape : {BarShape::thin_rod, BarShape::box}) {
         const BarScene scene{.shape = shape,
                              .mass = 1,
@@ -252,8 +239,7 @@ BOOST_AUTO_TEST_CASE(with_next_to_no_rebound_a_sequence_ends_as_it_does_in_80_di
 }
 
 /// The squares of speeds underflowed: "no convergence", or a rod that rests was said to turn.
-BOOST_AUTO_TEST_CASE(
-    a_flat_body_bounces_on_until_its_speeds_are_no_doubles_any_more_and_is_then_at_rest) {
+BOOST_AUTO_TEST_CASE(a_flat_body_bounces_on_until_its_speeds_are_no_doubles_any_more_and_is_then_at_rest) {
   for (const double degrees : {0.0, 90.0}) {
     for (const auto& [restitution, impacts] : {std::pair{0.6, 800}, std::pair{0.3, 2000}}) {
       for (const BarShape shape : {BarShape::thin_rod, BarShape::box}) {
@@ -272,8 +258,7 @@ BOOST_AUTO_TEST_CASE(
         BOOST_TEST(s.tail.has_value());
         double speed = 1, time = 0;
         for (const analytic::ImpactRow& row : s.rows) {
-          BOOST_TEST(std::fabs(row.impact.approach_speed - speed) <=
-                     row.error.approach_speed + 1e-12 * speed);
+          BOOST_TEST(std::fabs(row.impact.approach_speed - speed) <= row.error.approach_speed + 1e-12 * speed);
           BOOST_TEST(std::fabs(row.start - time) <= row.error.start);
           speed *= restitution;
           time += 2 * speed / 9.81;
@@ -284,8 +269,7 @@ BOOST_AUTO_TEST_CASE(
   }
 }
 
-BOOST_AUTO_TEST_CASE(
-    a_simulated_impact_on_damped_ground_is_that_of_a_point_on_a_spring_and_damper) {
+BOOST_AUTO_TEST_CASE(a_simulated_impact_on_damped_ground_is_that_of_a_point_on_a_spring_and_damper) {
   using Real = boost::multiprecision::cpp_bin_float_50;
   constexpr double tolerance = 1e-9;  // fourth order in steps of 1/2000, some thousand of them
   std::mt19937_64 random(31);
@@ -294,8 +278,7 @@ BOOST_AUTO_TEST_CASE(
   };
   int stopped = 0;
   for (int i = 0; i < 40; ++i) {
-    const double along = uniform(-1.5, 1.5),
-                 up = -uniform(0.1, 1.5);  // over the radius of gyration
+    const double along = uniform(-1.5, 1.5), up = -uniform(0.1, 1.5);  // over the radius of gyration
     const double A = 1 + along * along, B = along * up, C = 1 + up * up;
     const double friction = uniform(0.05, 0.8), damping = std::pow(10, uniform(-3, 0.5));
     const double u = -uniform(0.3, 2), s = uniform(-2, 2);
@@ -313,8 +296,7 @@ BOOST_AUTO_TEST_CASE(
 }
 
 /// Sequences that see their end after some 200 impacts, of which the simulation needs 1000.
-BOOST_AUTO_TEST_CASE(
-    an_end_that_is_certain_after_few_impacts_is_judged_by_the_end_after_as_many_as_it_takes) {
+BOOST_AUTO_TEST_CASE(an_end_that_is_certain_after_few_impacts_is_judged_by_the_end_after_as_many_as_it_takes) {
   BarCoverage coverage;
   for (const double degrees : {20.0, 40.0, 60.0, 80.0}) {
     const BarScene scene{.shape = BarShape::thin_rod,
@@ -337,21 +319,20 @@ BOOST_AUTO_TEST_CASE(
 /// Friction takes the energy that the damping of ever slower impacts no longer takes.  1.2e-13 m/s
 /// is where the damping is lost in rounding.
 BOOST_AUTO_TEST_CASE(a_rod_that_rattles_on_damped_ground_with_friction_comes_to_rest) {
-  const BarScene scene{.shape = BarShape::rod,
-                       .mass = 3.0740620976336124,
-                       .length = 0.082870984938126752,
-                       .half_thickness = 0.013318964557510781,
-                       .degrees = 49.434677842355953,
-                       .velocity = {.normal = -1.5622081983478644,
-                                    .tangential = 1.2088601383115591,
-                                    .angular = -2.8469536125263839},
-                       .gravity = 14.436523041730803,
-                       .law = {.restitution = 1,
-                               .law = analytic::RestitutionLaw::viscoelastic,
-                               .friction = analytic::FrictionKind::coulomb,
-                               .friction_value = 0.31521293908102038,
-                               .damping_per_stiffness = 0.0040557883706542975},
-                       .digits = 6};
+  const BarScene scene{
+      .shape = BarShape::rod,
+      .mass = 3.0740620976336124,
+      .length = 0.082870984938126752,
+      .half_thickness = 0.013318964557510781,
+      .degrees = 49.434677842355953,
+      .velocity = {.normal = -1.5622081983478644, .tangential = 1.2088601383115591, .angular = -2.8469536125263839},
+      .gravity = 14.436523041730803,
+      .law = {.restitution = 1,
+              .law = analytic::RestitutionLaw::viscoelastic,
+              .friction = analytic::FrictionKind::coulomb,
+              .friction_value = 0.31521293908102038,
+              .damping_per_stiffness = 0.0040557883706542975},
+      .digits = 6};
   BarCoverage coverage;
   validation::judge_bars(scene, to_rest, coverage);
   report(coverage);
@@ -393,16 +374,15 @@ BOOST_AUTO_TEST_CASE(beside_a_graze_a_row_is_within_its_bars_or_said_to_be_unkno
 
 /// Rattling that never repeats itself: followed until what remains is lost in the sums.
 BOOST_AUTO_TEST_CASE(a_rod_that_rattles_without_a_period_comes_to_rest) {
-  const BarScene scene{
-      .shape = BarShape::thin_rod,
-      .mass = 0.26071795632854405,
-      .length = 0.13769364136090528,
-      .half_thickness = 0,
-      .degrees = 89.023913789935236,
-      .velocity = {.normal = -1.0011175892480295, .tangential = 1.4967006908761809},
-      .gravity = 4.5773864741884269,
-      .law = {.restitution = 0.95512805442050897},
-      .digits = 6};
+  const BarScene scene{.shape = BarShape::thin_rod,
+                       .mass = 0.26071795632854405,
+                       .length = 0.13769364136090528,
+                       .half_thickness = 0,
+                       .degrees = 89.023913789935236,
+                       .velocity = {.normal = -1.0011175892480295, .tangential = 1.4967006908761809},
+                       .gravity = 4.5773864741884269,
+                       .law = {.restitution = 0.95512805442050897},
+                       .digits = 6};
   BarCoverage coverage;
   validation::judge_bars(scene, to_rest, coverage);
   report(coverage);

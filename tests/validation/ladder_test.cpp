@@ -13,9 +13,7 @@ using namespace clatter::validation;
 
 namespace {
 
-constexpr RungSetting fine(Rung rung) {
-  return {.rung = rung, .method = numeric::Method::rk8pd, .tolerance = 1e-12};
-}
+constexpr RungSetting fine(Rung rung) { return {.rung = rung, .method = numeric::Method::rk8pd, .tolerance = 1e-12}; }
 
 /// How far two rungs are apart on a scene.
 double apart(const Scene& scene, Rung rung, Rung other) {
@@ -47,7 +45,8 @@ bool is_mirrored(const Scene& scene) {
 BOOST_AUTO_TEST_CASE(closed_form_is_the_discrete_rung_for_a_rod_that_becomes_thin) {
   double before = 0;
   for (const char* radius : {"1e-3", "1e-4", "1e-5"}) {
-    const double now = apart(case_scene("rod-10", {{"body.radius", "--radius", radius}}), Rung::closed_form, Rung::discrete);
+    const double now =
+        apart(case_scene("rod-10", {{"body.radius", "--radius", radius}}), Rung::closed_form, Rung::discrete);
     // The rim lies r sin θ and r cos θ off the axis: the numbers change in proportion to r.
     if (before > 0) BOOST_TEST(std::fabs(order(before, now, 10) - 1) <= 0.05);
     before = now;
@@ -79,8 +78,11 @@ BOOST_AUTO_TEST_CASE(closed_form_and_discrete_model_agree_on_a_thin_rod_to_round
 }
 
 BOOST_AUTO_TEST_CASE(closed_form_refuses_what_its_equations_do_not_have) {
-  const analytic::Drop drop{.body = analytic::make_rod({}), .inclination = analytic::Angle::from_degrees(10),
-                            .velocity = {.normal = -1}, .gravity = 0, .law = {}};
+  const analytic::Drop drop{.body = analytic::make_rod({}),
+                            .inclination = analytic::Angle::from_degrees(10),
+                            .velocity = {.normal = -1},
+                            .gravity = 0,
+                            .law = {}};
   BOOST_TEST(reason_against_closed_form(drop).empty());
   analytic::Drop other = drop;
   other.velocity.angular = 1;

@@ -38,7 +38,7 @@ BOOST_AUTO_TEST_CASE(significant_digits_are_kept_and_no_more_than_known_ones_sho
   BOOST_TEST(known_digits(1.0, 1e-3) == 3);
   BOOST_TEST(known_digits(1.0, 2e-3) == 2);  // an error of two in the third digit
   BOOST_TEST(known_digits(1.0, 0) == 17);
-  BOOST_TEST(known_digits(3.0, 0.5) == 1);   // half a unit of the one digit
+  BOOST_TEST(known_digits(3.0, 0.5) == 1);  // half a unit of the one digit
   BOOST_TEST(known_digits(3.0, 0.6) == 0);
   BOOST_TEST(known_digits(1.0, 10.0) == 0);
   for (const double unknown : {static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
@@ -71,7 +71,8 @@ BOOST_AUTO_TEST_CASE(only_whole_finite_decimal_numbers_are_read) {
   double value = 0;
   BOOST_TEST(read_number("-1.5e-3", value));
   BOOST_TEST(value == -1.5e-3);
-  for (const char* bad : {"", " 1", "1 ", "nan", "inf", "-inf", "infinity", "1e400", "0x10", "1,5", "1.0.0", "--1", "e5"}) {
+  for (const char* bad :
+       {"", " 1", "1 ", "nan", "inf", "-inf", "infinity", "1e400", "0x10", "1,5", "1.0.0", "--1", "e5"}) {
     BOOST_TEST(!read_number(bad, value), bad);
   }
 }

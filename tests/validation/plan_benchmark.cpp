@@ -52,7 +52,7 @@ int main(int count, char** texts) {
              judged.size(), unjudged);
   fmt::print("digits met: {:.2f} %\n", share(judged, [](const PlannedScene& scene) { return scene.met; }));
   fmt::print("at most 1.5 times the cheapest: {:.2f} %; median {:.2f}, nine in ten {:.2f}\n",
-             share(judged, [](const PlannedScene& scene) { return scene.met && scene.cost_ratio <= 1.5; }), quantile(ratios, 0.5),
-             quantile(ratios, 0.9));
+             share(judged, [](const PlannedScene& scene) { return scene.met && scene.cost_ratio <= 1.5; }),
+             quantile(ratios, 0.5), quantile(ratios, 0.9));
   fmt::print("planning takes {:.1f} times the evaluations of the choice (median)\n", quantile(planning, 0.5));
 }

@@ -114,14 +114,14 @@ BOOST_AUTO_TEST_CASE(plan_takes_the_discrete_model_on_a_stiff_ground_and_leaves_
   const Scene scene = case_scene("rod-45", {{"ground.stiffness", "--stiffness", "1e15"}});
   BOOST_TEST((make_plan(scene, {.digits = 2}).choice.rung == Rung::discrete));
   BOOST_TEST((make_plan(scene, {.digits = 6}).choice.rung == Rung::planar));
-  const Scene thin = case_scene("rod-45", {{"ground.stiffness", "--stiffness", "1e18"},
-                                                     {"body.radius", "--radius", "1e-4"}});
+  const Scene thin =
+      case_scene("rod-45", {{"ground.stiffness", "--stiffness", "1e18"}, {"body.radius", "--radius", "1e-4"}});
   BOOST_TEST((make_plan(thin, {.digits = 2}).choice.rung == Rung::closed_form));
 }
 
 BOOST_AUTO_TEST_CASE(plan_leaves_out_what_changes_less_than_asked) {
-  const Scene scene = case_scene("rod-45", {{"ground.sliding_friction", "--sliding-friction", "1e-9"},
-                                                      {"ground.damping", "--damping", "1"}});
+  const Scene scene = case_scene(
+      "rod-45", {{"ground.sliding_friction", "--sliding-friction", "1e-9"}, {"ground.damping", "--damping", "1"}});
   const Plan plan = make_plan(scene, {.digits = 5});
   BOOST_TEST(!plan.scene.ground.has_friction());
   BOOST_TEST(plan.scene.ground.damping == 0);
@@ -161,8 +161,8 @@ BOOST_AUTO_TEST_CASE(plan_says_so_if_its_runs_end_early) {
   }
 }
 
-// With rkck the switch to stick of this scene's first contact is met in a step that cannot be made small enough, at three
-// tolerances of four; the plan once said that nothing could be computed.
+// With rkck the switch to stick of this scene's first contact is met in a step that cannot be made small enough, at
+// three tolerances of four; the plan once said that nothing could be computed.
 BOOST_AUTO_TEST_CASE(plan_and_run_get_past_a_step_that_gets_too_small) {
   Scene scene = random_scene(71, 9);
   scene.options.impacts = 3;

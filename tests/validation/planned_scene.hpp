@@ -68,8 +68,8 @@ inline PlannedScene plan_and_judge(std::uint64_t seed, int index) {
   const double cheapest = cheapest_that_serves(Ladder(scene), truth, plan.asked);
   result.cost_ratio = evaluations == cheapest ? 1 : evaluations / cheapest;
   result.planning_ratio = static_cast<double>(plan.planning_evaluations) / std::max(evaluations, 1.0);
-  result.choice = fmt::format("{} {} {:.0e}", rung_name(plan.choice.rung), method_name(plan.choice.method),
-                              plan.choice.tolerance);
+  result.choice =
+      fmt::format("{} {} {:.0e}", rung_name(plan.choice.rung), method_name(plan.choice.method), plan.choice.tolerance);
   return result;
 }
 

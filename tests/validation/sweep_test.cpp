@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -75,8 +74,8 @@ const SweepFileForm form{.head = "# head\nindex,x\n", .scenes = 10};
 
 using Found = std::pair<long long, std::string>;
 
-/// What a new run finds once the part or its digests have been changed: the scenes that are done and what is left of the
-/// text.  The part was "0,1\n" for scene 0, then "1,1\n2,1\n" for scenes 1 and 2, then "3,1\n3,2\n" for scene 3.
+/// What a new run finds once the part or its digests have been changed: the scenes that are done and what is left of
+/// the text.  The part was "0,1\n" for scene 0, then "1,1\n2,1\n" for scenes 1 and 2, then "3,1\n3,2\n" for scene 3.
 Found found_after(const std::function<void(const std::string& part)>& change, bool restart = false) {
   const Folder folder;
   const std::string path = folder.at("out.csv"), part = path + ".part";
@@ -221,8 +220,7 @@ BOOST_AUTO_TEST_CASE(every_number_of_a_scene_can_be_put_where_the_reader_puts_it
       const SceneValues values("scene.toml", drop + shape, scene_keys());
       try {
         const Scene expected = read_scene(values, overrides, Model::continuous);
-        Scene scene =
-            read_scene(values, {{key, "--set", number.is_whole() ? "4" : "0.03125"}}, Model::continuous);
+        Scene scene = read_scene(values, {{key, "--set", number.is_whole() ? "4" : "0.03125"}}, Model::continuous);
         BOOST_TEST(scene.json() != expected.json(), key);
         number.put_number(scene, std::stod(text));
         BOOST_TEST(scene.json() == expected.json(), key);
@@ -234,11 +232,10 @@ BOOST_AUTO_TEST_CASE(every_number_of_a_scene_can_be_put_where_the_reader_puts_it
     ++put;
   }
   // All keys but names, texts, truths, lists and the file's own sweep.
-  const std::set<std::string> others{"impact.law",          "body.shape",       "body.size",      "body.merge",
-                                     "body.inertia",        "body.centre",      "body.mesh.file", "ground.area",
-                                     "ground.friction_law", "run.method",       "run.history",    "run.planar",
-                                     "run.errors",          "run.amplification", "run.contact_gravity",
-                                     "run.require_digits"};
+  const std::set<std::string> others{
+      "impact.law",     "body.shape",        "body.size",           "body.merge",        "body.inertia", "body.centre",
+      "body.mesh.file", "ground.area",       "ground.friction_law", "run.method",        "run.history",  "run.planar",
+      "run.errors",     "run.amplification", "run.contact_gravity", "run.require_digits"};
   const auto is_other = [&](const std::string& key) { return others.contains(key) || key.starts_with("sweep."); };
   BOOST_TEST(put == scene_keys().size() - std::count_if(scene_keys().begin(), scene_keys().end(), is_other));
 }

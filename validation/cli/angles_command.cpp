@@ -68,12 +68,11 @@ int write_csv(const AnglesRequest& request, const OutputChoice& choice) {
 
 int run_angles(const AnglesInput& input) {
   const Sweep sweep = read_sweep(input.sweep, {0, 90, 5}, {0, 90, false, "from 0 to 90 degrees"});
-  const AnglesRequest request{
-      .theta = [sweep](long long i) { return sweep.value(i); },
-      .count = sweep.count,
-      .rod = read_rod(input.rod),
-      .as_printed = input.as_printed,
-      .digits = input.digits ? read_integer_option("--digits", *input.digits, 1, 17) : 6};
+  const AnglesRequest request{.theta = [sweep](long long i) { return sweep.value(i); },
+                              .count = sweep.count,
+                              .rod = read_rod(input.rod),
+                              .as_printed = input.as_printed,
+                              .digits = input.digits ? read_integer_option("--digits", *input.digits, 1, 17) : 6};
   const OutputChoice choice = read_output(input.output);
   check_files(choice, plot_files(input.plot));
   PlotFile plot(input.plot);
@@ -99,7 +98,7 @@ Command angles_command() {
   add_sweep_options(command, input->sweep, "angle theta in degrees (0 to 90 by 5)");
   add_rod_options(command, input->rod);
   command.add_flag("--as-printed", input->as_printed,
-                    "beta by the paper's printed gravity term beside the corrected one", "Rod");
+                   "beta by the paper's printed gravity term beside the corrected one", "Rod");
   add_output_options(command, input->output);
   add_plot_options(command, input->plot);
   command.add_text("--digits", input->digits, "N", "significant digits in tables (6)", "Output");

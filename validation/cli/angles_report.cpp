@@ -35,19 +35,44 @@ struct AnglesTexts {
 using AnglesText = std::optional<std::string>& (*)(AnglesTexts&);
 
 /// Where the text of each argument goes.
-const std::map<std::string, AnglesText> members{
-    {"from", [](AnglesTexts& texts) -> auto& { return texts.range.from; }},
-    {"to", [](AnglesTexts& texts) -> auto& { return texts.range.to; }},
-    {"step", [](AnglesTexts& texts) -> auto& { return texts.range.step; }},
-    {"count", [](AnglesTexts& texts) -> auto& { return texts.range.count; }},
-    {"gravity_number", [](AnglesTexts& texts) -> auto& { return texts.rod.gravity_number; }},
-    {"gravity", [](AnglesTexts& texts) -> auto& { return texts.rod.gravity; }},
-    {"length", [](AnglesTexts& texts) -> auto& { return texts.rod.length; }},
-    {"speed", [](AnglesTexts& texts) -> auto& { return texts.rod.speed; }},
-    {"restitution", [](AnglesTexts& texts) -> auto& { return texts.rod.restitution; }},
-    {"impulse_ratio", [](AnglesTexts& texts) -> auto& { return texts.rod.impulse_ratio; }},
-    {"digits", [](AnglesTexts& texts) -> auto& { return texts.digits; }},
-    {"as_printed", [](AnglesTexts& texts) -> auto& { return texts.as_printed; }}};
+const std::map<std::string, AnglesText> members{{"from", [](AnglesTexts& texts) -> auto& {return texts.range.from;
+}  // namespace
+}  // namespace clatter::validation
+, {"to", [](AnglesTexts& texts) -> auto& {return texts.range.to;
+}
+}
+, {"step", [](AnglesTexts& texts) -> auto& {return texts.range.step;
+}
+}
+, {"count", [](AnglesTexts& texts) -> auto& {return texts.range.count;
+}
+}
+, {"gravity_number", [](AnglesTexts& texts) -> auto& {return texts.rod.gravity_number;
+}
+}
+, {"gravity", [](AnglesTexts& texts) -> auto& {return texts.rod.gravity;
+}
+}
+, {"length", [](AnglesTexts& texts) -> auto& {return texts.rod.length;
+}
+}
+, {"speed", [](AnglesTexts& texts) -> auto& {return texts.rod.speed;
+}
+}
+, {"restitution", [](AnglesTexts& texts) -> auto& {return texts.rod.restitution;
+}
+}
+, {"impulse_ratio", [](AnglesTexts& texts) -> auto& {return texts.rod.impulse_ratio;
+}
+}
+, {"digits", [](AnglesTexts& texts) -> auto& {return texts.digits;
+}
+}
+, {
+  "as_printed", [](AnglesTexts & texts) -> auto& { return texts.as_printed; }
+}
+}
+;
 
 double angle_or_missing(const analytic::ContactAngle& angle) {
   return angle.next == NextImpact::other_end ? angle.angle * degrees_per_radian : NAN;
@@ -164,7 +189,8 @@ AnglesRow errors_of(const AnglesRow& row, const AnglesRequest& request) {
     const double neutral = parameter == &Rod::restitution ? 1 : 0;
     if (request.rod.*parameter != neutral) add_sensitivity(row, neighbour(theta, parameter), sensitivity);
   }
-  const bool elastic = request.rod.restitution == 1 && request.rod.impulse_ratio == 0 && request.rod.gravity_number == 0;
+  const bool elastic =
+      request.rod.restitution == 1 && request.rod.impulse_ratio == 0 && request.rod.gravity_number == 0;
   AnglesRow errors{};
   for (std::size_t k = 0; k < row.size(); ++k) {
     const double size = k == deficit_column && !elastic ? 2 : std::fabs(row[k]);

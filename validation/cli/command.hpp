@@ -14,13 +14,13 @@ struct Argument {
   /// A truth is a flag without a value; a list takes many values.
   using Target = std::variant<bool*, std::string*, std::optional<std::string>*, std::vector<std::string>*>;
 
-  std::string name;       ///< "--angle", or "SCENE" for an argument known by its place
+  std::string name;  ///< "--angle", or "SCENE" for an argument known by its place
   Target target;
-  std::string type;       ///< of the value, in help: "DEG", "a|b|c" (shells offer these), "FILE" (shells offer files)
+  std::string type;  ///< of the value, in help: "DEG", "a|b|c" (shells offer these), "FILE" (shells offer files)
   std::string help;
-  std::string group{};    ///< heading in help; empty: "Options"
+  std::string group{};  ///< heading in help; empty: "Options"
   bool required = false;
-  bool repeats = false;   ///< a list that takes one value each time the option is given
+  bool repeats = false;  ///< a list that takes one value each time the option is given
 
   [[nodiscard]] bool is_option() const { return name.starts_with("--"); }
   [[nodiscard]] bool is_flag() const { return std::holds_alternative<bool*>(target); }
@@ -31,10 +31,10 @@ struct Argument {
 
 struct Command {
   std::string name;
-  std::string help;                   ///< one line
-  std::string footer{};               ///< an example, and what else to know
+  std::string help;      ///< one line
+  std::string footer{};  ///< an example, and what else to know
   std::vector<Argument> arguments{};
-  std::function<int()> run{};         ///< after parsing; returns the exit status
+  std::function<int()> run{};  ///< after parsing; returns the exit status
 
   void add(Argument argument) { arguments.push_back(std::move(argument)); }
   void add_text(const std::string& option, std::optional<std::string>& text, const std::string& type,

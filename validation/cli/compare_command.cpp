@@ -33,8 +33,7 @@ int compare_one(const Scene& scene, const OutputChoice& choice, PlotFile& plot) 
   write_report(
       choice, [&] { return comparison_json(scene, comparison); }, [&] { return comparison_records(scene, comparison); },
       [&] { return comparison_table(scene, comparison); });
-  if (comparison.impacts.empty())
-    plot.leave_out("no impact");
+  if (comparison.impacts.empty()) plot.leave_out("no impact");
   else if (plot.is_wanted())
     plot.write(comparison_picture(scene, comparison), run_words("compare", what_it_is, scene.json()));
   if (!comparison.agrees()) return check_failed;
@@ -53,8 +52,8 @@ int shortfall_status(const std::vector<SweptComparison>& swept) {
   const auto falls_short = [](const SweptComparison& one) { return !one.comparison.shortfall.empty(); };
   const auto first = std::find_if(swept.begin(), swept.end(), falls_short);
   if (first == swept.end()) return 0;
-  say(fmt::format("{} of {} values fall short; {}: {}", std::count_if(swept.begin(), swept.end(), falls_short), swept.size(), shortest(first->value),
-             first->comparison.shortfall));
+  say(fmt::format("{} of {} values fall short; {}: {}", std::count_if(swept.begin(), swept.end(), falls_short),
+                  swept.size(), shortest(first->value), first->comparison.shortfall));
   return not_computed;
 }
 

@@ -188,9 +188,7 @@ Json result_json(const Comparison& comparison) {
   return json;
 }
 
-Json head_json(const Scene& scene) {
-  return {{"clatter", version}, {"model", "comparison"}, {"scene", scene.json()}};
-}
+Json head_json(const Scene& scene) { return {{"clatter", version}, {"model", "comparison"}, {"scene", scene.json()}}; }
 
 /// Rows of the CSV for one comparison, with further cells in front.
 void add_records(const Comparison& comparison, const std::vector<Cell>& front, Table& table) {
@@ -210,10 +208,10 @@ Table records_table(const Scene& scene) {
               .columns = {},
               .rows = {},
               .notes = {}};
-  for (const char* name : {"n", "quantity", "predictable", "not_compared_because", "discrete", "continuous",
-                           "discrete_error", "continuous_error", "deviation", "deviation_error", "predicted",
-                           "predicted_gravity", "predicted_turning", "predicted_indentation", "predicted_delay",
-                           "limit", "limit_error", "allowance"}) {
+  for (const char* name :
+       {"n", "quantity", "predictable", "not_compared_because", "discrete", "continuous", "discrete_error",
+        "continuous_error", "deviation", "deviation_error", "predicted", "predicted_gravity", "predicted_turning",
+        "predicted_indentation", "predicted_delay", "limit", "limit_error", "allowance"}) {
     table.columns.push_back({name, name, ""});
   }
   return table;
@@ -226,7 +224,8 @@ void add_swept_reasons(const std::vector<SweptComparison>& swept, Table& table) 
     if (!comparison.impacts.empty() && !comparison.impacts[0].reason.empty()) ++counts[comparison.impacts[0].reason];
   }
   for (const auto& [reason, count] : counts) {
-    table.notes.push_back(fmt::format("–: not compared at this stiffness, {} of {} values: {}", count, swept.size(), reason));
+    table.notes.push_back(
+        fmt::format("–: not compared at this stiffness, {} of {} values: {}", count, swept.size(), reason));
   }
 }
 
@@ -268,7 +267,8 @@ Table comparison_table(const Scene& scene, const Comparison& comparison) {
   for (const ComparedImpact& impact : comparison.impacts) add_rows(comparison, impact, table);
   table.notes = reasons(comparison);
   table.notes.push_back(
-      "t in s, angles in °, P in N·s, V in m/s, Ω in rad/s; predicted: the size, no bound, of what gravity, turning and "
+      "t in s, angles in °, P in N·s, V in m/s, Ω in rad/s; predicted: the size, no bound, of what gravity, turning "
+      "and "
       "indentation do during contacts, carried on from impact to impact");
   if (!comparison.shortfall.empty()) table.notes.push_back(comparison.shortfall);
   table.notes.push_back(limit_words(comparison));
@@ -309,8 +309,7 @@ Table swept_comparison_table(const Scene& scene, const std::vector<SweptComparis
                             Cell(impact.discrete_end)};
       if (impact.reason.empty())
         row.insert(row.end(), {difference_cell({worst.deviation, worst.deviation_error}, 1), Cell(worst.predicted, 2)});
-      else
-        row.insert(row.end(), {Cell("–"), Cell()});
+      else row.insert(row.end(), {Cell("–"), Cell()});
       if (impact.has_landing()) row.insert(row.end(), {miss_cell({worst.miss, worst.miss_error}), Cell(worst.bar, 2)});
       row.resize(7);
       row.emplace_back(landing_word(impact));

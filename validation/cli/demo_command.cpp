@@ -83,7 +83,8 @@ int run_demo(const DemoInput& input) {
     return serve(input);
   }
   if (input.port) throw BadInput(fmt::format("--port {}: not with --export, which serves nothing", *input.port));
-  if (input.seconds) throw BadInput(fmt::format("--seconds {}: not with --export, which serves nothing", *input.seconds));
+  if (input.seconds)
+    throw BadInput(fmt::format("--seconds {}: not with --export, which serves nothing", *input.seconds));
   return export_page(input);
 }
 

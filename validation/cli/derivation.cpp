@@ -43,13 +43,12 @@ class Derivation {
   std::vector<Step> missing(int n) {
     const std::size_t have = sequence_.rows.size();
     Step& step = open(fmt::format("Impact {} does not happen", n),
-                      fmt::format("The sequence has {} impact{}. It ends with {}: {}.", have,
-                                  have == 1 ? "" : "s", outcome_name(sequence_.outcome),
-                                  sequence_.message));
+                      fmt::format("The sequence has {} impact{}. It ends with {}: {}.", have, have == 1 ? "" : "s",
+                                  outcome_name(sequence_.outcome), sequence_.message));
     const analytic::NearMiss& miss = sequence_.near_miss;
     if (sequence_.outcome == analytic::Outcome::no_further_impact && std::isfinite(miss.clearance)) {
-      step.equations.push_back({"clearance", "least height of a vertex at a turning point", "",
-                                miss.clearance, "m", miss.margin});
+      step.equations.push_back(
+          {"clearance", "least height of a vertex at a turning point", "", miss.clearance, "m", miss.margin});
       step.equations.push_back({"margin", "rounding error of that height", "", miss.margin, "m"});
     }
     return std::move(steps_);
@@ -61,8 +60,8 @@ class Derivation {
     return value < 0 ? "(" + text + ")" : text;
   }
 
-  /// Every number of the steps follows from the row's: relatively, none is known better.  Residuals have errors of their
-  /// own already.
+  /// Every number of the steps follows from the row's: relatively, none is known better.  Residuals have errors of
+  /// their own already.
   void set_errors() {
     for (Step& step : steps_) {
       for (Equation& equation : step.equations) {
@@ -76,8 +75,9 @@ class Derivation {
   }
 
   void first_touch(const ImpactRow& row) {
-    Step& step = open("The first touch", fmt::format("End {} touches the ground at an inclination of {}°.",
-                      analytic::PlanarBody::vertex_set_name(row.vertices), num(scene_.angle_deg)));
+    Step& step = open("The first touch",
+                      fmt::format("End {} touches the ground at an inclination of {}°.",
+                                  analytic::PlanarBody::vertex_set_name(row.vertices), num(scene_.angle_deg)));
     step.equations = {{"v_n", "−speed", "", row.before.normal, "m/s"},
                       {"v_t", "tangential velocity", "", row.before.tangential, "m/s"},
                       {"ω", "spin", "", row.before.angular, "rad/s"}};
@@ -90,8 +90,7 @@ class Derivation {
                                   analytic::PlanarBody::vertex_set_name(row.vertices)));
     step.equations = {{"V_n", "after the last impact", "", from.impact.after.normal, "m/s"},
                       {"Ω", "after the last impact", "", from.impact.after.angular, "rad/s"}};
-    const bool rod = drop_.body.uniform_thin_rod && d.angular != 0 &&
-                     row.flight.arrival.vertex != d.reference;
+    const bool rod = drop_.body.uniform_thin_rod && d.angular != 0 && row.flight.arrival.vertex != d.reference;
     if (rod) rod_equation(step, row);
     else height_equation(step, row);
     root(step, row);
@@ -105,22 +104,24 @@ class Derivation {
     const double k = 2 * d.normal / (length * rate);
     const double gamma = d.gravity / (length * rate * rate);
     const double start = std::fabs(d.inclination);
-    step.text += " Eq. 12 for the angle φ that the rod turns: sin θ + K φ − Γ φ² − sin(φ − θ) = 0, "
-                 "θ the contact angle that it leaves from.";
+    step.text +=
+        " Eq. 12 for the angle φ that the rod turns: sin θ + K φ − Γ φ² − sin(φ − θ) = 0, "
+        "θ the contact angle that it leaves from.";
     step.equations.push_back({"θ", "contact angle before", "", start * degrees_per_radian, "°"});
-    step.equations.push_back({"K", "2 V_n/(L |Ω|)",
-                              fmt::format("2·{}/({}·{})", num(d.normal), num(length), num(rate)), k, ""});
+    step.equations.push_back(
+        {"K", "2 V_n/(L |Ω|)", fmt::format("2·{}/({}·{})", num(d.normal), num(length), num(rate)), k, ""});
     if (d.gravity > 0) {
-      step.equations.push_back({"Γ", "g/(L Ω²)", fmt::format("{}/({}·{}²)", num(d.gravity), num(length),
-                                                             num(rate)), gamma, ""});
+      step.equations.push_back(
+          {"Γ", "g/(L Ω²)", fmt::format("{}/({}·{}²)", num(d.gravity), num(length), num(rate)), gamma, ""});
     }
     const double turned = rate * row.flight.arrival.time;
     const double left = std::sin(start) + k * turned - gamma * turned * turned - std::sin(turned - start);
     step.equations.push_back(
         {"left side", "at the root φ",
-         fmt::format("{} + {}·{} − {} − {}", num(std::sin(start)), num(k), num(turned),
-                     num(gamma * turned * turned), num(std::sin(turned - start))), left, "",
-         residual_error(std::fabs(std::sin(start)) + std::fabs(k * turned) + 1 + gamma * turned * turned), 1});
+         fmt::format("{} + {}·{} − {} − {}", num(std::sin(start)), num(k), num(turned), num(gamma * turned * turned),
+                     num(std::sin(turned - start))),
+         left, "", residual_error(std::fabs(std::sin(start)) + std::fabs(k * turned) + 1 + gamma * turned * turned),
+         1});
   }
 
   /// Of a sum of terms that cancel, from their sizes: the row's relative error in each.
@@ -128,16 +129,15 @@ class Derivation {
 
   /// The general height function of the vertex that arrives.
   void height_equation(Step& step, const ImpactRow& row) {
-    const analytic::VertexHeight h =
-        analytic::vertex_height(drop_.body, row.departure, row.flight.arrival.vertex);
+    const analytic::VertexHeight h = analytic::vertex_height(drop_.body, row.departure, row.flight.arrival.vertex);
     step.text += " Height of its vertex: h(t) = h₀ + v₀ t − g t²/2 + p (1 − cos ωt) + q (ωt − sin ωt).";
     step.equations.push_back({"h₀", "height at departure", "", h.height, "m"});
     step.equations.push_back({"v₀", "its normal velocity", "", h.velocity, "m/s"});
     step.equations.push_back({"p", "−d_n", "", h.versine, "m"});
     step.equations.push_back({"q", "±d_t, the sign of Ω", "", h.sine, "m"});
     const analytic::VertexHeight::Value at_root = h.at(row.flight.arrival.time);
-    step.equations.push_back({"h(T)", "at the root T", "", at_root.height, "m", residual_error(at_root.scale),
-                              at_root.scale});
+    step.equations.push_back(
+        {"h(T)", "at the root T", "", at_root.height, "m", residual_error(at_root.scale), at_root.scale});
   }
 
   void root(Step& step, const ImpactRow& row) {
@@ -146,14 +146,16 @@ class Derivation {
     if (rate > 0 && arrival.bracket_high < 1e300) {
       step.equations.push_back({"φ low", "left end of the certified bracket", "", rate * arrival.bracket_low, "rad"});
       step.equations.push_back({"φ high", "right end", "", rate * arrival.bracket_high, "rad"});
-      step.equations.push_back({"φ", fmt::format("the root, after {} evaluations", row.flight.evaluations),
-                                "", rate * arrival.time, "rad"});
+      step.equations.push_back(
+          {"φ", fmt::format("the root, after {} evaluations", row.flight.evaluations), "", rate * arrival.time, "rad"});
     }
     step.equations.push_back({"T", rate > 0 ? "φ/|Ω|" : "time of flight", "", arrival.time, "s"});
-    step.equations.push_back({"contact angle", "acute angle to the ground", "",
-                              row.contact_angle * degrees_per_radian, "°"});
-    step.equations.push_back({"v_n", "V_n − g T", fmt::format("{} − {}·{}", num(row.departure.normal),
-                              num(row.departure.gravity), num(arrival.time)), row.before.normal, "m/s"});
+    step.equations.push_back(
+        {"contact angle", "acute angle to the ground", "", row.contact_angle * degrees_per_radian, "°"});
+    step.equations.push_back(
+        {"v_n", "V_n − g T",
+         fmt::format("{} − {}·{}", num(row.departure.normal), num(row.departure.gravity), num(arrival.time)),
+         row.before.normal, "m/s"});
   }
 
   void point_impact(const ImpactRow& row) {
@@ -162,8 +164,7 @@ class Derivation {
     const double angle = row.inclination;
     const bool upright = steps_.size() == 1 && scene_.angle_deg == 90;
     const int vertex = std::countr_zero(row.vertices);
-    const analytic::ContactPoint d = drop_.body.contact_point(
-        vertex, std::sin(angle), upright ? 0 : std::cos(angle));
+    const analytic::ContactPoint d = drop_.body.contact_point(vertex, std::sin(angle), upright ? 0 : std::cos(angle));
     const double k2 = drop_.body.gyration_square;
     const auto [a, b, c] = analytic::contact_inertia(k2, d);
     const double u = -row.impact.approach_speed;
@@ -189,13 +190,17 @@ class Derivation {
     const double e = row.impact.restitution();
     step.equations = {
         {"u", "v_n − ω d_t", fmt::format("{} − {}·{}", num(v.normal), num(v.angular), num(d.tangential)), u, "m/s"},
-        {"P_n", "−(1+e) m u/(A − μᵢ B)", fmt::format("−(1+{})·{}·{}/{}", num(e), num(mass), num(u), denominator), p, "N·s"},
+        {"P_n", "−(1+e) m u/(A − μᵢ B)", fmt::format("−(1+{})·{}·{}/{}", num(e), num(mass), num(u), denominator), p,
+         "N·s"},
         {"V_n", "v_n + P_n/m", fmt::format("{} + {}/{}", num(v.normal), num(p), num(mass)), after.normal, "m/s"},
-        {"V_t", "v_t + μᵢ P_n/m", fmt::format("{} + {}·{}/{}", num(v.tangential), num(ratio), num(p), num(mass)), after.tangential, "m/s"},
+        {"V_t", "v_t + μᵢ P_n/m", fmt::format("{} + {}·{}/{}", num(v.tangential), num(ratio), num(p), num(mass)),
+         after.tangential, "m/s"},
         {"Ω", "ω + P_n (μᵢ d_n − d_t)/(m k²)",
          fmt::format("{} + {}·({}·{} − {})/({}·{})", num(v.angular), num(p), num(ratio), num(d.normal),
-                     num(d.tangential), num(mass), num(k2)), after.angular, "rad/s"},
-        {"u′", "V_n − Ω d_t = −e u", fmt::format("{} − {}·{}", num(after.normal), num(after.angular), num(d.tangential)),
+                     num(d.tangential), num(mass), num(k2)),
+         after.angular, "rad/s"},
+        {"u′", "V_n − Ω d_t = −e u",
+         fmt::format("{} − {}·{}", num(after.normal), num(after.angular), num(d.tangential)),
          row.impact.separation_speed, "m/s"}};
   }
 
@@ -236,8 +241,7 @@ std::string value_text(const Equation& equation, int digits) {
 
 std::vector<Step> derive_impact(const Scene& scene, const analytic::Sequence& sequence, int n) {
   Derivation derivation(scene, sequence);
-  return static_cast<std::size_t>(n) <= sequence.rows.size() ? derivation.impact(n)
-                                                             : derivation.missing(n);
+  return static_cast<std::size_t>(n) <= sequence.rows.size() ? derivation.impact(n) : derivation.missing(n);
 }
 
 Explanation explain_impact(Scene scene, int n) {

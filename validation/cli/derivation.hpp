@@ -32,8 +32,7 @@ struct Step {
 };
 
 /// Steps that lead to impact n of a sequence (counted from 1), or to the reason why it does not happen.
-[[nodiscard]] std::vector<Step> derive_impact(const Scene& scene, const analytic::Sequence& sequence,
-                                              int n);
+[[nodiscard]] std::vector<Step> derive_impact(const Scene& scene, const analytic::Sequence& sequence, int n);
 
 /// How impact n of a scene came about.
 struct Explanation {
@@ -41,7 +40,7 @@ struct Explanation {
   int impact = 1;
   std::vector<Step> steps;
   std::vector<std::string> warnings;
-  std::string shortfall;  ///< as of the sequence up to this impact
+  std::string shortfall;     ///< as of the sequence up to this impact
   int shortfall_status = 0;  ///< exit status that goes with it
 };
 [[nodiscard]] Explanation explain_impact(Scene scene, int n);

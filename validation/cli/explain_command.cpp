@@ -8,8 +8,8 @@
 #include "validation/cli/derivation.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/scene_flags.hpp"
-#include "validation/output/message.hpp"
 #include "validation/output/estimated.hpp"
+#include "validation/output/message.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation {
@@ -31,8 +31,7 @@ std::string equation_text(const Equation& equation, std::size_t name_width, int 
   return line + "\n" + wrapped(below + " = " + equation.numbers, 79, "   ") + "\n" + below + value + "\n";
 }
 
-std::string as_text(const std::vector<std::string>& head, const std::vector<Step>& steps, int digits,
-                    bool ascii) {
+std::string as_text(const std::vector<std::string>& head, const std::vector<Step>& steps, int digits, bool ascii) {
   std::string out;
   for (const std::string& line : head) out += wrapped(line) + "\n";
   for (const Step& step : steps) {
@@ -65,9 +64,9 @@ std::string as_markdown(const std::vector<std::string>& head, const std::vector<
 /// LaTeX mathematics for the notation of the equations.
 std::string latex_math(std::string text) {
   static const std::vector<std::pair<std::string, std::string>> table{
-      {"−", "-"}, {"·", "\\cdot "}, {"Ω", "\\Omega "}, {"ω", "\\omega "}, {"θ", "\\theta "},
-      {"φ", "\\varphi "}, {"α", "\\alpha "}, {"Γ", "\\Gamma "}, {"μᵢ", "\\mu_i "}, {"μ", "\\mu "},
-      {"²", "^2"}, {"₀", "_0"}, {"′", "'"}, {"±", "\\pm "}, {"°", "^\\circ "},
+      {"−", "-"},         {"·", "\\cdot "},   {"Ω", "\\Omega "}, {"ω", "\\omega "}, {"θ", "\\theta "},
+      {"φ", "\\varphi "}, {"α", "\\alpha "},  {"Γ", "\\Gamma "}, {"μᵢ", "\\mu_i "}, {"μ", "\\mu "},
+      {"²", "^2"},        {"₀", "_0"},        {"′", "'"},        {"±", "\\pm "},    {"°", "^\\circ "},
       {"sin ", "\\sin "}, {"cos ", "\\cos "}, {"sin(", "\\sin("}};
   for (const auto& [from, to] : table) {
     for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
@@ -97,14 +96,23 @@ std::string as_latex(const std::vector<std::string>& head, const std::vector<Ste
     out += "\n\\paragraph{" + step.title + "}\n\\begin{align*}\n";
     std::string separator;
     for (const Equation& e : step.equations) {
-      out += separator + "  " + latex_name(e.name == "φ low" ? "\\varphi_{low}" : e.name == "φ high" ? "\\varphi_{high}" : e.name);
+      out += separator + "  " +
+             latex_name(e.name == "φ low"    ? "\\varphi_{low}"
+                        : e.name == "φ high" ? "\\varphi_{high}"
+                                             : e.name);
       const bool words = is_words(e.formula);
       if (!e.formula.empty() && !words) out += " &= " + latex_math(e.formula);
       else out += " &";
       if (!e.numbers.empty()) out += " = " + latex_math(e.numbers);
       out += " = " + known_text({e.value, e.error}, {.digits = digits, .size = e.size}) +
              (e.unit.empty() ? "" : "\\ \\mathrm{" + latex_math(e.unit) + "}");
-      if (words && e.formula.find("Ω") == std::string::npos) out += " &&\\text{" + (e.formula.find("φ") == std::string::npos && e.formula.find("_") == std::string::npos && e.formula.find("μ") == std::string::npos ? e.formula : std::string("at the root")) + "}";
+      if (words && e.formula.find("Ω") == std::string::npos)
+        out += " &&\\text{" +
+               (e.formula.find("φ") == std::string::npos && e.formula.find("_") == std::string::npos &&
+                        e.formula.find("μ") == std::string::npos
+                    ? e.formula
+                    : std::string("at the root")) +
+               "}";
       separator = " \\\\\n";
     }
     out += "\n\\end{align*}\n";
@@ -113,14 +121,20 @@ std::string as_latex(const std::vector<std::string>& head, const std::vector<Ste
 }
 
 Table as_table(const std::vector<std::string>& head, const std::vector<Step>& steps) {
-  Table table{.head = head, .columns = {{"step", "", ""}, {"quantity", "", ""}, {"equation", "", ""},
-                                        {"numbers", "", ""}, {"value", "", ""}, {"unit", "", ""},
-                                        {"error", "", ""}},
-              .rows = {}, .notes = {}};
+  Table table{.head = head,
+              .columns = {{"step", "", ""},
+                          {"quantity", "", ""},
+                          {"equation", "", ""},
+                          {"numbers", "", ""},
+                          {"value", "", ""},
+                          {"unit", "", ""},
+                          {"error", "", ""}},
+              .rows = {},
+              .notes = {}};
   for (const Step& step : steps) {
     for (const Equation& e : step.equations) {
-      table.rows.push_back({Cell(step.title), Cell(e.name), Cell(e.formula), Cell(e.numbers),
-                            Cell(e.value, 17), Cell(e.unit), std::isfinite(e.error) ? Cell(e.error, 17) : Cell()});
+      table.rows.push_back({Cell(step.title), Cell(e.name), Cell(e.formula), Cell(e.numbers), Cell(e.value, 17),
+                            Cell(e.unit), std::isfinite(e.error) ? Cell(e.error, 17) : Cell()});
     }
   }
   return table;
@@ -155,8 +169,8 @@ int run_explain(const ExplainInput& input) {
 Command explain_command() {
   auto input = std::make_shared<ExplainInput>();
   Command command{.name = "explain", .help = "how impact N came about, step by step"};
-  command.add({.name = "N", .target = &input->number, .type = "", .help = "number of the impact, from 1",
-               .required = true});
+  command.add(
+      {.name = "N", .target = &input->number, .type = "", .help = "number of the impact, from 1", .required = true});
   add_scene_flags(command, input->scene, Model::discrete);
   add_output_options(command, input->output);
   command.footer = "Example: clatter explain 2 --angle 10";

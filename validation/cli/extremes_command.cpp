@@ -34,7 +34,8 @@ ExtremesOptions read_options(const ExtremesInput& input) {
   options.axes = input.only;
   options.long_runs = !input.quick;
   if (input.seconds) {
-    options.cell_seconds = read_number_option("--seconds", *input.seconds, {0, 3600, true, "greater than 0, at most 3600"});
+    options.cell_seconds =
+        read_number_option("--seconds", *input.seconds, {0, 3600, true, "greater than 0, at most 3600"});
   }
   if (input.seed)
     options.runs.seed = static_cast<std::uint64_t>(read_integer_option("--seed", *input.seed, 0, 2147483647));

@@ -28,19 +28,13 @@ const char* colour_of(double digits) {
 /// A pattern of its own for each kind of refusal.
 const char* fill_of(const ExtremeCell& cell) {
   switch (cell.verdict) {
-    case CellVerdict::number:
-      return colour_of(cell.digits());
-    case CellVerdict::bad_input:
-      return "url(#bad-input)";
-    case CellVerdict::outside_model:
-      return "url(#outside-model)";
-    case CellVerdict::not_computed:
-      return "url(#not-computed)";
+    case CellVerdict::number: return colour_of(cell.digits());
+    case CellVerdict::bad_input: return "url(#bad-input)";
+    case CellVerdict::outside_model: return "url(#outside-model)";
+    case CellVerdict::not_computed: return "url(#not-computed)";
     case CellVerdict::ended_early:
-    case CellVerdict::time_limit:
-      return "url(#ended-early)";
-    case CellVerdict::broken:
-      return "#d00000";
+    case CellVerdict::time_limit: return "url(#ended-early)";
+    case CellVerdict::broken: return "#d00000";
   }
   return "none";
 }

@@ -75,10 +75,8 @@ std::vector<std::string> head_of(const ExtremesMap& map) {
 std::string counts_words(const ExtremesMap& map) {
   std::size_t numbers = 0, refusals = 0;
   for (const ExtremeCell& cell : map.cells) {
-    if (cell.has_number())
-      ++numbers;
-    else if (cell.verdict != CellVerdict::broken)
-      ++refusals;
+    if (cell.has_number()) ++numbers;
+    else if (cell.verdict != CellVerdict::broken) ++refusals;
   }
   const std::size_t failures = map_failures(map).size();
   std::string text =

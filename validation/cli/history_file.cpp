@@ -10,21 +10,63 @@ using numeric::HistorySample;
 using numeric::Vector3;
 
 const std::vector<std::string>& history_names() {
-  static const std::vector<std::string> names{
-      "t",  "x",  "y",        "z",        "beta0",    "beta1",
-      "beta2", "beta3", "vx", "vy", "vz", "wx", "wy", "wz", "fx", "fy", "fz",
-      "point_vx", "point_vy", "point_vz", "energy_translation", "energy_rotation", "energy_potential",
-      "energy_ground", "energy_total", "in_contact"};
+  static const std::vector<std::string> names{"t",
+                                              "x",
+                                              "y",
+                                              "z",
+                                              "beta0",
+                                              "beta1",
+                                              "beta2",
+                                              "beta3",
+                                              "vx",
+                                              "vy",
+                                              "vz",
+                                              "wx",
+                                              "wy",
+                                              "wz",
+                                              "fx",
+                                              "fy",
+                                              "fz",
+                                              "point_vx",
+                                              "point_vy",
+                                              "point_vz",
+                                              "energy_translation",
+                                              "energy_rotation",
+                                              "energy_potential",
+                                              "energy_ground",
+                                              "energy_total",
+                                              "in_contact"};
   return names;
 }
 
 std::vector<double> history_numbers(const HistorySample& s) {
   const Eigen::Quaterniond& beta = s.state.attitude;
   const Vector3 omega = beta * s.state.angular_velocity;
-  return {s.time, s.state.centre.x(), s.state.centre.y(), s.state.centre.z(), beta.w(), beta.x(), beta.y(), beta.z(),
-          s.state.velocity.x(), s.state.velocity.y(), s.state.velocity.z(), omega.x(), omega.y(), omega.z(),
-          s.force.x(), s.force.y(), s.force.z(), s.point_velocity.x(), s.point_velocity.y(), s.point_velocity.z(),
-          s.energy_translation, s.energy_rotation, s.energy_potential, s.energy_ground, s.energy_total(),
+  return {s.time,
+          s.state.centre.x(),
+          s.state.centre.y(),
+          s.state.centre.z(),
+          beta.w(),
+          beta.x(),
+          beta.y(),
+          beta.z(),
+          s.state.velocity.x(),
+          s.state.velocity.y(),
+          s.state.velocity.z(),
+          omega.x(),
+          omega.y(),
+          omega.z(),
+          s.force.x(),
+          s.force.y(),
+          s.force.z(),
+          s.point_velocity.x(),
+          s.point_velocity.y(),
+          s.point_velocity.z(),
+          s.energy_translation,
+          s.energy_rotation,
+          s.energy_potential,
+          s.energy_ground,
+          s.energy_total(),
           s.in_contact ? 1.0 : 0.0};
 }
 

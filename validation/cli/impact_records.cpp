@@ -47,9 +47,11 @@ void fit_columns(Table& table, int digits, const std::vector<std::size_t>& start
 }
 
 std::string total_note(const Json& run) {
-  const auto text = [&](const char* name) { return run[name].is_null() ? "unknown" : shortest(run[name].get<double>()); };
-  return "total_normal_impulse: " + text("total_normal_impulse") + "; total_normal_impulse_error: " +
-         text("total_normal_impulse_error");
+  const auto text = [&](const char* name) {
+    return run[name].is_null() ? "unknown" : shortest(run[name].get<double>());
+  };
+  return "total_normal_impulse: " + text("total_normal_impulse") +
+         "; total_normal_impulse_error: " + text("total_normal_impulse_error");
 }
 
 Cell json_cell(const Json& value) {

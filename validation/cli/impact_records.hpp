@@ -12,8 +12,8 @@ namespace clatter::validation {
 /// columns or only three digits are left.
 void fit_columns(Table& table, int digits, const std::vector<std::size_t>& starts);
 
-/// One row per object of the list with its names as columns, vectors spread over three (name_x, name_y, name_z), and the
-/// numbers of "error_estimate" last, as name_error or name_x_error; other objects inside are left out.
+/// One row per object of the list with its names as columns, vectors spread over three (name_x, name_y, name_z), and
+/// the numbers of "error_estimate" last, as name_error or name_x_error; other objects inside are left out.
 void add_impact_records(Table& table, const Json& impacts);
 
 /// The sum of the normal impulses of a run's JSON and its error, as a note of the CSV.

@@ -45,9 +45,12 @@ std::string meaning(const Key& key) {
 
 Table keys_table() {
   Table table{.head = {headline("keys", "the language of scenes")},
-              .columns = {{"key", "key", "", true, true}, {"flag", "flag", "", true, true},
-                          {"default", "default", "", true, true}, {"unit", "unit", "", true, true},
-                          {"allowed", "allowed", "", true, true}, {"meaning", "meaning", "", true, true}},
+              .columns = {{"key", "key", "", true, true},
+                          {"flag", "flag", "", true, true},
+                          {"default", "default", "", true, true},
+                          {"unit", "unit", "", true, true},
+                          {"allowed", "allowed", "", true, true},
+                          {"meaning", "meaning", "", true, true}},
               .rows = {},
               .notes = {}};
   for (const Key& key : all_keys()) {
@@ -60,8 +63,12 @@ Table keys_table() {
 Json keys_as_json() {
   Json keys = Json::array();
   for (const Key& key : all_keys()) {
-    keys.push_back({{"key", key.name}, {"flag", *key.flag ? Json(key.flag) : Json(nullptr)}, {"default", default_words(key)},
-                    {"unit", key.unit}, {"allowed", key.allowed()}, {"meaning", key.help}});
+    keys.push_back({{"key", key.name},
+                    {"flag", *key.flag ? Json(key.flag) : Json(nullptr)},
+                    {"default", default_words(key)},
+                    {"unit", key.unit},
+                    {"allowed", key.allowed()},
+                    {"meaning", key.help}});
   }
   return {{"clatter", version}, {"keys", keys}};
 }
@@ -72,7 +79,9 @@ std::string keys_text(bool ascii) {
   for (const Key& key : all_keys()) {
     const std::string given = default_words(key);
     text += fmt::format("\n{}{}{}\n", key.name, *key.flag ? fmt::format("  {}", key.flag) : "",
-                        given.empty() ? "" : given == "required" ? "  (required)" : fmt::format("  ({})", given));
+                        given.empty()         ? ""
+                        : given == "required" ? "  (required)"
+                                              : fmt::format("  ({})", given));
     text += wrapped("    " + meaning(key), 79, "    ") + "\n";
   }
   return ascii ? to_ascii(text) : text;
@@ -92,7 +101,8 @@ std::string example(const Key& key) {
 /// A scene file with every key: those of the rod are given, the others are comments.
 std::string scene_file() {
   const Scene scene = begun_scene(BodyScene::Shape::rod);
-  std::string text = "# A scene: clatter simulate FILE, sequence FILE, compare FILE.  clatter keys explains the keys.\n";
+  std::string text =
+      "# A scene: clatter simulate FILE, sequence FILE, compare FILE.  clatter keys explains the keys.\n";
   std::string table;
   for (const Key& key : all_keys()) {
     const std::string name = key.name;
@@ -102,8 +112,8 @@ std::string scene_file() {
       text += fmt::format("\n[{}]\n", table);
     }
     const Json value = key.get(scene);
-    const std::string setting =
-        fmt::format("{}{} = {}", value.is_null() ? "# " : "", name.substr(dot + 1), value.is_null() ? example(key) : value_words(value));
+    const std::string setting = fmt::format("{}{} = {}", value.is_null() ? "# " : "", name.substr(dot + 1),
+                                            value.is_null() ? example(key) : value_words(value));
     text += fmt::format("{:<34} # {}\n", setting, meaning(key));
   }
   return text;

@@ -23,8 +23,8 @@ OutputChoice read_output(const OutputTexts& texts) {
   choice.style.ascii = texts.ascii;
   choice.path = texts.output.value_or("");
   if (texts.format) {
-    choice.style.format = static_cast<Format>(read_name_option(
-        "--format", *texts.format, {"table", "csv", "json", "markdown", "latex"}));
+    choice.style.format =
+        static_cast<Format>(read_name_option("--format", *texts.format, {"table", "csv", "json", "markdown", "latex"}));
   }
   return choice;
 }
@@ -75,20 +75,19 @@ Sweep read_sweep(const SweepTexts& texts, const SweepDefault& fallback, const Ra
   if (texts.from) sweep.from = read_number_option("--from", *texts.from, range);
   if (texts.to) sweep.to = read_number_option("--to", *texts.to, range);
   if (!(sweep.from <= sweep.to)) {
-    throw BadInput(fmt::format("--from {}: must not be greater than --to {}", shortest(sweep.from),
-                               shortest(sweep.to)));
+    throw BadInput(
+        fmt::format("--from {}: must not be greater than --to {}", shortest(sweep.from), shortest(sweep.to)));
   }
   if (texts.step && texts.count) {
-    throw BadInput(fmt::format("--step {} and --count {}: give one of them, not both", *texts.step,
-                               *texts.count));
+    throw BadInput(fmt::format("--step {} and --count {}: give one of them, not both", *texts.step, *texts.count));
   }
   if (texts.count) {
     sweep.count = read_integer_option("--count", *texts.count, 1, 100000000);
     if (sweep.count == 1) sweep.to = sweep.from;
     return sweep;
   }
-  sweep.step = texts.step ? read_number_option("--step", *texts.step, {0, 1e300, true, "greater than 0"})
-                          : fallback.step;
+  sweep.step =
+      texts.step ? read_number_option("--step", *texts.step, {0, 1e300, true, "greater than 0"}) : fallback.step;
   const double steps = (sweep.to - sweep.from) / sweep.step;
   if (!(steps < 1e8)) throw BadInput(fmt::format("--step {}: more than 100000000 values", sweep.step));
   // A step that fits the range but for rounding reaches its end.

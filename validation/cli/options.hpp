@@ -63,7 +63,6 @@ struct Sweep {
 struct SweepDefault {
   double from, to, step;
 };
-[[nodiscard]] Sweep read_sweep(const SweepTexts& texts, const SweepDefault& fallback,
-                               const Range& range);
+[[nodiscard]] Sweep read_sweep(const SweepTexts& texts, const SweepDefault& fallback, const Range& range);
 
 }  // namespace clatter::validation

@@ -11,9 +11,10 @@ namespace clatter::validation {
 namespace {
 
 CLI::Option* add_value(CLI::App& app, const Argument& argument) {
-  if (bool* const* truth = std::get_if<bool*>(&argument.target)) return app.add_flag(argument.name, **truth, argument.help);
-  CLI::Option* option = std::visit(
-      [&](auto* target) { return app.add_option(argument.name, *target, argument.help); }, argument.target);
+  if (bool* const* truth = std::get_if<bool*>(&argument.target))
+    return app.add_flag(argument.name, **truth, argument.help);
+  CLI::Option* option =
+      std::visit([&](auto* target) { return app.add_option(argument.name, *target, argument.help); }, argument.target);
   option->type_name(argument.type)->required(argument.required);
   return option;
 }

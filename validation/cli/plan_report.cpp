@@ -40,8 +40,8 @@ std::string verdict(const WeighedRung& rung, const Plan& plan) {
 
 std::string choice_words(const Plan& plan) {
   const std::string setting = setting_words(plan.choice);
-  return fmt::format("Choice: {}{}{}, error {}, {} ms", rung_name(plan.choice.rung), setting.empty() ? "" : ", ", setting,
-                     error_words(plan.error), significant(1e3 * plan.seconds, 2));
+  return fmt::format("Choice: {}{}{}, error {}, {} ms", rung_name(plan.choice.rung), setting.empty() ? "" : ", ",
+                     setting, error_words(plan.error), significant(1e3 * plan.seconds, 2));
 }
 
 std::string part_words(const WeighedPart& part) {
@@ -64,8 +64,10 @@ std::string plane_words(const Plan& plan) {
   const std::string growth =
       fmt::format("out of the plane an error of the start grows {:.0e} times", plan.growth_out_of_plane);
   if (plan.predictable_impacts >= plan.impacts) return "Planar: " + growth;
-  return fmt::format("Planar: {}; in space rounding leaves only {} of {} impacts known to what is asked, and the planar "
-                     "numbers hold for a body that is kept in its plane", growth, plan.predictable_impacts, plan.impacts);
+  return fmt::format(
+      "Planar: {}; in space rounding leaves only {} of {} impacts known to what is asked, and the planar "
+      "numbers hold for a body that is kept in its plane",
+      growth, plan.predictable_impacts, plan.impacts);
 }
 
 void add_note(Table& table, const std::string& note) {
@@ -114,13 +116,14 @@ std::string plan_shortfall(const Plan& plan) {
                        plan.pilot_ending);
   }
   if (plan.serves || plan.target.most_accurate) return "";
-  const std::string best = fmt::format("the best is {} with an error of {}", rung_name(plan.choice.rung),
-                                       error_words(plan.error));
+  const std::string best =
+      fmt::format("the best is {} with an error of {}", rung_name(plan.choice.rung), error_words(plan.error));
   if (plan.known_impacts < plan.impacts) {
     return fmt::format("{} digits can be had of the first {} impacts only; over all {}", plan.target.digits,
                        plan.known_impacts, best);
   }
-  const std::string within = plan.target.within_ms ? fmt::format(" within {} ms", shortest(*plan.target.within_ms)) : "";
+  const std::string within =
+      plan.target.within_ms ? fmt::format(" within {} ms", shortest(*plan.target.within_ms)) : "";
   return fmt::format("{} digits cannot be had{}; {}", plan.target.digits, within, best);
 }
 
@@ -173,14 +176,17 @@ Table plan_records(const Scene& scene, const Plan& plan) {
 }
 
 Json plan_json(const Scene& scene, const Plan& plan) {
-  Json json{{"clatter", version}, {"model", "plan"}, {"scene", scene.json()}, {"asked", plan.asked},
+  Json json{{"clatter", version},
+            {"model", "plan"},
+            {"scene", scene.json()},
+            {"asked", plan.asked},
             {"within_ms", plan.target.within_ms ? Json(*plan.target.within_ms) : Json(nullptr)}};
   json["choice"] = std::isnan(plan.error) ? Json(nullptr) : choice_json(plan);
   json["rungs"] = rungs_json(plan);
   json["parts"] = Json::array();
   for (const WeighedPart& part : plan.parts) {
-    json["parts"].push_back({{"part", part_name(part.part)}, {"error", number_or_null(part.error)},
-                             {"left_out", part.left_out}});
+    json["parts"].push_back(
+        {{"part", part_name(part.part)}, {"error", number_or_null(part.error)}, {"left_out", part.left_out}});
   }
   json["impacts"] = plan.impacts;
   json["known_impacts"] = plan.known_impacts;

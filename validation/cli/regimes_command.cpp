@@ -45,13 +45,24 @@ struct Quantity {
 };
 
 const std::vector<Quantity>& all_quantities() {
-  static const std::vector<Quantity> all{
-      {"gravity-number", "G", "gravity number G = g L/vₙ²", &RodParameters::gravity_number, {0, 0.001, 0.01, 0.1, 1, 10},
-       {0, 1e300, false, "at least 0"}},
-      {"restitution", "e", "coefficient of restitution e", &RodParameters::restitution, {0.25, 0.5, 0.75, 0.9, 1},
-       {0, 1, false, "from 0 to 1"}},
-      {"impulse-ratio", "μᵢ", "impulse ratio μᵢ", &RodParameters::impulse_ratio, {-0.2, -0.1, 0, 0.1, 0.2, 0.3},
-       {-1e300, 1e300, false, "a finite number"}}};
+  static const std::vector<Quantity> all{{"gravity-number",
+                                          "G",
+                                          "gravity number G = g L/vₙ²",
+                                          &RodParameters::gravity_number,
+                                          {0, 0.001, 0.01, 0.1, 1, 10},
+                                          {0, 1e300, false, "at least 0"}},
+                                         {"restitution",
+                                          "e",
+                                          "coefficient of restitution e",
+                                          &RodParameters::restitution,
+                                          {0.25, 0.5, 0.75, 0.9, 1},
+                                          {0, 1, false, "from 0 to 1"}},
+                                         {"impulse-ratio",
+                                          "μᵢ",
+                                          "impulse ratio μᵢ",
+                                          &RodParameters::impulse_ratio,
+                                          {-0.2, -0.1, 0, 0.1, 0.2, 0.3},
+                                          {-1e300, 1e300, false, "a finite number"}}};
   return all;
 }
 
@@ -86,13 +97,15 @@ Cell angle_cell(double radians, int digits) {
   return std::isnan(radians) ? Cell() : Cell(radians * degrees_per_radian, digits);
 }
 
-Table table_of(const std::vector<Regimes>& all, const Quantity& quantity, const std::string& rod,
-               int digits) {
+Table table_of(const std::vector<Regimes>& all, const Quantity& quantity, const std::string& rod, int digits) {
   Table table{.head = {headline("regimes", "how many impacts, and where that changes"), rod},
               .columns = {{quantity.name, quantity.heading, ""},
-                          {"theta_2_deg", "θ₂", "°"}, {"kind_2", "kind", ""},
-                          {"beta_deg", "β there", "°"}, {"theta_3_deg", "θ₃", "°"},
-                          {"kind_3", "kind", ""}, {"gamma_deg", "γ there", "°"}},
+                          {"theta_2_deg", "θ₂", "°"},
+                          {"kind_2", "kind", ""},
+                          {"beta_deg", "β there", "°"},
+                          {"theta_3_deg", "θ₃", "°"},
+                          {"kind_3", "kind", ""},
+                          {"gamma_deg", "γ there", "°"}},
               .rows = {},
               .notes = {"Three impacts below θ₃, two from θ₃ to θ₂, one above (β, γ ≤ 90°).",
                         "fold: the end grazes the ground; upright: it arrives at 90°; order: another "
@@ -102,9 +115,8 @@ Table table_of(const std::vector<Regimes>& all, const Quantity& quantity, const 
       const Estimated angle = Estimated{b.theta, b.uncertainty} * degrees_per_radian;
       return b.kind == BoundaryKind::never ? Cell() : known_cell(angle, {digits, 90});
     };
-    table.rows.push_back({Cell(value, 6), theta(second), Cell(kind_name(second.kind)),
-                          angle_cell(second.beta, digits), theta(third), Cell(kind_name(third.kind)),
-                          angle_cell(third.gamma, digits)});
+    table.rows.push_back({Cell(value, 6), theta(second), Cell(kind_name(second.kind)), angle_cell(second.beta, digits),
+                          theta(third), Cell(kind_name(third.kind)), angle_cell(third.gamma, digits)});
   }
   return table;
 }
@@ -121,10 +133,11 @@ Json boundary_json(const RegimeBoundary& b) {
 Json json_of(const std::vector<Regimes>& all, const Quantity& quantity, const RodParameters& rod) {
   Json rows = Json::array();
   for (const auto& [value, second, third] : all) {
-    rows.push_back({{quantity.name, value}, {"second", boundary_json(second)},
-                    {"third", boundary_json(third)}});
+    rows.push_back({{quantity.name, value}, {"second", boundary_json(second)}, {"third", boundary_json(third)}});
   }
-  return {{"clatter", version}, {"model", "discrete"}, {"over", quantity.name},
+  return {{"clatter", version},
+          {"model", "discrete"},
+          {"over", quantity.name},
           {"parameters", rod_json(rod)},
           {"rows", rows}};
 }
@@ -178,7 +191,8 @@ int run_regimes(const RegimesInput& input) {
                         ? json_text(json_of(all, quantity, rod))
                         : table_text(table_of(all, quantity, summary, digits), choice.style));
   if (plot.is_wanted()) {
-    const bool logarithmic = input.logarithmic || (quantity.member == &RodParameters::gravity_number && spans_decades(values));
+    const bool logarithmic =
+        input.logarithmic || (quantity.member == &RodParameters::gravity_number && spans_decades(values));
     plot.write(regimes_picture(all, {quantity.name, quantity.words, logarithmic}, rod_words(input, quantity)),
                script_head(input, quantity, values));
   }
@@ -190,8 +204,8 @@ int run_regimes(const RegimesInput& input) {
 Command regimes_command() {
   auto input = std::make_shared<RegimesInput>();
   Command command{.name = "regimes", .help = "number of impacts and fold angles"};
-  command.add_text("--over", input->over, "gravity-number|restitution|impulse-ratio",
-           "what to vary (gravity-number)", "Range");
+  command.add_text("--over", input->over, "gravity-number|restitution|impulse-ratio", "what to vary (gravity-number)",
+                   "Range");
   add_sweep_options(command, input->sweep, "value");
   command.add_flag("--log", input->logarithmic, "values in geometric progression", "Range");
   add_rod_options(command, input->rod);

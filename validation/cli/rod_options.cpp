@@ -12,8 +12,9 @@
 namespace clatter::validation {
 
 void add_rod_options(Command& command, RodTexts& t) {
-  const auto add = [&](const char* name, std::optional<std::string>& text, const char* type,
-                       const char* help) { command.add_text(name, text, type, help, "Rod"); };
+  const auto add = [&](const char* name, std::optional<std::string>& text, const char* type, const char* help) {
+    command.add_text(name, text, type, help, "Rod");
+  };
   add("--gravity-number", t.gravity_number, "G", "G = g L/v_n^2 (0)");
   add("--gravity", t.gravity, "M/S2", "or gravity, with --length and --speed (0)");
   add("--length", t.length, "M", "of the rod, for --gravity (1)");
@@ -27,8 +28,7 @@ analytic::RodParameters read_rod(const RodTexts& t) {
   const Range not_negative{0, largest, false, "at least 0"};
   const Range positive{0, largest, true, "greater than 0"};
   analytic::RodParameters rod;
-  const auto read = [](double& value, const char* option, const std::optional<std::string>& text,
-                       const Range& range) {
+  const auto read = [](double& value, const char* option, const std::optional<std::string>& text, const Range& range) {
     if (text) value = read_number_option(option, *text, range);
   };
   if (t.gravity_number && t.gravity) {
@@ -44,8 +44,7 @@ analytic::RodParameters read_rod(const RodTexts& t) {
   }
   read(rod.gravity_number, "--gravity-number", t.gravity_number, not_negative);
   read(rod.restitution, "--restitution", t.restitution, {0, 1, false, "from 0 to 1"});
-  read(rod.impulse_ratio, "--impulse-ratio", t.impulse_ratio,
-       {-largest, largest, false, "a finite number"});
+  read(rod.impulse_ratio, "--impulse-ratio", t.impulse_ratio, {-largest, largest, false, "a finite number"});
   return rod;
 }
 

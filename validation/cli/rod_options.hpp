@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "validation/cli/command.hpp"
 #include "analytic/contact_angles.hpp"
+#include "validation/cli/command.hpp"
 #include "validation/output/json.hpp"
 
 namespace clatter::validation {

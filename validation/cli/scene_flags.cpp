@@ -32,7 +32,10 @@ std::vector<SceneOverride> overrides_of(const SceneFlags& given) {
 }  // namespace
 
 void add_scene_argument(Command& command, std::string& source, bool required) {
-  command.add({.name = "SCENE", .target = &source, .type = "FILE", .help = "scene file (TOML), or the name of a case",
+  command.add({.name = "SCENE",
+               .target = &source,
+               .type = "FILE",
+               .help = "scene file (TOML), or the name of a case",
                .required = required});
 }
 

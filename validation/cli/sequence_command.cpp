@@ -5,13 +5,13 @@
 
 #include "validation/cli/commands.hpp"
 #include "validation/cli/options.hpp"
-#include "validation/cli/scene_flags.hpp"
 #include "validation/cli/plot_options.hpp"
+#include "validation/cli/scene_flags.hpp"
 #include "validation/cli/sequence_picture.hpp"
 #include "validation/cli/sequence_report.hpp"
 #include "validation/output/message.hpp"
-#include "validation/plan/shortfall.hpp"
 #include "validation/plan/sequence_method.hpp"
+#include "validation/plan/shortfall.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -31,11 +31,12 @@ int run_sequence(const SequenceInput& input) {
   PlotFile plot(input.plot);
   const analytic::Sequence sequence = sequence_by_method(scene, method);
   for (const std::string& warning : sequence.warnings) say(warning);
-  write_report(choice, [&] { return sequence_json(scene, sequence); },
-               [&] { return sequence_records(scene, sequence); },
-               [&] { return sequence_table(scene, sequence); });
+  write_report(
+      choice, [&] { return sequence_json(scene, sequence); }, [&] { return sequence_records(scene, sequence); },
+      [&] { return sequence_table(scene, sequence); });
   if (plot.is_wanted()) {
-    plot.write(sequence_picture(scene, sequence), run_words("sequence", "impact sequence, discrete model", scene.json(Model::discrete)));
+    plot.write(sequence_picture(scene, sequence),
+               run_words("sequence", "impact sequence, discrete model", scene.json(Model::discrete)));
   }
   const std::string why = shortfall(scene, sequence);
   if (why.empty()) return 0;
@@ -49,8 +50,7 @@ Command sequence_command() {
   auto input = std::make_shared<SequenceInput>();
   Command command{.name = "sequence", .help = "impact sequence of a falling rod or box"};
   add_scene_flags(command, input->scene, Model::discrete);
-  command.add_text("--method", input->method, "NAME", "auto, closed-form (Eqs. 9 and 12) or discrete (auto)",
-                   "Scene");
+  command.add_text("--method", input->method, "NAME", "auto, closed-form (Eqs. 9 and 12) or discrete (auto)", "Scene");
   add_output_options(command, input->output);
   add_plot_options(command, input->plot);
   command.footer = "Example: clatter sequence --angle 10 --gravity 9.81 --restitution 0.8 --impacts 20";

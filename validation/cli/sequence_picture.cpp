@@ -58,7 +58,8 @@ struct Flight {
 class HeightCurve {
  public:
   HeightCurve(const Scene& scene, const Sequence& sequence)
-      : body_(nominal_body(scene)), gravity_(scene.options.gravity), rows_(sequence.rows), whole_(whole_time(sequence)) {
+      : body_(nominal_body(scene)), gravity_(scene.options.gravity), rows_(sequence.rows),
+        whole_(whole_time(sequence)) {
     add_part(flight(rows_.front(), rows_.front().before), -approach());
     std::reverse(samples_.begin(), samples_.end());
     for (std::size_t i = 0; i + 1 < rows_.size(); ++i) {

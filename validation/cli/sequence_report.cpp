@@ -9,12 +9,12 @@
 
 #include "validation/cli/impact_records.hpp"
 #include "validation/cli/options.hpp"
-#include "validation/plan/shortfall.hpp"
 #include "validation/cli/version.hpp"
 #include "validation/output/impact_entries.hpp"
 #include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/totals.hpp"
+#include "validation/plan/shortfall.hpp"
 #include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation {
@@ -24,8 +24,7 @@ using analytic::degrees_per_radian;
 using analytic::ImpactRow;
 using analytic::Sequence;
 
-const char* const no_history =
-    "the discrete model's impacts are instantaneous: no peak force or time";
+const char* const no_history = "the discrete model's impacts are instantaneous: no peak force or time";
 
 Json impact_json(const Scene& scene, const ImpactRow& row, int n) {
   Json json;
@@ -70,9 +69,7 @@ Sizes sizes_of(const Sequence& sequence) {
   return sizes;
 }
 
-bool with_friction(const Scene& scene) {
-  return impact_law(scene).friction != analytic::FrictionKind::none;
-}
+bool with_friction(const Scene& scene) { return impact_law(scene).friction != analytic::FrictionKind::none; }
 
 bool loses_energy(const Sequence& sequence) {
   return std::any_of(sequence.rows.begin(), sequence.rows.end(), [&](const ImpactRow& row) {
@@ -89,7 +86,8 @@ std::string accuracy_words(const Scene& scene, const Sequence& sequence) {
 }
 
 std::string trust_words(const std::vector<ImpactRow>& rows) {
-  const auto first = std::find_if(rows.begin(), rows.end(), [](const ImpactRow& row) { return !row.error.predictable; });
+  const auto first =
+      std::find_if(rows.begin(), rows.end(), [](const ImpactRow& row) { return !row.error.predictable; });
   if (first == rows.end()) return "";
   const auto known = first - rows.begin();
   return known == 0 ? "?: not to be trusted: how errors grow is not known"
@@ -174,9 +172,13 @@ std::vector<std::string> head_of(const Scene& scene) {
 Table sequence_table(const Scene& scene, const Sequence& sequence) {
   const bool friction = with_friction(scene);
   Table table{.head = head_of(scene), .columns = {}, .rows = {}, .notes = closing_notes(scene, sequence)};
-  table.columns = {{"n", "n", ""}, {"end", "end", ""}, {"start", "t", "s"},
-                   {"contact_angle_deg", "angle", "°"}, {"impulse_normal", "Pₙ", "N·s"},
-                   {"impulse_tangential", "Pₜ", "N·s", friction}, {"velocity_after_z", "Vₙ", "m/s"},
+  table.columns = {{"n", "n", ""},
+                   {"end", "end", ""},
+                   {"start", "t", "s"},
+                   {"contact_angle_deg", "angle", "°"},
+                   {"impulse_normal", "Pₙ", "N·s"},
+                   {"impulse_tangential", "Pₜ", "N·s", friction},
+                   {"velocity_after_z", "Vₙ", "m/s"},
                    {"angular_velocity_after_y", "Ω", "rad/s"},
                    {"energy_loss", "loss", "J", !friction && loses_energy(sequence)},
                    {"mode", "mode", "", friction}};
@@ -189,8 +191,8 @@ Table sequence_table(const Scene& scene, const Sequence& sequence) {
 }
 
 Json sequence_json(const Scene& scene, const Sequence& sequence) {
-  Json json{{"clatter", version}, {"model", "discrete"}, {"scene", scene.json(Model::discrete)},
-            {"impacts", Json::array()}};
+  Json json{
+      {"clatter", version}, {"model", "discrete"}, {"scene", scene.json(Model::discrete)}, {"impacts", Json::array()}};
   int n = 0;
   for (const ImpactRow& row : sequence.rows) json["impacts"].push_back(impact_json(scene, row, ++n));
   if (sequence.tail) json["tail"] = tail_json(*sequence.tail);
@@ -202,7 +204,8 @@ Json sequence_json(const Scene& scene, const Sequence& sequence) {
                          {"margin", sequence.near_miss.margin},
                          {"within_margin", sequence.near_miss.within_margin()}};
   }
-  json["accuracy"] = {{"asked", std::pow(10.0, -scene.options.digits)}, {"achieved", number_or_null(largest_error(sequence))}};
+  json["accuracy"] = {{"asked", std::pow(10.0, -scene.options.digits)},
+                      {"achieved", number_or_null(largest_error(sequence))}};
   const Totals sums = totals(sequence);
   json["total_normal_impulse"] = number_or_null(sums.normal_impulse.value);
   json["total_normal_impulse_error"] = error_or_null(sums.normal_impulse);
@@ -215,11 +218,10 @@ Json sequence_json(const Scene& scene, const Sequence& sequence) {
 
 Table sequence_records(const Scene& scene, const Sequence& sequence) {
   const Json json = sequence_json(scene, sequence);
-  Table table{.head = {headline("sequence", "impact sequence, discrete model"),
-                       "scene: " + json["scene"].dump()},
-              .columns = {}, .rows = {},
-              .notes = {total_note(json),
-                        fmt::format("{}: {}", outcome_name(sequence.outcome), sequence.message)}};
+  Table table{.head = {headline("sequence", "impact sequence, discrete model"), "scene: " + json["scene"].dump()},
+              .columns = {},
+              .rows = {},
+              .notes = {total_note(json), fmt::format("{}: {}", outcome_name(sequence.outcome), sequence.message)}};
   add_impact_records(table, json["impacts"]);
   if (!json.contains("tail")) return table;
   const Json& tail = json["tail"];

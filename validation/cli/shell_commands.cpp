@@ -15,8 +15,8 @@ namespace clatter::validation {
 namespace {
 
 constexpr const char* file_type = "FILE";
-const Argument help_option{.name = "--help", .target = static_cast<bool*>(nullptr), .type = "",
-                           .help = "print this help and exit"};
+const Argument help_option{
+    .name = "--help", .target = static_cast<bool*>(nullptr), .type = "", .help = "print this help and exit"};
 
 /// The options of a command as shells complete them, --help first.
 std::vector<const Argument*> options_of(const Command& command) {
@@ -62,14 +62,17 @@ std::string bash_completion() {
   }
   out += fmt::format("    {}) COMPREPLY=($(compgen -f -- \"$word\")); return ;;\n  esac\n",
                      fmt::join(file_options(), "|"));
-  out += fmt::format("  if ((COMP_CWORD == 1)); then list=\"{} --help --version\"; else\n"
-                     "    case \"${{COMP_WORDS[1]}}\" in\n", command_words());
+  out += fmt::format(
+      "  if ((COMP_CWORD == 1)); then list=\"{} --help --version\"; else\n"
+      "    case \"${{COMP_WORDS[1]}}\" in\n",
+      command_words());
   for (const Command& command : all_commands()) {
     const std::string extra = command.name == "completion" ? " bash zsh fish" : "";
     out += fmt::format("      {}) list=\"{}{}\" ;;\n", command.name, fmt::join(command.option_names(), " "), extra);
   }
-  return out + "    esac\n  fi\n  COMPREPLY=($(compgen -W \"$list\" -- \"$word\"))\n}\n"
-               "complete -F _clatter clatter\n";
+  return out +
+         "    esac\n  fi\n  COMPREPLY=($(compgen -W \"$list\" -- \"$word\"))\n}\n"
+         "complete -F _clatter clatter\n";
 }
 
 /// Text inside single quotes of a shell, without what zsh's specs give a meaning.
@@ -83,15 +86,16 @@ std::string zsh_completion() {
   for (const Command& command : all_commands()) {
     out += fmt::format("    '{}:{}'\n", command.name, plain(command.help));
   }
-  out += "  )\n  if ((CURRENT == 2)); then _describe command commands; return; fi\n"
-         "  case $words[2] in\n";
+  out +=
+      "  )\n  if ((CURRENT == 2)); then _describe command commands; return; fi\n"
+      "  case $words[2] in\n";
   for (const Command& command : all_commands()) {
     out += fmt::format("    {}) _arguments", command.name);
     for (const Argument* option : options_of(command)) {
       const auto list = option->choices();
       const std::string value = option->is_flag() ? ""
-                                : list.empty() ? (option->type == file_type ? ":file:_files" : ":value: ")
-                                               : fmt::format(":value:({})", fmt::join(list, " "));
+                                : list.empty()    ? (option->type == file_type ? ":file:_files" : ":value: ")
+                                                  : fmt::format(":value:({})", fmt::join(list, " "));
       out += fmt::format(" \\\n      '{}[{}]{}'", option->name, plain(option->help), value);
     }
     out += " ;;\n";
@@ -102,15 +106,15 @@ std::string zsh_completion() {
 std::string fish_completion() {
   std::string out = "# fish completion for clatter\n";
   for (const Command& command : all_commands()) {
-    out += fmt::format("complete -c clatter -f -n __fish_use_subcommand -a {} -d '{}'\n",
-                       command.name, plain(command.help));
+    out += fmt::format("complete -c clatter -f -n __fish_use_subcommand -a {} -d '{}'\n", command.name,
+                       plain(command.help));
     for (const Argument* option : options_of(command)) {
       const auto list = option->choices();
       const std::string value = option->is_flag() ? ""
-                                : list.empty() ? (option->type == file_type ? " -r -F" : " -x")
-                                               : fmt::format(" -x -a '{}'", fmt::join(list, " "));
-      out += fmt::format("complete -c clatter -n '__fish_seen_subcommand_from {}' -l {}{} -d '{}'\n",
-                         command.name, option->name.substr(2), value, plain(option->help));
+                                : list.empty()    ? (option->type == file_type ? " -r -F" : " -x")
+                                                  : fmt::format(" -x -a '{}'", fmt::join(list, " "));
+      out += fmt::format("complete -c clatter -n '__fish_seen_subcommand_from {}' -l {}{} -d '{}'\n", command.name,
+                         option->name.substr(2), value, plain(option->help));
     }
   }
   return out;
@@ -142,14 +146,16 @@ std::string man_page() {
       ".TH CLATTER 1 \"\" \"clatter {}\" \"User Commands\"\n.SH NAME\nclatter \\- {}\n.SH SYNOPSIS\n"
       ".B clatter\n.I command\n[\\fIoptions\\fR]\n.SH DESCRIPTION\n"
       "Impact sequences of a rod or box that falls on the ground at an angle.  Data go to standard "
-      "output, messages to standard error.\n.SH COMMANDS\n", version, roff("impact sequences of falling rigid bodies"));
+      "output, messages to standard error.\n.SH COMMANDS\n",
+      version, roff("impact sequences of falling rigid bodies"));
   for (const Command& command : all_commands()) {
-    out += ".SS " + command.name + "\n" + roff(command.help) + "\n" +
-           man_options(command) + ".PP\n" + roff(command.footer) + "\n";
+    out += ".SS " + command.name + "\n" + roff(command.help) + "\n" + man_options(command) + ".PP\n" +
+           roff(command.footer) + "\n";
   }
   return out +
          ".SH EXIT STATUS\n.TP\n0\ndone\n.TP\n1\na check failed\n.TP\n2\nbad input\n.TP\n3\n"
-         "a number could not be computed\n.TP\n4\noutside the model's range, such as jamming\n.TP\n70\na defect of the program\n.TP\n130\n"
+         "a number could not be computed\n.TP\n4\noutside the model's range, such as jamming\n.TP\n70\na defect of the "
+         "program\n.TP\n130\n"
          "interrupted\n.SH ENVIRONMENT\n.TP\nNO_COLOR, TERM\nno progress is shown with NO_COLOR set or "
          "TERM=dumb, nor off a terminal\n";
 }

@@ -11,13 +11,13 @@
 #include "validation/cli/plot_options.hpp"
 #include "validation/cli/progress.hpp"
 #include "validation/cli/scene_flags.hpp"
-#include "validation/plan/shortfall.hpp"
 #include "validation/cli/simulation_picture.hpp"
 #include "validation/cli/simulation_report.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/message.hpp"
 #include "validation/output/number.hpp"
 #include "validation/plan/planned_run.hpp"
+#include "validation/plan/shortfall.hpp"
 #include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {
@@ -76,20 +76,19 @@ int status_of(const std::vector<SweptRun>& runs) {
 
 /// The history's picture, unless there is none to draw.
 void draw(const Scene& scene, const Simulation& run, const PictureHistory& history, PlotFile& plot) {
-  if (run.outcome == Outcome::interrupted)
-    plot.leave_out("interrupted");
-  else if (run.impacts.empty())
-    plot.leave_out("no impact was computed");
+  if (run.outcome == Outcome::interrupted) plot.leave_out("interrupted");
+  else if (run.impacts.empty()) plot.leave_out("no impact was computed");
   else if (plot.is_wanted())
-    plot.write(simulation_picture(scene, history), run_words("simulate", "impact sequence, continuous contact", scene.json()));
+    plot.write(simulation_picture(scene, history),
+               run_words("simulate", "impact sequence, continuous contact", scene.json()));
 }
 
 int run_single(const Scene& scene, const numeric::Body& body, const OutputChoice& choice, PlotFile& plot) {
   const CooperativeInterrupt interrupt;
   std::optional<HistoryFile> history;
   if (!scene.history.empty()) {
-    history.emplace(scene.history, std::vector<std::string>{headline("simulate", "time history"),
-                                                            "scene: " + scene.json().dump()});
+    history.emplace(scene.history,
+                    std::vector<std::string>{headline("simulate", "time history"), "scene: " + scene.json().dump()});
   }
   PictureHistory picture(body);
   HistoryFan recorders;
@@ -99,14 +98,16 @@ int run_single(const Scene& scene, const numeric::Body& body, const OutputChoice
   {
     Progress progress;
     const auto show = [&](int impacts, long evaluations) {
-      progress.show(fmt::format("{} force evaluations, {}", evaluations,
-                                progress_bar(static_cast<std::size_t>(impacts), static_cast<std::size_t>(scene.options.impacts))));
+      progress.show(fmt::format(
+          "{} force evaluations, {}", evaluations,
+          progress_bar(static_cast<std::size_t>(impacts), static_cast<std::size_t>(scene.options.impacts))));
     };
     planned = run_scene(scene, body, interrupt, show, recorders.is_empty() ? nullptr : &recorders);
   }
   if (history) history->commit();
-  write_report(choice, [&] { return simulation_json(scene, planned); }, [&] { return simulation_records(scene, planned); },
-               [&] { return simulation_table(scene, planned); });
+  write_report(
+      choice, [&] { return simulation_json(scene, planned); }, [&] { return simulation_records(scene, planned); },
+      [&] { return simulation_table(scene, planned); });
   draw(scene, planned.run, picture, plot);
   warn(planned.warnings);
   return status_of(scene, planned);
@@ -123,7 +124,8 @@ int run_sweep(const Scene& scene, const numeric::Body& body, const OutputChoice&
       if (interrupt.requested()) break;
       if (runs.size() % 10 == 0) progress.show(progress_bar(runs.size(), values.size()));
       SweptRun swept{value, scene.at(value), {}};
-      swept.planned = run_scene(swept.scene, body, interrupt, [](int, long) {}, nullptr);
+      swept.planned = run_scene(
+          swept.scene, body, interrupt, [](int, long) {}, nullptr);
       for (const std::string& one : swept.planned.warnings) {
         if (std::find(warnings.begin(), warnings.end(), one) == warnings.end()) warnings.push_back(one);
       }
@@ -131,8 +133,9 @@ int run_sweep(const Scene& scene, const numeric::Body& body, const OutputChoice&
       runs.push_back(std::move(swept));
     }
   }
-  write_report(choice, [&] { return sweep_json(scene, runs); }, [&] { return sweep_records(scene, runs); },
-               [&] { return sweep_table(scene, runs); });
+  write_report(
+      choice, [&] { return sweep_json(scene, runs); }, [&] { return sweep_records(scene, runs); },
+      [&] { return sweep_table(scene, runs); });
   warn(warnings);
   if (runs.size() < values.size()) {
     plot.leave_out("interrupted");
@@ -140,8 +143,7 @@ int run_sweep(const Scene& scene, const numeric::Body& body, const OutputChoice&
   }
   const bool any =
       std::any_of(runs.begin(), runs.end(), [](const SweptRun& swept) { return !swept.planned.run.impacts.empty(); });
-  if (!any)
-    plot.leave_out("no impact was computed");
+  if (!any) plot.leave_out("no impact was computed");
   else if (plot.is_wanted())
     plot.write(sweep_picture(scene, runs), run_words("simulate", "first impacts, continuous contact", scene.json()));
   return status_of(runs);

@@ -9,13 +9,13 @@
 
 #include "validation/cli/impact_records.hpp"
 #include "validation/cli/options.hpp"
-#include "validation/plan/shortfall.hpp"
 #include "validation/cli/swept_column.hpp"
 #include "validation/cli/version.hpp"
 #include "validation/output/impact_entries.hpp"
 #include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/totals.hpp"
+#include "validation/plan/shortfall.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -51,8 +51,8 @@ std::size_t trusted_impacts(const Scene& scene, const Simulation& run) {
   return static_cast<std::size_t>(first - run.impacts.begin());
 }
 
-/// What is known of the numbers of an impact: the digits that their estimated errors leave, none in a row that is not to
-/// be trusted.  Without estimates (run.errors = false) two digits, which a tolerance of 1e-4 and less leaves.
+/// What is known of the numbers of an impact: the digits that their estimated errors leave, none in a row that is not
+/// to be trusted.  Without estimates (run.errors = false) two digits, which a tolerance of 1e-4 and less leaves.
 class Known {
  public:
   Known(const Scene& scene, bool trusted) : scene_(scene), trusted_(trusted) {}
@@ -72,7 +72,8 @@ class Known {
 /// Sizes of the numbers of a run, by their places in MotionNumbers.
 struct Sizes {
   double time, angle, impulse, speed, rate;
-  explicit Sizes(const MotionNumbers& all) : time(all[0]), angle(all[1]), impulse(all[4]), speed(all[7]), rate(all[9]) {}
+  explicit Sizes(const MotionNumbers& all)
+      : time(all[0]), angle(all[1]), impulse(all[4]), speed(all[7]), rate(all[9]) {}
 };
 
 /// The sum of the normal impulses as far as it is known.
@@ -85,18 +86,17 @@ std::string total_words(const Scene& scene, const PlannedRun& planned) {
 std::string method_words(const Simulation& run) {
   const std::string how = run.tolerance > 0 ? fmt::format("tolerance {} per step", significant(run.tolerance, 2))
                                             : fmt::format("steps of {} s", significant(run.step, 4));
-  return fmt::format("{}, {}; {} force evaluations, with those for plan and error estimates", method_name(run.method), how,
-                     run.force_evaluations);
+  return fmt::format("{}, {}; {} force evaluations, with those for plan and error estimates", method_name(run.method),
+                     how, run.force_evaluations);
 }
 
 std::string trust_words(const Scene& scene, const Simulation& run) {
   const std::size_t last_trusted = trusted_impacts(scene, run);
   if (last_trusted == run.impacts.size()) return "";
   const auto first = run.impacts.begin() + static_cast<std::ptrdiff_t>(last_trusted);
-  const std::string growth = first->predictable
-                                 ? "after it a second run goes another way"
-                                 : fmt::format("an error of the start has grown {} times by then",
-                                               significant(first->amplification, 2));
+  const std::string growth = first->predictable ? "after it a second run goes another way"
+                                                : fmt::format("an error of the start has grown {} times by then",
+                                                              significant(first->amplification, 2));
   return last_trusted == 0 ? fmt::format("?: not to be trusted: {}", growth)
                            : fmt::format("?: trust ends with impact {}: {}", last_trusted, growth);
 }
@@ -122,10 +122,12 @@ std::string local_slip_words(const Scene& scene, const Simulation& run) {
     largest = std::max(largest, run.impacts[i].value.impulse.norm());
     if (run.impacts[i].local_slip > run.impacts[worst].local_slip) worst = i;
   }
-  if (run.impacts.empty() || !(run.impacts[worst].local_slip > std::pow(10.0, -scene.options.digits) * largest)) return "";
-  return fmt::format("coulomb takes the patch as flat: with each place's own slip (friction_law = \"local\") the tangential "
-                     "impulse of impact {} would change by about {} N·s, and what follows with it",
-                     worst + 1, significant(run.impacts[worst].local_slip, 1));
+  if (run.impacts.empty() || !(run.impacts[worst].local_slip > std::pow(10.0, -scene.options.digits) * largest))
+    return "";
+  return fmt::format(
+      "coulomb takes the patch as flat: with each place's own slip (friction_law = \"local\") the tangential "
+      "impulse of impact {} would change by about {} N·s, and what follows with it",
+      worst + 1, significant(run.impacts[worst].local_slip, 1));
 }
 
 std::vector<std::string> notes_of(const Scene& scene, const PlannedRun& planned) {
@@ -185,10 +187,16 @@ Table simulation_table(const Scene& scene, const PlannedRun& planned) {
   const bool friction = scene.ground.has_friction();
   const bool loses = friction || scene.ground.damping > 0;
   Table table{.head = head_of(scene, what_it_is), .columns = {}, .rows = {}, .notes = notes_of(scene, planned)};
-  table.columns = {{"n", "n", ""}, {"end", "end", ""}, {"start", "t", "s"}, {"duration", "contact", "s", !friction},
-                   {"contact_angle_deg", "angle", "°"}, {"impulse_normal", "Pₙ", "N·s"},
-                   {"impulse_tangential", "Pₜ", "N·s", friction}, {"peak_force", "peak Fₙ", "N"},
-                   {"velocity_after_z", "Vₙ", "m/s"}, {"angular_velocity_after_y", "Ω", "rad/s"},
+  table.columns = {{"n", "n", ""},
+                   {"end", "end", ""},
+                   {"start", "t", "s"},
+                   {"duration", "contact", "s", !friction},
+                   {"contact_angle_deg", "angle", "°"},
+                   {"impulse_normal", "Pₙ", "N·s"},
+                   {"impulse_tangential", "Pₜ", "N·s", friction},
+                   {"peak_force", "peak Fₙ", "N"},
+                   {"velocity_after_z", "Vₙ", "m/s"},
+                   {"angular_velocity_after_y", "Ω", "rad/s"},
                    {"energy_loss", "loss", "%", loses}};
   const std::size_t trust = trusted_impacts(scene, run);
   const Sizes sizes(planned.sizes);
@@ -197,14 +205,13 @@ Table simulation_table(const Scene& scene, const PlannedRun& planned) {
     const ImpactNumbers &v = row.value, &e = row.error;
     const bool trusted_row = ++n <= trust;
     const Known cell(scene, trusted_row);
-    table.rows.push_back({Cell(std::to_string(n) + (trusted_row ? "" : "?") + (row.submerged ? "!" : "")), Cell(end_name(row.end)),
-                          cell(v.start, e.start, sizes.time), cell(v.duration, e.duration, sizes.time),
-                          cell(v.contact_angle * degrees, e.contact_angle * degrees, sizes.angle),
-                          cell(v.impulse.z(), e.impulse.z(), sizes.impulse),
-                          cell(v.impulse.x(), e.impulse.x(), sizes.impulse), cell(v.peak_force, e.peak_force, 0),
-                          cell(v.velocity_after.z(), e.velocity_after.z(), sizes.speed),
-                          cell(v.angular_velocity_after.y(), e.angular_velocity_after.y(), sizes.rate),
-                          loss_cell(cell, run, row)});
+    table.rows.push_back(
+        {Cell(std::to_string(n) + (trusted_row ? "" : "?") + (row.submerged ? "!" : "")), Cell(end_name(row.end)),
+         cell(v.start, e.start, sizes.time), cell(v.duration, e.duration, sizes.time),
+         cell(v.contact_angle * degrees, e.contact_angle * degrees, sizes.angle),
+         cell(v.impulse.z(), e.impulse.z(), sizes.impulse), cell(v.impulse.x(), e.impulse.x(), sizes.impulse),
+         cell(v.peak_force, e.peak_force, 0), cell(v.velocity_after.z(), e.velocity_after.z(), sizes.speed),
+         cell(v.angular_velocity_after.y(), e.angular_velocity_after.y(), sizes.rate), loss_cell(cell, run, row)});
   }
   fit_columns(table, scene.options.digits, {2});
   return table;
@@ -223,8 +230,10 @@ Json simulation_json(const Scene& scene, const PlannedRun& planned) {
   json["method"] = method_name(run.method);
   json["tolerance"] = run.tolerance > 0 ? Json(run.tolerance) : Json(nullptr);
   json["step"] = run.step > 0 ? Json(run.step) : Json(nullptr);
-  json["accuracy"] = {{"asked", planned.asked}, {"achieved", number_or_null(planned.achieved)},
-                      {"known_impacts", planned.known_impacts}, {"planned", planned.planned}};
+  json["accuracy"] = {{"asked", planned.asked},
+                      {"achieved", number_or_null(planned.achieved)},
+                      {"known_impacts", planned.known_impacts},
+                      {"planned", planned.planned}};
   const Totals sums = totals(run);
   json["total_normal_impulse"] = number_or_null(sums.normal_impulse.value);
   json["total_normal_impulse_error"] = error_or_null(sums.normal_impulse);
@@ -237,7 +246,9 @@ Json simulation_json(const Scene& scene, const PlannedRun& planned) {
 
 Table simulation_records(const Scene& scene, const PlannedRun& planned) {
   const Json json = simulation_json(scene, planned);
-  Table table{.head = {headline("simulate", what_it_is), "scene: " + json["scene"].dump()}, .columns = {}, .rows = {},
+  Table table{.head = {headline("simulate", what_it_is), "scene: " + json["scene"].dump()},
+              .columns = {},
+              .rows = {},
               .notes = notes_of(scene, planned)};
   table.notes.insert(table.notes.begin(), total_note(json));
   add_impact_records(table, json["impacts"]);
@@ -247,9 +258,13 @@ Table simulation_records(const Scene& scene, const PlannedRun& planned) {
 Table sweep_table(const Scene& scene, const std::vector<SweptRun>& runs) {
   Table table{.head = head_of(scene, "first impacts, continuous contact"), .columns = {}, .rows = {}, .notes = {}};
   table.columns = {swept_column(*scene.sweep),
-                   {"touches", "touches", ""}, {"impulse_normal", "Pₙ", "N·s"}, {"impulse_ratio", "Pₜ/Pₙ", ""},
-                   {"velocity_after_x", "Vₜ", "m/s"}, {"velocity_after_z", "Vₙ", "m/s"},
-                   {"angular_velocity_after_y", "Ω", "rad/s"}, {"peak_force", "peak Fₙ", "N"},
+                   {"touches", "touches", ""},
+                   {"impulse_normal", "Pₙ", "N·s"},
+                   {"impulse_ratio", "Pₜ/Pₙ", ""},
+                   {"velocity_after_x", "Vₜ", "m/s"},
+                   {"velocity_after_z", "Vₙ", "m/s"},
+                   {"angular_velocity_after_y", "Ω", "rad/s"},
+                   {"peak_force", "peak Fₙ", "N"},
                    {"energy_loss", "loss", "%"}};
   for (const SweptRun& swept : runs) {
     auto& row = table.rows.emplace_back();
@@ -289,9 +304,11 @@ Json sweep_json(const Scene& scene, const std::vector<SweptRun>& runs) {
 }
 
 Table sweep_records(const Scene& scene, const std::vector<SweptRun>& runs) {
-  Table table{.head = {headline("simulate", "impacts over a sweep, continuous contact"),
-                       "scene: " + scene.json().dump()},
-              .columns = {}, .rows = {}, .notes = {}};
+  Table table{
+      .head = {headline("simulate", "impacts over a sweep, continuous contact"), "scene: " + scene.json().dump()},
+      .columns = {},
+      .rows = {},
+      .notes = {}};
   for (const SweptRun& swept : runs) {
     const std::size_t before = table.rows.size();
     add_impact_records(table, quantity_json(scene, swept)["impacts"]);

@@ -220,11 +220,12 @@ Command sweep_command() {
   Command command{.name = "sweep", .help = "many scenes: grids or random values, rows as CSV"};
   SweepRequest& request = input->request;
   add_scene_argument(command, request.file, true);
-  command.add({.name = "--set", .target = &request.sets, .type = "KEY=VALUE|FROM:TO:STEP",
+  command.add({.name = "--set",
+               .target = &request.sets,
+               .type = "KEY=VALUE|FROM:TO:STEP",
                .help = "values of a key of the scene file; may be repeated, the last varies fastest",
                .repeats = true});
-  command.add_text("--random", request.random, "N",
-           "N scenes with random values, --set KEY=LOW:HIGH or LOW:HIGH:log");
+  command.add_text("--random", request.random, "N", "N scenes with random values, --set KEY=LOW:HIGH or LOW:HIGH:log");
   command.add_text("--seed", request.seed, "S", "of the random values (1)");
   command.add_text("--model", request.model, "discrete|continuous", "(continuous if the scene has a ground)");
   command.add_text("--rows", request.rows, "scene|impact", "one row per scene or per impact (scene)");
@@ -239,7 +240,8 @@ Command sweep_command() {
       "An interrupted sweep goes on when the same command is given again. The discrete model takes the impact.* keys.\n"
       "Continuous scenes are planned for run.digits. Each number has a column with its error, empty where that is not "
       "known.\n"
-      "A scene that is refused or fails is a row with its outcome, refused, outside-model or not-computed, and reason.\n"
+      "A scene that is refused or fails is a row with its outcome, refused, outside-model or not-computed, and "
+      "reason.\n"
       "Exit status 3 if a number could not be computed, a limit left fewer impacts than asked for, or required digits\n"
       "are not known, in any scene; its row says why.";
   command.run = [input] { return run_processes(*input); };

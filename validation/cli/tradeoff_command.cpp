@@ -9,8 +9,8 @@
 #include "validation/cli/progress.hpp"
 #include "validation/cli/scene_flags.hpp"
 #include "validation/cli/tradeoff_report.hpp"
-#include "validation/output/message.hpp"
 #include "validation/output/interrupt.hpp"
+#include "validation/output/message.hpp"
 #include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {

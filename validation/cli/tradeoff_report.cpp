@@ -153,7 +153,8 @@ Picture tradeoff_picture(const Scene& scene, const Tradeoff& tradeoff) {
         {.x = "cost", .y = "error", .legend = name, .style = style, .where = {{"curve", place->second}}});
   }
   panel.plot.x = {cheapest / 3, 3 * dearest};  // a point on the frame is hard to see
-  return {.what = "Cost against true error of models, methods and tolerances", .scene = scene.summary(), .panels = {panel}};
+  return {
+      .what = "Cost against true error of models, methods and tolerances", .scene = scene.summary(), .panels = {panel}};
 }
 
 }  // namespace clatter::validation

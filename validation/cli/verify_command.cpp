@@ -45,7 +45,8 @@ int run_verify(const VerifyInput& input) {
     });
   }
   write_report(
-      choice, [&] { return verify_json(results, selection.words); }, [&] { return verify_records(results, selection.words); },
+      choice, [&] { return verify_json(results, selection.words); },
+      [&] { return verify_records(results, selection.words); },
       [&] { return verify_table(results, selection.words, choice.style.format); });
   if (page && !interrupt.requested()) {
     page->write(verify_page(results, selection.words, laboratory));

@@ -8,9 +8,9 @@
 #include <limits>
 
 #include "analytic/impact_limits.hpp"
-#include "validation/scene/discrete_scene.hpp"
 #include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
+#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -20,7 +20,8 @@ using analytic::ImpactRow;
 using numeric::ImpactRecord;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double bars_apart = 5;  // a bar holds in all but some of a hundred numbers; a model that is wrong misses by many
+constexpr double bars_apart =
+    5;  // a bar holds in all but some of a hundred numbers; a model that is wrong misses by many
 constexpr long evaluations_per_run = 300'000;  // a contact that takes more is none that the discrete model knows
 
 /// End of the continuous model's kind: by the side of the body that the vertices are on.
@@ -216,7 +217,8 @@ bool Comparison::agrees() const {
 }
 
 Comparison compare_models(const Scene& scene, const numeric::Body& body) {
-  Comparison comparison{.drop = discrete_drop(scene, body), .sequence = {}, .run = {}, .limit = {}, .impacts = {}, .shortfall = {}};
+  Comparison comparison{
+      .drop = discrete_drop(scene, body), .sequence = {}, .run = {}, .limit = {}, .impacts = {}, .shortfall = {}};
   comparison.sequence = impact_sequence(comparison.drop, {.impacts = scene.options.impacts});
   numeric::Options options = scene.options;
   options.amplification = true;

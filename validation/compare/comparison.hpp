@@ -40,8 +40,8 @@ struct Comparison {
   std::vector<ComparedImpact> impacts;
   /// Whether there is anything to compare: an impact at the scene's stiffness or a limit.
   [[nodiscard]] bool has_content() const;
-  /// Why a number that could not be computed or a limit on the work left one of the models fewer impacts than asked for, or
-  /// required digits are not known; empty: neither.
+  /// Why a number that could not be computed or a limit on the work left one of the models fewer impacts than asked
+  /// for, or required digits are not known; empty: neither.
   std::string shortfall;
   /// No impact whose limit misses the discrete value.
   [[nodiscard]] bool agrees() const;

@@ -16,17 +16,31 @@ MotionNumbers sizes_of(double time, double speed, double radius, double mass) {
 
 MotionNumbers motion_numbers(const analytic::ImpactRow& row) {
   const analytic::PlanarVelocity& after = row.impact.after;
-  return {row.start, row.contact_angle * analytic::degrees_per_radian,
-          row.impact.tangential_impulse, 0, row.impact.normal_impulse,
-          after.tangential, 0, after.normal,
-          0, after.angular, 0};
+  return {row.start,
+          row.contact_angle * analytic::degrees_per_radian,
+          row.impact.tangential_impulse,
+          0,
+          row.impact.normal_impulse,
+          after.tangential,
+          0,
+          after.normal,
+          0,
+          after.angular,
+          0};
 }
 
 MotionNumbers motion_numbers(const numeric::ImpactNumbers& n) {
-  return {n.start, n.contact_angle * analytic::degrees_per_radian,
-          n.impulse.x(), n.impulse.y(), n.impulse.z(),
-          n.velocity_after.x(), n.velocity_after.y(), n.velocity_after.z(),
-          n.angular_velocity_after.x(), n.angular_velocity_after.y(), n.angular_velocity_after.z()};
+  return {n.start,
+          n.contact_angle * analytic::degrees_per_radian,
+          n.impulse.x(),
+          n.impulse.y(),
+          n.impulse.z(),
+          n.velocity_after.x(),
+          n.velocity_after.y(),
+          n.velocity_after.z(),
+          n.angular_velocity_after.x(),
+          n.angular_velocity_after.y(),
+          n.angular_velocity_after.z()};
 }
 
 std::vector<MotionNumbers> motion_rows(const analytic::Sequence& sequence) {

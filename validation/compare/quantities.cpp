@@ -18,12 +18,9 @@ Quantities quantities(const analytic::ImpactRow& row) {
 }
 
 Quantities quantities(const analytic::RowErrors& errors) {
-  return {errors.start,
-          errors.contact_angle * degrees_per_radian,
-          errors.normal_impulse,
-          errors.tangential_impulse,
-          errors.after.normal,
-          errors.after.tangential,
+  return {errors.start,          errors.contact_angle * degrees_per_radian,
+          errors.normal_impulse, errors.tangential_impulse,
+          errors.after.normal,   errors.after.tangential,
           errors.after.angular};
 }
 

@@ -22,19 +22,16 @@ constexpr int most_runs = 24;
 constexpr double least_indentation = 1e-8;  // of the body: the depth that doubles still resolve to 12 digits
 constexpr double run_error = 3e-12;         // of a run of 12 digits, relative, per impact
 constexpr double safety = 2;
-constexpr double no_limit = 1e-3;  // a relative error bar above it: the runs are not near any limit yet
+constexpr double no_limit = 1e-3;              // a relative error bar above it: the runs are not near any limit yet
 constexpr double settled_change = 1e-6;        // from one triple of runs to the next; what is left is far below it
 constexpr long evaluations_per_run = 200'000;  // contacts that are short take some thousand each
 
 /// Length below which the contact sees the shape that it has in the limit [m].
 double feature(const Scene& scene, const numeric::Body& body) {
   switch (scene.body.shape) {
-    case BodyScene::Shape::rod:
-      return scene.body.radius * (1 - std::cos(2 * std::numbers::pi / scene.body.sectors));
-    case BodyScene::Shape::box:
-      return scene.body.size.minCoeff();
-    case BodyScene::Shape::mesh:
-      break;
+    case BodyScene::Shape::rod: return scene.body.radius * (1 - std::cos(2 * std::numbers::pi / scene.body.sectors));
+    case BodyScene::Shape::box: return scene.body.size.minCoeff();
+    case BodyScene::Shape::mesh: break;
   }
   return body.radius() / 100;
 }
@@ -117,8 +114,8 @@ double growth(const Simulation& run, std::size_t row) {
 }
 
 /// Error bar of the last of three extrapolations by the two changes between them.  They should fall by the factor
-/// `expected`; where they do not, the numbers approach their limit more slowly than the powers say (on a strongly damped
-/// ground the clamp acts on parts of the patch), and the factor seen counts.
+/// `expected`; where they do not, the numbers approach their limit more slowly than the powers say (on a strongly
+/// damped ground the clamp acts on parts of the patch), and the factor seen counts.
 double error_bar(double before, double last, double expected) {
   constexpr double slowest = 1.3;
   const double larger = std::max(std::fabs(last), std::fabs(before) / expected);  // `last` may be small by chance

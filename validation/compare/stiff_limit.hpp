@@ -12,7 +12,7 @@ namespace clatter::validation {
 /// One impact in the limit.
 struct LimitRow {
   Quantities value{};
-  Quantities error{};  ///< error bars: twice the estimated error of the extrapolation, plus that of the runs
+  Quantities error{};         ///< error bars: twice the estimated error of the extrapolation, plus that of the runs
   double relative_error = 0;  ///< largest of them over the sizes that the numbers are made of
   numeric::ContactEnd end = numeric::ContactEnd::a;
   numeric::FrictionMode mode = numeric::FrictionMode::frictionless;

@@ -203,7 +203,9 @@ ApiAnswer answer_request(const std::string& path, const std::string& body) {
     return {200, json_text(found->second(texts_of(body)))};
   } catch (...) {
     const Failure failure = current_failure();
-    const int http_status = failure.kind == FailureKind::bad_input ? 400 : failure.kind == FailureKind::defect ? 500 : 422;
+    const int http_status = failure.kind == FailureKind::bad_input ? 400
+                            : failure.kind == FailureKind::defect  ? 500
+                                                                   : 422;
     return {http_status, error_json(with_arguments(without_place(failure.message)), exit_status(failure.kind))};
   }
 }

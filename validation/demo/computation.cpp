@@ -151,11 +151,11 @@ void ComputationQueue::start_next(Lane& lane) {
     Job job = std::move(lane.waiting.front());
     lane.waiting.pop_front();
     lane.running.push_back(job.computation);
-    job.computation->start(limit_, [this, &lane, running = job.computation.get(), done = std::move(job.done)](
-                                       HttpResponse response) {
-      leave(lane, running);
-      done(std::move(response));
-    });
+    job.computation->start(
+        limit_, [this, &lane, running = job.computation.get(), done = std::move(job.done)](HttpResponse response) {
+          leave(lane, running);
+          done(std::move(response));
+        });
   }
 }
 

@@ -27,7 +27,8 @@ class Computation : public std::enable_shared_from_this<Computation> {
   Computation(const Computation&) = delete;
   Computation& operator=(const Computation&) = delete;
 
-  /// Begins; `done` is called once and later, with the answer or, after `limit`, a refusal, unless cancel() comes before.
+  /// Begins; `done` is called once and later, with the answer or, after `limit`, a refusal, unless cancel() comes
+  /// before.
   void start(std::chrono::milliseconds limit, Done done);
   /// Ends the process, if there is one; `done` is not called any more.
   void cancel();

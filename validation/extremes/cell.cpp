@@ -48,20 +48,13 @@ void run(const Probe& probe, const CellClock& clock, ExtremeCell& cell) {
 
 const char* verdict_name(CellVerdict verdict) {
   switch (verdict) {
-    case CellVerdict::number:
-      return "number";
-    case CellVerdict::bad_input:
-      return "bad-input";
-    case CellVerdict::outside_model:
-      return "outside-model";
-    case CellVerdict::not_computed:
-      return "not-computed";
-    case CellVerdict::ended_early:
-      return "ended-early";
-    case CellVerdict::time_limit:
-      return "time-limit";
-    case CellVerdict::broken:
-      return "BROKEN";
+    case CellVerdict::number: return "number";
+    case CellVerdict::bad_input: return "bad-input";
+    case CellVerdict::outside_model: return "outside-model";
+    case CellVerdict::not_computed: return "not-computed";
+    case CellVerdict::ended_early: return "ended-early";
+    case CellVerdict::time_limit: return "time-limit";
+    case CellVerdict::broken: return "BROKEN";
   }
   return "";
 }

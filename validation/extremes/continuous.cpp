@@ -78,8 +78,8 @@ double worst_of(const Simulation& run, const Measure& measure) {
 }
 
 bool has_ended_well(Outcome outcome) {
-  return outcome == Outcome::no_further_impact || outcome == Outcome::impact_limit ||
-         outcome == Outcome::at_rest || outcome == Outcome::sustained_contact;
+  return outcome == Outcome::no_further_impact || outcome == Outcome::impact_limit || outcome == Outcome::at_rest ||
+         outcome == Outcome::sustained_contact;
 }
 
 }  // namespace

@@ -99,22 +99,16 @@ double damping_for(double restitution, double stiffness) {
 
 /// The scene of an axis at a value; false if it is none of the continuous model.
 bool case_on_axis(const std::string& axis, double value, ContinuousCase& scene) {
-  if (axis == "angle")
-    scene.angle_deg = value;
-  else if (axis == "stiffness")
-    scene.ground.stiffness = value;
-  else if (axis == "damping")
-    scene.ground.damping = value;
+  if (axis == "angle") scene.angle_deg = value;
+  else if (axis == "stiffness") scene.ground.stiffness = value;
+  else if (axis == "damping") scene.ground.damping = value;
   else if (axis == "friction") {
     scene.angle_deg = 45;
     scene.velocity.x() = 0.5;
     scene.ground.static_friction = scene.ground.sliding_friction = value;
-  } else if (axis == "speed")
-    scene.velocity.z() = -value;
-  else if (axis == "gravity")
-    scene.gravity = value;
-  else
-    return axis == "size" || axis == "mass" || axis == "restitution" || axis == "impacts";
+  } else if (axis == "speed") scene.velocity.z() = -value;
+  else if (axis == "gravity") scene.gravity = value;
+  else return axis == "size" || axis == "mass" || axis == "restitution" || axis == "impacts";
   return true;
 }
 
@@ -144,8 +138,9 @@ std::vector<Probe> continuous_probes(const MapAxis& axis) {
   for (const Rung model : {Rung::planar, Rung::spatial}) {
     for (const AxisValue& at : axis.values) {
       probes.push_back({axis.name, at.value, at.label, model,
-                        [name = axis.name, value = at.value, planar = model == Rung::planar](
-                            const CellClock& clock) { return continuous_cell(name, value, planar, clock); }});
+                        [name = axis.name, value = at.value, planar = model == Rung::planar](const CellClock& clock) {
+                          return continuous_cell(name, value, planar, clock);
+                        }});
     }
   }
   return probes;

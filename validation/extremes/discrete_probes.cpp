@@ -51,18 +51,12 @@ CellMeasure closed_form(const RodStart& start) {
 /// The rod of the closed form on an axis at a value; false if the axis is none of its.
 bool rod_on_axis(const std::string& axis, double value, RodStart& start) {
   start.angle_deg = 20;
-  if (axis == "angle")
-    start.angle_deg = value;
-  else if (axis == "restitution")
-    start.parameters.restitution = value;
-  else if (axis == "ratio")
-    start = {jamming_angle, {.gravity_number = 0, .restitution = 1, .impulse_ratio = value}};
-  else if (axis == "speed")
-    start.parameters.gravity_number = 9.81 / value / value;
-  else if (axis == "gravity")
-    start.parameters.gravity_number = value;
-  else
-    return false;
+  if (axis == "angle") start.angle_deg = value;
+  else if (axis == "restitution") start.parameters.restitution = value;
+  else if (axis == "ratio") start = {jamming_angle, {.gravity_number = 0, .restitution = 1, .impulse_ratio = value}};
+  else if (axis == "speed") start.parameters.gravity_number = 9.81 / value / value;
+  else if (axis == "gravity") start.parameters.gravity_number = value;
+  else return false;
   return true;
 }
 
@@ -183,12 +177,12 @@ std::vector<Probe> discrete_probes(const MapAxis& axis) {
   RodStart any;
   if (rod_on_axis(axis.name, 1, any)) {
     for (const AxisValue& at : axis.values) {
-      probes.push_back({axis.name, at.value, at.label, Rung::closed_form,
-                        [name = axis.name, value = at.value](const CellClock&) {
-                          RodStart start;
-                          rod_on_axis(name, value, start);
-                          return closed_form(start);
-                        }});
+      probes.push_back(
+          {axis.name, at.value, at.label, Rung::closed_form, [name = axis.name, value = at.value](const CellClock&) {
+             RodStart start;
+             rod_on_axis(name, value, start);
+             return closed_form(start);
+           }});
     }
   }
   for (const AxisValue& at : axis.values) {

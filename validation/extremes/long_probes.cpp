@@ -65,10 +65,8 @@ analytic::ImpactLaw any_law(Draw& draw) {
                             RestitutionLaw::viscoelastic};
   analytic::ImpactLaw law;
   law.law = laws[static_cast<std::size_t>(draw(0, 4))];
-  if (law.law == RestitutionLaw::viscoelastic)
-    law.damping_per_stiffness = draw.decades(-100, 100);
-  else
-    law.restitution = any_restitution(draw);
+  if (law.law == RestitutionLaw::viscoelastic) law.damping_per_stiffness = draw.decades(-100, 100);
+  else law.restitution = any_restitution(draw);
   if (draw.one_in(3)) return law;
   const bool ratio = draw.one_in(3);
   law.friction = ratio ? analytic::FrictionKind::impulse_ratio : analytic::FrictionKind::coulomb;
@@ -82,12 +80,9 @@ analytic::Drop any_drop(Draw& draw) {
   const double thickness = length * (draw.one_in(3) ? 0.1 : draw.decades(-9, 0));
   const double speed = draw.one_in(3) ? 1 : draw.decades(-140, 140);
   analytic::Drop drop;
-  if (draw.one_in(3))
-    drop.body = analytic::make_rod({.mass = mass, .length = length});
-  else if (draw.one_in(2))
-    drop.body = analytic::make_rod({.mass = mass, .length = length, .radius = thickness});
-  else
-    drop.body = analytic::make_box({.mass = mass, .length = length, .width = length, .thickness = thickness});
+  if (draw.one_in(3)) drop.body = analytic::make_rod({.mass = mass, .length = length});
+  else if (draw.one_in(2)) drop.body = analytic::make_rod({.mass = mass, .length = length, .radius = thickness});
+  else drop.body = analytic::make_box({.mass = mass, .length = length, .width = length, .thickness = thickness});
   drop.inclination = analytic::Angle::from_degrees(any_angle(draw));
   drop.velocity.normal = -speed;
   if (draw.one_in(2)) drop.velocity.tangential = draw.sign() * speed * draw.decades(-12, 6);
@@ -229,8 +224,7 @@ std::vector<Probe> long_probes(const LongRuns& runs, const std::function<bool()>
   std::vector<Probe> probes;
   for (const Rung model : {Rung::planar, Rung::spatial}) {
     probes.push_back({"long", static_cast<double>(runs.impacts), count_label(runs.impacts) + " hits", model,
-                      [=](const CellClock&) { return marathon(model == Rung::planar, runs.impacts, goes_on); },
-                      true});
+                      [=](const CellClock&) { return marathon(model == Rung::planar, runs.impacts, goes_on); }, true});
   }
   probes.push_back(
       {"long", static_cast<double>(runs.discrete_scenes), count_label(runs.discrete_scenes) + " sc", Rung::discrete,
@@ -241,16 +235,16 @@ std::vector<Probe> long_probes(const LongRuns& runs, const std::function<bool()>
          return measure;
        },
        true});
-  probes.push_back({"long", static_cast<double>(runs.continuous_scenes), count_label(runs.continuous_scenes) + " sc",
-                    Rung::spatial,
-                    [=](const CellClock&) {
-                      CellMeasure measure =
-                          run_scenes(runs.continuous_scenes, ledger_bound, goes_on,
-                                     [&](int i, Tally& tally) { run_continuous(Draw(runs.seed + 1, i), i, tally); });
-                      measure.oracle = "energy ledger";
-                      return measure;
-                    },
-                    true});
+  probes.push_back(
+      {"long", static_cast<double>(runs.continuous_scenes), count_label(runs.continuous_scenes) + " sc", Rung::spatial,
+       [=](const CellClock&) {
+         CellMeasure measure = run_scenes(runs.continuous_scenes, ledger_bound, goes_on, [&](int i, Tally& tally) {
+           run_continuous(Draw(runs.seed + 1, i), i, tally);
+         });
+         measure.oracle = "energy ledger";
+         return measure;
+       },
+       true});
   return probes;
 }
 

@@ -102,7 +102,7 @@ std::vector<Probe> turn_probes(const MapAxis& axis) {
     for (const AxisValue& at : axis.values) {
       probes.push_back({axis.name, at.value, at.label, model, [model, value = at.value](const CellClock&) {
                           return model == Rung::discrete ? discrete_turns(value)
-                                                             : continuous_turns(value, model == Rung::planar);
+                                                         : continuous_turns(value, model == Rung::planar);
                         }});
     }
   }

@@ -29,7 +29,7 @@ struct FigureCurve {
   std::string legend;
   Style style = Style::line;
   RowFilter where;
-  std::string y_low = {};  ///< name of a column; of areas only
+  std::string y_low = {};              ///< name of a column; of areas only
   std::string x_end = {}, y_end = {};  ///< names of columns; of segments only
 };
 
@@ -47,7 +47,7 @@ struct FigurePlot {
   Range2 y = {};
   bool logarithmic_x = false;
   bool logarithmic_y = false;
-  bool whole_x = false;  ///< x counts something: no fractions on its axis
+  bool whole_x = false;       ///< x counts something: no fractions on its axis
   bool equal_scales = false;  ///< a metre is as long on both axes
 };
 

@@ -77,7 +77,8 @@ std::string first_line(const std::string& path) {
 
 std::string run_gnuplot(const std::string& script) {
   const TemporaryFile file(script), complaints("");
-  const std::string command = fmt::format("gnuplot -d {} 2>{}", shell_quoted(file.path()), shell_quoted(complaints.path()));
+  const std::string command =
+      fmt::format("gnuplot -d {} 2>{}", shell_quoted(file.path()), shell_quoted(complaints.path()));
   std::FILE* pipe = popen(command.c_str(), "r");
   if (!pipe) throw std::runtime_error("gnuplot cannot be started");
   std::string text;

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "analytic/sequence.hpp"
-#include "validation/scene/discrete_scene.hpp"
 #include "validation/figures/figures.hpp"
 #include "validation/figures/history_panels.hpp"
+#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -112,23 +112,17 @@ struct Palette {
 std::string style_text(const FigureCurve& curve, const Palette& palette) {
   const char* const name = colours[palette.colour % colours.size()];
   switch (curve.style) {
-    case Style::line:
-      return fmt::format("with lines lw 2 lc rgb '{}'", name);
-    case Style::thin_line:
-      return fmt::format("with lines lw 1.2 dt 2 lc rgb '{}'", name);
+    case Style::line: return fmt::format("with lines lw 2 lc rgb '{}'", name);
+    case Style::thin_line: return fmt::format("with lines lw 1.2 dt 2 lc rgb '{}'", name);
     case Style::points:
       return fmt::format("with points pt 6 ps 0.6 lc rgb '{}'", curve.legend.empty() ? point_colour : name);
-    case Style::bars:
-      return fmt::format("with boxes fs solid 0.6 lc rgb '{}'", name);
-    case Style::line_points:
-      return fmt::format("with linespoints lw 2 pt 7 ps 0.35 lc rgb '{}'", name);
+    case Style::bars: return fmt::format("with boxes fs solid 0.6 lc rgb '{}'", name);
+    case Style::line_points: return fmt::format("with linespoints lw 2 pt 7 ps 0.35 lc rgb '{}'", name);
     case Style::marks:
       return fmt::format("with points pt {} ps {} lw 1.8 lc rgb '{}'", shapes[palette.shape % shapes.size()],
                          palette.shape == 0 ? 1.5 : 1, name);
-    case Style::sticks:
-      return fmt::format("with impulses lw 2 lc rgb '{}'", name);
-    case Style::segments:
-      return fmt::format("with vectors nohead lw 2 lc rgb '{}'", name);
+    case Style::sticks: return fmt::format("with impulses lw 2 lc rgb '{}'", name);
+    case Style::segments: return fmt::format("with vectors nohead lw 2 lc rgb '{}'", name);
     case Style::area:
       return fmt::format("with filledcurves fs solid noborder lc rgb '{}'",
                          area_colours[palette.area % area_colours.size()]);
@@ -201,8 +195,8 @@ std::string plot_command(const PlotData& data, const FigurePlot& plot, const std
     palette.advance_to(curve);
     if (!has_numbers(data, plot, curve)) continue;
     const std::string title = curve.legend.empty() ? "notitle" : "title " + gnuplot_quoted(curve.legend);
-    command += fmt::format("{}{}{} using {} {} {}", is_first ? "" : ", \\\n  ", name, i,
-                           columns_text(curve.style), style_text(curve, palette), title);
+    command += fmt::format("{}{}{} using {} {} {}", is_first ? "" : ", \\\n  ", name, i, columns_text(curve.style),
+                           style_text(curve, palette), title);
     is_first = false;
     palette.use(curve);
     if (curve.style == Style::sticks) {

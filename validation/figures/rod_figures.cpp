@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "analytic/sequence.hpp"
-#include "validation/scene/discrete_scene.hpp"
 #include "validation/figures/figures.hpp"
 #include "validation/figures/history_panels.hpp"
+#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -114,7 +114,8 @@ Figure figure_rod_over_angle(Laboratory& laboratory) {
     add_row(figure, swept.value, numbers,
             {thin_rod(swept.value, {}), of(discrete_drop(scene.at(swept.value), body)), of(swept.run)});
     // The limit of small angles, beside the flat landing: the jump is one of the models, not of the drawing.
-    if (swept.value == 0) add_row(figure, 1e-9, numbers, {thin_rod(1e-9, {}), of(discrete_drop(scene.at(1e-9), body)), {}});
+    if (swept.value == 0)
+      add_row(figure, 1e-9, numbers, {thin_rod(1e-9, {}), of(discrete_drop(scene.at(1e-9), body)), {}});
   }
   return figure;
 }

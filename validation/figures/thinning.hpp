@@ -8,7 +8,7 @@ namespace clatter::validation {
 /// A point of a curve; not finite: a gap.
 struct CurvePoint {
   double x = 0, y = 0;
-  double low = 0;  ///< lower end of an area, else 0
+  double low = 0;               ///< lower end of an area, else 0
   double x_end = 0, y_end = 0;  ///< other end of a segment, else 0
   [[nodiscard]] bool is_gap() const;
 };

@@ -8,8 +8,8 @@
 
 namespace clatter::validation {
 
-/// CRC-64/XZ: any damage within 64 bits in a row is noticed, any other but with a chance of 5e-20.  No secret, so that it
-/// guards against accidents and not against intent.
+/// CRC-64/XZ: any damage within 64 bits in a row is noticed, any other but with a chance of 5e-20.  No secret, so that
+/// it guards against accidents and not against intent.
 class Digest {
  public:
   void add(std::string_view bytes) { crc_.process_bytes(bytes.data(), bytes.size()); }

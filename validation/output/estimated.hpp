@@ -41,8 +41,8 @@ struct Shown {
   double size = 0;  ///< of such numbers in this run; 0: none, no number but 0 itself is shown as 0
 };
 
-/// The number with at most `shown.digits` digits and none that its error leaves open; "0" where value and error together
-/// stay below 10^-d of `shown.size`, d the digits asked for, at most six; "?" where nothing is known.
+/// The number with at most `shown.digits` digits and none that its error leaves open; "0" where value and error
+/// together stay below 10^-d of `shown.size`, d the digits asked for, at most six; "?" where nothing is known.
 [[nodiscard]] Cell known_cell(const Estimated& number, const Shown& shown);
 [[nodiscard]] std::string known_text(const Estimated& number, const Shown& shown);
 

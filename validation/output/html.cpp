@@ -20,7 +20,8 @@ std::string heading(const Column& column) {
 }
 
 std::string cell_text(const Cell& cell, const Column& column) {
-  return fmt::format("<td style=\"text-align: {}\">{}</td>", column.words ? "left" : "right", html_escaped(shown_text(cell)));
+  return fmt::format("<td style=\"text-align: {}\">{}</td>", column.words ? "left" : "right",
+                     html_escaped(shown_text(cell)));
 }
 
 }  // namespace
@@ -29,20 +30,11 @@ std::string html_escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
     switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '"': out += "&quot;"; break;
+      default: out += c;
     }
   }
   return out;

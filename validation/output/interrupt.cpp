@@ -38,14 +38,14 @@ extern "C" void on_signal(int) {
 
 std::vector<int> ending_signals() {
   std::vector<int> signals{SIGINT, SIGTERM};
-  struct sigaction hangup{};
+  struct sigaction hangup {};
   sigaction(SIGHUP, nullptr, &hangup);
   if (hangup.sa_handler != SIG_IGN) signals.push_back(SIGHUP);
   return signals;
 }
 
 void handle_signals() {
-  struct sigaction action{};
+  struct sigaction action {};
   action.sa_handler = on_signal;
   action.sa_flags = SA_RESTART;
   for (const int number : ending_signals()) sigaction(number, &action, nullptr);

@@ -8,8 +8,8 @@
 
 namespace clatter::validation {
 
-/// Installs the handlers; a broken pipe and a file that may not grow become write errors instead of signals.  SIGHUP stays
-/// ignored where nohup wants that.
+/// Installs the handlers; a broken pipe and a file that may not grow become write errors instead of signals.  SIGHUP
+/// stays ignored where nohup wants that.
 void handle_signals();
 
 /// The signals that ask this process to end.

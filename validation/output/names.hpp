@@ -10,8 +10,8 @@ namespace clatter::validation {
 [[nodiscard]] const char* mode_name(numeric::FrictionMode mode);
 [[nodiscard]] const char* outcome_name(analytic::Outcome outcome);
 [[nodiscard]] const char* outcome_name(numeric::Outcome outcome);
-/// Whether rows may be missing because a number could not be computed or a limit on the work was reached, not because of
-/// what the body does or how many impacts were asked for.  Exit status 3 then.
+/// Whether rows may be missing because a number could not be computed or a limit on the work was reached, not because
+/// of what the body does or how many impacts were asked for.  Exit status 3 then.
 [[nodiscard]] bool is_cut_short(analytic::Outcome outcome);
 [[nodiscard]] bool is_cut_short(numeric::Outcome outcome);
 [[nodiscard]] const char* end_name(numeric::ContactEnd end);

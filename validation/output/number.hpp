@@ -16,8 +16,8 @@ namespace clatter::validation {
 /// Whether a number is whole and below 1e5 in magnitude, so that shortest() shows it best.
 [[nodiscard]] bool is_short_whole(double value);
 
-/// Significant digits d of `value` that an absolute error leaves, in [0, 17]: the error is at most half a unit of the last
-/// one and, for d > 1, at most 10^-d |value|.  17 without error; 0, none, where error or value is not finite.
+/// Significant digits d of `value` that an absolute error leaves, in [0, 17]: the error is at most half a unit of the
+/// last one and, for d > 1, at most 10^-d |value|.  17 without error; 0, none, where error or value is not finite.
 [[nodiscard]] int known_digits(double value, double error);
 
 /// Reads a whole text as a finite decimal number (no "nan", "inf", "0x", blanks or overflow).

@@ -30,7 +30,7 @@ fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.
 
 /// Whether the folder is one of the kernel's own, in which a link stands for an open file.
 bool is_in_proc(const fs::path& path) {
-  struct statfs status{};
+  struct statfs status {};
   return statfs(folder_of(path).c_str(), &status) == 0 && status.f_type == PROC_SUPER_MAGIC;
 }
 
@@ -65,7 +65,7 @@ struct Identity {
 };
 
 std::optional<Identity> identity_of(const std::string& path) {
-  struct stat status{};
+  struct stat status {};
   if (stat(path.c_str(), &status) == 0) {
     if (S_ISCHR(status.st_mode)) return std::nullopt;
     return Identity{status.st_dev, status.st_ino, ""};
@@ -84,7 +84,7 @@ void refuse_same(const RunFile& file, const RunFile& other) {
 }  // namespace
 
 Destination destination_of(const RunFile& file) {
-  struct stat status{};
+  struct stat status {};
   const bool is_there = stat(file.path.c_str(), &status) == 0;
   if (!is_there && errno != ENOENT) refuse(file, fmt::format("cannot be created ({})", std::strerror(errno)));
   if (is_there && S_ISDIR(status.st_mode)) refuse(file, "cannot be created (Is a directory)");

@@ -17,9 +17,9 @@ struct RunFile {
 
 /// Where an output goes, once symbolic links are followed.
 struct Destination {
-  std::string path;            ///< a file to replace or to make; of a stream the path as given
-  bool is_stream = false;      ///< device, FIFO or open file: written in place, from one end to the other
-  int open_file = -1;          ///< the descriptor that /dev/stdout, /dev/fd/N or /proc/self/fd/N means
+  std::string path;                 ///< a file to replace or to make; of a stream the path as given
+  bool is_stream = false;           ///< device, FIFO or open file: written in place, from one end to the other
+  int open_file = -1;               ///< the descriptor that /dev/stdout, /dev/fd/N or /proc/self/fd/N means
   std::optional<mode_t> mode = {};  ///< permissions of a file that is there
 };
 
@@ -31,7 +31,7 @@ struct Destination {
 void require_writable(const RunFile& file);
 
 /// The rule that keeps a scene, its mesh and each output from being written over.  Files are compared by device and
-/// inode, those that are not there yet by their folder and name, so that neither spelling nor links hide one.  Character
+/// inode, those that are not there yet by their folder and name, so that neither spelling nor links hide one. Character
 /// devices hold nothing that could be lost and are never refused.
 /// @throws BadInput if a file of `written` is one of `read`, or is written twice.
 void refuse_shared_files(const std::vector<RunFile>& written, const std::vector<RunFile>& read);

@@ -118,15 +118,44 @@ std::string markdown(const Table& table) {
 
 /// Characters that LaTeX reads as commands, and the symbols that the program prints.
 std::string latex_text(const std::string& text) {
-  static const std::array<std::pair<const char*, const char*>, 38> table{{
-      {"\\", "\\textbackslash{}"}, {"%", "\\%"}, {"#", "\\#"}, {"_", "\\_"}, {"&", "\\&"},
-      {"°", "$^\\circ$"}, {"Ω", "$\\Omega$"}, {"β", "$\\beta$"}, {"γ", "$\\gamma$"},
-      {"θ", "$\\theta$"}, {"μ", "$\\mu$"}, {"Σ", "$\\Sigma$"}, {"·", "$\\cdot$"},
-      {"…", "\\dots{}"}, {"∞", "$\\infty$"}, {"±", "$\\pm$"}, {"−", "$-$"}, {"₁", "$_1$"},
-      {"₂", "$_2$"}, {"₃", "$_3$"}, {"²", "$^2$"}, {"ₙ", "$_n$"}, {"ₜ", "$_t$"}, {"≤", "$\\le$"},
-      {"ₖ", "$_k$"}, {"ₛ", "$_s$"}, {"³", "$^3$"}, {"⁴", "$^4$"}, {"→", "$\\to$"}, {"≈", "$\\approx$"}, {"–", "--"},
-      {"π", "$\\pi$"}, {"ω", "$\\omega$"}, {"α", "$\\alpha$"}, {"√", "$\\surd$"}, {"×", "$\\times$"},
-      {"✓", "$\\surd$"}, {"✗", "$\\times$"}}};
+  static const std::array<std::pair<const char*, const char*>, 38> table{{{"\\", "\\textbackslash{}"},
+                                                                          {"%", "\\%"},
+                                                                          {"#", "\\#"},
+                                                                          {"_", "\\_"},
+                                                                          {"&", "\\&"},
+                                                                          {"°", "$^\\circ$"},
+                                                                          {"Ω", "$\\Omega$"},
+                                                                          {"β", "$\\beta$"},
+                                                                          {"γ", "$\\gamma$"},
+                                                                          {"θ", "$\\theta$"},
+                                                                          {"μ", "$\\mu$"},
+                                                                          {"Σ", "$\\Sigma$"},
+                                                                          {"·", "$\\cdot$"},
+                                                                          {"…", "\\dots{}"},
+                                                                          {"∞", "$\\infty$"},
+                                                                          {"±", "$\\pm$"},
+                                                                          {"−", "$-$"},
+                                                                          {"₁", "$_1$"},
+                                                                          {"₂", "$_2$"},
+                                                                          {"₃", "$_3$"},
+                                                                          {"²", "$^2$"},
+                                                                          {"ₙ", "$_n$"},
+                                                                          {"ₜ", "$_t$"},
+                                                                          {"≤", "$\\le$"},
+                                                                          {"ₖ", "$_k$"},
+                                                                          {"ₛ", "$_s$"},
+                                                                          {"³", "$^3$"},
+                                                                          {"⁴", "$^4$"},
+                                                                          {"→", "$\\to$"},
+                                                                          {"≈", "$\\approx$"},
+                                                                          {"–", "--"},
+                                                                          {"π", "$\\pi$"},
+                                                                          {"ω", "$\\omega$"},
+                                                                          {"α", "$\\alpha$"},
+                                                                          {"√", "$\\surd$"},
+                                                                          {"×", "$\\times$"},
+                                                                          {"✓", "$\\surd$"},
+                                                                          {"✗", "$\\times$"}}};
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
     const auto match = std::find_if(table.begin(), table.end(), [&](const auto& pair) {
@@ -166,8 +195,7 @@ std::string shown_text(const Cell& cell) {
 }
 
 std::size_t display_width(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
 std::string wrapped(const std::string& text, std::size_t width, const std::string& indent) {
@@ -189,15 +217,14 @@ std::string wrapped(const std::string& text, std::size_t width, const std::strin
 }
 
 std::string to_ascii(const std::string& text) {
-  static const std::array<std::pair<const char*, const char*>, 47> table{{
-      {"°", "deg"}, {"Ω", "Omega"}, {"ω", "omega"}, {"β", "beta"}, {"γ", "gamma"}, {"θ", "theta"},
-      {"μ", "mu"}, {"Σ", "sum "}, {"·", "*"}, {"…", "..."}, {"∞", "inf"}, {"±", "+-"}, {"−", "-"},
-      {"₁", "1"}, {"₂", "2"}, {"₃", "3"}, {"²", "^2"}, {"³", "^3"}, {"⁴", "^4"}, {"ₛ", "_s"},
-      {"≈", "~"}, {"✓", "+"}, {"✗", "X"}, {"δ", "delta"},
-      {"ₖ", "_k"}, {"ₙ", "_n"}, {"ₜ", "_t"}, {"ᵢ", "_i"},
-      {"≤", "<="}, {"≥", ">="}, {"─", "-"}, {"–", "-"}, {"é", "e"}, {"×", "x"}, {"φ", "phi"},
-      {"α", "alpha"}, {"σ", "sigma"}, {"′", "'"}, {"″", "''"}, {"½", "1/2"}, {"→", "->"}, {"√", "sqrt "}, {"Δ", "d"}, {"⇒", "=>"},
-      {"π", "pi"}, {"Γ", "Gamma"}, {"₀", "0"}}};
+  static const std::array<std::pair<const char*, const char*>, 47> table{
+      {{"°", "deg"},   {"Ω", "Omega"}, {"ω", "omega"}, {"β", "beta"},  {"γ", "gamma"}, {"θ", "theta"}, {"μ", "mu"},
+       {"Σ", "sum "},  {"·", "*"},     {"…", "..."},   {"∞", "inf"},   {"±", "+-"},    {"−", "-"},     {"₁", "1"},
+       {"₂", "2"},     {"₃", "3"},     {"²", "^2"},    {"³", "^3"},    {"⁴", "^4"},    {"ₛ", "_s"},    {"≈", "~"},
+       {"✓", "+"},     {"✗", "X"},     {"δ", "delta"}, {"ₖ", "_k"},    {"ₙ", "_n"},    {"ₜ", "_t"},    {"ᵢ", "_i"},
+       {"≤", "<="},    {"≥", ">="},    {"─", "-"},     {"–", "-"},     {"é", "e"},     {"×", "x"},     {"φ", "phi"},
+       {"α", "alpha"}, {"σ", "sigma"}, {"′", "'"},     {"″", "''"},    {"½", "1/2"},   {"→", "->"},    {"√", "sqrt "},
+       {"Δ", "d"},     {"⇒", "=>"},    {"π", "pi"},    {"Γ", "Gamma"}, {"₀", "0"}}};
   std::string out = text;
   for (const auto& [from, to] : table) {
     for (std::size_t at = 0; (at = out.find(from, at)) != std::string::npos;) {

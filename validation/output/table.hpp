@@ -14,8 +14,8 @@ struct Column {
   std::string name;
   std::string heading;
   std::string unit;
-  bool shown = true;  ///< false: only in CSV and JSON
-  bool words = false; ///< a text, aligned to the left
+  bool shown = true;   ///< false: only in CSV and JSON
+  bool words = false;  ///< a text, aligned to the left
 };
 
 /// A cell: a number with the digits to show, a text, or nothing.
@@ -56,7 +56,6 @@ struct TableStyle {
 [[nodiscard]] std::size_t display_width(const std::string& text);
 
 /// Text broken at blanks into lines of at most `width` columns, continuation lines indented.
-[[nodiscard]] std::string wrapped(const std::string& text, std::size_t width = 79,
-                                  const std::string& indent = "  ");
+[[nodiscard]] std::string wrapped(const std::string& text, std::size_t width = 79, const std::string& indent = "  ");
 
 }  // namespace clatter::validation

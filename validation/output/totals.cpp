@@ -1,6 +1,5 @@
 #include "validation/output/totals.hpp"
 
-
 namespace clatter::validation {
 namespace {
 

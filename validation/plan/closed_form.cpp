@@ -106,7 +106,8 @@ void add_amplification(const Drop& drop, Sequence& sequence) {
       const double growth =
           there ? std::max({relative_change(row.start, other.rows[i].start),
                             relative_change(row.contact_angle, other.rows[i].contact_angle),
-                            relative_change(row.impact.normal_impulse, other.rows[i].impact.normal_impulse)}) / shift
+                            relative_change(row.impact.normal_impulse, other.rows[i].impact.normal_impulse)}) /
+                      shift
                 : std::numeric_limits<double>::infinity();
       row.amplification = std::max(row.amplification, growth);
     }
@@ -129,8 +130,8 @@ Sequence closed_form_sequence(const Drop& drop, int impacts, bool amplification)
   }
   sequence.outcome = at.count == impacts || at.count == most_impacts ? analytic::Outcome::impact_limit
                                                                      : analytic::Outcome::no_further_impact;
-  sequence.message = at.count == most_impacts ? "the closed form ends with the third impact"
-                                              : "the closed form has no further impact";
+  sequence.message =
+      at.count == most_impacts ? "the closed form ends with the third impact" : "the closed form has no further impact";
   if (at.count == impacts) sequence.message = "as many impacts as asked for";
   if (amplification) add_amplification(drop, sequence);
   return sequence;

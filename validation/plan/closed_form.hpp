@@ -11,9 +11,8 @@ namespace clatter::validation {
 /// first, with Newton's restitution and an impulse ratio as given, or none.
 [[nodiscard]] std::string reason_against_closed_form(const analytic::Drop& drop);
 
-/// The first impacts, at most three, of a drop to which it applies.  One impact is Eq. 9; with the second and third come
-/// the roots β and γ of Eq. 12.  What comes after the third impact is not known.
-/// Accuracy: as contact_angles().
+/// The first impacts, at most three, of a drop to which it applies.  One impact is Eq. 9; with the second and third
+/// come the roots β and γ of Eq. 12.  What comes after the third impact is not known. Accuracy: as contact_angles().
 /// @param amplification also the neighbouring drops that tell how errors grow; without it, amplifications are NaN.
 [[nodiscard]] analytic::Sequence closed_form_sequence(const analytic::Drop& drop, int impacts,
                                                       bool amplification = false);

@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "analytic/errors.hpp"
-#include "validation/scene/discrete_scene.hpp"
 #include "validation/output/names.hpp"
 #include "validation/plan/closed_form.hpp"
 #include "validation/plan/symmetry.hpp"
+#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -76,8 +76,7 @@ Scene limited(Scene scene) {
   return scene;
 }
 
-Ladder::Ladder(Scene scene)
-    : scene_(std::move(scene)), body_(scene_.make_body()), start_(scene_.start(body_)) {
+Ladder::Ladder(Scene scene) : scene_(std::move(scene)), body_(scene_.make_body()), start_(scene_.start(body_)) {
   try {
     drop_ = discrete_drop(scene_, body_);
   } catch (const analytic::OutsideModelError& error) {

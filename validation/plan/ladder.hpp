@@ -95,8 +95,8 @@ struct Truth {
   MotionNumbers sizes{};
   double error = 0;         ///< largest of these estimates
   double contact_time = 0;  ///< duration of the first contact [s]
-  /// Why the reference run has fewer impacts than asked for, where a number that could not be computed or a limit on the
-  /// work is the reason; else empty.
+  /// Why the reference run has fewer impacts than asked for, where a number that could not be computed or a limit on
+  /// the work is the reason; else empty.
   std::string cut_short;
 };
 [[nodiscard]] Truth true_values(const Ladder& ladder, double trusted = 1e-6);

@@ -82,14 +82,13 @@ class Planner {
     const RungResult loose = pilot(CostTable::loose_tolerance), middle = pilot(CostTable::pilot_tolerance);
     pilot_base_ = static_cast<double>(middle.evaluations);
     const double error = distance(middle.rows, truth_, sizes_), loose_error = distance(loose.rows, truth_, sizes_);
-    plan_.error_constant = std::isfinite(loose_error) ? CostTable::error_constant(loose_error, error)
-                                                      : error / CostTable::pilot_tolerance;
+    plan_.error_constant =
+        std::isfinite(loose_error) ? CostTable::error_constant(loose_error, error) : error / CostTable::pilot_tolerance;
     watch_the_plane();
   }
 
   RungResult pilot(double tolerance) {
-    const RungResult result =
-        ladder_.run({.rung = full_, .method = Method::rkck, .tolerance = tolerance}, impacts());
+    const RungResult result = ladder_.run({.rung = full_, .method = Method::rkck, .tolerance = tolerance}, impacts());
     plan_.planning_evaluations += result.evaluations;
     return result;
   }
@@ -127,8 +126,8 @@ class Planner {
         weighed.left_out = true;
       } else {
         const Ladder reduced(without(ladder_.scene(), part));
-        const RungResult result = reduced.run(
-            {.rung = full_, .method = Method::rkck, .tolerance = finest_pilot_tolerance}, impacts());
+        const RungResult result =
+            reduced.run({.rung = full_, .method = Method::rkck, .tolerance = finest_pilot_tolerance}, impacts());
         plan_.planning_evaluations += result.evaluations;
         weighed.error = distance(result.rows, truth_, sizes_);
         const double known_to = weighed.error + plan_.error_constant * finest_pilot_tolerance;
@@ -218,7 +217,9 @@ class Planner {
     return worst;
   }
 
-  [[nodiscard]] bool fits(double seconds) const { return !plan_.target.within_ms || 1e3 * seconds <= *plan_.target.within_ms; }
+  [[nodiscard]] bool fits(double seconds) const {
+    return !plan_.target.within_ms || 1e3 * seconds <= *plan_.target.within_ms;
+  }
 
   void take(const WeighedRung& weighed) {
     plan_.choice = weighed.setting;
@@ -290,8 +291,8 @@ std::string quoted(const std::string& name) {
 
 std::string command_line(const Plan& plan) {
   const Scene& scene = plan.scene;
-  std::string line = fmt::format("clatter {} {}", is_continuous(plan.choice.rung) ? "simulate" : "compare",
-                                 quoted(scene.path));
+  std::string line =
+      fmt::format("clatter {} {}", is_continuous(plan.choice.rung) ? "simulate" : "compare", quoted(scene.path));
   if (!is_continuous(plan.choice.rung)) return line;
   line += fmt::format(" --method {} --tolerance {}", method_name(plan.choice.method), shortest(plan.choice.tolerance));
   if (plan.choice.rung == Rung::planar && !scene.options.planar) line += " --planar";

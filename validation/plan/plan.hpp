@@ -43,18 +43,18 @@ struct WeighedPart {
 
 struct Plan {
   PlanTarget target;
-  double asked = 0;            ///< relative error
+  double asked = 0;  ///< relative error
   Scene scene;       ///< without what is left out
   RungSetting choice;
-  bool serves = false;         ///< whether the choice is expected to meet what was asked
+  bool serves = false;                                      ///< whether the choice is expected to meet what was asked
   double error = std::numeric_limits<double>::quiet_NaN();  ///< predicted, relative; NaN: nothing could be planned
   double evaluations = 0;
   double seconds = 0;
-  int impacts = 0;             ///< that happen, at most as many as the scene asks for
-  int known_impacts = 0;       ///< the first impacts, which can be had to what was asked by the full rung
-  int predictable_impacts = 0; ///< those before which errors out of the plane have not outgrown what was asked
+  int impacts = 0;              ///< that happen, at most as many as the scene asks for
+  int known_impacts = 0;        ///< the first impacts, which can be had to what was asked by the full rung
+  int predictable_impacts = 0;  ///< those before which errors out of the plane have not outgrown what was asked
   double growth_out_of_plane = std::numeric_limits<double>::quiet_NaN();  ///< of a small error, until the last impact
-  double error_constant = 0;   ///< error over tolerance of rkck, from the pilot runs
+  double error_constant = 0;  ///< error over tolerance of rkck, from the pilot runs
   std::vector<WeighedRung> rungs;
   std::vector<WeighedPart> parts;
   long planning_evaluations = 0;  ///< of all runs of the planning

@@ -97,7 +97,8 @@ class Runner {
     const MotionNumbers sizes = motion_sizes(finer, finer.impacts.size(), body_);
     double worst = 0;
     for (std::size_t i = 0; i < std::min(run.impacts.size(), finer.impacts.size()); ++i) {
-      const double apart = row_distance(motion_numbers(run.impacts[i].value), motion_numbers(finer.impacts[i].value), sizes);
+      const double apart =
+          row_distance(motion_numbers(run.impacts[i].value), motion_numbers(finer.impacts[i].value), sizes);
       if (!(apart <= different_ways)) break;
       worst = std::max(worst, apart);
     }
@@ -137,7 +138,8 @@ std::string submersion_warning(const Simulation& run) {
 
 std::string planar_warning(const numeric::Body& body, const numeric::MotionState& start, const Options& options) {
   if (!options.planar || is_mirror_image(body, start)) return "";
-  return "kept in its plane, although the body as it is tilted is not its own mirror image there: forces and moments out "
+  return "kept in its plane, although the body as it is tilted is not its own mirror image there: forces and moments "
+         "out "
          "of the plane are left out";
 }
 

@@ -13,10 +13,10 @@ using numeric::Method;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Method methods[] = {Method::rkck, Method::rk8pd};
-constexpr double guess_margin = 3;         // the table's medians are off by this on many scenes
-constexpr double worth_trying = 2;         // a method predicted to cost this much more than the other is left
-constexpr double decades_apart = 1.5;      // of tolerance, to see how an error falls with it
-constexpr int finer_steps = 4;             // the reference is two decades of tolerance finer
+constexpr double guess_margin = 3;     // the table's medians are off by this on many scenes
+constexpr double worth_trying = 2;     // a method predicted to cost this much more than the other is left
+constexpr double decades_apart = 1.5;  // of tolerance, to see how an error falls with it
+constexpr int finer_steps = 4;         // the reference is two decades of tolerance finer
 
 std::size_t index_of(Method method) { return method == Method::rkck ? 0 : 1; }
 
@@ -47,7 +47,8 @@ ToleranceSearch::ToleranceSearch(const Ladder& ladder, Rung rung, int impacts, c
 void ToleranceSearch::find_reference(double asked, int index) {
   const int finest = tolerance_steps - 1;
   const PredictedSetting start = predicted_setting(Method::rk8pd, error_constant_, asked / 100);
-  const RungSetting setting{.rung = rung_, .method = Method::rk8pd,
+  const RungSetting setting{.rung = rung_,
+                            .method = Method::rk8pd,
                             .tolerance = half_decade(std::min(finest, std::max(start.index, index + finer_steps)))};
   const RungResult result = ladder_.run(setting, impacts_);
   spent_ += result.evaluations;
@@ -110,7 +111,8 @@ FoundSetting ToleranceSearch::cheapest(double asked) {
   if (starts[1].evaluations < starts[0].evaluations) std::swap(starts[0], starts[1]);
   FoundSetting best;
   descend(starts[0], asked, best);
-  if (!best.serves || pilot_evaluations_ * starts[1].evaluations <= worth_trying * static_cast<double>(best.evaluations)) {
+  if (!best.serves ||
+      pilot_evaluations_ * starts[1].evaluations <= worth_trying * static_cast<double>(best.evaluations)) {
     descend(starts[1], asked, best);
   }
   best.reference = reference_;

@@ -26,11 +26,11 @@ struct PredictedSetting {
 
 struct FoundSetting {
   RungSetting setting;
-  double error = 0;             ///< against the reference, relative
+  double error = 0;  ///< against the reference, relative
   long evaluations = 0;
-  bool serves = false;          ///< error <= what was asked
+  bool serves = false;                   ///< error <= what was asked
   std::vector<MotionNumbers> reference;  ///< rows of the finest run
-  std::vector<double> errors;   ///< of each row; where nothing serves, of the finest setting
+  std::vector<double> errors;            ///< of each row; where nothing serves, of the finest setting
 };
 
 /// Finds it by trial: the measured table says where to begin, runs against a finer one where to stop.

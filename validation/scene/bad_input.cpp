@@ -25,9 +25,8 @@ std::size_t edit_distance(const std::string& from, const std::string& to) {
 
 std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates) {
   const auto nearest = std::min_element(
-      candidates.begin(), candidates.end(), [&](const std::string& a, const std::string& b) {
-        return edit_distance(name, a) < edit_distance(name, b);
-      });
+      candidates.begin(), candidates.end(),
+      [&](const std::string& a, const std::string& b) { return edit_distance(name, a) < edit_distance(name, b); });
   return nearest == candidates.end() ? std::string() : *nearest;
 }
 

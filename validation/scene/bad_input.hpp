@@ -13,7 +13,6 @@ class BadInput : public std::runtime_error {
 };
 
 /// The candidate nearest to `name` by edit distance.
-[[nodiscard]] std::string nearest_name(const std::string& name,
-                                       const std::vector<std::string>& candidates);
+[[nodiscard]] std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates);
 
 }  // namespace clatter::validation

@@ -72,8 +72,10 @@ double fallen_speed(double height, double gravity, const analytic::PlanarBody& b
                     const analytic::Angle& inclination) {
   const double touch = analytic::BodyMotion(body, inclination, {}, 0).centre_height();
   if (!(height > touch)) {
-    throw BadInput(fmt::format("drop.height = {}: must be greater than {} m, the height of the centre of mass at the "
-                               "first touch", shortest(height), significant(touch, 6)));
+    throw BadInput(
+        fmt::format("drop.height = {}: must be greater than {} m, the height of the centre of mass at the "
+                    "first touch",
+                    shortest(height), significant(touch, 6)));
   }
   return std::sqrt(2 * gravity * (height - touch));
 }
@@ -127,8 +129,8 @@ analytic::PlanarBody nominal_body(const Scene& scene) {
     case BodyScene::Shape::rod:
       return analytic::make_rod({.mass = body.mass, .length = body.length, .radius = body.radius});
     case BodyScene::Shape::box:
-      return analytic::make_box({.mass = body.mass, .length = body.size.x(), .width = body.size.y(),
-                                 .thickness = body.size.z()});
+      return analytic::make_box(
+          {.mass = body.mass, .length = body.size.x(), .width = body.size.y(), .thickness = body.size.z()});
     case BodyScene::Shape::mesh: break;
   }
   return planar_body(scene.make_body());

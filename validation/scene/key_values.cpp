@@ -27,43 +27,44 @@ void put_given(const SceneValues& values, const Key& key, Scene& scene, Model mo
           [&](const NumberValue& v) { v.at(scene) = values.number(name, 0, allowed(v.range, v.wide, model)); },
           [&](const OptionalNumber& v) { v.at(scene) = values.number(name, 0, allowed(v.range, v.wide, model)); },
           [&](const WholeNumber& v) {
-            v.at(scene) = static_cast<int>(values.integer(name, 0, wide ? v.wide_low : v.low, wide ? v.wide_high : v.high));
+            v.at(scene) =
+                static_cast<int>(values.integer(name, 0, wide ? v.wide_low : v.low, wide ? v.wide_high : v.high));
           },
           [&](const LongNumber& v) { v.at(scene) = static_cast<long>(values.integer(name, 0, v.low, v.high)); },
           [&](const TruthValue& v) { v.at(scene) = values.truth(name, false); },
           [&](const TextValue& v) { v.at(scene) = values.text(name); },
           [&](const NameValue& v) { v.put(scene, values.name(name, 0, *v.names)); },
-          [&](const ListValue& v) { v.put(scene, values.numbers(name, v.sizes, allowed(v.range, v.wide, model), v.words)); },
+          [&](const ListValue& v) {
+            v.put(scene, values.numbers(name, v.sizes, allowed(v.range, v.wide, model), v.words));
+          },
       },
       key.value);
 }
 
 Json value_json(const Key& key, Scene& scene) {
-  return std::visit(
-      Overloaded{
-          [&](const OptionalNumber& v) { return v.at(scene) ? Json(*v.at(scene)) : Json(nullptr); },
-          [&](const TextValue& v) { return text_json(v.at(scene)); },
-          [&](const NameValue& v) { return Json((*v.names)[v.get(scene)]); },
-          [&](const ListValue& v) { return Json(v.get(scene)); },
-          [&](const auto& v) { return Json(v.at(scene)); },
-      },
-      key.value);
+  return std::visit(Overloaded{
+                        [&](const OptionalNumber& v) { return v.at(scene) ? Json(*v.at(scene)) : Json(nullptr); },
+                        [&](const TextValue& v) { return text_json(v.at(scene)); },
+                        [&](const NameValue& v) { return Json((*v.names)[v.get(scene)]); },
+                        [&](const ListValue& v) { return Json(v.get(scene)); },
+                        [&](const auto& v) { return Json(v.at(scene)); },
+                    },
+                    key.value);
 }
 
 }  // namespace
 
 std::string Key::allowed() const {
-  return std::visit(
-      Overloaded{
-          [](const WholeNumber& v) { return fmt::format("a whole number from {} to {}", v.low, v.high); },
-          [](const LongNumber& v) { return fmt::format("a whole number from {} to {}", v.low, v.high); },
-          [](const TruthValue&) { return std::string("true or false"); },
-          [](const TextValue&) { return std::string("a text"); },
-          [](const NameValue& v) { return fmt::format("one of {}", fmt::join(*v.names, ", ")); },
-          [](const ListValue& v) { return std::string(v.words); },
-          [](const auto& v) { return std::string(v.range.words); },
-      },
-      value);
+  return std::visit(Overloaded{
+                        [](const WholeNumber& v) { return fmt::format("a whole number from {} to {}", v.low, v.high); },
+                        [](const LongNumber& v) { return fmt::format("a whole number from {} to {}", v.low, v.high); },
+                        [](const TruthValue&) { return std::string("true or false"); },
+                        [](const TextValue&) { return std::string("a text"); },
+                        [](const NameValue& v) { return fmt::format("one of {}", fmt::join(*v.names, ", ")); },
+                        [](const ListValue& v) { return std::string(v.words); },
+                        [](const auto& v) { return std::string(v.range.words); },
+                    },
+                    value);
 }
 
 Json Key::get(const Scene& scene) const {
@@ -89,15 +90,14 @@ bool Key::is_number() const {
 }
 
 void Key::put_number(Scene& scene, double number) const {
-  std::visit(
-      Overloaded{
-          [&](const NumberValue& v) { v.at(scene) = number; },
-          [&](const OptionalNumber& v) { v.at(scene) = number; },
-          [&](const WholeNumber& v) { v.at(scene) = static_cast<int>(number); },
-          [&](const LongNumber& v) { v.at(scene) = static_cast<long>(number); },
-          [&](const auto&) { throw std::logic_error(std::string(name) + " is no number"); },
-      },
-      value);
+  std::visit(Overloaded{
+                 [&](const NumberValue& v) { v.at(scene) = number; },
+                 [&](const OptionalNumber& v) { v.at(scene) = number; },
+                 [&](const WholeNumber& v) { v.at(scene) = static_cast<int>(number); },
+                 [&](const LongNumber& v) { v.at(scene) = static_cast<long>(number); },
+                 [&](const auto&) { throw std::logic_error(std::string(name) + " is no number"); },
+             },
+             value);
 }
 
 const Key& key_named(std::string_view name) {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "validation/output/json.hpp"
-#include "validation/scene/scene_values.hpp"
 #include "validation/scene/scene.hpp"
+#include "validation/scene/scene_values.hpp"
 
 namespace clatter::validation {
 
@@ -64,16 +64,16 @@ enum class Echo { value, null, absent };
 enum class Use { both, continuous };
 
 struct Key {
-  const char* name;        ///< "drop.angle_deg"
+  const char* name;  ///< "drop.angle_deg"
   Use use;
-  const char* flag;        ///< "--angle"; empty: it has none
-  const char* type;        ///< of the flag's value, in help: "DEG", "rod|box|mesh"; empty: a flag without a value
-  const char* unit;        ///< empty: none
+  const char* flag;  ///< "--angle"; empty: it has none
+  const char* type;  ///< of the flag's value, in help: "DEG", "rod|box|mesh"; empty: a flag without a value
+  const char* unit;  ///< empty: none
   const char* help;
   KeyValue value;
   Echo (*echo)(const Scene& scene, Model model) = nullptr;  ///< none: always its value
 
-  bool is_required = false;                              ///< no scene of the continuous model is without it
+  bool is_required = false;  ///< no scene of the continuous model is without it
 
   /// Name of the argument in Python and on the page: the flag's, or without one the key's last word.
   [[nodiscard]] std::string argument() const;

@@ -9,8 +9,8 @@ namespace clatter::validation {
 
 double read_number_option(const std::string& option, const std::string& text, const Range& range) {
   double value = 0;
-  const bool inside = read_number(text, value) && value >= range.low && value <= range.high &&
-                      !(range.low_open && value == range.low);
+  const bool inside =
+      read_number(text, value) && value >= range.low && value <= range.high && !(range.low_open && value == range.low);
   if (!inside) throw BadInput(fmt::format("{} '{}': must be {}", option, text, range.words));
   return value;
 }
@@ -18,8 +18,7 @@ double read_number_option(const std::string& option, const std::string& text, co
 int read_integer_option(const std::string& option, const std::string& text, int low, int high) {
   long long value = 0;
   if (!read_integer(text, value) || value < low || value > high) {
-    throw BadInput(
-        fmt::format("{} '{}': must be a whole number from {} to {}", option, text, low, high));
+    throw BadInput(fmt::format("{} '{}': must be a whole number from {} to {}", option, text, low, high));
   }
   return static_cast<int>(value);
 }
@@ -29,8 +28,8 @@ std::size_t read_name_option(const std::string& option, const std::string& text,
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i] == text) return i;
   }
-  throw BadInput(fmt::format("{} '{}': must be one of {}; did you mean {}?", option, text,
-                             fmt::join(names, ", "), nearest_name(text, names)));
+  throw BadInput(fmt::format("{} '{}': must be one of {}; did you mean {}?", option, text, fmt::join(names, ", "),
+                             nearest_name(text, names)));
 }
 
 }  // namespace clatter::validation

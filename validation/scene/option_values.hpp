@@ -14,10 +14,8 @@ struct Range {
 };
 
 /// @throws BadInput unless `text` is a finite number in `range`; `option` is as typed ("--angle").
-[[nodiscard]] double read_number_option(const std::string& option, const std::string& text,
-                                        const Range& range);
-[[nodiscard]] int read_integer_option(const std::string& option, const std::string& text, int low,
-                                      int high);
+[[nodiscard]] double read_number_option(const std::string& option, const std::string& text, const Range& range);
+[[nodiscard]] int read_integer_option(const std::string& option, const std::string& text, int low, int high);
 /// Index of `text` among `names`.  @throws BadInput naming the nearest.
 [[nodiscard]] std::size_t read_name_option(const std::string& option, const std::string& text,
                                            const std::vector<std::string>& names);

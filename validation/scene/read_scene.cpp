@@ -1,5 +1,5 @@
-// How a scene file and the flags that override it become a checked scene: each key by its row, then what keys have to do
-// with each other.
+// How a scene file and the flags that override it become a checked scene: each key by its row, then what keys have to
+// do with each other.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -51,13 +51,15 @@ void check_mesh(const SceneValues& values, BodyScene& body) {
 void check_body(const SceneValues& values, BodyScene& body, Model model) {
   using Shape = BodyScene::Shape;
   if (body.shape != Shape::rod) {
-    only_for(values, {"body.length", "body.radius", "body.mesh.sectors", "body.mesh.rings", "body.mesh.layers"}, "a rod");
+    only_for(values, {"body.length", "body.radius", "body.mesh.sectors", "body.mesh.rings", "body.mesh.layers"},
+             "a rod");
   }
   if (body.shape != Shape::box) {
     only_for(values, {"body.size", "body.mesh.nx", "body.mesh.ny", "body.mesh.nz"}, "a box");
   }
   if (body.shape != Shape::mesh) {
-    only_for(values, {"body.mesh.file", "body.mesh.unit", "body.mesh.density", "body.inertia", "body.centre"}, "a mesh");
+    only_for(values, {"body.mesh.file", "body.mesh.unit", "body.mesh.density", "body.inertia", "body.centre"},
+             "a mesh");
   }
   if (model == Model::continuous) static_cast<void>(values.number("body.radius", 1, thick));
   if (body.shape == Shape::box) values.require("body.size", "the box's [L, W, T] in m");
@@ -122,7 +124,8 @@ void check_drop(const SceneValues& values, const Scene& scene) {
   if (scene.height && !(scene.options.gravity > 0)) values.refuse("drop.height", "left out where world.gravity is 0");
 }
 
-/// Flags alone begin with the paper's thin rod without gravity, scene files with a body that can be dropped on the earth.
+/// Flags alone begin with the paper's thin rod without gravity, scene files with a body that can be dropped on the
+/// earth.
 Scene default_scene(const std::string& path, Model model) {
   Scene scene;
   scene.path = path;

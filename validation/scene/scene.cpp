@@ -53,15 +53,16 @@ std::string friction_words(const numeric::Ground& ground) {
   if (ground.static_friction == ground.sliding_friction) {
     return fmt::format("friction μ = {}{}", shortest(ground.sliding_friction), law);
   }
-  return fmt::format("friction μₛ = {}, μₖ = {}{}", shortest(ground.static_friction),
-                     shortest(ground.sliding_friction), law);
+  return fmt::format("friction μₛ = {}, μₖ = {}{}", shortest(ground.static_friction), shortest(ground.sliding_friction),
+                     law);
 }
 
 std::string discrete_body_words(const BodyScene& body) {
   switch (body.shape) {
     case BodyScene::Shape::rod:
       if (!(body.radius > 0)) return fmt::format("thin rod {} m, {} kg", shortest(body.length), shortest(body.mass));
-      return fmt::format("rod {} m, radius {} m, {} kg", shortest(body.length), shortest(body.radius), shortest(body.mass));
+      return fmt::format("rod {} m, radius {} m, {} kg", shortest(body.length), shortest(body.radius),
+                         shortest(body.mass));
     case BodyScene::Shape::box:
       return fmt::format("box {} × {} × {} m, {} kg", shortest(body.size.x()), shortest(body.size.y()),
                          shortest(body.size.z()), shortest(body.mass));

@@ -27,16 +27,16 @@ struct DiscreteImpact {
 /// What the body is made of.
 struct BodyScene {
   enum class Shape { rod, box, mesh } shape = Shape::rod;
-  double mass = 1;                                 ///< [kg]
-  double length = 1, radius = 0.01;                ///< of a rod [m]
-  numeric::Vector3 size{0, 0, 0};                  ///< of a box [m]
-  int sectors = 16, rings = 4, layers = 30;        ///< of a rod's mesh
-  int nx = 1, ny = 1, nz = 1;                      ///< of a box's mesh
-  std::string file;                                ///< Gmsh (.msh, .geo) or STL, resolved
-  double unit = 1;                                 ///< of the file's coordinates [m]
-  std::optional<double> density;                   ///< of a Gmsh file's elements [kg/m³]
-  std::vector<double> inertia;                     ///< of an STL body: 3 or 6 numbers [kg·m²]
-  std::vector<double> centre;                      ///< of mass of an STL body, in the file's frame [m]
+  double mass = 1;                           ///< [kg]
+  double length = 1, radius = 0.01;          ///< of a rod [m]
+  numeric::Vector3 size{0, 0, 0};            ///< of a box [m]
+  int sectors = 16, rings = 4, layers = 30;  ///< of a rod's mesh
+  int nx = 1, ny = 1, nz = 1;                ///< of a box's mesh
+  std::string file;                          ///< Gmsh (.msh, .geo) or STL, resolved
+  double unit = 1;                           ///< of the file's coordinates [m]
+  std::optional<double> density;             ///< of a Gmsh file's elements [kg/m³]
+  std::vector<double> inertia;               ///< of an STL body: 3 or 6 numbers [kg·m²]
+  std::vector<double> centre;                ///< of mass of an STL body, in the file's frame [m]
   bool merge = true;
 
   [[nodiscard]] bool is_stl() const;
@@ -64,10 +64,10 @@ struct Scene {
   double spin = 0;                 ///< [rad/s]
   DiscreteImpact impact;
   BodyScene body;
-  numeric::Ground ground;          ///< stiffness 0: none given, for the discrete model
+  numeric::Ground ground;  ///< stiffness 0: none given, for the discrete model
   numeric::Options options;
-  bool require_digits = false;     ///< fewer known digits are exit status 3
-  std::string history;             ///< file for the time history; empty: none
+  bool require_digits = false;  ///< fewer known digits are exit status 3
+  std::string history;          ///< file for the time history; empty: none
   std::optional<SceneSweep> sweep;
 
   /// The scene with the swept quantity at one value, and no sweep.

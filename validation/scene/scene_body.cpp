@@ -47,20 +47,25 @@ numeric::Body gmsh_body(const BodyScene& body) {
 
 bool BodyScene::is_stl() const {
   std::string extension = std::filesystem::path(file).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   return extension == ".stl";
 }
 
 numeric::Body Scene::make_body() const {
   switch (body.shape) {
     case BodyScene::Shape::rod:
-      return numeric::Body(numeric::rod_mesh({.length = body.length, .radius = body.radius, .mass = body.mass,
-                                              .sectors = body.sectors, .rings = body.rings, .layers = body.layers}),
+      return numeric::Body(numeric::rod_mesh({.length = body.length,
+                                              .radius = body.radius,
+                                              .mass = body.mass,
+                                              .sectors = body.sectors,
+                                              .rings = body.rings,
+                                              .layers = body.layers}),
                            body.merge);
     case BodyScene::Shape::box:
-      return numeric::Body(numeric::box_mesh({.size = body.size, .mass = body.mass, .nx = body.nx, .ny = body.ny,
-                                              .nz = body.nz}),
-                           body.merge);
+      return numeric::Body(
+          numeric::box_mesh({.size = body.size, .mass = body.mass, .nx = body.nx, .ny = body.ny, .nz = body.nz}),
+          body.merge);
     case BodyScene::Shape::mesh: break;
   }
   if (body.is_stl()) return {stl_properties(body), numeric::read_stl(body.file, body.unit), body.merge};
@@ -68,14 +73,16 @@ numeric::Body Scene::make_body() const {
 }
 
 numeric::MotionState Scene::start(const numeric::Body& dropped) const {
-  numeric::MotionState state = numeric::touching_state(
-      dropped, {.inclination = angle_deg * degree, .velocity = {tangential_velocity, 0, -speed}, .spin = spin,
-                .out_of_plane_tilt = tilt_deg * degree});
+  numeric::MotionState state = numeric::touching_state(dropped, {.inclination = angle_deg * degree,
+                                                                 .velocity = {tangential_velocity, 0, -speed},
+                                                                 .spin = spin,
+                                                                 .out_of_plane_tilt = tilt_deg * degree});
   if (height) state.velocity.z() = -fallen_speed(state);
   const numeric::FirstTouch first = numeric::first_touch(dropped, state);
   if (!(first.approach_speed > 0)) {  // in the discrete model's words
-    throw BadInput(fmt::format("the first contact, end {}, does not approach the ground: speed and spin must bring it down",
-                               end_name(first.end)));
+    throw BadInput(
+        fmt::format("the first contact, end {}, does not approach the ground: speed and spin must bring it down",
+                    end_name(first.end)));
   }
   return state;
 }
@@ -83,8 +90,9 @@ numeric::MotionState Scene::start(const numeric::Body& dropped) const {
 double Scene::fallen_speed(const numeric::MotionState& state) const {
   const double touch = state.centre.z();
   if (!(*height > touch)) {
-    throw BadInput(fmt::format("{}: drop.height = {}: must be greater than {} m, the height of the centre of mass at the first touch",
-                               path, shortest(*height), significant(touch, 6)));
+    throw BadInput(fmt::format(
+        "{}: drop.height = {}: must be greater than {} m, the height of the centre of mass at the first touch", path,
+        shortest(*height), significant(touch, 6)));
   }
   return std::sqrt(2 * options.gravity * (*height - touch));
 }

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <toml++/toml.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <sstream>
-#include <toml++/toml.h>
 
 #include "validation/output/number.hpp"
 #include "validation/scene/bad_input.hpp"
@@ -89,8 +89,8 @@ class SceneParser {
   }
 
   void check_table(const std::string& key, const std::string& where) const {
-    const bool known = std::any_of(known_.begin(), known_.end(),
-                                   [&](const std::string& name) { return name.starts_with(key + "."); });
+    const bool known =
+        std::any_of(known_.begin(), known_.end(), [&](const std::string& name) { return name.starts_with(key + "."); });
     if (known) return;
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) {
       throw BadInput(fmt::format("{}: {}: must be a value, not a table", where, key));
@@ -157,11 +157,13 @@ void SceneValues::require(const std::string& key, const std::string& what) const
 void SceneValues::exclude(const std::string& first, const std::string& second) const {
   if (!has(first) || !has(second)) return;
   if (at(first).is_flag && at(second).is_flag) {
-    const auto typed = [&](const std::string& key) { return at(key).where + " " + std::get<std::string>(at(key).value); };
+    const auto typed = [&](const std::string& key) {
+      return at(key).where + " " + std::get<std::string>(at(key).value);
+    };
     throw BadInput(fmt::format("{} and {}: give one of them, not both", typed(first), typed(second)));
   }
-  throw BadInput(fmt::format("{} = {}: excludes {}; give one of them, not both", at(second).where, at(second).shown,
-                             first));
+  throw BadInput(
+      fmt::format("{} = {}: excludes {}; give one of them, not both", at(second).where, at(second).shown, first));
 }
 
 void SceneValues::refuse(const std::string& key, const std::string& allowed) const {

@@ -78,12 +78,9 @@ Ranks::~Ranks() {
   std::vector<char> message;
   for (const int process : idle_) send_range(process, {});
   while (working_ > 0) {  // an exception ended process 0
-    if (!receive(status, message))
-      std::this_thread::sleep_for(between_looks);
-    else if (status.MPI_TAG != gone)
-      send_range(status.MPI_SOURCE, {});
-    else
-      --working_;
+    if (!receive(status, message)) std::this_thread::sleep_for(between_looks);
+    else if (status.MPI_TAG != gone) send_range(status.MPI_SOURCE, {});
+    else --working_;
   }
   if (!writes()) MPI_Send(nullptr, 0, MPI_CHAR, 0, gone, MPI_COMM_WORLD);
   MPI_Finalize();
@@ -97,10 +94,8 @@ void Ranks::hand_out(RangeQueue& queue, const SweepHooks& hooks) {
       std::this_thread::sleep_for(between_looks);
     } else {
       if (status.MPI_TAG == rows) add_rows(message, queue);
-      if (status.MPI_TAG == gone)
-        --working_;
-      else
-        idle_.push_back(status.MPI_SOURCE);
+      if (status.MPI_TAG == gone) --working_;
+      else idle_.push_back(status.MPI_SOURCE);
     }
     while (const auto next = queue.take()) hooks.write(*next);
     hooks.tick();

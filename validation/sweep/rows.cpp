@@ -71,7 +71,8 @@ const char* const discrete_scene_names =
     "energy_loss_error,last_start_error,reason";
 const char* const continuous_scene_names =
     ",impacts,outcome,total_normal_impulse,first_peak_force,largest_peak_force,energy_loss,last_start,predictable,"
-    "total_normal_impulse_error,first_peak_force_error,largest_peak_force_error,energy_loss_error,last_start_error,reason";
+    "total_normal_impulse_error,first_peak_force_error,largest_peak_force_error,energy_loss_error,last_start_error,"
+    "reason";
 
 std::string result_names(Model model, RowKind rows) {
   if (rows == RowKind::scene) return model == Model::discrete ? discrete_scene_names : continuous_scene_names;
@@ -113,29 +114,19 @@ void append_tail(const RowForm& form, const analytic::Tail& tail, const char* ou
   form.out += form.prefix;
   Cells cells(form.out);
   for_each_entry(analytic::ImpactRow{}, 1, 0, [&](std::string_view name, const auto& value) {
-    if (name == "n")
-      cells.add("tail");
-    else if (name == "start")
-      cells.add(tail.end_time);
-    else if (name == "end")
-      cells.add(analytic::PlanarBody::vertex_set_name(tail.vertices));
-    else if (name == "impulse_normal")
-      cells.add(tail.normal_impulse);
-    else if (name == "impulse_tangential")
-      cells.add(tail.tangential_impulse);
-    else
-      cells.add_empty(std::is_same_v<decltype(value), const EntryVector&> ? 3 : 1);
+    if (name == "n") cells.add("tail");
+    else if (name == "start") cells.add(tail.end_time);
+    else if (name == "end") cells.add(analytic::PlanarBody::vertex_set_name(tail.vertices));
+    else if (name == "impulse_normal") cells.add(tail.normal_impulse);
+    else if (name == "impulse_tangential") cells.add(tail.tangential_impulse);
+    else cells.add_empty(std::is_same_v<decltype(value), const EntryVector&> ? 3 : 1);
   });
   cells.add_empty(2);  // amplification, predictable
   for_each_error(analytic::RowErrors{}, [&](std::string_view name, const auto& value) {
-    if (form.errors && name == "start")
-      cells.add(tail.end_time_error);
-    else if (form.errors && name == "impulse_normal")
-      cells.add(tail.normal_impulse_error);
-    else if (form.errors && name == "impulse_tangential")
-      cells.add(tail.tangential_impulse_error);
-    else
-      cells.add_empty(std::is_same_v<decltype(value), const EntryVector&> ? 3 : 1);
+    if (form.errors && name == "start") cells.add(tail.end_time_error);
+    else if (form.errors && name == "impulse_normal") cells.add(tail.normal_impulse_error);
+    else if (form.errors && name == "impulse_tangential") cells.add(tail.tangential_impulse_error);
+    else cells.add_empty(std::is_same_v<decltype(value), const EntryVector&> ? 3 : 1);
   });
   cells.add_all(outcome, quoted(form.reason));
   form.out += '\n';
@@ -144,21 +135,24 @@ void append_tail(const RowForm& form, const analytic::Tail& tail, const char* ou
 /// The one row of a scene with its sums.
 void append_scene_row(const RowForm& form, const Totals& sums, const char* outcome, bool has_peaks) {
   const std::vector<Estimated> numbers =
-      has_peaks ? std::vector{sums.normal_impulse, sums.first_peak, sums.largest_peak, sums.energy_loss, sums.last_start}
-                : std::vector{sums.normal_impulse, sums.energy_loss, sums.last_start};
+      has_peaks
+          ? std::vector{sums.normal_impulse, sums.first_peak, sums.largest_peak, sums.energy_loss, sums.last_start}
+          : std::vector{sums.normal_impulse, sums.energy_loss, sums.last_start};
   form.out += form.prefix;
   Cells cells(form.out);
   cells.add_all(sums.impacts, outcome);
   for (const Estimated& number : numbers) cells.add(number.value);
   if (form.predictions) cells.add(sums.predictable);
   else cells.add(nullptr);
-  if (form.errors) for (const Estimated& number : numbers) cells.add(number.error);
+  if (form.errors)
+    for (const Estimated& number : numbers) cells.add(number.error);
   else cells.add_empty(numbers.size());
   cells.add(quoted(form.reason));
   form.out += '\n';
 }
 
-void append_impact_row(const RowForm& form, const analytic::ImpactRow& row, int n, double drop_deg, const char* outcome) {
+void append_impact_row(const RowForm& form, const analytic::ImpactRow& row, int n, double drop_deg,
+                       const char* outcome) {
   form.out += form.prefix;
   Cells cells(form.out);
   for_each_entry(row, n, drop_deg, [&](const char*, const auto& value) { cells.add(value); });

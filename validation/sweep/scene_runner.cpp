@@ -2,9 +2,9 @@
 
 #include <new>
 
-#include "validation/scene/discrete_scene.hpp"
 #include "validation/plan/planned_run.hpp"
 #include "validation/plan/shortfall.hpp"
+#include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/failure.hpp"
 
 namespace clatter::validation {
@@ -48,10 +48,9 @@ void SceneRunner::renew_body() {
 bool SceneRunner::append_result(RowForm& form) {
   renew_body();
   if (plan_.model == Model::discrete) {
-    const analytic::Sequence sequence =
-        analytic::impact_sequence(impact_drop(scene_, body_.planar), {.impacts = scene_.options.impacts,
-                                                                      .digits = scene_.options.digits,
-                                                                      .amplification = form.errors});
+    const analytic::Sequence sequence = analytic::impact_sequence(
+        impact_drop(scene_, body_.planar),
+        {.impacts = scene_.options.impacts, .digits = scene_.options.digits, .amplification = form.errors});
     form.reason = shortfall(Asked{scene_.options.digits, scene_.require_digits}, sequence);
     append_rows(form, sequence, scene_.angle_deg);
     return true;

@@ -117,14 +117,16 @@ void SweepFile::open() {
   for (;;) {
     part_file_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (part_file_ < 0) fail(part_, "cannot be created");
-    struct stat own{}, named{};
+    struct stat own {
+    }, named{};
     fstat(part_file_, &own);
     if (!S_ISREG(own.st_mode)) refuse(fmt::format("{} is not a regular file", part_));
     if (flock(part_file_, LOCK_EX | LOCK_NB) != 0) {
       if (errno == EWOULDBLOCK) refuse(fmt::format("{} is being written by another run", part_));
       fail(part_, "cannot be locked");
     }
-    // Between opening and locking the run that had the lock may have given the part its name: then it is a finished file.
+    // Between opening and locking the run that had the lock may have given the part its name: then it is a finished
+    // file.
     if (stat(part_.c_str(), &named) == 0 && own.st_dev == named.st_dev && own.st_ino == named.st_ino) break;
     close(part_file_);
   }

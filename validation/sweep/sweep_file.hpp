@@ -18,10 +18,11 @@ struct SweepFileForm {
   long long scenes = 0;  ///< how many it will hold
 };
 
-/// FILE.part, which grows by whole scenes and takes the name FILE in commit(); FILE is where symbolic links lead.  Beside
-/// it FILE.part.digests has a line "bytes scenes digest" for each time that rows were written: how far the part went
-/// then, and the digest of all of it and of these two numbers.  Whatever ends the program leaves both, and the next object takes up after the
-/// last rows that are as their digest says; rows after them are computed anew.  No two programs write one part.
+/// FILE.part, which grows by whole scenes and takes the name FILE in commit(); FILE is where symbolic links lead.
+/// Beside it FILE.part.digests has a line "bytes scenes digest" for each time that rows were written: how far the part
+/// went then, and the digest of all of it and of these two numbers.  Whatever ends the program leaves both, and the
+/// next object takes up after the last rows that are as their digest says; rows after them are computed anew.  No two
+/// programs write one part.
 class SweepFile {
  public:
   /// @param restart begins anew, whatever is in the part.
@@ -58,11 +59,11 @@ class SweepFile {
   Destination destination_;
   std::string part_, digests_;
   int part_file_ = -1, digests_file_ = -1;
-  bool is_own_ = false;  ///< the part was taken up, and is nothing to be kept while no scene is in it
-  long long scenes_ = 0;   ///< in the part
-  long long bytes_ = 0;    ///< of the part
+  bool is_own_ = false;       ///< the part was taken up, and is nothing to be kept while no scene is in it
+  long long scenes_ = 0;      ///< in the part
+  long long bytes_ = 0;       ///< of the part
   long long head_bytes_ = 0;  ///< of its head
-  Digest digest_;          ///< of the part
+  Digest digest_;             ///< of the part
   std::string pending_;
   long long pending_scenes_ = 0;
   std::chrono::steady_clock::time_point flushed_;

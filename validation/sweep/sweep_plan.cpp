@@ -24,11 +24,12 @@ const std::vector<std::string> box_sides{"body.size.length", "body.size.width", 
 /// The sides of the box, each a number where the file has one list.
 const std::vector<Key>& side_keys() {
   static const Range range = std::get<ListValue>(key_named(box_size).value).range;
-  static const std::vector<Key> keys{
-      {"body.size.length", Use::both, "", "M", "m", "", NumberValue{[](Scene& s) -> double& { return s.body.size.x(); }, range}},
-      {"body.size.width", Use::both, "", "M", "m", "", NumberValue{[](Scene& s) -> double& { return s.body.size.y(); }, range}},
-      {"body.size.thickness", Use::both, "", "M", "m", "",
-       NumberValue{[](Scene& s) -> double& { return s.body.size.z(); }, range}}};
+  static const std::vector<Key> keys{{"body.size.length", Use::both, "", "M", "m", "",
+                                      NumberValue{[](Scene& s) -> double& { return s.body.size.x(); }, range}},
+                                     {"body.size.width", Use::both, "", "M", "m", "",
+                                      NumberValue{[](Scene& s) -> double& { return s.body.size.y(); }, range}},
+                                     {"body.size.thickness", Use::both, "", "M", "m", "",
+                                      NumberValue{[](Scene& s) -> double& { return s.body.size.z(); }, range}}};
   return keys;
 }
 

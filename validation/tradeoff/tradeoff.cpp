@@ -168,8 +168,6 @@ class Bench {
 
 double trade_tolerance(int index) { return std::max(std::pow(10.0, -1 - index), numeric::least_tolerance); }
 
-Tradeoff measure_tradeoff(const Scene& scene, const TradeoffOptions& options) {
-  return Bench(scene, options).run();
-}
+Tradeoff measure_tradeoff(const Scene& scene, const TradeoffOptions& options) { return Bench(scene, options).run(); }
 
 }  // namespace clatter::validation

@@ -11,8 +11,7 @@ using analytic::FrictionKind;
 analytic::Drop BarScene::drop() const {
   const analytic::PlanarBody body =
       shape == BarShape::box
-          ? analytic::make_box(
-                {.mass = mass, .length = length, .width = length, .thickness = 2 * half_thickness})
+          ? analytic::make_box({.mass = mass, .length = length, .width = length, .thickness = 2 * half_thickness})
           : analytic::make_rod({.mass = mass, .length = length, .radius = half_thickness});
   return {.body = body,
           .inclination = analytic::Angle::from_degrees(degrees),
@@ -24,12 +23,11 @@ analytic::Drop BarScene::drop() const {
 std::string BarScene::words() const {
   std::ostringstream text;
   text.precision(17);
-  text << (shape == BarShape::box ? "box " : "rod ") << length << " x " << half_thickness << " m, "
-       << mass << " kg, " << degrees << " deg, " << velocity.normal << ' ' << velocity.tangential
-       << " m/s, " << velocity.angular << " rad/s, g " << gravity << ", e " << law.restitution
-       << " law " << static_cast<int>(law.law) << " damping " << law.damping_per_stiffness
-       << " friction " << static_cast<int>(law.friction) << ' ' << law.friction_value << ", digits "
-       << digits;
+  text << (shape == BarShape::box ? "box " : "rod ") << length << " x " << half_thickness << " m, " << mass << " kg, "
+       << degrees << " deg, " << velocity.normal << ' ' << velocity.tangential << " m/s, " << velocity.angular
+       << " rad/s, g " << gravity << ", e " << law.restitution << " law " << static_cast<int>(law.law) << " damping "
+       << law.damping_per_stiffness << " friction " << static_cast<int>(law.friction) << ' ' << law.friction_value
+       << ", digits " << digits;
   return text.str();
 }
 
@@ -53,10 +51,8 @@ BarScene random_bar_scene(unsigned family, int index) {
   scene.law.restitution = one_of(3) != 0 ? uniform(0.001, 0.98) : std::pow(10, uniform(-3, -0.01));
   scene.law.law = static_cast<analytic::RestitutionLaw>(one_of(3));
   const int friction = one_of(4);
-  if (friction == 1)
-    scene.law.friction = FrictionKind::impulse_ratio, scene.law.friction_value = uniform(-0.2, 0.2);
-  if (friction > 1)
-    scene.law.friction = FrictionKind::coulomb, scene.law.friction_value = uniform(0.01, 0.8);
+  if (friction == 1) scene.law.friction = FrictionKind::impulse_ratio, scene.law.friction_value = uniform(-0.2, 0.2);
+  if (friction > 1) scene.law.friction = FrictionKind::coulomb, scene.law.friction_value = uniform(0.01, 0.8);
   scene.digits = 3 * (1 + one_of(4));
   return scene;
 }
@@ -65,8 +61,7 @@ BarScene random_damped_bar_scene(unsigned family, int index) {
   BarScene scene = random_bar_scene(family, index);
   std::seed_seq seed{family, static_cast<unsigned>(index), 1u};
   std::mt19937_64 random(seed);
-  const double damping_number =
-      std::pow(10, -3 + 3.5 * 0x1p-53 * static_cast<double>(random() >> 11));
+  const double damping_number = std::pow(10, -3 + 3.5 * 0x1p-53 * static_cast<double>(random() >> 11));
   scene.law.law = analytic::RestitutionLaw::viscoelastic;
   scene.law.restitution = 1;
   scene.law.damping_per_stiffness = damping_number / -scene.velocity.normal;

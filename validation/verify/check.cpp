@@ -70,12 +70,9 @@ std::vector<Check> read_checks() {
 
 const char* answer_name(Answer answer) {
   switch (answer) {
-    case Answer::holds:
-      return "holds";
-    case Answer::refuted:
-      return "refuted";
-    case Answer::ambiguous:
-      return "ambiguous";
+    case Answer::holds: return "holds";
+    case Answer::refuted: return "refuted";
+    case Answer::ambiguous: return "ambiguous";
   }
   return "";
 }

@@ -20,7 +20,8 @@ enum class Answer {
 
 /// One row of validation/verify/checks.toml.
 struct Check {
-  std::string id;  ///< C1 … C20 claims, E1 … E11 errata, F7 … F24 figures, X… exact results, M… scenes, R… random, B… error bars
+  std::string id;  ///< C1 … C20 claims, E1 … E11 errata, F7 … F24 figures, X… exact results, M… scenes, R… random, B…
+                   ///< error bars
   std::string what;    ///< in a few words
   std::string claim;   ///< in full
   std::string number;  ///< which number is measured

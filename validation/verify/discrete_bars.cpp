@@ -23,8 +23,8 @@ using analytic::Sequence;
 using analytic::Tail;
 
 template <unsigned digits>
-using Digits = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<digits>,
-                                             boost::multiprecision::et_off>;
+using Digits =
+    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<digits>, boost::multiprecision::et_off>;
 /// Bounces that have shrunk to 1e-26 leave 28 of these digits to heights.
 using Real = Digits<80>;
 /// Where gravity has no time to act between bounces, heights shrink much faster than speeds.
@@ -63,10 +63,9 @@ oracle::EventSequence<Real> simulated(const BarScene& scene, std::size_t impacts
   const oracle::EventSequence<R> found = simulation.run(impacts, R(1e-18));
   oracle::EventSequence<Real> sequence{{}, found.end};
   for (const auto& i : found.impacts) {
-    sequence.impacts.push_back({i.vertex, Real(i.time), converted<Real>(i.before),
-                                converted<Real>(i.after), Real(i.approach), Real(i.separation),
-                                Real(i.normal_impulse), Real(i.tangential_impulse),
-                                Real(i.energy_before), Real(i.energy_after)});
+    sequence.impacts.push_back({i.vertex, Real(i.time), converted<Real>(i.before), converted<Real>(i.after),
+                                Real(i.approach), Real(i.separation), Real(i.normal_impulse),
+                                Real(i.tangential_impulse), Real(i.energy_before), Real(i.energy_after)});
   }
   return sequence;
 }
@@ -90,14 +89,10 @@ oracle::EventSequence<Real> exact(const BarScene& scene, std::size_t impacts) {
 
 Outcome outcome_of(oracle::EventEnd end) {
   switch (end) {
-    case oracle::EventEnd::no_further:
-      return Outcome::no_further_impact;
-    case oracle::EventEnd::limit:
-      return Outcome::impact_limit;
-    case oracle::EventEnd::one_vertex_rests:
-      return Outcome::sustained_contact;
-    default:
-      return Outcome::at_rest;
+    case oracle::EventEnd::no_further: return Outcome::no_further_impact;
+    case oracle::EventEnd::limit: return Outcome::impact_limit;
+    case oracle::EventEnd::one_vertex_rests: return Outcome::sustained_contact;
+    default: return Outcome::at_rest;
   }
 }
 
@@ -105,8 +100,7 @@ Outcome outcome_of(oracle::EventEnd end) {
 bool same_end(Outcome outcome, const oracle::EventSequence<Real>& truth) {
   if (outcome == outcome_of(truth.end)) return true;
   const oracle::EventImpact<Real>&first = truth.impacts.front(), &last = truth.impacts.back();
-  const bool faint =
-      last.after.angular * last.after.angular < 1e-30 * first.after.angular * first.after.angular;
+  const bool faint = last.after.angular * last.after.angular < 1e-30 * first.after.angular * first.after.angular;
   return faint && outcome == Outcome::at_rest && truth.end == oracle::EventEnd::one_vertex_rests;
 }
 
@@ -117,8 +111,7 @@ class RowJudge {
   void operator()(const char* name, double value, double bar, const Real& truth) {
     const double error = static_cast<double>(abs(Real(value) - truth));
     ++coverage_.numbers;
-    if (error <= bar)
-      ++coverage_.numbers_inside;
+    if (error <= bar) ++coverage_.numbers_inside;
     else {
       std::ostringstream text;
       text << ' ' << name << ' ' << value << " +- " << bar << " off " << error;
@@ -163,14 +156,13 @@ double left_out(const oracle::EventSequence<Real>& truth, const BarScene& scene)
   return 4 / (1 - shrinks);
 }
 
-void judge_tail(const Sequence& sequence, const oracle::EventSequence<Real>& truth,
-                const BarScene& scene, RowJudge& judge) {
+void judge_tail(const Sequence& sequence, const oracle::EventSequence<Real>& truth, const BarScene& scene,
+                RowJudge& judge) {
   // What the simulation has left out after its last impact.
   const double left = left_out(truth, scene);
   const auto& last = truth.impacts.back();
   const double impulse_left = left * static_cast<double>(last.normal_impulse);
-  const double time_left =
-      left * static_cast<double>(last.time - truth.impacts[truth.impacts.size() - 2].time);
+  const double time_left = left * static_cast<double>(last.time - truth.impacts[truth.impacts.size() - 2].time);
   const Tail& tail = *sequence.tail;
   Real normal = 0, tangential = 0;
   for (std::size_t i = sequence.rows.size(); i < truth.impacts.size(); ++i) {
@@ -179,17 +171,14 @@ void judge_tail(const Sequence& sequence, const oracle::EventSequence<Real>& tru
   }
   judge("tail end", tail.end_time, tail.end_time_error + time_left, truth.impacts.back().time);
   judge("tail Pn", tail.normal_impulse, tail.normal_impulse_error + impulse_left, normal);
-  judge("tail Pt", tail.tangential_impulse, tail.tangential_impulse_error + impulse_left,
-        tangential);
+  judge("tail Pt", tail.tangential_impulse, tail.tangential_impulse_error + impulse_left, tangential);
   const double speed_left = impulse_left / scene.mass, reach = scene.length;
-  judge("tail Vt", tail.after.tangential, tail.after_error.tangential + speed_left,
-        last.after.tangential);
-  judge("tail Omega", tail.after.angular, tail.after_error.angular + 20 * speed_left / reach,
-        last.after.angular);
+  judge("tail Vt", tail.after.tangential, tail.after_error.tangential + speed_left, last.after.tangential);
+  judge("tail Omega", tail.after.angular, tail.after_error.angular + 20 * speed_left / reach, last.after.angular);
 }
 
-void judge_end(const Sequence& sequence, const oracle::EventSequence<Real>& truth,
-               const BarScene& scene, BarCoverage& coverage) {
+void judge_end(const Sequence& sequence, const oracle::EventSequence<Real>& truth, const BarScene& scene,
+               BarCoverage& coverage) {
   if (!sequence.end_predictable) return;
   if (truth.end == oracle::EventEnd::out_of_digits) {
     ++coverage.not_judged;
@@ -210,19 +199,15 @@ void judge_end(const Sequence& sequence, const oracle::EventSequence<Real>& trut
   ++coverage.sums;
   judge("total", sequence.total_normal_impulse,
         sequence.total_normal_impulse_error +
-            (sequence.tail
-                 ? left_out(truth, scene) * static_cast<double>(truth.impacts.back().normal_impulse)
-                 : 0),
+            (sequence.tail ? left_out(truth, scene) * static_cast<double>(truth.impacts.back().normal_impulse) : 0),
         sum);
   if (sequence.tail) judge_tail(sequence, truth, scene, judge);
-  if (judge.outside().empty())
-    ++coverage.sums_inside;
-  else
-    coverage.outside.push_back("sums:" + judge.outside() + ": " + scene.words());
+  if (judge.outside().empty()) ++coverage.sums_inside;
+  else coverage.outside.push_back("sums:" + judge.outside() + ": " + scene.words());
 }
 
-void judge_rows(const Sequence& sequence, const oracle::EventSequence<Real>& truth,
-                const BarScene& scene, BarCoverage& coverage) {
+void judge_rows(const Sequence& sequence, const oracle::EventSequence<Real>& truth, const BarScene& scene,
+                BarCoverage& coverage) {
   // The simulation stops within an accumulation, the sequence perhaps later.
   const Outcome end = outcome_of(truth.end);
   const bool accumulates = end == Outcome::at_rest || end == Outcome::sustained_contact;
@@ -236,10 +221,8 @@ void judge_rows(const Sequence& sequence, const oracle::EventSequence<Real>& tru
                       std::countr_zero(row.vertices) == static_cast<int>(truth.impacts[i].vertex);
     if (same) judge_row(row, truth.impacts[i], judge);
     const std::string wrong = same ? judge.outside() : " another vertex";
-    if (wrong.empty())
-      ++coverage.rows_inside;
-    else
-      coverage.outside.push_back("impact " + std::to_string(i + 1) + wrong + ": " + scene.words());
+    if (wrong.empty()) ++coverage.rows_inside;
+    else coverage.outside.push_back("impact " + std::to_string(i + 1) + wrong + ": " + scene.words());
   }
 }
 

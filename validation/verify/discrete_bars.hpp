@@ -10,16 +10,16 @@ namespace clatter::validation {
 
 /// How many numbers lie within their bars.
 struct BarCoverage {
-  long scenes = 0;  ///< compared: without those whose first contact recedes, that jam or fly off
-  long rows = 0;    ///< impacts
+  long scenes = 0;       ///< compared: without those whose first contact recedes, that jam or fly off
+  long rows = 0;         ///< impacts
   long predictable = 0;  ///< rows that are said to be known
   long rows_inside = 0;  ///< of these, with each number within its bar
   long numbers = 0, numbers_inside = 0;
   long certain_ends = 0, certain_ends_right = 0;  ///< Sequence::end_predictable
-  long not_judged = 0;               ///< certain ends that the simulation's digits did not reach
-  long sums = 0, sums_inside = 0;    ///< totals and tails of certain ends
-  std::vector<double> ratios;        ///< bar over error
-  std::vector<std::string> outside;  ///< what lies outside, in words
+  long not_judged = 0;                            ///< certain ends that the simulation's digits did not reach
+  long sums = 0, sums_inside = 0;                 ///< totals and tails of certain ends
+  std::vector<double> ratios;                     ///< bar over error
+  std::vector<std::string> outside;               ///< what lies outside, in words
 
   [[nodiscard]] double median_ratio() const;
 };

@@ -69,8 +69,7 @@ struct EventSequence {
 template <class Real>
 class EventSimulation {
  public:
-  EventSimulation(const EventBody<Real>& body, const EventState<Real>& start,
-                  const EventLaw<Real>& law)
+  EventSimulation(const EventBody<Real>& body, const EventState<Real>& start, const EventLaw<Real>& law)
       : body_(body), state_(start), law_(law) {
     for (const auto& v : body.vertices) {
       using std::sqrt;
@@ -135,18 +134,15 @@ class EventSimulation {
   /// Of the last `small` impacts: one vertex alone bounced, and the others need far longer to the
   /// ground than its bounces last all together; or several have bounced; or neither can be said yet
   /// (limit).
-  [[nodiscard]] EventEnd accumulation_end(const std::vector<EventImpact<Real>>& impacts,
-                                          std::size_t small) const {
+  [[nodiscard]] EventEnd accumulation_end(const std::vector<EventImpact<Real>>& impacts, std::size_t small) const {
     using std::sqrt;
     const EventImpact<Real>& last = impacts.back();
-    for (std::size_t i = impacts.size() - std::max<std::size_t>(small, 2); i < impacts.size();
-         ++i) {
+    for (std::size_t i = impacts.size() - std::max<std::size_t>(small, 2); i < impacts.size(); ++i) {
       if (impacts[i].vertex != last.vertex) return EventEnd::face_rests;
     }
     const std::size_t n = impacts.size();
     const Real bounce = last.time - impacts[n - 2].time;
-    const Real shrinks =
-        n < 3 ? law_.restitution : Real(bounce / (impacts[n - 2].time - impacts[n - 3].time));
+    const Real shrinks = n < 3 ? law_.restitution : Real(bounce / (impacts[n - 2].time - impacts[n - 3].time));
     if (!(shrinks < 1)) return EventEnd::limit;
     const Real left = bounce * shrinks / (1 - shrinks);
     const Offset from = offset(last.vertex);
@@ -162,10 +158,9 @@ class EventSimulation {
 
   [[nodiscard]] Real energy(const Real& height) const {
     const auto& v = state_;
-    return body_.mass * ((v.normal * v.normal + v.tangential * v.tangential +
-                          body_.gyration_square * v.angular * v.angular) /
-                             2 +
-                         law_.gravity * height);
+    return body_.mass *
+           ((v.normal * v.normal + v.tangential * v.tangential + body_.gyration_square * v.angular * v.angular) / 2 +
+            law_.gravity * height);
   }
 
   // ---- impact ----
@@ -185,8 +180,7 @@ class EventSimulation {
       const Real ratio = law_.friction == EventFriction::ratio ? law_.friction_value : Real(0);
       const Real slope = path.A - path.B * ratio;
       if (!(slope > 0)) throw std::runtime_error("the contact jams");
-      const Real rebound =
-          law_.kind == EventRestitution::viscoelastic ? damped_rebound(fast) : Real(e * fast);
+      const Real rebound = law_.kind == EventRestitution::viscoelastic ? damped_rebound(fast) : Real(e * fast);
       return path.go(ratio, (fast + rebound) / slope, false);
     }
     if (law_.kind == EventRestitution::viscoelastic) return path.push_off(law_.damping);
@@ -238,16 +232,14 @@ class EventSimulation {
   /// The vertex that arrives first; the state is then that of its touch.
   std::optional<std::size_t> fly(std::size_t from) {
     using std::cos, std::sin, std::sqrt;
-    const Real start = -offset(from).normal, V = state_.normal, g = law_.gravity,
-               spin = state_.angular;
+    const Real start = -offset(from).normal, V = state_.normal, g = law_.gravity, spin = state_.angular;
     Real t = 0;
     for (long step = 0; step < most_steps; ++step) {
       const Real centre = start + t * (V - g * t / 2), speed = V - g * t;
       if (centre > reach_) {
         if (g == 0 && speed >= 0) return std::nullopt;
-        const Real back = g == 0
-                              ? t + (centre - reach_) / -speed
-                              : t + (speed + sqrt(speed * speed + 2 * g * (centre - reach_))) / g;
+        const Real back =
+            g == 0 ? t + (centre - reach_) / -speed : t + (speed + sqrt(speed * speed + 2 * g * (centre - reach_))) / g;
         if (back > t * (1 + Real(1e-30))) {
           t = back;
           continue;
@@ -258,13 +250,10 @@ class EventSimulation {
       std::size_t nearest = 0;
       for (std::size_t i = 0; i < body_.vertices.size(); ++i) {
         const Offset d = offset(i, s, c);
-        const Real bend = g + spin * spin * reaches_[i], h = centre + d.normal,
-                   velocity = speed - spin * d.tangential;
+        const Real bend = g + spin * spin * reaches_[i], h = centre + d.normal, velocity = speed - spin * d.tangential;
         Real own;
-        if (t == 0 && i == from)
-          own = velocity / bend;  // it rises; until twice this time for certain
-        else
-          own = h > 0 ? safe_step(h, velocity, bend) : Real(0);
+        if (t == 0 && i == from) own = velocity / bend;  // it rises; until twice this time for certain
+        else own = h > 0 ? safe_step(h, velocity, bend) : Real(0);
         if (stride < 0 || own < stride) stride = own, nearest = i;
       }
       if (stride <= Real(1e-32) * t) {

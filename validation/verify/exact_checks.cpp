@@ -79,10 +79,8 @@ Measured largest_second_impulse(Laboratory&) {
   while (high - low > 1e-6) {  // P₂ is unimodal there
     const double third = (high - low) / 3;
     const double left = low + third, right = high - third;
-    if (impulse(left) < impulse(right))
-      low = left;
-    else
-      high = right;
+    if (impulse(left) < impulse(right)) low = left;
+    else high = right;
   }
   const double largest = impulse(low);
   return {largest, std::fabs(largest - 1.04540), Answer::holds, fmt::format("at θ = {}°", significant(low, 5))};

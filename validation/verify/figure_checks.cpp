@@ -49,7 +49,9 @@ Measured figure_12(Laboratory& laboratory) { return points_on_lines(12, laborato
 /// all instants both ends are on it or above.
 Measured figure_8(Laboratory& laboratory) {
   const Figure figure = make_figure(8, laboratory);
-  const auto value = [&](const std::vector<double>& row, const char* name) { return row[column_index(figure.columns, name)]; };
+  const auto value = [&](const std::vector<double>& row, const char* name) {
+    return row[column_index(figure.columns, name)];
+  };
   double worst = 0, least = 0, most = 0;
   for (const auto& row : figure.rows) {
     const double velocity = value(row, "V_centre"), omega = value(row, "Omega");

@@ -105,8 +105,7 @@ struct ImpulsePath {
         throw std::runtime_error("the contact jams");
       }
       const Real after = u + slope * stop;
-      stored -= slope == 0 ? Real(u / (1 - damping * u) * stop)
-                           : Real((ground.G(after) - ground.G(u)) / slope);
+      stored -= slope == 0 ? Real(u / (1 - damping * u) * stop) : Real((ground.G(after) - ground.G(u)) / slope);
       go(r, stop, true);
     }
   }

@@ -62,8 +62,8 @@ std::string row_of(const CheckResult& result) {
       "class=\"number\">{}</td>"
       "<td class=\"number\" title=\"{}\">{}</td><td class=\"{}\">{}{}</td><td class=\"number\">{:.2f}</td></tr>\n",
       check.id, check.id, html_escaped(check.claim), html_escaped(m.found), html_escaped(check.command), answer, answer,
-      html_escaped(check.number), html_escaped(number), html_escaped(check.oracle), html_escaped(check.error), significant(m.error, 2),
-      html_escaped(check.reason), significant(check.tolerance, 2), verdict, verdict,
+      html_escaped(check.number), html_escaped(number), html_escaped(check.oracle), html_escaped(check.error),
+      significant(m.error, 2), html_escaped(check.reason), significant(check.tolerance, 2), verdict, verdict,
       result.failure.empty() ? "" : ": " + html_escaped(result.failure), result.seconds);
 }
 
@@ -109,7 +109,8 @@ std::string verify_page(const std::vector<CheckResult>& results, const std::stri
       "initial-scale=1\"><title>clatter {}: verification</title><link rel=\"icon\" "
       "href=\"data:,\"><style>{}</style></head><body>\n"
       "<h1>clatter {}: verification</h1>\n<p class=\"{}\">{}</p>\n<p class=\"pale\">{}.  Reproduce: <code>clatter "
-      "verify{} --html FILE</code></p>\n<p class=\"pale\">A tolerance is at most five times the error seen when it was set; "
+      "verify{} --html FILE</code></p>\n<p class=\"pale\">A tolerance is at most five times the error seen when it was "
+      "set; "
       "its reason, shown when you point at it, says what that error is made of.</p>\n<nav>",
       version, style, version, summary.failed == 0 ? "passed" : "failed", html_escaped(summary_words(summary)),
       html_escaped(selection), selection.starts_with("quick") ? " --quick" : "");
@@ -120,7 +121,8 @@ std::string verify_page(const std::vector<CheckResult>& results, const std::stri
   html += "<a href=\"#figures\">Pictures</a></nav>\n";
   for (const Group& group : groups) html += group_html(group, results);
   html +=
-      "<h2 id=\"figures\">The paper's figures, from this run</h2>\n<p>Points: the continuous model.  Lines: the discrete "
+      "<h2 id=\"figures\">The paper's figures, from this run</h2>\n<p>Points: the continuous model.  Lines: the "
+      "discrete "
       "model where there are points too, otherwise the continuous one over time.</p>\n";
   for (const int number : wanted_figures(results)) html += figure_html(make_figure(number, laboratory));
   return html + "</body></html>\n";

@@ -1,7 +1,7 @@
 #include "report.hpp"
 
-#include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
+#include <nlohmann/json.hpp>
 
 #include "validation/output/html.hpp"
 #include "validation/scene/option_values.hpp"
@@ -25,16 +25,11 @@ std::string text_of(const Report& report, const std::string& format, bool ascii)
 
 py::object to_python(const Json& json) {
   switch (json.type()) {
-    case Json::value_t::boolean:
-      return py::bool_(json.get<bool>());
-    case Json::value_t::number_integer:
-      return py::int_(json.get<std::int64_t>());
-    case Json::value_t::number_unsigned:
-      return py::int_(json.get<std::uint64_t>());
-    case Json::value_t::number_float:
-      return py::float_(json.get<double>());
-    case Json::value_t::string:
-      return py::str(json.get_ref<const std::string&>());
+    case Json::value_t::boolean: return py::bool_(json.get<bool>());
+    case Json::value_t::number_integer: return py::int_(json.get<std::int64_t>());
+    case Json::value_t::number_unsigned: return py::int_(json.get<std::uint64_t>());
+    case Json::value_t::number_float: return py::float_(json.get<double>());
+    case Json::value_t::string: return py::str(json.get_ref<const std::string&>());
     case Json::value_t::array: {
       py::list list;
       for (const Json& item : json) list.append(to_python(item));
@@ -45,8 +40,7 @@ py::object to_python(const Json& json) {
       for (const auto& [key, value] : json.items()) dict[py::str(key)] = to_python(value);
       return dict;
     }
-    default:
-      return py::none();
+    default: return py::none();
   }
 }
 

@@ -1,8 +1,8 @@
 // What a run came to, for Python: the program's own JSON, tables and records.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <pybind11/pybind11.h>
+#include <nlohmann/json.hpp>
 
 #include <functional>
 #include <string>

@@ -30,8 +30,7 @@ Scene read_scene(const std::string& name, const std::optional<std::string>& text
   return read_scene(values, validation::scene_overrides(given), validation::Model::continuous);
 }
 
-PlannedRun run_scene(const Scene& scene, const std::function<bool()>& goes_on,
-                     numeric::HistoryRecorder* history) {
+PlannedRun run_scene(const Scene& scene, const std::function<bool()>& goes_on, numeric::HistoryRecorder* history) {
   const numeric::Body body = scene.make_body();
   numeric::Options options = scene.options;
   options.history = history;

@@ -15,12 +15,8 @@ struct Dual {
   Dual(const Real& constant) : value(constant) {}  // NOLINT: constants mix freely with duals
   Dual(const Real& v, const Real& s) : value(v), slope(s) {}
 
-  friend Dual operator+(const Dual& a, const Dual& b) {
-    return {a.value + b.value, a.slope + b.slope};
-  }
-  friend Dual operator-(const Dual& a, const Dual& b) {
-    return {a.value - b.value, a.slope - b.slope};
-  }
+  friend Dual operator+(const Dual& a, const Dual& b) { return {a.value + b.value, a.slope + b.slope}; }
+  friend Dual operator-(const Dual& a, const Dual& b) { return {a.value - b.value, a.slope - b.slope}; }
   friend Dual operator-(const Dual& a) { return {-a.value, -a.slope}; }
   friend Dual operator*(const Dual& a, const Dual& b) {
     return {a.value * b.value, a.slope * b.value + a.value * b.slope};

@@ -63,8 +63,7 @@ class MarchFlight {
     long double time = 0;
   };
 
-  MarchFlight(const MarchBody& body, const MarchState& state, long double gravity,
-              std::size_t touching)
+  MarchFlight(const MarchBody& body, const MarchState& state, long double gravity, std::size_t touching)
       : body_(body), state_(state), gravity_(gravity), touching_(touching) {
     centre_ = -offset(body.vertices[touching], state.inclination).normal;
   }
@@ -103,8 +102,7 @@ class MarchFlight {
 
   [[nodiscard]] Height height(const MarchVertex& vertex, long double t) const {
     const Offset d = offset(vertex, state_.inclination - state_.angular * t);
-    return {centre_height(t) + d.normal,
-            state_.normal - gravity_ * t - state_.angular * d.tangential};
+    return {centre_height(t) + d.normal, state_.normal - gravity_ * t - state_.angular * d.tangential};
   }
   [[nodiscard]] long double centre_height(long double t) const {
     return centre_ + t * (state_.normal - gravity_ * t / 2);
@@ -160,8 +158,7 @@ class MarchFlight {
 /// Eq. 8 for unit mass: P_n and P_t = μ_i P_n eliminated, Cramer's rule for V_n and Ω of
 ///     k²(Ω − ω) = (μ_i d_n − d_t)(V_n − v_n),    V_n − d_t Ω = −e (v_n − d_t ω).
 /// Changes `state` and returns the normal impulse.
-inline long double march_strike(const MarchBody& body, std::size_t vertex, const MarchLaw& law,
-                                MarchState& state) {
+inline long double march_strike(const MarchBody& body, std::size_t vertex, const MarchLaw& law, MarchState& state) {
   const auto d = MarchFlight::offset(body.vertices[vertex], state.inclination);
   const long double k2 = body.gyration_radius * body.gyration_radius;
   const long double arm = law.impulse_ratio * d.normal - d.tangential;
@@ -178,8 +175,8 @@ inline long double march_strike(const MarchBody& body, std::size_t vertex, const
 }
 
 /// The first impacts of a body that touches the ground with `first` in the given state.
-inline MarchSequence march_sequence(const MarchBody& body, MarchState state, std::size_t first,
-                                    const MarchLaw& law, std::size_t impacts) {
+inline MarchSequence march_sequence(const MarchBody& body, MarchState state, std::size_t first, const MarchLaw& law,
+                                    std::size_t impacts) {
   MarchSequence sequence;
   MarchImpact impact{first, 0, 0};
   for (;;) {

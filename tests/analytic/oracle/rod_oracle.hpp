@@ -23,8 +23,8 @@
 namespace clatter::oracle {
 
 template <unsigned Digits>
-using Decimal = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<Digits>,
-                                              boost::multiprecision::et_off>;
+using Decimal =
+    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<Digits>, boost::multiprecision::et_off>;
 using Digits50 = Decimal<50>;
 /// For angles so small that differences such as γ − θ ~ θ³ and 2 − ΣP ~ θ⁴ use up 50 digits.
 using Digits150 = Decimal<150>;
@@ -43,14 +43,10 @@ enum class Parameter { theta, gravity_number, restitution, impulse_ratio };
 template <class Real>
 Real value_of(const RodCase<Real>& rod, Parameter parameter) {
   switch (parameter) {
-    case Parameter::theta:
-      return rod.theta;
-    case Parameter::gravity_number:
-      return rod.gravity_number;
-    case Parameter::restitution:
-      return rod.restitution;
-    case Parameter::impulse_ratio:
-      break;
+    case Parameter::theta: return rod.theta;
+    case Parameter::gravity_number: return rod.gravity_number;
+    case Parameter::restitution: return rod.restitution;
+    case Parameter::impulse_ratio: break;
   }
   return rod.impulse_ratio;
 }
@@ -184,8 +180,7 @@ struct RodLaw {
 
 /// Eq. 8 in the unknowns V_n, V_t, Ω, P_n, for the velocities in `before` (its time is the impact).
 template <class Real>
-RodImpulse<Dual<Real>> strike(const RodFlight<Dual<Real>>& before, End end,
-                              const RodLaw<Dual<Real>>& law) {
+RodImpulse<Dual<Real>> strike(const RodFlight<Dual<Real>>& before, End end, const RodLaw<Dual<Real>>& law) {
   using D = Dual<Real>;
   const D half(Real(0.5)), zero(Real(0)), one(Real(1));
   const D sign(Real(static_cast<int>(end)));
@@ -251,8 +246,7 @@ class FirstZero {
   [[nodiscard]] Real first_length() const {
     using std::abs;
     using std::sqrt;
-    return length_factor * flight_.centre /
-           (abs(flight_.normal) + abs(flight_.angular) + sqrt(flight_.gravity));
+    return length_factor * flight_.centre / (abs(flight_.normal) + abs(flight_.angular) + sqrt(flight_.gravity));
   }
   [[nodiscard]] Real longest() const {
     using std::abs;
@@ -274,13 +268,12 @@ class FirstZero {
   }
   [[nodiscard]] Real noise(const Real& t) const {
     using std::abs;
-    const Real scale = flight_.centre + abs(flight_.normal) * t + flight_.gravity * t * t +
-                       abs(flight_.inclination) + abs(flight_.angular) * t;
+    const Real scale = flight_.centre + abs(flight_.normal) * t + flight_.gravity * t * t + abs(flight_.inclination) +
+                       abs(flight_.angular) * t;
     return noise_ulps * std::numeric_limits<Real>::epsilon() * scale;
   }
 
-  [[nodiscard]] std::optional<Bracket<Real>> search_interval(const Bracket<Real>& interval,
-                                                             int halvings) const {
+  [[nodiscard]] std::optional<Bracket<Real>> search_interval(const Bracket<Real>& interval, int halvings) const {
     using std::abs;
     const Real middle = (interval.low + interval.high) / 2;
     const Real radius = (interval.high - interval.low) / 2;
@@ -294,8 +287,7 @@ class FirstZero {
     return search_interval({middle, interval.high}, halvings + 1);
   }
 
-  [[nodiscard]] std::optional<Bracket<Real>> decide_monotone(const Bracket<Real>& interval,
-                                                             const Real& error) const {
+  [[nodiscard]] std::optional<Bracket<Real>> decide_monotone(const Bracket<Real>& interval, const Real& error) const {
     const Real low = end_height(flight_, end_, interval.low);
     const Real high = end_height(flight_, end_, interval.high);
     if (low > error && high > error) return std::nullopt;
@@ -316,8 +308,7 @@ RodFlight<To> convert(const RodFlight<From>& f) {
 
 template <class Real>
 RodFlight<Real> values(const RodFlight<Dual<Real>>& f) {
-  return {f.inclination.value, f.normal.value,  f.tangential.value,
-          f.angular.value,     f.gravity.value, f.centre.value};
+  return {f.inclination.value, f.normal.value, f.tangential.value, f.angular.value, f.gravity.value, f.centre.value};
 }
 
 /// Plain bisection of an end's height, down to neighbouring numbers.
@@ -333,8 +324,7 @@ Real bisect(const RodFlight<Real>& flight, End end, Bracket<Real> bracket) {
 /// The zero in a bracket: Newton's method from `start`, trusted only if the height changes sign
 /// within a relative distance of ε^0.8 around it; otherwise bisection.
 template <class Real>
-Real polish(const RodFlight<Real>& flight, End end, const Bracket<Real>& bracket,
-            const Real& start) {
+Real polish(const RodFlight<Real>& flight, End end, const Bracket<Real>& bracket, const Real& start) {
   using std::abs;
   using std::pow;
   static const Real width = pow(std::numeric_limits<Real>::epsilon(), Real(0.8));
@@ -347,8 +337,8 @@ Real polish(const RodFlight<Real>& flight, End end, const Bracket<Real>& bracket
   }
   const Real before = t * (1 - width);
   const Real after = t * (1 + width);
-  const bool certain = before > bracket.low && after < bracket.high &&
-                       end_height(flight, end, before) > 0 && end_height(flight, end, after) < 0;
+  const bool certain = before > bracket.low && after < bracket.high && end_height(flight, end, before) > 0 &&
+                       end_height(flight, end, after) < 0;
   return certain ? t : bisect(flight, end, bracket);
 }
 
@@ -356,8 +346,7 @@ Real polish(const RodFlight<Real>& flight, End end, const Bracket<Real>& bracket
 /// w and h >= w t − (g + Ω²/2) t²/2.
 template <class Real>
 Real departure_time(const RodFlight<Real>& flight, End end) {
-  return end_velocity(flight, end, Real(0)) /
-         (flight.gravity + flight.angular * flight.angular / 2);
+  return end_velocity(flight, end, Real(0)) / (flight.gravity + flight.angular * flight.angular / 2);
 }
 
 /// First zero of an end's height after t = 0, in full precision.  It is isolated in long double
@@ -370,8 +359,7 @@ std::optional<Real> first_contact_of(const RodFlight<Real>& flight, End end, boo
     const auto coarse = convert<long double>(flight);
     std::optional<long double> limit;
     if (until) limit = static_cast<long double>(*until) * (1 + 1e-9L);
-    const auto found =
-        FirstZero<long double>(coarse, end).search(static_cast<long double>(from), limit);
+    const auto found = FirstZero<long double>(coarse, end).search(static_cast<long double>(from), limit);
     if (!found) return std::nullopt;
     const Bracket<Real> bracket{Real(found->low), Real(found->high)};
     return polish(flight, end, bracket, Real(bisect(coarse, end, *found)));
@@ -434,8 +422,7 @@ class RodSolver {
     solution_.parameter = value_of(rod_, parameter_);
     const D theta = seeded(Parameter::theta);
     law_ = {seeded(Parameter::restitution), seeded(Parameter::impulse_ratio)};
-    flight_ = {theta,     D(Real(-1)), D(Real(0)), D(Real(0)), seeded(Parameter::gravity_number),
-               D(Real(0))};
+    flight_ = {theta, D(Real(-1)), D(Real(0)), D(Real(0)), seeded(Parameter::gravity_number), D(Real(0))};
     impact(End::a, impulse_1, velocity_1, angular_1);
     if (impacts == 1) return solution_;
 
@@ -497,8 +484,7 @@ class RodSolver {
 
 /// @param impacts after which to stop
 template <class Real>
-RodSolution<Real> solve_rod(const RodCase<Real>& rod, int impacts = 3,
-                            Parameter parameter = Parameter::theta) {
+RodSolution<Real> solve_rod(const RodCase<Real>& rod, int impacts = 3, Parameter parameter = Parameter::theta) {
   return RodSolver<Real>(rod, parameter).solve(impacts);
 }
 
@@ -531,8 +517,7 @@ class SmallAngleLaw {
   [[nodiscard]] int whole_power(const Dual<Digits150>& q) const {
     const double power = static_cast<double>(reference_.parameter * q.slope / q.value);
     const double whole = std::round(power);
-    if (!(std::abs(power - whole) < 1e-15))
-      throw std::runtime_error("no power law at small angles");
+    if (!(std::abs(power - whole) < 1e-15)) throw std::runtime_error("no power law at small angles");
     return static_cast<int>(whole);
   }
 
@@ -552,8 +537,7 @@ Real grazing_height(const RodCase<Real>& rod, Fold fold) {
   const Real angle = second ? rod.theta : at.quantities[beta]->value;
   const Real normal = at.quantities[second ? velocity_1 : velocity_2]->value;
   const Real angular = at.quantities[second ? angular_1 : angular_2]->value;
-  const RodFlight<Real> flight{second ? angle : Real(-angle), normal, Real(0), angular, Real(0),
-                               Real(sin(angle) / 2)};
+  const RodFlight<Real> flight{second ? angle : Real(-angle), normal, Real(0), angular, Real(0), Real(sin(angle) / 2)};
   const Real speed = second ? angular : Real(-angular);
   const Real turned = angle + acos(Real(2 * normal / speed));
   return end_height(flight, second ? End::b : End::a, Real(turned / speed));

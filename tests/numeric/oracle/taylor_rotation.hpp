@@ -8,7 +8,7 @@ namespace clatter::oracle {
 
 template <typename Real>
 struct RotationState {
-  std::array<Real, 3> omega{};                  ///< along the principal axes
+  std::array<Real, 3> omega{};                     ///< along the principal axes
   std::array<Real, 4> attitude{Real(1), 0, 0, 0};  ///< w, x, y, z
 };
 
@@ -30,8 +30,7 @@ RotationState<Real> taylor_step(const std::array<Real, 3>& moments, const Rotati
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3, k = (i + 2) % 3;
       w[i][n + 1] = (moments[j] - moments[k]) / moments[i] * product(w[j], w[k]) / (n + 1);
-      q[i + 1][n + 1] = (product(q[0], w[i]) + product(q[j + 1], w[k]) - product(q[k + 1], w[j])) /
-                        (2 * (n + 1));
+      q[i + 1][n + 1] = (product(q[0], w[i]) + product(q[j + 1], w[k]) - product(q[k + 1], w[j])) / (2 * (n + 1));
     }
     q[0][n + 1] = -(product(q[1], w[0]) + product(q[2], w[1]) + product(q[3], w[2])) / (2 * (n + 1));
   }
