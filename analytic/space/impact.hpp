@@ -1,0 +1,57 @@
+// One impact of a body in space at one corner: impulse and momentum with a restitution law and Coulomb friction.
+//
+// With r from the centre of mass to the corner, I the inertia in world axes and [r]× the matrix of the cross product,
+// an impulse P on the corner changes the corner's velocity v = V + ω × r by
+//     Δv = W P,   W = 1/m − [r]× I⁻¹ [r]×   (symmetric, positive definite).                          (1)
+// While the corner slips in direction s and the normal impulse p grows,
+//     dv/dp = W (n − μ s)   (Keller 1986; Bhatt and Koechling 1995).                                 (2)
+#pragma once
+
+#include "analytic/impact_law.hpp"
+#include "analytic/space/body.hpp"
+
+namespace clatter::analytic::space {
+
+/// How the corner moved along the ground during the impact.
+enum class PathKind {
+  frictionless,  ///< no tangential impulse asked for
+  slip,          ///< slips along one straight line throughout (also: an impulse ratio as given)
+  turning_slip,  ///< slips throughout, and the direction turns
+  stick,         ///< no slip from the start
+  slip_stick,    ///< slip stops, then sticks
+  slip_reslip,   ///< slip stops, then goes on along the one outgoing invariant direction
+};
+
+/// An impulse law in space: as in the plane, and the direction of a given impulse ratio.
+struct Law {
+  ImpactLaw law;
+  /// Unit horizontal direction in which P_t of FrictionKind::impulse_ratio acts: P_t = μ_i P_n · direction.
+  Vector2 ratio_direction = Vector2::UnitX();
+};
+
+/// An impulse and what it did.
+struct Impact {
+  Vector3 impulse = Vector3::Zero();         ///< P, world frame [N·s]
+  Vector3 contact_before = Vector3::Zero();  ///< velocity of the corner before, world frame [m/s]
+  Vector3 contact_after = Vector3::Zero();
+  Vector3 velocity_after = Vector3::Zero();          ///< of the centre of mass, world frame [m/s]
+  Vector3 angular_velocity_after = Vector3::Zero();  ///< world frame [rad/s]
+  double compression_impulse = 0;                    ///< p_c, P_n at the end of compression [N·s]
+  double slip_stop_impulse = 0;                      ///< P_n at which slip stops [N·s]; NaN if slip does not stop
+  double energy_loss = 0;  ///< −P·(v + v′)/2 [J]; negative: Newton's law or an impulse ratio creates energy
+  PathKind path = PathKind::frictionless;
+  bool is_path_ambiguous = false;  ///< slip came so close to zero that rounding decides the kind of path
+
+  /// Separation over approach speed as it came out; 0 without approach.
+  [[nodiscard]] double restitution() const;
+};
+
+/// W of (1) at the corner `arm` = r [m], world frame.
+[[nodiscard]] Matrix3 inverse_contact_inertia(double mass, const Matrix3& inverse_inertia_world, const Vector3& arm);
+
+/// The impact of the corner at `place` (body frame).  A corner that does not approach gets no impulse.
+/// @throws OutsideModelError where the law admits no bounded impulse; NumericalError where a number could not be had;
+///         std::domain_error as ImpactLaw::validate().
+[[nodiscard]] Impact strike(const Body& body, const State& before, const Vector3& place, const Law& law);
+
+}  // namespace clatter::analytic::space
