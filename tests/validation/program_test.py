@@ -290,6 +290,14 @@ class Output(unittest.TestCase):
 
 
 class Manners(unittest.TestCase):
+    def test_help_of_a_command_is_the_same_asked_for_either_way_and_names_the_program(self):
+        for command in ("sequence", "simulate", "keys"):
+            asked = run("help", command)
+            self.assertEqual((asked.returncode, asked.stdout), (0, run(command, "--help").stdout))
+            self.assertIn(f"Usage: clatter {command} ", asked.stdout)
+        self.assertEqual(run("help").stdout, run("--help").stdout)
+        self.assertEqual(run("help", "nothing").returncode, 2)
+
     def test_help_at_every_level_has_an_example(self):
         for command in [[], ["sequence"], ["angles"], ["regimes"], ["explain"], ["completion"], ["man"]]:
             result = run(*command, "--help")

@@ -29,22 +29,34 @@ void add_command(CLI::App& app, const Command& command) {
   }
 }
 
+/// `help NAME` is NAME --help.
+std::vector<std::string> with_help_as_flag(std::vector<std::string> given) {
+  if (given.empty() || given.front() != "help") return given;
+  given.erase(given.begin());
+  given.push_back("--help");
+  return given;
+}
+
+std::string help_of(const CLI::App& app) {
+  const auto chosen = app.get_subcommands();
+  return chosen.empty() ? app.help() : chosen[0]->help(app.get_name());
+}
+
 }  // namespace
 
 ParsedLine parse_line(const std::vector<Command>& commands, const std::vector<std::string>& given) {
   CLI::App app("impact sequences of falling rigid bodies", "clatter");
-  app.footer("Example: clatter sequence --angle 10\nclatter COMMAND --help tells more.");
+  app.footer("Example: clatter sequence --angle 10\nclatter help COMMAND, or clatter COMMAND --help, tells more.");
   app.set_help_flag("--help", "print this help and exit");
   bool show_version = false;
   app.add_flag("--version", show_version, "print the version and exit");
   for (const Command& command : commands) add_command(app, command);
-  std::vector<std::string> arguments = checked_arguments(commands, given);
+  std::vector<std::string> arguments = checked_arguments(commands, with_help_as_flag(given));
   std::reverse(arguments.begin(), arguments.end());  // as CLI11's parse(vector) wants them
   try {
     app.parse(arguments);
   } catch (const CLI::CallForHelp&) {
-    const auto chosen = app.get_subcommands();
-    return {.text = (chosen.empty() ? &app : chosen[0])->help()};
+    return {.text = help_of(app)};
   } catch (const CLI::ParseError& error) {
     throw BadInput(error.what());
   }

@@ -16,6 +16,7 @@ import warnings
 
 from clatter import _clatter
 from clatter.angles import Angles, angles
+from clatter.arrays import numpy_for
 from clatter.errors import BadInput, ClatterWarning, Error, NotComputed, OutsideModel
 from clatter.records import History, Impact, Record
 from clatter.results import Comparison, ComparisonSweep, Result, Run, Sequence, Simulation, Sweep, Verification
@@ -110,6 +111,8 @@ def simulate(scene: Scene, *, history: bool = False, **changes: Value | None) ->
 
     >>> clatter.simulate("rod-45", stiffness=1e9, impacts=1)
     """
+    if history:
+        numpy_for("history=True")
     report, arrays = called(_clatter.simulate, *scene_text(scene), texts_of(changes), history)
     if "runs" in report.data():
         return Sweep(report)

@@ -2,9 +2,7 @@
 
 from typing import Any
 
-from numpy.typing import NDArray
-
-Array = NDArray[Any]
+from clatter.arrays import Array
 
 version: str
 

@@ -1,13 +1,15 @@
 """Contact angles of the thin rod as arrays."""
 
-from typing import Any
+from __future__ import annotations
 
-import numpy as np
-from numpy.typing import ArrayLike
+from typing import TYPE_CHECKING, Any
 
 from clatter import _clatter
-from clatter.records import Array
+from clatter.arrays import Array, numpy_for
 from clatter.scenes import called, texts_of
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 _MOST_ROWS_SHOWN = 200
 
@@ -104,5 +106,6 @@ def angles(
     given = texts_of({"from": start, "to": stop, "step": step, "count": count, "gravity_number": gravity_number,
                       "gravity": gravity, "length": length, "speed": speed, "restitution": restitution,
                       "impulse_ratio": impulse_ratio, "digits": digits, "as_printed": as_printed})
+    np = numpy_for("angles()")
     values = None if theta is None else np.atleast_1d(np.asarray(theta, dtype=float)).ravel()
     return Angles(*called(_clatter.angles, values, given))

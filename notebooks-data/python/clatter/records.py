@@ -3,21 +3,20 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
+from clatter.arrays import Array, numbers, words
 
-Array = NDArray[Any]
 JsonObject = Mapping[str, Any]
 
 
 def as_array(values: list[Any]) -> Array:
     """Numbers as an array with NaN for None; vectors as rows."""
+    nan = float("nan")
     wide = next((len(value) for value in values if isinstance(value, list)), None)
     if wide is not None:
-        return np.array([[np.nan] * wide if value is None else value for value in values], dtype=float)
+        return numbers([nan] * wide if value is None else value for value in values)
     if any(isinstance(value, (str, bool)) for value in values):
-        return np.array(values)
-    return np.array([np.nan if value is None else value for value in values], dtype=float)
+        return words(values)
+    return numbers(nan if value is None else value for value in values)
 
 
 class Record(Mapping[str, Any]):
@@ -31,7 +30,7 @@ class Record(Mapping[str, Any]):
         if isinstance(value, dict):
             return Record(value)
         if isinstance(value, list) and value and all(isinstance(item, (int, float)) for item in value):
-            return np.array(value, dtype=float)
+            return numbers(value)
         return value
 
     def __getattr__(self, name: str) -> Any:

@@ -4,7 +4,8 @@ from collections.abc import Iterator
 from typing import Any, overload
 
 from clatter._clatter import Report
-from clatter.records import Array, History, Impact, Record, as_array
+from clatter.arrays import Array
+from clatter.records import History, Impact, Record, as_array
 
 
 class Result:
