@@ -8,7 +8,7 @@
 # Debian's own version (1.74 on Debian 12) and holds Math and Multiprecision.
 # shellcheck disable=SC2034  # the lists are read by the callers
 program_packages=(cmake ninja-build g++ libgsl-dev libboost-dev libeigen3-dev libcli11-dev
-                  nlohmann-json3-dev libfmt-dev libtomlplusplus-dev)
+                  nlohmann-json3-dev libfmt-dev libtomlplusplus-dev librandom123-dev)
 # Node.js bundles the page of clatter demo, gnuplot draws pictures.  They come when they are first asked for:
 # without them all else is there.
 # shellcheck disable=SC2034
