@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "numeric/contact/contact_instant.hpp"
+
 namespace clatter::numeric {
 namespace {
-
-constexpr int displacement = 0, parameters = 3, velocity = 7, spin = 10, works = 13;
 
 /// (Aᵀ − 1) v for the rotation A of Euler parameters (b; e): no cancellation when it is small.
 Vector3 back_turned_change(double b, const Vector3& e, const Vector3& v) {
@@ -15,85 +15,14 @@ Vector3 back_turned_change(double b, const Vector3& e, const Vector3& v) {
   return -2 * b * across + 2 * e.cross(across);
 }
 
-Vector3 along(const GroundView& view, const AlongGround& vector) {
-  return vector.east * view.east + vector.north * view.north;
-}
-
 AlongGround slip_at(const GroundView& view, const Vector3& u) {
   const Vector3 turning = view.angular_velocity.cross(u);
   return {view.east_speed + view.east.dot(turning), view.north_speed + view.north.dot(turning)};
 }
 
-/// Slip with the phase's direction where it is too slow to have one; beyond the instant where slip ends, where
-/// the step is only a trial, the old direction alone, which keeps it smooth.
-AlongGround leaning_slip(const AlongGround& slip, const FrictionPhase& phase) {
-  const AlongGround lean = phase.direction * std::max(phase.slow, std::numeric_limits<double>::min());
-  if (!(slip.dot(phase.direction) > 0)) return lean;
-  return {slip.east + lean.east, slip.north + lean.north};
-}
-
-AlongGround bounded(const AlongGround& force, double limit) {
-  const double size = force.norm();
-  if (size <= limit) return force;
-  return std::isfinite(size) ? force * (limit / size) : AlongGround{};
-}
-
-/// Root x of D x = b for D = (by_east, by_north); 0 if D is singular.
-AlongGround solve(const AlongGround& by_east, const AlongGround& by_north, const AlongGround& b) {
-  const double size = std::max(by_east.norm(), by_north.norm());
-  const AlongGround p = by_east * (1 / size), q = by_north * (1 / size);
-  const double determinant = p.east * q.north - q.east * p.north;
-  if (!(std::fabs(determinant) > 0)) return {};
-  return AlongGround{b.east * q.north - b.north * q.east, b.north * p.east - b.east * p.north} *
-         (1 / (size * determinant));
-}
-
-AlongGround unit_slip(const AlongGround& slip, const FrictionPhase& phase, bool planar) {
-  if (planar) return phase.direction;
-  const AlongGround leaning = leaning_slip(slip, phase);
-  return leaning * (1 / leaning.norm());
-}
-
 }  // namespace
 
 double AlongGround::norm() const { return std::hypot(east, north); }
-
-/// All that is known at an instant but the friction force.
-struct ContactSystem::Instant {
-  const GroundView& view;
-  const ContactLoad& load;
-  const LoadRates& rates;
-  Vector3 normal;
-  Vector3 centre;    ///< of pressure
-  Vector3 moment;    ///< of the normal load, body frame
-  double rise;       ///< vertical acceleration of the centre of mass
-  AlongGround slip;  ///< velocity of the pressure centre
-
-  struct Changes {
-    double force;  ///< dF_n/dt
-    Vector3 first_moment;
-  };
-  /// Rates of F_n and ∫f_n u for an angular acceleration, by δ̈ = −(V̇_z + h·u).
-  [[nodiscard]] Changes changes(const Ground& ground, const Vector3& acceleration) const {
-    const Vector3& omega = view.angular_velocity;
-    const Vector3 h = normal.cross(acceleration) + normal.dot(omega) * omega - omega.squaredNorm() * normal;
-    const double k = ground.stiffness, c = ground.damping;
-    const LoadIntegrals& l = rates.load;
-    const RateIntegrals& r = rates.rates;
-    return {k * r.rate + c * (r.rate_squared - rise * l.depth - h.dot(l.depth_position)) + rates.force_by_area,
-            k * r.rate_position +
-                c * (r.rate_squared_position - rise * l.depth_position - r.depth_position_squared * h) +
-                rates.first_moment_by_area};
-  }
-  /// What an angular acceleration adds to them, by the dampers alone.
-  [[nodiscard]] Changes response(const Ground& ground, const Vector3& acceleration) const {
-    const Vector3 h = normal.cross(acceleration);
-    return {-ground.damping * h.dot(rates.load.depth_position),
-            -ground.damping * (rates.rates.depth_position_squared * h)};
-  }
-  /// F_n ċ, ċ being the velocity at which the pressure centre runs over the body: finite where F_n fades.
-  [[nodiscard]] Vector3 wander(const Changes& change) const { return change.first_moment - centre * change.force; }
-};
 
 ContactSystem::ContactSystem(const Body& body, const Ground& ground, double gravity, bool planar)
     : body_(body), ground_(ground), gravity_(gravity), planar_(planar), loader_(body, ground) {}
@@ -108,31 +37,31 @@ void ContactSystem::begin(const MotionState& touch) {
 
 ContactState ContactSystem::initial() const {
   ContactState y = ContactState::Zero();
-  y[parameters] = 1;
-  y.segment<3>(velocity) = touch_.velocity;
-  y.segment<3>(spin) = touch_.angular_velocity;
+  euler_parameters(y)[0] = 1;
+  velocity(y) = touch_.velocity;
+  angular_velocity(y) = touch_.angular_velocity;
   return y;
 }
 
 MotionState ContactSystem::motion(const ContactState& y) const {
-  const Eigen::Quaterniond turn(y[parameters], y[parameters + 1], y[parameters + 2], y[parameters + 3]);
-  return {touch_.centre + y.segment<3>(displacement), (touch_.attitude * turn).normalized(), y.segment<3>(velocity),
-          y.segment<3>(spin)};
+  const Eigen::Vector4d beta = euler_parameters(y);
+  const Eigen::Quaterniond turn(beta[0], beta[1], beta[2], beta[3]);
+  return {touch_.centre + displacement(y), (touch_.attitude * turn).normalized(), velocity(y), angular_velocity(y)};
 }
 
 GroundView ContactSystem::view(const ContactState& y) const {
-  const double b = y[parameters];
-  const Vector3 e = y.segment<3>(parameters + 1);
+  const double b = euler_parameters(y)[0];
+  const Vector3 e = euler_parameters(y).tail<3>();
   GroundView view;
   view.reference = plane_;
   view.turn = back_turned_change(b, e, plane_.normal);
-  view.sink = y[displacement + 2];
-  view.vertical_speed = y[velocity + 2];
-  view.angular_velocity = y.segment<3>(spin);
+  view.sink = displacement(y).z();
+  view.vertical_speed = velocity(y).z();
+  view.angular_velocity = angular_velocity(y);
   view.east = east_ + back_turned_change(b, e, east_);
   view.north = north_ + back_turned_change(b, e, north_);
-  view.east_speed = y[velocity];
-  view.north_speed = y[velocity + 1];
+  view.east_speed = velocity(y).x();
+  view.north_speed = velocity(y).y();
   return view;
 }
 
@@ -144,86 +73,6 @@ Vector3 ContactSystem::angular_acceleration(const Vector3& moment, const Vector3
 Vector3 ContactSystem::response(const Vector3& moment) const {
   if (planar_) return north_ * (north_.dot(moment) / north_.dot(body_.inertia() * north_));
   return body_.inverse_inertia() * moment;
-}
-
-/// Friction's resultant, its moment about the centre of mass (body frame) and the power that it dissipates.
-struct ContactSystem::Friction {
-  AlongGround force;
-  Vector3 moment = Vector3::Zero();
-  double power = 0;
-  AlongGround hold;  ///< see ContactDiagnosis
-};
-
-ContactSystem::Friction ContactSystem::friction(const Instant& at) {
-  using Kind = FrictionPhase::Kind;
-  const double mu = ground_.sliding_friction;
-  switch (phase_.kind) {
-    case Kind::none: return {};
-    case Kind::regularised:
-    case Kind::local: return over_patch(at, at.load);
-    case Kind::stick: return in_stick(at);
-    case Kind::slip: break;
-  }
-  if (!phase_.varies) return at_centre(at, unit_slip(at.slip, phase_, planar_) * (-mu * at.load.force));
-  SlipField field{
-      .kind = SlipField::Kind::turning, .centre = at.centre, .spin = at.normal.dot(at.view.angular_velocity)};
-  const AlongGround slip = leaning_slip(at.slip, phase_);
-  field.east = slip.east;
-  field.north = slip.north;
-  return over_patch(at, loader_.load(at.view, field));
-}
-
-ContactSystem::Friction ContactSystem::at_centre(const Instant& at, const AlongGround& force) const {
-  return {force, at.centre.cross(along(at.view, force)), -force.dot(at.slip), {}};
-}
-
-/// A point at rest takes no work: where a remaining slip would give some back, none is booked.
-ContactSystem::Friction ContactSystem::in_stick(const Instant& at) const {
-  const AlongGround hold = stick(at);
-  const double bound = stick_coefficient() * at.load.force;
-  Friction friction = at_centre(at, bounded(hold, bound));
-  friction.power = std::max(friction.power, 0.0);
-  friction.hold = bounded(hold, 2 * bound);
-  return friction;
-}
-
-/// Of a patch taken as flat only the resultant at the pressure centre and the moment about the vertical are real; so
-/// their power, −∫f·v over the flat patch, is never negative.
-ContactSystem::Friction ContactSystem::over_patch(const Instant& at, const ContactLoad& load) const {
-  const double mu = ground_.sliding_friction;
-  const AlongGround force{mu * load.slip_east, planar_ ? 0 : mu * load.slip_north};
-  Friction friction{force, mu * load.slip_moment, 0, {}};
-  if (phase_.kind == FrictionPhase::Kind::slip) {
-    const Vector3 at_centre = at.centre.cross(along(at.view, force));
-    friction.moment = at_centre + at.normal * at.normal.dot(friction.moment - at_centre);
-  }
-  friction.power =
-      -friction.force.dot({at.view.east_speed, at.view.north_speed}) - friction.moment.dot(at.view.angular_velocity);
-  return friction;
-}
-
-/// F_n times the condition of stick is linear in F_t:
-///     F_n [F_t/m + α(F_t) × c]_t + [ω × F_n ċ(F_t)]_t = −F_n [α₀ × c + ω × (ω × c) + fading v]_t − [ω × F_n ċ₀]_t,
-/// α₀ and ċ₀ being those without friction.  Both sides vanish with F_n, so that neither is divided by F_n.
-AlongGround ContactSystem::stick(const Instant& at) const {
-  const GroundView& view = at.view;
-  const Vector3& omega = view.angular_velocity;
-  const double normal = at.load.force;
-  const auto along_ground = [&](const Vector3& point, const AlongGround& rest) {
-    return AlongGround{view.east.dot(point) + normal * rest.east, view.north.dot(point) + normal * rest.north};
-  };
-  const auto per_force = [&](const AlongGround& unit) {
-    const Vector3 alpha = response(at.centre.cross(along(view, unit)));
-    const Vector3 wander = at.wander(at.response(ground_, alpha));
-    return along_ground(normal * alpha.cross(at.centre) + omega.cross(wander), unit * (1 / body_.mass()));
-  };
-  const Vector3 alpha = angular_acceleration(at.moment, omega);
-  const Vector3 wander = at.wander(at.changes(ground_, alpha));
-  const Vector3 turning = alpha.cross(at.centre) + omega.cross(omega.cross(at.centre));
-  const AlongGround free = along_ground(normal * turning + omega.cross(wander), at.slip * phase_.fading);
-  const AlongGround by_east = per_force({1, 0});
-  if (planar_) return by_east.east != 0 ? AlongGround{-free.east / by_east.east, 0} : AlongGround{};
-  return solve(by_east, per_force({0, 1}), free * -1);
 }
 
 void ContactSystem::derivative(const ContactState& y, ContactState& rate) { evaluate(y, rate, nullptr, nullptr); }
@@ -263,20 +112,16 @@ void ContactSystem::evaluate(const ContactState& y, ContactState& rate, ContactD
   const Friction friction = presses ? this->friction(at) : Friction{};
   const Vector3 moment = at.moment + friction.moment;
 
-  const double b = y[parameters];
-  const Vector3 e = y.segment<3>(parameters + 1);
+  const double b = euler_parameters(y)[0];
+  const Vector3 e = euler_parameters(y).tail<3>();
   const Vector3& omega = view.angular_velocity;
   const Vector3 alpha = angular_acceleration(moment, omega);
-  rate.segment<3>(displacement) = y.segment<3>(velocity);
-  rate[parameters] = -0.5 * e.dot(omega);
-  rate.segment<3>(parameters + 1) = 0.5 * (b * omega + e.cross(omega));
-  rate[velocity] = friction.force.east / body_.mass();
-  rate[velocity + 1] = friction.force.north / body_.mass();
-  rate[velocity + 2] = at.rise;
-  rate.segment<3>(spin) = alpha;
-  rate[works] = load.damping_power;
-  rate[works + 1] = load.release_power;
-  rate[works + 2] = friction.power;
+  displacement(rate) = velocity(y);
+  euler_parameters(rate)[0] = -0.5 * e.dot(omega);
+  euler_parameters(rate).tail<3>() = 0.5 * (b * omega + e.cross(omega));
+  velocity(rate) << friction.force.east / body_.mass(), friction.force.north / body_.mass(), at.rise;
+  angular_velocity(rate) = alpha;
+  works(rate) << load.damping_power, load.release_power, friction.power;
   if (!diagnosis) return;
   *diagnosis = {load,
                 at.changes(ground_, alpha).force,
@@ -357,7 +202,7 @@ ContactLoad ContactSystem::pressed(double depth) {
 }
 
 bool ContactSystem::is_submerged(const ContactState& y) const {
-  if (!(plane_.offset + y[displacement + 2] < 0)) return false;  // the centre of mass lies within the body
+  if (!(plane_.offset + displacement(y).z() < 0)) return false;  // the centre of mass lies within the body
   const GroundView at = view(y);
   const std::vector<Vector3>& vertices = body_.facets().vertices;
   return std::all_of(vertices.begin(), vertices.end(), [&](const Vector3& u) { return at.height(u) < 0; });

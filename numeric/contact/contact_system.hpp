@@ -2,6 +2,7 @@
 #pragma once
 
 #include "numeric/contact/contact_load.hpp"
+#include "numeric/contact/contact_state.hpp"
 #include "numeric/motion/motion_state.hpp"
 
 namespace clatter::numeric {
@@ -28,15 +29,6 @@ struct FrictionPhase {
   /// In stick a remaining slip of the pressure centre fades at this rate [1/s].
   double fading = 0;
 };
-
-/// State of a contact.  Everything is relative to the touch-down, so that depths of a billionth of the body's size
-/// keep their digits.
-///     r       displacement of the centre of mass, world [m]
-///     β       Euler parameters of the rotation since touch-down
-///     V       velocity of the centre of mass, world [m/s]
-///     ω′      angular velocity, body frame [rad/s]
-///     W_d, W_r, W_f   energy dissipated by dampers, released by the clamp, dissipated by friction [J]
-using ContactState = Eigen::Matrix<double, 16, 1>;
 
 /// Numbers of an instant that events and records need.
 struct ContactDiagnosis {

@@ -93,9 +93,9 @@ void ContactRun::collect() {
 void ContactRun::weigh_errors() {
   const double radius = system_.body().radius();
   weights_.head<3>().setConstant(scales_.depth);
-  weights_.segment<4>(3).setConstant(scales_.depth / radius);
-  weights_.segment<3>(7).setConstant(scales_.speed);
-  weights_.segment<3>(10).setConstant(scales_.speed / radius);
+  euler_parameters(weights_).setConstant(scales_.depth / radius);
+  velocity(weights_).setConstant(scales_.speed);
+  angular_velocity(weights_).setConstant(scales_.speed / radius);
   weights_.tail<3>().setConstant(scales_.energy);
   weights_ *= control_->tolerance;
 }
@@ -143,7 +143,7 @@ FrictionLog::Sums ContactRun::sums() const {
 /// One step of length h from `from`, with the numbers at its end; false if it failed.
 bool ContactRun::try_step(const ContactInstant& from, double h, ContactInstant& to) {
   if (!stepper_.step(system_, from.state, from.rate, h, to.state, error_)) return false;
-  to.state.segment<4>(3).normalize();
+  euler_parameters(to.state).normalize();
   to.time = from.time + h;
   submerged_.clear();
   to.diagnosis = system_.diagnose(to.state, to.rate, &submerged_);
@@ -244,10 +244,10 @@ bool ContactRun::is_steady(const ContactInstant& at) const {
   const double noise =
       stepper_.error_order() > 0 ? noise_per_tolerance * control_->tolerance * scales_.speed / fall : 0;
   const double part = std::clamp(noise, least_rest, largest_rest);
-  const double turning = at.state.segment<3>(10).norm(), spin = at.diagnosis.spin;
+  const double turning = angular_velocity(at.state).norm(), spin = at.diagnosis.spin;
   const double tipping = std::sqrt(std::max(turning * turning - spin * spin, 0.0));
   return std::fabs(at.state[9]) <= part * fall && radius * tipping <= part * fall + 1e-7 * radius * turning &&
-         at.rate.segment<3>(7).norm() <= part * g && radius * at.rate.segment<3>(10).norm() <= part * g;
+         velocity(at.rate).norm() <= part * g && radius * angular_velocity(at.rate).norm() <= part * g;
 }
 
 /// What is left of a steady motion: nothing, or what no friction will ever stop.
