@@ -2,26 +2,19 @@
 
 #include <cmath>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
 
 #include "analytic/body_motion.hpp"
+#include "analytic/detail/require.hpp"
 #include "analytic/detail/small_angle.hpp"
 
 namespace clatter::analytic {
 namespace {
 
+using detail::require;
+
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 constexpr VertexSet end_a = 1;
 constexpr VertexSet end_b = 2;
-
-void require(bool holds, const char* field, double value, const char* allowed) {
-  if (holds) return;
-  std::ostringstream text;
-  text.precision(17);
-  text << field << " = " << value << ": must be " << allowed;
-  throw std::domain_error(text.str());
-}
 
 const PlanarBody& unit_rod() {
   static const PlanarBody rod = make_rod({});

@@ -1,23 +1,14 @@
 #include "analytic/impact_law.hpp"
 
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 
 #include "analytic/contact_impulse.hpp"
+#include "analytic/detail/require.hpp"
 #include "analytic/errors.hpp"
 
 namespace clatter::analytic {
-namespace {
 
-[[noreturn]] void refuse(const char* field, double value, const char* allowed) {
-  std::ostringstream text;
-  text.precision(17);
-  text << field << " = " << value << ": must be " << allowed;
-  throw std::domain_error(text.str());
-}
-
-}  // namespace
+using detail::refuse;
 
 void ImpactLaw::validate() const {
   if (!(restitution >= 0 && restitution <= 1)) {

@@ -1,18 +1,13 @@
 #include "analytic/planar_body.hpp"
 
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
+
+#include "analytic/detail/require.hpp"
 
 namespace clatter::analytic {
 namespace {
 
-[[noreturn]] void refuse(const char* field, double value, const char* allowed) {
-  std::ostringstream text;
-  text.precision(17);
-  text << field << " = " << value << ": must be " << allowed;
-  throw std::domain_error(text.str());
-}
+using detail::refuse;
 
 void require_positive(const char* field, double value) {
   if (!(value > 0 && std::isfinite(value))) refuse(field, value, "greater than 0 and finite");

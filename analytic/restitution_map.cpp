@@ -3,23 +3,17 @@
 #include <boost/math/special_functions/lambert_w.hpp>
 #include <cmath>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
 
 #include "analytic/detail/log1p_minus.hpp"
+#include "analytic/detail/require.hpp"
 #include "analytic/detail/root_finder.hpp"
 
 namespace clatter::analytic {
 namespace {
 
-using detail::log1p_minus;
+using detail::refuse;
 
-[[noreturn]] void refuse(const char* field, double value, const char* allowed) {
-  std::ostringstream text;
-  text.precision(17);
-  text << field << " = " << value << ": must be " << allowed;
-  throw std::domain_error(text.str());
-}
+using detail::log1p_minus;
 
 /// atanh(s) − s by its series for 0 <= s <= 1/2.
 double atanh_minus(double s) {

@@ -9,6 +9,7 @@
 
 #include "analytic/accumulation.hpp"
 #include "analytic/body_motion.hpp"
+#include "analytic/detail/require.hpp"
 #include "analytic/error_growth.hpp"
 #include "analytic/errors.hpp"
 #include "analytic/units.hpp"
@@ -16,30 +17,10 @@
 namespace clatter::analytic {
 namespace {
 
+using detail::require;
+
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-
-void require(bool holds, const char* field, double value, const char* allowed) {
-  if (holds) return;
-  std::ostringstream text;
-  text.precision(17);
-  text << field << " = " << value << ": must be " << allowed;
-  throw std::domain_error(text.str());
-}
-
-void validate(const Drop& drop) {
-  drop.law.validate();
-  require(drop.inclination.radians >= 0 && drop.inclination.radians <= pi / 2, "inclination", drop.inclination.degrees,
-          "between 0 and 90 degrees");
-  require(drop.gravity >= 0 && std::isfinite(drop.gravity), "gravity", drop.gravity, "at least 0 and finite");
-  require(std::isfinite(drop.velocity.normal), "normal velocity", drop.velocity.normal, "finite");
-  require(std::isfinite(drop.velocity.tangential), "tangential velocity", drop.velocity.tangential, "finite");
-  require(std::isfinite(drop.velocity.angular), "spin", drop.velocity.angular, "finite");
-  require(drop.body.vertex_count >= 1, "vertex count", drop.body.vertex_count, "at least 1");
-  // k² of lengths beyond 1e±150 m overflows or loses its digits.
-  require(std::isnormal(drop.body.gyration_square) && drop.body.gyration_square > 0, "gyration radius squared",
-          drop.body.gyration_square, "a positive double that is not subnormal");
-}
 
 /// In units of its own length and speed, gravity and the other speeds must still be numbers.
 void require_representable(const Drop& drop, const Drop& internal) {
@@ -302,7 +283,7 @@ void SequenceOptions::validate() const {
 }
 
 Sequence impact_sequence(const Drop& drop, const SequenceOptions& options) {
-  validate(drop);
+  drop.validate();
   options.validate();
   const Units units(drop);
   return internal_sequence(drop, options, units);

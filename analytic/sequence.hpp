@@ -20,6 +20,9 @@ struct Drop {
   PlanarVelocity velocity;  ///< of the centre of mass, before the first impact
   double gravity = 0;       ///< g >= 0 [m/s²]
   ImpactLaw law;
+
+  /// @throws std::domain_error naming the field, its value and what is allowed.
+  void validate() const;
 };
 
 struct SequenceOptions {

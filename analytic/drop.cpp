@@ -1,0 +1,24 @@
+#include <cmath>
+
+#include "analytic/detail/require.hpp"
+#include "analytic/sequence.hpp"
+
+namespace clatter::analytic {
+
+using detail::require;
+
+void Drop::validate() const {
+  law.validate();
+  require(inclination.radians >= 0 && inclination.radians <= pi / 2, "inclination", inclination.degrees,
+          "between 0 and 90 degrees");
+  require(gravity >= 0 && std::isfinite(gravity), "gravity", gravity, "at least 0 and finite");
+  require(std::isfinite(velocity.normal), "normal velocity", velocity.normal, "finite");
+  require(std::isfinite(velocity.tangential), "tangential velocity", velocity.tangential, "finite");
+  require(std::isfinite(velocity.angular), "spin", velocity.angular, "finite");
+  require(body.vertex_count >= 1, "vertex count", body.vertex_count, "at least 1");
+  // k² of lengths beyond 1e±150 m overflows or loses its digits.
+  require(std::isnormal(body.gyration_square) && body.gyration_square > 0, "gyration radius squared",
+          body.gyration_square, "a positive double that is not subnormal");
+}
+
+}  // namespace clatter::analytic
