@@ -23,7 +23,7 @@ test_packages=(libboost-test-dev python3)
 # shellcheck disable=SC2034
 full_packages=(clang-format libgmsh-dev libbenchmark-dev zsh fish groff-base chromium chromium-driver libopenmpi-dev openmpi-bin
                pybind11-dev python3-dev python3-numpy python3-matplotlib jupyter-nbconvert python3-ipykernel mypy
-               python3-venv pkg-config dpkg-dev lintian mmdebstrap)
+               python3-venv doxygen pkg-config dpkg-dev lintian mmdebstrap)
 
 say() { printf '%s: %s\n' "$speaker" "$*" >&2; }
 

@@ -2,7 +2,8 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME clatter)
 set(CPACK_PACKAGE_VENDOR clatter)
-set(CPACK_PACKAGE_CONTACT "The clatter authors <clatter@localhost>")
+set(CLATTER_CONTACT "The clatter authors <clatter@localhost>" CACHE STRING "Maintainer of the Debian packages")
+set(CPACK_PACKAGE_CONTACT "${CLATTER_CONTACT}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
@@ -20,10 +21,11 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME clatter)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS gnuplot-nox)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
-    "impact sequences of falling rigid bodies
-A rod, a phone or any rigid body that falls on the floor at an angle strikes it again and again.  This program prints
-the sequence of impacts by a discrete model (impulse and momentum) and by a continuous-contact simulation in space, and
-compares the two.")
+    "table and simulation of the impacts of a falling rigid body
+A rod, a phone or any rigid body that falls on the floor at an angle
+strikes it again and again.  This program prints the sequence of impacts
+by a discrete model (impulse and momentum) and by a continuous-contact
+simulation in space, and compares the two.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libclatter-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
@@ -31,8 +33,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libgsl-dev, libboost-dev, libeigen
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "libcli11-dev, nlohmann-json3-dev, libfmt-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
     "libraries of clatter: impact sequences of falling rigid bodies
-Headers and static libraries of the discrete model and of the continuous-contact simulator, with files for CMake and
-pkg-config.")
+Headers and static libraries of the discrete model and of the
+continuous-contact simulator, with files for CMake and pkg-config.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-clatter)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
@@ -42,7 +44,8 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS python3-numpy)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-matplotlib)
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
     "Python module of clatter: impact sequences of falling rigid bodies
-Impact sequences, contact angles, simulations and comparisons of the two models as Python objects and NumPy arrays.")
+Impact sequences, contact angles, simulations and comparisons of the two
+models as Python objects and NumPy arrays.")
 
 # What Debian asks of every package: the licence, and the changes.
 set(documents ${PROJECT_BINARY_DIR}/generated/packages)

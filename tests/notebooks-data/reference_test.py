@@ -1,0 +1,52 @@
+#!/usr/bin/python3
+"""The reference is built without a warning, opens offline, and holds every command, key and column."""
+
+import html
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAM = os.environ["CLATTER_PROGRAM"]
+
+
+def printed(*arguments):
+    return subprocess.run([PROGRAM, *arguments], check=True, capture_output=True, text=True).stdout
+
+
+class Reference(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        cls.built = subprocess.run(["/usr/bin/python3", "-B", ROOT / "notebooks-data/reference.py", PROGRAM, cls.folder.name],
+                                   capture_output=True, text=True)
+
+    def page(self, name):
+        return html.unescape(re.sub(r"<[^>]*>", "", (Path(self.folder.name) / "html" / name).read_text(encoding="utf-8")))
+
+    def test_it_is_built_without_a_warning(self):
+        self.assertEqual((self.built.returncode, self.built.stderr), (0, ""))
+
+    def test_it_holds_the_help_of_every_command(self):
+        page = self.page("commands.html")
+        for command in ("sequence", "simulate", "sweep", "keys", "columns"):
+            self.assertIn(f"Usage: clatter {command} ", page)
+
+    def test_it_holds_every_key_and_column(self):
+        for command in ("keys", "columns"):
+            names = [line.split(",")[0] for line in printed(command, "--format", "csv", "--bare").splitlines()[1:]]
+            self.assertGreater(len(names), 20)
+            page = self.page(f"{command}.html")
+            self.assertEqual([name for name in names if name not in page], [])
+
+    def test_its_pages_ask_for_nothing_from_outside(self):
+        for path in (Path(self.folder.name) / "html").glob("*.html"):
+            self.assertNotRegex(path.read_text(encoding="utf-8"), r'(src|href)="https?://(?!www\.doxygen\.org)', path.name)
+
+
+if __name__ == "__main__":
+    unittest.main()
