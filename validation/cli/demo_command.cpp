@@ -8,8 +8,10 @@
 #include "validation/cli/commands.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/progress.hpp"
+#include "validation/cli/scene_flags.hpp"
 #include "validation/demo/offline_page.hpp"
 #include "validation/demo/page.hpp"
+#include "validation/demo/page_address.hpp"
 #include "validation/demo/server.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/sink.hpp"
@@ -24,7 +26,21 @@ constexpr double usual_seconds = 10;
 struct DemoInput {
   std::optional<std::string> port, seconds, file;
   std::vector<std::string> scenes;
+  SceneFlags scene;
 };
+
+bool has_scene(const SceneFlags& given) {
+  const auto typed = [](const auto& text) { return text.second.has_value(); };
+  return !given.source.empty() || std::any_of(given.texts.begin(), given.texts.end(), typed);
+}
+
+/// What the address of the page ends with: nothing, or the scene given.
+std::string query_of(SceneFlags given) {
+  if (!has_scene(given)) return "";
+  // Flags alone describe a drop of the discrete model, unless they give a ground.
+  if (given.source.empty() && !is_given(given, "--stiffness")) given.model = Model::discrete;
+  return page_query(read_scene_flags(given));
+}
 
 void require_page() {
   if (!demo_page().empty()) return;
@@ -46,11 +62,12 @@ int serve(const DemoInput& input) {
   const double seconds =
       input.seconds ? read_number_option("--seconds", *input.seconds, {0, 86400, true, "greater than 0, at most 86400"})
                     : usual_seconds;
+  const std::string query = query_of(input.scene);
   DemoServer server(std::string(demo_page()), std::chrono::milliseconds(std::llround(std::ceil(1000 * seconds))));
   bind(server, input.port);
   {
     Sink address("");
-    address.write(fmt::format("clatter demo: http://127.0.0.1:{}/  (Ctrl-C ends it)\n", server.port()));
+    address.write(fmt::format("clatter demo: http://127.0.0.1:{}/{}  (Ctrl-C ends it)\n", server.port(), query));
     address.commit();
   }
   server.run();
@@ -82,6 +99,7 @@ int run_demo(const DemoInput& input) {
     if (!input.scenes.empty()) throw BadInput(fmt::format("--scene {}: only with --export", input.scenes[0]));
     return serve(input);
   }
+  if (has_scene(input.scene)) throw BadInput("SCENE: not with --export; --scene chooses those of the copy");
   if (input.port) throw BadInput(fmt::format("--port {}: not with --export, which serves nothing", *input.port));
   if (input.seconds)
     throw BadInput(fmt::format("--seconds {}: not with --export, which serves nothing", *input.seconds));
@@ -97,7 +115,10 @@ Command demo_command() {
   command.add_text("--seconds", input->seconds, "S", fmt::format("that an answer may take ({})", usual_seconds));
   command.add_text("--export", input->file, "FILE", "write a copy of the page that needs no program (HTML), and end");
   command.add_list("--scene", input->scenes, "NAME", "scenes of the copy (all)");
-  command.footer = "Example: clatter demo\nIt serves the page to this machine alone, until Ctrl-C.";
+  add_scene_flags(command, input->scene);
+  command.footer =
+      "Example: clatter demo phone-damped\nThe address that is printed shows the scene, or the page's own. It serves "
+      "the page to this machine alone, until Ctrl-C.";
   command.run = [input] { return run_demo(*input); };
   return command;
 }

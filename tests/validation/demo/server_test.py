@@ -202,6 +202,23 @@ class Command(unittest.TestCase):
                 self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
                 self.assertEqual(os.listdir(folder), [])
 
+    def test_the_address_printed_shows_the_scene_given(self):
+        for arguments, words in ((["--angle", "20", "--height", "1", "--gravity", "9.81"], "?body=own-rod&mass=1&length=1&"),
+                                 (["phone-damped", "--angle", "25"], "?body=own-box&mass=0.08814&length=0.10566&")):
+            demo = Demo(*arguments)
+            try:
+                self.assertIn(words, demo.line)
+                query = dict(part.split("=") for part in re.search(r"\?(\S+)", demo.line)[1].split("&"))
+                self.assertEqual(query["angle"], arguments[arguments.index("--angle") + 1])
+                self.assertEqual((query.get("height"), query.get("speed")), ("1", None))
+                self.assertEqual("damping" in query, arguments[0] == "phone-damped")
+            finally:
+                demo.stop()
+        for arguments, key in ((["phone-corner"], "drop.tilt_deg"), (["--angle", "10", "--spin", "3"], "drop.spin")):
+            done = subprocess.run([PROGRAM, "demo", *arguments], capture_output=True, text=True, timeout=3000)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
+            self.assertIn(key, done.stderr)
+
     def test_an_exported_copy_holds_its_answers_and_stays_small(self):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "copy.html"
