@@ -47,6 +47,14 @@ set(CPACK_COMPONENT_PYTHON_DESCRIPTION
 Impact sequences, contact angles, simulations and comparisons of the two
 models as Python objects and NumPy arrays.")
 
+# Compiled Python files come and go with the package.
+set(scripts ${PROJECT_BINARY_DIR}/generated/packages/python)
+file(WRITE ${scripts}/postinst "#!/bin/sh\nset -e\nif [ \"$1\" = configure ]; then py3compile -p python3-clatter; fi\n")
+file(WRITE ${scripts}/prerm "#!/bin/sh\nset -e\npy3clean -p python3-clatter\n")
+file(CHMOD ${scripts}/postinst ${scripts}/prerm
+     PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${scripts}/postinst ${scripts}/prerm)
+
 # What Debian asks of every package: the licence, and the changes.
 set(documents ${PROJECT_BINARY_DIR}/generated/packages)
 file(WRITE ${documents}/copyright [[
