@@ -3,6 +3,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "numeric/detail/require.hpp"
 #include "numeric/errors.hpp"
 #include "numeric/mesh/element_geometry.hpp"
 
@@ -70,7 +71,51 @@ Matrix3 inertia_of(const Matrix3& p) {
   return inertia;
 }
 
+/// Of the tetrahedra between the triangles and `apex`: mass, ∫ρ u dV and ∫ρ u uᵀ dV with u from the apex.
+Moments moments_about(const Surface& surface, const Vector3& apex, double density) {
+  Sum<1, 1> mass;
+  Sum<3, 1> first;
+  Sum<3, 3> second;
+  for (const SurfaceElement& element : surface.elements) {
+    detail::require(element.nodes[3] < 0, "corners of a surface element", 4, "3");
+    const Vector3 a = surface.nodes[element.nodes[0]] - apex, b = surface.nodes[element.nodes[1]] - apex,
+                  c = surface.nodes[element.nodes[2]] - apex, sum = a + b + c;
+    const double part = density * a.dot(b.cross(c)) / 6;
+    mass.add(Sum<1, 1>::Term(part));
+    first.add(part / 4 * sum);
+    second.add(part / 20 * (sum * sum.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose()));
+  }
+  return {mass.value()(0), first.value().matrix(), second.value().matrix()};
+}
+
+/// Not the origin, from which a body that lies far off would lose its size to rounding.
+Vector3 middle(const Surface& surface) {
+  Vector3 low = surface.nodes[0], high = low;
+  for (const Vector3& node : surface.nodes) {
+    low = low.cwiseMin(node);
+    high = high.cwiseMax(node);
+  }
+  return low + (high - low) / 2;
+}
+
+void check_overflow(const MassProperties& body) {
+  if (body.mass > 0 && std::isfinite(body.mass) && body.centre.allFinite() && body.inertia.allFinite()) return;
+  throw NumericalError("the mass properties of the mesh overflow");
+}
+
 }  // namespace
+
+MassProperties mass_properties(const Surface& surface, double density) {
+  detail::require_positive("density", density);
+  check_closed(surface);
+  const Vector3 apex = middle(surface);
+  const Moments rough = moments_about(surface, apex, density);
+  MassProperties body{.mass = rough.mass};
+  body.centre = apex + rough.centre / rough.mass;
+  body.inertia = inertia_of(moments_about(surface, body.centre, density).second);
+  check_overflow(body);
+  return body;
+}
 
 MassProperties mass_properties(const Mesh& mesh) {
   if (mesh.elements.empty()) throw MeshError("the mesh has no element");
@@ -91,9 +136,7 @@ MassProperties mass_properties(const Mesh& mesh) {
     second.add(element.second + element.mass * arm * arm.transpose());
   }
   body.inertia = inertia_of(second.value());
-  if (!(body.mass > 0 && body.centre.allFinite() && body.inertia.allFinite())) {
-    throw NumericalError("the mass properties of the mesh overflow");
-  }
+  check_overflow(body);
   return body;
 }
 

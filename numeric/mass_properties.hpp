@@ -2,6 +2,7 @@
 #pragma once
 
 #include "numeric/mesh/mesh.hpp"
+#include "numeric/surface/surface.hpp"
 
 namespace clatter::numeric {
 
@@ -18,5 +19,14 @@ struct MassProperties {
 /// element.
 /// @throws NumericalError if a result overflows.
 [[nodiscard]] MassProperties mass_properties(const Mesh& mesh);
+
+/// The same of the uniform body that a closed surface of triangles encloses: sums over the tetrahedra between the
+/// triangles and one point, signed, of
+///     V = a·(b × c)/6,   ∫u dV = V (a + b + c)/4,   ∫u uᵀ dV = V (s sᵀ + a aᵀ + b bᵀ + c cᵀ)/20,   s = a + b + c.
+/// Accuracy: a few ulp of the sum of the tetrahedra's sizes.
+/// @param density of the body [kg/m³], > 0
+/// @throws MeshError as check_closed: open, non-manifold or facing inward.  std::domain_error for the density or for an
+///         element with four corners.  NumericalError if a result overflows or vanishes.
+[[nodiscard]] MassProperties mass_properties(const Surface& surface, double density);
 
 }  // namespace clatter::numeric
