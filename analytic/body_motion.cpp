@@ -42,7 +42,7 @@ BodyMotion::BodyMotion(const PlanarBody& body, const Angle& inclination, const P
     : body_(body), turned_(body), gravity_(gravity), inclination_(inclination.radians), sine_(inclination.sine),
       cosine_(inclination.cosine), initial_(inclination), remainder_(velocity) {
   turn_to_face_below();
-  if (body.uniform_thin_rod && velocity.normal < 0) {
+  if (body.uniform_thin_rod && velocity.normal < 0 && inclination.cosine >= 0) {
     frame_ = {.speed = -velocity.normal, .sextant = 3};
     remainder_.normal = 0;
     renew_frame_velocity();

@@ -9,8 +9,7 @@ using detail::require;
 
 void Drop::validate() const {
   law.validate();
-  require(inclination.radians >= 0 && inclination.radians <= pi / 2, "inclination", inclination.degrees,
-          "between 0 and 90 degrees");
+  require(std::fabs(inclination.radians) <= pi, "inclination", inclination.degrees, "from -180 to 180 degrees");
   require(gravity >= 0 && std::isfinite(gravity), "gravity", gravity, "at least 0 and finite");
   require(std::isfinite(velocity.normal), "normal velocity", velocity.normal, "finite");
   require(std::isfinite(velocity.tangential), "tangential velocity", velocity.tangential, "finite");

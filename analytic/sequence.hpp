@@ -16,7 +16,7 @@ namespace clatter::analytic {
 /// The body as it touches the ground for the first time.
 struct Drop {
   PlanarBody body;
-  Angle inclination;        ///< in [0°, 90°], end a low
+  Angle inclination;        ///< in [−180°, 180°]; from 0° to 90° end a is low
   PlanarVelocity velocity;  ///< of the centre of mass, before the first impact
   double gravity = 0;       ///< g >= 0 [m/s²]
   ImpactLaw law;
