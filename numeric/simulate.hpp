@@ -34,7 +34,13 @@ struct Drop {
   double out_of_plane_tilt = 0;          ///< rotation about the body's x axis, before the inclination [rad]
 };
 
-/// State at the first touch: the lowest vertex on z = 0, the centre of mass above x = y = 0.
+/// Body → world of a drop.
+[[nodiscard]] Eigen::Quaterniond attitude_of(const Drop& drop);
+
+/// The state with the centre of mass above x = y = 0 and the lowest vertex on z = 0.
+[[nodiscard]] MotionState on_ground(const Body& body, MotionState state);
+
+/// State at the first touch, on the ground as on_ground has it.
 [[nodiscard]] MotionState touching_state(const Body& body, const Drop& drop);
 
 /// Runs the drop from the state `start`, whose lowest vertex lies at or above the ground.

@@ -124,6 +124,8 @@ BOOST_AUTO_TEST_CASE(planar_rung_is_refused_to_a_body_that_is_not) {
   BOOST_TEST(!is_mirrored(case_scene("phone-corner")));
   BOOST_TEST(is_mirrored(case_scene("rod-45", {{"drop.tilt_deg", "--tilt", "22.5"}})));
   BOOST_TEST(!is_mirrored(case_scene("rod-45", {{"drop.tilt_deg", "--tilt", "5"}})));
+  BOOST_TEST(is_mirrored(case_scene("phone-damped", {{"drop.velocity", "--velocity", "0.5,0,-1"}})));
+  BOOST_TEST(!is_mirrored(case_scene("phone-damped", {{"drop.velocity", "--velocity", "0.5,1e-6,-1"}})));
   BOOST_TEST(!Ladder(case_scene("phone-corner")).against(Rung::planar).empty());
   BOOST_TEST((Ladder(case_scene("phone-corner")).full() == Rung::spatial));
 }

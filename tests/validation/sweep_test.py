@@ -279,7 +279,7 @@ class BadInput(Folder):
         self.assertEqual(len(records(self.sweep(path, "--set", "drop.angle_deg=10:20:10", "--set", "run.digits=3"))), 2)
 
     def test_a_body_that_cannot_be_made_is_bad_input(self):
-        path = self.write("mesh.toml", "[drop]\nangle_deg = 10\n[body]\nshape = 'mesh'\nmass = 1\ninertia = [1, 1, 1]\n"
+        path = self.write("mesh.toml", "[drop]\nangle_deg = 10\n[body]\nshape = 'mesh'\nmass = 1\ninertia = [0.1, 0.1, 0.1]\n"
                           "mesh = { file = 'none.stl' }\n[ground]\nstiffness = 1e8\n")
         self.assertIn("none.stl", self.refuse(path, "--set", "drop.angle_deg=10:20:10"))
 
@@ -370,7 +370,7 @@ class SameBytes(Folder):
 
     def test_a_sweep_does_not_go_on_with_another_mesh_of_the_same_name(self):
         self.write("body.stl", box_stl(0.1))
-        scene = self.write("mesh.toml", "[drop]\nangle_deg = 10\n[body]\nshape = 'mesh'\nmass = 1\ninertia = [1, 1, 1]\n"
+        scene = self.write("mesh.toml", "[drop]\nangle_deg = 10\n[body]\nshape = 'mesh'\nmass = 1\ninertia = [1e-3, 1e-3, 1e-3]\n"
                            "mesh = { file = 'body.stl' }\n[ground]\nstiffness = 1e8\n[run]\nimpacts = 1\ndigits = 3\n")
         arguments = [scene, "--set", "drop.angle_deg=1:3:1"]
         whole = self.sweep(*arguments)

@@ -89,11 +89,7 @@ std::string keys_text(bool ascii) {
 
 /// A value to begin with, for a key that has none by itself.
 std::string example(const Key& key) {
-  if (const auto* list = std::get_if<ListValue>(&key.value)) {
-    std::string ones = "1";
-    for (std::size_t i = 1; i < list->sizes.front(); ++i) ones += ", 1";
-    return fmt::format("[{}]", ones);
-  }
+  if (const auto* list = std::get_if<ListValue>(&key.value)) return list->example;
   if (std::holds_alternative<TextValue>(key.value)) return "\"name\"";
   return std::holds_alternative<NumberValue>(key.value) ? "1e-6" : "1";
 }

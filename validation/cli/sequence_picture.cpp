@@ -199,6 +199,7 @@ std::vector<std::string> words_of(const Scene& scene) {
   std::string drop = fmt::format("{}° at {} m/s", shortest(scene.angle_deg), shortest(scene.speed));
   if (scene.tangential_velocity != 0) drop += fmt::format(", tangential {} m/s", shortest(scene.tangential_velocity));
   if (scene.spin != 0) drop += fmt::format(", spin {} rad/s", shortest(scene.spin));
+  if (scene.has_vectors()) drop = scene.drop_words();
   drop += fmt::format(", gravity {} m/s²", shortest(scene.options.gravity));
   const analytic::ImpactLaw law = impact_law(scene);
   std::string impact = fmt::format("e = {} ({})", shortest(law.restitution), law_name(law.law));

@@ -27,9 +27,11 @@ template <class Value>
   return value;
 }
 
-/// An angle of impact n, counted from 1, in degrees; the first one is the drop's, which came in degrees.
+/// An angle of impact n, counted from 1, in degrees; the first one is the drop's, which came in degrees, unless that
+/// was turned beyond the upright.
 [[nodiscard]] inline double degrees_of(double radians, int n, double drop_deg) {
-  return n == 1 ? std::copysign(drop_deg, radians) : radians * analytic::degrees_per_radian;
+  const bool is_drop = n == 1 && std::fabs(drop_deg) <= 90;
+  return is_drop ? std::copysign(drop_deg, radians) : radians * analytic::degrees_per_radian;
 }
 
 /// Tangential over normal impulse.

@@ -90,6 +90,7 @@ Ladder::Ladder(Scene scene) : scene_(std::move(scene)), body_(scene_.make_body()
 std::string Ladder::find_closed_form() {
   if (scene_.body.shape != BodyScene::Shape::rod) return "it is for a thin rod";
   if (!drop_) return against(Rung::discrete);
+  if (!scene_.body.centre.empty() || !scene_.body.inertia.empty()) return "it is for a uniform rod";
   if (scene_.ground.has_friction()) return "it has no friction";
   analytic::Drop thin = *drop_;
   thin.body = analytic::make_rod({.mass = scene_.body.mass, .length = scene_.body.length, .radius = 0});

@@ -138,9 +138,8 @@ std::string submersion_warning(const Simulation& run) {
 
 std::string planar_warning(const numeric::Body& body, const numeric::MotionState& start, const Options& options) {
   if (!options.planar || is_mirror_image(body, start)) return "";
-  return "kept in its plane, although the body as it is tilted is not its own mirror image there: forces and moments "
-         "out "
-         "of the plane are left out";
+  return "kept in its plane, although the body as it lies or moves is not its own mirror image there: velocities, "
+         "forces and moments out of the plane are left out";
 }
 
 PlannedRun run_to_digits(const numeric::Body& body, const numeric::Ground& ground, const numeric::MotionState& start,

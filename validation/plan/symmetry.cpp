@@ -45,9 +45,17 @@ class VertexGrid {
   std::unordered_multimap<std::uint64_t, std::size_t> cells_;
 };
 
+bool moves_in_plane(const numeric::MotionState& state) {
+  constexpr double rounding = 1e-14;  // of the turn from body to world components
+  const Vector3 rate = state.attitude * state.angular_velocity;
+  return std::fabs(state.velocity.y()) <= rounding * state.velocity.norm() &&
+         std::hypot(rate.x(), rate.z()) <= rounding * rate.norm();
+}
+
 }  // namespace
 
 bool is_mirror_image(const numeric::Body& body, const numeric::MotionState& state) {
+  if (!moves_in_plane(state)) return false;
   const double size = body.radius();
   const Matrix3 turn = state.attitude.toRotationMatrix();
   const Matrix3 inertia = turn * body.inertia() * turn.transpose();

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "analytic/body_motion.hpp"
 #include "analytic/errors.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/bad_input.hpp"
+#include "validation/scene/body_properties.hpp"
+#include "validation/scene/keys.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -47,13 +50,19 @@ std::vector<Vertex> convex_hull(std::vector<Vertex> points, double size) {
   return hull;
 }
 
+/// The corners of the outline in the x–z plane.
+std::vector<Vertex> outline(const numeric::Body& body) {
+  std::vector<Vertex> points;
+  for (const Vector3& vertex : body.facets().vertices) points.push_back({vertex.x(), vertex.z()});
+  return convex_hull(points, body.radius());
+}
+
 /// The lowest vertices at each corner must lie about the plane y = 0, else the contact twists the body out of it.
-void require_symmetric(const numeric::Body& body, const std::vector<Vertex>& corners) {
+std::string asymmetry(const numeric::Body& body, const std::vector<Vertex>& corners) {
   const double size = body.radius();
   const numeric::Matrix3& inertia = body.inertia();
   const double product = std::max(std::fabs(inertia(0, 1)), std::fabs(inertia(1, 2)));
-  if (!(product <= symmetry * body.mass() * size * size))
-    outside("the body's products of inertia turn it out of its plane");
+  if (!(product <= symmetry * body.mass() * size * size)) return "the products of its body.inertia turn it";
   for (const Vertex& corner : corners) {
     double low = 0, high = 0;
     bool first = true;
@@ -63,8 +72,24 @@ void require_symmetric(const numeric::Body& body, const std::vector<Vertex>& cor
       high = first ? vertex.y() : std::max(high, vertex.y());
       first = false;
     }
-    if (!(std::fabs(low + high) <= symmetry * size)) outside("the body's corners do not lie about its plane y = 0");
+    if (!(std::fabs(low + high) <= symmetry * size)) {
+      return "body.centre and the corners do not lie about its plane y = 0";
+    }
   }
+  return "";
+}
+
+/// Whether the parts are zero next to the whole, but for the rounding of what a program typed.
+bool vanish(std::initializer_list<double> parts, double whole) {
+  constexpr double typed = 1e-14;
+  return std::all_of(parts.begin(), parts.end(), [&](double part) { return std::fabs(part) <= typed * whole; });
+}
+
+[[noreturn]] void in_space(const std::string& reason) { outside("the body moves in space: " + reason); }
+
+void require_plane(const Scene& scene) {
+  const std::string reason = reason_in_space(scene);
+  if (!reason.empty()) in_space(reason);
 }
 
 /// Downward speed at the touch, of a centre of mass that fell from `height`.
@@ -82,15 +107,35 @@ double fallen_speed(double height, double gravity, const analytic::PlanarBody& b
 
 }  // namespace
 
+std::string reason_in_space(const Scene& scene) {
+  const auto given = [&](const char* key) { return fmt::format("{} = {}", key, key_named(key).get(scene).dump()); };
+  const Eigen::Quaterniond turn = scene.touch_attitude();
+  if (scene.attitude.empty() && scene.tilt_deg != 0) return "drop.tilt_deg turns it out of its plane";
+  if (!scene.attitude.empty() && !vanish({turn.x(), turn.z()}, 1)) {
+    return given("drop.attitude") + " is more than an inclination, (q0, 0, q2, 0)";
+  }
+  const Vector3 velocity = scene.touch_velocity(), rate = scene.touch_angular_velocity();
+  if (!vanish({velocity.y()}, velocity.norm())) return given("drop.velocity") + " has a part across its plane";
+  if (!vanish({rate.x(), rate.z()}, rate.norm())) {
+    return given("drop.angular_velocity") + " has a part that is not about y";
+  }
+  const std::vector<double>&centre = scene.body.centre, &inertia = scene.body.inertia;
+  const bool is_about_plane = scene.body.shape != BodyScene::Shape::mesh;  // a mesh's plane is where its corners say
+  if (is_about_plane && !centre.empty() && centre[1] != 0) return given("body.centre") + " lies off the plane y = 0";
+  if (inertia.size() == 6 && !vanish({inertia[3], inertia[5]}, *std::max_element(inertia.begin(), inertia.end()))) {
+    return given("body.inertia") + " has no principal axis y";
+  }
+  return "";
+}
+
 analytic::PlanarBody planar_body(const numeric::Body& body) {
-  std::vector<Vertex> points;
-  for (const Vector3& vertex : body.facets().vertices) points.push_back({vertex.x(), vertex.z()});
-  std::vector<Vertex> corners = convex_hull(points, body.radius());
+  std::vector<Vertex> corners = outline(body);
   if (corners.size() > static_cast<std::size_t>(analytic::max_vertices)) {
     outside(fmt::format("the body's outline has {} corners, at most {} are possible", corners.size(),
                         analytic::max_vertices));
   }
-  require_symmetric(body, corners);
+  const std::string reason = asymmetry(body, corners);
+  if (!reason.empty()) in_space(reason);
   // a and b are the lower ones at each end.
   std::sort(corners.begin(), corners.end(), [](const Vertex& p, const Vertex& q) { return p.z < q.z; });
   for (std::size_t i = 0; i + 1 < corners.size(); i += 2) {
@@ -104,7 +149,7 @@ analytic::PlanarBody planar_body(const numeric::Body& body) {
 }
 
 analytic::Drop discrete_drop(const Scene& scene, const numeric::Body& body) {
-  if (scene.tilt_deg != 0) outside("drop.tilt_deg turns the body out of it");
+  require_plane(scene);
   const numeric::Ground& ground = scene.ground;
   if (ground.has_friction() && ground.friction == numeric::FrictionLaw::regularised) {
     outside("and has Coulomb's law; regularised friction creeps instead of sticking");
@@ -118,22 +163,29 @@ analytic::Drop discrete_drop(const Scene& scene, const numeric::Body& body) {
   }
   return {.body = planar_body(body),
           .inclination = analytic::Angle::from_degrees(scene.angle_deg),
-          .velocity = {.normal = start.velocity.z(), .tangential = start.velocity.x(), .angular = scene.spin},
+          .velocity = {.normal = start.velocity.z(),
+                       .tangential = start.velocity.x(),
+                       .angular = scene.touch_angular_velocity().y()},
           .gravity = scene.options.gravity,
           .law = law};
 }
 
 analytic::PlanarBody nominal_body(const Scene& scene) {
   const BodyScene& body = scene.body;
-  switch (body.shape) {
-    case BodyScene::Shape::rod:
-      return analytic::make_rod({.mass = body.mass, .length = body.length, .radius = body.radius});
-    case BodyScene::Shape::box:
-      return analytic::make_box(
-          {.mass = body.mass, .length = body.size.x(), .width = body.size.y(), .thickness = body.size.z()});
-    case BodyScene::Shape::mesh: break;
+  if (body.shape == BodyScene::Shape::mesh) return planar_body(scene.make_body());
+  analytic::PlanarBody planar =
+      body.shape == BodyScene::Shape::rod
+          ? analytic::make_rod({.mass = body.mass, .length = body.length, .radius = body.radius})
+          : analytic::make_box(
+                {.mass = body.mass, .length = body.size.x(), .width = body.size.y(), .thickness = body.size.z()});
+  const BodyProperties properties = nominal_properties(scene);
+  if (!body.inertia.empty()) planar.gyration_square = properties.gyration_square(1, 1);
+  for (Vertex& vertex : planar.vertices) {
+    vertex.x -= properties.centre.x();
+    vertex.z -= properties.centre.z();
   }
-  return planar_body(scene.make_body());
+  planar.uniform_thin_rod = planar.uniform_thin_rod && body.inertia.empty() && properties.centre.isZero(0);
+  return planar;
 }
 
 analytic::ImpactLaw impact_law(const Scene& scene) {
@@ -151,13 +203,14 @@ analytic::ImpactLaw impact_law(const Scene& scene) {
 }
 
 analytic::Drop impact_drop(const Scene& scene, const analytic::PlanarBody& body) {
-  if (scene.tilt_deg != 0) outside("drop.tilt_deg turns the body out of it");
+  require_plane(scene);
   const analytic::Angle inclination = analytic::Angle::from_degrees(scene.angle_deg);
   const double gravity = scene.options.gravity;
-  const double speed = scene.height ? fallen_speed(*scene.height, gravity, body, inclination) : scene.speed;
+  const Vector3 velocity = scene.touch_velocity();
+  const double normal = scene.height ? -fallen_speed(*scene.height, gravity, body, inclination) : velocity.z();
   return {.body = body,
           .inclination = inclination,
-          .velocity = {.normal = -speed, .tangential = scene.tangential_velocity, .angular = scene.spin},
+          .velocity = {.normal = normal, .tangential = velocity.x(), .angular = scene.touch_angular_velocity().y()},
           .gravity = gravity,
           .law = impact_law(scene)};
 }

@@ -7,6 +7,10 @@
 
 namespace clatter::validation {
 
+/// Why the drop moves in space and not in the plane y = 0, as its keys say; empty: in the plane.  The one place that
+/// decides so; planar_body refuses meshes whose shape or mass is not symmetric about that plane.
+[[nodiscard]] std::string reason_in_space(const Scene& scene);
+
 /// The planar body with the same mass, the same moment of inertia about y and, as vertices, the corners of the real
 /// outline in the x–z plane: a, b (below), a-top, b-top.
 /// @throws analytic::OutsideModelError if the body is not symmetric about the plane y = 0 (products of inertia or
@@ -15,15 +19,16 @@ namespace clatter::validation {
 
 /// The drop of `scene` for the discrete model: real contact points and inertia, restitution from the exact map of the
 /// ground's damping at each impact's own speed, Coulomb friction with the sliding coefficient.
-/// @throws analytic::OutsideModelError as planar_body, and for a tilted drop or regularised friction.
+/// @throws analytic::OutsideModelError as planar_body, for a drop in space and for regularised friction.
 [[nodiscard]] analytic::Drop discrete_drop(const Scene& scene, const numeric::Body& body);
 
 /// The body of `scene` by its sizes alone, as `clatter sequence` has it: a rod is a cylinder (radius 0: a thin rod), a
-/// box its outline; a mesh as planar_body.  @throws as planar_body and numeric::Body.
+/// box its outline, with body.centre and body.inertia; a mesh as planar_body.  @throws as planar_body, numeric::Body
+/// and nominal_properties.
 [[nodiscard]] analytic::PlanarBody nominal_body(const Scene& scene);
 
 /// The drop of `scene` with restitution and friction as its impact.* keys give them.
-/// @throws analytic::OutsideModelError for a tilted drop; BadInput if drop.height is not above the centre of mass at
+/// @throws analytic::OutsideModelError for a drop in space; BadInput if drop.height is not above the centre of mass at
 ///         the touch.
 [[nodiscard]] analytic::Drop impact_drop(const Scene& scene, const analytic::PlanarBody& body);
 [[nodiscard]] analytic::Drop impact_drop(const Scene& scene);

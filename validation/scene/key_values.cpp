@@ -46,13 +46,55 @@ Json value_json(const Key& key, Scene& scene) {
                         [&](const OptionalNumber& v) { return v.at(scene) ? Json(*v.at(scene)) : Json(nullptr); },
                         [&](const TextValue& v) { return text_json(v.at(scene)); },
                         [&](const NameValue& v) { return Json((*v.names)[v.get(scene)]); },
-                        [&](const ListValue& v) { return Json(v.get(scene)); },
+                        [&](const ListValue& v) {
+                          const std::vector<double> numbers = v.get(scene);
+                          return numbers.empty() ? Json(nullptr) : Json(numbers);
+                        },
                         [&](const auto& v) { return Json(v.at(scene)); },
                     },
                     key.value);
 }
 
+Echo echo_of(const Key& key, const Scene& scene, Model model) {
+  if (key.echo) return key.echo(scene, model);
+  const auto& pairs = alternatives();
+  const bool is_replaced = std::any_of(pairs.begin(), pairs.end(), [&](const Alternative& pair) {
+    return std::string_view(pair.instead_of) == key.name && key_named(pair.key).is_given(scene);
+  });
+  return is_replaced ? Echo::null : Echo::value;
+}
+
 }  // namespace
+
+const std::vector<std::string>& shape_names() {
+  static const std::vector<std::string> names{"rod", "box", "mesh"};
+  return names;
+}
+
+const std::vector<std::string>& law_names() {
+  static const std::vector<std::string> names{"newton", "poisson", "stronge"};
+  return names;
+}
+
+const std::vector<std::string>& area_names() {
+  static const std::vector<std::string> names{"surface", "projected"};
+  return names;
+}
+
+const std::vector<std::string>& friction_law_names() {
+  static const std::vector<std::string> names{"coulomb", "regularised", "local"};
+  return names;
+}
+
+const std::vector<std::string>& method_names() {
+  static const std::vector<std::string> names{"auto", "tvd-rk3", "rk4", "rkf45", "rkck", "rk8pd"};
+  return names;
+}
+
+const std::vector<std::string>& sweep_names() {
+  static const std::vector<std::string> names{"angle_deg", "sliding_friction"};
+  return names;
+}
 
 std::string Key::allowed() const {
   return std::visit(Overloaded{
@@ -69,7 +111,7 @@ std::string Key::allowed() const {
 
 Json Key::get(const Scene& scene) const {
   Scene shown = scene;  // the places are those of a scene that may be changed
-  const Echo shows = echo ? echo(scene, Model::continuous) : Echo::value;
+  const Echo shows = echo_of(*this, scene, Model::continuous);
   return shows == Echo::value ? value_json(*this, shown) : Json(nullptr);
 }
 
@@ -89,6 +131,16 @@ bool Key::is_number() const {
   return is_whole() || std::holds_alternative<NumberValue>(value) || std::holds_alternative<OptionalNumber>(value);
 }
 
+bool Key::is_given(const Scene& scene) const {
+  Scene shown = scene;  // the places are those of a scene that may be changed
+  return std::visit(Overloaded{
+                        [&](const OptionalNumber& v) { return v.at(shown).has_value(); },
+                        [&](const ListValue& v) { return !v.get(shown).empty(); },
+                        [](const auto&) { return true; },
+                    },
+                    value);
+}
+
 void Key::put_number(Scene& scene, double number) const {
   std::visit(Overloaded{
                  [&](const NumberValue& v) { v.at(scene) = number; },
@@ -105,6 +157,17 @@ const Key& key_named(std::string_view name) {
       std::find_if(all_keys().begin(), all_keys().end(), [&](const Key& key) { return key.name == name; });
   if (found == all_keys().end()) throw std::out_of_range("no key " + std::string(name));
   return *found;
+}
+
+const std::vector<Alternative>& alternatives() {
+  static const std::vector<Alternative> pairs = [] {
+    std::vector<Alternative> list;
+    for (const Key& key : all_keys()) {
+      for (const char* other : key.instead_of) list.push_back({key.name, other});
+    }
+    return list;
+  }();
+  return pairs;
 }
 
 const std::vector<std::string>& scene_keys() {
@@ -131,7 +194,7 @@ Json keys_json(const Scene& scene, Model model) {
   Json json = Json::object();
   for (const Key& key : all_keys()) {
     if (!key.is_for(model)) continue;
-    const Echo echo = key.echo ? key.echo(scene, model) : Echo::value;
+    const Echo echo = echo_of(key, scene, model);
     if (echo == Echo::absent) continue;
     Json* place = &json;
     std::string name = key.name;

@@ -1,6 +1,7 @@
 #include "validation/scene/keys.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -27,8 +28,15 @@ constexpr Range gravities{0, 1e9, false, "from 0 to 1e9"};
 constexpr Range heights{0, 1e12, true, "greater than 0 and at most 1e12"};
 constexpr Range angles{0, 90, false, "from 0 to 90 degrees"};
 constexpr Range tilts{-180, 180, false, "from -180 to 180 degrees"};
+constexpr Range parameters{-1.01, 1.01, false, "from -1.01 to 1.01"};
 constexpr Range restitutions{0, 1, false, "from 0 to 1"};
 constexpr Range tolerances{numeric::least_tolerance, 0.1, false, "from 5e-14 to 0.1"};
+
+// Keys whose place another takes.
+constexpr std::array mass_of_body{"body.mass"};
+constexpr std::array speed_of_fall{"drop.speed"};
+constexpr std::array turns{"drop.angle_deg", "drop.tilt_deg"};
+constexpr std::array parts_of_velocity{"drop.speed", "drop.height", "drop.tangential_velocity"};
 
 Echo null_if(bool none) { return none ? Echo::null : Echo::value; }
 Echo only_if(bool shown) { return shown ? Echo::value : Echo::absent; }
@@ -46,27 +54,48 @@ std::size_t index_of(Enum value) {
 }
 
 void append_drop(std::vector<Key>& keys) {
-  keys.insert(
-      keys.end(),
-      {
-          {"drop.angle_deg", Use::both, "--angle", "DEG", "°",
-           "inclination at the first impact, end a low; 0 flat, 90 upright",
-           NumberValue{[](Scene& s) -> double& { return s.angle_deg; }, angles}, nullptr, true},
-          {"drop.tilt_deg", Use::continuous, "--tilt", "DEG", "°", "rotation about the body's long axis before that",
-           NumberValue{[](Scene& s) -> double& { return s.tilt_deg; }, tilts}},
-          {"drop.speed", Use::both, "--speed", "M/S", "m/s", "downward, of the centre of mass at first touch",
-           NumberValue{[](Scene& s) -> double& { return s.speed; }, speeds, &positive},
-           [](const Scene& s, Model model) { return null_if(s.height.has_value() && model == Model::continuous); }},
-          {"drop.height", Use::both, "--height", "M", "m", "or its height at release from rest",
-           OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.height; }, heights, &positive}},
-          {"drop.tangential_velocity", Use::both, "--tangential-velocity", "M/S", "m/s",
-           "of the centre of mass, to the right",
-           NumberValue{[](Scene& s) -> double& { return s.tangential_velocity; }, velocities, &any}},
-          {"drop.spin", Use::both, "--spin", "RAD/S", "rad/s", "clockwise, as Omega in Eq. 8",
-           NumberValue{[](Scene& s) -> double& { return s.spin; }, velocities, &any}},
-          {"world.gravity", Use::both, "--gravity", "M/S2", "m/s²", "acceleration of free fall",
-           NumberValue{[](Scene& s) -> double& { return s.options.gravity; }, gravities, &not_negative}},
-      });
+  keys.insert(keys.end(),
+              {
+                  {"drop.angle_deg", Use::both, "--angle", "DEG", "°",
+                   "inclination at the first impact, end a low; 0 flat, 90 upright",
+                   NumberValue{[](Scene& s) -> double& { return s.angle_deg; }, angles}, nullptr, true},
+                  {"drop.tilt_deg", Use::both, "--tilt", "DEG", "°", "rotation about the body's long axis before that",
+                   NumberValue{[](Scene& s) -> double& { return s.tilt_deg; }, tilts}},
+                  {"drop.attitude", Use::both, "--attitude", "Q0,Q1,Q2,Q3", "",
+                   "or Euler parameters, body to world, scalar first; the lowest vertex is put on the ground",
+                   ListValue{[](const Scene& s) { return s.attitude; },
+                             [](Scene& s, const std::vector<double>& v) { s.attitude = v; },
+                             {4},
+                             parameters,
+                             "four numbers q0, q1, q2, q3 of length 1 (normalised if within 0.01 of it)",
+                             "[1, 0, 0, 0]"},
+                   nullptr, false, turns},
+                  {"drop.speed", Use::both, "--speed", "M/S", "m/s", "downward, of the centre of mass at first touch",
+                   NumberValue{[](Scene& s) -> double& { return s.speed; }, speeds, &positive},
+                   [](const Scene& s, Model model) {
+                     return null_if(!s.velocity.empty() || (s.height.has_value() && model == Model::continuous));
+                   }},
+                  {"drop.height", Use::both, "--height", "M", "m", "or its height at release from rest",
+                   OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.height; }, heights, &positive},
+                   nullptr, false, speed_of_fall},
+                  {"drop.tangential_velocity", Use::both, "--tangential-velocity", "M/S", "m/s",
+                   "of the centre of mass, to the right",
+                   NumberValue{[](Scene& s) -> double& { return s.tangential_velocity; }, velocities, &any}},
+                  {"drop.velocity", Use::both, "--velocity", "X,Y,Z", "m/s",
+                   "or all of it: of the centre of mass at the first touch, world",
+                   ListValue{[](const Scene& s) { return s.velocity; },
+                             [](Scene& s, const std::vector<double>& v) { s.velocity = v; },
+                             {3},
+                             velocities,
+                             "three numbers from -1e9 to 1e9",
+                             "[0, 0, -1]",
+                             &any},
+                   nullptr, false, parts_of_velocity},
+                  {"drop.spin", Use::both, "--spin", "RAD/S", "rad/s", "clockwise, as Omega in Eq. 8",
+                   NumberValue{[](Scene& s) -> double& { return s.spin; }, velocities, &any}},
+                  {"world.gravity", Use::both, "--gravity", "M/S2", "m/s²", "acceleration of free fall",
+                   NumberValue{[](Scene& s) -> double& { return s.options.gravity; }, gravities, &not_negative}},
+              });
 }
 
 void append_impact(std::vector<Key>& keys) {
@@ -90,67 +119,72 @@ void append_impact(std::vector<Key>& keys) {
 }
 
 void append_body(std::vector<Key>& keys) {
-  keys.insert(keys.end(),
-              {
-                  {"body.shape", Use::both, "--body", "rod|box|mesh", "", "shape of what falls",
-                   NameValue{&shape_names(), [](const Scene& s) { return index_of(s.body.shape); },
-                             [](Scene& s, std::size_t i) { s.body.shape = static_cast<Shape>(i); }}},
-                  {"body.mass", Use::both, "--mass", "KG", "kg", "mass",
-                   NumberValue{[](Scene& s) -> double& { return s.body.mass; }, masses, &wide_masses}},
-                  {"body.length", Use::both, "--length", "M", "m", "of the rod",
-                   NumberValue{[](Scene& s) -> double& { return s.body.length; }, sizes, &wide_sizes}, of_rod},
-                  {"body.radius", Use::both, "--radius", "M", "m", "of the rod",
-                   NumberValue{[](Scene& s) -> double& { return s.body.radius; }, radii, &wide_radii}, of_rod},
-                  {"body.size", Use::both, "--size", "LxWxT", "m",
-                   "of the box: along the inclination, across, upright at 0 degrees",
-                   ListValue{[](const Scene& s) {
-                               return std::vector<double>{s.body.size.x(), s.body.size.y(), s.body.size.z()};
-                             },
-                             [](Scene& s, const std::vector<double>& v) {
-                               s.body.size = {v[0], v[1], v[2]};
-                             },
-                             {3},
-                             sizes,
-                             "three lengths in m greater than 0, as in [0.106, 0.044, 0.019]",
-                             &wide_sizes},
-                   of_box},
-                  {"body.mesh.sectors", Use::continuous, "", "N", "", "elements around the rod",
-                   WholeNumber{[](Scene& s) -> int& { return s.body.sectors; }, 3, most}, of_rod},
-                  {"body.mesh.rings", Use::continuous, "", "N", "", "from its axis outward",
-                   WholeNumber{[](Scene& s) -> int& { return s.body.rings; }, 1, most}, of_rod},
-                  {"body.mesh.layers", Use::continuous, "", "N", "", "along it",
-                   WholeNumber{[](Scene& s) -> int& { return s.body.layers; }, 1, most}, of_rod},
-                  {"body.mesh.nx", Use::continuous, "", "N", "", "elements along the box",
-                   WholeNumber{[](Scene& s) -> int& { return s.body.nx; }, 1, most}, of_box},
-                  {"body.mesh.ny", Use::continuous, "", "N", "", "across it",
-                   WholeNumber{[](Scene& s) -> int& { return s.body.ny; }, 1, most}, of_box},
-                  {"body.mesh.nz", Use::continuous, "", "N", "", "through its thickness",
-                   WholeNumber{[](Scene& s) -> int& { return s.body.nz; }, 1, most}, of_box},
-                  {"body.mesh.file", Use::both, "", "FILE", "", "Gmsh (.msh, .geo) or STL",
-                   TextValue{[](Scene& s) -> std::string& { return s.body.file; }}, of_mesh},
-                  {"body.mesh.unit", Use::both, "", "M", "m", "of the file's coordinates",
-                   NumberValue{[](Scene& s) -> double& { return s.body.unit; }, positive}, of_mesh},
-                  {"body.mesh.density", Use::both, "", "KG/M3", "kg/m³", "of a Gmsh file's elements, or body.mass",
-                   OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.body.density; }, positive},
-                   [](const Scene& s, Model) { return only_if(s.body.density.has_value()); }},
-                  {"body.inertia", Use::both, "", "LIST", "kg m²",
-                   "of an STL body about its centre, principal or xx, yy, zz, xy, xz, yz",
-                   ListValue{[](const Scene& s) { return s.body.inertia; },
-                             [](Scene& s, const std::vector<double>& v) { s.body.inertia = v; },
-                             {3, 6},
-                             any,
-                             "three principal moments in kg m2, or six numbers xx, yy, zz, xy, xz, yz"},
-                   [](const Scene& s, Model) { return only_if(!s.body.inertia.empty()); }},
-                  {"body.centre", Use::both, "", "X,Y,Z", "", "of mass of an STL body, in the file's unit",
-                   ListValue{[](const Scene& s) { return s.body.centre; },
-                             [](Scene& s, const std::vector<double>& v) { s.body.centre = v; },
-                             {3},
-                             any,
-                             "three coordinates in the file's unit"},
-                   [](const Scene& s, Model) { return only_if(!s.body.centre.empty()); }},
-                  {"body.merge", Use::continuous, "", "true|false", "", "coplanar elements become one facet",
-                   TruthValue{[](Scene& s) -> bool& { return s.body.merge; }}},
-              });
+  keys.insert(
+      keys.end(),
+      {
+          {"body.shape", Use::both, "--body", "rod|box|mesh", "", "shape of what falls",
+           NameValue{&shape_names(), [](const Scene& s) { return index_of(s.body.shape); },
+                     [](Scene& s, std::size_t i) { s.body.shape = static_cast<Shape>(i); }}},
+          {"body.mass", Use::both, "--mass", "KG", "kg", "mass",
+           NumberValue{[](Scene& s) -> double& { return s.body.mass; }, masses, &wide_masses}},
+          {"body.length", Use::both, "--length", "M", "m", "of the rod",
+           NumberValue{[](Scene& s) -> double& { return s.body.length; }, sizes, &wide_sizes}, of_rod},
+          {"body.radius", Use::both, "--radius", "M", "m", "of the rod",
+           NumberValue{[](Scene& s) -> double& { return s.body.radius; }, radii, &wide_radii}, of_rod},
+          {"body.size", Use::both, "--size", "LxWxT", "m",
+           "of the box: along the inclination, across, upright at 0 degrees",
+           ListValue{[](const Scene& s) {
+                       return std::vector<double>{s.body.size.x(), s.body.size.y(), s.body.size.z()};
+                     },
+                     [](Scene& s, const std::vector<double>& v) {
+                       s.body.size = {v[0], v[1], v[2]};
+                     },
+                     {3},
+                     sizes,
+                     "three lengths in m greater than 0, as in [0.106, 0.044, 0.019]",
+                     "[0.106, 0.044, 0.019]",
+                     &wide_sizes},
+           of_box},
+          {"body.mesh.sectors", Use::continuous, "", "N", "", "elements around the rod",
+           WholeNumber{[](Scene& s) -> int& { return s.body.sectors; }, 3, most}, of_rod},
+          {"body.mesh.rings", Use::continuous, "", "N", "", "from its axis outward",
+           WholeNumber{[](Scene& s) -> int& { return s.body.rings; }, 1, most}, of_rod},
+          {"body.mesh.layers", Use::continuous, "", "N", "", "along it",
+           WholeNumber{[](Scene& s) -> int& { return s.body.layers; }, 1, most}, of_rod},
+          {"body.mesh.nx", Use::continuous, "", "N", "", "elements along the box",
+           WholeNumber{[](Scene& s) -> int& { return s.body.nx; }, 1, most}, of_box},
+          {"body.mesh.ny", Use::continuous, "", "N", "", "across it",
+           WholeNumber{[](Scene& s) -> int& { return s.body.ny; }, 1, most}, of_box},
+          {"body.mesh.nz", Use::continuous, "", "N", "", "through its thickness",
+           WholeNumber{[](Scene& s) -> int& { return s.body.nz; }, 1, most}, of_box},
+          {"body.mesh.file", Use::both, "", "FILE", "", "Gmsh (.msh, .geo) or STL",
+           TextValue{[](Scene& s) -> std::string& { return s.body.file; }}, of_mesh},
+          {"body.mesh.unit", Use::both, "", "M", "m", "of the file's coordinates",
+           NumberValue{[](Scene& s) -> double& { return s.body.unit; }, positive}, of_mesh},
+          {"body.mesh.density", Use::both, "", "KG/M3", "kg/m³", "of a file's body, or body.mass",
+           OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.body.density; }, positive},
+           [](const Scene& s, Model) { return only_if(s.body.density.has_value()); }, false, mass_of_body},
+          {"body.inertia", Use::both, "--inertia", "LIST", "kg m²",
+           "about the centre of mass, principal or xx, yy, zz, xy, xz, yz in body axes; without it the uniform "
+           "body's about its own centre",
+           ListValue{[](const Scene& s) { return s.body.inertia; },
+                     [](Scene& s, const std::vector<double>& v) { s.body.inertia = v; },
+                     {3, 6},
+                     any,
+                     "three principal moments in kg m2, or six numbers xx, yy, zz, xy, xz, yz",
+                     "[1, 1, 1]"}},
+          {"body.centre", Use::both, "--centre", "X,Y,Z", "m",
+           "of mass, from the geometric centre of a rod or box, of a mesh in its file's frame and unit; without "
+           "it that of the enclosed volume",
+           ListValue{[](const Scene& s) { return s.body.centre; },
+                     [](Scene& s, const std::vector<double>& v) { s.body.centre = v; },
+                     {3},
+                     any,
+                     "three coordinates in m, of a mesh in its file's unit",
+                     "[0, 0, 0]"}},
+          {"body.merge", Use::continuous, "", "true|false", "", "coplanar elements become one facet",
+           TruthValue{[](Scene& s) -> bool& { return s.body.merge; }}},
+      });
 }
 
 void append_ground(std::vector<Key>& keys) {
@@ -214,36 +248,6 @@ void append_run(std::vector<Key>& keys) {
 }
 
 }  // namespace
-
-const std::vector<std::string>& shape_names() {
-  static const std::vector<std::string> names{"rod", "box", "mesh"};
-  return names;
-}
-
-const std::vector<std::string>& law_names() {
-  static const std::vector<std::string> names{"newton", "poisson", "stronge"};
-  return names;
-}
-
-const std::vector<std::string>& area_names() {
-  static const std::vector<std::string> names{"surface", "projected"};
-  return names;
-}
-
-const std::vector<std::string>& friction_law_names() {
-  static const std::vector<std::string> names{"coulomb", "regularised", "local"};
-  return names;
-}
-
-const std::vector<std::string>& method_names() {
-  static const std::vector<std::string> names{"auto", "tvd-rk3", "rk4", "rkf45", "rkck", "rk8pd"};
-  return names;
-}
-
-const std::vector<std::string>& sweep_names() {
-  static const std::vector<std::string> names{"angle_deg", "sliding_friction"};
-  return names;
-}
 
 const std::vector<Key>& all_keys() {
   static const std::vector<Key> keys = [] {

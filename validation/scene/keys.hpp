@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -51,7 +52,8 @@ struct ListValue {
   void (*put)(Scene& scene, const std::vector<double>& numbers);
   std::vector<std::size_t> sizes;
   Range range;
-  const char* words;  ///< what is allowed
+  const char* words;    ///< what is allowed
+  const char* example;  ///< as a scene file has it
   const Range* wide = nullptr;
 };
 using KeyValue =
@@ -71,9 +73,10 @@ struct Key {
   const char* unit;  ///< empty: none
   const char* help;
   KeyValue value;
-  Echo (*echo)(const Scene& scene, Model model) = nullptr;  ///< none: always its value
-
-  bool is_required = false;  ///< no scene of the continuous model is without it
+  /// None: its value, and null where that is empty or another key is given instead.
+  Echo (*echo)(const Scene& scene, Model model) = nullptr;
+  bool is_required = false;                      ///< no scene of the continuous model is without it
+  std::span<const char* const> instead_of = {};  ///< keys whose place it takes: a scene has it or some of them
 
   /// Name of the argument in Python and on the page: the flag's, or without one the key's last word.
   [[nodiscard]] std::string argument() const;
@@ -88,6 +91,8 @@ struct Key {
   [[nodiscard]] std::string allowed() const;
   /// Its value in a scene, null or absent as in the echo.
   [[nodiscard]] Json get(const Scene& scene) const;
+  /// Whether a scene has a value of it; true for kinds that always have one.
+  [[nodiscard]] bool is_given(const Scene& scene) const;
   /// Puts a number in its place; whether it is in range is for the reader to say.  @pre is_number()
   void put_number(Scene& scene, double number) const;
 };
@@ -96,6 +101,12 @@ struct Key {
 [[nodiscard]] const std::vector<Key>& all_keys();
 /// @throws std::out_of_range
 [[nodiscard]] const Key& key_named(std::string_view name);
+/// Pairs of a key and one whose place it takes: no scene has both.
+struct Alternative {
+  const char* key;
+  const char* instead_of;
+};
+[[nodiscard]] const std::vector<Alternative>& alternatives();
 /// Names of the keys, and of those that a file's sweep has.
 [[nodiscard]] const std::vector<std::string>& scene_keys();
 

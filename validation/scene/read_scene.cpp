@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <numbers>
+#include <numeric>
 
 #include "validation/embedded/embedded.hpp"
 #include "validation/output/number.hpp"
@@ -14,6 +17,7 @@
 namespace clatter::validation {
 namespace {
 
+constexpr double attitude_rounding = 0.01;  // numbers typed with two digits are meant to have the length 1
 constexpr Range thick{1e-100, 1e100, false, "from 1e-100 to 1e100"};
 
 const Range& range_of(std::string_view key) { return std::get<NumberValue>(key_named(key).value).range; }
@@ -37,15 +41,9 @@ void check_mesh(const SceneValues& values, BodyScene& body) {
   values.require("body.mesh.file", "a Gmsh or STL file");
   const std::filesystem::path file = body.file;
   body.file = (file.is_absolute() ? file : std::filesystem::path(values.path()).parent_path() / file).string();
-  if (body.is_stl()) {
-    only_for(values, {"body.mesh.density"}, "a Gmsh file");
-    values.require("body.mass", "an STL surface has none");
-    values.require("body.inertia", "an STL surface has none");
-    if (body.centre.empty()) body.centre = {0, 0, 0};
-    return;
+  if (body.is_stl() && !body.density) {
+    values.require("body.mass", "or body.mesh.density: an STL surface has neither");
   }
-  only_for(values, {"body.inertia", "body.centre"}, "an STL file");
-  values.exclude("body.mass", "body.mesh.density");
 }
 
 void check_body(const SceneValues& values, BodyScene& body, Model model) {
@@ -58,8 +56,7 @@ void check_body(const SceneValues& values, BodyScene& body, Model model) {
     only_for(values, {"body.size", "body.mesh.nx", "body.mesh.ny", "body.mesh.nz"}, "a box");
   }
   if (body.shape != Shape::mesh) {
-    only_for(values, {"body.mesh.file", "body.mesh.unit", "body.mesh.density", "body.inertia", "body.centre"},
-             "a mesh");
+    only_for(values, {"body.mesh.file", "body.mesh.unit", "body.mesh.density"}, "a mesh");
   }
   if (model == Model::continuous) static_cast<void>(values.number("body.radius", 1, thick));
   if (body.shape == Shape::box) values.require("body.size", "the box's [L, W, T] in m");
@@ -109,7 +106,7 @@ void check_sweep(const SceneValues& values, Scene& scene) {
   const std::string other = "a scene that does not sweep it";
   if (!scene.sweep) return;
   if (scene.sweep->quantity == SceneSweep::Quantity::angle_deg) {
-    only_for(values, {"drop.angle_deg"}, other);
+    only_for(values, {"drop.angle_deg", "drop.attitude"}, other);
     scene.angle_deg = scene.sweep->from;
   } else {
     only_for(values, {"ground.static_friction", "ground.sliding_friction"}, other);
@@ -117,10 +114,23 @@ void check_sweep(const SceneValues& values, Scene& scene) {
   if (!scene.history.empty()) values.refuse("run.history", "left out in a sweep");
 }
 
-void check_drop(const SceneValues& values, const Scene& scene) {
+/// The angle of a turn about −y by these Euler parameters.
+double inclination_of(const std::vector<double>& q) {
+  constexpr double degree = std::numbers::pi / 180;
+  return std::remainder(2 * std::atan2(-q[2], q[0]) / degree, 360);
+}
+
+void check_drop(const SceneValues& values, Scene& scene) {
   const bool swept = scene.sweep && scene.sweep->quantity == SceneSweep::Quantity::angle_deg;
-  if (!swept) values.require("drop.angle_deg", "the inclination at the first impact");
-  values.exclude("drop.speed", "drop.height");
+  if (!scene.attitude.empty()) {
+    const std::vector<double>& q = scene.attitude;
+    const double length = std::sqrt(std::inner_product(q.begin(), q.end(), q.begin(), 0.0));
+    if (!(std::fabs(length - 1) <= attitude_rounding))
+      values.refuse("drop.attitude", key_named("drop.attitude").allowed());
+    scene.angle_deg = inclination_of(q);
+  } else if (!swept) {
+    values.require("drop.angle_deg", "the inclination at the first impact");
+  }
   if (scene.height && !(scene.options.gravity > 0)) values.refuse("drop.height", "left out where world.gravity is 0");
 }
 
@@ -136,21 +146,24 @@ Scene default_scene(const std::string& path, Model model) {
 }
 
 Scene read_values(SceneValues values, const std::vector<SceneOverride>& overrides, Model model) {
-  refuse_both(overrides, "drop.speed", "drop.height");
+  for (const Alternative& pair : alternatives()) refuse_both(overrides, pair.instead_of, pair.key);
   refuse_both(overrides, "run.tolerance", "run.step");
   for (const SceneOverride& flag : overrides) {
-    if (flag.key == "drop.speed") values.drop("drop.height");
-    if (flag.key == "drop.height") values.drop("drop.speed");
+    for (const Alternative& pair : alternatives()) {
+      if (flag.key == pair.key) values.drop(pair.instead_of);
+      if (flag.key == pair.instead_of) values.drop(pair.key);
+    }
     if (flag.key == "run.method") values.drop(flag.text == "tvd-rk3" ? "run.tolerance" : "run.step");
     if (flag.key == "run.step") values.drop("run.tolerance");
     if (flag.key == "run.tolerance") values.drop("run.step");
-    if (flag.key == "drop.angle_deg") {
+    if (flag.key == "drop.angle_deg" || flag.key == "drop.attitude") {
       for (const char* key : {".from", ".to", ".step"}) values.drop(std::string("sweep.angle_deg") + key);
     }
     values.set(flag.key, flag.flag, flag.text);
   }
   Scene scene = default_scene(values.path(), model);
   scene.sweep = read_sweep_table(values);
+  for (const Alternative& pair : alternatives()) values.exclude(pair.instead_of, pair.key);
   put_values(values, scene, model);
   check_sweep(values, scene);
   check_drop(values, scene);

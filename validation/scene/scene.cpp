@@ -77,11 +77,19 @@ std::string discrete_friction_words(const DiscreteImpact& impact) {
   return "no friction";
 }
 
+std::string in_brackets(const std::vector<double>& numbers) {
+  std::string text;
+  for (const double number : numbers) text += (text.empty() ? "(" : ", ") + shortest(number);
+  return text + ")";
+}
+
 std::vector<std::string> discrete_summary(const Scene& scene) {
   std::string motion = fmt::format("drop: {}° at {} m/s", shortest(scene.angle_deg), shortest(scene.speed));
   if (scene.height) motion += fmt::format(" (from {} m)", shortest(*scene.height));
-  motion += fmt::format(", tangential {} m/s, spin {} rad/s, gravity {} m/s²", shortest(scene.tangential_velocity),
-                        shortest(scene.spin), shortest(scene.options.gravity));
+  motion +=
+      fmt::format(", tangential {} m/s, spin {} rad/s", shortest(scene.tangential_velocity), shortest(scene.spin));
+  if (scene.has_vectors()) motion = "drop: " + scene.drop_words();
+  motion += fmt::format(", gravity {} m/s²", shortest(scene.options.gravity));
   return {discrete_body_words(scene.body), motion,
           fmt::format("impact: e = {} ({}), {}; at most {} impacts, {} digits", shortest(scene.impact.restitution),
                       law_name(scene.impact.law), discrete_friction_words(scene.impact), scene.options.impacts,
@@ -123,16 +131,26 @@ Json Scene::json(Model model) const {
   return json;
 }
 
+bool Scene::has_vectors() const { return !attitude.empty() || !velocity.empty() || !angular_velocity.empty(); }
+
+std::string Scene::drop_words() const {
+  const bool sweeps_angle = sweep && sweep->quantity == SceneSweep::Quantity::angle_deg;
+  std::string words = sweeps_angle ? fmt::format("{}° to {}°", shortest(sweep->from), shortest(sweep->to))
+                                   : fmt::format("{}°", shortest(angle_deg));
+  if (!attitude.empty()) words = "attitude " + in_brackets(attitude);
+  if (tilt_deg != 0) words += fmt::format(", tilted by {}°", shortest(tilt_deg));
+  if (!velocity.empty()) words += fmt::format(", velocity {} m/s", in_brackets(velocity));
+  else words += height ? fmt::format(" from {} m", shortest(*height)) : fmt::format(" at {} m/s", shortest(speed));
+  if (tangential_velocity != 0) words += fmt::format(", tangential {} m/s", shortest(tangential_velocity));
+  if (spin != 0) words += fmt::format(", spin {} rad/s", shortest(spin));
+  if (!angular_velocity.empty()) words += fmt::format(", angular velocity {} rad/s", in_brackets(angular_velocity));
+  return words;
+}
+
 std::vector<std::string> Scene::summary(Model model) const {
   if (model == Model::discrete) return discrete_summary(*this);
   const bool sweeps_friction = sweep && sweep->quantity == SceneSweep::Quantity::friction;
-  std::string drop = sweep && sweep->quantity == SceneSweep::Quantity::angle_deg
-                         ? fmt::format("drop: {}° to {}°", shortest(sweep->from), shortest(sweep->to))
-                         : fmt::format("drop: {}°", shortest(angle_deg));
-  if (tilt_deg != 0) drop += fmt::format(", tilted by {}°", shortest(tilt_deg));
-  drop += height ? fmt::format(" from {} m", shortest(*height)) : fmt::format(" at {} m/s", shortest(speed));
-  if (tangential_velocity != 0) drop += fmt::format(", tangential {} m/s", shortest(tangential_velocity));
-  if (spin != 0) drop += fmt::format(", spin {} rad/s", shortest(spin));
+  std::string drop = "drop: " + drop_words();
   drop += fmt::format(", gravity {} m/s²{}", shortest(options.gravity), options.planar ? ", kept in its plane" : "");
   return {body_words(body), drop,
           fmt::format("ground: k = {} N/m³, c = {} N·s/m⁴ over the {} area, {}", in_powers(ground.stiffness),

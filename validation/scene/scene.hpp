@@ -34,9 +34,13 @@ struct BodyScene {
   int nx = 1, ny = 1, nz = 1;                ///< of a box's mesh
   std::string file;                          ///< Gmsh (.msh, .geo) or STL, resolved
   double unit = 1;                           ///< of the file's coordinates [m]
-  std::optional<double> density;             ///< of a Gmsh file's elements [kg/m³]
-  std::vector<double> inertia;               ///< of an STL body: 3 or 6 numbers [kg·m²]
-  std::vector<double> centre;                ///< of mass of an STL body, in the file's frame [m]
+  std::optional<double> density;             ///< of a file's body, instead of a mass [kg/m³]
+  /// About the centre of mass, axes of the body frame: three principal moments, or xx, yy, zz, xy, xz, yz [kg·m²];
+  /// empty: that of the uniform body about its own centre, wherever `centre` has moved the mass to.
+  std::vector<double> inertia;
+  /// Of mass, from the geometric centre of a rod or box [m], of a mesh in the file's frame and unit; empty: that of the
+  /// enclosed volume.
+  std::vector<double> centre;
   bool merge = true;
 
   [[nodiscard]] bool is_stl() const;
@@ -57,11 +61,16 @@ enum class Model { discrete, continuous };
 /// A checked scene.
 struct Scene {
   std::string path;
+  /// Turn about −y, after one of tilt_deg about the body's x axis.  With `attitude` its turn about −y if it is no more.
   double angle_deg = 0, tilt_deg = 0;
-  double speed = 1;                ///< of the centre of mass at the first touch, downward [m/s]
+  std::vector<double> attitude;  ///< Euler parameters, body → world, scalar first, about unit length; empty: by angles
+  double speed = 1;              ///< of the centre of mass at the first touch, downward [m/s]
   std::optional<double> height;    ///< of the centre of mass at release, if given [m]
   double tangential_velocity = 0;  ///< [m/s]
   double spin = 0;                 ///< [rad/s]
+  /// Of the centre of mass at the first touch, world [m/s]; empty: (tangential_velocity, 0, −speed).
+  std::vector<double> velocity;
+  std::vector<double> angular_velocity;  ///< at the first touch, world components [rad/s]; empty: (0, spin, 0)
   DiscreteImpact impact;
   BodyScene body;
   numeric::Ground ground;  ///< stiffness 0: none given, for the discrete model
@@ -73,12 +82,21 @@ struct Scene {
   /// The scene with the swept quantity at one value, and no sweep.
   [[nodiscard]] Scene at(double value) const;
   [[nodiscard]] numeric::Body make_body() const;
+  /// Body → world; unit.
+  [[nodiscard]] Eigen::Quaterniond touch_attitude() const;
+  /// Of the centre of mass at the first touch, world [m/s]; with `height` the speed is not yet that of the fall.
+  [[nodiscard]] numeric::Vector3 touch_velocity() const;
+  [[nodiscard]] numeric::Vector3 touch_angular_velocity() const;  ///< world components [rad/s]
   /// State at the first touch; with `height` the speed there follows from the fall.
   /// @throws BadInput if `height` is not above the centre of mass at the touch, or no touching vertex comes down.
   [[nodiscard]] numeric::MotionState start(const numeric::Body& body) const;
   /// The keys of the model, defaults included, under the names of the file; all of them for the continuous one.
   [[nodiscard]] Json json(Model model = Model::continuous) const;
-  /// The same for a reader: a few lines.
+  /// Whether attitude, velocity or angular velocity are given as vectors.
+  [[nodiscard]] bool has_vectors() const;
+  /// How the body comes to the ground, for a reader, without what is zero.
+  [[nodiscard]] std::string drop_words() const;
+  /// The scene for a reader: a few lines.
   [[nodiscard]] std::vector<std::string> summary(Model model = Model::continuous) const;
 
  private:

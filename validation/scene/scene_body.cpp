@@ -6,13 +6,12 @@
 #include <filesystem>
 #include <numbers>
 
-#include "numeric/mesh/generators.hpp"
-#include "numeric/mesh/import.hpp"
 #include "numeric/motion/free_flight.hpp"
 #include "numeric/touch_point.hpp"
 #include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/bad_input.hpp"
+#include "validation/scene/body_properties.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
@@ -20,28 +19,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-numeric::MassProperties stl_properties(const BodyScene& body) {
-  numeric::MassProperties properties{body.mass, {body.centre[0], body.centre[1], body.centre[2]}, {}};
-  properties.centre *= body.unit;
-  const std::vector<double>& i = body.inertia;
-  properties.inertia = numeric::Vector3(i[0], i[1], i[2]).asDiagonal();
-  if (i.size() == 6) {
-    properties.inertia(0, 1) = properties.inertia(1, 0) = i[3];
-    properties.inertia(0, 2) = properties.inertia(2, 0) = i[4];
-    properties.inertia(1, 2) = properties.inertia(2, 1) = i[5];
-  }
-  return properties;
-}
-
-/// With a mass instead of a density the mesh's own is scaled.
-numeric::Body gmsh_body(const BodyScene& body) {
-  numeric::Mesh mesh = numeric::read_gmsh(body.file, body.density.value_or(1), body.unit);
-  if (!body.density) {
-    const double factor = body.mass / numeric::mass_properties(mesh).mass;
-    for (numeric::Element& element : mesh.elements) element.density *= factor;
-  }
-  return numeric::Body(mesh, body.merge);
-}
+numeric::Vector3 vector_of(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
 
@@ -53,30 +31,31 @@ bool BodyScene::is_stl() const {
 }
 
 numeric::Body Scene::make_body() const {
-  switch (body.shape) {
-    case BodyScene::Shape::rod:
-      return numeric::Body(numeric::rod_mesh({.length = body.length,
-                                              .radius = body.radius,
-                                              .mass = body.mass,
-                                              .sectors = body.sectors,
-                                              .rings = body.rings,
-                                              .layers = body.layers}),
-                           body.merge);
-    case BodyScene::Shape::box:
-      return numeric::Body(
-          numeric::box_mesh({.size = body.size, .mass = body.mass, .nx = body.nx, .ny = body.ny, .nz = body.nz}),
-          body.merge);
-    case BodyScene::Shape::mesh: break;
+  const SolidBody solid = solid_body(*this);
+  return {solid.properties, solid.surface, body.merge};
+}
+
+Eigen::Quaterniond Scene::touch_attitude() const {
+  if (attitude.empty()) {
+    return numeric::attitude_of({.inclination = angle_deg * degree, .out_of_plane_tilt = tilt_deg * degree});
   }
-  if (body.is_stl()) return {stl_properties(body), numeric::read_stl(body.file, body.unit), body.merge};
-  return gmsh_body(body);
+  return Eigen::Quaterniond(attitude[0], attitude[1], attitude[2], attitude[3]).normalized();
+}
+
+numeric::Vector3 Scene::touch_velocity() const {
+  return velocity.empty() ? numeric::Vector3(tangential_velocity, 0, -speed) : vector_of(velocity);
+}
+
+numeric::Vector3 Scene::touch_angular_velocity() const {
+  return angular_velocity.empty() ? numeric::Vector3(0, spin, 0) : vector_of(angular_velocity);
 }
 
 numeric::MotionState Scene::start(const numeric::Body& dropped) const {
-  numeric::MotionState state = numeric::touching_state(dropped, {.inclination = angle_deg * degree,
-                                                                 .velocity = {tangential_velocity, 0, -speed},
-                                                                 .spin = spin,
-                                                                 .out_of_plane_tilt = tilt_deg * degree});
+  numeric::MotionState state;
+  state.attitude = touch_attitude();
+  state.velocity = touch_velocity();
+  state.angular_velocity = state.attitude.conjugate() * touch_angular_velocity();
+  state = numeric::on_ground(dropped, state);
   if (height) state.velocity.z() = -fallen_speed(state);
   const numeric::FirstTouch first = numeric::first_touch(dropped, state);
   if (!(first.approach_speed > 0)) {  // in the discrete model's words

@@ -11,6 +11,7 @@
 #include "validation/output/digest.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/bad_input.hpp"
+#include "validation/scene/body_properties.hpp"
 #include "validation/sweep/rows.hpp"
 
 namespace clatter::validation {
@@ -61,6 +62,11 @@ std::vector<std::string> settable_keys() {
   return keys;
 }
 
+bool is_list(const std::string& name) {
+  return std::any_of(all_keys().begin(), all_keys().end(),
+                     [&](const Key& key) { return key.name == name && std::holds_alternative<ListValue>(key.value); });
+}
+
 Setting read_setting(const std::string& given, bool random) {
   const std::size_t equal = given.find('=');
   if (equal == std::string::npos)
@@ -73,6 +79,9 @@ Setting read_setting(const std::string& given, bool random) {
   }
   if (setting.text.empty()) throw BadInput(fmt::format("--set {}: the value is empty", setting.key));
   setting.number = find_number_key(setting.key);
+  if (setting.text.find(':') != std::string::npos && is_list(setting.key)) {
+    throw BadInput(fmt::format("--set {}={}: a list cannot be swept; give one value", setting.key, setting.text));
+  }
   if (setting.number == nullptr || setting.text.find(':') == std::string::npos) return setting;
   setting.axis = random ? read_random_axis(setting.key, setting.text, setting.number->is_whole())
                         : read_grid_axis(setting.key, setting.text, setting.number->is_whole());
@@ -217,6 +226,7 @@ std::string SweepPlan::head() const {
   std::string head = fmt::format("# clatter {}, sweep: {} model, one row per {}\n# scene: {}\n", version,
                                  model_names[static_cast<std::size_t>(model)],
                                  row_names[static_cast<std::size_t>(rows)], scene.json().dump());
+  if (body_axes.empty()) head += "# body: " + body_json(scene, model).dump() + "\n";
   if (!scene.body.file.empty()) head += fmt::format("# mesh: CRC-64/XZ {:016x}\n", file_digest(scene.body.file));
   for (const std::string& line : words) head += "# " + line + "\n";
   return head + column_names(*this) + "\n";

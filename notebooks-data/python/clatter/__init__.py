@@ -43,11 +43,14 @@ def _check(run: Run) -> None:
 
 
 def sequence(
-    angle: float,
+    angle: float | None = None,
     *,
+    tilt: float | None = None,
+    attitude: Value | None = None,
     speed: float | None = None,
     height: float | None = None,
     tangential_velocity: float | None = None,
+    velocity: Value | None = None,
     spin: float | None = None,
     gravity: float | None = None,
     restitution: float | None = None,
@@ -59,6 +62,8 @@ def sequence(
     length: float | None = None,
     radius: float | None = None,
     size: Value | None = None,
+    inertia: Value | None = None,
+    centre: Value | None = None,
     impacts: int | None = None,
     digits: int | None = None,
     require_digits: bool | None = None,
@@ -66,24 +71,28 @@ def sequence(
 ) -> Sequence:
     """Impact sequence of a falling rod or box by the discrete model, Eqs. 8 to 12.
 
-    angle: inclination at the first impact, end a low; 0 flat, 90 upright [°].
+    angle: inclination at the first impact, end a low; 0 flat, 90 upright [°]; tilt (0) before that [°]; or attitude:
+    Euler parameters (q0, q1, q2, q3), body to world.
     speed: downward, of the centre of mass at the first touch (1) [m/s]; or height: of the centre of mass at release [m].
-    tangential_velocity (0) [m/s], spin (0) [rad/s, sign of Eq. 8], gravity (0) [m/s²].
+    tangential_velocity (0) [m/s]; or velocity=(x, y, z) instead of both.
+    spin (0) [rad/s, sign of Eq. 8], gravity (0) [m/s²].
     restitution (1), restitution_law ("newton", "poisson", "stronge").
     impulse_ratio: Eq. 8's mu_i as given; or friction: Coulomb's mu (0).
     body: "rod" (mass 1 kg, length 1 m, radius 0 m) or "box" (mass, size=(L, W, T) in m).
+    centre=(x, y, z): of mass, from the geometric centre [m]; inertia: three or six numbers about it [kg·m²].
     impacts: most to report (6).  digits: shown in the table (6); require_digits: NotComputed if fewer are known.
     method: "auto", "discrete" or "closed-form" (Eqs. 9 and 12).
 
-    Raises BadInput; OutsideModel at the jamming limit; NotComputed.  Warns of energy that an impulse ratio creates, and
-    of a sequence that ended early because a number could not be computed.
+    Raises BadInput; OutsideModel at the jamming limit and for a drop in space; NotComputed.  Warns of energy that an
+    impulse ratio creates, and of a sequence that ended early because a number could not be computed.
 
     >>> clatter.sequence(angle=10)[1].impulse_normal
     1.0028424649698549
     """
     given: dict[str, Value | None] = {
-        "angle": angle, "speed": speed, "height": height, "tangential_velocity": tangential_velocity, "spin": spin,
-        "gravity": gravity, "restitution": restitution, "restitution_law": restitution_law,
+        "angle": angle, "tilt": tilt, "attitude": attitude, "speed": speed, "height": height,
+        "tangential_velocity": tangential_velocity, "velocity": velocity, "spin": spin, "inertia": inertia,
+        "centre": centre, "gravity": gravity, "restitution": restitution, "restitution_law": restitution_law,
         "impulse_ratio": impulse_ratio, "friction": friction, "body": body, "mass": mass, "length": length,
         "radius": radius, "size": size, "impacts": impacts, "digits": digits,
         "require_digits": require_digits,
@@ -101,8 +110,8 @@ def simulate(scene: Scene, *, history: bool = False, **changes: Value | None) ->
     scene: a scene file, the name of one of cases(), or a dict like case(name); a file that the scene names for its
     time history is not written.
     history: keep the time history in memory.  A sweep keeps none.
-    changes: take the place of keys of the scene: angle, tilt, speed, height, tangential_velocity, spin, gravity, body,
-    mass, length, radius, size, stiffness, damping, static_friction, sliding_friction, area, impacts, digits, require_digits, method,
+    changes: take the place of keys of the scene: angle, tilt, attitude, speed, height, tangential_velocity, velocity,
+    spin, gravity, body, mass, length, radius, size, inertia, centre, stiffness, damping, static_friction, sliding_friction, area, impacts, digits, require_digits, method,
     tolerance, step, planar, contact_gravity, errors, amplification, evaluation_limit; restitution, restitution_law,
     impulse_ratio and friction belong to the discrete model and are only kept.
 

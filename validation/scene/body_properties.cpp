@@ -1,0 +1,232 @@
+#include "validation/scene/body_properties.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "numeric/mesh/generators.hpp"
+#include "numeric/mesh/import.hpp"
+#include "validation/output/number.hpp"
+#include "validation/scene/bad_input.hpp"
+#include "validation/scene/hull.hpp"
+#include "validation/scene/keys.hpp"
+
+namespace clatter::validation {
+namespace {
+
+using numeric::MassProperties;
+using numeric::Matrix3;
+using numeric::Vector3;
+
+constexpr double rounding = 1e-9;  // of numbers that a user typed
+
+/// The six numbers xx, yy, zz, xy, xz, yz, or three principal ones.
+Matrix3 symmetric(const std::vector<double>& i) {
+  Matrix3 matrix = Vector3(i[0], i[1], i[2]).asDiagonal();
+  if (i.size() == 6) {
+    matrix(0, 1) = matrix(1, 0) = i[3];
+    matrix(0, 2) = matrix(2, 0) = i[4];
+    matrix(1, 2) = matrix(2, 1) = i[5];
+  }
+  return matrix;
+}
+
+Vector3 vector_of(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
+
+/// Eigenvalues, ascending; scaled, since their products may overflow where they do not.
+Vector3 principal(const Matrix3& matrix) {
+  const double size = matrix.cwiseAbs().maxCoeff();
+  if (!(size > 0) || !std::isfinite(size)) return Vector3::Constant(size);
+  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(Matrix3(matrix / size), Eigen::EigenvaluesOnly);
+  return size * solver.eigenvalues();
+}
+
+/// Six digits, without zeros at the end; "?" where the number is not representable.
+std::string short_text(double value) {
+  double rounded = 0;
+  if (!std::isfinite(value) || !read_number(significant(value, 6), rounded)) return "?";
+  return shortest(rounded);
+}
+
+/// What a body's inertia and centre must fit in.
+struct Bounds {
+  double reach = 0;         ///< largest distance of the hull from the centre of mass [m]
+  bool is_outside = false;  ///< the centre lies outside the hull
+  bool is_thin = false;     ///< the hull is a line: the moment about it may be 0
+};
+
+[[noreturn]] void refuse(const Scene& scene, const char* name, const std::string& allowed) {
+  const Key& key = key_named(name);
+  const std::string place = scene.path.empty() ? std::string(key.flag) : scene.path + ": " + name;
+  throw BadInput(fmt::format("{} = {}: must be {}", place, key.get(scene).dump(), allowed));
+}
+
+/// @param k2 inertia over mass about the centre of mass, which does not overflow where m R² does
+void check(const Scene& scene, double mass, const Matrix3& k2, const Bounds& bounds) {
+  const BodyScene& body = scene.body;
+  if (!body.centre.empty() && bounds.is_outside) refuse(scene, "body.centre", "within the hull of the body");
+  if (body.centre.empty() && body.inertia.empty()) return;  // uniform bodies are
+  const Vector3 moments = principal(k2);
+  const auto of_mass = [&](double value) { return short_text(mass * value); };
+  const std::string three =
+      fmt::format("{}, {} and {} kg m2", of_mass(moments[0]), of_mass(moments[1]), of_mass(moments[2]));
+  const bool is_given = !body.inertia.empty();
+  const bool positive = moments[0] > 0 || (bounds.is_thin && moments[0] >= 0 && moments[1] > 0);
+  if (is_given && !positive) {
+    refuse(scene, "body.inertia", "positive definite; its principal moments are " + three);
+  }
+  if (is_given && !(moments[2] <= (moments[0] + moments[1]) * (1 + rounding))) {
+    refuse(scene, "body.inertia",
+           "a body's, with no principal moment larger than the sum of the other two; they are " + three);
+  }
+  const double largest = bounds.reach * bounds.reach;
+  if (moments[2] <= largest * (1 + rounding)) return;
+  refuse(scene, is_given ? "body.inertia" : "body.centre",
+         fmt::format("a body's, with no principal moment larger than m R2 = {} kg m2, R = {} m from the centre of mass "
+                     "to the furthest point of the hull; they are {}",
+                     of_mass(largest), short_text(bounds.reach), three));
+}
+
+Bounds bounds_of(const Vector3& centre, const numeric::Surface& surface) {
+  Bounds bounds{.is_outside = is_outside_hull(centre, surface.nodes)};
+  for (const Vector3& node : surface.nodes) bounds.reach = std::max(bounds.reach, (node - centre).stableNorm());
+  return bounds;
+}
+
+MassProperties stl_properties(const BodyScene& body, const numeric::Surface& surface) {
+  MassProperties properties{.mass = body.mass};
+  if (!body.density && !body.centre.empty() && !body.inertia.empty()) return properties;  // nothing of it is needed
+  properties = mass_properties(surface, body.density.value_or(1));
+  if (!body.density) {
+    properties.inertia *= body.mass / properties.mass;
+    properties.mass = body.mass;
+  }
+  return properties;
+}
+
+/// With a mass instead of a density the mesh's own is scaled.
+numeric::Mesh gmsh_mesh(const BodyScene& body) {
+  numeric::Mesh mesh = numeric::read_gmsh(body.file, body.density.value_or(1), body.unit);
+  if (!body.density) {
+    const double factor = body.mass / numeric::mass_properties(mesh).mass;
+    for (numeric::Element& element : mesh.elements) element.density *= factor;
+  }
+  return mesh;
+}
+
+SolidBody own_solid(const BodyScene& body) {
+  const auto of = [](const numeric::Mesh& mesh) {
+    return SolidBody{numeric::mass_properties(mesh), numeric::boundary_surface(mesh)};
+  };
+  switch (body.shape) {
+    case BodyScene::Shape::rod:
+      return of(numeric::rod_mesh({.length = body.length,
+                                   .radius = body.radius,
+                                   .mass = body.mass,
+                                   .sectors = body.sectors,
+                                   .rings = body.rings,
+                                   .layers = body.layers}));
+    case BodyScene::Shape::box:
+      return of(numeric::box_mesh({.size = body.size, .mass = body.mass, .nx = body.nx, .ny = body.ny, .nz = body.nz}));
+    case BodyScene::Shape::mesh: break;
+  }
+  if (!body.is_stl()) return of(gmsh_mesh(body));
+  const numeric::Surface surface = numeric::read_stl(body.file, body.unit);
+  return {stl_properties(body, surface), surface};
+}
+
+/// Sums that cancel leave no number to be shown.
+template <class Numbers>
+Numbers without_rounding(const Numbers& numbers, double size) {
+  return (numbers.array().abs() <= 1e-14 * size).select(0, numbers);
+}
+
+BodyProperties of_solid(const SolidBody& solid) {
+  Vector3 low = solid.surface.nodes[0], high = low;
+  for (const Vector3& node : solid.surface.nodes) {
+    low = low.cwiseMin(node);
+    high = high.cwiseMax(node);
+  }
+  const MassProperties& p = solid.properties;
+  const Matrix3 k2 = p.inertia / p.mass;
+  return {p.mass, high - low, without_rounding(p.centre, (high - low).maxCoeff()),
+          without_rounding(k2, k2.cwiseAbs().maxCoeff())};
+}
+
+}  // namespace
+
+Vector3 BodyProperties::principal_inertia() const { return mass * principal(gyration_square); }
+
+SolidBody solid_body(const Scene& scene) {
+  SolidBody solid = own_solid(scene.body);
+  MassProperties& properties = solid.properties;
+  if (!scene.body.centre.empty()) {
+    const double unit = scene.body.shape == BodyScene::Shape::mesh ? scene.body.unit : 1;
+    properties.centre = unit * vector_of(scene.body.centre);
+  }
+  if (!scene.body.inertia.empty()) properties.inertia = symmetric(scene.body.inertia);
+  check(scene, properties.mass, properties.inertia / properties.mass, bounds_of(properties.centre, solid.surface));
+  return solid;
+}
+
+BodyProperties nominal_properties(const Scene& scene) {
+  const BodyScene& body = scene.body;
+  const bool is_rod = body.shape == BodyScene::Shape::rod;
+  BodyProperties properties{.mass = body.mass};
+  properties.extents = is_rod ? Vector3(body.length, 2 * body.radius, 2 * body.radius) : body.size;
+  const Vector3 s = properties.extents.cwiseProduct(properties.extents) / (is_rod ? 16 : 12);
+  const double along = is_rod ? body.length * body.length / 12 : s.x();
+  properties.gyration_square = Vector3(s.y() + s.z(), s.z() + along, along + s.y()).asDiagonal();
+  if (!body.centre.empty()) properties.centre = vector_of(body.centre);
+  if (!body.inertia.empty()) properties.gyration_square = symmetric(body.inertia) / body.mass;
+  const Vector3 half = properties.extents / 2, off = properties.centre.cwiseAbs();
+  Bounds bounds{.is_thin = is_rod && body.radius == 0};
+  if (is_rod) {
+    const double across = std::hypot(off.y(), off.z());
+    bounds.reach = std::hypot(half.x() + off.x(), body.radius + across);
+    bounds.is_outside = std::max(off.x() - half.x(), across - body.radius) > rounding * bounds.reach;
+  } else {
+    bounds.reach = (half + off).stableNorm();
+    bounds.is_outside = (off - half).maxCoeff() > rounding * bounds.reach;
+  }
+  check(scene, properties.mass, properties.gyration_square, bounds);
+  return properties;
+}
+
+BodyProperties body_properties(const Scene& scene, Model model) {
+  const bool is_nominal = model == Model::discrete && scene.body.shape != BodyScene::Shape::mesh;
+  return is_nominal ? nominal_properties(scene) : of_solid(solid_body(scene));
+}
+
+Json body_json(const Scene& scene, Model model) {
+  const BodyProperties body = body_properties(scene, model);
+  const auto list = [](const auto& numbers) {
+    Json json = Json::array();
+    for (const double number : numbers) json.push_back(number_or_null(number));
+    return json;
+  };
+  const Matrix3 i = body.mass * body.gyration_square;
+  return {{"mass", number_or_null(body.mass)},
+          {"extents", list(body.extents)},
+          {"centre", list(body.centre)},
+          {"principal_inertia", list(body.principal_inertia())},
+          {"inertia", list(std::vector<double>{i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2)})}};
+}
+
+std::vector<std::string> scene_head(const Scene& scene, Model model) {
+  const BodyProperties body = body_properties(scene, model);
+  const auto three = [&](const Vector3& v, const char* between) {
+    return fmt::format("{1}{0}{2}{0}{3}", between, short_text(v.x()), short_text(v.y()), short_text(v.z()));
+  };
+  std::vector<std::string> head = scene.summary(model);
+  head.insert(head.begin() + 1,
+              fmt::format("body: mass {} kg, extents {} m, centre of mass ({}) m, principal inertia {} kg·m²",
+                          short_text(body.mass), three(body.extents, " × "), three(body.centre, ", "),
+                          three(body.principal_inertia(), ", ")));
+  return head;
+}
+
+}  // namespace clatter::validation
