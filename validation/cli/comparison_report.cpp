@@ -14,6 +14,7 @@
 #include "validation/output/estimated.hpp"
 #include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
+#include "validation/scene/body_properties.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -125,7 +126,7 @@ std::string verdict_words(const Comparison& comparison) {
 
 std::vector<std::string> head_of(const Scene& scene) {
   std::vector<std::string> head{headline("compare", what_it_is)};
-  for (const std::string& line : scene.summary()) head.push_back(line);
+  for (const std::string& line : scene_head(scene)) head.push_back(line);
   head.push_back("discrete model: real corners and inertia, e from the damping at each impact's speed, Coulomb's μₖ");
   return head;
 }
@@ -188,7 +189,9 @@ Json result_json(const Comparison& comparison) {
   return json;
 }
 
-Json head_json(const Scene& scene) { return {{"clatter", version}, {"model", "comparison"}, {"scene", scene.json()}}; }
+Json head_json(const Scene& scene) {
+  return {{"clatter", version}, {"model", "comparison"}, {"scene", scene.json()}, {"body", body_json(scene)}};
+}
 
 /// Rows of the CSV for one comparison, with further cells in front.
 void add_records(const Comparison& comparison, const std::vector<Cell>& front, Table& table) {
@@ -204,10 +207,11 @@ void add_records(const Comparison& comparison, const std::vector<Cell>& front, T
 }
 
 Table records_table(const Scene& scene) {
-  Table table{.head = {headline("compare", what_it_is), "scene: " + scene.json().dump()},
-              .columns = {},
-              .rows = {},
-              .notes = {}};
+  Table table{
+      .head = {headline("compare", what_it_is), "scene: " + scene.json().dump(), "body: " + body_json(scene).dump()},
+      .columns = {},
+      .rows = {},
+      .notes = {}};
   for (const char* name :
        {"n", "quantity", "predictable", "not_compared_because", "discrete", "continuous", "discrete_error",
         "continuous_error", "deviation", "deviation_error", "predicted", "predicted_gravity", "predicted_turning",

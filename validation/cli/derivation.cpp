@@ -13,6 +13,7 @@
 #include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
 #include "validation/plan/shortfall.hpp"
+#include "validation/scene/body_properties.hpp"
 #include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation {
@@ -275,6 +276,7 @@ Json explanation_json(const Explanation& explanation) {
   return {{"clatter", version},
           {"model", "discrete"},
           {"scene", explanation.scene.json(Model::discrete)},
+          {"body", body_json(explanation.scene, Model::discrete)},
           {"impact", explanation.impact},
           {"shortfall", explanation.shortfall.empty() ? Json(nullptr) : Json(explanation.shortfall)},
           {"steps", steps}};

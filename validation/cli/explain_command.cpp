@@ -11,6 +11,7 @@
 #include "validation/output/estimated.hpp"
 #include "validation/output/message.hpp"
 #include "validation/output/number.hpp"
+#include "validation/scene/body_properties.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -149,7 +150,7 @@ int run_explain(const ExplainInput& input) {
   for (const std::string& warning : explanation.warnings) say(warning);
   const std::vector<Step>& steps = explanation.steps;
   std::vector<std::string> head{headline("explain", fmt::format("impact {} step by step", n))};
-  for (const std::string& line : explanation.scene.summary(Model::discrete)) head.push_back(line);
+  for (const std::string& line : scene_head(explanation.scene, Model::discrete)) head.push_back(line);
   std::string text;
   switch (choice.style.format) {
     case Format::json: text = json_text(explanation_json(explanation)); break;

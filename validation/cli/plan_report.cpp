@@ -10,6 +10,7 @@
 #include "validation/cli/options.hpp"
 #include "validation/cli/version.hpp"
 #include "validation/output/number.hpp"
+#include "validation/scene/body_properties.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -129,7 +130,7 @@ std::string plan_shortfall(const Plan& plan) {
 
 Table plan_table(const Scene& scene, const Plan& plan) {
   Table table{.head = {headline("plan", what_it_is(plan))}, .columns = {}, .rows = {}, .notes = {}};
-  for (const std::string& line : scene.summary()) table.head.push_back(line);
+  for (const std::string& line : scene_head(scene)) table.head.push_back(line);
   table.columns = {{.name = "model", .heading = "model", .unit = "", .words = true},
                    {.name = "setting", .heading = "setting", .unit = "", .words = true},
                    {"error", "error", ""},
@@ -166,21 +167,21 @@ Table plan_table(const Scene& scene, const Plan& plan) {
 }
 
 Table plan_records(const Scene& scene, const Plan& plan) {
-  Table table{.head = {headline("plan", what_it_is(plan)), "scene: " + scene.json().dump()},
-              .columns = {},
-              .rows = {},
-              .notes = {}};
+  Table table{
+      .head = {headline("plan", what_it_is(plan)), "scene: " + scene.json().dump(), "body: " + body_json(scene).dump()},
+      .columns = {},
+      .rows = {},
+      .notes = {}};
   add_impact_records(table, rungs_json(plan));
   if (!std::isnan(plan.error)) table.notes = {choice_words(plan), "Run it: " + command_line(plan)};
   return table;
 }
 
 Json plan_json(const Scene& scene, const Plan& plan) {
-  Json json{{"clatter", version},
-            {"model", "plan"},
-            {"scene", scene.json()},
-            {"asked", plan.asked},
-            {"within_ms", plan.target.within_ms ? Json(*plan.target.within_ms) : Json(nullptr)}};
+  Json json{
+      {"clatter", version},    {"model", "plan"},
+      {"scene", scene.json()}, {"body", body_json(scene)},
+      {"asked", plan.asked},   {"within_ms", plan.target.within_ms ? Json(*plan.target.within_ms) : Json(nullptr)}};
   json["choice"] = std::isnan(plan.error) ? Json(nullptr) : choice_json(plan);
   json["rungs"] = rungs_json(plan);
   json["parts"] = Json::array();

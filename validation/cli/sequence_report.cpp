@@ -15,6 +15,7 @@
 #include "validation/output/number.hpp"
 #include "validation/output/totals.hpp"
 #include "validation/plan/shortfall.hpp"
+#include "validation/scene/body_properties.hpp"
 #include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation {
@@ -163,7 +164,7 @@ std::vector<Cell> tail_cells(const Scene& scene, const analytic::Tail& tail, con
 
 std::vector<std::string> head_of(const Scene& scene) {
   std::vector<std::string> head{headline("sequence", "impact sequence, discrete model")};
-  for (const std::string& line : scene.summary(Model::discrete)) head.push_back(line);
+  for (const std::string& line : scene_head(scene, Model::discrete)) head.push_back(line);
   return head;
 }
 
@@ -191,8 +192,11 @@ Table sequence_table(const Scene& scene, const Sequence& sequence) {
 }
 
 Json sequence_json(const Scene& scene, const Sequence& sequence) {
-  Json json{
-      {"clatter", version}, {"model", "discrete"}, {"scene", scene.json(Model::discrete)}, {"impacts", Json::array()}};
+  Json json{{"clatter", version},
+            {"model", "discrete"},
+            {"scene", scene.json(Model::discrete)},
+            {"body", body_json(scene, Model::discrete)},
+            {"impacts", Json::array()}};
   int n = 0;
   for (const ImpactRow& row : sequence.rows) json["impacts"].push_back(impact_json(scene, row, ++n));
   if (sequence.tail) json["tail"] = tail_json(*sequence.tail);
@@ -218,7 +222,8 @@ Json sequence_json(const Scene& scene, const Sequence& sequence) {
 
 Table sequence_records(const Scene& scene, const Sequence& sequence) {
   const Json json = sequence_json(scene, sequence);
-  Table table{.head = {headline("sequence", "impact sequence, discrete model"), "scene: " + json["scene"].dump()},
+  Table table{.head = {headline("sequence", "impact sequence, discrete model"), "scene: " + json["scene"].dump(),
+                       "body: " + json["body"].dump()},
               .columns = {},
               .rows = {},
               .notes = {total_note(json), fmt::format("{}: {}", outcome_name(sequence.outcome), sequence.message)}};

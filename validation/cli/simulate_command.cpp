@@ -19,6 +19,7 @@
 #include "validation/plan/planned_run.hpp"
 #include "validation/plan/shortfall.hpp"
 #include "validation/scene/bad_input.hpp"
+#include "validation/scene/body_properties.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -88,7 +89,8 @@ int run_single(const Scene& scene, const numeric::Body& body, const OutputChoice
   std::optional<HistoryFile> history;
   if (!scene.history.empty()) {
     history.emplace(scene.history,
-                    std::vector<std::string>{headline("simulate", "time history"), "scene: " + scene.json().dump()});
+                    std::vector<std::string>{headline("simulate", "time history"), "scene: " + scene.json().dump(),
+                                             "body: " + body_json(scene).dump()});
   }
   PictureHistory picture(body);
   HistoryFan recorders;

@@ -16,6 +16,7 @@
 #include "validation/output/number.hpp"
 #include "validation/output/totals.hpp"
 #include "validation/plan/shortfall.hpp"
+#include "validation/scene/body_properties.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -153,7 +154,7 @@ std::vector<std::string> notes_of(const Scene& scene, const PlannedRun& planned)
 
 std::vector<std::string> head_of(const Scene& scene, const std::string& what) {
   std::vector<std::string> head{headline("simulate", what)};
-  for (const std::string& line : scene.summary()) head.push_back(line);
+  for (const std::string& line : scene_head(scene)) head.push_back(line);
   return head;
 }
 
@@ -219,7 +220,11 @@ Table simulation_table(const Scene& scene, const PlannedRun& planned) {
 
 Json simulation_json(const Scene& scene, const PlannedRun& planned) {
   const Simulation& run = planned.run;
-  Json json{{"clatter", version}, {"model", "continuous"}, {"scene", scene.json()}, {"impacts", Json::array()}};
+  Json json{{"clatter", version},
+            {"model", "continuous"},
+            {"scene", scene.json()},
+            {"body", body_json(scene)},
+            {"impacts", Json::array()}};
   int n = 0;
   for (const ImpactRecord& row : run.impacts) json["impacts"].push_back(impact_json(row, ++n));
   json["outcome"] = outcome_name(run.outcome);
@@ -246,10 +251,11 @@ Json simulation_json(const Scene& scene, const PlannedRun& planned) {
 
 Table simulation_records(const Scene& scene, const PlannedRun& planned) {
   const Json json = simulation_json(scene, planned);
-  Table table{.head = {headline("simulate", what_it_is), "scene: " + json["scene"].dump()},
-              .columns = {},
-              .rows = {},
-              .notes = notes_of(scene, planned)};
+  Table table{
+      .head = {headline("simulate", what_it_is), "scene: " + json["scene"].dump(), "body: " + json["body"].dump()},
+      .columns = {},
+      .rows = {},
+      .notes = notes_of(scene, planned)};
   table.notes.insert(table.notes.begin(), total_note(json));
   add_impact_records(table, json["impacts"]);
   return table;
@@ -295,7 +301,11 @@ Table sweep_table(const Scene& scene, const std::vector<SweptRun>& runs) {
 }
 
 Json sweep_json(const Scene& scene, const std::vector<SweptRun>& runs) {
-  Json json{{"clatter", version}, {"model", "continuous"}, {"scene", scene.json()}, {"runs", Json::array()}};
+  Json json{{"clatter", version},
+            {"model", "continuous"},
+            {"scene", scene.json()},
+            {"body", body_json(scene)},
+            {"runs", Json::array()}};
   for (const SweptRun& swept : runs) json["runs"].push_back(quantity_json(scene, swept));
   const std::size_t values = scene.sweep->values().size();
   json["outcome"] = runs.size() < values ? "interrupted" : "complete";
@@ -304,11 +314,11 @@ Json sweep_json(const Scene& scene, const std::vector<SweptRun>& runs) {
 }
 
 Table sweep_records(const Scene& scene, const std::vector<SweptRun>& runs) {
-  Table table{
-      .head = {headline("simulate", "impacts over a sweep, continuous contact"), "scene: " + scene.json().dump()},
-      .columns = {},
-      .rows = {},
-      .notes = {}};
+  Table table{.head = {headline("simulate", "impacts over a sweep, continuous contact"),
+                       "scene: " + scene.json().dump(), "body: " + body_json(scene).dump()},
+              .columns = {},
+              .rows = {},
+              .notes = {}};
   for (const SweptRun& swept : runs) {
     const std::size_t before = table.rows.size();
     add_impact_records(table, quantity_json(scene, swept)["impacts"]);

@@ -11,6 +11,7 @@
 #include "validation/cli/options.hpp"
 #include "validation/cli/version.hpp"
 #include "validation/output/number.hpp"
+#include "validation/scene/body_properties.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -63,7 +64,7 @@ Json point_json(const TradePoint& point) {
 
 std::vector<std::string> head_of(const Scene& scene) {
   std::vector<std::string> head{headline("tradeoff", what_it_is)};
-  for (const std::string& line : scene.summary()) head.push_back(line);
+  for (const std::string& line : scene_head(scene)) head.push_back(line);
   return head;
 }
 
@@ -102,10 +103,11 @@ Table tradeoff_table(const Scene& scene, const Tradeoff& tradeoff) {
 }
 
 Table tradeoff_records(const Scene& scene, const Tradeoff& tradeoff) {
-  Table table{.head = {headline("tradeoff", what_it_is), "scene: " + scene.json().dump()},
-              .columns = {},
-              .rows = {},
-              .notes = {reference_words(tradeoff)}};
+  Table table{
+      .head = {headline("tradeoff", what_it_is), "scene: " + scene.json().dump(), "body: " + body_json(scene).dump()},
+      .columns = {},
+      .rows = {},
+      .notes = {reference_words(tradeoff)}};
   Json points = Json::array();
   for (const TradePoint& point : tradeoff.points) points.push_back(point_json(point));
   add_impact_records(table, points);
@@ -113,7 +115,11 @@ Table tradeoff_records(const Scene& scene, const Tradeoff& tradeoff) {
 }
 
 Json tradeoff_json(const Scene& scene, const Tradeoff& tradeoff) {
-  Json json{{"clatter", version}, {"model", "tradeoff"}, {"scene", scene.json()}, {"points", Json::array()}};
+  Json json{{"clatter", version},
+            {"model", "tradeoff"},
+            {"scene", scene.json()},
+            {"body", body_json(scene)},
+            {"points", Json::array()}};
   for (const TradePoint& point : tradeoff.points) json["points"].push_back(point_json(point));
   json["reference"] = tradeoff.reference;
   json["reference_error"] = number_or_null(tradeoff.reference_error);
