@@ -27,6 +27,9 @@ struct Law {
   ImpactLaw law;
   /// Unit horizontal direction in which P_t of FrictionKind::impulse_ratio acts: P_t = μ_i P_n · direction.
   Vector2 ratio_direction = Vector2::UnitX();
+
+  /// @throws std::domain_error naming the field, its value and what is allowed.
+  void validate() const;
 };
 
 /// An impulse and what it did.
@@ -38,6 +41,7 @@ struct Impact {
   Vector3 angular_velocity_after = Vector3::Zero();  ///< world frame [rad/s]
   double compression_impulse = 0;                    ///< p_c, P_n at the end of compression [N·s]
   double slip_stop_impulse = 0;                      ///< P_n at which slip stops [N·s]; NaN if slip does not stop
+  double least_slip = 0;                             ///< smallest slip during the impact [m/s]
   double energy_loss = 0;  ///< −P·(v + v′)/2 [J]; negative: Newton's law or an impulse ratio creates energy
   PathKind path = PathKind::frictionless;
   bool is_path_ambiguous = false;  ///< slip came so close to zero that rounding decides the kind of path
@@ -49,9 +53,22 @@ struct Impact {
 /// W of (1) at the corner `arm` = r [m], world frame.
 [[nodiscard]] Matrix3 inverse_contact_inertia(double mass, const Matrix3& inverse_inertia_world, const Vector3& arm);
 
-/// The impact of the corner at `place` (body frame).  A corner that does not approach gets no impulse.
+/// Velocity of a corner, and the size of the parts that it was summed from: its rounding errors are below 4ε × scale.
+struct ContactVelocity {
+  Vector3 value = Vector3::Zero();  ///< world frame [m/s]
+  double scale = 0;                 ///< |V| + |ω| |r| [m/s]
+};
+/// v = V + ω × r.
+[[nodiscard]] ContactVelocity contact_velocity(const State& state, const Vector3& place);
+
+/// The impact of the corner at `place` (body frame).  A corner that does not approach gets no impulse.  Coulomb's law
+/// along its path: impulse_path.hpp; restitution laws and their rule for a second compression: path_progress.hpp.
+/// Accuracy: 1e-13 of |P|, times what rounding of the state does.
 /// @throws OutsideModelError where the law admits no bounded impulse; NumericalError where a number could not be had;
 ///         std::domain_error as ImpactLaw::validate().
 [[nodiscard]] Impact strike(const Body& body, const State& before, const Vector3& place, const Law& law);
+/// The same with a velocity of the corner that is known better than V + ω × r is.
+[[nodiscard]] Impact strike(const Body& body, const State& before, const ContactVelocity& velocity,
+                            const Vector3& place, const Law& law);
 
 }  // namespace clatter::analytic::space

@@ -1,0 +1,86 @@
+#include "analytic/space/impact.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "analytic/errors.hpp"
+#include "analytic/space/impulse_path.hpp"
+
+namespace clatter::analytic::space {
+namespace {
+
+Matrix3 cross_matrix(const Vector3& r) {
+  Matrix3 cross;
+  cross << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
+  return cross;
+}
+
+}  // namespace
+
+void Law::validate() const {
+  law.validate();
+  const double length = ratio_direction.norm();
+  if (!(std::fabs(length - 1) <= 8 * std::numeric_limits<double>::epsilon())) {
+    std::ostringstream text;
+    text.precision(17);
+    text << "length of the impulse ratio's direction = " << length << ": must be 1";
+    throw std::domain_error(text.str());
+  }
+}
+
+double Impact::restitution() const { return contact_before.z() < 0 ? -contact_after.z() / contact_before.z() : 0; }
+
+Matrix3 inverse_contact_inertia(double mass, const Matrix3& inverse_inertia_world, const Vector3& arm) {
+  const Matrix3 cross = cross_matrix(arm);
+  const Matrix3 turning = cross * inverse_inertia_world * cross.transpose();
+  return Matrix3::Identity() / mass + (turning + turning.transpose()) / 2;
+}
+
+ContactVelocity contact_velocity(const State& state, const Vector3& place) {
+  const Vector3 arm = state.attitude * place;
+  return {.value = state.velocity + state.angular_velocity.cross(arm),
+          .scale = state.velocity.norm() + state.angular_velocity.norm() * arm.norm()};
+}
+
+Impact strike(const Body& body, const State& before, const Vector3& place, const Law& law) {
+  return strike(body, before, contact_velocity(before, place), place, law);
+}
+
+Impact strike(const Body& body, const State& before, const ContactVelocity& velocity, const Vector3& place,
+              const Law& law) {
+  law.validate();
+  const Vector3& v = velocity.value;
+  Impact impact;
+  impact.contact_before = impact.contact_after = v;
+  impact.velocity_after = before.velocity;
+  impact.angular_velocity_after = before.angular_velocity;
+  impact.slip_stop_impulse = std::numeric_limits<double>::quiet_NaN();
+  impact.least_slip = v.head<2>().norm();
+  if (!v.allFinite()) throw NumericalError("the velocity of the corner is not finite");
+  if (!(v.z() < 0)) return impact;
+
+  const Matrix3 axes = before.attitude.toRotationMatrix();
+  const Vector3 arm = axes * place;
+  const Matrix3 inverse_inertia = axes * body.inertia.inverse() * axes.transpose();
+  const ContactImpulse at_corner =
+      contact_impulse({.inverse_inertia = inverse_contact_inertia(body.mass, inverse_inertia, arm),
+                       .velocity = v,
+                       .velocity_scale = velocity.scale},
+                      law);
+  impact.impulse = at_corner.impulse;
+  impact.contact_after = at_corner.velocity_after;
+  impact.velocity_after += at_corner.impulse / body.mass;
+  impact.angular_velocity_after += inverse_inertia * arm.cross(at_corner.impulse);
+  impact.compression_impulse = at_corner.compression_impulse;
+  impact.slip_stop_impulse = at_corner.slip_stop_impulse;
+  impact.least_slip = at_corner.least_slip;
+  impact.energy_loss = -at_corner.impulse.dot(v + at_corner.velocity_after) / 2;
+  impact.path = at_corner.path;
+  impact.is_path_ambiguous = at_corner.is_path_ambiguous;
+  return impact;
+}
+
+}  // namespace clatter::analytic::space

@@ -1,0 +1,41 @@
+// The impulse of one corner with Coulomb friction: the path of Keller and Routh in impulse space.
+//
+// The path starts with slip or without, and has at most two parts:
+//   slip      along a straight line, if its direction is invariant (slip_field.hpp) to rounding; otherwise slip that
+//             turns (turning_slip.hpp)
+//   after it  where slip has stopped, or was zero at the start: the corner sticks if |A⁻¹b| <= μ; otherwise slip goes
+//             on in the direction s = (μA + f)⁻¹ b, f > 0, which is the one invariant direction that leads outwards.
+// The normal impulse stays bounded for every μ: W is positive definite, so that dv_n/dp > μ f along an invariant
+// direction and dv_n/dp = 1/(W⁻¹)_nn > 0 while sticking.  A corner that digs in (dv_n/dp <= 0) slows down, stops and
+// goes on along one of these.
+#pragma once
+
+#include "analytic/space/impact.hpp"
+
+namespace clatter::analytic::space {
+
+/// A corner as its impact sees it.
+struct Contact {
+  Matrix3 inverse_inertia = Matrix3::Identity();  ///< W, symmetric positive definite [1/kg]
+  Vector3 velocity = Vector3::Zero();             ///< v, world frame [m/s]
+  double velocity_scale = 0;                      ///< rounding errors of v are below 4ε × this [m/s]
+};
+
+/// An impulse at the corner and what it did there.
+struct ContactImpulse {
+  Vector3 impulse = Vector3::Zero();         ///< P, world frame [N·s]
+  Vector3 velocity_after = Vector3::Zero();  ///< v′, world frame [m/s]
+  double compression_impulse = 0;            ///< as in Impact
+  double slip_stop_impulse = 0;              ///< as in Impact
+  double least_slip = 0;                     ///< as in Impact
+  PathKind path = PathKind::frictionless;
+  bool is_path_ambiguous = false;
+};
+
+/// The impulse of an approaching corner (v_n < 0) by `law`.
+/// Accuracy: 1e-13 of |P|, times what rounding of W and v does.
+/// @throws OutsideModelError for an impulse ratio at or beyond jamming, c + μ_i b·d <= 0; NumericalError if a number
+///         overflows or a path cannot be resolved.
+[[nodiscard]] ContactImpulse contact_impulse(const Contact& contact, const Law& law);
+
+}  // namespace clatter::analytic::space
