@@ -24,8 +24,9 @@ constexpr double ambiguous_slip = 1e-12;
 /// Coulomb's path in units of the approach speed v and of v/W_nn, in the frame of the slip field.
 class CoulombPath {
  public:
-  CoulombPath(const Contact& contact, const Law& law)
-      : contact_(contact), speed_(-contact.velocity.z()), field_(contact.inverse_inertia, law.law.friction_value),
+  CoulombPath(const Contact& contact, const Law& law, NormalCoupling coupling)
+      : contact_(contact), speed_(-contact.velocity.z()),
+        field_(contact.inverse_inertia, law.law.friction_value, coupling),
         velocity_(field_.to_frame(contact.velocity.head<2>() / speed_)),
         progress_(
             {.law = law.law.law, .restitution = law.law.restitution, .damping = law.law.damping_per_stiffness * speed_},
@@ -160,13 +161,13 @@ ContactImpulse CoulombPath::follow() {
   throw OutsideModelError(text.str());
 }
 
-/// Eq. 8 in space: P_t = μ_i P_n d, P_n = −(1+e) v_n/(c + μ_i b·d).
-ContactImpulse ratio_impulse(const Contact& contact, const Law& law) {
+/// Eq. 8 in space, and without friction: P_t = μ_i P_n d, P_n = −(1+e) v_n/(c + μ_i b·d).
+ContactImpulse ratio_impulse(const Contact& contact, const Law& law, NormalCoupling coupling) {
   const Matrix3& w = contact.inverse_inertia;
   const double ratio = law.law.friction == FrictionKind::impulse_ratio ? law.law.friction_value : 0;
   const double speed = -contact.velocity.z();
   const Vector3 direction(ratio * law.ratio_direction.x(), ratio * law.ratio_direction.y(), 1);
-  const double rate = w.row(2).dot(direction);
+  const double rate = coupling == NormalCoupling::none ? w(2, 2) : w.row(2).dot(direction);
   if (!(rate > 0)) jam(ratio);
   const double e = restitution_at(law.law, speed);
   ContactImpulse result;
@@ -180,15 +181,33 @@ ContactImpulse ratio_impulse(const Contact& contact, const Law& law) {
   return result;
 }
 
-}  // namespace
-
-ContactImpulse contact_impulse(const Contact& contact, const Law& law) {
+ContactImpulse impulse(const Contact& contact, const Law& law, NormalCoupling coupling) {
   const bool rubs = law.law.friction == FrictionKind::coulomb && law.law.friction_value > 0;
-  const ContactImpulse result = rubs ? CoulombPath(contact, law).follow() : ratio_impulse(contact, law);
+  const ContactImpulse result =
+      rubs ? CoulombPath(contact, law, coupling).follow() : ratio_impulse(contact, law, coupling);
   if (!result.impulse.allFinite() || !result.velocity_after.allFinite()) {
     throw NumericalError("the impulse of a corner overflows");
   }
   return result;
+}
+
+}  // namespace
+
+ContactImpulse contact_impulse(const Contact& contact, const Law& law) {
+  return impulse(contact, law, NormalCoupling::of_friction);
+}
+
+ContactImpulse face_impulse(const FaceContact& face, const Law& law) {
+  Contact contact{.inverse_inertia = Matrix3::Identity() / face.mass,
+                  .velocity = {face.slip.x(), face.slip.y(), -face.approach_speed},
+                  .velocity_scale = face.velocity_scale};
+  contact.inverse_inertia.block<2, 1>(0, 2) = face.drift;
+  Law whole = law;
+  whole.law = {.restitution = restitution_at(law.law, face.approach_speed),
+               .law = RestitutionLaw::newton,
+               .friction = law.law.friction,
+               .friction_value = law.law.friction_value};
+  return impulse(contact, whole, NormalCoupling::none);
 }
 
 }  // namespace clatter::analytic::space

@@ -38,4 +38,19 @@ struct ContactImpulse {
 ///         overflows or a path cannot be resolved.
 [[nodiscard]] ContactImpulse contact_impulse(const Contact& contact, const Law& law);
 
+/// A face that lands and rebounds as a whole: its normal motion goes over into −e times itself in step with the normal
+/// impulse p, whatever friction does; friction acts where the centre of mass is above the ground and slows the slip
+/// there,
+///     dv_t/dp = drift + (dP_t/dp)/m,   du/dp = 1/m.
+struct FaceContact {
+  double mass = 1;                  ///< m [kg]
+  double approach_speed = 1;        ///< −V_z > 0 [m/s]
+  Vector2 slip = Vector2::Zero();   ///< velocity along the ground of the point below the centre of mass [m/s]
+  Vector2 drift = Vector2::Zero();  ///< how the reversal of the body's turning moves that point [1/kg]
+  double velocity_scale = 0;        ///< as in Contact
+};
+/// P of the whole face; the restitution laws agree, since slip does not act on the normal motion.
+/// Accuracy, errors: as contact_impulse().
+[[nodiscard]] ContactImpulse face_impulse(const FaceContact& face, const Law& law);
+
 }  // namespace clatter::analytic::space

@@ -41,7 +41,8 @@ double major_axis(const Matrix2& a) { return std::atan2(a(0, 1) + a(1, 0), a(0, 
 
 Direction direction_at(double angle) { return {angle, std::cos(angle), std::sin(angle)}; }
 
-SlipField::SlipField(const Matrix3& w, double friction) : friction_(friction) {
+SlipField::SlipField(const Matrix3& w, double friction, NormalCoupling coupling)
+    : normal_coupling_(coupling == NormalCoupling::none ? 0 : 1), friction_(friction) {
   const Matrix2 a = w.topLeftCorner<2, 2>() / w(2, 2);
   const Vector2 b = w.block<2, 1>(0, 2) / w(2, 2);
   const double axis = major_axis(a);

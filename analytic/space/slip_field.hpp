@@ -31,12 +31,16 @@ struct InvariantAngle {
   bool attracts = true;  ///< g falls through zero
 };
 
+/// Whether friction acts on the normal velocity: h = c − μ b·s, or c for a face (impulse_path.hpp).
+enum class NormalCoupling { of_friction, none };
+
 /// f, g and h of (1) in units of W_nn, in the frame of (2).
 class SlipField {
  public:
-  /// @param inverse_contact_inertia W, symmetric positive definite
+  /// @param inverse_contact_inertia W, symmetric positive definite (A at least, without normal coupling)
   /// @param friction μ >= 0
-  SlipField(const Matrix3& inverse_contact_inertia, double friction);
+  SlipField(const Matrix3& inverse_contact_inertia, double friction,
+            NormalCoupling coupling = NormalCoupling::of_friction);
 
   [[nodiscard]] Vector2 to_frame(const Vector2& world) const { return axes_.transpose() * world; }
   [[nodiscard]] Vector2 to_world(const Vector2& frame) const { return axes_ * frame; }
@@ -46,7 +50,9 @@ class SlipField {
     return b1_ * s.cosine + b2_ * s.sine - friction_ * (a1_ * s.cosine * s.cosine + a2_ * s.sine * s.sine);
   }
   /// h: how the normal velocity grows.
-  [[nodiscard]] double normal_rate(const Direction& s) const { return 1 - friction_ * (b1_ * s.cosine + b2_ * s.sine); }
+  [[nodiscard]] double normal_rate(const Direction& s) const {
+    return 1 - normal_coupling_ * friction_ * (b1_ * s.cosine + b2_ * s.sine);
+  }
   /// Bound on |g| and |f′|.
   [[nodiscard]] double turning_bound() const { return b1_ + b2_ + anisotropy_; }
   /// g stays below rounding of f in every direction: slip keeps its direction.
@@ -55,7 +61,7 @@ class SlipField {
   /// −A⁻¹b: the ratio P_t/p that keeps a point without slip from slipping.
   [[nodiscard]] Vector2 stick_ratio() const { return {-b1_ / a1_, -b2_ / a2_}; }
   /// k of a sticking point: 1/(W⁻¹)_nn.
-  [[nodiscard]] double stick_rate() const { return 1 - b1_ * (b1_ / a1_) - b2_ * (b2_ / a2_); }
+  [[nodiscard]] double stick_rate() const { return 1 - normal_coupling_ * (b1_ * (b1_ / a1_) + b2_ * (b2_ / a2_)); }
   [[nodiscard]] bool can_stick() const { return stick_ratio().norm() <= friction_; }
   /// Direction in which slip that has stopped goes on where the point cannot stick: (μA + f)⁻¹ b.
   [[nodiscard]] const Direction& outgoing() const { return zeros_[count_ - 1].at; }
@@ -74,7 +80,7 @@ class SlipField {
  private:
   void find_zeros();
   Matrix2 axes_;
-  double friction_, a1_ = 0, a2_ = 0, b1_ = 0, b2_ = 0, anisotropy_ = 0;
+  double normal_coupling_, friction_, a1_ = 0, a2_ = 0, b1_ = 0, b2_ = 0, anisotropy_ = 0;
   std::array<InvariantAngle, 4> zeros_;
   std::size_t count_ = 0;
 };

@@ -1,0 +1,72 @@
+// Several corners that strike the ground at once: an edge, a face.
+//
+// The body rebounds as a whole, every corner that approaches leaving at e times its approach speed, if pushes alone
+// can do it:
+//   edge   the frictionless impulses of its two corners from the normal inverse inertias G,
+//              G p = (1+e) u,   u the approach speeds,                                                (1)
+//          must not pull.  Their resultant acts at one point of the edge, which does not depend on e; the edge strikes
+//          with that point as a corner would, friction and law included.  If friction then leaves one of the two
+//          approaching, the edge does not rebound as a whole.
+//   face   V_z, ω_x, ω_y → −e times themselves (Eq. 10 in space); ω_z changes through the inertia's off-diagonal
+//          elements.  Friction acts at the point below the centre of mass (FaceContact), as for a flat landing in the
+//          plane.  The pressure point (−N_y, N_x)/P_z from the centre of mass, N the moment of the normal impulses,
+//          must lie inside the polygon of the corners.                                                 (2)
+// Otherwise corners strike one after the other, the fastest approach first; those equally fast to rounding strike as an
+// edge or a face if they can.  A corner whose approach is below the rounding of its velocity is at rest.
+//
+// A tilt however small makes corners strike in some order, which can decide the outcome: tilted_outcomes() lists every
+// outcome that small tilts in all directions give.  In the limit of no tilt heights are linear in a time that is scaled
+// with the tilt, so that the order follows from heights and velocities alone.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "analytic/space/impact.hpp"
+
+namespace clatter::analytic::space {
+
+/// Impulse on a body by several corners, and what it did.
+struct GroupImpact {
+  Vector3 impulse = Vector3::Zero();                 ///< P, world frame [N·s]
+  Vector3 moment = Vector3::Zero();                  ///< of the impulses about the centre of mass [N·m·s]
+  Vector3 velocity_after = Vector3::Zero();          ///< of the centre of mass, world frame [m/s]
+  Vector3 angular_velocity_after = Vector3::Zero();  ///< world frame [rad/s]
+  double approach_speed = 0;                         ///< largest of the corners [m/s]
+  double energy_loss = 0;                            ///< −[P·(V + V′) + M·(ω + ω′)]/2 [J]
+  bool is_whole = false;                             ///< the body rebounds as a whole, in one strike
+  /// Indices (Corner::index) of the corners of each strike, in order.
+  std::vector<std::vector<int>> order;
+  PathKind path = PathKind::frictionless;  ///< of the first strike
+};
+
+/// The rebound as a whole of the corners that approach; nothing if pushes alone cannot do it, or if none approaches.
+/// @param touching corners at one height; a single one strikes as in impact.hpp
+/// @throws as strike()
+[[nodiscard]] std::optional<GroupImpact> rebound_as_a_whole(const Body& body, const State& before,
+                                                            std::span<const Corner> touching, const Law& law);
+
+/// The impact of a set of touching corners by the rules above.  No impulse if none approaches.
+/// @throws as strike(); NumericalError if 10 000 strikes do not end it
+[[nodiscard]] GroupImpact strike_together(const Body& body, const State& before, std::span<const Corner> touching,
+                                          const Law& law);
+
+/// What a small tilt makes of it.
+struct TiltedOutcome {
+  double tilt_direction = 0;  ///< of one such tilt: the horizontal direction in which the ground rises [rad]
+  GroupImpact impact;         ///< is_whole: one corner alone struck
+};
+
+struct OutcomeSet {
+  std::vector<TiltedOutcome> outcomes;  ///< distinct orders
+  double velocity_spread = 0;           ///< largest distance between two V, that of strike_together() included [m/s]
+  double angular_velocity_spread = 0;   ///< the same for Ω [rad/s]
+};
+
+/// Every outcome that small tilts in all directions give.
+/// @throws as strike_together()
+[[nodiscard]] OutcomeSet tilted_outcomes(const Body& body, const State& before, std::span<const Corner> touching,
+                                         const Law& law);
+
+}  // namespace clatter::analytic::space

@@ -1,0 +1,300 @@
+#include "analytic/space/simultaneous.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "tests/analytic/oracle/reference_table.hpp"
+#include "tests/analytic/space/random_contact.hpp"
+#include "tests/analytic/space/reference_impact.hpp"
+
+namespace {
+
+using namespace clatter::analytic;
+using namespace clatter::analytic::space;
+using clatter::oracle::Random;
+
+std::vector<Corner> corners_of(const std::vector<Vector3>& places) {
+  std::vector<Corner> corners;
+  for (const Vector3& place : places) corners.push_back({static_cast<int>(corners.size()), place});
+  return corners;
+}
+
+Law frictionless(double e) {
+  Law law;
+  law.law.restitution = e;
+  return law;
+}
+
+Law coulomb(double e, double friction, RestitutionLaw restitution = RestitutionLaw::newton) {
+  Law law = frictionless(e);
+  law.law.law = restitution;
+  law.law.friction = FrictionKind::coulomb;
+  law.law.friction_value = friction;
+  return law;
+}
+
+/// A box with its bottom face on the ground.
+struct Box {
+  double length, width, height;
+  Body body;
+  std::vector<Corner> bottom;
+
+  Box(double l, double w, double h, double mass) : length(l), width(w), height(h) {
+    const Vector3 inertia = mass / 12 * Vector3(w * w + h * h, h * h + l * l, l * l + w * w);
+    body = {.mass = mass, .inertia = inertia.asDiagonal(), .vertices = {}, .rims = {}};
+    bottom = corners_of(
+        {{-l / 2, -w / 2, -h / 2}, {l / 2, -w / 2, -h / 2}, {l / 2, w / 2, -h / 2}, {-l / 2, w / 2, -h / 2}});
+  }
+};
+
+double normal_velocity(const Vector3& v, const Vector3& spin, const Vector3& arm) { return (v + spin.cross(arm)).z(); }
+
+double kinetic_energy(const Body& body, const Matrix3& axes, const Vector3& v, const Vector3& spin) {
+  const Vector3 own = axes.transpose() * spin;
+  return (body.mass * v.squaredNorm() + own.dot(body.inertia * own)) / 2;
+}
+
+BOOST_AUTO_TEST_CASE(every_reference_edge_and_face_rebounds_as_a_whole_if_pushes_alone_can_do_it) {
+  const auto rows = clatter::oracle::read_reference_table(CLATTER_TEST_DATA_DIR "/space_flat.csv");
+  BOOST_REQUIRE_GE(rows.size(), 9u);
+  constexpr double tolerance = 5e-12;
+  for (const auto& row : rows) {
+    const clatter::oracle::ReferenceFields fields(row);
+    const Body body{.mass = fields.number("mass"), .inertia = fields.symmetric("I"), .vertices = {}, .rims = {}};
+    State before;
+    before.attitude = Quaternion(fields.number("q0"), fields.number("q1"), fields.number("q2"), fields.number("q3"));
+    before.velocity = fields.vector("V");
+    before.angular_velocity = fields.vector("O");
+    std::vector<Vector3> places;
+    for (int i = 1; i <= static_cast<int>(fields.number("corners")); ++i) {
+      places.push_back(fields.vector("r" + std::to_string(i)));
+    }
+    BOOST_TEST_CONTEXT(fields.text("scene")) {
+      const auto whole =
+          rebound_as_a_whole(body, before, corners_of(places), frictionless(fields.number("restitution")));
+      BOOST_REQUIRE_EQUAL(whole.has_value(), fields.number("feasible") == 1);
+      if (!whole) continue;
+      const double speed = before.velocity.norm(), reach = places.front().norm();
+      BOOST_CHECK_LE(std::fabs(whole->impulse.z() / fields.number("impulse_z") - 1), tolerance);
+      BOOST_CHECK_LE((whole->moment - fields.vector("M")).norm(), tolerance * reach * whole->impulse.norm());
+      BOOST_CHECK_LE((whole->velocity_after - fields.vector("V_after")).norm(), tolerance * speed);
+      BOOST_CHECK_LE((whole->angular_velocity_after - fields.vector("O_after")).norm() * reach, tolerance * speed);
+      const double before_energy = fields.number("energy_before");
+      BOOST_CHECK_LE(std::fabs(whole->energy_loss - (before_energy - fields.number("energy_after"))),
+                     tolerance * before_energy);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_rocking_block_without_rebound_keeps_housners_part_of_its_spin) {
+  constexpr double tolerance = 1e-14;
+  for (const double slenderness : {0.05, 0.2, 0.4, 0.6}) {  // tan α = width over height
+    const Box block(slenderness, 0.3, 1, 2.5);
+    State before;
+    before.angular_velocity = {0, -0.7, 0};  // about the corners at x > 0; those at x < 0 come down
+    const Vector3 pivot = block.bottom[1].place;
+    before.velocity = -before.angular_velocity.cross(pivot);
+    before.velocity.y() = 0;
+    const GroupImpact impact = strike_together(block.body, before, block.bottom, coulomb(0, 10));
+    const double sine = std::sin(std::atan(slenderness));
+    BOOST_CHECK_LE(std::fabs(impact.angular_velocity_after.y() / before.angular_velocity.y() - (1 - 1.5 * sine * sine)),
+                   tolerance);
+    BOOST_CHECK_LE(std::fabs(impact.angular_velocity_after.x()) + std::fabs(impact.angular_velocity_after.z()),
+                   tolerance);
+    BOOST_REQUIRE_EQUAL(impact.order.size(), 1u);
+    BOOST_CHECK((impact.order[0] == std::vector<int>{0, 3}));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(corners_of_a_face_or_an_edge_that_rebounds_as_a_whole_leave_at_e_times_their_approach) {
+  constexpr double tolerance = 1e-12;
+  Random random(5);
+  int faces = 0, edges = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Box box(random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.2, 3));
+    const bool is_edge = i % 2 == 0;
+    State before;
+    before.attitude = Quaternion(Eigen::AngleAxisd(random.uniform(0, 6), Vector3::UnitZ()));
+    if (is_edge) before.attitude = before.attitude * Eigen::AngleAxisd(random.uniform(0.1, 1.4), Vector3::UnitY());
+    before.velocity = random.vector(1) - Vector3(0, 0, 1);
+    before.angular_velocity = random.vector(1);
+    auto touching = box.bottom;
+    if (is_edge) touching = {box.bottom[1], box.bottom[2]};
+    // Friction does not act on the normal motion of a face.
+    const Law law = is_edge ? frictionless(random.uniform(0, 1)) : coulomb(random.uniform(0, 1), random.uniform(0, 2));
+    const auto whole = rebound_as_a_whole(box.body, before, touching, law);
+    if (!whole) continue;
+    bool all_approach = true;
+    for (const Corner& corner : touching) {
+      const Vector3 arm = before.attitude * corner.place;
+      const double u = normal_velocity(before.velocity, before.angular_velocity, arm);
+      all_approach = all_approach && u < 0;
+      if (u < 0 && whole->order[0].size() == touching.size()) {
+        const double after = normal_velocity(whole->velocity_after, whole->angular_velocity_after, arm);
+        BOOST_CHECK_LE(std::fabs(after + law.law.restitution * u), tolerance * 4);
+      }
+    }
+    if (all_approach) ++(is_edge ? edges : faces);
+  }
+  BOOST_CHECK_GT(faces, 200);
+  BOOST_CHECK_GT(edges, 200);
+}
+
+BOOST_AUTO_TEST_CASE(corners_that_cannot_rebound_as_a_whole_strike_one_after_the_other_until_none_approaches) {
+  Random random(6);
+  int several = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Box box(random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.1, 4), random.uniform(0.2, 3));
+    State before;
+    before.velocity = random.vector(1) - Vector3(0, 0, 0.5);
+    before.angular_velocity = random.vector(6);
+    const Law law = coulomb(random.uniform(0, 1), random.uniform(0, 1), RestitutionLaw::stronge);
+    const GroupImpact impact = strike_together(box.body, before, box.bottom, law);
+    const double scale = before.velocity.norm() + before.angular_velocity.norm() * 3;
+    double fastest = 0;
+    int first = -1;
+    for (const Corner& corner : box.bottom) {
+      BOOST_CHECK_GE(normal_velocity(impact.velocity_after, impact.angular_velocity_after, corner.place),
+                     -1e-13 * scale);
+      const double approach = -normal_velocity(before.velocity, before.angular_velocity, corner.place);
+      if (approach > fastest) fastest = approach, first = corner.index;
+    }
+    if (!impact.is_whole && !impact.order.empty()) {
+      BOOST_CHECK_EQUAL(impact.order[0][0], first);
+      ++several;
+    }
+    BOOST_CHECK_CLOSE_FRACTION(impact.approach_speed, fastest, 1e-12);
+    const Matrix3 axes = Matrix3::Identity();
+    const double energy = kinetic_energy(box.body, axes, before.velocity, before.angular_velocity);
+    const double after = kinetic_energy(box.body, axes, impact.velocity_after, impact.angular_velocity_after);
+    BOOST_CHECK_LE(std::fabs(energy - after - impact.energy_loss), 1e-12 * energy);
+    BOOST_CHECK_GE(impact.energy_loss, -1e-13 * energy);
+  }
+  BOOST_CHECK_GT(several, 100);
+}
+
+/// A uniform thin rod along x, flat.
+struct FlatRod {
+  Body body{.mass = 1, .inertia = Vector3(1e-3, 1. / 12, 1. / 12).asDiagonal(), .vertices = {}, .rims = {}};
+  std::vector<Corner> ends = corners_of({{-0.5, 0, 0}, {0.5, 0, 0}});
+};
+
+BOOST_AUTO_TEST_CASE(a_flat_elastic_rod_rebounds_as_a_whole_however_it_is_tilted_after_impulses_1_2_1) {
+  const FlatRod rod;
+  State before;
+  before.velocity = {0, 0, -1};
+  const OutcomeSet set = tilted_outcomes(rod.body, before, rod.ends, frictionless(1));
+  BOOST_CHECK_LE(set.velocity_spread, 1e-14);
+  BOOST_CHECK_LE(set.angular_velocity_spread, 1e-13);
+  for (const TiltedOutcome& outcome : set.outcomes) {
+    BOOST_CHECK_EQUAL(outcome.impact.order.size(), 3u);
+    BOOST_CHECK(outcome.impact.order[0] == outcome.impact.order[2]);
+    BOOST_CHECK(outcome.impact.order[0] != outcome.impact.order[1]);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(tilts_to_either_side_of_a_damped_rod_give_two_outcomes_that_are_mirror_images) {
+  const FlatRod rod;
+  State before;
+  before.velocity = {0, 0, -1};
+  const double e = 0.5;
+  const OutcomeSet set = tilted_outcomes(rod.body, before, rod.ends, frictionless(e));
+  BOOST_REQUIRE_EQUAL(set.outcomes.size(), 2u);
+  const GroupImpact &left = set.outcomes[0].impact, &right = set.outcomes[1].impact;
+  BOOST_CHECK_LE((left.velocity_after - right.velocity_after).norm(), 1e-14);
+  BOOST_CHECK_LE((left.angular_velocity_after + right.angular_velocity_after).norm(), 1e-14);
+  // In terms of the ends' velocities (u, w) an impact gives (−e u, w + (1+e) u/2), for W = 4 at the end and −2 across.
+  double u = -1, w = -1;
+  for (bool at_u = true; u < 0 || w < 0; at_u = !at_u) {
+    double &struck = at_u ? u : w, &other = at_u ? w : u;
+    other += (1 + e) * struck / 2;
+    struck *= -e;
+  }
+  BOOST_CHECK_LE(std::fabs(left.velocity_after.z() - (u + w) / 2), 1e-14);
+  BOOST_CHECK_LE(std::fabs(set.angular_velocity_spread - 2 * std::fabs(u - w)), 1e-13);
+}
+
+BOOST_AUTO_TEST_CASE(a_slippery_rocking_block_has_several_outcomes_and_a_face_that_drops_level_and_elastic_one) {
+  const Box block(0.4, 0.3, 1, 1);
+  State rocking;
+  rocking.angular_velocity = {0, -1, 0};
+  rocking.velocity = {0, 0, -0.2};
+  const OutcomeSet set = tilted_outcomes(block.body, rocking, block.bottom, frictionless(0.7));
+  BOOST_CHECK_GE(set.outcomes.size(), 2u);
+  BOOST_CHECK_GT(set.angular_velocity_spread, 1e-3);
+  // Each of these leaves no corner approaching.
+  for (const TiltedOutcome& outcome : set.outcomes) {
+    for (const Corner& corner : block.bottom) {
+      BOOST_CHECK_GE(
+          normal_velocity(outcome.impact.velocity_after, outcome.impact.angular_velocity_after, corner.place), -1e-13);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_planar_flat_landing_with_friction_agrees_with_the_planar_model) {
+  constexpr double tolerance = 1e-13;
+  Random random(7);
+  int compared = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Box box(random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.2, 3));
+    const double gyration = (box.length * box.length + box.height * box.height) / 12;
+    const PlanarBody body{.mass = box.body.mass, .gyration_square = gyration};
+    const PlanarVelocity v{random.uniform(-2, -0.1), random.uniform(-1, 1), random.uniform(-2, 2)};
+    const ContactPoint left{-box.length / 2, -box.height / 2}, right{box.length / 2, -box.height / 2};
+    Law law = coulomb(random.uniform(0, 1), random.uniform(0, 1));
+    if (i % 5 == 0)
+      law.law.law = RestitutionLaw::viscoelastic, law.law.restitution = 1, law.law.damping_per_stiffness = 0.3;
+    const auto planar = strike_flat(body, v, left, right, law.law);
+    State before;
+    before.velocity = {v.tangential, 0, v.normal};
+    before.angular_velocity = {0, v.angular, 0};
+    const auto whole = rebound_as_a_whole(box.body, before, box.bottom, law);
+    if (!planar) continue;
+    BOOST_REQUIRE(whole.has_value());
+    ++compared;
+    const double speed = std::fabs(v.normal) + std::fabs(v.tangential) + std::fabs(v.angular);
+    BOOST_CHECK_LE(std::fabs(whole->impulse.x() - planar->tangential_impulse), tolerance * box.body.mass * speed);
+    BOOST_CHECK_LE(std::fabs(whole->impulse.z() - planar->normal_impulse), tolerance * box.body.mass * speed);
+    BOOST_CHECK_LE(std::fabs(whole->angular_velocity_after.y() - planar->after.angular), 10 * tolerance * speed);
+    BOOST_CHECK_LE(std::fabs(whole->velocity_after.z() - planar->after.normal), tolerance * speed);
+    BOOST_CHECK_LE(std::fabs(whole->velocity_after.x() - planar->after.tangential), tolerance * speed);
+  }
+  BOOST_CHECK_GT(compared, 500);
+}
+
+BOOST_AUTO_TEST_CASE(an_edge_that_lands_level_strikes_as_the_corner_of_the_planar_model) {
+  constexpr double tolerance = 1e-13;
+  Random random(8);
+  for (int i = 0; i < 2000; ++i) {
+    const Box box(random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.2, 3));
+    State before;
+    before.attitude = Eigen::AngleAxisd(random.uniform(0.05, 1.5), Vector3::UnitY());
+    const PlanarVelocity v{random.uniform(-2, -1), random.uniform(-1, 1), random.uniform(-0.5, 0.5)};
+    before.velocity = {v.tangential, 0, v.normal};
+    before.angular_velocity = {0, v.angular, 0};
+    const Law law =
+        coulomb(random.uniform(0, 1), random.uniform(0, 2), static_cast<RestitutionLaw>(random.whole(0, 2)));
+    const Vector3 arm = before.attitude * box.bottom[1].place;
+    const double gyration = (box.length * box.length + box.height * box.height) / 12;
+    const auto planar = strike({.mass = box.body.mass, .gyration_square = gyration}, v, {arm.x(), arm.z()}, law.law);
+    const auto whole = rebound_as_a_whole(box.body, before, std::vector{box.bottom[1], box.bottom[2]}, law);
+    BOOST_REQUIRE(whole.has_value());
+    const double size = std::hypot(planar.normal_impulse, planar.tangential_impulse);
+    BOOST_CHECK_LE((whole->impulse - Vector3(planar.tangential_impulse, 0, planar.normal_impulse)).norm(),
+                   tolerance * size * 3);
+    BOOST_CHECK_LE(std::fabs(whole->angular_velocity_after.x()) + std::fabs(whole->angular_velocity_after.z()), 1e-12);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(touching_corners_of_which_none_approaches_get_no_impulse) {
+  const Box box(1, 1, 1, 1);
+  State before;
+  before.velocity = {0.3, 0, 0.1};
+  BOOST_CHECK(!rebound_as_a_whole(box.body, before, box.bottom, frictionless(1)));
+  const GroupImpact impact = strike_together(box.body, before, box.bottom, frictionless(1));
+  BOOST_CHECK(impact.order.empty());
+  BOOST_CHECK_EQUAL(impact.impulse.norm(), 0);
+  BOOST_CHECK(impact.velocity_after == before.velocity);
+}
+
+}  // namespace
