@@ -55,7 +55,7 @@ class SlipField {
   }
   /// Bound on |g| and |f′|.
   [[nodiscard]] double turning_bound() const { return b1_ + b2_ + anisotropy_; }
-  /// g stays below rounding of f in every direction: slip keeps its direction.
+  /// g stays below the rounding of W in every direction: slip keeps its direction.
   [[nodiscard]] bool is_straight() const;
 
   /// −A⁻¹b: the ratio P_t/p that keeps a point without slip from slipping.

@@ -96,6 +96,7 @@ struct Panel {
   Nodes slip_growth, impulse_rate, normal_rate, storing;
   Nodes log_slip, impulse, normal_velocity, store;
   double end_log_slip;
+  double noise = 0;  ///< relative rounding error of the integrands, large where slip hardly turns
   Measure end;
   Vector2 friction;  ///< gained in the panel
 };
@@ -113,10 +114,11 @@ class TurningPath {
   Direction follow();
 
  private:
-  /// Direction, dτ/dy and the distance from the attracting direction at y.
+  /// Direction, dτ/dy, relative rounding error of that, and the distance from the attracting direction, at y.
   struct Place {
     Direction direction;
     double time_rate;
+    double noise;
     double distance;
   };
   [[nodiscard]] Place place(double y) const;
@@ -144,7 +146,8 @@ TurningPath::Place TurningPath::place(double y) const {
   const double near = width_ * ratio / (1 + ratio), far = width_ / (1 + ratio);
   const bool starts = y < 0;
   const NearZero::Turn turn = starts ? from_repelling_.at(sense_ * near) : from_attracting_.at(-sense_ * near);
-  return {turn.direction, far / (width_ * std::fabs(turn.per_offset)), starts ? far : near};
+  const double slowness = 1 / std::fabs(turn.per_offset);
+  return {turn.direction, far / width_ * slowness, epsilon * field_.turning_bound() * slowness, starts ? far : near};
 }
 
 Panel TurningPath::panel(double length) const {
@@ -158,6 +161,7 @@ Panel TurningPath::panel(double length) const {
     time_rate[i] = at.time_rate * half;
     p.slip_growth[i] = field_.slip_rate(at.direction) * time_rate[i];
     rise[i] = field_.normal_rate(at.direction);
+    p.noise = std::fmax(p.noise, at.noise);
     cosine[i] = at.direction.cosine, sine[i] = at.direction.sine;
   }
   p.log_slip = point_.log_slip + r.to_nodes(p.slip_growth);
@@ -179,13 +183,16 @@ Panel TurningPath::panel(double length) const {
 
 bool TurningPath::is_resolved(const Panel& p) const {
   const Rule& r = rule();
-  if (!(r.tail(p.slip_growth) <= resolution * (1 + p.slip_growth.abs().maxCoeff()))) return false;
-  if (!(r.tail(p.impulse_rate) <= resolution * p.end.impulse)) return false;
+  const double noise = order * p.noise;
+  const double growth = p.slip_growth.abs().maxCoeff();
+  if (!(r.tail(p.slip_growth) <= resolution * (1 + growth) + noise * growth)) return false;
+  if (!(r.tail(p.impulse_rate) <= resolution * p.end.impulse + noise * p.impulse_rate.maxCoeff())) return false;
   if (!progress_.is_energetic()) return true;
   const double damping = progress_.damping();
   const double fastest = std::fmax(p.normal_velocity.maxCoeff(), p.end.normal_velocity);
   if (!(1 - damping * fastest > (1 - damping * progress_.at.normal_velocity) / 4)) return false;
-  return r.tail(p.storing) <= resolution * (progress_.at.store + p.storing.abs().sum());
+  const double stored = progress_.at.store + p.storing.abs().sum();
+  return r.tail(p.storing) <= resolution * stored + noise * p.storing.abs().maxCoeff();
 }
 
 bool TurningPath::is_straight_from_here() const {
@@ -235,7 +242,7 @@ void TurningPath::end_stage_in(const Panel& coarse, int node) {
     const double rate = progress_.excess_rate(trial.end, field_.normal_rate(end.direction)) *
                         std::exp(trial.end_log_slip) * end.time_rate;
     const double next = length - excess / rate;
-    const double least = 4 * epsilon * (std::fabs(point_.y) + length);
+    const double least = 2 * epsilon * coarse.length;
     if (std::fabs(next - length) <= least || high - low <= least) {
       accept(trial);
       return progress_.end_stage();
