@@ -191,8 +191,10 @@ bool TurningPath::is_resolved(const Panel& p) const {
   const double damping = progress_.damping();
   const double fastest = std::fmax(p.normal_velocity.maxCoeff(), p.end.normal_velocity);
   if (!(1 - damping * fastest > (1 - damping * progress_.at.normal_velocity) / 4)) return false;
+  // Rounding of u, of the size of the approach speed, over what is left of 1 − τu.
+  const double of_speed = order * epsilon * damping / (1 - damping * fastest);
   const double stored = progress_.at.store + p.storing.abs().sum();
-  return r.tail(p.storing) <= resolution * stored + noise * p.storing.abs().maxCoeff();
+  return r.tail(p.storing) <= resolution * stored + (noise + of_speed) * p.storing.abs().maxCoeff();
 }
 
 bool TurningPath::is_straight_from_here() const {
@@ -258,6 +260,7 @@ Direction TurningPath::follow() {
   const double growth = std::fabs(field_.slip_rate(start.direction)) * start.time_rate;
   double length = std::fmin(longest_panel / 2, 4 / growth);
   for (int i = 0; i < budget; ++i) {
+    if (progress_.is_at_limit_speed()) progress_.end_stage();
     if (progress_.is_done()) return place(point_.y).direction;
     if (is_straight_from_here()) return attracting_;
     const Panel p = panel(length);
