@@ -67,10 +67,11 @@ class PathProgress {
   /// Whether E is needed at all.
   [[nodiscard]] bool is_energetic() const { return rule_.law >= RestitutionLaw::stronge; }
   [[nodiscard]] double damping() const { return rule_.damping; }
-  /// A strongly damped ground gives its last energy back while u is 1/τ to rounding.
+  /// A strongly damped ground gives its last energy back while u is 1/τ to rounding, which is that of p and of 1.
   [[nodiscard]] bool is_at_limit_speed() const {
     constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
-    return stage_ == Stage::restitution && is_energetic() && 1 - rule_.damping * at.normal_velocity <= rounding;
+    return stage_ == Stage::restitution && is_energetic() &&
+           1 - rule_.damping * at.normal_velocity <= rounding * (1 + rule_.damping * at.impulse);
   }
 
   Measure at;

@@ -191,8 +191,8 @@ bool TurningPath::is_resolved(const Panel& p) const {
   const double damping = progress_.damping();
   const double fastest = std::fmax(p.normal_velocity.maxCoeff(), p.end.normal_velocity);
   if (!(1 - damping * fastest > (1 - damping * progress_.at.normal_velocity) / 4)) return false;
-  // Rounding of u, of the size of the approach speed, over what is left of 1 − τu.
-  const double of_speed = order * epsilon * damping / (1 - damping * fastest);
+  // Rounding of u, which is that of p and of the approach speed 1, over what is left of 1 − τu.
+  const double of_speed = order * epsilon * damping * (1 + p.end.impulse) / (1 - damping * fastest);
   const double stored = progress_.at.store + p.storing.abs().sum();
   return r.tail(p.storing) <= resolution * stored + (noise + of_speed) * p.storing.abs().maxCoeff();
 }
@@ -244,9 +244,9 @@ void TurningPath::end_stage_in(const Panel& coarse, int node) {
     const double rate = progress_.excess_rate(trial.end, field_.normal_rate(end.direction)) *
                         std::exp(trial.end_log_slip) * end.time_rate;
     const double next = length - excess / rate;
-    const double least = 2 * epsilon * coarse.length;
-    if (std::fabs(next - length) <= least || high - low <= least) {
-      accept(trial);
+    // Convergence is quadratic: behind a step this short lies one of rounding's size.
+    if (std::fabs(next - length) <= 1e-8 * coarse.length || high - low <= 2 * epsilon * coarse.length) {
+      accept(panel(std::fmax(next, 0.0)));
       return progress_.end_stage();
     }
     length = next > low && next < high ? next : low + (high - low) / 2;
@@ -258,7 +258,9 @@ Direction TurningPath::follow() {
   constexpr int budget = 4000;
   const Place start = place(point_.y);
   const double growth = std::fabs(field_.slip_rate(start.direction)) * start.time_rate;
-  double length = std::fmin(longest_panel / 2, 4 / growth);
+  // A slip much faster than the approach hardly turns before the impact ends: the first panel must see that end.
+  const double pushing = progress_.slip * start.time_rate;
+  double length = std::fmin(longest_panel / 2, 4 / std::fmax(growth, pushing));
   for (int i = 0; i < budget; ++i) {
     if (progress_.is_at_limit_speed()) progress_.end_stage();
     if (progress_.is_done()) return place(point_.y).direction;

@@ -270,6 +270,29 @@ BOOST_AUTO_TEST_CASE(a_corner_that_digs_in_while_its_slip_slows_has_a_bounded_im
   BOOST_CHECK_EQUAL(digs, 100);
 }
 
+BOOST_AUTO_TEST_CASE(poissons_impulse_goes_on_where_a_second_compression_would_leave_the_corner_approaching) {
+  Random random(32);
+  int second = 0;
+  for (int i = 0; i < 60000; ++i) {
+    const Contact contact = clatter::oracle::contact_of(clatter::oracle::random_collision(random));
+    Law law = clatter::oracle::random_law(random, 3);
+    law.law.law = RestitutionLaw::poisson, law.law.restitution = random.uniform(0, 1);
+    law.law.damping_per_stiffness = 0;
+    law.law.friction_value += 1;
+    const ContactImpulse impact = contact_impulse(contact, law);
+    BOOST_CHECK_GE(impact.velocity_after.z(), 0);
+    const double impulse = (1 + law.law.restitution) * impact.compression_impulse;
+    if (impact.impulse.z() <= impulse * (1 + 1e-9)) {
+      BOOST_CHECK_CLOSE_FRACTION(impact.impulse.z(), impulse, 1e-13);
+    } else {
+      ++second;
+      BOOST_CHECK_EQUAL(impact.velocity_after.z(), 0);
+    }
+  }
+  BOOST_TEST_MESSAGE(second << " second compressions");
+  BOOST_CHECK_GT(second, 0);
+}
+
 BOOST_AUTO_TEST_CASE(invariant_directions_are_all_the_directions_in_which_slip_does_not_turn) {
   Random random(31);
   for (int i = 0; i < 1000; ++i) {
