@@ -25,6 +25,17 @@ class TopSeries {
   }
 
   void step(Top<Real>& top, Real h) {
+    expand(top);
+    evaluate(top, h);
+  }
+
+  /// The motion h after the state that was expanded last.
+  void evaluate(Top<Real>& top, Real h) const {
+    for (std::size_t k = 0; k < 3; ++k) top.w[k] = sum(w_[k], h);
+    for (std::size_t k = 0; k < 4; ++k) top.q[k] = sum(q_[k], h);
+  }
+
+  void expand(const Top<Real>& top) {
     const auto& i = top.moments;
     const Real a[3] = {(i[1] - i[2]) / i[0], (i[2] - i[0]) / i[1], (i[0] - i[1]) / i[2]};
     for (std::size_t k = 0; k < 3; ++k) w_[k][0] = top.w[k];
@@ -41,8 +52,6 @@ class TopSeries {
       q_[2][at] = (product(q_[0], w_[1], n) + product(q_[3], w_[0], n) - product(q_[1], w_[2], n)) / half;
       q_[3][at] = (product(q_[0], w_[2], n) + product(q_[1], w_[1], n) - product(q_[2], w_[0], n)) / half;
     }
-    for (std::size_t k = 0; k < 3; ++k) top.w[k] = sum(w_[k], h);
-    for (std::size_t k = 0; k < 4; ++k) top.q[k] = sum(q_[k], h);
   }
 
  private:

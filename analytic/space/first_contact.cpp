@@ -1,0 +1,300 @@
+#include "analytic/space/first_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "analytic/detail/root_finder.hpp"
+#include "analytic/errors.hpp"
+#include "analytic/space/hop.hpp"
+
+namespace clatter::analytic::space {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double never = std::numeric_limits<double>::infinity();
+/// Length of a piece [rad].
+constexpr double piece_angle = 0.6;
+constexpr int most_pieces = 1 << 21;
+
+/// A moment of a point.
+struct Node {
+  FlightMoment moment;
+  PointHeight point;
+};
+
+class Search {
+ public:
+  Search(const Body& body, const FreeFlight& flight, std::span<const Touch> touching)
+      : body_(body), flight_(flight), touching_(touching), heights_(body, flight) {
+    found_.near_miss.clearance = never;
+    threshold_ = heights_.reach() / 20;
+  }
+
+  FirstContact run() {
+    const FlightMoment start = heights_.moment(0);
+    if (!depart(start)) return std::move(found_);
+    march(start);
+    if (found_.end == FlightEnd::contact) arrive();
+    return std::move(found_);
+  }
+
+ private:
+  [[nodiscard]] const Touch* touch(int point) const {
+    const auto at = std::find_if(touching_.begin(), touching_.end(), [&](const Touch& t) { return t.point == point; });
+    return at == touching_.end() ? nullptr : &*at;
+  }
+
+  /// Sets the points' heights at t = 0; false if the flight ends there.
+  bool depart(const FlightMoment& start) {
+    const auto count = static_cast<std::size_t>(heights_.count());
+    from_.resize(count);
+    to_.resize(count);
+    depths_.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const int point = static_cast<int>(i);
+      PointHeight& h = from_[i] = heights_.at(point, start);
+      depths_[i] = heights_.depth(point);
+      const Touch* known = touch(point);
+      if (known) h.velocity = known->normal_velocity;
+      if (known || std::fabs(h.height) <= heights_.noise(0)) h.height = 0;
+      if (h.height == 0 && h.velocity < 0 && !(found_.end == FlightEnd::contact)) take(point, 0, {0, 0});
+      if (!known || h.velocity != 0 || found_.end == FlightEnd::contact) continue;
+      if (h.acceleration < 0) {
+        found_.end = FlightEnd::stays_touching;
+        found_.point = point;
+      }
+    }
+    if (found_.end == FlightEnd::contact) arrive();
+    return found_.end == FlightEnd::no_contact;
+  }
+
+  void march(FlightMoment start) {
+    const double deepest = *std::max_element(depths_.begin(), depths_.end());
+    const double rises = flight_.rises_through(deepest), falls = flight_.falls_through(deepest);
+    const double certain = flight_.falls_through(-heights_.reach());
+    const bool ever_falls = falls < never;
+    if (!through(start, std::fmin(rises, certain))) return;
+    if (!ever_falls || !(falls > start.time)) return;
+    if (falls * epsilon * flight_.rotation().fastest() > 1e-3 || !(falls < falls * (1 + 4 * epsilon))) {
+      throw NumericalError("the flight is so long that double precision leaves the phase at its end no digit");
+    }
+    start = heights_.moment(falls);
+    ++found_.evaluations;
+    for (std::size_t i = 0; i < from_.size(); ++i) from_[i] = heights_.at(static_cast<int>(i), start);
+    through(start, certain);
+  }
+
+  /// Looks through pieces from `start` to `end`; false when the first contact was found.  Leaves `start` at the end.
+  bool through(FlightMoment& start, double end) {
+    const double speed = flight_.rotation().fastest();
+    const bool periodic_hover = end == never && flight_.gravity() == 0 && !(flight_.start().velocity.z() < 0);
+    if (speed == 0) {
+      if (end < never) return pieces(start, end, end);
+      return true;  // a body that neither turns nor falls
+    }
+    if (periodic_hover && flight_.rotation().is_steady()) end = start.time + 2 * std::numbers::pi / speed;
+    return pieces(start, end, piece_angle / speed);
+  }
+
+  bool pieces(FlightMoment& start, double end, double length) {
+    while (start.time < end) {
+      if (++pieces_ > most_pieces)
+        throw NumericalError("no contact found nor excluded in two million pieces of a flight");
+      const double stop = start.time + length < end ? start.time + length : end;
+      if (!(stop > start.time)) throw NumericalError("the flight is so long that no double tells its pieces apart");
+      const FlightMoment next = heights_.moment(stop);
+      ++found_.evaluations;
+      // While the centre of mass is above a point's depth, the point is above the ground; a parabola is lowest at an
+      // end.
+      const double lowest = std::fmin(start.centre, next.centre);
+      for (std::size_t i = 0; i < from_.size(); ++i) {
+        to_[i] = heights_.at(static_cast<int>(i), next);
+        if (lowest <= depths_[i]) look(static_cast<int>(i), {start, from_[i]}, {next, to_[i]});
+      }
+      if (found_.end == FlightEnd::contact) return false;
+      start = next;
+      from_.swap(to_);
+    }
+    return true;
+  }
+
+  /// Looks for the point's first root in a piece, unless one before it is known.  True when one was found.
+  bool look(int point, const Node& a, const Node& b) {
+    if (a.point.time >= best_) return true;
+    const bool touching = a.point.time == 0 && a.point.height == 0;
+    const HeightBounds bounds = heights_.bounds(point, {a.moment, b.moment, a.point, b.point, touching});
+    if (bounds.lowest > (touching ? 0 : std::fmin(threshold_, found_.near_miss.clearance))) return false;
+    if (touching) {
+      // (h/t)′ = h″/2 somewhere before.
+      if (bounds.least_bend >= 0) return false;
+      if (bounds.largest_bend <= 0) return b.point.height < 0 ? solve_quotient(point, b) : false;
+    } else if (bounds.largest_bend <= 0) {
+      return b.point.height <= 0 ? solve(point, a, b) : false;
+    } else if (bounds.least_bend >= 0) {
+      return convex(point, a, b);
+    } else {
+      const double length = b.point.time - a.point.time;
+      if (a.point.velocity + bounds.largest_bend * length < 0) return b.point.height <= 0 ? solve(point, a, b) : false;
+      if (a.point.velocity + bounds.least_bend * length > 0) return false;
+    }
+    return halves(point, a, b);
+  }
+
+  bool halves(int point, const Node& a, const Node& b) {
+    const double middle = a.point.time + (b.point.time - a.point.time) / 2;
+    if (!(middle > a.point.time && middle < b.point.time) ||
+        b.point.time - a.point.time <= 8 * epsilon * b.point.time) {
+      if (b.point.height > 0) return false;
+      found_.within_margin = true;
+      return take(point, b.point.time, {a.point.time, b.point.time});
+    }
+    const Node node = at(point, middle);
+    if (look(point, a, node)) return true;
+    if (!(node.point.height > 0)) return solve_after(point, a, node);
+    return look(point, node, b);
+  }
+
+  /// A height that is not above the ground though the piece before has no root that could be told: at rounding.
+  bool solve_after(int point, const Node& a, const Node& node) {
+    found_.within_margin = true;
+    return take(point, node.point.time, {a.point.time, node.point.time});
+  }
+
+  bool convex(int point, const Node& a, const Node& b) {
+    if (b.point.height <= 0) return solve(point, a, b);
+    if (!(a.point.velocity < 0 && b.point.velocity > 0)) return false;
+    const auto sample = [&](double t) -> detail::Sample {
+      const PointHeight h = at(point, t).point;
+      return {h.velocity, h.acceleration, 0};
+    };
+    const double share = a.point.velocity / (a.point.velocity - b.point.velocity);
+    const detail::Root root = detail::bracketed_root(detail::FunctionView(sample), {a.point.time, b.point.time},
+                                                     a.point.time + share * (b.point.time - a.point.time), true);
+    const Node bottom = at(point, root.value);
+    const double margin = heights_.noise(root.value);
+    if (bottom.point.height > 0) {
+      if (bottom.point.height < found_.near_miss.clearance) {
+        found_.near_miss = {.clearance = bottom.point.height, .margin = margin, .time = root.value, .vertex = point};
+      }
+      return false;
+    }
+    const bool slight = -bottom.point.height <= margin;
+    if (slight && !(bottom.point.time > a.point.time)) return false;
+    if (!solve(point, a, bottom)) return false;
+    found_.within_margin = slight;
+    return true;
+  }
+
+  bool solve(int point, const Node& a, const Node& b) {
+    if (!(a.point.height > 0)) return false;
+    const double noise = epsilon * heights_.reach() / 4;
+    const auto sample = [&](double t) -> detail::Sample {
+      const PointHeight h = at(point, t).point;
+      return {h.height, h.velocity, noise};
+    };
+    const double share = a.point.height / (a.point.height - b.point.height);
+    const detail::Root root = detail::bracketed_root(detail::FunctionView(sample), {a.point.time, b.point.time},
+                                                     a.point.time + share * (b.point.time - a.point.time), false);
+    return take(point, root.value, {a.point.time, b.point.time});
+  }
+
+  /// Root of h/t in (0, b].
+  bool solve_quotient(int point, const Node& b) {
+    const Touch touch{.point = point, .normal_velocity = from_[static_cast<std::size_t>(point)].velocity};
+    const double turn = b.point.time * flight_.rotation().fastest();
+    const bool vertex = static_cast<std::size_t>(point) < body_.vertices.size();
+    const double bend = from_[static_cast<std::size_t>(point)].acceleration;
+    const double guess = bend < 0 ? -2 * touch.normal_velocity / bend : b.point.time / 2;
+    if (vertex && turn <= Hop::largest_turn) {
+      hop_.emplace(body_, flight_, touch);
+      const auto sample = [&](double t) -> detail::Sample {
+        const Hop::Value value = hop_->at(t);
+        return {value.quotient, value.slope, epsilon / 4 * touch.normal_velocity};
+      };
+      const detail::Root root = detail::bracketed_root(detail::FunctionView(sample), {0, b.point.time}, guess, false);
+      hop_time_ = root.value;
+      return take(point, root.value, {0, b.point.time});
+    }
+    if (vertex && guess * flight_.rotation().fastest() < Hop::largest_turn / 2) {  // the root lies near: come nearer
+      const Node nearer = at(point, Hop::largest_turn * 0.99 / flight_.rotation().fastest());
+      if (nearer.point.height < 0) return solve_quotient(point, nearer);
+    }
+    // h/t >= u − max|h″| t/2 has no root before this.
+    const double bound = heights_.reach() * heights_.rate_bound(2) + flight_.gravity();
+    const double low = std::fmin(touch.normal_velocity / bound, b.point.time / 2);
+    const double noise = epsilon * heights_.reach() / 4;
+    const auto sample = [&](double t) -> detail::Sample {
+      const PointHeight h = at(point, t).point;
+      return {h.height / t, (h.velocity - h.height / t) / t, noise / t};
+    };
+    const bool inside = guess > low && guess < b.point.time;
+    const detail::Root root = detail::bracketed_root(detail::FunctionView(sample), {low, b.point.time},
+                                                     inside ? guess : (low + b.point.time) / 2, false);
+    return take(point, root.value, {low, b.point.time});
+  }
+
+  Node at(int point, double time) {
+    ++found_.evaluations;
+    const FlightMoment moment = heights_.moment(time);
+    return {moment, heights_.at(point, moment)};
+  }
+
+  bool take(int point, double time, detail::Bracket bracket) {
+    if (!(time < best_)) return true;
+    best_ = time;
+    found_.end = FlightEnd::contact;
+    found_.time = time;
+    found_.point = point;
+    found_.bracket_low = bracket.low;
+    found_.bracket_high = bracket.high;
+    return true;
+  }
+
+  /// The point's velocity, and those that arrive with it.
+  void arrive() {
+    const FlightMoment moment = heights_.moment(best_);
+    ++found_.evaluations;
+    const State& start = flight_.start();
+    const double parts =
+        std::fabs(start.velocity.z()) + flight_.gravity() * best_ + flight_.rotation().fastest() * heights_.reach();
+    found_.velocity_error = 4 * epsilon * parts;
+    const PointHeight first =
+        best_ == 0 ? from_[static_cast<std::size_t>(found_.point)] : heights_.at(found_.point, moment);
+    found_.normal_velocity = first.velocity;
+    if (best_ > 0 && hop_ && hop_time_ == best_) {
+      found_.normal_velocity = hop_->velocity(best_);
+      found_.velocity_error = 4 * epsilon * std::fabs(found_.normal_velocity);
+    }
+    found_.together.assign(1, found_.point);
+    for (int i = 0; i < heights_.count(); ++i) {
+      if (i == found_.point) continue;
+      const PointHeight h = best_ == 0 ? from_[static_cast<std::size_t>(i)] : heights_.at(i, moment);
+      // The others' heights err by the time's error, too.
+      const double slower = std::fabs(h.velocity / first.velocity);
+      if (std::fabs(h.height) <= heights_.noise(best_) * (1 + slower) && h.velocity < 0) found_.together.push_back(i);
+    }
+  }
+
+  const Body& body_;
+  const FreeFlight& flight_;
+  std::span<const Touch> touching_;
+  PointHeights heights_;
+  FirstContact found_;
+  std::vector<PointHeight> from_, to_;
+  std::vector<double> depths_;
+  std::optional<Hop> hop_;
+  double hop_time_ = -1;
+  double best_ = never, threshold_;
+  int pieces_ = 0;
+};
+
+}  // namespace
+
+FirstContact first_contact(const Body& body, const FreeFlight& flight, std::span<const Touch> touching) {
+  return Search(body, flight, touching).run();
+}
+
+}  // namespace clatter::analytic::space

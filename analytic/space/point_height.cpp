@@ -1,0 +1,167 @@
+#include "analytic/space/point_height.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace clatter::analytic::space {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double infinite = std::numeric_limits<double>::infinity();
+/// max of t³(1 − t)³/6!, t²(1 − t)³/6! and of the error of the second derivative, which interpolates ë at four places:
+/// t³(1 − t)/4!.
+constexpr double value_error = 1.0 / 46080, quotient_error = 0.03456 / 720, bend_error = 27.0 / 256 / 24;
+
+/// Bernstein coefficients of the polynomial of degree 5 with given values and derivatives at both ends of s.
+template <class T>
+std::array<T, 6> coefficients(double s, const T (&start)[3], const T (&end)[3]) {
+  const double first = s / 5, second = s * s / 20;
+  return {start[0],
+          start[0] + first * start[1],
+          start[0] + 2 * first * start[1] + second * start[2],
+          end[0] - 2 * first * end[1] + second * end[2],
+          end[0] - first * end[1],
+          end[0]};
+}
+
+/// Smallest coefficient; of h/t where h(0) = 0.
+double smallest(const std::array<double, 6>& b, double s, bool touching) {
+  if (!touching) return *std::min_element(b.begin(), b.end());
+  double least = infinite;
+  for (std::size_t k = 1; k < 6; ++k) least = std::fmin(least, 5 * b[k] / (static_cast<double>(k) * s));
+  return least;
+}
+
+}  // namespace
+
+PointHeights::PointHeights(const Body& body, const FreeFlight& flight)
+    : body_(body), flight_(flight), reach_(body.reach()) {
+  const double w = flight.rotation().fastest(), gamma = flight.rotation().acceleration_factor();
+  rates_[0] = 1;
+  for (int n = 1; n <= 6; ++n) rates_[n] = rates_[n - 1] * w * (1 + (n - 1) * gamma);
+}
+
+FlightMoment PointHeights::moment(double time) const {
+  return {time, flight_.centre_height(time), flight_.centre_velocity(time), flight_.rotation().vertical(time)};
+}
+
+PointHeight PointHeights::at(int point, const FlightMoment& m) const {
+  const auto& [e, rate, second] = m.vertical;
+  const double gravity = flight_.gravity();
+  if (!is_rim(point)) {
+    const Vector3& r = body_.vertices[static_cast<std::size_t>(point)];
+    return {m.time, m.centre + e.dot(r), m.rate + rate.dot(r), second.dot(r) - gravity};
+  }
+  const auto& [c, a, radius] = rim(point);
+  const Vector3 v = e - e.dot(a) * a, v1 = rate - rate.dot(a) * a, v2 = second - second.dot(a) * a;
+  const double size = v.norm();
+  const double slope = size > 0 ? v.dot(v1) / size : v1.norm();
+  const double bend = (v1.squaredNorm() - slope * slope + v.dot(v2)) / size;
+  return {m.time, m.centre + e.dot(c) - radius * size, m.rate + rate.dot(c) - radius * slope,
+          second.dot(c) - gravity - radius * bend};
+}
+
+Vector3 PointHeights::place(int point, const Vertical& vertical) const {
+  if (!is_rim(point)) return body_.vertices[static_cast<std::size_t>(point)];
+  const auto& [c, a, radius] = rim(point);
+  const Vector3 v = vertical.direction - vertical.direction.dot(a) * a;
+  const double size = v.norm();
+  return size > 0 ? Vector3(c - radius / size * v) : c;
+}
+
+double PointHeights::depth(int point) const {
+  return is_rim(point) ? reach_ : flight_.rotation().depth(body_.vertices[static_cast<std::size_t>(point)]);
+}
+
+double PointHeights::noise(double time) const {
+  const State& start = flight_.start();
+  return 16 * epsilon *
+         (reach_ + std::fabs(start.position.z()) +
+          time * (std::fabs(start.velocity.z()) + flight_.gravity() / 2 * time));
+}
+
+double PointHeights::lowest_of_vertex(const Piece& piece, double tolerance) const {
+  const PointHeight &a = piece.from, &b = piece.to;
+  const double s = b.time - a.time;
+  const double start[3] = {a.height, a.velocity, a.acceleration}, end[3] = {b.height, b.velocity, b.acceleration};
+  return smallest(coefficients(s, start, end), s, piece.touching) - tolerance;
+}
+
+/// With the coefficients of v in place of v: the bound is exact at the ends only.
+double PointHeights::lowest_of_rim(const Rim& rim, const Piece& piece, double tolerance) const {
+  const FlightMoment &a = piece.start, &b = piece.end;
+  const double s = b.time - a.time;
+  const Vector3 start[3] = {a.vertical.direction, a.vertical.rate, a.vertical.second};
+  const Vector3 end[3] = {b.vertical.direction, b.vertical.rate, b.vertical.second};
+  const auto e = coefficients(s, start, end);
+  const double fall[3] = {a.centre, a.rate, -flight_.gravity()}, fell[3] = {b.centre, b.rate, -flight_.gravity()};
+  auto h = coefficients(s, fall, fell);
+  for (std::size_t k = 0; k < 6; ++k) {
+    const Vector3 v = e[k] - e[k].dot(rim.axis) * rim.axis;
+    h[k] += e[k].dot(rim.centre) - rim.radius * v.norm();
+  }
+  // What is known of the start better than its terms.
+  const double known = piece.from.height - h[0];
+  for (double& height : h) height += known;
+  return smallest(h, s, piece.touching) - tolerance;
+}
+
+void PointHeights::bend_of_vertex(const Piece& piece, HeightBounds& bounds) const {
+  const PointHeight &a = piece.from, &b = piece.to;
+  const double s = b.time - a.time;
+  const double near = reach_ * rates_[3] * s / 2;
+  bounds.least_bend = std::fmin(a.acceleration, b.acceleration) - near;
+  bounds.largest_bend = std::fmax(a.acceleration, b.acceleration) + near;
+  if (!(s * s > 1e-8 * reach_ * rates_[2])) return;
+  // Second differences of the coefficients, as long as rounding leaves them digits.
+  const double start[3] = {a.height, a.velocity, a.acceleration}, end[3] = {b.height, b.velocity, b.acceleration};
+  const auto c = coefficients(s, start, end);
+  double least = infinite, largest = -infinite;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double bend = 20 / (s * s) * (c[k + 2] - 2 * c[k + 1] + c[k]);
+    least = std::fmin(least, bend);
+    largest = std::fmax(largest, bend);
+  }
+  const double tolerance = bend_error * reach_ * rates_[6] * s * s * s * s + 160 / (s * s) * noise(b.time);
+  bounds.least_bend = std::fmax(bounds.least_bend, least - tolerance);
+  bounds.largest_bend = std::fmin(bounds.largest_bend, largest + tolerance);
+}
+
+/// From f = |v|: f f′ = v·v′, f′² + f f″ = |v′|² + v·v″, 3 f′f″ + f f‴ = 3 v′·v″ + v·v‴.
+void PointHeights::bend_of_rim(const Rim& rim, const Piece& piece, HeightBounds& bounds) const {
+  const PointHeight &a = piece.from, &b = piece.to;
+  const double s = b.time - a.time;
+  const auto across = [&](const FlightMoment& m) {
+    const Vector3& e = m.vertical.direction;
+    return (e - e.dot(rim.axis) * rim.axis).norm();
+  };
+  const double size = std::fmax(across(piece.start), across(piece.end)) - rates_[1] * s;
+  bounds.least_bend = -infinite;
+  bounds.largest_bend = infinite;
+  if (!(size > 0)) return;
+  const double third = rates_[3] + 3 * rates_[1] * (2 * rates_[2] + rates_[1] * rates_[1] / size) / size;
+  const double near = (rim.centre.norm() * rates_[3] + rim.radius * third) * s / 2;
+  bounds.least_bend = std::fmin(a.acceleration, b.acceleration) - near;
+  bounds.largest_bend = std::fmax(a.acceleration, b.acceleration) + near;
+}
+
+HeightBounds PointHeights::bounds(int point, const Piece& piece) const {
+  const double s = piece.to.time - piece.from.time;
+  const double sixth = rates_[6] * reach_ * s * s * s * s * s;
+  const double rounding = noise(piece.to.time);
+  const double tolerance =
+      piece.touching ? quotient_error * sixth + 2 * rounding / s : value_error * sixth * s + rounding;
+  HeightBounds bounds;
+  if (is_rim(point)) {
+    bounds.lowest = lowest_of_rim(rim(point), piece, tolerance);
+    bend_of_rim(rim(point), piece, bounds);
+  } else {
+    bounds.lowest = lowest_of_vertex(piece, tolerance);
+    bend_of_vertex(piece, bounds);
+  }
+  return bounds;
+}
+
+}  // namespace clatter::analytic::space

@@ -1,0 +1,86 @@
+// Height above the ground of a body's vertices and rims during a free flight, and bounds between two moments.
+//
+// With e = Aᵀ z, the vertical in body axes, a vertex at r has
+//     h = z + e·r,                                                                                  (1)
+// and the lowest point of a rim with centre c, unit axis a and radius ρ
+//     h = z + e·c − ρ |v|,   v = e − (e·a) a.                                                       (2)
+// Between two moments, s apart, e is within M₆ s⁶/46080 of the polynomial of degree 5 with the same e, ė, ë at both.
+// With ω̇ = B(ω, ω), |B(x, y)| <= γ |x| |y| and w >= |ω| at all times, ė = e × ω gives
+//     |e⁽ⁿ⁾| <= M_n = wⁿ (1 + γ)(1 + 2γ) … (1 + (n−1)γ).                                            (3)
+// A polynomial is nowhere below its smallest Bernstein coefficient; those of (2) are bounded with the coefficients of
+// v, since |v| is convex.
+#pragma once
+
+#include "analytic/space/free_flight.hpp"
+
+namespace clatter::analytic::space {
+
+/// A moment of a flight.
+struct FlightMoment {
+  double time = 0;    ///< [s]
+  double centre = 0;  ///< height of the centre of mass [m]
+  double rate = 0;    ///< its velocity [m/s]
+  Vertical vertical;
+};
+
+/// Height of a point at a moment.
+struct PointHeight {
+  double time = 0;          ///< [s]
+  double height = 0;        ///< h [m]
+  double velocity = 0;      ///< h′ [m/s]
+  double acceleration = 0;  ///< h″ [m/s²]; NaN where a rim lies flat
+};
+
+/// Bounds over a piece of a flight.
+struct HeightBounds {
+  double lowest = 0;        ///< of h, or of h/t for a point that touches at t = 0
+  double least_bend = 0;    ///< of h″
+  double largest_bend = 0;  ///< of h″
+};
+
+/// A piece of a flight between two moments, as the point sees it.
+struct Piece {
+  const FlightMoment& start;
+  const FlightMoment& end;
+  const PointHeight& from;
+  const PointHeight& to;
+  bool touching = false;  ///< from: h = 0 at t = 0
+};
+
+/// The heights of a body's vertices and rims.
+class PointHeights {
+ public:
+  PointHeights(const Body& body, const FreeFlight& flight);
+
+  [[nodiscard]] int count() const { return static_cast<int>(body_.vertices.size() + body_.rims.size()); }
+  [[nodiscard]] FlightMoment moment(double time) const;
+  [[nodiscard]] PointHeight at(int point, const FlightMoment& moment) const;
+  [[nodiscard]] HeightBounds bounds(int point, const Piece& piece) const;
+  /// Where the point touches the ground or is nearest to it, body frame [m].
+  [[nodiscard]] Vector3 place(int point, const Vertical& vertical) const;
+  /// Largest distance of a point from the centre of mass [m].
+  [[nodiscard]] double reach() const { return reach_; }
+  /// Bound on how far the point comes below the centre of mass at any time [m].
+  [[nodiscard]] double depth(int point) const;
+  /// Bound on |e⁽ⁿ⁾| of (3), n <= 6.
+  [[nodiscard]] double rate_bound(int n) const { return rates_[n]; }
+  /// Rounding error of a height at a moment [m].
+  [[nodiscard]] double noise(double time) const;
+
+ private:
+  [[nodiscard]] bool is_rim(int point) const { return point >= static_cast<int>(body_.vertices.size()); }
+  [[nodiscard]] const Rim& rim(int point) const {
+    return body_.rims[static_cast<std::size_t>(point) - body_.vertices.size()];
+  }
+  [[nodiscard]] double lowest_of_vertex(const Piece& piece, double tolerance) const;
+  [[nodiscard]] double lowest_of_rim(const Rim& rim, const Piece& piece, double tolerance) const;
+  void bend_of_vertex(const Piece& piece, HeightBounds& bounds) const;
+  void bend_of_rim(const Rim& rim, const Piece& piece, HeightBounds& bounds) const;
+
+  const Body& body_;
+  const FreeFlight& flight_;
+  double reach_;
+  double rates_[7];
+};
+
+}  // namespace clatter::analytic::space
