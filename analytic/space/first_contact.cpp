@@ -64,6 +64,7 @@ class Search {
       if (!known || h.velocity != 0 || found_.end == FlightEnd::contact) continue;
       if (h.acceleration < 0) {
         found_.end = FlightEnd::stays_touching;
+        found_.acceleration = h.acceleration;
         found_.point = point;
       }
     }
@@ -264,6 +265,7 @@ class Search {
     const PointHeight first =
         best_ == 0 ? from_[static_cast<std::size_t>(found_.point)] : heights_.at(found_.point, moment);
     found_.normal_velocity = first.velocity;
+    found_.acceleration = first.acceleration;
     if (best_ > 0 && hop_ && hop_time_ == best_) {
       found_.normal_velocity = hop_->velocity(best_);
       found_.velocity_error = 4 * epsilon * std::fabs(found_.normal_velocity);

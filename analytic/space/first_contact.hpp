@@ -30,6 +30,7 @@ struct FirstContact {
   bool within_margin = false;  ///< the graze is so slight that rounding decides whether it happens
   double normal_velocity = 0;  ///< h′ of `point` then [m/s]
   double velocity_error = 0;   ///< rounding error of normal_velocity [m/s]
+  double acceleration = 0;     ///< h″ of `point` then [m/s²]
   NearMiss near_miss;          ///< lowest turning point below a twentieth of the reach; infinite clearance: none
   int evaluations = 0;         ///< of the rotation
 };

@@ -1,0 +1,287 @@
+#include "analytic/space/error_growth.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace clatter::analytic::space {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double infinite = std::numeric_limits<double>::infinity();
+/// Bounds are this many standard deviations of the errors assumed.
+constexpr double deviations = 3;
+/// Relative step of central differences: rounding leaves ten digits, the second order twelve.
+constexpr double relative_step = 1e-6;
+/// Largest error of an attitude [rad], and share of a velocity, that counts as first order.
+constexpr double first_order = 0.02;
+/// Accuracy that impact.hpp promises for an impulse with friction.
+constexpr double friction_rounding = 1e-13;
+
+Matrix3 cross_matrix(const Vector3& v) {
+  Matrix3 m;
+  m << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0;
+  return m;
+}
+
+Quaternion turned(const Vector3& angle, const Quaternion& attitude) {
+  return (Quaternion(1, angle[0] / 2, angle[1] / 2, angle[2] / 2) * attitude).normalized();
+}
+
+/// Rotation vector from q to p, small.
+Vector3 small_rotation(const Quaternion& p, const Quaternion& q) {
+  const Quaternion d = p * q.conjugate();
+  return (d.w() < 0 ? -2 : 2) * d.vec();
+}
+
+State shifted(const State& state, int number, double step) {
+  State s = state;
+  const int axis = number % 3;
+  if (number < 3) s.attitude = turned(step * Vector3::Unit(axis), s.attitude);
+  else if (number < 6) s.velocity[axis] += step;
+  else s.angular_velocity[axis] += step;
+  return s;
+}
+
+}  // namespace
+
+RowErrors RowErrors::unknown() {
+  return {.predictable = false,
+          .start = infinite,
+          .attitude = infinite,
+          .approach_speed = infinite,
+          .impulse = infinite,
+          .velocity_after = infinite,
+          .angular_velocity_after = infinite,
+          .energy_before = infinite,
+          .energy_after = infinite};
+}
+
+ErrorGrowth::ErrorGrowth(const Body& body, const State& start, double gravity)
+    : body_(body), gravity_(gravity), inverse_inertia_(body.inertia.inverse()), factor_(size, 0) {
+  Eigen::Matrix<double, size, 1> d;
+  d << 0, Vector3::Constant(epsilon), epsilon * start.velocity.cwiseAbs(), epsilon * start.angular_velocity.cwiseAbs();
+  add(d);
+  of_drop_.setZero();
+  for (int k = 0; k < 3; ++k) {
+    of_drop_(1 + k, k) = 1;
+    of_drop_(4 + k, 3 + k) = start.velocity.norm();
+    of_drop_(7 + k, 6 + k) = start.angular_velocity.norm();
+  }
+}
+
+void ErrorGrowth::add(const Eigen::Matrix<double, size, 1>& d) {
+  const Eigen::Index columns = factor_.cols();
+  Factor wider(size, columns + size);
+  wider << factor_, Jacobian(d.asDiagonal());
+  if (wider.cols() > 2 * size) {  // F Fᵀ = (R Q)ᵀ… = Rᵀ R of Fᵀ
+    const Eigen::MatrixXd rows = wider.transpose();
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows);
+    const Eigen::MatrixXd upper = qr.matrixQR().topRows(size).triangularView<Eigen::Upper>();
+    wider = upper.transpose();
+  }
+  factor_ = wider;
+}
+
+void ErrorGrowth::advance(const Jacobian& jacobian) {
+  factor_ = (jacobian * factor_).eval();
+  of_drop_ = (jacobian * of_drop_).eval();
+}
+
+double ErrorGrowth::bound(const Eigen::MatrixXd& gradient) const {
+  const double value = deviations * (gradient * factor_).norm();
+  return std::isfinite(value) ? value : infinite;
+}
+
+/// Rows: P, V′, ω′; columns: δθ, V, ω.
+Eigen::MatrixXd ErrorGrowth::strike_jacobian(const Strike& strike, const ImpactRow& row) const {
+  const double reach = body_.reach();
+  const double speed = row.impact.contact_before.norm();
+  const double turning = row.before.angular_velocity.norm() * reach;
+  const double steps[3] = {relative_step * std::fmin(1.0, speed / std::fmax(turning, speed)), relative_step * speed,
+                           relative_step * speed / reach};
+  Eigen::MatrixXd derivatives(9, 9);
+  for (int k = 0; k < 9; ++k) {
+    const double step = steps[k / 3];
+    const Impact plus = strike(shifted(row.before, k, step)), minus = strike(shifted(row.before, k, -step));
+    derivatives.col(k) << plus.impulse - minus.impulse, plus.velocity_after - minus.velocity_after,
+        plus.angular_velocity_after - minus.angular_velocity_after;
+    derivatives.col(k) /= 2 * step;
+  }
+  return derivatives;
+}
+
+void ErrorGrowth::fill(const Eigen::MatrixXd& derivatives, ImpactRow& row) const {
+  const State& before = row.before;
+  const Vector3 arm = before.attitude * row.corners.front().place;
+  const Matrix3 axes = before.attitude.toRotationMatrix(), inertia = axes * body_.inertia * axes.transpose();
+  Eigen::MatrixXd time = Eigen::MatrixXd::Zero(1, size), approach = time, energy = time;
+  Eigen::MatrixXd angle = Eigen::MatrixXd::Zero(3, size), impulse = angle, velocity = angle, turning = angle;
+  time(0, 0) = 1;
+  angle.block<3, 3>(0, 1) = Matrix3::Identity();
+  impulse.rightCols(9) = derivatives.topRows(3);
+  velocity.rightCols(9) = derivatives.middleRows(3, 3);
+  turning.rightCols(9) = derivatives.bottomRows(3);
+  // u = V_z + (ω × r)_z, and energy with z = −r_z and the inertia turned.
+  const Vector3& w = before.angular_velocity;
+  approach.block<1, 3>(0, 1) = -(cross_matrix(w) * cross_matrix(arm)).row(2);
+  approach(0, 6) = 1;
+  approach.block<1, 3>(0, 7) = -cross_matrix(arm).row(2);
+  const Vector3 momentum = inertia * w;
+  energy.block<1, 3>(0, 1) = momentum.cross(w).transpose() + body_.mass * gravity_ * cross_matrix(arm).row(2);
+  energy.block<1, 3>(0, 4) = body_.mass * before.velocity.transpose();
+  energy.block<1, 3>(0, 7) = momentum.transpose();
+  Eigen::MatrixXd energy_after = Eigen::MatrixXd::Zero(1, size);
+  const Vector3 momentum_after = inertia * row.impact.angular_velocity_after;
+  energy_after.block<1, 3>(0, 1) = energy.block<1, 3>(0, 1) - momentum.cross(w).transpose() +
+                                   momentum_after.cross(row.impact.angular_velocity_after).transpose();
+  energy_after += body_.mass * row.impact.velocity_after.transpose() * velocity + momentum_after.transpose() * turning;
+  const bool rubs = row.impact.path != PathKind::frictionless;
+  const double rounding = (rubs ? friction_rounding : 16 * epsilon) * row.impact.impulse.norm();
+  const double lever = inverse_inertia_.norm() * body_.reach();
+  const double size_of_energy = std::fabs(row.energy_before) + std::fabs(row.energy_after);
+  RowErrors& e = row.error;
+  e.predictable = true;
+  e.start = row.start == 0 ? 0 : bound(time) + epsilon * row.start;
+  e.attitude = bound(angle) + 4 * epsilon;
+  e.approach_speed = bound(approach) + 4 * epsilon * (before.velocity.norm() + w.norm() * body_.reach());
+  e.impulse = bound(impulse) + rounding;
+  e.velocity_after = bound(velocity) + rounding / body_.mass + 4 * epsilon * before.velocity.norm();
+  e.angular_velocity_after = bound(turning) + rounding * lever + 4 * epsilon * w.norm();
+  e.energy_before = bound(energy) + 8 * epsilon * size_of_energy;
+  e.energy_after =
+      bound(energy_after) + 8 * epsilon * size_of_energy +
+      rounding * (row.impact.velocity_after.norm() + body_.reach() * row.impact.angular_velocity_after.norm());
+}
+
+void ErrorGrowth::strike(const Strike& strike, ImpactRow& row) {
+  row.error = RowErrors::unknown();
+  row.amplification = std::numeric_limits<double>::quiet_NaN();
+  const bool turns = row.before.angular_velocity.norm() > 0;
+  if (row.group && row.start > 0 && turns) predictable_ = false;
+  if (!predictable_) return;
+  if (!(row.approach_speed > 0) || row.impact.impulse.norm() == 0) {
+    predictable_ = false;
+    return;
+  }
+  Eigen::MatrixXd derivatives;
+  try {
+    derivatives = strike_jacobian(strike, row);
+  } catch (const std::runtime_error&) {  // a neighbour jams, or cannot be computed
+    predictable_ = false;
+    return;
+  }
+  if (!derivatives.allFinite()) {
+    predictable_ = false;
+    return;
+  }
+  fill(derivatives, row);
+  const double of_time = row.start > 0 ? of_drop_.row(0).norm() / row.start : 0;
+  const double of_impulse = (derivatives.topRows(3) * of_drop_.bottomRows(9)).norm() / row.impact.impulse.norm();
+  row.amplification = std::fmax(std::fmax(of_time, of_impulse), of_drop_.middleRows(1, 3).norm());
+
+  Jacobian jacobian = Jacobian::Identity();
+  jacobian.bottomRightCorner(6, 9) = derivatives.bottomRows(6);
+  advance(jacobian);
+  const bool rubs = row.impact.path != PathKind::frictionless;
+  const double rounding = (rubs ? friction_rounding : 8 * epsilon) * row.impact.impulse.norm();
+  const double in_velocity =
+      rounding / body_.mass + epsilon * (row.before.velocity.norm() + row.impact.velocity_after.norm());
+  const double in_turning = rounding * inverse_inertia_.norm() * body_.reach() +
+                            epsilon * (row.before.angular_velocity.norm() + row.impact.angular_velocity_after.norm());
+  Eigen::Matrix<double, size, 1> d;
+  d << 0, Vector3::Constant(epsilon), Vector3::Constant(in_velocity), Vector3::Constant(in_turning);
+  add(d);
+}
+
+ErrorGrowth::Jacobian ErrorGrowth::flight_jacobian(const FreeFlight& flight, double time) const {
+  const State& start = flight.start();
+  const double speed = start.angular_velocity.norm();
+  const double step = speed > 0 ? relative_step * speed / (1 + speed * time) : relative_step / time;
+  const PrincipalAxes principal(body_.inertia);
+  const State now = flight.at(time);
+  Matrix3 of_attitude, of_velocity;
+  for (int k = 0; k < 3; ++k) {
+    const State plus = FreeFlight(principal, shifted(start, 6 + k, step), gravity_).at(time);
+    const State minus = FreeFlight(principal, shifted(start, 6 + k, -step), gravity_).at(time);
+    of_attitude.col(k) = small_rotation(plus.attitude, minus.attitude) / (2 * step);
+    of_velocity.col(k) = (plus.angular_velocity - minus.angular_velocity) / (2 * step);
+  }
+  // A turn of attitude and ω together turns the whole motion.
+  const Matrix3 turn = cross_matrix(start.angular_velocity);
+  Jacobian j = Jacobian::Identity();
+  j.block<3, 3>(1, 1) = Matrix3::Identity() + of_attitude * turn;
+  j.block<3, 3>(1, 7) = of_attitude;
+  j.block<3, 3>(7, 1) = -cross_matrix(now.angular_velocity) + of_velocity * turn;
+  j.block<3, 3>(7, 7) = of_velocity;
+  return j;
+}
+
+void ErrorGrowth::fly(const FreeFlight& flight, const FirstContact& contact, const Vector3& from_place,
+                      const Vector3& to_place) {
+  if (!predictable_ || !(contact.time > 0)) {
+    predictable_ = false;
+    return;
+  }
+  const double t = contact.time;
+  const State now = flight.at(t);
+  Jacobian j = flight_jacobian(flight, t);
+  const Vector3 from = flight.start().attitude * from_place, to = now.attitude * to_place;
+  Eigen::Matrix<double, 1, size> height = -cross_matrix(to).row(2) * j.middleRows(1, 3);
+  height.segment<3>(1) += cross_matrix(from).row(2);
+  height[6] += t;
+  const Eigen::Matrix<double, 1, size> shift = -height / contact.normal_velocity;
+  const Vector3 body_velocity = now.attitude.conjugate() * now.angular_velocity;
+  const Vector3 acceleration = now.attitude * (inverse_inertia_ * (body_.inertia * body_velocity).cross(body_velocity));
+  j.row(0) += shift;
+  j.middleRows(1, 3) += now.angular_velocity * shift;
+  j.row(6) -= gravity_ * shift;
+  j.bottomRows(3) += acceleration * shift;
+  advance(j);
+  const double size_of_height = body_.reach() + t * (flight.start().velocity.norm() + gravity_ * t);
+  const double turned_by = 1 + 1e-3 * flight.rotation().fastest() * t;
+  Eigen::Matrix<double, size, 1> d;
+  d << epsilon * t + 2 * epsilon * size_of_height / std::fabs(contact.normal_velocity),
+      Vector3::Constant(2 * epsilon * turned_by), Vector3::Constant(epsilon * (now.velocity.norm() + gravity_ * t)),
+      Vector3::Constant(2 * epsilon * now.angular_velocity.norm());
+  add(d);
+  // First order holds while the shift of the touch changes h′ little.
+  Eigen::MatrixXd time = Eigen::MatrixXd::Zero(1, size), angle = Eigen::MatrixXd::Zero(3, size);
+  time(0, 0) = 1;
+  angle.block<3, 3>(0, 1) = Matrix3::Identity();
+  const double late = bound(time);
+  if (!(late * std::fabs(contact.acceleration) <= first_order * std::fabs(contact.normal_velocity)) ||
+      !(bound(angle) <= first_order) || contact.within_margin) {
+    predictable_ = false;
+  }
+  if (predictable_) check_others(flight, contact);
+}
+
+/// Height of a point that neither departed nor arrived: error of attitude and of the parabola.
+double ErrorGrowth::height_bound(double time) const {
+  Eigen::MatrixXd angle = Eigen::MatrixXd::Zero(3, size), fall = Eigen::MatrixXd::Zero(1, size);
+  angle.block<3, 3>(0, 1) = Matrix3::Identity();
+  fall(0, 6) = time;
+  return 2 * body_.reach() * bound(angle) + bound(fall);
+}
+
+/// No other point may be so near the ground that the errors let it arrive first.
+void ErrorGrowth::check_others(const FreeFlight& flight, const FirstContact& contact) {
+  const double errs = height_bound(contact.time);
+  if (!(contact.near_miss.clearance > errs)) predictable_ = false;
+  const PointHeights heights(body_, flight);
+  const FlightMoment moment = heights.moment(contact.time);
+  for (int i = 0; i < heights.count(); ++i) {
+    if (std::find(contact.together.begin(), contact.together.end(), i) != contact.together.end()) continue;
+    const PointHeight h = heights.at(i, moment);
+    if (h.velocity < 0 && !(h.height > errs)) predictable_ = false;
+  }
+}
+
+void ErrorGrowth::end_without_contact(const FirstContact& contact) {
+  if (!(contact.near_miss.clearance > height_bound(contact.near_miss.time))) predictable_ = false;
+}
+
+}  // namespace clatter::analytic::space

@@ -1,0 +1,61 @@
+// How errors of a drop in space and of rounding grow along its sequence.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+
+#include "analytic/space/sequence.hpp"
+
+namespace clatter::analytic::space {
+
+/// Errors of the state (t, δθ, δV, δω) at touch and departure, to first order: δθ the rotation vector of the attitude's
+/// error, everything in the world frame; the height of the centre of mass follows from the touch.
+///
+/// Impact: central differences of the impact in δθ, V and ω.  Flight, at a fixed time: δθ and δV in closed form,
+/// δω by central differences of the rotation; then the touch at h = 0 shifts the time by
+///     δt = −δh/h′,   δh = −(δθ₀ × r₀)_z + t δV_z + (δθ₁ × r₁)_z,                                       (1)
+/// r₀, r₁ from the centre of mass to the corner that departed and the one that arrives.
+/// Independent errors are columns of a factor F of the covariance F Fᵀ; bounds are three standard deviations.
+/// Domain: errors so small that (1) is linear; beyond, nothing is predictable any more, nor is a row whose corner
+/// another one precedes within the errors, nor what follows corners that arrive together (their order, which rounding
+/// decides, matters), unless the body does not turn.
+class ErrorGrowth {
+ public:
+  /// Errors of the drop: one unit in the last place of each number.
+  ErrorGrowth(const Body& body, const State& start, double gravity);
+
+  /// Impulse and velocities after an impact, as a function of the state before.
+  using Strike = std::function<Impact(const State&)>;
+  /// Fills in the row's errors and amplification, and carries the errors through the impact.
+  void strike(const Strike& strike, ImpactRow& row);
+  /// Carries the errors through a flight.
+  void fly(const FreeFlight& flight, const FirstContact& contact, const Vector3& from_place, const Vector3& to_place);
+  /// After a flight without contact: whether the errors leave that certain.
+  void end_without_contact(const FirstContact& contact);
+
+  [[nodiscard]] bool predictable() const { return predictable_; }
+  void give_up() { predictable_ = false; }
+
+ private:
+  static constexpr int size = 10;
+  using Factor = Eigen::Matrix<double, size, Eigen::Dynamic>;
+  using Jacobian = Eigen::Matrix<double, size, size>;
+
+  void add(const Eigen::Matrix<double, size, 1>& deviations);
+  void advance(const Jacobian& jacobian);
+  [[nodiscard]] Eigen::MatrixXd strike_jacobian(const Strike& strike, const ImpactRow& row) const;
+  void fill(const Eigen::MatrixXd& derivatives, ImpactRow& row) const;
+  [[nodiscard]] Jacobian flight_jacobian(const FreeFlight& flight, double time) const;
+  void check_others(const FreeFlight& flight, const FirstContact& contact);
+  [[nodiscard]] double bound(const Eigen::MatrixXd& gradient) const;
+  [[nodiscard]] double height_bound(double time) const;
+
+  const Body& body_;
+  double gravity_;
+  Matrix3 inverse_inertia_;
+  Factor factor_;
+  Eigen::Matrix<double, size, 9> of_drop_;  ///< changes of the state for changes of the drop
+  bool predictable_ = true;
+};
+
+}  // namespace clatter::analytic::space

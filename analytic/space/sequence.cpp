@@ -1,0 +1,378 @@
+#include "analytic/space/sequence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "analytic/errors.hpp"
+#include "analytic/space/error_growth.hpp"
+#include "analytic/space/sequence_units.hpp"
+#include "analytic/space/tail.hpp"
+
+namespace clatter::analytic::space {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+void require(bool holds, const char* field, double value, const char* allowed) {
+  if (holds) return;
+  std::ostringstream text;
+  text.precision(17);
+  text << field << " = " << value << ": must be " << allowed;
+  throw std::domain_error(text.str());
+}
+
+Impact impact_of(const GroupImpact& group, const State& before, const Vector3& place) {
+  const Vector3 arm = before.attitude * place;
+  return {.impulse = group.impulse,
+          .contact_before = before.velocity + before.angular_velocity.cross(arm),
+          .contact_after = group.velocity_after + group.angular_velocity_after.cross(arm),
+          .velocity_after = group.velocity_after,
+          .angular_velocity_after = group.angular_velocity_after,
+          .compression_impulse = missing,
+          .slip_stop_impulse = missing,
+          .least_slip = missing,
+          .energy_loss = group.energy_loss,
+          .path = group.path};
+}
+
+/// The loop of impacts, in internal units.
+class Run {
+ public:
+  Run(const Drop& drop, const SequenceOptions& options)
+      : drop_(drop), body_(drop_.body), options_(options), principal_(body_.inertia), reach_(body_.reach()) {
+    state_.attitude = drop.attitude.normalized();
+    state_.velocity = drop.velocity;
+    state_.angular_velocity = drop.angular_velocity;
+  }
+
+  Sequence run() {
+    const std::vector<int> lowest = touch_down();
+    if (options_.amplification) growth_.emplace(body_, state_, drop_.gravity);
+    try {
+      go_on(lowest);
+    } catch (const NumericalError& error) {
+      end_early(Outcome::not_computed, error);
+    } catch (const OutsideModelError& error) {
+      end_early(Outcome::outside_model, error);
+    }
+    finish_errors();
+    return std::move(result_);
+  }
+
+  /// Energy created by the law, and the first impact to do so.
+  [[nodiscard]] double created() const { return created_; }
+  [[nodiscard]] std::size_t first_creating() const { return first_creating_; }
+
+ private:
+  /// Called while the error is handled; the rows so far are kept.
+  void end_early(Outcome outcome, const std::exception& error) {
+    if (result_.rows.empty()) throw;
+    result_.outcome = outcome;
+    result_.message = error.what();
+  }
+
+  void finish_errors() {
+    result_.end_predictable = growth_ && growth_->predictable();
+    if (!growth_ || growth_->predictable()) return;
+    result_.message += "; errors have grown so far that another sequence is possible";
+    std::size_t known = 0;
+    for (const ImpactRow& row : result_.rows) known += row.error.predictable ? 1 : 0;
+    if (known < result_.rows.size()) result_.message += " from impact " + std::to_string(known + 1) + " on";
+  }
+
+  /// Puts the lowest points on the ground; returns those.
+  std::vector<int> touch_down() {
+    const FreeFlight flight(principal_, state_, 0);
+    const PointHeights heights(body_, flight);
+    const FlightMoment start = heights.moment(0);
+    double least = std::numeric_limits<double>::infinity(), fastest = least;
+    for (int i = 0; i < heights.count(); ++i) least = std::fmin(least, heights.at(i, start).height);
+    std::vector<int> lowest;
+    for (int i = 0; i < heights.count(); ++i) {
+      const PointHeight h = heights.at(i, start);
+      if (!(h.height - least <= 32 * epsilon * reach_)) continue;
+      lowest.push_back(i);
+      fastest = std::fmin(fastest, h.velocity);
+    }
+    if (!(fastest < 0)) {
+      throw std::domain_error(
+          "the first contact does not approach the ground: velocity and angular velocity must bring it down");
+    }
+    state_.position = Vector3(0, 0, -least);
+    return lowest;
+  }
+
+  void go_on(std::vector<int> arriving) {
+    FirstContact flown;
+    for (;;) {
+      record(arriving, flown);
+      if (accumulates() || full()) return;
+      const ImpactRow& last = result_.rows.back();
+      const FreeFlight flight(principal_, state_, drop_.gravity);
+      flown = first_contact(body_, flight, touches_);
+      result_.evaluations += flown.evaluations;
+      if (flown.end != FlightEnd::contact) return end_without_contact(flown);
+      if (flown.time == 0 && last.impact.impulse.norm() == 0) return stall();
+      arriving = flown.together;
+      arrive(flight, flown, last.corners.front().place);
+    }
+  }
+
+  /// The state before the impact: the height of the centre of mass is that of the corner that touches.
+  void arrive(const FreeFlight& flight, const FirstContact& flown, const Vector3& from) {
+    State now = flown.time > 0 ? flight.at(flown.time) : state_;
+    const Vector3 place = place_of(now, flown.point);
+    now.position.z() = -(now.attitude * place).z();
+    if (growth_) growth_->fly(flight, flown, from, place);
+    state_ = now;
+    time_ += flown.time;
+  }
+
+  [[nodiscard]] Vector3 place_of(const State& state, int point) const {
+    const auto index = static_cast<std::size_t>(point);
+    if (index < body_.vertices.size()) return body_.vertices[index];
+    const auto& [c, a, radius] = body_.rims[index - body_.vertices.size()];
+    const Vector3 e = state.attitude.conjugate() * Vector3::UnitZ(), v = e - e.dot(a) * a;
+    return v.norm() > 0 ? Vector3(c - radius / v.norm() * v) : c;
+  }
+
+  [[nodiscard]] double energy(const State& s) const {
+    const Vector3 w = s.attitude.conjugate() * s.angular_velocity;
+    return body_.mass * (drop_.gravity * s.position.z() + s.velocity.squaredNorm() / 2) + w.dot(body_.inertia * w) / 2;
+  }
+
+  void record(const std::vector<int>& arriving, const FirstContact& flown) {
+    ImpactRow row;
+    row.start = time_;
+    row.before = state_;
+    row.energy_before = energy(state_);
+    row.flight = flown;
+    row.amplification = missing;
+    row.error = RowErrors::unknown();
+    for (const int point : arriving) row.corners.push_back({point, place_of(state_, point)});
+    strike(row);
+    state_.velocity = row.impact.velocity_after;
+    state_.angular_velocity = row.impact.angular_velocity_after;
+    row.energy_after = energy(state_);
+    leave(row);
+    result_.total_normal_impulse += row.impact.impulse.z();
+    warn_of_energy(row.impact);
+    if (growth_) grow(row);
+    if (!result_.rows.empty()) accumulation_.add(row);
+    result_.rows.push_back(std::move(row));
+  }
+
+  void strike(ImpactRow& row) const {
+    const Corner& corner = row.corners.front();
+    if (row.corners.size() > 1) {
+      row.group = strike_together(body_, row.before, row.corners, drop_.law);
+      row.impact = impact_of(*row.group, row.before, corner.place);
+      row.approach_speed = row.group->approach_speed;
+      return;
+    }
+    ContactVelocity velocity = contact_velocity(row.before, corner.place);
+    // A small hop knows its normal velocity better.
+    if (row.flight.time > 0 && row.flight.velocity_error < 2 * epsilon * velocity.scale) {
+      velocity.value.z() = row.flight.normal_velocity;
+    }
+    row.impact = space::strike(body_, row.before, velocity, corner.place, drop_.law);
+    row.approach_speed = -velocity.value.z();
+  }
+
+  /// How the corners that arrived leave.
+  void leave(const ImpactRow& row) {
+    touches_.clear();
+    const bool plastic = drop_.law.law.restitution == 0 && drop_.law.law.law != RestitutionLaw::viscoelastic;
+    for (const Corner& corner : row.corners) {
+      const ContactVelocity velocity = contact_velocity(state_, corner.place);
+      double normal = row.group ? velocity.value.z() : row.impact.contact_after.z();
+      const bool rounding = std::fabs(normal) <= 16 * epsilon * velocity.scale;
+      if (rounding && (row.group || plastic)) normal = 0;
+      touches_.push_back({corner.index, normal});
+    }
+  }
+
+  void grow(ImpactRow& row) {
+    const ErrorGrowth::Strike again = [&](const State& before) {
+      if (row.group) {
+        const GroupImpact group = strike_together(body_, before, row.corners, drop_.law);
+        return impact_of(group, before, row.corners.front().place);
+      }
+      return space::strike(body_, before, place_of(before, row.corners.front().index), drop_.law);
+    };
+    growth_->strike(again, row);
+  }
+
+  void warn_of_energy(const Impact& impact) {
+    const double kinetic = result_.rows.empty() ? 1 : result_.rows.front().energy_before;
+    if (impact.energy_loss >= -1e-12 * kinetic) return;  // rounding of an elastic impact
+    created_ -= impact.energy_loss;
+    if (first_creating_ == 0) first_creating_ = result_.rows.size() + 1;
+  }
+
+  [[nodiscard]] bool last_row() const { return static_cast<int>(result_.rows.size()) >= options_.impacts; }
+
+  bool full() {
+    if (!last_row()) return false;
+    result_.outcome = Outcome::impact_limit;
+    result_.message = "as many impacts as asked for; more may follow";
+    return true;
+  }
+
+  /// Whether infinitely many impacts follow that need no more rows: a bouncing in closed form fills the rows asked for
+  /// first, as far as its speeds and times are numbers.
+  bool accumulates() {
+    constexpr double least = std::numeric_limits<double>::min() / epsilon;
+    const ImpactRow& last = result_.rows.back();
+    if (auto tail = bouncing_tail(drop_, last)) {
+      const double speed = last.impact.velocity_after.z();
+      if (!last_row() && speed > least && speed > least * drop_.gravity) return false;
+      finish(*tail);
+      return true;
+    }
+    return may_accumulate(drop_.law.law) && drop_.gravity > 0 && extrapolated_end();
+  }
+
+  bool extrapolated_end() {
+    constexpr double ulps = 4 * epsilon;
+    auto tail = accumulation_.extrapolate({.relative = std::pow(10.0, -options_.digits),
+                                           .time = ulps * time_,
+                                           .impulse = ulps * result_.total_normal_impulse});
+    if (!tail || !undisturbed(*tail)) return false;
+    end_state(body_, result_.rows.back(), accumulation_.lever(*tail), *tail);
+    tail->end_time += time_;
+    finish(*tail);
+    return true;
+  }
+
+  /// No other point reaches the ground before twice the remaining time has passed, whatever the impulses to come do.
+  [[nodiscard]] bool undisturbed(const Tail& tail) const {
+    const FreeFlight flight(principal_, state_, drop_.gravity);
+    const PointHeights heights(body_, flight);
+    const FlightMoment now = heights.moment(0);
+    const double impulse = tail.normal_impulse + tail.tangential_impulse.norm(), time = 2 * tail.end_time;
+    const double jump = impulse / body_.mass + impulse * reach_ * reach_ / static_cast<double>(principal_.moments[0]);
+    const double speed = state_.angular_velocity.norm() + jump / reach_;
+    const double bend = drop_.gravity + 2 * speed * speed * reach_;
+    for (int i = 0; i < heights.count(); ++i) {
+      if (std::find(tail.corners.begin(), tail.corners.end(), i) != tail.corners.end()) continue;
+      const PointHeight h = heights.at(i, now);
+      if (!(h.height + std::fmin(h.velocity - jump, 0.0) * time - bend / 2 * time * time > 0)) return false;
+    }
+    return true;
+  }
+
+  void finish(Tail tail) {
+    if (!growth_ || !growth_->predictable()) {
+      tail.end_time_error = tail.normal_impulse_error = std::numeric_limits<double>::infinity();
+    }
+    result_.total_normal_impulse += tail.normal_impulse;
+    const bool turns = tail.angular_velocity_after != Vector3::Zero();
+    rest(turns, tail.velocity_after.head<2>() != Vector2::Zero(),
+         tail.closed_form ? "infinitely many impacts end in a finite time (geometric series)"
+                          : "infinitely many impacts end in a finite time (extrapolated)");
+    result_.tail = std::move(tail);
+  }
+
+  /// The contact has come to rest; has the body?
+  void rest(bool turns, bool slides, const std::string& how) {
+    result_.outcome = turns ? Outcome::sustained_contact : Outcome::at_rest;
+    result_.message = how + "; " +
+                      (turns    ? "the body still turns while it stays on the ground, which impacts do not describe"
+                       : slides ? "the body slides on"
+                                : "the body is at rest");
+  }
+
+  void end_without_contact(const FirstContact& flown) {
+    if (growth_) growth_->end_without_contact(flown);
+    if (flown.end == FlightEnd::stays_touching) {
+      result_.end_acceleration = flown.acceleration;
+      rest(state_.angular_velocity != Vector3::Zero(), state_.velocity.head<2>() != Vector2::Zero(), "no rebound");
+      return;
+    }
+    result_.outcome = Outcome::no_further_impact;
+    result_.near_miss = flown.near_miss;
+    result_.message = flown.near_miss.within_margin()
+                          ? "the next impact is a graze so slight that rounding decides; taken as a miss"
+                          : "nothing reaches the ground any more";
+  }
+
+  /// Corners approach, but so slowly that no impulse comes of it.
+  void stall() {
+    if (growth_) growth_->give_up();
+    rest(state_.angular_velocity != Vector3::Zero(), state_.velocity.head<2>() != Vector2::Zero(),
+         "what is left of the corners' approach is rounding");
+  }
+
+  const Drop drop_;
+  const Body& body_;
+  const SequenceOptions& options_;
+  PrincipalAxes principal_;
+  double reach_;
+  State state_;
+  double time_ = 0;
+  std::vector<Touch> touches_;
+  SpaceAccumulation accumulation_;
+  std::optional<ErrorGrowth> growth_;
+  Sequence result_;
+  double created_ = 0;
+  std::size_t first_creating_ = 0;
+};
+
+/// Numbers that leave the doubles on the way back to SI units.
+void require_representable(const Sequence& sequence) {
+  for (const ImpactRow& row : sequence.rows) {
+    const Impact& impact = row.impact;
+    if (std::isfinite(row.start) && impact.impulse.allFinite() && impact.velocity_after.allFinite() &&
+        impact.angular_velocity_after.allFinite() && std::isfinite(row.energy_after)) {
+      continue;
+    }
+    throw NumericalError("a time, impulse, velocity or energy of the sequence is beyond the doubles");
+  }
+}
+
+}  // namespace
+
+void Drop::validate() const {
+  body.validate();
+  law.validate();
+  require(std::isfinite(attitude.norm()) && attitude.norm() > 0, "length of the attitude's Euler parameters",
+          attitude.norm(), "above 0 and finite");
+  for (int i = 0; i < 3; ++i) {
+    require(std::isfinite(velocity[i]), "velocity", velocity[i], "finite");
+    require(std::isfinite(angular_velocity[i]), "angular velocity", angular_velocity[i], "finite");
+  }
+  require(gravity >= 0 && std::isfinite(gravity), "gravity", gravity, "at least 0 and finite");
+}
+
+Sequence impact_sequence(const Drop& drop, const SequenceOptions& options) {
+  drop.validate();
+  options.validate();
+  const SequenceUnits units(drop);
+  const Drop internal = units.to_internal(drop);
+  try {
+    internal.validate();
+  } catch (const std::domain_error&) {
+    throw NumericalError("the ratio of the drop's speeds, lengths or gravity is beyond double precision");
+  }
+  Run run(internal, options);
+  Sequence sequence = run.run();
+  units.to_si(sequence);
+  require_representable(sequence);
+  if (run.first_creating() > 0) {
+    std::ostringstream text;
+    text.precision(6);
+    text << (drop.law.law.friction == FrictionKind::coulomb ? "the law of restitution, with friction,"
+                                                            : "the impulse ratio")
+         << " creates energy: " << units.energy(run.created()) << " J in all, from impact " << run.first_creating()
+         << " on";
+    sequence.warnings.push_back(text.str());
+  }
+  return sequence;
+}
+
+}  // namespace clatter::analytic::space
