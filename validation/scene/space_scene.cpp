@@ -1,0 +1,145 @@
+#include "validation/scene/space_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analytic/errors.hpp"
+#include "analytic/space/shapes.hpp"
+#include "validation/output/number.hpp"
+#include "validation/scene/bad_input.hpp"
+#include "validation/scene/body_properties.hpp"
+#include "validation/scene/discrete_scene.hpp"
+#include "validation/scene/hull.hpp"
+
+namespace clatter::validation {
+namespace {
+
+namespace space = analytic::space;
+using numeric::Vector3;
+
+/// The points that the convex hull of all needs, each once.
+std::vector<Vector3> hull_corners(const std::vector<Vector3>& points, double size) {
+  constexpr double same = 1e-9;  // of the size, as is_outside_hull has it
+  std::vector<Vector3> distinct;
+  for (const Vector3& point : points) {
+    const auto equals = [&](const Vector3& other) { return (other - point).norm() <= same * size; };
+    if (std::none_of(distinct.begin(), distinct.end(), equals)) distinct.push_back(point);
+  }
+  std::vector<Vector3> corners;
+  for (std::size_t i = 0; i < distinct.size(); ++i) {
+    std::vector<Vector3> others = distinct;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    if (others.empty() || is_outside_hull(distinct[i], others)) corners.push_back(distinct[i]);
+  }
+  return corners;
+}
+
+/// Height of the centre of mass above the lowest vertex or rim.
+double touch_height(const space::Body& body, const space::Quaternion& attitude) {
+  const space::Vector3 up = attitude.conjugate() * space::Vector3::UnitZ();
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const space::Vector3& vertex : body.vertices) lowest = std::fmin(lowest, up.dot(vertex));
+  for (const space::Rim& rim : body.rims)
+    lowest = std::fmin(lowest, up.dot(rim.centre) - rim.radius * up.cross(rim.axis).norm());
+  return -lowest;
+}
+
+/// Downward speed at the touch after a fall from `height`.
+double fallen_speed(double height, double gravity, double touch) {
+  if (!(height > touch)) {
+    throw BadInput(
+        fmt::format("drop.height = {}: must be greater than {} m, the height of the centre of mass at the first touch",
+                    shortest(height), significant(touch, 6)));
+  }
+  return std::sqrt(2 * gravity * (height - touch));
+}
+
+/// By sizes alone, about the centre of mass.
+space::Body simple_body(const Scene& scene) {
+  const BodyScene& body = scene.body;
+  const BodyProperties properties = nominal_properties(scene);
+  space::Body made = body.shape == BodyScene::Shape::rod
+                         ? space::cylinder(body.mass, {.length = body.length, .radius = body.radius})
+                         : space::box(body.mass, {.size = body.size, .centre = Vector3::Zero()});
+  if (!body.inertia.empty()) made.inertia = body.mass * properties.gyration_square;
+  for (space::Vector3& vertex : made.vertices) vertex -= properties.centre;
+  for (space::Rim& rim : made.rims) rim.centre -= properties.centre;
+  return made;
+}
+
+}  // namespace
+
+bool is_planar(const Scene& scene, const numeric::Body& body) {
+  if (!reason_in_space(scene).empty()) return false;
+  try {
+    static_cast<void>(planar_body(body));
+    return true;
+  } catch (const analytic::OutsideModelError&) {
+    return false;
+  }
+}
+
+bool is_planar(const Scene& scene) {
+  if (scene.body.shape == BodyScene::Shape::mesh) return is_planar(scene, scene.make_body());
+  return reason_in_space(scene).empty();
+}
+
+space::Body space_body(const numeric::Body& body) {
+  return space::polyhedron(hull_corners(body.facets().vertices, body.radius()),
+                           {.mass = body.mass(), .centre = Vector3::Zero(), .inertia = body.inertia()});
+}
+
+space::Drop space_drop(const Scene& scene, const numeric::Body& body) {
+  const numeric::Ground& ground = scene.ground;
+  if (ground.has_friction() && ground.friction == numeric::FrictionLaw::regularised) {
+    throw analytic::OutsideModelError(
+        "the discrete model has Coulomb's law; regularised friction creeps instead of sticking");
+  }
+  const numeric::MotionState start = scene.start(body);
+  space::Drop drop{.body = space_body(body),
+                   .attitude = start.attitude,
+                   .velocity = start.velocity,
+                   .angular_velocity = scene.touch_angular_velocity(),
+                   .gravity = scene.options.gravity,
+                   .law = {}};
+  drop.law.law = {.law = analytic::RestitutionLaw::viscoelastic,
+                  .damping_per_stiffness = ground.damping / ground.stiffness};
+  if (ground.has_friction()) {
+    drop.law.law.friction = analytic::FrictionKind::coulomb;
+    drop.law.law.friction_value = ground.sliding_friction;
+  }
+  return drop;
+}
+
+space::Body nominal_space_body(const Scene& scene) {
+  return scene.body.shape == BodyScene::Shape::mesh ? space_body(scene.make_body()) : simple_body(scene);
+}
+
+space::Drop impact_space_drop(const Scene& scene) {
+  space::Drop drop{.body = nominal_space_body(scene),
+                   .attitude = scene.touch_attitude(),
+                   .velocity = scene.touch_velocity(),
+                   .angular_velocity = scene.touch_angular_velocity(),
+                   .gravity = scene.options.gravity,
+                   .law = {}};
+  drop.law.law = impact_law(scene);
+  if (scene.height)
+    drop.velocity.z() = -fallen_speed(*scene.height, drop.gravity, touch_height(drop.body, drop.attitude));
+  return drop;
+}
+
+std::string corner_name(const Scene& scene, const space::Corner& corner) {
+  const double x = corner.place.x(), y = corner.place.y(), z = corner.place.z();
+  const auto sign = [](double coordinate) { return coordinate < 0 ? '-' : '+'; };
+  switch (scene.body.shape) {
+    case BodyScene::Shape::rod: return x < 0 ? "a" : "b";
+    case BodyScene::Shape::box: return fmt::format("{}x{}y{}z", sign(x), sign(y), sign(z));
+    case BodyScene::Shape::mesh: break;
+  }
+  return std::to_string(corner.index + 1);
+}
+
+}  // namespace clatter::validation
