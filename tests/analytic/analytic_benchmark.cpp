@@ -9,6 +9,7 @@
 
 #include "analytic/contact_angles.hpp"
 #include "analytic/sequence.hpp"
+#include "tests/analytic/space/random_contact.hpp"
 
 namespace {
 
@@ -105,6 +106,26 @@ void fold_angle(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(regime_boundary(ImpactNumber::second, {}));
 }
 BENCHMARK(fold_angle);
+
+/// Random corners in space, each with the restitution laws in turn.
+void corner_in_space(benchmark::State& state, double most_friction) {
+  clatter::oracle::Random random(3);
+  std::vector<clatter::oracle::Collision> collisions;
+  std::vector<space::Law> laws;
+  for (int i = 0; i < 1024; ++i) {
+    collisions.push_back(clatter::oracle::random_collision(random));
+    laws.push_back(clatter::oracle::random_law(random, most_friction));
+  }
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const auto& c = collisions[i % collisions.size()];
+    benchmark::DoNotOptimize(space::strike(c.body, c.before, c.place, laws[i++ % laws.size()]));
+  }
+}
+void frictionless_corner_in_space(benchmark::State& state) { corner_in_space(state, 0); }
+BENCHMARK(frictionless_corner_in_space);
+void corner_with_friction_in_space(benchmark::State& state) { corner_in_space(state, 1); }
+BENCHMARK(corner_with_friction_in_space);
 
 }  // namespace
 
