@@ -59,7 +59,7 @@ double CoulombPath::direction_tolerance(const Direction& zero) const {
   const double c = zero.cosine, s = zero.sine;
   const double slope = -field_.b1() * c - field_.b2() * s + field_.anisotropy() * (c - s) * (c + s);
   const double of_velocity = 4 * contact_.velocity_scale / (speed_ * progress_.slip);
-  return epsilon * (8 + of_velocity + 8 * field_.turning_bound() / std::fabs(slope));
+  return epsilon * (8 + of_velocity + 8 * field_.rounding_scale() / std::fabs(slope));
 }
 
 bool CoulombPath::is_invariant(double angle) const {

@@ -201,6 +201,9 @@ GroupImpact tilted(StrikingGroup group, double direction) {
   return result;
 }
 
+/// Outcomes nearer to each other than this part of the velocities are one.
+constexpr double same_outcome = 1e-6;
+
 /// Collects outcomes over the directions of the tilt.
 class OutcomeSearch {
  public:
@@ -215,7 +218,7 @@ class OutcomeSearch {
     for (int i = 1; i <= directions; ++i) {
       const double direction = first + i * step;
       const std::size_t after = add(direction);
-      refine({direction - step, before}, {direction, after}, 10);
+      refine({direction - step, before}, {direction, after}, 6);
       before = after;
     }
     return std::move(found_);
@@ -232,7 +235,7 @@ class OutcomeSearch {
     for (std::size_t i = 0; i < found_.size(); ++i) {
       const double apart = (impact.velocity_after - found_[i].impact.velocity_after).norm() +
                            reach_ * (impact.angular_velocity_after - found_[i].impact.angular_velocity_after).norm();
-      if (apart <= 1e-11 * scale_) return i;
+      if (apart <= same_outcome * scale_) return i;
     }
     found_.push_back({direction, impact});
     return found_.size() - 1;

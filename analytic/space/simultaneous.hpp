@@ -59,12 +59,13 @@ struct TiltedOutcome {
 };
 
 struct OutcomeSet {
-  std::vector<TiltedOutcome> outcomes;  ///< distinct orders
+  std::vector<TiltedOutcome> outcomes;  ///< distinct to 1e-6 of the velocities
   double velocity_spread = 0;           ///< largest distance between two V, that of strike_together() included [m/s]
   double angular_velocity_spread = 0;   ///< the same for Ω [rad/s]
 };
 
-/// Every outcome that small tilts in all directions give.
+/// Every outcome that small tilts in all directions give; one that a sector of less than 0.2° alone gives can be
+/// missed.
 /// @throws as strike_together()
 [[nodiscard]] OutcomeSet tilted_outcomes(const Body& body, const State& before, std::span<const Corner> touching,
                                          const Law& law);

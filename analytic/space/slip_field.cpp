@@ -60,7 +60,7 @@ SlipField::SlipField(const Matrix3& w, double friction, NormalCoupling coupling)
   find_zeros();
 }
 
-bool SlipField::is_straight() const { return turning_bound() <= 8 * epsilon * (1 + friction_) * (1 + a1_); }
+bool SlipField::is_straight() const { return turning_bound() <= 8 * epsilon * rounding_scale(); }
 
 double SlipField::astroid_excess() const {
   const double c1 = std::cbrt(b1_), c2 = std::cbrt(b2_);

@@ -55,6 +55,8 @@ class SlipField {
   }
   /// Bound on |g| and |f′|.
   [[nodiscard]] double turning_bound() const { return b1_ + b2_ + anisotropy_; }
+  /// Rounding errors of g from those of W are below a few ε × this.
+  [[nodiscard]] double rounding_scale() const { return (1 + friction_) * (1 + a1_); }
   /// g stays below the rounding of W in every direction: slip keeps its direction.
   [[nodiscard]] bool is_straight() const;
 

@@ -170,6 +170,7 @@ BOOST_AUTO_TEST_CASE(a_drop_that_stays_in_its_plane_agrees_with_the_planar_model
     const bool reverses = planar.mode == ImpactMode::reverse_slip;
     if (!impact.is_path_ambiguous) {
       BOOST_CHECK_EQUAL(reverses, impact.path == PathKind::slip_reslip);
+      BOOST_CHECK_EQUAL(planar.mode == ImpactMode::slip, impact.path == PathKind::slip);
       BOOST_CHECK_EQUAL(planar.mode == ImpactMode::slip_stick, impact.path == PathKind::slip_stick);
       BOOST_CHECK_EQUAL(planar.mode == ImpactMode::stick, impact.path == PathKind::stick);
     }

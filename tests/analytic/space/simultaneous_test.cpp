@@ -140,6 +140,40 @@ BOOST_AUTO_TEST_CASE(corners_of_a_face_or_an_edge_that_rebounds_as_a_whole_leave
   BOOST_CHECK_GT(edges, 200);
 }
 
+BOOST_AUTO_TEST_CASE(three_corners_rebound_as_a_whole_exactly_where_their_three_impulses_all_push) {
+  Random random(9);
+  int whole_ones = 0, others = 0;
+  for (int i = 0; i < 3000; ++i) {
+    auto c = clatter::oracle::random_collision(random);
+    const double depth = random.uniform(0.1, 1);
+    std::vector<Vector3> feet;
+    for (int k = 0; k < 3; ++k) feet.emplace_back(random.uniform(-1, 1), random.uniform(-1, 1), -depth);
+    c.before.attitude = Quaternion::Identity();
+    c.before.angular_velocity = random.vector(0.5);
+    c.before.velocity = random.vector(1) - Vector3(0, 0, 2.2);  // every corner approaches
+    const double e = random.uniform(0, 1);
+    const Matrix3 inverse = c.body.inertia.inverse();
+    Matrix3 g;
+    Vector3 approach;
+    for (int row = 0; row < 3; ++row) {
+      const Vector3& r = feet[static_cast<std::size_t>(row)];
+      approach[row] = -normal_velocity(c.before.velocity, c.before.angular_velocity, r);
+      for (int column = 0; column < 3; ++column) {
+        const Vector3& other = feet[static_cast<std::size_t>(column)];
+        g(row, column) = 1 / c.body.mass + r.cross(Vector3::UnitZ()).dot(inverse * other.cross(Vector3::UnitZ()));
+      }
+    }
+    const Vector3 pushes = (1 + e) * g.inverse() * approach;
+    if (pushes.cwiseAbs().minCoeff() < 1e-9 * pushes.cwiseAbs().maxCoeff()) continue;
+    const auto whole = rebound_as_a_whole(c.body, c.before, corners_of(feet), frictionless(e));
+    BOOST_CHECK_EQUAL(whole.has_value(), pushes.minCoeff() > 0);
+    if (whole) BOOST_CHECK_CLOSE_FRACTION(whole->impulse.z(), pushes.sum(), 1e-8);
+    ++(whole ? whole_ones : others);
+  }
+  BOOST_CHECK_GT(whole_ones, 100);
+  BOOST_CHECK_GT(others, 100);
+}
+
 BOOST_AUTO_TEST_CASE(corners_that_cannot_rebound_as_a_whole_strike_one_after_the_other_until_none_approaches) {
   Random random(6);
   int several = 0;
