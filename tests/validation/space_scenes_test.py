@@ -95,6 +95,20 @@ class Drop(SpaceFolder):
         self.assertLessEqual(abs(gained[2]), 1e-9 * size)  # vertical forces have no moment about the vertical
         return math.dist(gained, expected) / size
 
+    def test_an_angular_velocity_has_world_components_and_takes_the_place_of_the_spin(self):
+        for command in (["simulate", *self.RUN], ["sequence", "--impacts", "3"]):
+            spun = self.json_of(*command, "--angle", "20", "--spin", "2")
+            whole = self.json_of(*command, "--angle", "20", "--angular-velocity", "0,2,0")
+            self.assertEqual(whole["impacts"], spun["impacts"])
+            self.assertEqual([whole["scene"]["drop"][key] for key in ("spin", "angular_velocity")], [None, [0, 2, 0]])
+        q, w, turned = product(turn(2, -35), turn(1, 25)), (3, -2, 5), turn(3, 73)
+        runs = [self.json_of("simulate", "--attitude", words(a), "--angular-velocity", words(b), "--centre", words(CENTRE), *self.RUN)
+                for a, b in ((q, w), (product(turned, q), rotated(turned, w)))]
+        self.same_rows(runs[1], runs[0], self.grown, lambda name, b: rotated(turned, b) if len(b) == 3 else b)
+        self.refused("moves in space: drop.angular_velocity = [0.1,2.0,0.0]", "sequence", "--angle", "20", "--angular-velocity", "0.1,2,0",
+                     status=4)
+        self.refused("give one of them, not both", "simulate", *BOX, "--angle=20", "--angular-velocity=0,2,0", "--spin=2")
+
     def test_each_alternative_is_refused_beside_the_other_and_a_flag_takes_the_place_of_the_file_s(self):
         pairs = {"--attitude=1,0,0,0": ("--angle=1", "--tilt=2"), "--velocity=0,0,-1": ("--speed=1", "--height=1", "--tangential-velocity=1")}
         for one, others in pairs.items():

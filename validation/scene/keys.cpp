@@ -36,6 +36,7 @@ constexpr Range tolerances{numeric::least_tolerance, 0.1, false, "from 5e-14 to 
 constexpr std::array mass_of_body{"body.mass"};
 constexpr std::array speed_of_fall{"drop.speed"};
 constexpr std::array turns{"drop.angle_deg", "drop.tilt_deg"};
+constexpr std::array turn_of_plane{"drop.spin"};
 constexpr std::array parts_of_velocity{"drop.speed", "drop.height", "drop.tangential_velocity"};
 
 Echo null_if(bool none) { return none ? Echo::null : Echo::value; }
@@ -93,6 +94,16 @@ void append_drop(std::vector<Key>& keys) {
                    nullptr, false, parts_of_velocity},
                   {"drop.spin", Use::both, "--spin", "RAD/S", "rad/s", "clockwise, as Omega in Eq. 8",
                    NumberValue{[](Scene& s) -> double& { return s.spin; }, velocities, &any}},
+                  {"drop.angular_velocity", Use::both, "--angular-velocity", "X,Y,Z", "rad/s",
+                   "or all of it: at the first touch, world components",
+                   ListValue{[](const Scene& s) { return s.angular_velocity; },
+                             [](Scene& s, const std::vector<double>& v) { s.angular_velocity = v; },
+                             {3},
+                             velocities,
+                             "three numbers from -1e9 to 1e9",
+                             "[0, 0, 0]",
+                             &any},
+                   nullptr, false, turn_of_plane},
                   {"world.gravity", Use::both, "--gravity", "M/S2", "m/s²", "acceleration of free fall",
                    NumberValue{[](Scene& s) -> double& { return s.options.gravity; }, gravities, &not_negative}},
               });
