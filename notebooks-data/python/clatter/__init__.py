@@ -52,6 +52,7 @@ def sequence(
     tangential_velocity: float | None = None,
     velocity: Value | None = None,
     spin: float | None = None,
+    angular_velocity: Value | None = None,
     gravity: float | None = None,
     restitution: float | None = None,
     restitution_law: str | None = None,
@@ -75,7 +76,7 @@ def sequence(
     Euler parameters (q0, q1, q2, q3), body to world.
     speed: downward, of the centre of mass at the first touch (1) [m/s]; or height: of the centre of mass at release [m].
     tangential_velocity (0) [m/s]; or velocity=(x, y, z) instead of both.
-    spin (0) [rad/s, sign of Eq. 8], gravity (0) [m/s²].
+    spin (0) [rad/s, sign of Eq. 8]; or angular_velocity=(0, y, 0).  gravity (0) [m/s²].
     restitution (1), restitution_law ("newton", "poisson", "stronge").
     impulse_ratio: Eq. 8's mu_i as given; or friction: Coulomb's mu (0).
     body: "rod" (mass 1 kg, length 1 m, radius 0 m) or "box" (mass, size=(L, W, T) in m).
@@ -91,8 +92,8 @@ def sequence(
     """
     given: dict[str, Value | None] = {
         "angle": angle, "tilt": tilt, "attitude": attitude, "speed": speed, "height": height,
-        "tangential_velocity": tangential_velocity, "velocity": velocity, "spin": spin, "inertia": inertia,
-        "centre": centre, "gravity": gravity, "restitution": restitution, "restitution_law": restitution_law,
+        "tangential_velocity": tangential_velocity, "velocity": velocity, "spin": spin,
+        "angular_velocity": angular_velocity, "inertia": inertia, "centre": centre, "gravity": gravity, "restitution": restitution, "restitution_law": restitution_law,
         "impulse_ratio": impulse_ratio, "friction": friction, "body": body, "mass": mass, "length": length,
         "radius": radius, "size": size, "impacts": impacts, "digits": digits,
         "require_digits": require_digits,
@@ -111,7 +112,7 @@ def simulate(scene: Scene, *, history: bool = False, **changes: Value | None) ->
     time history is not written.
     history: keep the time history in memory.  A sweep keeps none.
     changes: take the place of keys of the scene: angle, tilt, attitude, speed, height, tangential_velocity, velocity,
-    spin, gravity, body, mass, length, radius, size, inertia, centre, stiffness, damping, static_friction, sliding_friction, area, impacts, digits, require_digits, method,
+    spin, angular_velocity, gravity, body, mass, length, radius, size, inertia, centre, stiffness, damping, static_friction, sliding_friction, area, impacts, digits, require_digits, method,
     tolerance, step, planar, contact_gravity, errors, amplification, evaluation_limit; restitution, restitution_law,
     impulse_ratio and friction belong to the discrete model and are only kept.
 
