@@ -93,7 +93,8 @@ def sequence(
     given: dict[str, Value | None] = {
         "angle": angle, "tilt": tilt, "attitude": attitude, "speed": speed, "height": height,
         "tangential_velocity": tangential_velocity, "velocity": velocity, "spin": spin,
-        "angular_velocity": angular_velocity, "inertia": inertia, "centre": centre, "gravity": gravity, "restitution": restitution, "restitution_law": restitution_law,
+        "angular_velocity": angular_velocity, "inertia": inertia, "centre": centre, "gravity": gravity,
+        "restitution": restitution, "restitution_law": restitution_law,
         "impulse_ratio": impulse_ratio, "friction": friction, "body": body, "mass": mass, "length": length,
         "radius": radius, "size": size, "impacts": impacts, "digits": digits,
         "require_digits": require_digits,
@@ -112,7 +113,8 @@ def simulate(scene: Scene, *, history: bool = False, **changes: Value | None) ->
     time history is not written.
     history: keep the time history in memory.  A sweep keeps none.
     changes: take the place of keys of the scene: angle, tilt, attitude, speed, height, tangential_velocity, velocity,
-    spin, angular_velocity, gravity, body, mass, length, radius, size, inertia, centre, stiffness, damping, static_friction, sliding_friction, area, impacts, digits, require_digits, method,
+    spin, angular_velocity, gravity, body, mass, length, radius, size, inertia, centre, stiffness, damping,
+    static_friction, sliding_friction, area, impacts, digits, require_digits, method,
     tolerance, step, planar, contact_gravity, errors, amplification, evaluation_limit; restitution, restitution_law,
     impulse_ratio and friction belong to the discrete model and are only kept.
 
