@@ -132,7 +132,10 @@ space::Drop impact_space_drop(const Scene& scene) {
 }
 
 std::string corner_name(const Scene& scene, const space::Corner& corner) {
-  const double x = corner.place.x(), y = corner.place.y(), z = corner.place.z();
+  const std::vector<double>& centre = scene.body.centre;
+  const bool is_moved = !centre.empty() && scene.body.shape != BodyScene::Shape::mesh;
+  const double x = corner.place.x() + (is_moved ? centre[0] : 0), y = corner.place.y() + (is_moved ? centre[1] : 0),
+               z = corner.place.z() + (is_moved ? centre[2] : 0);
   const auto sign = [](double coordinate) { return coordinate < 0 ? '-' : '+'; };
   switch (scene.body.shape) {
     case BodyScene::Shape::rod: return x < 0 ? "a" : "b";
