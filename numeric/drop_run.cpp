@@ -145,6 +145,8 @@ class Run {
     n.work_friction = contact.work_friction;
     n.work_released = contact.work_released;
     row.end = contact.end;
+    row.attitude = state_.attitude;
+    row.place = point;
     row.touches = contact.touches;
     row.mode = contact.mode;
     row.local_slip = contact.local_slip;

@@ -1,6 +1,8 @@
 // What a simulation says of each impact, and how it ended.
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "numeric/linear_algebra.hpp"
 
 namespace clatter::numeric {
@@ -48,7 +50,9 @@ struct ImpactRecord {
   ImpactNumbers value;
   ImpactNumbers error;  ///< estimates; NaN if there is none
   ContactEnd end = ContactEnd::a;
-  int touches = 1;  ///< separate places that came down during this impact
+  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  ///< at touch-down, body to world
+  Vector3 place = Vector3::Zero();  ///< of the vertex that touches, or the mean of several; body frame [m]
+  int touches = 1;                  ///< separate places that came down during this impact
   FrictionMode mode = FrictionMode::frictionless;
   /// Whether the whole body lay below the ground for a time: the foundation, a bed below the body, is then pressed from
   /// within, and its law stands for nothing real.

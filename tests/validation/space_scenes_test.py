@@ -2,6 +2,7 @@
 """Keys of a drop in space: attitude and velocities, in either model, and the language that has them."""
 
 import csv
+import itertools
 import math
 import random
 import unittest
@@ -21,6 +22,27 @@ class Drop(SpaceFolder):
             self.same_rows(by_attitude, by_angles, self.grown)
         self.assertIsNone(by_attitude["scene"]["drop"]["angle_deg"])
         self.assertEqual(by_attitude["scene"]["drop"]["attitude"], [-x for x in q])
+
+    def test_an_orientation_puts_that_part_of_a_box_right_below_its_middle(self):
+        corners = [[s * l / 2 for s, l in zip(signs, SIZE)] for signs in itertools.product((-1, 1), repeat=3)]
+        seen = set()
+        for n in range(1, 27):
+            q = self.json_of("simulate", "--orientation", str(n), *BOX, "--impacts", "1")["scene"]["drop"]["attitude"]
+            heights = [rotated(q, corner)[2] for corner in corners]
+            lowest = [corner for corner, height in zip(corners, heights) if height < min(heights) + 1e-12]
+            self.assertEqual(len(lowest), 4 if n <= 6 else 2 if n <= 18 else 1, n)
+            x, y, z = rotated(q, [sum(parts) / len(lowest) for parts in zip(*lowest)])
+            self.assertLess(math.hypot(x, y), 1e-15)
+            self.assertLess(z, 0)
+            seen.add(tuple(map(tuple, lowest)))
+        self.assertEqual(len(seen), 26)
+        self.refused("left out where the body is no box", "simulate", "--orientation", "1", "--stiffness", "1e9")
+        self.refused("give one of them, not both", "simulate", *BOX, "--orientation", "1", "--angle", "10")
+
+    def test_the_26_drops_of_a_box_are_one_sweep(self):
+        rows = self.run_program("sweep", "phone-damped", "--set", "drop.orientation=1:26:1", "--set", "run.impacts=1").stdout
+        lines = [line for line in rows.splitlines() if not line.startswith("#")]
+        self.assertEqual([line.split(",")[1] for line in lines[1:]], [str(n) for n in range(1, 27)])
 
     def test_a_velocity_equal_to_speed_and_tangential_velocity_gives_the_same_impacts_to_the_bit(self):
         for command in (["simulate", *self.RUN], ["sequence", "--impacts", "3"]):

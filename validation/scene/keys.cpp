@@ -36,6 +36,7 @@ constexpr Range tolerances{numeric::least_tolerance, 0.1, false, "from 5e-14 to 
 constexpr std::array mass_of_body{"body.mass"};
 constexpr std::array speed_of_fall{"drop.speed"};
 constexpr std::array turns{"drop.angle_deg", "drop.tilt_deg"};
+constexpr std::array ways_to_turn{"drop.angle_deg", "drop.tilt_deg", "drop.attitude"};
 constexpr std::array turn_of_plane{"drop.spin"};
 constexpr std::array parts_of_velocity{"drop.speed", "drop.height", "drop.tangential_velocity"};
 
@@ -71,6 +72,10 @@ void append_drop(std::vector<Key>& keys) {
                              "four numbers q0, q1, q2, q3 of length 1 (normalised if within 0.01 of it)",
                              "[1, 0, 0, 0]"},
                    nullptr, false, turns},
+                  {"drop.orientation", Use::both, "--orientation", "N", "",
+                   "or which part of a box points down: 1-6 faces, 7-18 edges, 19-26 corners",
+                   WholeNumber{[](Scene& s) -> int& { return s.orientation; }, 0, 26},
+                   [](const Scene& s, Model) { return only_if(s.orientation > 0); }, false, ways_to_turn},
                   {"drop.speed", Use::both, "--speed", "M/S", "m/s", "downward, of the centre of mass at first touch",
                    NumberValue{[](Scene& s) -> double& { return s.speed; }, speeds, &positive},
                    [](const Scene& s, Model model) {

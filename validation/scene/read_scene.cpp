@@ -12,6 +12,7 @@
 #include "validation/output/number.hpp"
 #include "validation/scene/bad_input.hpp"
 #include "validation/scene/keys.hpp"
+#include "validation/scene/orientation.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
@@ -106,7 +107,7 @@ void check_sweep(const SceneValues& values, Scene& scene) {
   const std::string other = "a scene that does not sweep it";
   if (!scene.sweep) return;
   if (scene.sweep->quantity == SceneSweep::Quantity::angle_deg) {
-    only_for(values, {"drop.angle_deg", "drop.attitude"}, other);
+    only_for(values, {"drop.angle_deg", "drop.attitude", "drop.orientation"}, other);
     scene.angle_deg = scene.sweep->from;
   } else {
     only_for(values, {"ground.static_friction", "ground.sliding_friction"}, other);
@@ -122,6 +123,11 @@ double inclination_of(const std::vector<double>& q) {
 
 void check_drop(const SceneValues& values, Scene& scene) {
   const bool swept = scene.sweep && scene.sweep->quantity == SceneSweep::Quantity::angle_deg;
+  if (scene.orientation > 0) {
+    if (scene.body.shape != BodyScene::Shape::box)
+      values.refuse("drop.orientation", "left out where the body is no box");
+    scene.attitude = orientation_attitude(scene.orientation, scene.body.size);
+  }
   if (!scene.attitude.empty()) {
     const std::vector<double>& q = scene.attitude;
     const double length = std::sqrt(std::inner_product(q.begin(), q.end(), q.begin(), 0.0));
@@ -156,7 +162,7 @@ Scene read_values(SceneValues values, const std::vector<SceneOverride>& override
     if (flag.key == "run.method") values.drop(flag.text == "tvd-rk3" ? "run.tolerance" : "run.step");
     if (flag.key == "run.step") values.drop("run.tolerance");
     if (flag.key == "run.tolerance") values.drop("run.step");
-    if (flag.key == "drop.angle_deg" || flag.key == "drop.attitude") {
+    if (flag.key == "drop.angle_deg" || flag.key == "drop.attitude" || flag.key == "drop.orientation") {
       for (const char* key : {".from", ".to", ".step"}) values.drop(std::string("sweep.angle_deg") + key);
     }
     values.set(flag.key, flag.flag, flag.text);

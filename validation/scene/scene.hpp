@@ -64,7 +64,8 @@ struct Scene {
   /// Turn about −y, after one of tilt_deg about the body's x axis.  With `attitude` its turn about −y if it is no more.
   double angle_deg = 0, tilt_deg = 0;
   std::vector<double> attitude;  ///< Euler parameters, body → world, scalar first, about unit length; empty: by angles
-  double speed = 1;              ///< of the centre of mass at the first touch, downward [m/s]
+  int orientation = 0;  ///< of a box, in 1..26 (orientation.hpp), whose attitude is then `attitude`; 0: not given
+  double speed = 1;     ///< of the centre of mass at the first touch, downward [m/s]
   std::optional<double> height;    ///< of the centre of mass at release, if given [m]
   double tangential_velocity = 0;  ///< [m/s]
   double spin = 0;                 ///< [rad/s]
