@@ -125,7 +125,7 @@ BOOST_AUTO_TEST_CASE(deviations_have_the_predicted_size_and_fall_with_the_contac
     for (std::size_t q = 2; q < quantity_count; ++q) {
       const double deviation = std::fabs((*impact.continuous)[q] - (*impact.discrete)[q]);
       BOOST_TEST(deviation <= predicted[q] + 1e-9);
-      if (q != static_cast<std::size_t>(QuantityId::impulse_normal)) continue;
+      if (q != normal_impulse_quantity) continue;
       BOOST_TEST(deviation >= predicted[q] / 30);  // a size, not a bound without content
       if (before > 0) BOOST_TEST(std::fabs(before / deviation - 2) <= 0.05);
       before = deviation;

@@ -2,13 +2,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <random>
 
 #include "validation/output/estimated.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
-#include "validation/output/table.hpp"
+#include "validation/output/report.hpp"
 #include "validation/scene/bad_input.hpp"
 
 using namespace clatter::validation;
@@ -22,11 +21,11 @@ BOOST_AUTO_TEST_CASE(the_shortest_text_of_a_double_reads_back_as_the_same_double
     if (!std::isfinite(value)) continue;
     const std::string text = shortest(value);
     BOOST_REQUIRE(std::strtod(text.c_str(), nullptr) == value);
-    BOOST_REQUIRE(std::strtod(json_text(Json(value)).c_str(), nullptr) == value);
+    BOOST_REQUIRE(std::strtod(json_text(Value(value)).c_str(), nullptr) == value);
   }
   BOOST_TEST(shortest(0.1) == "0.1");
   BOOST_TEST(shortest(-0.0) == "0");
-  BOOST_TEST(json_text(Json(NAN)) == "null\n");
+  BOOST_TEST(json_text(Value(NAN)) == "null\n");
 }
 
 BOOST_AUTO_TEST_CASE(significant_digits_are_kept_and_no_more_than_known_ones_shown) {
@@ -77,13 +76,60 @@ BOOST_AUTO_TEST_CASE(only_whole_finite_decimal_numbers_are_read) {
   }
 }
 
+Report two_rows() {
+  Report report;
+  report.title = "title";
+  report.head = {"head"};
+  report.notes = {"note"};
+  report.fields = Value::Fields{{"scene", Value::Fields{{"angle", 10}}}};
+  report.grid.columns = {{"a", "α", "°"}, {"b", "b", ""}};
+  report.grid.columns.push_back(error_column(report.grid.columns[0]));
+  report.grid.rows = {{Cell(1.5, 3), Cell("x,\"y\""), Cell(0.25)}, {Cell(1 / 3.0, 3), Cell(), Cell(INFINITY)}};
+  return report;
+}
+
 BOOST_AUTO_TEST_CASE(csv_quotes_what_needs_it_and_tables_align_by_display_width) {
-  Table table{.head = {"head"}, .columns = {{"a", "α", "°"}, {"b", "b", ""}}, .rows = {}, .notes = {"note"}};
-  table.rows.push_back({Cell(1.5, 3), Cell("x,\"y\"")});
-  BOOST_TEST(table_text(table, {Format::csv, false}) == "# head\na,b\n1.5,\"x,\"\"y\"\"\"\n# note\n");
-  for (const char c : table_text(table, {Format::table, true})) BOOST_TEST((c & 0x80) == 0);
+  const Report report = two_rows();
+  BOOST_TEST(report_text(report, {Format::csv, false, true}) ==
+             "a,b,a_error\n1.5,\"x,\"\"y\"\"\",0.25\n0.3333333333333333,,\n");
+  for (const char c : report_text(report, {Format::table, true})) BOOST_TEST((c & 0x80) == 0);
   BOOST_TEST(display_width("Ω [°]") == 5u);
   BOOST_TEST(display_width(wrapped(std::string(60, 'a') + " " + std::string(60, 'b')).substr(0, 60)) == 60u);
+}
+
+BOOST_AUTO_TEST_CASE(csv_says_everything_above_its_data_and_nothing_but_data_when_bare) {
+  const std::string bare = csv_text(two_rows(), true), full = csv_text(two_rows(), false);
+  BOOST_TEST(full == "# title\n# scene: {\"angle\":10}\n# note\n# units: a [°]\n" + bare);
+  BOOST_TEST(bare.find('#') == std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(every_form_of_a_report_shows_the_same_rows_and_json_keeps_errors_apart) {
+  const Report report = two_rows();
+  BOOST_TEST(compact_json(row_objects(report.grid)) ==
+             "[{\"a\":1.5,\"b\":\"x,\\\"y\\\"\",\"error_estimate\":{\"a\":0.25}},"
+             "{\"a\":0.3333333333333333,\"b\":null,\"error_estimate\":{\"a\":null}}]");
+  for (const Format format : {Format::table, Format::markdown, Format::latex}) {
+    const std::string text = report_text(report, {format});
+    for (const char* part : {"title", "head", "note", "1.50", "0.333"}) {
+      BOOST_TEST(text.find(part) != std::string::npos, part);
+    }
+    BOOST_TEST(text.find("0.25") == std::string::npos);  // errors are not among the shown columns
+  }
+}
+
+BOOST_AUTO_TEST_CASE(rows_read_back_from_csv_are_the_rows_that_were_written) {
+  Report report = two_rows();
+  const std::string text = csv_text(report, true);
+  report.grid.rows = read_csv_rows(text.substr(text.find('\n') + 1));
+  BOOST_TEST(csv_text(report, true) == text);
+  BOOST_TEST_REQUIRE(report.grid.rows[0][0].value.number());
+  BOOST_TEST(*report.grid.rows[0][0].value.number() == 1.5);
+}
+
+BOOST_AUTO_TEST_CASE(a_number_that_is_zero_within_its_error_is_shown_as_zero_and_written_as_it_is) {
+  const Cell cell = known_cell({1e-16, 1e-15}, {.digits = 6, .size = 1});
+  BOOST_TEST(shown_text(cell) == "0");
+  BOOST_TEST(*cell.value.number() == 1e-16);
 }
 
 BOOST_AUTO_TEST_CASE(the_nearest_name_is_the_one_with_fewest_changes) {

@@ -165,11 +165,11 @@ class Output(unittest.TestCase):
         for key in ["clatter", "scene", "impacts", "message", "total_normal_impulse", "cost"]:
             self.assertIn(key, data)
         wanted = ["n", "start", "duration", "end", "inclination_deg", "contact_angle_deg", "approach_speed", "restitution",
-                  "impulse_normal", "impulse_tangential", "impulse_ratio", "mode", "peak_force", "peak_time", "velocity_after",
+                  "impulse_normal", "impulse_tangential", "impulse_ratio", "mode", "impulse", "peak_force", "peak_time", "velocity_after",
                   "angular_velocity_after", "energy_before", "energy_after", "energy_loss", "error_estimate", "amplification",
                   "predictable"]
         for impact in data["impacts"]:
-            self.assertEqual(list(impact), wanted)
+            self.assertEqual(sorted(impact), sorted(wanted))
             self.assertIsNone(impact["peak_force"])
         self.assertEqual([i["end"] for i in data["impacts"]], ["a", "b", "a"])
         self.assertEqual(data["scene"]["drop"]["angle_deg"], 10)

@@ -215,7 +215,7 @@ class Scenes(Folder):
                          [(a, s) for a in ("10", "20") for s in ("0", "0.1", "0.2")])
         self.assertNotIn("drop.speed", rows[0])
         head = text[:text.index("index,")]
-        for part in ("# clatter ", '"speed":2.0', "# set: drop.spin = 0:0.2:0.1\n", "# scenes: 6\n"):
+        for part in ("# clatter ", '"speed":2,', "# set: drop.spin = 0:0.2:0.1\n", "# scenes: 6\n"):
             self.assertIn(part, head)
 
     def test_a_ground_makes_the_model_continuous_unless_another_is_named(self):

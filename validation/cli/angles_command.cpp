@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <future>
 #include <memory>
-#include <nlohmann/json.hpp>
-#include <utility>
 #include <vector>
 
 #include "validation/cli/angles_picture.hpp"
@@ -14,6 +12,7 @@
 #include "validation/cli/plot_options.hpp"
 #include "validation/cli/rod_options.hpp"
 #include "validation/output/interrupt.hpp"
+#include "validation/output/json.hpp"
 #include "validation/output/sink.hpp"
 
 namespace clatter::validation {
@@ -29,9 +28,8 @@ struct AnglesInput {
 };
 
 std::vector<std::string> script_head(const AnglesRequest& request) {
-  std::vector<std::string> head = angles_frame(request).head;
-  head.push_back("parameters: " + rod_json(request.rod).dump());
-  return head;
+  const Report frame = angles_frame(request);
+  return {frame.title, frame.head[0], "parameters: " + compact_json(frame.fields.at("parameters"))};
 }
 
 void show_progress(long long done, long long count) {
@@ -41,9 +39,7 @@ void show_progress(long long done, long long count) {
 /// Blocks of rows, two at a time on two threads, written in order.
 int write_csv(const AnglesRequest& request, const OutputChoice& choice) {
   Sink sink(choice.path);
-  Table frame = angles_csv_frame(request);
-  const std::vector<std::string> notes = std::exchange(frame.notes, {});
-  sink.write(table_text(frame, choice.style));
+  sink.write(csv_head(angles_frame(request), choice.style.bare));
   const CooperativeInterrupt interrupt;
   constexpr long long block = 8192;
   const long long count = request.count;
@@ -61,7 +57,6 @@ int write_csv(const AnglesRequest& request, const OutputChoice& choice) {
     sink.commit();
     return interrupted_status;
   }
-  for (const std::string& note : notes) sink.write("# " + note + "\n");
   sink.commit();
   return 0;
 }
@@ -83,8 +78,7 @@ int run_angles(const AnglesInput& input) {
       return status;
     }
   } else {
-    write_out(choice, choice.style.format == Format::json ? json_text(angles_json(request))
-                                                          : table_text(angles_table(request), choice.style));
+    write_report(choice, angles_report(request));
   }
   if (plot.is_wanted()) plot.write(angles_picture(request), script_head(request));
   return 0;

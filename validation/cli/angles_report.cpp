@@ -5,15 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "validation/cli/options.hpp"
 #include "validation/cli/rod_options.hpp"
-#include "validation/cli/version.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation {
@@ -31,48 +28,6 @@ struct AnglesTexts {
   RodTexts rod;
   std::optional<std::string> digits, as_printed;
 };
-
-using AnglesText = std::optional<std::string>& (*)(AnglesTexts&);
-
-/// Where the text of each argument goes.
-const std::map<std::string, AnglesText> members{{"from", [](AnglesTexts& texts) -> auto& {return texts.range.from;
-}  // namespace
-}  // namespace clatter::validation
-, {"to", [](AnglesTexts& texts) -> auto& {return texts.range.to;
-}
-}
-, {"step", [](AnglesTexts& texts) -> auto& {return texts.range.step;
-}
-}
-, {"count", [](AnglesTexts& texts) -> auto& {return texts.range.count;
-}
-}
-, {"gravity_number", [](AnglesTexts& texts) -> auto& {return texts.rod.gravity_number;
-}
-}
-, {"gravity", [](AnglesTexts& texts) -> auto& {return texts.rod.gravity;
-}
-}
-, {"length", [](AnglesTexts& texts) -> auto& {return texts.rod.length;
-}
-}
-, {"speed", [](AnglesTexts& texts) -> auto& {return texts.rod.speed;
-}
-}
-, {"restitution", [](AnglesTexts& texts) -> auto& {return texts.rod.restitution;
-}
-}
-, {"impulse_ratio", [](AnglesTexts& texts) -> auto& {return texts.rod.impulse_ratio;
-}
-}
-, {"digits", [](AnglesTexts& texts) -> auto& {return texts.digits;
-}
-}
-, {
-  "as_printed", [](AnglesTexts & texts) -> auto& { return texts.as_printed; }
-}
-}
-;
 
 double angle_or_missing(const analytic::ContactAngle& angle) {
   return angle.next == NextImpact::other_end ? angle.angle * degrees_per_radian : NAN;
@@ -97,7 +52,19 @@ std::vector<std::string> notes_of(const AnglesRequest& request) {
 
 AnglesRequest angles_request(const NamedTexts& given) {
   AnglesTexts texts;
-  for (const auto& [name, text] : given) named(members, name)(texts) = text;
+  const std::map<std::string, std::optional<std::string>*> places{{"from", &texts.range.from},
+                                                                  {"to", &texts.range.to},
+                                                                  {"step", &texts.range.step},
+                                                                  {"count", &texts.range.count},
+                                                                  {"gravity_number", &texts.rod.gravity_number},
+                                                                  {"gravity", &texts.rod.gravity},
+                                                                  {"length", &texts.rod.length},
+                                                                  {"speed", &texts.rod.speed},
+                                                                  {"restitution", &texts.rod.restitution},
+                                                                  {"impulse_ratio", &texts.rod.impulse_ratio},
+                                                                  {"digits", &texts.digits},
+                                                                  {"as_printed", &texts.as_printed}};
+  for (const auto& [name, text] : given) *named(places, name) = text;
   const Sweep sweep = read_sweep(texts.range, {0, 90, 5}, {0, 90, false, "from 0 to 90 degrees"});
   return {.theta = [sweep](long long i) { return sweep.value(i); },
           .count = sweep.count,
@@ -108,25 +75,26 @@ AnglesRequest angles_request(const NamedTexts& given) {
 
 std::vector<Column> angles_columns(const AnglesRequest& request) {
   const bool p = request.as_printed;
-  std::vector<Column> columns{{"theta_deg", "θ", "°"},
-                              {"beta_deg", "β", "°"},
-                              {"gamma_deg", "γ", "°", !p},
-                              {"P1", "P₁", "", !p},
-                              {"P2", "P₂", "", !p},
-                              {"P3", "P₃", "", !p},
-                              {"V1", "V₁", "", false},
-                              {"Omega1", "Ω₁", "", false},
-                              {"V2", "V₂", "", false},
-                              {"Omega2", "Ω₂", "", false},
-                              {"V3", "V₃", "", false},
-                              {"Omega3", "Ω₃", "", false},
-                              {"T1", "T₁", "", false},
-                              {"T2", "T₂", "", false},
-                              {"gamma_minus_theta_deg", "γ − θ", "°", false},
-                              {"impulse_deficit", "2 − ΣP", "", !p},
-                              {"impacts", "impacts", ""},
-                              {"beta_printed_deg", "β printed, g > 0", "°", p},
-                              {"beta_printed_negative_g_deg", "β printed, g < 0", "°", p}};
+  std::vector<Column> columns{
+      {"theta_deg", "θ", "°", "contact angle of impact 1"},
+      {"beta_deg", "β", "°", "contact angle of impact 2"},
+      {"gamma_deg", "γ", "°", "contact angle of impact 3", !p},
+      {"P1", "P₁", "", "impulse 1 in units of m |v_n|", !p},
+      {"P2", "P₂", "", "impulse 2 likewise", !p},
+      {"P3", "P₃", "", "impulse 3 likewise", !p},
+      {"V1", "V₁", "", "normal velocity after impact 1 in units of |v_n|", false},
+      {"Omega1", "Ω₁", "", "angular velocity after impact 1 in units of |v_n|/L", false},
+      {"V2", "V₂", "", "normal velocity after impact 2", false},
+      {"Omega2", "Ω₂", "", "angular velocity after impact 2", false},
+      {"V3", "V₃", "", "normal velocity after impact 3", false},
+      {"Omega3", "Ω₃", "", "angular velocity after impact 3", false},
+      {"T1", "T₁", "", "from impact 1 to 2 in units of L/|v_n|", false},
+      {"T2", "T₂", "", "from impact 2 to 3 likewise", false},
+      {"gamma_minus_theta_deg", "γ − θ", "°", "γ − θ", false},
+      {"impulse_deficit", "2 − ΣP", "", "2 less the sum of the impulses", !p},
+      {"impacts", "impacts", "", "how many impacts there are"},
+      {"beta_printed_deg", "β printed, g > 0", "°", "β by the printed gravity term", p},
+      {"beta_printed_negative_g_deg", "β printed, g < 0", "°", "the same for g of the other sign", p}};
   columns.resize(column_count(request));
   return columns;
 }
@@ -218,89 +186,52 @@ KnownRow known_row(const AnglesRequest& request, long long i) {
 
 }  // namespace
 
-Table angles_frame(const AnglesRequest& request) {
+Report angles_frame(const AnglesRequest& request) {
   const std::string range = request.count == 0 ? "no θ"
                                                : fmt::format("θ from {}° to {}°, {} values", shortest(request.theta(0)),
                                                              shortest(request.theta(request.count - 1)), request.count);
-  return {.head = {headline("angles", "contact angles of the first three impacts"),
-                   rod_summary(request.rod) + "; " + range},
-          .columns = angles_columns(request),
-          .rows = {},
-          .notes = notes_of(request)};
-}
-
-Table angles_csv_frame(const AnglesRequest& request) {
-  Table frame = angles_frame(request);
-  const std::vector<Column> values = frame.columns;
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    if (has_error(k)) frame.columns.push_back({values[k].name + "_error", values[k].name + "_error", values[k].unit});
+  Report report = begun_report("angles", "contact angles of the first three impacts");
+  report.head = {rod_summary(request.rod) + "; " + range};
+  report.notes = notes_of(request);
+  report.grid.columns = angles_columns(request);
+  for (std::size_t k = 0; k < column_count(request); ++k) {
+    if (has_error(k)) report.grid.columns.push_back(error_column(report.grid.columns[k]));
   }
-  return frame;
+  report.fields["model"] = "discrete";
+  report.fields["parameters"] = rod_fields(request.rod);
+  return report;
 }
 
-Table angles_records(const AnglesRequest& request) {
-  Table table = angles_csv_frame(request);
-  const auto cell = [](double number) { return std::isfinite(number) ? Cell(number + 0.0, 17) : Cell(); };
-  for (long long i = 0; i < request.count; ++i) {
+namespace {
+
+void add_rows(const AnglesRequest& request, long long begin, long long end, Grid& grid) {
+  for (long long i = begin; i < end; ++i) {
     const auto [row, errors] = known_row(request, i);
-    auto& cells = table.rows.emplace_back();
-    for (std::size_t k = 0; k < column_count(request); ++k) cells.push_back(cell(row[k]));
+    Row& cells = grid.rows.emplace_back();
     for (std::size_t k = 0; k < column_count(request); ++k) {
-      if (has_error(k)) cells.push_back(cell(errors[k]));
+      const bool is_exact = !has_error(k);
+      cells.emplace_back(row[k], is_exact ? 17 : std::min(request.digits, known_digits(row[k], errors[k])));
+      if (is_exact || std::isnan(row[k])) cells[k].shown = cells[k].value.text();
     }
-  }
-  return table;
-}
-
-Table angles_table(const AnglesRequest& request) {
-  Table table = angles_frame(request);
-  for (long long i = 0; i < request.count; ++i) {
-    const auto [row, errors] = known_row(request, i);
-    auto& cells = table.rows.emplace_back();
     for (std::size_t k = 0; k < column_count(request); ++k) {
-      const Cell known(row[k], std::min(request.digits, known_digits(row[k], errors[k])));
-      cells.push_back(std::isnan(row[k]) ? Cell() : known);
+      if (has_error(k)) cells.emplace_back(errors[k]);
     }
-    cells[impacts_column] = Cell(std::to_string(static_cast<int>(row[impacts_column])));
-    cells[0] = Cell(shortest(row[0]));
   }
-  return table;
 }
 
-Json angles_json(const AnglesRequest& request) {
-  const std::vector<Column> columns = angles_columns(request);
-  Json rows = Json::array();
-  for (long long i = 0; i < request.count; ++i) {
-    const auto [row, errors] = known_row(request, i);
-    Json item = Json::object();
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-      item[columns[k].name] = k == impacts_column ? Json(static_cast<int>(row[k])) : number_or_null(row[k]);
-      if (has_error(k)) item["error_estimate"][columns[k].name] = number_or_null(errors[k]);
-    }
-    rows.push_back(item);
-  }
-  return {{"clatter", version}, {"model", "discrete"}, {"parameters", rod_json(request.rod)}, {"rows", rows}};
+}  // namespace
+
+Report angles_report(const AnglesRequest& request) {
+  Report report = angles_frame(request);
+  add_rows(request, 0, request.count, report.grid);
+  report.fields["rows"] = row_objects(report.grid);
+  return report;
 }
 
 std::string angles_csv_rows(const AnglesRequest& request, long long begin, long long end) {
-  fmt::memory_buffer out;
-  const auto append = [&](double number) {
-    if (std::isfinite(number)) fmt::format_to(std::back_inserter(out), "{}", number + 0.0);
-  };
-  for (long long i = begin; i < end; ++i) {
-    const auto [row, errors] = known_row(request, i);
-    for (std::size_t k = 0; k < column_count(request); ++k) {
-      if (k > 0) out.push_back(',');
-      append(row[k]);
-    }
-    for (std::size_t k = 0; k < column_count(request); ++k) {
-      if (!has_error(k)) continue;
-      out.push_back(',');
-      append(errors[k]);
-    }
-    out.push_back('\n');
-  }
-  return fmt::to_string(out);
+  Grid grid;
+  add_rows(request, begin, end, grid);
+  return csv_rows(grid.rows);
 }
 
 }  // namespace clatter::validation

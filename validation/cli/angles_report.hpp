@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "analytic/contact_angles.hpp"
-#include "validation/output/json.hpp"
-#include "validation/output/table.hpp"
+#include "validation/output/report.hpp"
 #include "validation/scene/named_texts.hpp"
 
 namespace clatter::validation {
@@ -33,13 +32,10 @@ using AnglesRow = std::array<double, 19>;
 /// Row i; NaN for what does not happen with β, γ ≤ 90° and for what was not asked for.
 [[nodiscard]] AnglesRow angles_row(const AnglesRequest& request, long long i);
 
-/// Head, columns and notes; no rows.
-[[nodiscard]] Table angles_frame(const AnglesRequest& request);
-/// The same with a column NAME_error for each number that is computed: a bound, as of contact_angles().
-[[nodiscard]] Table angles_csv_frame(const AnglesRequest& request);
-[[nodiscard]] Table angles_records(const AnglesRequest& request);
-[[nodiscard]] Table angles_table(const AnglesRequest& request);
-[[nodiscard]] Json angles_json(const AnglesRequest& request);
+/// The report without rows.
+[[nodiscard]] Report angles_frame(const AnglesRequest& request);
+/// A row for each angle, with the error of each number that is computed: a bound, as of contact_angles().
+[[nodiscard]] Report angles_report(const AnglesRequest& request);
 /// CSV of the rows from `begin` up to `end`; empty fields for what does not happen, and for errors that are not known.
 [[nodiscard]] std::string angles_csv_rows(const AnglesRequest& request, long long begin, long long end);
 

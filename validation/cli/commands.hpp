@@ -1,7 +1,10 @@
 // The commands of the program.
 #pragma once
 
+#include <vector>
+
 #include "validation/cli/command.hpp"
+#include "validation/output/report.hpp"
 
 namespace clatter::validation {
 
@@ -19,9 +22,14 @@ namespace clatter::validation {
 [[nodiscard]] Command extremes_command();
 [[nodiscard]] Command demo_command();
 [[nodiscard]] Command keys_command();
+[[nodiscard]] Command columns_command();
 [[nodiscard]] Command init_command();
 [[nodiscard]] Command completion_command();
 [[nodiscard]] Command man_command();
+
+/// Columns of the commands whose reports are made with them.
+[[nodiscard]] std::vector<Column> explain_columns();
+[[nodiscard]] std::vector<Column> regimes_columns();
 
 /// All of them, in the order of the help.
 [[nodiscard]] const std::vector<Command>& all_commands();

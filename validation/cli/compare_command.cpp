@@ -2,18 +2,18 @@
 
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "validation/cli/commands.hpp"
 #include "validation/cli/comparison_picture.hpp"
-#include "validation/cli/comparison_report.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/plot_options.hpp"
 #include "validation/cli/progress.hpp"
 #include "validation/cli/scene_flags.hpp"
+#include "validation/cli/swept_comparison_report.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/message.hpp"
 #include "validation/output/number.hpp"
+#include "validation/plan/shortfall.hpp"
 #include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {
@@ -30,12 +30,9 @@ struct CompareInput {
 
 int compare_one(const Scene& scene, const OutputChoice& choice, PlotFile& plot) {
   const Comparison comparison = compare_models(scene, scene.make_body());
-  write_report(
-      choice, [&] { return comparison_json(scene, comparison); }, [&] { return comparison_records(scene, comparison); },
-      [&] { return comparison_table(scene, comparison); });
+  write_report(choice, comparison_report(scene, comparison));
   if (comparison.impacts.empty()) plot.leave_out("no impact");
-  else if (plot.is_wanted())
-    plot.write(comparison_picture(scene, comparison), run_words("compare", what_it_is, scene.json()));
+  else if (plot.is_wanted()) plot.write(comparison_picture(scene, comparison), run_words("compare", what_it_is, scene));
   if (!comparison.agrees()) return check_failed;
   if (!comparison.shortfall.empty()) {
     say(comparison.shortfall);
@@ -47,14 +44,10 @@ int compare_one(const Scene& scene, const OutputChoice& choice, PlotFile& plot) 
   return outside_model;
 }
 
-/// Says how many values fall short, and why the first of them does.
-int shortfall_status(const std::vector<SweptComparison>& swept) {
-  const auto falls_short = [](const SweptComparison& one) { return !one.comparison.shortfall.empty(); };
-  const auto first = std::find_if(swept.begin(), swept.end(), falls_short);
-  if (first == swept.end()) return 0;
-  say(fmt::format("{} of {} values fall short; {}: {}", std::count_if(swept.begin(), swept.end(), falls_short),
-                  swept.size(), shortest(first->value), first->comparison.shortfall));
-  return not_computed;
+int status_of(const std::vector<SweptComparison>& swept) {
+  Shortfalls shortfalls;
+  for (const auto& [value, comparison] : swept) shortfalls.add(shortest(value), comparison.shortfall);
+  return shortfalls.status(static_cast<long long>(swept.size()), "values");
 }
 
 int compare_swept(const Scene& scene, const OutputChoice& choice, PlotFile& plot) {
@@ -70,19 +63,17 @@ int compare_swept(const Scene& scene, const OutputChoice& choice, PlotFile& plot
       swept.push_back({value, compare_models(scene.at(value), body)});
     }
   }
-  write_report(
-      choice, [&] { return swept_comparison_json(scene, swept); },
-      [&] { return swept_comparison_records(scene, swept); }, [&] { return swept_comparison_table(scene, swept); });
+  write_report(choice, swept_comparison_report(scene, swept));
   if (swept.size() < values.size()) {
     plot.leave_out("interrupted");
     return interrupted_status;
   }
   if (plot.is_wanted()) {
-    plot.write(swept_comparison_picture(scene, swept), run_words("compare", what_it_is, scene.json()));
+    plot.write(swept_comparison_picture(scene, swept), run_words("compare", what_it_is, scene));
   }
   const bool agree =
       std::all_of(swept.begin(), swept.end(), [](const SweptComparison& one) { return one.comparison.agrees(); });
-  return agree ? shortfall_status(swept) : check_failed;
+  return agree ? status_of(swept) : check_failed;
 }
 
 int run_compare(const CompareInput& input) {

@@ -10,7 +10,7 @@ namespace {
 using Style = FigureCurve::Style;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr auto impulse = static_cast<std::size_t>(QuantityId::impulse_normal);
+constexpr auto impulse = normal_impulse_quantity;
 
 /// What the impacts are drawn over.
 struct XAxis {

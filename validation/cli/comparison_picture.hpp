@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "validation/cli/comparison_report.hpp"
+#include "validation/cli/swept_comparison_report.hpp"
 #include "validation/figures/picture.hpp"
 
 namespace clatter::validation {

@@ -4,41 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <nlohmann/json.hpp>
 
-#include "validation/cli/impact_records.hpp"
-#include "validation/cli/options.hpp"
-#include "validation/cli/swept_column.hpp"
-#include "validation/cli/version.hpp"
-#include "validation/output/estimated.hpp"
-#include "validation/output/names.hpp"
+#include "validation/compare/number_pair.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/body_properties.hpp"
+#include "validation/scene/scene_value.hpp"
 
 namespace clatter::validation {
 namespace {
-
-const char* const what_it_is = "discrete and continuous model, impact by impact";
-
-/// A number of an impact in both models.
-struct NumberPair {
-  const ComparedImpact& impact;
-  std::size_t quantity;
-
-  [[nodiscard]] double discrete() const { return (*impact.discrete)[quantity]; }
-  [[nodiscard]] double continuous() const { return (*impact.continuous)[quantity]; }
-  [[nodiscard]] double deviation() const { return continuous() - discrete(); }
-  [[nodiscard]] Estimated discrete_number() const { return {discrete(), impact.discrete_error[quantity]}; }
-  [[nodiscard]] Estimated continuous_number() const { return {continuous(), impact.continuous_error[quantity]}; }
-  [[nodiscard]] Estimated deviation_number() const { return continuous_number() - discrete_number(); }
-  /// Of the limit off the discrete value; its own error bar stands beside it.
-  [[nodiscard]] Estimated miss_number() const { return {miss(), impact.discrete_error[quantity] + bar()}; }
-  [[nodiscard]] double predicted() const { return impact.predicted.total()[quantity]; }
-  [[nodiscard]] double miss() const { return impact.limit->value[quantity] - discrete(); }
-  [[nodiscard]] double allowance() const { return impact.allowance[quantity]; }
-  [[nodiscard]] double bar() const { return impact.limit->error[quantity]; }
-};
 
 /// Zero in both models and in the limit, by symmetry; a limit that misses is something.
 bool is_nothing(const Comparison& comparison, const ComparedImpact& impact, std::size_t q) {
@@ -49,36 +22,18 @@ bool is_nothing(const Comparison& comparison, const ComparedImpact& impact, std:
 
 /// The impact's number, marked if its limit misses the discrete value.
 Cell number_cell(const ComparedImpact& impact) {
-  return Cell(std::to_string(impact.n) + (impact.has_landing() && !impact.lands() ? "!" : ""));
+  return {impact.n, std::to_string(impact.n) + (impact.has_landing() && !impact.lands() ? "!" : "")};
 }
 
-std::string landing_word(const ComparedImpact& impact) {
-  return !impact.has_landing() ? "" : impact.lands() ? "agrees" : "DIFFERS";
-}
-
-/// A difference, to two digits at most.
-Cell difference_cell(const Estimated& difference, double scale) {
-  Cell cell = known_cell(difference, {6, scale});
-  cell.digits = std::min(cell.digits, 2);
-  return cell;
-}
-
-/// By how much the limit is off; 0 where the error bar, which stands beside it, leaves no digit.
-Cell miss_cell(const Estimated& miss) {
-  const int digits = known_digits(miss.value, miss.error);
-  return digits > 0 || !miss.is_known() ? Cell(miss.value, std::min(digits, 2)) : Cell(0.0, 1);
-}
-
-void add_rows(const Comparison& comparison, const ComparedImpact& impact, Table& table) {
+void add_rows(const Comparison& comparison, const ComparedImpact& impact, Grid& grid) {
   bool first = true;
   for (std::size_t q = 0; q < quantity_count; ++q) {
     if (!impact.discrete || is_nothing(comparison, impact, q)) continue;
     const NumberPair pair{impact, q};
     const double scale = comparison.scales[q];
-    const bool comparable = impact.reason.empty();
-    std::vector<Cell> row{first ? number_cell(impact) : Cell(), first ? Cell(impact.discrete_end) : Cell(),
-                          Cell(quantity_names[q].heading), known_cell(pair.discrete_number(), {6, scale})};
-    if (comparable) {
+    Row row{first ? number_cell(impact) : Cell(), first ? Cell(impact.discrete_end) : Cell(),
+            Cell(plane_quantities[q].heading), known_cell(pair.discrete_number(), {6, scale})};
+    if (impact.reason.empty()) {
       row.insert(row.end(), {known_cell(pair.continuous_number(), {6, scale}),
                              difference_cell(pair.deviation_number(), scale), Cell(pair.predicted(), 2)});
     } else {
@@ -86,7 +41,7 @@ void add_rows(const Comparison& comparison, const ComparedImpact& impact, Table&
     }
     if (impact.has_landing()) row.insert(row.end(), {miss_cell(pair.miss_number()), Cell(pair.bar(), 2)});
     row.resize(9);
-    table.rows.push_back(std::move(row));
+    grid.rows.push_back(std::move(row));
     first = false;
   }
 }
@@ -124,35 +79,6 @@ std::string verdict_words(const Comparison& comparison) {
                      comparison.impacts.size());
 }
 
-std::vector<std::string> head_of(const Scene& scene) {
-  std::vector<std::string> head{headline("compare", what_it_is)};
-  for (const std::string& line : scene_head(scene)) head.push_back(line);
-  head.push_back("discrete model: real corners and inertia, e from the damping at each impact's speed, Coulomb's μₖ");
-  return head;
-}
-
-Json number_json(const NumberPair& pair) {
-  const ComparedImpact& impact = pair.impact;
-  const std::size_t q = pair.quantity;
-  const PredictedSize& size = impact.predicted;
-  Json json{{"discrete", impact.discrete ? number_or_null(pair.discrete()) : Json(nullptr)},
-            {"continuous", impact.continuous ? number_or_null(pair.continuous()) : Json(nullptr)}};
-  const bool comparable = impact.reason.empty();
-  json["discrete_error"] = impact.discrete ? error_or_null(pair.discrete_number()) : Json(nullptr);
-  json["continuous_error"] = impact.continuous ? error_or_null(pair.continuous_number()) : Json(nullptr);
-  json["deviation"] = comparable ? number_or_null(pair.deviation()) : Json(nullptr);
-  json["deviation_error"] = comparable ? error_or_null(pair.deviation_number()) : Json(nullptr);
-  json["predicted"] = comparable ? number_or_null(pair.predicted()) : Json(nullptr);
-  json["predicted_gravity"] = comparable ? number_or_null(size.gravity[q]) : Json(nullptr);
-  json["predicted_turning"] = comparable ? number_or_null(size.turning[q]) : Json(nullptr);
-  json["predicted_indentation"] = comparable ? number_or_null(size.indentation[q]) : Json(nullptr);
-  json["predicted_delay"] = comparable ? number_or_null(size.delay[q]) : Json(nullptr);
-  json["limit"] = impact.limit ? number_or_null(impact.limit->value[q]) : Json(nullptr);
-  json["limit_error"] = impact.limit ? number_or_null(impact.limit->error[q]) : Json(nullptr);
-  json["allowance"] = impact.limit ? number_or_null(pair.allowance()) : Json(nullptr);
-  return json;
-}
-
 /// Whether every number of either model is known to its error.
 bool is_predictable(const ComparedImpact& impact) {
   for (std::size_t q = 0; q < quantity_count; ++q) {
@@ -162,192 +88,147 @@ bool is_predictable(const ComparedImpact& impact) {
   return true;
 }
 
-Json impact_json(const ComparedImpact& impact) {
-  Json json{{"n", impact.n},
-            {"comparable", impact.reason.empty()},
-            {"predictable", is_predictable(impact)},
-            {"reason", impact.reason.empty() ? Json(nullptr) : Json(impact.reason)},
-            {"discrete_end", impact.discrete ? Json(impact.discrete_end) : Json(nullptr)},
-            {"continuous_end", impact.continuous ? Json(impact.continuous_end) : Json(nullptr)},
-            {"contact_time", impact.continuous ? number_or_null(impact.contact_time) : Json(nullptr)},
-            {"limit_is_discrete", impact.has_landing() ? Json(impact.lands()) : Json(nullptr)}};
-  for (std::size_t q = 0; q < quantity_count; ++q) json["numbers"][quantity_names[q].name] = number_json({impact, q});
-  return json;
+/// Fields of a number: nothing where a model, or the limit, has none.
+Row number_row(const NumberPair& pair) {
+  const ComparedImpact& impact = pair.impact;
+  const PredictedSize& size = impact.predicted;
+  const std::size_t q = pair.quantity;
+  const bool comparable = impact.reason.empty();
+  const auto where = [](bool known, const auto& get) { return Cell(known ? Value(get()) : Value()); };
+  return {where(impact.discrete.has_value(), [&] { return pair.discrete(); }),
+          where(impact.continuous.has_value(), [&] { return pair.continuous(); }),
+          where(impact.discrete.has_value(), [&] { return error_or_nothing(pair.discrete_number()); }),
+          where(impact.continuous.has_value(), [&] { return error_or_nothing(pair.continuous_number()); }),
+          where(comparable, [&] { return pair.deviation(); }),
+          where(comparable, [&] { return error_or_nothing(pair.deviation_number()); }),
+          where(comparable, [&] { return pair.predicted(); }),
+          where(comparable, [&] { return size.gravity[q]; }),
+          where(comparable, [&] { return size.turning[q]; }),
+          where(comparable, [&] { return size.indentation[q]; }),
+          where(comparable, [&] { return size.delay[q]; }),
+          where(impact.limit.has_value(), [&] { return impact.limit->value[q]; }),
+          where(impact.limit.has_value(), [&] { return impact.limit->error[q]; }),
+          where(impact.limit.has_value(), [&] { return pair.allowance(); })};
 }
 
-Json result_json(const Comparison& comparison) {
-  Json json{{"impacts", Json::array()}};
-  for (const ComparedImpact& impact : comparison.impacts) json["impacts"].push_back(impact_json(impact));
-  json["limit"] = {{"stiffness", number_or_null(comparison.limit.stiffness)},
-                   {"power", number_or_null(-comparison.limit.power)},
-                   {"runs", comparison.limit.runs}};
-  json["discrete_ended"] = comparison.sequence.message;
-  json["continuous_ended"] = comparison.run.message;
-  json["agrees"] = comparison.agrees();
-  json["shortfall"] = comparison.shortfall.empty() ? Json(nullptr) : Json(comparison.shortfall);
-  json["message"] = verdict_words(comparison);
-  return json;
+const std::vector<Column>& number_columns() {
+  static const std::vector<Column> columns{
+      {"discrete", "", "", "value of the discrete model"},
+      {"continuous", "", "", "value of the continuous model"},
+      {"discrete_error", "", "", "bound on the error of the discrete value"},
+      {"continuous_error", "", "", "estimated error of the continuous value"},
+      {"deviation", "", "", "continuous − discrete"},
+      {"deviation_error", "", "", "error of the deviation"},
+      {"predicted", "", "", "size of the deviation that the discrete model's omissions bring"},
+      {"predicted_gravity", "", "", "of that: gravity during contacts"},
+      {"predicted_turning", "", "", "of that: turning during contacts"},
+      {"predicted_indentation", "", "", "of that: the contact point inside the corner"},
+      {"predicted_delay", "", "", "of that: the duration of contacts before"},
+      {"limit", "", "", "of the continuous model for an ever stiffer ground"},
+      {"limit_error", "", "", "error bar of the limit"},
+      {"allowance", "", "", "by which the limit may miss the discrete value"}};
+  return columns;
 }
 
-Json head_json(const Scene& scene) {
-  return {{"clatter", version}, {"model", "comparison"}, {"scene", scene.json()}, {"body", body_json(scene)}};
-}
-
-/// Rows of the CSV for one comparison, with further cells in front.
-void add_records(const Comparison& comparison, const std::vector<Cell>& front, Table& table) {
-  for (const ComparedImpact& impact : comparison.impacts) {
-    const Json json = impact_json(impact);
-    for (const auto& [name, numbers] : json["numbers"].items()) {
-      auto& row = table.rows.emplace_back(front);
-      row.insert(row.end(), {Cell(impact.n, 17), Cell(name), Cell(is_predictable(impact) ? "true" : "false"),
-                             Cell(impact.reason)});
-      for (const auto& [key, value] : numbers.items()) row.push_back(json_cell(value));
-    }
+/// The quantities of an impact as fields, and as rows of CSV behind `front`.
+Value add_numbers(const ComparedImpact& impact, const Row& front, Grid& grid) {
+  Value numbers;
+  for (std::size_t q = 0; q < quantity_count; ++q) {
+    const std::string name = plane_quantities[q].name;
+    const Row values = number_row({impact, q});
+    numbers[name] = row_object(number_columns(), values);
+    Row& row = grid.rows.emplace_back(front);
+    row.insert(row.end(),
+               {Cell(impact.n), Cell(name), Cell(is_predictable(impact)), Cell(text_or_nothing(impact.reason))});
+    row.insert(row.end(), values.begin(), values.end());
   }
+  return numbers;
 }
 
-Table records_table(const Scene& scene) {
-  Table table{
-      .head = {headline("compare", what_it_is), "scene: " + scene.json().dump(), "body: " + body_json(scene).dump()},
-      .columns = {},
-      .rows = {},
-      .notes = {}};
-  for (const char* name :
-       {"n", "quantity", "predictable", "not_compared_because", "discrete", "continuous", "discrete_error",
-        "continuous_error", "deviation", "deviation_error", "predicted", "predicted_gravity", "predicted_turning",
-        "predicted_indentation", "predicted_delay", "limit", "limit_error", "allowance"}) {
-    table.columns.push_back({name, name, ""});
-  }
-  return table;
-}
-
-/// How often first impacts are not compared (–), by reason.
-void add_swept_reasons(const std::vector<SweptComparison>& swept, Table& table) {
-  std::map<std::string, int> counts;
-  for (const auto& [value, comparison] : swept) {
-    if (!comparison.impacts.empty() && !comparison.impacts[0].reason.empty()) ++counts[comparison.impacts[0].reason];
-  }
-  for (const auto& [reason, count] : counts) {
-    table.notes.push_back(
-        fmt::format("–: not compared at this stiffness, {} of {} values: {}", count, swept.size(), reason));
-  }
+Value impact_fields(const ComparedImpact& impact, const Row& front, Grid& grid) {
+  return Value::Fields{{"n", impact.n},
+                       {"comparable", impact.reason.empty()},
+                       {"predictable", is_predictable(impact)},
+                       {"reason", text_or_nothing(impact.reason)},
+                       {"discrete_end", text_or_nothing(impact.discrete_end)},
+                       {"continuous_end", text_or_nothing(impact.continuous_end)},
+                       {"contact_time", impact.continuous ? Value(impact.contact_time) : Value()},
+                       {"limit_is_discrete", impact.has_landing() ? Value(impact.lands()) : Value()},
+                       {"numbers", add_numbers(impact, front, grid)}};
 }
 
 }  // namespace
 
-WorstNumber worst_number(const Comparison& comparison, const ComparedImpact& impact) {
-  WorstNumber worst;
-  double largest = -1, largest_miss = -1;
-  for (std::size_t q = 0; q < quantity_count; ++q) {
-    const NumberPair pair{impact, q};
-    const double scale = comparison.scales[q];
-    if (impact.reason.empty() && std::fabs(pair.deviation()) / scale > largest) {
-      largest = std::fabs(pair.deviation()) / scale;
-      worst.deviation = largest;
-      worst.deviation_error = pair.deviation_number().error / scale;
-      worst.predicted = pair.predicted() / scale;
-    }
-    if (impact.has_landing() && std::fabs(pair.miss()) / pair.allowance() > largest_miss) {
-      largest_miss = std::fabs(pair.miss()) / pair.allowance();
-      worst.miss = std::fabs(pair.miss()) / scale;
-      worst.miss_error = pair.miss_number().error / scale;
-      worst.bar = pair.bar() / scale;
-    }
-  }
-  return worst;
+std::vector<Column> comparison_columns() {
+  std::vector<Column> columns{{"n", "", "", "number of the impact, from 1"},
+                              {"quantity", "", "",
+                               "name of the number; time in s, angles in °, impulses in N·s, "
+                               "velocities in m/s, angular velocity in rad/s"},
+                              {"predictable", "", "", "whether each number of the impact is known to its error"},
+                              {"not_compared_because", "", "", "why the impact cannot be compared at this stiffness"}};
+  columns.insert(columns.end(), number_columns().begin(), number_columns().end());
+  return columns;
 }
 
-Table comparison_table(const Scene& scene, const Comparison& comparison) {
-  Table table{.head = head_of(scene), .columns = {}, .rows = {}, .notes = {}};
-  table.columns = {{"n", "n", ""},
-                   {"end", "end", ""},
-                   {"quantity", "", ""},
-                   {"discrete", "discrete", ""},
-                   {"continuous", "contin.", ""},
-                   {"deviation", "deviation", ""},
-                   {"predicted", "predicted", ""},
-                   {"miss", "limit off", ""},
-                   {"allowance", "±", ""}};
-  for (const ComparedImpact& impact : comparison.impacts) add_rows(comparison, impact, table);
-  table.notes = reasons(comparison);
-  table.notes.push_back(
+Cell difference_cell(const Estimated& difference, double scale) {
+  Cell cell = known_cell(difference, {6, scale});
+  cell.digits = std::min(cell.digits, 2);
+  return cell;
+}
+
+Cell miss_cell(const Estimated& miss) {
+  const int digits = known_digits(miss.value, miss.error);
+  return digits > 0 || !miss.is_known() ? Cell(miss.value, std::min(digits, 2)) : Cell(miss.value, std::string("0"));
+}
+
+Report begun_comparison(const Scene& scene) {
+  Report report = begun_report("compare", "discrete and continuous model, impact by impact");
+  report.head = scene_head(scene);
+  report.head.emplace_back(
+      "discrete model: real corners and inertia, e from the damping at each impact's speed, Coulomb's μₖ");
+  report.fields["model"] = "comparison";
+  report.fields["scene"] = scene_value(scene);
+  report.fields["body"] = body_value(scene);
+  report.grid.columns = comparison_columns();
+  report.digest.emplace();
+  return report;
+}
+
+void add_comparison(const Comparison& comparison, const Row& front, Value& fields, Grid& grid) {
+  fields["impacts"] = Value::List{};
+  for (const ComparedImpact& impact : comparison.impacts)
+    fields["impacts"].push_back(impact_fields(impact, front, grid));
+  fields["limit"] = Value::Fields{
+      {"stiffness", comparison.limit.stiffness}, {"power", -comparison.limit.power}, {"runs", comparison.limit.runs}};
+  fields["discrete_ended"] = comparison.sequence.message;
+  fields["continuous_ended"] = comparison.run.message;
+  fields["agrees"] = comparison.agrees();
+  fields["shortfall"] = text_or_nothing(comparison.shortfall);
+  fields["message"] = verdict_words(comparison);
+}
+
+Report comparison_report(const Scene& scene, const Comparison& comparison) {
+  Report report = begun_comparison(scene);
+  add_comparison(comparison, {}, report.fields, report.grid);
+  report.digest->columns = {{"n", "n", ""},
+                            {"end", "end", ""},
+                            {"quantity", "", ""},
+                            {"discrete", "discrete", ""},
+                            {"continuous", "contin.", ""},
+                            {"deviation", "deviation", ""},
+                            {"predicted", "predicted", ""},
+                            {"miss", "limit off", ""},
+                            {"allowance", "±", ""}};
+  for (const ComparedImpact& impact : comparison.impacts) add_rows(comparison, impact, *report.digest);
+  report.notes = reasons(comparison);
+  report.notes.emplace_back(
       "t in s, angles in °, P in N·s, V in m/s, Ω in rad/s; predicted: the size, no bound, of what gravity, turning "
-      "and "
-      "indentation do during contacts, carried on from impact to impact");
-  if (!comparison.shortfall.empty()) table.notes.push_back(comparison.shortfall);
-  table.notes.push_back(limit_words(comparison));
-  table.notes.push_back(verdict_words(comparison));
-  fit_columns(table, 6, {3});
-  return table;
-}
-
-Json comparison_json(const Scene& scene, const Comparison& comparison) {
-  Json json = head_json(scene);
-  json.update(result_json(comparison));
-  return json;
-}
-
-Table comparison_records(const Scene& scene, const Comparison& comparison) {
-  Table table = records_table(scene);
-  add_records(comparison, {}, table);
-  if (!comparison.shortfall.empty()) table.notes.push_back(comparison.shortfall);
-  table.notes.push_back(verdict_words(comparison));
-  return table;
-}
-
-Table swept_comparison_table(const Scene& scene, const std::vector<SweptComparison>& swept) {
-  Table table{.head = head_of(scene), .columns = {}, .rows = {}, .notes = {}};
-  table.columns = {swept_column(*scene.sweep),
-                   {"n", "n", ""},
-                   {"end", "end", ""},
-                   {"deviation", "deviation", "of all"},
-                   {"predicted", "predicted", "of all"},
-                   {"miss", "limit off", "of all"},
-                   {"allowance", "±", "of all"},
-                   {"verdict", "", ""}};
-  for (const auto& [value, comparison] : swept) {
-    for (const ComparedImpact& impact : comparison.impacts) {
-      if (!impact.discrete) continue;
-      const WorstNumber worst = worst_number(comparison, impact);
-      std::vector<Cell> row{impact.n == 1 ? Cell(value, 6) : Cell(), Cell(std::to_string(impact.n)),
-                            Cell(impact.discrete_end)};
-      if (impact.reason.empty())
-        row.insert(row.end(), {difference_cell({worst.deviation, worst.deviation_error}, 1), Cell(worst.predicted, 2)});
-      else row.insert(row.end(), {Cell("–"), Cell()});
-      if (impact.has_landing()) row.insert(row.end(), {miss_cell({worst.miss, worst.miss_error}), Cell(worst.bar, 2)});
-      row.resize(7);
-      row.emplace_back(landing_word(impact));
-      table.rows.push_back(std::move(row));
-    }
+      "and indentation do during contacts, carried on from impact to impact");
+  for (const std::string& words : {comparison.shortfall, limit_words(comparison), verdict_words(comparison)}) {
+    if (!words.empty()) report.notes.push_back(words);
   }
-  table.notes.push_back(
-      "of all: of the largest time, speed or momentum of the sequence; the worst number of each impact");
-  const auto agreeing =
-      std::count_if(swept.begin(), swept.end(), [](const SweptComparison& one) { return one.comparison.agrees(); });
-  table.notes.push_back(fmt::format("{} of {} values agree.", agreeing, swept.size()));
-  add_swept_reasons(swept, table);
-  add_interruption(*scene.sweep, swept.size(), table);
-  return table;
-}
-
-Json swept_comparison_json(const Scene& scene, const std::vector<SweptComparison>& swept) {
-  Json json = head_json(scene);
-  json["runs"] = Json::array();
-  for (const auto& [value, comparison] : swept) {
-    Json one{{scene.sweep->name(), value}};
-    one.update(result_json(comparison));
-    json["runs"].push_back(one);
-  }
-  json["agrees"] =
-      std::all_of(swept.begin(), swept.end(), [](const SweptComparison& one) { return one.comparison.agrees(); });
-  return json;
-}
-
-Table swept_comparison_records(const Scene& scene, const std::vector<SweptComparison>& swept) {
-  Table table = records_table(scene);
-  table.columns.insert(table.columns.begin(), swept_record_column(*scene.sweep));
-  for (const auto& [value, comparison] : swept) add_records(comparison, {Cell(value, 17)}, table);
-  return table;
+  fit_columns(report, 6, {3});
+  return report;
 }
 
 }  // namespace clatter::validation

@@ -1,36 +1,25 @@
-// A comparison of both models as a table and as JSON.
+// What `clatter compare` says.
 #pragma once
 
 #include <vector>
 
 #include "validation/compare/comparison.hpp"
-#include "validation/output/json.hpp"
-#include "validation/output/table.hpp"
+#include "validation/output/estimated.hpp"
+#include "validation/output/report.hpp"
 
 namespace clatter::validation {
 
-[[nodiscard]] Table comparison_table(const Scene& scene, const Comparison& comparison);
-[[nodiscard]] Json comparison_json(const Scene& scene, const Comparison& comparison);
-/// One row per impact and number with the JSON's names as columns.
-[[nodiscard]] Table comparison_records(const Scene& scene, const Comparison& comparison);
+[[nodiscard]] std::vector<Column> comparison_columns();
+/// A row for each impact and number; tables leave out those that are zero by symmetry.
+[[nodiscard]] Report comparison_report(const Scene& scene, const Comparison& comparison);
 
-/// The number of an impact that deviates most for its size: deviation over scale, its error
-/// and what was predicted of it; the
-/// number whose limit is farthest off for what it may be: distance over scale, and its error bar.
-struct WorstNumber {
-  double deviation = 0, deviation_error = 0, predicted = 0, miss = 0, miss_error = 0, bar = 0;
-};
-/// Of an impact that the discrete model has.
-[[nodiscard]] WorstNumber worst_number(const Comparison& comparison, const ComparedImpact& impact);
-
-/// One value of a swept scene.
-struct SweptComparison {
-  double value;
-  Comparison comparison;
-};
-/// One row per value and impact: the worst number of each.
-[[nodiscard]] Table swept_comparison_table(const Scene& scene, const std::vector<SweptComparison>& swept);
-[[nodiscard]] Json swept_comparison_json(const Scene& scene, const std::vector<SweptComparison>& swept);
-[[nodiscard]] Table swept_comparison_records(const Scene& scene, const std::vector<SweptComparison>& swept);
+/// What a sweep's report shares with that of one comparison: the head without rows, and one comparison's fields and
+/// rows, each behind the cells `front`.
+[[nodiscard]] Report begun_comparison(const Scene& scene);
+void add_comparison(const Comparison& comparison, const Row& front, Value& fields, Grid& grid);
+/// A difference, to two digits at most.
+[[nodiscard]] Cell difference_cell(const Estimated& difference, double scale);
+/// By how much the limit is off; 0 where the error bar, which stands beside it, leaves no digit.
+[[nodiscard]] Cell miss_cell(const Estimated& miss);
 
 }  // namespace clatter::validation

@@ -5,16 +5,15 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "validation/cli/sequence_report.hpp"
-#include "validation/cli/version.hpp"
 #include "validation/output/estimated.hpp"
-#include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
+#include "validation/output/version.hpp"
 #include "validation/plan/shortfall.hpp"
-#include "validation/scene/body_properties.hpp"
+#include "validation/record/names.hpp"
 #include "validation/scene/discrete_scene.hpp"
+#include "validation/scene/scene_value.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -259,27 +258,27 @@ Explanation explain_impact(Scene scene, int n) {
           .shortfall_status = shortfall_status(sequence.outcome)};
 }
 
-Json explanation_json(const Explanation& explanation) {
-  Json steps = Json::array();
+Value explanation_fields(const Explanation& explanation) {
+  Value::List steps;
   for (const Step& step : explanation.steps) {
-    Json equations = Json::array();
+    Value::List equations;
     for (const Equation& e : step.equations) {
-      equations.push_back({{"name", e.name},
-                           {"symbolic", e.formula},
-                           {"numeric", e.numbers},
-                           {"value", number_or_null(e.value)},
-                           {"error", number_or_null(e.error)},
-                           {"unit", e.unit}});
+      equations.push_back(Value::Fields{{"name", e.name},
+                                        {"symbolic", e.formula},
+                                        {"numeric", e.numbers},
+                                        {"value", e.value},
+                                        {"error", e.error},
+                                        {"unit", e.unit}});
     }
-    steps.push_back({{"title", step.title}, {"text", step.text}, {"equations", equations}});
+    steps.push_back(Value::Fields{{"title", step.title}, {"text", step.text}, {"equations", equations}});
   }
-  return {{"clatter", version},
-          {"model", "discrete"},
-          {"scene", explanation.scene.json(Model::discrete)},
-          {"body", body_json(explanation.scene, Model::discrete)},
-          {"impact", explanation.impact},
-          {"shortfall", explanation.shortfall.empty() ? Json(nullptr) : Json(explanation.shortfall)},
-          {"steps", steps}};
+  return Value::Fields{{"clatter", version},
+                       {"model", "discrete"},
+                       {"scene", scene_value(explanation.scene, Model::discrete)},
+                       {"body", body_value(explanation.scene, Model::discrete)},
+                       {"impact", explanation.impact},
+                       {"shortfall", text_or_nothing(explanation.shortfall)},
+                       {"steps", steps}};
 }
 
 }  // namespace clatter::validation

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analytic/sequence.hpp"
-#include "validation/output/json.hpp"
+#include "validation/output/value.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
@@ -44,6 +44,6 @@ struct Explanation {
   int shortfall_status = 0;  ///< exit status that goes with it
 };
 [[nodiscard]] Explanation explain_impact(Scene scene, int n);
-[[nodiscard]] Json explanation_json(const Explanation& explanation);
+[[nodiscard]] Value explanation_fields(const Explanation& explanation);
 
 }  // namespace clatter::validation

@@ -11,7 +11,7 @@
 #include "validation/output/estimated.hpp"
 #include "validation/output/message.hpp"
 #include "validation/output/number.hpp"
-#include "validation/scene/body_properties.hpp"
+#include "validation/output/symbols.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -121,24 +121,18 @@ std::string as_latex(const std::vector<std::string>& head, const std::vector<Ste
   return out;
 }
 
-Table as_table(const std::vector<std::string>& head, const std::vector<Step>& steps) {
-  Table table{.head = head,
-              .columns = {{"step", "", ""},
-                          {"quantity", "", ""},
-                          {"equation", "", ""},
-                          {"numbers", "", ""},
-                          {"value", "", ""},
-                          {"unit", "", ""},
-                          {"error", "", ""}},
-              .rows = {},
-              .notes = {}};
-  for (const Step& step : steps) {
+Report report_of(const Explanation& explanation, const std::string& what) {
+  Report report = begun_report("explain", what);
+  report.head = scene_head(explanation.scene, Model::discrete);
+  report.fields = explanation_fields(explanation);
+  report.grid.columns = explain_columns();
+  for (const Step& step : explanation.steps) {
     for (const Equation& e : step.equations) {
-      table.rows.push_back({Cell(step.title), Cell(e.name), Cell(e.formula), Cell(e.numbers), Cell(e.value, 17),
-                            Cell(e.unit), std::isfinite(e.error) ? Cell(e.error, 17) : Cell()});
+      report.grid.rows.push_back({Cell(step.title), Cell(e.name), Cell(e.formula), Cell(e.numbers),
+                                  Cell(Value(e.value)), Cell(e.unit), Cell(Value(e.error))});
     }
   }
-  return table;
+  return report;
 }
 
 int run_explain(const ExplainInput& input) {
@@ -149,12 +143,13 @@ int run_explain(const ExplainInput& input) {
   const Explanation explanation = explain_impact(scene, n);
   for (const std::string& warning : explanation.warnings) say(warning);
   const std::vector<Step>& steps = explanation.steps;
-  std::vector<std::string> head{headline("explain", fmt::format("impact {} step by step", n))};
-  for (const std::string& line : scene_head(explanation.scene, Model::discrete)) head.push_back(line);
+  const Report report = report_of(explanation, fmt::format("impact {} step by step", n));
+  std::vector<std::string> head{report.title};
+  head.insert(head.end(), report.head.begin(), report.head.end());
   std::string text;
   switch (choice.style.format) {
-    case Format::json: text = json_text(explanation_json(explanation)); break;
-    case Format::csv: text = table_text(as_table(head, steps), choice.style); break;
+    case Format::json:
+    case Format::csv: text = report_text(report, choice.style); break;
     case Format::markdown: text = as_markdown(head, steps, scene.options.digits); break;
     case Format::latex: text = as_latex(head, steps, scene.options.digits); break;
     case Format::table: text = as_text(head, steps, scene.options.digits, choice.style.ascii); break;
@@ -166,6 +161,16 @@ int run_explain(const ExplainInput& input) {
 }
 
 }  // namespace
+
+std::vector<Column> explain_columns() {
+  return {{"step", "", "", "title of the step"},
+          {"quantity", "", "", "name of the number"},
+          {"equation", "", "", "that it follows from"},
+          {"numbers", "", "", "the same with its numbers"},
+          {"value", "", "", "in `unit`"},
+          {"unit", "", "", "of the value"},
+          {"error", "", "", "of the value"}};
+}
 
 Command explain_command() {
   auto input = std::make_shared<ExplainInput>();

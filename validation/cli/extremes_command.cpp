@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "validation/cli/commands.hpp"
 #include "validation/cli/extremes_report.hpp"
@@ -62,9 +61,7 @@ int run_extremes(const ExtremesInput& input) {
     plot->write(extremes_picture(map));
     plot->commit();
   }
-  write_report(
-      choice, [&] { return extremes_json(map); }, [&] { return extremes_records(map); },
-      [&] { return extremes_table(map, choice.style.format); });
+  write_report(choice, extremes_report(map));
   return map_status(map);
 }
 

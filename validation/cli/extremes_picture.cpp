@@ -5,8 +5,8 @@
 #include <array>
 
 #include "validation/cli/extremes_report.hpp"
-#include "validation/cli/version.hpp"
 #include "validation/output/number.hpp"
+#include "validation/output/version.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -4,11 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "validation/cli/impact_records.hpp"
-#include "validation/cli/options.hpp"
-#include "validation/cli/version.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation {
@@ -65,11 +61,9 @@ std::string outcome_words(const ExtremeCell& cell, Legend& reasons) {
 
 std::vector<std::string> head_of(const ExtremesMap& map) {
   const bool has_long = std::any_of(map.cells.begin(), map.cells.end(), [](const auto& c) { return c.long_run; });
-  std::vector<std::string> head{headline("extremes", what_it_is)};
-  head.push_back(fmt::format("{} cells in {} regions; at most {} s for a cell{}", map.cells.size(), map.regions.size(),
-                             shortest(map.cell_seconds),
-                             has_long ? fmt::format("; random scenes of family {}", map.seed) : ""));
-  return head;
+  return {fmt::format("{} cells in {} regions; at most {} s for a cell{}", map.cells.size(), map.regions.size(),
+                      shortest(map.cell_seconds),
+                      has_long ? fmt::format("; random scenes of family {}", map.seed) : "")};
 }
 
 std::string counts_words(const ExtremesMap& map) {
@@ -92,100 +86,118 @@ std::string slowest_words(const ExtremesMap& map) {
                      rung_name(slowest->model), significant(slowest->seconds, 2));
 }
 
-void add_notes(const ExtremesMap& map, const Legend& reasons, const Legend& oracles, Table& table) {
-  for (const std::string& failure : map_failures(map)) table.notes.push_back("FAILED: " + failure);
-  table.notes.push_back(counts_words(map));
-  if (const std::string words = slowest_words(map); !words.empty()) table.notes.push_back(words);
-  table.notes.push_back("digits: right ones, fewest and most of the region; cost: of the model in its slowest cell");
+void add_notes(const ExtremesMap& map, const Legend& reasons, const Legend& oracles, Report& report) {
+  for (const std::string& failure : map_failures(map)) report.notes.push_back("FAILED: " + failure);
+  report.notes.push_back(counts_words(map));
+  if (const std::string words = slowest_words(map); !words.empty()) report.notes.push_back(words);
+  report.notes.push_back("digits: right ones, fewest and most of the region; cost: of the model in its slowest cell");
   std::string by = "by: what the number was held against";
   for (std::size_t i = 0; i < oracles.texts().size(); ++i) {
     by += fmt::format("{} {} {}", i == 0 ? ":" : ";", letter(i + 1), oracles.texts()[i]);
   }
-  table.notes.push_back(by);
+  report.notes.push_back(by);
   for (const MapAxis& axis : map_axes()) {
     const bool shown =
         std::any_of(map.cells.begin(), map.cells.end(), [&](const auto& c) { return c.axis == axis.name; });
-    if (shown) table.notes.push_back(fmt::format("{}: {}", axis.symbol, axis.what));
+    if (shown) report.notes.push_back(fmt::format("{}: {}", axis.symbol, axis.what));
   }
   for (std::size_t i = 0; i < reasons.texts().size(); ++i) {
-    table.notes.push_back(fmt::format("({}) {}", i + 1, reasons.texts()[i]));
+    report.notes.push_back(fmt::format("({}) {}", i + 1, reasons.texts()[i]));
   }
 }
 
-Json cell_json(const ExtremeCell& cell) {
+Row cell_row(const ExtremeCell& cell) {
   const CellMeasure& m = cell.measure;
-  const auto text = [](const std::string& words) { return words.empty() ? Json(nullptr) : Json(words); };
-  return {{"axis", cell.axis},
-          {"model", rung_name(cell.model)},
-          {"value", cell.value},
-          {"label", cell.label},
-          {"verdict", verdict_name(cell.verdict)},
-          {"outcome", text(m.outcome)},
-          {"digits", cell.has_digits() ? number_or_null(cell.digits()) : Json(nullptr)},
-          {"error", cell.has_number() ? number_or_null(m.error) : Json(nullptr)},
-          {"bound", cell.has_number() ? number_or_null(m.bound) : Json(nullptr)},
-          {"oracle", text(cell.has_number() ? m.oracle : "")},
-          {"reason", text(cell.reason)},
-          {"seconds", m.seconds > 0 ? Json(m.seconds) : Json(nullptr)},
-          {"evaluations", m.evaluations > 0 ? Json(m.evaluations) : Json(nullptr)},
-          {"cell_seconds", cell.seconds}};
+  const auto where = [](bool known, double number) { return Cell(known ? Value(number) : Value()); };
+  return {Cell(cell.axis),
+          Cell(rung_name(cell.model)),
+          Cell(Value(cell.value)),
+          Cell(cell.label),
+          Cell(verdict_name(cell.verdict)),
+          Cell(text_or_nothing(m.outcome)),
+          where(cell.has_digits(), cell.has_digits() ? cell.digits() : 0),
+          where(cell.has_number(), m.error),
+          where(cell.has_number(), m.bound),
+          Cell(text_or_nothing(cell.has_number() ? m.oracle : "")),
+          Cell(text_or_nothing(cell.reason)),
+          where(m.seconds > 0, m.seconds),
+          Cell(m.evaluations > 0 ? Value(m.evaluations) : Value()),
+          Cell(Value(cell.seconds))};
 }
 
-}  // namespace
+Value region_fields(const ExtremesMap& map, const MapRegion& region) {
+  const ExtremeCell &first = map.cells[region.first], &last = map.cells[region.last];
+  return Value::Fields{{"axis", first.axis},
+                       {"model", rung_name(first.model)},
+                       {"from", first.value},
+                       {"to", last.value},
+                       {"labels", std::vector<std::string>{first.label, last.label}},
+                       {"verdict", verdict_name(first.verdict)},
+                       {"outcome", text_or_nothing(first.measure.outcome)},
+                       {"reason", text_or_nothing(first.reason)},
+                       {"fewest_digits", first.has_digits() ? Value(region.fewest_digits) : Value()},
+                       {"most_digits", first.has_digits() ? Value(region.most_digits) : Value()},
+                       {"seconds", region.slowest}};
+}
 
-Table extremes_table(const ExtremesMap& map, Format) {
-  Table table{.head = head_of(map), .columns = {}, .rows = {}, .notes = {}};
-  table.columns = {{.name = "axis", .heading = "of", .unit = "", .words = true},
-                   {.name = "model", .heading = "model", .unit = "", .words = true},
-                   {"from", "from", ""},
-                   {"to", "to", ""},
-                   {"digits", "digits", ""},
-                   {.name = "oracle", .heading = "by", .unit = "", .words = true},
-                   {"seconds", "cost", "ms"},
-                   {.name = "outcome", .heading = "outcome", .unit = "", .words = true}};
+/// One row for each region, and what its letters stand for.
+void add_regions(const ExtremesMap& map, Report& report) {
+  report.digest = Grid{{word_column("axis", "of", ""),
+                        word_column("model", "model", ""),
+                        {"from", "from", ""},
+                        {"to", "to", ""},
+                        {"digits", "digits", ""},
+                        word_column("oracle", "by", ""),
+                        {"seconds", "cost", "ms"},
+                        word_column("outcome", "outcome", "")},
+                       {}};
   Legend reasons, oracles;
   for (const MapRegion& region : map.regions) {
     const ExtremeCell &first = map.cells[region.first], &last = map.cells[region.last];
     const std::string by = first.has_number() ? letter(oracles.number(first.measure.oracle)) : "";
-    table.rows.push_back({Cell(map_axis(first.axis).symbol), Cell(model_word(first.model)), Cell(first.label),
-                          Cell(last.label), Cell(digits_words(first, region)), Cell(by),
-                          Cell(cost_words(region.slowest)), Cell(outcome_words(first, reasons))});
+    report.digest->rows.push_back({Cell(map_axis(first.axis).symbol), Cell(model_word(first.model)), Cell(first.label),
+                                   Cell(last.label), Cell(digits_words(first, region)), Cell(by),
+                                   Cell(cost_words(region.slowest)), Cell(outcome_words(first, reasons))});
   }
-  add_notes(map, reasons, oracles, table);
-  return table;
+  add_notes(map, reasons, oracles, report);
 }
 
-Table extremes_records(const ExtremesMap& map) {
-  Table table{.head = head_of(map), .columns = {}, .rows = {}, .notes = {counts_words(map)}};
-  Json cells = Json::array();
-  for (const ExtremeCell& cell : map.cells) cells.push_back(cell_json(cell));
-  add_impact_records(table, cells);
-  return table;
+}  // namespace
+
+std::vector<Column> extremes_columns() {
+  return {{"axis", "", "", "the quantity that goes to its ends"},
+          {"model", "", "", "a model of the ladder"},
+          {"value", "", "", "of the quantity"},
+          {"label", "", "", "the value in words"},
+          {"verdict", "", "", "number, refused or broken"},
+          {"outcome", "", "", "how the run ended"},
+          {"digits", "", "", "right ones"},
+          {"error", "", "", "relative, against the oracle"},
+          {"bound", "", "", "on the error, by the program's own account"},
+          {"oracle", "", "", "what the number was held against"},
+          {"reason", "", "", "of a refusal"},
+          {"seconds", "", "s", "that the model took"},
+          {"evaluations", "", "", "of the force"},
+          {"cell_seconds", "", "s", "that the cell took, its oracle included"}};
 }
 
-Json extremes_json(const ExtremesMap& map) {
-  Json json{{"clatter", version},     {"model", "extremes"},     {"seed", map.seed}, {"cell_limit", map.cell_seconds},
-            {"cells", Json::array()}, {"regions", Json::array()}};
-  for (const ExtremeCell& cell : map.cells) json["cells"].push_back(cell_json(cell));
-  for (const MapRegion& region : map.regions) {
-    const ExtremeCell &first = map.cells[region.first], &last = map.cells[region.last];
-    json["regions"].push_back({{"axis", first.axis},
-                               {"model", rung_name(first.model)},
-                               {"from", first.value},
-                               {"to", last.value},
-                               {"labels", {first.label, last.label}},
-                               {"verdict", verdict_name(first.verdict)},
-                               {"outcome", first.measure.outcome.empty() ? Json(nullptr) : Json(first.measure.outcome)},
-                               {"reason", first.reason.empty() ? Json(nullptr) : Json(first.reason)},
-                               {"fewest_digits", first.has_digits() ? Json(region.fewest_digits) : Json(nullptr)},
-                               {"most_digits", first.has_digits() ? Json(region.most_digits) : Json(nullptr)},
-                               {"seconds", region.slowest}});
-  }
+Report extremes_report(const ExtremesMap& map) {
+  Report report = begun_report("extremes", what_it_is);
+  report.head = head_of(map);
+  report.grid.columns = extremes_columns();
+  for (const ExtremeCell& cell : map.cells) report.grid.rows.push_back(cell_row(cell));
+  add_regions(map, report);
+  report.fields["model"] = "extremes";
+  report.fields["seed"] = map.seed;
+  report.fields["cell_limit"] = map.cell_seconds;
+  report.fields["cells"] = row_objects(report.grid);
+  report.fields["regions"] = Value::List{};
+  for (const MapRegion& region : map.regions) report.fields["regions"].push_back(region_fields(map, region));
   const ExtremeCell* slowest = slowest_cell(map);
-  json["slowest_cell"] = slowest ? Json(slowest->seconds) : Json(nullptr);
-  json["failures"] = map_failures(map);
-  json["message"] = counts_words(map);
-  return json;
+  report.fields["slowest_cell"] = slowest ? Value(slowest->seconds) : Value();
+  report.fields["failures"] = map_failures(map);
+  report.fields["message"] = counts_words(map);
+  return report;
 }
 
 }  // namespace clatter::validation

@@ -1,19 +1,17 @@
-// The map of extremes as a table, as JSON, as a picture.
+// The map of extremes as a report and as a picture.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "validation/extremes/extremes.hpp"
-#include "validation/output/json.hpp"
-#include "validation/output/table.hpp"
+#include "validation/output/report.hpp"
 
 namespace clatter::validation {
 
-/// One row per region; reasons of refusals and how errors were judged as notes.
-[[nodiscard]] Table extremes_table(const ExtremesMap& map, Format format);
-/// All cells.
-[[nodiscard]] Table extremes_records(const ExtremesMap& map);
-[[nodiscard]] Json extremes_json(const ExtremesMap& map);
+[[nodiscard]] std::vector<Column> extremes_columns();
+/// A row for each cell; tables have one for each region, and the reasons of refusals as notes.
+[[nodiscard]] Report extremes_report(const ExtremesMap& map);
 /// SVG: a strip for each quantity and model, its values side by side, coloured by digits, refusals hatched.
 [[nodiscard]] std::string extremes_picture(const ExtremesMap& map);
 

@@ -14,6 +14,8 @@ namespace clatter::validation {
 namespace {
 
 struct FiguresInput {
+  std::optional<std::string> format;
+  bool ascii = false, bare = false;
   std::optional<std::string> folder;
   std::vector<std::string> only;
 };
@@ -40,15 +42,20 @@ std::vector<int> chosen(const FiguresInput& input) {
 
 int run_figures(const FiguresInput& input) {
   const std::vector<int> numbers = chosen(input);
-  if (!input.folder || input.folder->empty()) throw BadInput("--output DIR: required, the folder for the CSV files");
+  if (!input.folder || input.folder->empty()) throw BadInput("--output DIR: required, the folder for the files");
+  OutputTexts form;
+  form.format = input.format.value_or("csv");
+  form.ascii = input.ascii;
+  form.bare = input.bare;
+  const FigureFiles files{*input.folder, read_output(form).style};
   make_folder(*input.folder, "--output");
-  check_figure_files(numbers, *input.folder);
+  check_figure_files(numbers, files);
   Laboratory laboratory;
   Progress progress;
   std::size_t done = 0;
   for (const int number : numbers) {
     progress.show(progress_bar(done++, numbers.size()));
-    write_figure(make_figure(number, laboratory), *input.folder);
+    write_figure(make_figure(number, laboratory), files);
   }
   return 0;
 }
@@ -57,9 +64,12 @@ int run_figures(const FiguresInput& input) {
 
 Command figures_command() {
   auto input = std::make_shared<FiguresInput>();
-  Command command{.name = "figures", .help = "the data of the paper's figures, one CSV each"};
+  Command command{.name = "figures", .help = "the data of the paper's figures, a file each"};
   command.add_text("--output", input->folder, "DIR", "folder for figure_07.csv, ...; made if it is not there");
   command.add_list("--only", input->only, "N", "numbers of figures");
+  command.add_text("--format", input->format, "table|csv|json|markdown|latex", "form of the files (csv)");
+  command.add_flag("--ascii", input->ascii, "plain ASCII in tables");
+  command.add_flag("--bare", input->bare, "CSV without comments");
   command.footer =
       "Example: clatter figures --only 7 14 --output figures\n"
       "clatter verify --html FILE draws them.";

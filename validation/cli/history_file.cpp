@@ -9,33 +9,28 @@ namespace clatter::validation {
 using numeric::HistorySample;
 using numeric::Vector3;
 
+std::vector<Column> history_columns() {
+  std::vector<Column> columns{{"t", "t", "s", "time after the first touch-down"}};
+  const auto add = [&](std::initializer_list<const char*> names, const char* unit, const char* meaning) {
+    for (const char* name : names) columns.push_back({name, name, unit, meaning});
+  };
+  add({"x", "y", "z"}, "m", "centre of mass");
+  add({"beta0", "beta1", "beta2", "beta3"}, "", "Euler parameters, body to world, scalar first");
+  add({"vx", "vy", "vz"}, "m/s", "velocity of the centre of mass");
+  add({"wx", "wy", "wz"}, "rad/s", "angular velocity, world");
+  add({"fx", "fy", "fz"}, "N", "contact force");
+  add({"point_vx", "point_vy", "point_vz"}, "m/s", "velocity of the contact point");
+  add({"energy_translation", "energy_rotation", "energy_potential", "energy_ground", "energy_total"}, "J", "energy");
+  add({"in_contact"}, "", "1 while anything touches, else 0");
+  return columns;
+}
+
 const std::vector<std::string>& history_names() {
-  static const std::vector<std::string> names{"t",
-                                              "x",
-                                              "y",
-                                              "z",
-                                              "beta0",
-                                              "beta1",
-                                              "beta2",
-                                              "beta3",
-                                              "vx",
-                                              "vy",
-                                              "vz",
-                                              "wx",
-                                              "wy",
-                                              "wz",
-                                              "fx",
-                                              "fy",
-                                              "fz",
-                                              "point_vx",
-                                              "point_vy",
-                                              "point_vz",
-                                              "energy_translation",
-                                              "energy_rotation",
-                                              "energy_potential",
-                                              "energy_ground",
-                                              "energy_total",
-                                              "in_contact"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const Column& column : history_columns()) all.push_back(column.name);
+    return all;
+  }();
   return names;
 }
 

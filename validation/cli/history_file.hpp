@@ -5,10 +5,13 @@
 #include <vector>
 
 #include "numeric/history.hpp"
+#include "validation/output/report.hpp"
 #include "validation/output/sink.hpp"
 
 namespace clatter::validation {
 
+/// A sample's numbers: t, x, …, in_contact.
+[[nodiscard]] std::vector<Column> history_columns();
 /// Names of a sample's numbers: t, x, …, in_contact (0 or 1).
 [[nodiscard]] const std::vector<std::string>& history_names();
 /// The numbers in that order; SI, world frame.

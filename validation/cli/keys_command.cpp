@@ -6,8 +6,8 @@
 
 #include "validation/cli/commands.hpp"
 #include "validation/cli/options.hpp"
-#include "validation/cli/version.hpp"
 #include "validation/output/number.hpp"
+#include "validation/output/symbols.hpp"
 #include "validation/scene/keys.hpp"
 
 namespace clatter::validation {
@@ -43,34 +43,22 @@ std::string meaning(const Key& key) {
   return fmt::format("{}{}; {}", key.help, unit, key.allowed());
 }
 
-Table keys_table() {
-  Table table{.head = {headline("keys", "the language of scenes")},
-              .columns = {{"key", "key", "", true, true},
-                          {"flag", "flag", "", true, true},
-                          {"default", "default", "", true, true},
-                          {"unit", "unit", "", true, true},
-                          {"allowed", "allowed", "", true, true},
-                          {"meaning", "meaning", "", true, true}},
-              .rows = {},
-              .notes = {}};
-  for (const Key& key : all_keys()) {
-    table.rows.push_back({std::string(key.name), std::string(key.flag), default_words(key), std::string(key.unit),
-                          key.allowed(), std::string(key.help)});
+Report keys_report() {
+  Report report = begun_report("keys", "the language of scenes");
+  for (const auto& [name, meaning] : {std::pair{"key", "in scene files"},
+                                      {"flag", "that overrides it"},
+                                      {"default", "without the key"},
+                                      {"unit", "of the value"},
+                                      {"allowed", "values"},
+                                      {"meaning", "of the value"}}) {
+    report.grid.columns.push_back(word_column(name, name, meaning));
   }
-  return table;
-}
-
-Json keys_as_json() {
-  Json keys = Json::array();
   for (const Key& key : all_keys()) {
-    keys.push_back({{"key", key.name},
-                    {"flag", *key.flag ? Json(key.flag) : Json(nullptr)},
-                    {"default", default_words(key)},
-                    {"unit", key.unit},
-                    {"allowed", key.allowed()},
-                    {"meaning", key.help}});
+    report.grid.rows.push_back({Cell(key.name), Cell(text_or_nothing(key.flag)), Cell(default_words(key)),
+                                Cell(key.unit), Cell(key.allowed()), Cell(key.help)});
   }
-  return {{"clatter", version}, {"keys", keys}};
+  report.fields["keys"] = row_objects(report.grid);
+  return report;
 }
 
 /// Two lines a key, since a table of all columns is wider than a terminal.
@@ -119,7 +107,7 @@ int run_keys(const OutputTexts& texts) {
   const OutputChoice choice = read_output(texts);
   check_files(choice, {});
   if (choice.style.format == Format::table) write_out(choice, keys_text(choice.style.ascii));
-  else write_report(choice, keys_as_json, keys_table, keys_table);
+  else write_report(choice, keys_report());
   return 0;
 }
 

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "validation/cli/version.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/scene/bad_input.hpp"
@@ -16,21 +14,19 @@ void add_output_options(Command& command, OutputTexts& t) {
   command.add_text("--format", t.format, "table|csv|json|markdown|latex", "form of the output (table)", "Output");
   command.add_text("--output", t.output, "FILE", "write there, whole or not at all", "Output");
   command.add_flag("--ascii", t.ascii, "plain ASCII in tables", "Output");
+  command.add_flag("--bare", t.bare, "CSV without comments", "Output");
 }
 
 OutputChoice read_output(const OutputTexts& texts) {
   OutputChoice choice;
   choice.style.ascii = texts.ascii;
+  choice.style.bare = texts.bare;
   choice.path = texts.output.value_or("");
   if (texts.format) {
     choice.style.format =
         static_cast<Format>(read_name_option("--format", *texts.format, {"table", "csv", "json", "markdown", "latex"}));
   }
   return choice;
-}
-
-std::string headline(const std::string& command, const std::string& what) {
-  return fmt::format("clatter {}, {}: {}", version, command, what);
 }
 
 void check_files(const OutputChoice& choice, std::vector<RunFile> written, const std::vector<RunFile>& read) {
@@ -46,13 +42,8 @@ void write_out(const OutputChoice& choice, const std::string& text) {
   sink.commit();
 }
 
-void write_report(const OutputChoice& choice, const std::function<Json()>& json, const std::function<Table()>& records,
-                  const std::function<Table()>& table) {
-  switch (choice.style.format) {
-    case Format::json: write_out(choice, json_text(json())); break;
-    case Format::csv: write_out(choice, table_text(records(), choice.style)); break;
-    default: write_out(choice, table_text(table(), choice.style));
-  }
+void write_report(const OutputChoice& choice, const Report& report) {
+  write_out(choice, report_text(report, choice.style));
 }
 
 void add_sweep_options(Command& command, SweepTexts& t, const std::string& what) {

@@ -1,15 +1,13 @@
 // Options that several commands share.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "validation/cli/command.hpp"
-#include "validation/output/json.hpp"
+#include "validation/output/report.hpp"
 #include "validation/output/run_files.hpp"
-#include "validation/output/table.hpp"
 #include "validation/scene/option_values.hpp"
 
 namespace clatter::validation {
@@ -17,12 +15,12 @@ namespace clatter::validation {
 /// Texts of the output options.
 struct OutputTexts {
   std::optional<std::string> format, output;
-  bool ascii = false;
+  bool ascii = false, bare = false;
 };
 
 /// Where and how to write.
 struct OutputChoice {
-  TableStyle style;
+  TextStyle style;
   std::string path;
 };
 
@@ -30,19 +28,14 @@ void add_output_options(Command& command, OutputTexts& texts);
 
 [[nodiscard]] OutputChoice read_output(const OutputTexts& texts);
 
-/// "clatter 0.1.0, COMMAND: WHAT".
-[[nodiscard]] std::string headline(const std::string& command, const std::string& what);
-
 /// What a run writes besides --output.  @throws as refuse_shared_files and require_writable.
 void check_files(const OutputChoice& choice, std::vector<RunFile> written, const std::vector<RunFile>& read = {});
 
 /// Writes a finished text whole.
 void write_out(const OutputChoice& choice, const std::string& text);
 
-/// Makes and writes what the format asks for: `json` for JSON, `records` for CSV, `table` for the formats that people
-/// read.
-void write_report(const OutputChoice& choice, const std::function<Json()>& json, const std::function<Table()>& records,
-                  const std::function<Table()>& table);
+/// Writes the report in the form that was asked for.
+void write_report(const OutputChoice& choice, const Report& report);
 
 /// From, to and step or count of a swept quantity.
 struct SweepTexts {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "validation/cli/arguments.hpp"
-#include "validation/cli/version.hpp"
+#include "validation/output/version.hpp"
 #include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {

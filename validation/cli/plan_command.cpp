@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "validation/cli/commands.hpp"
 #include "validation/cli/options.hpp"
@@ -47,9 +46,7 @@ int run_plan(const PlanInput& input) {
     throw BadInput(fmt::format("{}: a sweep has no plan; give --angle or leave out [sweep]", scene.path));
   }
   const Plan plan = make_plan(scene, target);
-  write_report(
-      choice, [&] { return plan_json(scene, plan); }, [&] { return plan_records(scene, plan); },
-      [&] { return plan_table(scene, plan); });
+  write_report(choice, plan_report(scene, plan));
   const std::string shortfall = plan_shortfall(plan);
   if (shortfall.empty()) return 0;
   say(shortfall);

@@ -3,14 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
-#include <nlohmann/json.hpp>
 
-#include "validation/cli/impact_records.hpp"
-#include "validation/cli/options.hpp"
-#include "validation/cli/version.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/body_properties.hpp"
+#include "validation/scene/scene_value.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -71,41 +67,77 @@ std::string plane_words(const Plan& plan) {
       growth, plan.predictable_impacts, plan.impacts);
 }
 
-void add_note(Table& table, const std::string& note) {
-  if (!note.empty()) table.notes.push_back(note);
+Row rung_row(const WeighedRung& rung, const Plan& plan) {
+  const bool applies = rung.against.empty();
+  const bool continuous = is_continuous(rung.rung) && applies;
+  const Value none;
+  return {Cell(rung_name(rung.rung)),
+          Cell(continuous ? Value(method_name(rung.setting.method)) : none),
+          continuous ? Cell(rung.setting.tolerance, 1) : Cell(),
+          Cell(rung.error, 2),
+          applies ? Cell(rung.evaluations, continuous ? fmt::format("{:.0f}", rung.evaluations) : "") : Cell(),
+          applies ? Cell(rung.seconds, 2) : Cell(),
+          Cell(rung_assumption(rung.rung)),
+          Cell(Value(rung.assumption_error)),
+          Cell(rung.serves),
+          Cell(verdict(rung, plan)),
+          Cell(text_or_nothing(rung.against))};
 }
 
-Json rung_json(const WeighedRung& rung, const Plan& plan) {
-  const bool continuous = is_continuous(rung.rung) && rung.against.empty();
-  return {{"model", rung_name(rung.rung)},
-          {"method", continuous ? Json(method_name(rung.setting.method)) : Json(nullptr)},
-          {"tolerance", continuous ? Json(rung.setting.tolerance) : Json(nullptr)},
-          {"error", number_or_null(rung.error)},
-          {"force_evaluations", rung.against.empty() ? Json(rung.evaluations) : Json(nullptr)},
-          {"seconds", rung.against.empty() ? number_or_null(rung.seconds) : Json(nullptr)},
-          {"assumption", rung_assumption(rung.rung)},
-          {"assumption_error", number_or_null(rung.assumption_error)},
-          {"serves", rung.serves},
-          {"verdict", verdict(rung, plan)},
-          {"reason", rung.against.empty() ? Json(nullptr) : Json(rung.against)}};
-}
-
-Json rungs_json(const Plan& plan) {
-  Json rungs = Json::array();
-  for (const WeighedRung& rung : plan.rungs) rungs.push_back(rung_json(rung, plan));
-  return rungs;
-}
-
-Json choice_json(const Plan& plan) {
+Value choice_fields(const Plan& plan) {
   const bool continuous = is_continuous(plan.choice.rung);
-  return {{"model", rung_name(plan.choice.rung)},
-          {"method", continuous ? Json(method_name(plan.choice.method)) : Json(nullptr)},
-          {"tolerance", continuous ? Json(plan.choice.tolerance) : Json(nullptr)},
-          {"error", number_or_null(plan.error)},
-          {"force_evaluations", plan.evaluations},
-          {"seconds", plan.seconds},
-          {"serves", plan.serves},
-          {"command", command_line(plan)}};
+  return Value::Fields{{"model", rung_name(plan.choice.rung)},
+                       {"method", continuous ? Value(method_name(plan.choice.method)) : Value()},
+                       {"tolerance", continuous ? Value(plan.choice.tolerance) : Value()},
+                       {"error", plan.error},
+                       {"force_evaluations", plan.evaluations},
+                       {"seconds", plan.seconds},
+                       {"serves", plan.serves},
+                       {"command", command_line(plan)}};
+}
+
+/// What the plan takes for granted where it uses a rung, or why a rung does not apply.
+std::string rung_words(const WeighedRung& rung, const Plan& plan) {
+  const std::string name = rung_name(rung.rung);
+  if (!rung.against.empty()) return name + " does not apply: " + rung.against;
+  if (!std::isfinite(rung.assumption_error)) return "";
+  if (rung.rung == Rung::planar) return plane_words(plan);
+  return fmt::format("{} takes for granted: {}; by its own account an error of {}", name, rung.assumption_words,
+                     error_words(rung.assumption_error));
+}
+
+std::vector<std::string> notes_of(const Plan& plan) {
+  const std::string shortfall = plan_shortfall(plan);
+  const bool has_choice = !std::isnan(plan.error);
+  std::vector<std::string> notes{has_choice ? choice_words(plan) : "",
+                                 shortfall.empty() ? "" : "Not as asked: " + shortfall,
+                                 has_choice ? "Run it: " + command_line(plan) : ""};
+  for (const WeighedRung& rung : plan.rungs) notes.push_back(rung_words(rung, plan));
+  notes.insert(notes.end(),
+               {parts_words(plan, true), parts_words(plan, false),
+                fmt::format("Errors: the largest over {} and all times, angles, impulses and velocities, relative to "
+                            "the sequence's sizes",
+                            plan.impacts == 1 ? "one impact" : fmt::format("{} impacts", plan.impacts)),
+                fmt::format("Planning took {} force evaluations", plan.planning_evaluations)});
+  std::erase(notes, "");
+  return notes;
+}
+
+void add_results(const Plan& plan, Value& fields) {
+  fields["parts"] = Value::List{};
+  for (const WeighedPart& part : plan.parts) {
+    fields["parts"].push_back(
+        Value::Fields{{"part", part_name(part.part)}, {"error", part.error}, {"left_out", part.left_out}});
+  }
+  fields["impacts"] = plan.impacts;
+  fields["known_impacts"] = plan.known_impacts;
+  fields["predictable_impacts"] = plan.predictable_impacts;
+  fields["growth_out_of_plane"] = plan.growth_out_of_plane;
+  fields["error_constant"] = plan.error_constant;
+  fields["planning_evaluations"] = plan.planning_evaluations;
+  const std::string shortfall = plan_shortfall(plan);
+  fields["shortfall"] = text_or_nothing(shortfall);
+  fields["message"] = shortfall.empty() ? choice_words(plan) : shortfall;
 }
 
 }  // namespace
@@ -128,77 +160,35 @@ std::string plan_shortfall(const Plan& plan) {
   return fmt::format("{} digits cannot be had{}; {}", plan.target.digits, within, best);
 }
 
-Table plan_table(const Scene& scene, const Plan& plan) {
-  Table table{.head = {headline("plan", what_it_is(plan))}, .columns = {}, .rows = {}, .notes = {}};
-  for (const std::string& line : scene_head(scene)) table.head.push_back(line);
-  table.columns = {{.name = "model", .heading = "model", .unit = "", .words = true},
-                   {.name = "setting", .heading = "setting", .unit = "", .words = true},
-                   {"error", "error", ""},
-                   {"force_evaluations", "evaluations", ""},
-                   {"seconds", "cost", "ms"},
-                   {.name = "verdict", .heading = "verdict", .unit = "", .words = true}};
-  for (const WeighedRung& rung : plan.rungs) {
-    const bool applies = rung.against.empty();
-    const bool continuous = applies && is_continuous(rung.rung);
-    table.rows.push_back({Cell(rung_name(rung.rung)), Cell(applies ? setting_words(rung.setting) : ""),
-                          applies && std::isfinite(rung.error) ? Cell(rung.error, 2) : Cell(),
-                          continuous ? Cell(fmt::format("{:.0f}", rung.evaluations)) : Cell(),
-                          applies ? Cell(1e3 * rung.seconds, 2) : Cell(), Cell(verdict(rung, plan))});
-  }
-  const std::string shortfall = plan_shortfall(plan);
-  if (!std::isnan(plan.error)) add_note(table, choice_words(plan));
-  if (!shortfall.empty()) add_note(table, "Not as asked: " + shortfall);
-  if (!std::isnan(plan.error)) add_note(table, "Run it: " + command_line(plan));
-  for (const WeighedRung& rung : plan.rungs) {
-    const std::string name = rung_name(rung.rung);
-    if (!rung.against.empty()) add_note(table, name + " does not apply: " + rung.against);
-    else if (rung.rung == Rung::planar && std::isfinite(rung.assumption_error)) add_note(table, plane_words(plan));
-    else if (std::isfinite(rung.assumption_error))
-      add_note(table, fmt::format("{} takes for granted: {}; by its own account an error of {}", name,
-                                  rung.assumption_words, error_words(rung.assumption_error)));
-  }
-  add_note(table, parts_words(plan, true));
-  add_note(table, parts_words(plan, false));
-  add_note(table, fmt::format("Errors: the largest over {} and all times, angles, impulses and velocities, relative "
-                              "to the sequence's sizes",
-                              plan.impacts == 1 ? "one impact" : fmt::format("{} impacts", plan.impacts)));
-  add_note(table, fmt::format("Planning took {} force evaluations", plan.planning_evaluations));
-  return table;
+std::vector<Column> plan_columns() {
+  return {word_column("model", "model", "a model of the ladder"),
+          word_column("method", "method", "of integration"),
+          {"tolerance", "tol.", "", "of the method, per step"},
+          {"error", "error", "", "largest over all impacts and numbers, relative to the sequence's sizes"},
+          {"force_evaluations", "evals", "", "that a run takes"},
+          {"seconds", "cost", "s", "that a run takes, predicted"},
+          {"assumption", "", "", "what the model takes for granted", false},
+          {"assumption_error", "", "", "the error that this brings, by the model's own account", false},
+          {"serves", "", "", "whether the error is small enough", false},
+          word_column("verdict", "verdict", "whether it serves or is chosen"),
+          {"reason", "", "", "why it does not apply", false}};
 }
 
-Table plan_records(const Scene& scene, const Plan& plan) {
-  Table table{
-      .head = {headline("plan", what_it_is(plan)), "scene: " + scene.json().dump(), "body: " + body_json(scene).dump()},
-      .columns = {},
-      .rows = {},
-      .notes = {}};
-  add_impact_records(table, rungs_json(plan));
-  if (!std::isnan(plan.error)) table.notes = {choice_words(plan), "Run it: " + command_line(plan)};
-  return table;
-}
-
-Json plan_json(const Scene& scene, const Plan& plan) {
-  Json json{
-      {"clatter", version},    {"model", "plan"},
-      {"scene", scene.json()}, {"body", body_json(scene)},
-      {"asked", plan.asked},   {"within_ms", plan.target.within_ms ? Json(*plan.target.within_ms) : Json(nullptr)}};
-  json["choice"] = std::isnan(plan.error) ? Json(nullptr) : choice_json(plan);
-  json["rungs"] = rungs_json(plan);
-  json["parts"] = Json::array();
-  for (const WeighedPart& part : plan.parts) {
-    json["parts"].push_back(
-        {{"part", part_name(part.part)}, {"error", number_or_null(part.error)}, {"left_out", part.left_out}});
-  }
-  json["impacts"] = plan.impacts;
-  json["known_impacts"] = plan.known_impacts;
-  json["predictable_impacts"] = plan.predictable_impacts;
-  json["growth_out_of_plane"] = number_or_null(plan.growth_out_of_plane);
-  json["error_constant"] = number_or_null(plan.error_constant);
-  json["planning_evaluations"] = plan.planning_evaluations;
-  const std::string shortfall = plan_shortfall(plan);
-  json["shortfall"] = shortfall.empty() ? Json(nullptr) : Json(shortfall);
-  json["message"] = shortfall.empty() ? choice_words(plan) : shortfall;
-  return json;
+Report plan_report(const Scene& scene, const Plan& plan) {
+  Report report = begun_report("plan", what_it_is(plan));
+  report.head = scene_head(scene);
+  report.grid.columns = plan_columns();
+  for (const WeighedRung& rung : plan.rungs) report.grid.rows.push_back(rung_row(rung, plan));
+  report.notes = notes_of(plan);
+  report.fields["model"] = "plan";
+  report.fields["scene"] = scene_value(scene);
+  report.fields["body"] = body_value(scene);
+  report.fields["asked"] = plan.asked;
+  report.fields["within_ms"] = plan.target.within_ms ? Value(*plan.target.within_ms) : Value();
+  report.fields["choice"] = std::isnan(plan.error) ? Value() : choice_fields(plan);
+  report.fields["rungs"] = row_objects(report.grid);
+  add_results(plan, report.fields);
+  return report;
 }
 
 }  // namespace clatter::validation

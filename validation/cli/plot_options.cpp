@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "validation/cli/options.hpp"
 #include "validation/figures/gnuplot.hpp"
 #include "validation/output/message.hpp"
 #include "validation/scene/bad_input.hpp"
+#include "validation/scene/scene_value.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -31,8 +31,9 @@ void add_plot_options(Command& command, PlotTexts& texts) {
   command.add_flag(script_option, texts.script, "and beside it the gnuplot script that draws it", "Output");
 }
 
-std::vector<std::string> run_words(const std::string& command, const std::string& what, const Json& scene) {
-  return {headline(command, what), "scene: " + scene.dump()};
+std::vector<std::string> run_words(const std::string& command, const std::string& what, const Scene& scene,
+                                   Model model) {
+  return {headline(command, what), scene_line(scene, model)};
 }
 
 std::vector<RunFile> plot_files(const PlotTexts& texts) {

@@ -7,9 +7,9 @@
 
 #include "validation/cli/command.hpp"
 #include "validation/figures/picture.hpp"
-#include "validation/output/json.hpp"
 #include "validation/output/run_files.hpp"
 #include "validation/output/sink.hpp"
+#include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
 
@@ -43,6 +43,6 @@ class PlotFile {
 
 /// Head of a script: version, command, what it computes, and the whole scene.
 [[nodiscard]] std::vector<std::string> run_words(const std::string& command, const std::string& what,
-                                                 const Json& scene);
+                                                 const Scene& scene, Model model = Model::continuous);
 
 }  // namespace clatter::validation

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "analytic/contact_angles.hpp"
@@ -11,7 +10,6 @@
 #include "validation/cli/plot_options.hpp"
 #include "validation/cli/regimes_picture.hpp"
 #include "validation/cli/rod_options.hpp"
-#include "validation/cli/version.hpp"
 #include "validation/output/estimated.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/bad_input.hpp"
@@ -24,6 +22,8 @@ using analytic::degrees_per_radian;
 using analytic::ImpactNumber;
 using analytic::RegimeBoundary;
 using analytic::RodParameters;
+
+const char* const what_it_is = "how many impacts, and where that changes";
 
 struct RegimesInput {
   std::optional<std::string> over, digits;
@@ -97,49 +97,52 @@ Cell angle_cell(double radians, int digits) {
   return std::isnan(radians) ? Cell() : Cell(radians * degrees_per_radian, digits);
 }
 
-Table table_of(const std::vector<Regimes>& all, const Quantity& quantity, const std::string& rod, int digits) {
-  Table table{.head = {headline("regimes", "how many impacts, and where that changes"), rod},
-              .columns = {{quantity.name, quantity.heading, ""},
-                          {"theta_2_deg", "θ₂", "°"},
-                          {"kind_2", "kind", ""},
-                          {"beta_deg", "β there", "°"},
-                          {"theta_3_deg", "θ₃", "°"},
-                          {"kind_3", "kind", ""},
-                          {"gamma_deg", "γ there", "°"}},
-              .rows = {},
-              .notes = {"Three impacts below θ₃, two from θ₃ to θ₂, one above (β, γ ≤ 90°).",
-                        "fold: the end grazes the ground; upright: it arrives at 90°; order: another "
-                        "contact comes first."}};
-  for (const auto& [value, second, third] : all) {
-    const auto theta = [&](const RegimeBoundary& b) {
-      const Estimated angle = Estimated{b.theta, b.uncertainty} * degrees_per_radian;
-      return b.kind == BoundaryKind::never ? Cell() : known_cell(angle, {digits, 90});
-    };
-    table.rows.push_back({Cell(value, 6), theta(second), Cell(kind_name(second.kind)), angle_cell(second.beta, digits),
-                          theta(third), Cell(kind_name(third.kind)), angle_cell(third.gamma, digits)});
-  }
-  return table;
+/// Columns of a boundary: `number` is "2" or "3", the other impact's angle there is not shown.
+void add_boundary_columns(const std::string& number, const std::string& object, std::vector<Column>& columns) {
+  const bool second = number == "2";
+  const std::string at = "at the boundary of " + object + " impacts";
+  columns.insert(
+      columns.end(),
+      {{"theta_" + number + "_deg", second ? "θ₂" : "θ₃", "°", "angle below which there is a " + object + " impact",
+        true, false, object, "theta_deg"},
+       {"kind_" + number, "kind", "", "why the " + object + " impact ends there", true, false, object, "kind"},
+       {second ? "beta_deg" : "beta_3_deg", "β there", "°", "β " + at, second, false, object, "beta_deg"},
+       {second ? "gamma_2_deg" : "gamma_deg", "γ there", "°", "γ " + at, !second, false, object, "gamma_deg"},
+       {"theta_" + number + "_deg_error", "", "°", "error of theta_" + number + "_deg", false, false, object,
+        "uncertainty_deg"}});
 }
 
-Json boundary_json(const RegimeBoundary& b) {
+std::vector<Column> columns_of(const Quantity& quantity) {
+  std::vector<Column> columns{{quantity.name, quantity.heading, "", quantity.words}};
+  add_boundary_columns("2", "second", columns);
+  add_boundary_columns("3", "third", columns);
+  return columns;
+}
+
+void add_boundary(const RegimeBoundary& b, int digits, Row& row) {
   const bool exists = b.kind != BoundaryKind::never;
-  return {{"kind", kind_name(b.kind)},
-          {"theta_deg", exists ? Json(b.theta * degrees_per_radian) : Json(nullptr)},
-          {"beta_deg", number_or_null(b.beta * degrees_per_radian)},
-          {"gamma_deg", number_or_null(b.gamma * degrees_per_radian)},
-          {"uncertainty_deg", exists ? Json(b.uncertainty * degrees_per_radian) : Json(nullptr)}};
+  const Estimated angle = Estimated{b.theta, b.uncertainty} * degrees_per_radian;
+  row.insert(row.end(),
+             {exists ? known_cell(angle, {digits, 90}) : Cell(), Cell(kind_name(b.kind)), angle_cell(b.beta, digits),
+              angle_cell(b.gamma, digits), Cell(exists ? Value(angle.error) : Value())});
 }
 
-Json json_of(const std::vector<Regimes>& all, const Quantity& quantity, const RodParameters& rod) {
-  Json rows = Json::array();
+Report report_of(const std::vector<Regimes>& all, const Quantity& quantity, const RodParameters& rod, int digits) {
+  Report report = begun_report("regimes", what_it_is);
+  report.grid.columns = columns_of(quantity);
+  report.notes = {"Three impacts below θ₃, two from θ₃ to θ₂, one above (β, γ ≤ 90°).",
+                  "fold: the end grazes the ground; upright: it arrives at 90°; order: another contact comes first."};
   for (const auto& [value, second, third] : all) {
-    rows.push_back({{quantity.name, value}, {"second", boundary_json(second)}, {"third", boundary_json(third)}});
+    Row& row = report.grid.rows.emplace_back();
+    row.emplace_back(value, 6);
+    add_boundary(second, digits, row);
+    add_boundary(third, digits, row);
   }
-  return {{"clatter", version},
-          {"model", "discrete"},
-          {"over", quantity.name},
-          {"parameters", rod_json(rod)},
-          {"rows", rows}};
+  report.fields["model"] = "discrete";
+  report.fields["over"] = quantity.name;
+  report.fields["parameters"] = rod_fields(rod);
+  report.fields["rows"] = row_objects(report.grid);
+  return report;
 }
 
 /// Two decades or more between positive values: on a linear axis most of them would lie on one another.
@@ -164,7 +167,7 @@ std::string rod_words(const RegimesInput& input, const Quantity& quantity) {
 
 std::vector<std::string> script_head(const RegimesInput& input, const Quantity& quantity,
                                      const std::vector<double>& values) {
-  return {headline("regimes", "how many impacts, and where that changes"),
+  return {headline("regimes", what_it_is),
           fmt::format("{}; {} from {} to {}, {} values", rod_words(input, quantity), quantity.heading,
                       shortest(values.front()), shortest(values.back()), values.size())};
 }
@@ -186,10 +189,9 @@ int run_regimes(const RegimesInput& input) {
     all.push_back({value, analytic::regime_boundary(ImpactNumber::second, rod),
                    analytic::regime_boundary(ImpactNumber::third, rod)});
   }
-  const std::string summary = rod_summary(read_rod(input.rod)) + ", but for the first column";
-  write_out(choice, choice.style.format == Format::json
-                        ? json_text(json_of(all, quantity, rod))
-                        : table_text(table_of(all, quantity, summary, digits), choice.style));
+  Report report = report_of(all, quantity, read_rod(input.rod), digits);
+  report.head = {rod_summary(read_rod(input.rod)) + ", but for the first column"};
+  write_report(choice, report);
   if (plot.is_wanted()) {
     const bool logarithmic =
         input.logarithmic || (quantity.member == &RodParameters::gravity_number && spans_decades(values));
@@ -200,6 +202,8 @@ int run_regimes(const RegimesInput& input) {
 }
 
 }  // namespace
+
+std::vector<Column> regimes_columns() { return columns_of(all_quantities().front()); }
 
 Command regimes_command() {
   auto input = std::make_shared<RegimesInput>();

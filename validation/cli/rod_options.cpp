@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "validation/cli/options.hpp"
 #include "validation/output/number.hpp"
@@ -48,8 +47,9 @@ analytic::RodParameters read_rod(const RodTexts& t) {
   return rod;
 }
 
-Json rod_json(const analytic::RodParameters& p) {
-  return {{"gravity_number", p.gravity_number}, {"restitution", p.restitution}, {"impulse_ratio", p.impulse_ratio}};
+Value rod_fields(const analytic::RodParameters& p) {
+  return Value::Fields{
+      {"gravity_number", p.gravity_number}, {"restitution", p.restitution}, {"impulse_ratio", p.impulse_ratio}};
 }
 
 std::string rod_summary(const analytic::RodParameters& p) {

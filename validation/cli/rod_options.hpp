@@ -6,7 +6,7 @@
 
 #include "analytic/contact_angles.hpp"
 #include "validation/cli/command.hpp"
-#include "validation/output/json.hpp"
+#include "validation/output/value.hpp"
 
 namespace clatter::validation {
 
@@ -17,7 +17,7 @@ void add_rod_options(Command& command, RodTexts& texts);
 /// @throws BadInput as read_scene().
 [[nodiscard]] analytic::RodParameters read_rod(const RodTexts& texts);
 /// The parameters under their names in JSON.
-[[nodiscard]] Json rod_json(const analytic::RodParameters& parameters);
+[[nodiscard]] Value rod_fields(const analytic::RodParameters& parameters);
 /// "thin rod, G = …, e = …, μᵢ = …".
 [[nodiscard]] std::string rod_summary(const analytic::RodParameters& parameters);
 

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "validation/cli/commands.hpp"
 #include "validation/cli/options.hpp"
@@ -31,12 +30,10 @@ int run_sequence(const SequenceInput& input) {
   PlotFile plot(input.plot);
   const analytic::Sequence sequence = sequence_by_method(scene, method);
   for (const std::string& warning : sequence.warnings) say(warning);
-  write_report(
-      choice, [&] { return sequence_json(scene, sequence); }, [&] { return sequence_records(scene, sequence); },
-      [&] { return sequence_table(scene, sequence); });
+  write_report(choice, sequence_report(scene, sequence));
   if (plot.is_wanted()) {
     plot.write(sequence_picture(scene, sequence),
-               run_words("sequence", "impact sequence, discrete model", scene.json(Model::discrete)));
+               run_words("sequence", "impact sequence, discrete model", scene, Model::discrete));
   }
   const std::string why = shortfall(scene, sequence);
   if (why.empty()) return 0;

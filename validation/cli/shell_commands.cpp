@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "validation/cli/commands.hpp"
-#include "validation/cli/version.hpp"
 #include "validation/output/sink.hpp"
+#include "validation/output/version.hpp"
 #include "validation/scene/option_values.hpp"
 
 namespace clatter::validation {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "validation/cli/commands.hpp"
@@ -14,12 +13,14 @@
 #include "validation/cli/simulation_picture.hpp"
 #include "validation/cli/simulation_report.hpp"
 #include "validation/output/interrupt.hpp"
+#include "validation/output/json.hpp"
 #include "validation/output/message.hpp"
 #include "validation/output/number.hpp"
 #include "validation/plan/planned_run.hpp"
 #include "validation/plan/shortfall.hpp"
 #include "validation/scene/bad_input.hpp"
 #include "validation/scene/body_properties.hpp"
+#include "validation/scene/scene_value.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -61,18 +62,10 @@ int status_of(const Scene& scene, const PlannedRun& planned) {
   return not_computed;
 }
 
-/// Says how many values fall short, and why the first of them does.
 int status_of(const std::vector<SweptRun>& runs) {
-  std::size_t count = 0;
-  std::string first;
-  for (const SweptRun& swept : runs) {
-    const std::string why = shortfall(swept.scene, swept.planned);
-    if (why.empty()) continue;
-    if (count++ == 0) first = fmt::format("{}: {}", shortest(swept.value), why);
-  }
-  if (count == 0) return 0;
-  say(fmt::format("{} of {} values fall short; {}", count, runs.size(), first));
-  return not_computed;
+  Shortfalls shortfalls;
+  for (const SweptRun& swept : runs) shortfalls.add(shortest(swept.value), shortfall(swept.scene, swept.planned));
+  return shortfalls.status(static_cast<long long>(runs.size()), "values");
 }
 
 /// The history's picture, unless there is none to draw.
@@ -80,17 +73,15 @@ void draw(const Scene& scene, const Simulation& run, const PictureHistory& histo
   if (run.outcome == Outcome::interrupted) plot.leave_out("interrupted");
   else if (run.impacts.empty()) plot.leave_out("no impact was computed");
   else if (plot.is_wanted())
-    plot.write(simulation_picture(scene, history),
-               run_words("simulate", "impact sequence, continuous contact", scene.json()));
+    plot.write(simulation_picture(scene, history), run_words("simulate", "impact sequence, continuous contact", scene));
 }
 
 int run_single(const Scene& scene, const numeric::Body& body, const OutputChoice& choice, PlotFile& plot) {
   const CooperativeInterrupt interrupt;
   std::optional<HistoryFile> history;
   if (!scene.history.empty()) {
-    history.emplace(scene.history,
-                    std::vector<std::string>{headline("simulate", "time history"), "scene: " + scene.json().dump(),
-                                             "body: " + body_json(scene).dump()});
+    history.emplace(scene.history, std::vector<std::string>{headline("simulate", "time history"), scene_line(scene),
+                                                            "body: " + compact_json(body_value(scene))});
   }
   PictureHistory picture(body);
   HistoryFan recorders;
@@ -107,9 +98,7 @@ int run_single(const Scene& scene, const numeric::Body& body, const OutputChoice
     planned = run_scene(scene, body, interrupt, show, recorders.is_empty() ? nullptr : &recorders);
   }
   if (history) history->commit();
-  write_report(
-      choice, [&] { return simulation_json(scene, planned); }, [&] { return simulation_records(scene, planned); },
-      [&] { return simulation_table(scene, planned); });
+  write_report(choice, simulation_report(scene, planned));
   draw(scene, planned.run, picture, plot);
   warn(planned.warnings);
   return status_of(scene, planned);
@@ -135,9 +124,7 @@ int run_sweep(const Scene& scene, const numeric::Body& body, const OutputChoice&
       runs.push_back(std::move(swept));
     }
   }
-  write_report(
-      choice, [&] { return sweep_json(scene, runs); }, [&] { return sweep_records(scene, runs); },
-      [&] { return sweep_table(scene, runs); });
+  write_report(choice, sweep_report(scene, runs));
   warn(warnings);
   if (runs.size() < values.size()) {
     plot.leave_out("interrupted");
@@ -147,7 +134,7 @@ int run_sweep(const Scene& scene, const numeric::Body& body, const OutputChoice&
       std::any_of(runs.begin(), runs.end(), [](const SweptRun& swept) { return !swept.planned.run.impacts.empty(); });
   if (!any) plot.leave_out("no impact was computed");
   else if (plot.is_wanted())
-    plot.write(sweep_picture(scene, runs), run_words("simulate", "first impacts, continuous contact", scene.json()));
+    plot.write(sweep_picture(scene, runs), run_words("simulate", "first impacts, continuous contact", scene));
   return status_of(runs);
 }
 

@@ -4,38 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
-#include <numbers>
 
-#include "validation/cli/impact_records.hpp"
-#include "validation/cli/options.hpp"
 #include "validation/cli/swept_column.hpp"
-#include "validation/cli/version.hpp"
-#include "validation/output/impact_entries.hpp"
-#include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
-#include "validation/output/totals.hpp"
 #include "validation/plan/shortfall.hpp"
+#include "validation/record/impact_rows.hpp"
+#include "validation/record/names.hpp"
+#include "validation/record/totals.hpp"
 #include "validation/scene/body_properties.hpp"
+#include "validation/scene/scene_value.hpp"
 
 namespace clatter::validation {
 namespace {
 
-using numeric::ImpactNumbers;
 using numeric::ImpactRecord;
-using numeric::Outcome;
 using numeric::Simulation;
-using numeric::Vector3;
-
-constexpr double degrees = 180 / std::numbers::pi;
-
-Json impact_json(const ImpactRecord& row, int n) {
-  Json json, errors;
-  for_each_entry(row, n, [&](const char* name, const auto& value) { json[name] = entry_json(value); });
-  for_each_error(row, [&](const char* name, const auto& error) { errors[name] = entry_json(error); });
-  json["error_estimate"] = errors;
-  return json;
-}
 
 /// Whether rounding or the method's error has outgrown the row by itself; what follows such a row is no better.
 bool doubtful(const Scene& scene, const ImpactRecord& row) {
@@ -52,36 +35,21 @@ std::size_t trusted_impacts(const Scene& scene, const Simulation& run) {
   return static_cast<std::size_t>(first - run.impacts.begin());
 }
 
-/// What is known of the numbers of an impact: the digits that their estimated errors leave, none in a row that is not
-/// to be trusted.  Without estimates (run.errors = false) two digits, which a tolerance of 1e-4 and less leaves.
-class Known {
- public:
-  Known(const Scene& scene, bool trusted) : scene_(scene), trusted_(trusted) {}
-
-  [[nodiscard]] Cell operator()(double value, double error, double size) const {
-    if (!trusted_) return {value, 0};
-    if (!scene_.options.error_estimates) return {value, digits_without_estimate};
-    return known_cell({value, error}, {scene_.options.digits, size});
-  }
-
- private:
-  static constexpr int digits_without_estimate = 2;
-  const Scene& scene_;
-  bool trusted_;
-};
-
-/// Sizes of the numbers of a run, by their places in MotionNumbers.
-struct Sizes {
-  double time, angle, impulse, speed, rate;
-  explicit Sizes(const MotionNumbers& all)
-      : time(all[0]), angle(all[1]), impulse(all[4]), speed(all[7]), rate(all[9]) {}
-};
+/// What tables show of the numbers of a run; `trusted`: of an impact that is to be trusted.
+ImpactDigits digits_of(const Scene& scene, const PlannedRun& planned, bool trusted) {
+  const MotionNumbers& sizes = planned.sizes;
+  return {.digits = scene.options.digits,
+          .trusted = trusted,
+          .estimated = scene.options.error_estimates,
+          .scales = {0, sizes[0], sizes[1], sizes[4], sizes[7], sizes[9], planned.run.energy_start, 1}};
+}
 
 /// The sum of the normal impulses as far as it is known.
 std::string total_words(const Scene& scene, const PlannedRun& planned) {
   const Estimated total = totals(planned.run).normal_impulse;
   const bool trusted = trusted_impacts(scene, planned.run) == planned.run.impacts.size();
-  return shown_text(Known(scene, trusted)(total.value, total.error, 0));
+  ImpactDigits digits = digits_of(scene, planned, trusted);
+  return shown_text(digits.cell(total.value, total.error, Scale::none));
 }
 
 std::string method_words(const Simulation& run) {
@@ -133,9 +101,7 @@ std::string local_slip_words(const Scene& scene, const Simulation& run) {
 
 std::vector<std::string> notes_of(const Scene& scene, const PlannedRun& planned) {
   const Simulation& run = planned.run;
-  std::vector<std::string> notes;
-  const std::string trust = trust_words(scene, run);
-  if (!trust.empty()) notes.push_back(trust);
+  std::vector<std::string> notes{trust_words(scene, run)};
   for (const std::string& warning : planned.warnings) notes.push_back("!: warning: " + warning);
   double gap = 0;
   for (const ImpactRecord& row : run.impacts) gap = std::max(gap, std::fabs(row.ledger_gap));
@@ -143,196 +109,126 @@ std::vector<std::string> notes_of(const Scene& scene, const PlannedRun& planned)
     notes.push_back(fmt::format("Sum of normal impulses: {} N·s; the ledger of energy closes to {}",
                                 total_words(scene, planned), significant(gap, 1)));
   }
-  const std::string local_slip = local_slip_words(scene, run);
-  if (!local_slip.empty()) notes.push_back(local_slip);
-  notes.push_back(method_words(run));
-  const std::string accuracy = accuracy_words(scene, planned);
-  if (!accuracy.empty()) notes.push_back(accuracy);
-  notes.push_back(fmt::format("{}: {}", outcome_name(run.outcome), run.message));
+  for (const std::string& words : {local_slip_words(scene, run), method_words(run), accuracy_words(scene, planned),
+                                   fmt::format("{}: {}", outcome_name(run.outcome), run.message)}) {
+    notes.push_back(words);
+  }
+  std::erase(notes, "");
   return notes;
 }
 
-std::vector<std::string> head_of(const Scene& scene, const std::string& what) {
-  std::vector<std::string> head{headline("simulate", what)};
-  for (const std::string& line : scene_head(scene)) head.push_back(line);
-  return head;
+std::vector<Column> columns_of(const Scene& scene) {
+  const bool friction = scene.ground.has_friction();
+  std::vector<std::string> shown{"n",
+                                 "end",
+                                 "start",
+                                 "contact_angle_deg",
+                                 "impulse_normal",
+                                 "peak_force",
+                                 "velocity_after_z",
+                                 "angular_velocity_after_y"};
+  shown.emplace_back(friction ? "impulse_tangential" : "duration");
+  if (friction || scene.ground.damping > 0) shown.emplace_back("energy_loss");
+  return impact_columns<ContinuousRow>(shown);
 }
 
-const char* const what_it_is = "impact sequence, continuous contact";
-
-Cell loss_cell(const Known& known, const Simulation& run, const ImpactRecord& row) {
-  const double percent = 100 / run.energy_start;
-  return known(row.value.energy_loss * percent, row.error.energy_loss * percent, 100);
+std::vector<Row> rows_of(const Scene& scene, const PlannedRun& planned) {
+  std::vector<Row> rows;
+  const std::size_t trust = trusted_impacts(scene, planned.run);
+  for (const ImpactRecord& record : planned.run.impacts) {
+    const int n = static_cast<int>(rows.size()) + 1;
+    const bool trusted = rows.size() < trust;
+    rows.push_back(impact_row(ContinuousRow{record, n}, digits_of(scene, planned, trusted)));
+    rows.back()[0].shown = fmt::format("{}{}{}", n, trusted ? "" : "?", record.submerged ? "!" : "");
+  }
+  return rows;
 }
 
-Json shortfall_json(const Scene& scene, const PlannedRun& planned) {
-  const std::string why = shortfall(scene, planned);
-  return why.empty() ? Json(nullptr) : Json(why);
+Value shortfall_value(const Scene& scene, const PlannedRun& planned) {
+  return text_or_nothing(shortfall(scene, planned));
 }
 
-Json quantity_json(const Scene& scene, const SweptRun& swept) {
-  Json json{{scene.sweep->name(), swept.value},
-            {"outcome", outcome_name(swept.planned.run.outcome)},
-            {"message", swept.planned.run.message},
-            {"shortfall", shortfall_json(scene, swept.planned)}};
-  json["impacts"] = Json::array();
-  int n = 0;
-  for (const ImpactRecord& row : swept.planned.run.impacts) json["impacts"].push_back(impact_json(row, ++n));
-  return json;
+void add_results(const Scene& scene, const PlannedRun& planned, Value& fields) {
+  const Simulation& run = planned.run;
+  fields["outcome"] = outcome_name(run.outcome);
+  fields["warnings"] = planned.warnings;
+  fields["message"] = run.message + "; restitution is null where an impact has several touches";
+  const std::string local_slip = local_slip_words(scene, run);
+  fields["notes"] = local_slip.empty() ? Value::List{} : Value::List{local_slip};
+  fields["method"] = method_name(run.method);
+  fields["tolerance"] = run.tolerance > 0 ? Value(run.tolerance) : Value();
+  fields["step"] = run.step > 0 ? Value(run.step) : Value();
+  fields["accuracy"] = Value::Fields{{"asked", planned.asked},
+                                     {"achieved", planned.achieved},
+                                     {"known_impacts", planned.known_impacts},
+                                     {"planned", planned.planned}};
+  add_totals(totals(run), fields);
+  fields["shortfall"] = shortfall_value(scene, planned);
+  fields["energy_start"] = run.energy_start;
+  fields["cost"] =
+      Value::Fields{{"force_evaluations", run.force_evaluations}, {"root_evaluations", run.root_evaluations}};
+}
+
+/// Adds the impacts of a run to the report of a sweep.
+void add_run(const SweptRun& swept, const Scene& scene, Report& report) {
+  const Simulation& run = swept.planned.run;
+  Grid impacts{impact_columns<ContinuousRow>({}), rows_of(swept.scene, swept.planned)};
+  report.fields["runs"].push_back(Value::Fields{{scene.sweep->name(), swept.value},
+                                                {"outcome", outcome_name(run.outcome)},
+                                                {"message", run.message},
+                                                {"shortfall", shortfall_value(swept.scene, swept.planned)},
+                                                {"impacts", row_objects(impacts)}});
+  for (Row& row : impacts.rows) {
+    row.insert(row.begin(), Cell(swept.value, 6));
+    if (&row == &impacts.rows.front()) report.digest->rows.push_back(row);
+    report.grid.rows.push_back(std::move(row));
+  }
+  if (run.impacts.empty())
+    report.digest->rows.push_back({Cell(swept.value, 6), Cell(), Cell(), Cell(outcome_name(run.outcome))});
+  if (run.impacts.empty() || is_cut_short(run.outcome)) {
+    report.remarks.push_back(fmt::format("{}: {}: {}", shortest(swept.value), outcome_name(run.outcome), run.message));
+  }
 }
 
 }  // namespace
 
-Table simulation_table(const Scene& scene, const PlannedRun& planned) {
-  const Simulation& run = planned.run;
-  const bool friction = scene.ground.has_friction();
-  const bool loses = friction || scene.ground.damping > 0;
-  Table table{.head = head_of(scene, what_it_is), .columns = {}, .rows = {}, .notes = notes_of(scene, planned)};
-  table.columns = {{"n", "n", ""},
-                   {"end", "end", ""},
-                   {"start", "t", "s"},
-                   {"duration", "contact", "s", !friction},
-                   {"contact_angle_deg", "angle", "°"},
-                   {"impulse_normal", "Pₙ", "N·s"},
-                   {"impulse_tangential", "Pₜ", "N·s", friction},
-                   {"peak_force", "peak Fₙ", "N"},
-                   {"velocity_after_z", "Vₙ", "m/s"},
-                   {"angular_velocity_after_y", "Ω", "rad/s"},
-                   {"energy_loss", "loss", "%", loses}};
-  const std::size_t trust = trusted_impacts(scene, run);
-  const Sizes sizes(planned.sizes);
-  std::size_t n = 0;
-  for (const ImpactRecord& row : run.impacts) {
-    const ImpactNumbers &v = row.value, &e = row.error;
-    const bool trusted_row = ++n <= trust;
-    const Known cell(scene, trusted_row);
-    table.rows.push_back(
-        {Cell(std::to_string(n) + (trusted_row ? "" : "?") + (row.submerged ? "!" : "")), Cell(end_name(row.end)),
-         cell(v.start, e.start, sizes.time), cell(v.duration, e.duration, sizes.time),
-         cell(v.contact_angle * degrees, e.contact_angle * degrees, sizes.angle),
-         cell(v.impulse.z(), e.impulse.z(), sizes.impulse), cell(v.impulse.x(), e.impulse.x(), sizes.impulse),
-         cell(v.peak_force, e.peak_force, 0), cell(v.velocity_after.z(), e.velocity_after.z(), sizes.speed),
-         cell(v.angular_velocity_after.y(), e.angular_velocity_after.y(), sizes.rate), loss_cell(cell, run, row)});
-  }
-  fit_columns(table, scene.options.digits, {2});
-  return table;
+std::vector<Column> simulation_columns() { return impact_columns<ContinuousRow>({}); }
+
+Report simulation_report(const Scene& scene, const PlannedRun& planned) {
+  Report report = begun_report("simulate", "impact sequence, continuous contact");
+  report.head = scene_head(scene);
+  report.notes = notes_of(scene, planned);
+  report.remarks = {totals_line(totals(planned.run))};
+  report.grid = {columns_of(scene), rows_of(scene, planned)};
+  report.fields["model"] = "continuous";
+  report.fields["scene"] = scene_value(scene);
+  report.fields["body"] = body_value(scene);
+  report.fields["impacts"] = row_objects(report.grid);
+  add_results(scene, planned, report.fields);
+  fit_columns(report, scene.options.digits, {2});
+  return report;
 }
 
-Json simulation_json(const Scene& scene, const PlannedRun& planned) {
-  const Simulation& run = planned.run;
-  Json json{{"clatter", version},
-            {"model", "continuous"},
-            {"scene", scene.json()},
-            {"body", body_json(scene)},
-            {"impacts", Json::array()}};
-  int n = 0;
-  for (const ImpactRecord& row : run.impacts) json["impacts"].push_back(impact_json(row, ++n));
-  json["outcome"] = outcome_name(run.outcome);
-  json["warnings"] = planned.warnings;
-  json["message"] = run.message + "; restitution is null where an impact has several touches";
-  const std::string local_slip = local_slip_words(scene, run);
-  json["notes"] = local_slip.empty() ? Json::array() : Json::array({local_slip});
-  json["method"] = method_name(run.method);
-  json["tolerance"] = run.tolerance > 0 ? Json(run.tolerance) : Json(nullptr);
-  json["step"] = run.step > 0 ? Json(run.step) : Json(nullptr);
-  json["accuracy"] = {{"asked", planned.asked},
-                      {"achieved", number_or_null(planned.achieved)},
-                      {"known_impacts", planned.known_impacts},
-                      {"planned", planned.planned}};
-  const Totals sums = totals(run);
-  json["total_normal_impulse"] = number_or_null(sums.normal_impulse.value);
-  json["total_normal_impulse_error"] = error_or_null(sums.normal_impulse);
-  json["predictable"] = sums.predictable;
-  json["shortfall"] = shortfall_json(scene, planned);
-  json["energy_start"] = number_or_null(run.energy_start);
-  json["cost"] = {{"force_evaluations", run.force_evaluations}, {"root_evaluations", run.root_evaluations}};
-  return json;
-}
-
-Table simulation_records(const Scene& scene, const PlannedRun& planned) {
-  const Json json = simulation_json(scene, planned);
-  Table table{
-      .head = {headline("simulate", what_it_is), "scene: " + json["scene"].dump(), "body: " + json["body"].dump()},
-      .columns = {},
-      .rows = {},
-      .notes = notes_of(scene, planned)};
-  table.notes.insert(table.notes.begin(), total_note(json));
-  add_impact_records(table, json["impacts"]);
-  return table;
-}
-
-Table sweep_table(const Scene& scene, const std::vector<SweptRun>& runs) {
-  Table table{.head = head_of(scene, "first impacts, continuous contact"), .columns = {}, .rows = {}, .notes = {}};
-  table.columns = {swept_column(*scene.sweep),
-                   {"touches", "touches", ""},
-                   {"impulse_normal", "Pₙ", "N·s"},
-                   {"impulse_ratio", "Pₜ/Pₙ", ""},
-                   {"velocity_after_x", "Vₜ", "m/s"},
-                   {"velocity_after_z", "Vₙ", "m/s"},
-                   {"angular_velocity_after_y", "Ω", "rad/s"},
-                   {"peak_force", "peak Fₙ", "N"},
-                   {"energy_loss", "loss", "%"}};
-  for (const SweptRun& swept : runs) {
-    auto& row = table.rows.emplace_back();
-    row.emplace_back(swept.value, 6);
-    const Simulation& run = swept.planned.run;
-    if (run.impacts.empty()) {
-      row.emplace_back(std::string(outcome_name(run.outcome)));
-      row.resize(table.columns.size());
-      continue;
-    }
-    const ImpactRecord& first = run.impacts[0];
-    const ImpactNumbers &v = first.value, &e = first.error;
-    const Known known(scene, trusted_impacts(swept.scene, run) > 0);
-    const Sizes sizes(swept.planned.sizes);
-    row.emplace_back(std::to_string(first.touches));
-    row.push_back(known(v.impulse.z(), e.impulse.z(), sizes.impulse));
-    row.push_back(known(impulse_ratio(v), impulse_ratio_error(first), 1));
-    row.push_back(known(v.velocity_after.x(), e.velocity_after.x(), sizes.speed));
-    row.push_back(known(v.velocity_after.z(), e.velocity_after.z(), sizes.speed));
-    row.push_back(known(v.angular_velocity_after.y(), e.angular_velocity_after.y(), sizes.rate));
-    row.push_back(known(v.peak_force, e.peak_force, 0));
-    row.push_back(loss_cell(known, run, first));
-  }
-  if (!runs.empty()) table.notes.push_back(method_words(runs.back().planned.run) + " (the last row's)");
-  add_interruption(*scene.sweep, runs.size(), table);
-  fit_columns(table, scene.options.digits, {2});
-  return table;
-}
-
-Json sweep_json(const Scene& scene, const std::vector<SweptRun>& runs) {
-  Json json{{"clatter", version},
-            {"model", "continuous"},
-            {"scene", scene.json()},
-            {"body", body_json(scene)},
-            {"runs", Json::array()}};
-  for (const SweptRun& swept : runs) json["runs"].push_back(quantity_json(scene, swept));
+Report sweep_report(const Scene& scene, const std::vector<SweptRun>& runs) {
+  Report report = begun_report("simulate", "first impacts, continuous contact");
+  report.head = scene_head(scene);
+  report.grid.columns =
+      impact_columns<ContinuousRow>({"touches", "impulse_normal", "impulse_ratio", "velocity_after_x",
+                                     "velocity_after_z", "angular_velocity_after_y", "peak_force", "energy_loss"});
+  report.grid.columns.insert(report.grid.columns.begin(), swept_column(*scene.sweep));
+  report.digest = Grid{report.grid.columns, {}};
+  report.fields["model"] = "continuous";
+  report.fields["scene"] = scene_value(scene);
+  report.fields["body"] = body_value(scene);
+  report.fields["runs"] = Value::List{};
+  for (const SweptRun& swept : runs) add_run(swept, scene, report);
   const std::size_t values = scene.sweep->values().size();
-  json["outcome"] = runs.size() < values ? "interrupted" : "complete";
-  json["message"] = fmt::format("{} of {} values", runs.size(), values);
-  return json;
-}
-
-Table sweep_records(const Scene& scene, const std::vector<SweptRun>& runs) {
-  Table table{.head = {headline("simulate", "impacts over a sweep, continuous contact"),
-                       "scene: " + scene.json().dump(), "body: " + body_json(scene).dump()},
-              .columns = {},
-              .rows = {},
-              .notes = {}};
-  for (const SweptRun& swept : runs) {
-    const std::size_t before = table.rows.size();
-    add_impact_records(table, quantity_json(scene, swept)["impacts"]);
-    for (std::size_t i = before; i < table.rows.size(); ++i) {
-      table.rows[i].insert(table.rows[i].begin(), Cell(swept.value, 17));
-    }
-    const Simulation& run = swept.planned.run;
-    if (run.impacts.empty() || is_cut_short(run.outcome)) {
-      table.notes.push_back(fmt::format("{}: {}: {}", shortest(swept.value), outcome_name(run.outcome), run.message));
-    }
-  }
-  add_interruption(*scene.sweep, runs.size(), table);
-  table.columns.insert(table.columns.begin(), swept_record_column(*scene.sweep));
-  return table;
+  report.fields["outcome"] = runs.size() < values ? "interrupted" : "complete";
+  report.fields["message"] = fmt::format("{} of {} values", runs.size(), values);
+  if (!runs.empty()) report.notes.push_back(method_words(runs.back().planned.run) + " (the last row's)");
+  add_interruption(*scene.sweep, runs.size(), report);
+  fit_columns(report, scene.options.digits, {2});
+  return report;
 }
 
 }  // namespace clatter::validation

@@ -26,12 +26,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int not_computed = 3;
-
 struct SweepInput {
   SweepRequest request;
   std::optional<std::string> output, threads;
   bool restart = false;
+  OutputTexts form;
 };
 
 /// What is computed, by whom, and what ends it.
@@ -80,42 +79,71 @@ class SweepProgress {
   Progress progress_;
 };
 
-/// Whether the rows go to a file that can be taken up again.
-bool writes_file(const SweepInput& input) {
-  return input.output && !destination_of({"--output", *input.output}).is_stream;
+/// The rows are CSV unless another form is named.
+TextStyle style_of(const SweepInput& input) {
+  OutputTexts texts = input.form;
+  if (!texts.format) texts.format = "csv";
+  return read_output(texts).style;
 }
 
-/// Where the rows go: a file that can be taken up again, or stdout or a device.
+/// Whether the rows go to a file that can be taken up again.
+bool writes_file(const SweepInput& input) {
+  return input.output && style_of(input).format == Format::csv &&
+         !destination_of({"--output", *input.output}).is_stream;
+}
+
+/// Where the rows go: a file that can be taken up again, or stdout or a device; forms other than CSV are written when
+/// all rows are there.
 class SweepOutput {
  public:
-  SweepOutput(const SweepInput& input, const SweepPlan& plan) : shortfalls_(column_names(plan)) {
-    const std::string head = plan.head();
+  SweepOutput(const SweepInput& input, const SweepPlan& plan) : shortfalls_(plan) {
+    report_ = plan.report();
+    style_ = style_of(input);
+    const std::string head = csv_head(report_, style_.bare);
     if (writes_file(input)) {
       file_.emplace(*input.output, SweepFileForm{head, plan.points.count()}, input.restart);
       if (file_->scenes() > 0) file_->for_each_row([this](const std::string& row) { shortfalls_.add(row); });
     } else {
       stream_.emplace(input.output.value_or(""));
-      stream_->write(head);
+      if (is_csv()) stream_->write(head);
     }
   }
 
   [[nodiscard]] long long first() const { return file_ ? file_->scenes() : 0; }
-  [[nodiscard]] const ShortfallCount& shortfalls() const { return shortfalls_; }
+  [[nodiscard]] const Shortfalls& shortfalls() const { return shortfalls_.found(); }
   void write(const RangeRows& rows) {
     shortfalls_.add(rows.text);
-    file_ ? file_->write(rows.text, rows.scenes) : stream_->write(rows.text);
+    if (file_) file_->write(rows.text, rows.scenes);
+    else if (is_csv()) stream_->write(rows.text);
+    else collected_ += rows.text;
   }
 
-  void commit() { file_ ? file_->commit() : stream_->commit(); }
+  void commit() {
+    if (file_) return file_->commit();
+    if (!is_csv()) write_report();
+    stream_->commit();
+  }
 
   /// @param words how far it came; a part says that by itself
   void leave(const std::string& words) {
     if (file_) return file_->flush();
-    stream_->write(fmt::format("# {}\n", words));
-    stream_->commit();
+    if (is_csv()) stream_->write(fmt::format("# {}\n", words));
+    else report_.notes.push_back(words);
+    commit();
   }
 
  private:
+  [[nodiscard]] bool is_csv() const { return style_.format == Format::csv; }
+
+  void write_report() {
+    report_.grid.rows = read_csv_rows(collected_);
+    report_.fields["rows"] = row_objects(report_.grid);
+    stream_->write(report_text(report_, style_));
+  }
+
+  Report report_;
+  TextStyle style_;
+  std::string collected_;
   std::optional<Sink> stream_;
   std::optional<SweepFile> file_;
   ShortfallCount shortfalls_;
@@ -162,12 +190,6 @@ void fill(SweepOutput& output, RangeQueue& queue, const SweepWork& what, Ranks& 
   else run_on_threads(queue, what.threads, runners_of(what.plan, what.body), hooks);
 }
 
-int status_of(const ShortfallCount& shortfalls, long long scenes) {
-  if (shortfalls.scenes() == 0) return 0;
-  say(fmt::format("{} of {} scenes fall short; {}", shortfalls.scenes(), scenes, shortfalls.first()));
-  return not_computed;
-}
-
 /// The part of the process that writes.
 int run_sweep(const SweepInput& input, const SweepPlan& plan, const SweepBody& body, int threads, Ranks& ranks) {
   const CooperativeInterrupt interrupt;
@@ -177,7 +199,7 @@ int run_sweep(const SweepInput& input, const SweepPlan& plan, const SweepBody& b
   fill(output, queue, {plan, body, threads, interrupt}, ranks);
   if (queue.is_complete()) {
     output.commit();
-    return status_of(output.shortfalls(), scenes);
+    return output.shortfalls().status(scenes, "scenes");
   }
   const std::string words = fmt::format("interrupted after {} of {} scenes", queue.taken(), scenes);
   output.leave(words);
@@ -230,6 +252,10 @@ Command sweep_command() {
   command.add_text("--model", request.model, "discrete|continuous", "(continuous if the scene has a ground)");
   command.add_text("--rows", request.rows, "scene|impact", "one row per scene or per impact (scene)");
   command.add_text("--output", input->output, "FILE", "write there; until it is complete the rows are in FILE.part");
+  command.add_text("--format", input->form.format, "table|csv|json|markdown|latex",
+                   "form of the output (csv); others are written at the end, and not taken up again");
+  command.add_flag("--ascii", input->form.ascii, "plain ASCII in tables");
+  command.add_flag("--bare", input->form.bare, "CSV without comments");
   command.add_flag("--no-errors", request.no_errors, "neither errors nor whether rows can be predicted; half the cost");
   command.add_flag("--require-digits", request.require_digits, "a scene of which fewer digits are known falls short");
   command.add_flag("--restart", input->restart, "begin anew where FILE.part is there, instead of going on");

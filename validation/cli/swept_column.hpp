@@ -1,25 +1,23 @@
-// What tables over a scene's sweep share.
+// What reports over a scene's sweep share.
 #pragma once
 
 #include <cstddef>
 
 #include "validation/figures/figure.hpp"
-#include "validation/output/table.hpp"
+#include "validation/output/report.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
 
-/// Column of the swept values for readers: the quantity's sign and unit.
+/// Column of the swept values, named like the quantity.
 [[nodiscard]] Column swept_column(const SceneSweep& sweep);
-/// The same for CSV: the name of the quantity.
-[[nodiscard]] Column swept_record_column(const SceneSweep& sweep);
 
-/// The same in words, for an axis of a picture, without the unit.
+/// The quantity in words, for an axis of a picture, without the unit.
 [[nodiscard]] std::string swept_words(const SceneSweep& sweep);
 /// Range of such an axis from the first to the last value; around a single one.
 [[nodiscard]] Range2 swept_range(double first, double last);
 
 /// Adds a note if fewer values than the sweep has are done.
-void add_interruption(const SceneSweep& sweep, std::size_t done, Table& table);
+void add_interruption(const SceneSweep& sweep, std::size_t done, Report& report);
 
 }  // namespace clatter::validation

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "validation/cli/commands.hpp"
 #include "validation/cli/options.hpp"
@@ -42,14 +41,12 @@ int run_tradeoff(const TradeoffInput& input) {
     };
     tradeoff = measure_tradeoff(scene, options);
   }
-  write_report(
-      choice, [&] { return tradeoff_json(scene, tradeoff); }, [&] { return tradeoff_records(scene, tradeoff); },
-      [&] { return tradeoff_table(scene, tradeoff); });
+  write_report(choice, tradeoff_report(scene, tradeoff));
   if (interrupt.requested()) {
     plot.leave_out("interrupted");
     return interrupted_status;
   }
-  plot.write(tradeoff_picture(scene, tradeoff), run_words("tradeoff", "cost against true error", scene.json()));
+  plot.write(tradeoff_picture(scene, tradeoff), run_words("tradeoff", "cost against true error", scene));
   if (tradeoff.shortfall.empty()) return 0;
   say(tradeoff.shortfall);
   return not_computed;

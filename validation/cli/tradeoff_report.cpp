@@ -5,13 +5,10 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 
-#include "validation/cli/impact_records.hpp"
-#include "validation/cli/options.hpp"
-#include "validation/cli/version.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/body_properties.hpp"
+#include "validation/scene/scene_value.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -48,24 +45,19 @@ std::vector<const TradePoint*> front_of(const Tradeoff& tradeoff) {
   return front;
 }
 
-Json point_json(const TradePoint& point) {
-  return {{"model", rung_name(point.rung)},
-          {"method", point.method.empty() ? Json(nullptr) : Json(point.method)},
-          {"tolerance", point.tolerance > 0 ? Json(point.tolerance) : Json(nullptr)},
-          {"step", point.step > 0 ? Json(point.step) : Json(nullptr)},
-          {"mesh", point.mesh.empty() ? Json(nullptr) : Json(point.mesh)},
-          {"seconds", point.failure.empty() ? number_or_null(point.seconds) : Json(nullptr)},
-          {"repeats", point.repeats},
-          {"force_evaluations", point.evaluations},
-          {"error", number_or_null(point.error)},
-          {"front", point.pareto},
-          {"failure", point.failure.empty() ? Json(nullptr) : Json(point.failure)}};
-}
-
-std::vector<std::string> head_of(const Scene& scene) {
-  std::vector<std::string> head{headline("tradeoff", what_it_is)};
-  for (const std::string& line : scene_head(scene)) head.push_back(line);
-  return head;
+Row point_row(const TradePoint& point) {
+  const auto positive = [](double number, int digits) { return number > 0 ? Cell(number, digits) : Cell(); };
+  return {Cell(rung_name(point.rung)),
+          Cell(text_or_nothing(point.method)),
+          positive(point.tolerance, 1),
+          positive(point.step, 2),
+          Cell(text_or_nothing(point.mesh)),
+          point.failure.empty() ? Cell(point.seconds, 2) : Cell(),
+          Cell(point.repeats),
+          Cell(point.evaluations, point.evaluations > 0 ? std::to_string(point.evaluations) : ""),
+          Cell(point.error, 2),
+          Cell(point.pareto),
+          Cell(text_or_nothing(point.failure))};
 }
 
 std::string reference_words(const Tradeoff& tradeoff) {
@@ -75,58 +67,46 @@ std::string reference_words(const Tradeoff& tradeoff) {
 
 }  // namespace
 
-Table tradeoff_table(const Scene& scene, const Tradeoff& tradeoff) {
-  Table table{.head = head_of(scene), .columns = {}, .rows = {}, .notes = {}};
-  table.columns = {{.name = "model", .heading = "model", .unit = "", .words = true},
-                   {.name = "method", .heading = "method", .unit = "", .words = true},
-                   {.name = "setting", .heading = "setting", .unit = "", .words = true},
-                   {.name = "mesh", .heading = "mesh", .unit = "", .words = true},
-                   {"seconds", "cost", "ms"},
-                   {"force_evaluations", "evaluations", ""},
-                   {"error", "error", ""}};
-  for (const TradePoint* point : front_of(tradeoff)) {
-    table.rows.push_back({Cell(rung_name(point->rung)), Cell(point->method), Cell(setting_words(*point)),
-                          Cell(point->mesh), Cell(1e3 * point->seconds, 2),
-                          point->evaluations > 0 ? Cell(std::to_string(point->evaluations)) : Cell(),
-                          Cell(point->error, 2)});
-  }
-  table.notes.push_back(
-      fmt::format("The front: of {} points, those that none beats in both cost and error.", tradeoff.points.size()));
-  table.notes.push_back(reference_words(tradeoff));
+std::vector<Column> tradeoff_columns() {
+  return {word_column("model", "model", "a model of the ladder"),
+          word_column("method", "method", "of integration"),
+          {"tolerance", "tol.", "", "of the method, per step"},
+          {"step", "step", "s", "of a method of fixed steps"},
+          word_column("mesh", "mesh", "another mesh than the scene's"),
+          {"seconds", "cost", "s", "least wall time of a run"},
+          {"repeats", "", "", "runs whose time was taken", false},
+          {"force_evaluations", "evaluations", "", "that a run takes"},
+          {"error", "error", "", "largest over all impacts and numbers, relative to the sequence's sizes"},
+          {"front", "", "", "whether no point beats it in both cost and error", false},
+          {"failure", "", "", "why it has no numbers", false}};
+}
+
+Report tradeoff_report(const Scene& scene, const Tradeoff& tradeoff) {
+  Report report = begun_report("tradeoff", what_it_is);
+  report.head = scene_head(scene);
+  report.grid.columns = tradeoff_columns();
+  for (const TradePoint& point : tradeoff.points) report.grid.rows.push_back(point_row(point));
+  report.digest = Grid{tradeoff_columns(), {}};
+  for (const TradePoint* point : front_of(tradeoff)) report.digest->rows.push_back(point_row(*point));
+  report.notes = {
+      fmt::format("The front: of {} points, those that none beats in both cost and error.", tradeoff.points.size()),
+      reference_words(tradeoff)};
   for (const TradePoint& point : tradeoff.points) {
     if (point.failure.empty()) continue;
     const std::string setting = setting_words(point);
-    table.notes.push_back(
+    report.notes.push_back(
         fmt::format("failed: {}{}{}: {}", name_of(point), setting.empty() ? "" : ", ", setting, point.failure));
   }
-  return table;
-}
-
-Table tradeoff_records(const Scene& scene, const Tradeoff& tradeoff) {
-  Table table{
-      .head = {headline("tradeoff", what_it_is), "scene: " + scene.json().dump(), "body: " + body_json(scene).dump()},
-      .columns = {},
-      .rows = {},
-      .notes = {reference_words(tradeoff)}};
-  Json points = Json::array();
-  for (const TradePoint& point : tradeoff.points) points.push_back(point_json(point));
-  add_impact_records(table, points);
-  return table;
-}
-
-Json tradeoff_json(const Scene& scene, const Tradeoff& tradeoff) {
-  Json json{{"clatter", version},
-            {"model", "tradeoff"},
-            {"scene", scene.json()},
-            {"body", body_json(scene)},
-            {"points", Json::array()}};
-  for (const TradePoint& point : tradeoff.points) json["points"].push_back(point_json(point));
-  json["reference"] = tradeoff.reference;
-  json["reference_error"] = number_or_null(tradeoff.reference_error);
-  json["impacts"] = tradeoff.impacts;
-  json["shortfall"] = tradeoff.shortfall.empty() ? Json(nullptr) : Json(tradeoff.shortfall);
-  json["message"] = reference_words(tradeoff);
-  return json;
+  report.fields["model"] = "tradeoff";
+  report.fields["scene"] = scene_value(scene);
+  report.fields["body"] = body_value(scene);
+  report.fields["points"] = row_objects(report.grid);
+  report.fields["reference"] = tradeoff.reference;
+  report.fields["reference_error"] = tradeoff.reference_error;
+  report.fields["impacts"] = tradeoff.impacts;
+  report.fields["shortfall"] = text_or_nothing(tradeoff.shortfall);
+  report.fields["message"] = reference_words(tradeoff);
+  return report;
 }
 
 Picture tradeoff_picture(const Scene& scene, const Tradeoff& tradeoff) {

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "validation/cli/commands.hpp"
 #include "validation/cli/options.hpp"
@@ -44,10 +43,7 @@ int run_verify(const VerifyInput& input) {
       return !interrupt.requested();
     });
   }
-  write_report(
-      choice, [&] { return verify_json(results, selection.words); },
-      [&] { return verify_records(results, selection.words); },
-      [&] { return verify_table(results, selection.words, choice.style.format); });
+  write_report(choice, verify_report(results, selection.words));
   if (page && !interrupt.requested()) {
     page->write(verify_page(results, selection.words, laboratory));
     page->commit();

@@ -1,11 +1,9 @@
 #include "validation/cli/verify_report.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include "validation/cli/impact_records.hpp"
-#include "validation/cli/options.hpp"
-#include "validation/cli/version.hpp"
+#include <utility>
+
 #include "validation/output/interrupt.hpp"
 #include "validation/output/number.hpp"
 
@@ -37,81 +35,62 @@ std::string marked_answer(const CheckResult& result) {
   return !result.done ? "not run" : std::string(answer_name(result.measured.answer)) + (result.passed() ? "✓" : "✗");
 }
 
-std::string answer_word(const CheckResult& result) { return result.done ? answer_name(result.measured.answer) : ""; }
-
 /// The number to four digits; a whole one has no zeros behind its point.
-Cell number_cell(double number) { return is_short_whole(number) ? Cell(shortest(number)) : Cell(number, 4); }
+Cell number_cell(double number) { return is_short_whole(number) ? Cell(number, shortest(number)) : Cell(number, 4); }
 
-Json check_json(const CheckResult& result) {
+Row check_row(const CheckResult& result) {
   const Check& check = *result.check;
   const Measured& m = result.measured;
-  return {{"id", check.id},
-          {"what", check.what},
-          {"claim", check.claim},
-          {"quantity", check.number},
-          {"unit", check.unit.empty() ? Json(nullptr) : Json(check.unit)},
-          {"oracle", check.oracle},
-          {"metric", check.error},
-          {"answer", result.done ? Json(answer_name(m.answer)) : Json(nullptr)},
-          {"expected_answer", answer_name(check.answer)},
-          {"number", result.done ? number_or_null(m.number) : Json(nullptr)},
-          {"measured_error", result.done ? number_or_null(m.error) : Json(nullptr)},
-          {"tolerance", check.tolerance},
-          {"seen", check.seen},
-          {"reason", check.reason},
-          {"verdict", verdict_word(result)},
-          {"failure", result.failure.empty() ? Json(nullptr) : Json(result.failure)},
-          {"found", m.found},
-          {"seconds", result.seconds},
-          {"figure", check.figure ? Json(*check.figure) : Json(nullptr)},
-          {"command", check.command}};
-}
-
-/// For a terminal: the oracle as a letter, the verdict as a mark.
-Table narrow_table(const std::vector<CheckResult>& results) {
-  Table table;
-  table.columns = {{.name = "id", .heading = "id", .unit = "", .words = true},
-                   {.name = "what", .heading = "what", .unit = "", .words = true},
-                   {.name = "answer", .heading = "answer", .unit = "", .words = true},
-                   {"number", "number", ""},
-                   {.name = "oracle", .heading = "by", .unit = "", .words = true},
-                   {"measured_error", "error", ""},
-                   {"tolerance", "limit", ""},
-                   {"seconds", "cost", "s"}};
-  for (const CheckResult& result : results) {
-    const Measured& m = result.measured;
-    table.rows.push_back({Cell(result.check->id), Cell(result.check->what), Cell(marked_answer(result)),
-                          result.done ? number_cell(m.number) : Cell(), Cell(oracle_letter(result.check->oracle)),
-                          result.done ? Cell(m.error, 2) : Cell(), Cell(result.check->tolerance, 1),
-                          Cell(fmt::format("{:.2f}", result.seconds))});
-  }
-  table.notes = {
-      "by: the oracle, c closed form, t 30-digit table, l conservation law, m other model, o convergence, v "
-      "independent value; limit: of the error",
-      "answer: does the claim hold?  ✓: the error is within its limit and the answer is the expected one.  "
-      "--format json says what each number is and what else was found"};
-  return table;
-}
-
-Table wide_table(const std::vector<CheckResult>& results) {
-  Table table;
-  for (const char* name : {"id", "what", "answer"})
-    table.columns.push_back({.name = name, .heading = name, .unit = "", .words = true});
-  for (const char* name : {"number", "error", "tolerance"}) table.columns.push_back({name, name, ""});
-  for (const char* name : {"verdict", "oracle", "found"})
-    table.columns.push_back({.name = name, .heading = name, .unit = "", .words = true});
-  table.columns.push_back({"seconds", "cost", "s"});
-  for (const CheckResult& result : results) {
-    const Measured& m = result.measured;
-    table.rows.push_back({Cell(result.check->id), Cell(result.check->what), Cell(answer_word(result)),
-                          result.done ? number_cell(m.number) : Cell(), result.done ? Cell(m.error, 2) : Cell(),
-                          Cell(result.check->tolerance, 2), Cell(verdict_word(result)), Cell(result.check->oracle),
-                          Cell(m.found), Cell(fmt::format("{:.2f}", result.seconds))});
-  }
-  return table;
+  const bool done = result.done;
+  return {Cell(check.id),
+          Cell(check.what),
+          Cell(done ? Value(answer_name(m.answer)) : Value(), marked_answer(result)),
+          done ? number_cell(m.number) : Cell(),
+          Cell(check.oracle, oracle_letter(check.oracle)),
+          done ? Cell(m.error, 2) : Cell(),
+          Cell(check.tolerance, 1),
+          Cell(result.seconds, fmt::format("{:.2f}", result.seconds)),
+          Cell(check.claim),
+          Cell(check.number),
+          Cell(text_or_nothing(check.unit)),
+          Cell(check.error),
+          Cell(answer_name(check.answer)),
+          Cell(Value(check.seen)),
+          Cell(check.reason),
+          Cell(verdict_word(result)),
+          Cell(text_or_nothing(result.failure)),
+          Cell(m.found),
+          Cell(check.figure ? Value(*check.figure) : Value()),
+          Cell(check.command)};
 }
 
 }  // namespace
+
+std::vector<Column> verify_columns() {
+  std::vector<Column> columns{word_column("id", "id", "short name of the check"),
+                              word_column("what", "what", "the check in a few words"),
+                              word_column("answer", "answer", "whether the claim holds"),
+                              {"number", "number", "", "that was measured, in `unit`"},
+                              word_column("oracle", "by", "kind of the number's judge"),
+                              {"measured_error", "error", "", "of the number, in the sense of `metric`"},
+                              {"tolerance", "limit", "", "that the error must keep"},
+                              {"seconds", "cost", "s", "processor time"}};
+  for (const auto& [name, meaning] : {std::pair{"claim", "in full"},
+                                      {"quantity", "what the number is"},
+                                      {"unit", "of the number"},
+                                      {"metric", "what the error is"},
+                                      {"expected_answer", "the answer that passes"},
+                                      {"seen", "the error when the tolerance was set"},
+                                      {"reason", "of the tolerance"},
+                                      {"verdict", "passed, FAILED or not run"},
+                                      {"failure", "why it failed"},
+                                      {"found", "what else was found"},
+                                      {"figure", "of the paper that shows it"},
+                                      {"command", "that shows it"}}) {
+    columns.push_back({.name = name, .heading = name, .unit = "", .meaning = meaning, .shown = false});
+  }
+  return columns;
+}
 
 VerifySummary summary_of(const std::vector<CheckResult>& results) {
   VerifySummary summary;
@@ -136,36 +115,32 @@ std::string summary_words(const VerifySummary& summary) {
   return text + fmt::format("; {} s of processor time", significant(summary.seconds, 3));
 }
 
-Table verify_table(const std::vector<CheckResult>& results, const std::string& selection, Format format) {
-  Table table = format == Format::table ? narrow_table(results) : wide_table(results);
-  table.head = {headline("verify", what_it_is), selection};
-  std::vector<std::string> outcome;
-  for (const CheckResult& result : results) {
-    if (result.done && !result.passed()) outcome.push_back(fmt::format("{}: {}", result.check->id, result.failure));
-  }
-  outcome.push_back(summary_words(summary_of(results)));
-  table.notes.insert(table.notes.begin(), outcome.begin(), outcome.end());
-  return table;
-}
-
-Json verify_json(const std::vector<CheckResult>& results, const std::string& selection) {
+Report verify_report(const std::vector<CheckResult>& results, const std::string& selection) {
+  Report report = begun_report("verify", what_it_is);
   const VerifySummary summary = summary_of(results);
-  Json json{{"clatter", version}, {"model", "verification"}, {"selection", selection}, {"checks", Json::array()}};
-  for (const CheckResult& result : results) json["checks"].push_back(check_json(result));
-  json["passed"] = summary.passed;
-  json["failed"] = summary.failed;
-  json["not_run"] = summary.not_run;
-  json["seconds"] = summary.seconds;
-  json["message"] = summary_words(summary);
-  return json;
-}
-
-Table verify_records(const std::vector<CheckResult>& results, const std::string& selection) {
-  Table table{.head = {headline("verify", what_it_is), selection}, .columns = {}, .rows = {}, .notes = {}};
-  const Json json = verify_json(results, selection);
-  add_impact_records(table, json["checks"]);
-  table.notes = {summary_words(summary_of(results))};
-  return table;
+  report.head = {selection};
+  report.grid.columns = verify_columns();
+  for (const CheckResult& result : results) {
+    report.grid.rows.push_back(check_row(result));
+    if (result.done && !result.passed())
+      report.notes.push_back(fmt::format("{}: {}", result.check->id, result.failure));
+  }
+  report.notes.insert(
+      report.notes.end(),
+      {summary_words(summary),
+       "by: the oracle, c closed form, t 30-digit table, l conservation law, m other model, o convergence, v "
+       "independent value; limit: of the error",
+       "answer: does the claim hold?  ✓: the error is within its limit and the answer is the expected one.  "
+       "--format json says what each number is and what else was found"});
+  report.fields["model"] = "verification";
+  report.fields["selection"] = selection;
+  report.fields["checks"] = row_objects(report.grid);
+  report.fields["passed"] = summary.passed;
+  report.fields["failed"] = summary.failed;
+  report.fields["not_run"] = summary.not_run;
+  report.fields["seconds"] = summary.seconds;
+  report.fields["message"] = summary_words(summary);
+  return report;
 }
 
 }  // namespace clatter::validation

@@ -1,10 +1,10 @@
-// Results of checks as a table, as JSON.
+// What `clatter verify` says.
 #pragma once
 
+#include <string>
 #include <vector>
 
-#include "validation/output/json.hpp"
-#include "validation/output/table.hpp"
+#include "validation/output/report.hpp"
 #include "validation/verify/verification.hpp"
 
 namespace clatter::validation {
@@ -20,9 +20,8 @@ struct VerifySummary {
 /// "75 of 75 checks passed; …".
 [[nodiscard]] std::string summary_words(const VerifySummary& summary);
 
-[[nodiscard]] Table verify_table(const std::vector<CheckResult>& results, const std::string& selection, Format format);
-[[nodiscard]] Json verify_json(const std::vector<CheckResult>& results, const std::string& selection);
-/// All fields of each check, for CSV.
-[[nodiscard]] Table verify_records(const std::vector<CheckResult>& results, const std::string& selection);
+[[nodiscard]] std::vector<Column> verify_columns();
+/// A row for each check.
+[[nodiscard]] Report verify_report(const std::vector<CheckResult>& results, const std::string& selection);
 
 }  // namespace clatter::validation

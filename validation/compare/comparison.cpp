@@ -8,8 +8,9 @@
 #include <limits>
 
 #include "analytic/impact_limits.hpp"
-#include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
+#include "validation/plan/shortfall.hpp"
+#include "validation/record/names.hpp"
 #include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation {
@@ -119,7 +120,7 @@ Quantities allowance(const ComparedImpact& impact, const ImpactRow& row, const Q
 
 /// The estimates, unknown in a row that cannot be predicted.
 Quantities error_of(const ImpactRecord& record) {
-  Quantities error = quantities(record.error);
+  Quantities error = in_plane(motion_errors(record));
   if (!record.predictable) error.fill(std::numeric_limits<double>::infinity());
   return error;
 }
@@ -138,12 +139,12 @@ void add_impact(Comparison& comparison, std::size_t i, const std::vector<Predict
                         .predicted = {},
                         .limit = {}};
   if (i < rows.size()) {
-    impact.discrete = quantities(rows[i]);
-    impact.discrete_error = quantities(comparison.sequence.rows[i].error);
+    impact.discrete = in_plane(motion_numbers(rows[i]));
+    impact.discrete_error = in_plane(motion_errors(rows[i]));
     impact.discrete_end = end_of(comparison.drop.body, rows[i]);
   }
   if (i < records.size()) {
-    impact.continuous = quantities(records[i].value);
+    impact.continuous = in_plane(motion_numbers(records[i]));
     impact.continuous_error = error_of(records[i]);
     impact.continuous_end = end_name(records[i].end);
     impact.contact_time = records[i].value.duration;
@@ -172,7 +173,7 @@ void drop_unlike_limits(Comparison& comparison, const Scene& scene) {
   }
 }
 
-/// Largest error of a number of either model, relative to its scale; infinite: one is not known.
+/// Largest error of the two models together in a number, relative to its scale; infinite: one is not known.
 double largest_error(const Comparison& comparison) {
   double worst = 0;
   for (const ComparedImpact& impact : comparison.impacts) {
@@ -192,9 +193,7 @@ std::string shortfall_of(const Comparison& comparison, const Scene& scene) {
   };
   if (is_cut_short(comparison.sequence.outcome)) return words("discrete", comparison.sequence);
   if (is_cut_short(comparison.run.outcome)) return words("continuous", comparison.run);
-  if (!scene.require_digits || largest_error(comparison) <= std::pow(10.0, -scene.options.digits)) return "";
-  return fmt::format("asked {} digits of both models, achieved fewer: largest error {} of the sequence's sizes",
-                     scene.options.digits, significant(largest_error(comparison), 2));
+  return scene.require_digits ? digits_shortfall(scene.options.digits, largest_error(comparison)) : "";
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 #include "analytic/sequence.hpp"
 #include "numeric/simulate.hpp"
 #include "validation/compare/prediction.hpp"
-#include "validation/compare/quantities.hpp"
 #include "validation/compare/stiff_limit.hpp"
+#include "validation/record/motion_numbers.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation {

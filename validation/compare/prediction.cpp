@@ -37,8 +37,9 @@ void add_difference(const Sequence& base, const Sequence& other, std::size_t fir
   for (std::size_t i = 0; first + i < sizes.size(); ++i) {
     same = same && i < base.rows.size() && i < other.rows.size() && base.rows[i].vertices == other.rows[i].vertices;
     for (std::size_t q = i == 0 ? 2 : 0; q < quantity_count; ++q) {  // time and angle of a contact are before it
-      (sizes[first + i].*effect)[q] += same ? std::fabs(quantities(other.rows[i])[q] - quantities(base.rows[i])[q])
-                                            : std::numeric_limits<double>::infinity();
+      (sizes[first + i].*effect)[q] +=
+          same ? std::fabs(in_plane(motion_numbers(other.rows[i]))[q] - in_plane(motion_numbers(base.rows[i]))[q])
+               : std::numeric_limits<double>::infinity();
     }
   }
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "analytic/sequence.hpp"
-#include "validation/compare/quantities.hpp"
+#include "validation/record/motion_numbers.hpp"
 
 namespace clatter::validation {
 

@@ -7,7 +7,7 @@
 #include <Eigen/Dense>
 
 #include "numeric/simulate.hpp"
-#include "validation/compare/motion_numbers.hpp"
+#include "validation/record/motion_numbers.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -131,7 +131,7 @@ LimitRow extrapolate(const std::vector<Simulation>& ladder, std::size_t row, con
   for (int j = 0; j < rungs; ++j) {
     const Simulation& run = ladder[static_cast<std::size_t>(j)];
     x[j] = run.impacts[0].value.duration;
-    const Quantities numbers = quantities(run.impacts[row].value);
+    const Quantities numbers = in_plane(motion_numbers(run.impacts[row]));
     for (std::size_t q = 0; q < quantity_count; ++q) y(static_cast<int>(q), j) = numbers[q];
   }
   const Powers powers = powers_of(ladder, row, exponent);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "numeric/body.hpp"
-#include "validation/compare/quantities.hpp"
+#include "validation/record/motion_numbers.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation {

@@ -22,6 +22,7 @@
 #include "validation/scene/failure.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/scene/named_texts.hpp"
+#include "validation/scene/scene_value.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -70,20 +71,20 @@ Scene discrete_scene(const NamedTexts& texts) {
   return scene;
 }
 
-Json sequence(NamedTexts texts) {
+Value sequence(NamedTexts texts) {
   const Scene scene = discrete_scene(texts);
-  return sequence_json(scene, sequence_by_method(scene, SequenceMethod::automatic));
+  return sequence_report(scene, sequence_by_method(scene, SequenceMethod::automatic)).fields;
 }
 
-Json explain(NamedTexts texts) {
+Value explain(NamedTexts texts) {
   const int n = read_integer_option("impact", taken(texts, "impact"), 1, most_impacts);
-  return explanation_json(explain_impact(discrete_scene(texts), n));
+  return explanation_fields(explain_impact(discrete_scene(texts), n));
 }
 
-Json angles(NamedTexts texts) {
+Value angles(NamedTexts texts) {
   const AnglesRequest request = angles_request(texts);
   limit("count", request.count, most_angles);
-  return angles_json(request);
+  return angles_report(request).fields;
 }
 
 /// A scene that comes with the program, or an empty one, with the arguments in it.
@@ -114,17 +115,17 @@ class HistoryColumns : public numeric::HistoryRecorder {
     const std::vector<double> numbers = history_numbers(sample);
     for (std::size_t i = 0; i < numbers.size(); ++i) columns_[i].push_back(numbers[i]);
   }
-  [[nodiscard]] Json json() const {
-    Json json = Json::object();
-    for (std::size_t i = 0; i < columns_.size(); ++i) json[history_names()[i]] = columns_[i];
-    return json;
+  [[nodiscard]] Value fields() const {
+    Value fields;
+    for (std::size_t i = 0; i < columns_.size(); ++i) fields[history_names()[i]] = columns_[i];
+    return fields;
   }
 
  private:
   std::vector<std::vector<double>> columns_{history_names().size()};
 };
 
-Json simulate(NamedTexts texts) {
+Value simulate(NamedTexts texts) {
   const bool with_history = taken(texts, "history") == "true";
   const Scene scene = continuous_scene(std::move(texts));
   const numeric::Body body = scene.make_body();
@@ -134,17 +135,17 @@ Json simulate(NamedTexts texts) {
   if (with_history) options.history = &history;
   if (with_history && scene.height) record_fall(history, start, body.mass(), options.gravity, 20);
   const PlannedRun planned = run_to_digits(body, scene.ground, start, options);
-  Json json = simulation_json(scene, planned);
-  if (with_history) json["history"] = history.json();
-  return json;
+  Value fields = simulation_report(scene, planned).fields;
+  if (with_history) fields["history"] = history.fields();
+  return fields;
 }
 
-Json compare(NamedTexts texts) {
+Value compare(NamedTexts texts) {
   const Scene scene = continuous_scene(std::move(texts));
-  return comparison_json(scene, compare_models(scene, scene.make_body()));
+  return comparison_report(scene, compare_models(scene, scene.make_body())).fields;
 }
 
-using Answer = Json (*)(NamedTexts);
+using Answer = Value (*)(NamedTexts);
 const std::map<std::string, Answer> answers{{"/api/sequence", sequence},
                                             {"/api/angles", angles},
                                             {"/api/explain", explain},
@@ -180,20 +181,20 @@ std::string with_arguments(std::string words) {
 }  // namespace
 
 std::string error_json(const std::string& words, int exit_status) {
-  return json_text({{"error", text_json(words)}, {"status", exit_status}});
+  return json_text(Value::Fields{{"error", words}, {"status", exit_status}});
 }
 
 std::string cases_json() {
   constexpr std::string_view folder = "validation/cases/", extension = ".toml";
-  Json cases = Json::object();
+  Value cases;
   for (const EmbeddedFile& file : embedded_files()) {
     if (!file.name.starts_with(folder)) continue;
     const std::string_view base = file.name.substr(folder.size());
     const std::string name(base.substr(0, base.size() - extension.size()));
     const Scene scene = case_scene(name);
-    if (!scene.sweep) cases[name] = scene.json();
+    if (!scene.sweep) cases[name] = scene_value(scene);
   }
-  return json_text({{"cases", cases}});
+  return json_text(Value::Fields{{"cases", cases}});
 }
 
 ApiAnswer answer_request(const std::string& path, const std::string& body) {

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "validation/cli/version.hpp"
 #include "validation/demo/api.hpp"
 #include "validation/demo/page.hpp"
 #include "validation/output/json.hpp"
+#include "validation/output/version.hpp"
 
 namespace clatter::validation {
 namespace {

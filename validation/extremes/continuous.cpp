@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "numeric/mesh/generators.hpp"
-#include "validation/output/names.hpp"
+#include "validation/record/names.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -8,7 +8,7 @@
 #include "validation/extremes/exact_rod.hpp"
 #include "validation/extremes/probes.hpp"
 #include "validation/extremes/retrace.hpp"
-#include "validation/output/names.hpp"
+#include "validation/record/names.hpp"
 
 namespace clatter::validation {
 namespace {

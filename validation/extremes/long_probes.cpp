@@ -16,7 +16,7 @@
 #include "validation/extremes/continuous.hpp"
 #include "validation/extremes/probes.hpp"
 #include "validation/extremes/retrace.hpp"
-#include "validation/output/names.hpp"
+#include "validation/record/names.hpp"
 #include "validation/sweep/counter_random.hpp"
 
 namespace clatter::validation {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "validation/cli/version.hpp"
 #include "validation/figures/figures.hpp"
 #include "validation/output/number.hpp"
+#include "validation/output/version.hpp"
 
 namespace clatter::validation {
 
@@ -19,8 +19,6 @@ std::size_t column_index(const std::vector<FigureColumn>& columns, const std::st
 }
 
 std::string Figure::command() const { return fmt::format("clatter figures --only {} --output DIR", number); }
-
-std::string Figure::file_name() const { return fmt::format("figure_{:02}.csv", number); }
 
 const std::vector<int>& figure_numbers() {
   static const std::vector<int> numbers{7, 8, 9, 10, 11, 12, 14, 15, 16, 17, 19, 20, 21, 22, 23, 24};
@@ -49,22 +47,20 @@ Figure make_figure(int number, Laboratory& laboratory) {
   }
 }
 
-std::string figure_csv(const Figure& figure) {
-  std::string text = fmt::format("# Figure {}: {}\n# scene: {}\n# command: {}\n# clatter {}\n", figure.number,
-                                 figure.title, figure.scene, figure.command(), version);
+Report figure_report(const Figure& figure) {
+  Report report;
+  report.title = fmt::format("Figure {}: {}", figure.number, figure.title);
+  report.head = {"scene: " + figure.scene, "command: " + figure.command(), std::string("clatter ") + version};
+  report.remarks = report.head;
+  report.explains_columns = true;
   for (const FigureColumn& column : figure.columns) {
-    text += fmt::format("# {} [{}]: {}\n", column.name, column.unit, column.quantity);
+    report.grid.columns.push_back({column.name, column.name, column.unit == "1" ? "" : column.unit, column.quantity});
   }
-  for (std::size_t i = 0; i < figure.columns.size(); ++i) text += (i > 0 ? "," : "") + figure.columns[i].name;
-  text += "\n";
-  for (const std::vector<double>& row : figure.rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      text += i > 0 ? "," : "";
-      if (std::isfinite(row[i])) text += shortest(row[i]);
-    }
-    text += "\n";
-  }
-  return text;
+  for (const std::vector<double>& row : figure.rows) report.grid.rows.emplace_back(row.begin(), row.end());
+  report.fields =
+      Value::Fields{{"clatter", version},    {"figure", figure.number},     {"title", figure.title},
+                    {"scene", figure.scene}, {"command", figure.command()}, {"rows", row_objects(report.grid)}};
+  return report;
 }
 
 }  // namespace clatter::validation

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "validation/output/report.hpp"
 #include "validation/verify/laboratory.hpp"
 
 namespace clatter::validation {
@@ -64,8 +65,6 @@ struct Figure {
 
   /// "clatter figures --only N --output DIR".
   [[nodiscard]] std::string command() const;
-  /// "figure_07.csv".
-  [[nodiscard]] std::string file_name() const;
 };
 
 /// 7 to 12, 14 to 17, 19 to 24.
@@ -73,7 +72,7 @@ struct Figure {
 /// @throws std::out_of_range for a number that is not among them.
 [[nodiscard]] Figure make_figure(int number, Laboratory& laboratory);
 
-/// CSV of the figure: a head of "# " lines with title, scene, command, version and each column's quantity and unit.
-[[nodiscard]] std::string figure_csv(const Figure& figure);
+/// Its title, scene and command, and its rows; CSV explains each column.
+[[nodiscard]] Report figure_report(const Figure& figure);
 
 }  // namespace clatter::validation

@@ -17,20 +17,24 @@ void make_folder(const std::string& folder, const std::string& option) {
   throw BadInput(fmt::format("{} {}: must be a folder that exists or can be made", option, folder));
 }
 
-void check_figure_files(const std::vector<int>& numbers, const std::string& folder) {
+std::string FigureFiles::path(int number) const {
+  const char* const extensions[]{"txt", "csv", "json", "md", "tex"};  // in the order of Format
+  const char* const extension = extensions[static_cast<std::size_t>(style.format)];
+  return (std::filesystem::path(folder) / fmt::format("figure_{:02}.{}", number, extension)).string();
+}
+
+void check_figure_files(const std::vector<int>& numbers, const FigureFiles& figures) {
   std::vector<RunFile> files;
   for (const int number : std::set<int>(numbers.begin(), numbers.end())) {
-    Figure figure;
-    figure.number = number;
-    files.push_back({"--output", (std::filesystem::path(folder) / figure.file_name()).string()});
+    files.push_back({"--output", figures.path(number)});
   }
   refuse_shared_files(files, {});
   for (const RunFile& file : files) require_writable(file);
 }
 
-void write_figure(const Figure& figure, const std::string& folder) {
-  Sink sink((std::filesystem::path(folder) / figure.file_name()).string());
-  sink.write(figure_csv(figure));
+void write_figure(const Figure& figure, const FigureFiles& files) {
+  Sink sink(files.path(figure.number));
+  sink.write(report_text(figure_report(figure), files.style));
   sink.commit();
 }
 

@@ -8,7 +8,7 @@
 
 #include "validation/figures/gnuplot.hpp"
 #include "validation/figures/plot_text.hpp"
-#include "validation/output/table.hpp"
+#include "validation/output/report.hpp"
 
 namespace clatter::validation {
 namespace {

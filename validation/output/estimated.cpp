@@ -32,7 +32,9 @@ Estimated larger(const Estimated& a, const Estimated& b) {
 Cell known_cell(const Estimated& number, const Shown& shown) {
   const int digits = number.is_known() ? known_digits(number.value, number.error) : 0;
   if (digits > 0) return {number.value, std::min(digits, shown.digits)};
-  return number.is_known() && is_zero(number, shown) ? Cell(0.0, 1) : Cell(number.value, 0);
+  Cell cell(number.value, 0);
+  if (number.is_known() && is_zero(number, shown)) cell.shown = "0";
+  return cell;
 }
 
 std::string known_text(const Estimated& number, const Shown& shown) { return shown_text(known_cell(number, shown)); }

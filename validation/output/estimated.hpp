@@ -3,11 +3,9 @@
 
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <string>
 
-#include "validation/output/json.hpp"
-#include "validation/output/table.hpp"
+#include "validation/output/report.hpp"
 
 namespace clatter::validation {
 
@@ -46,9 +44,9 @@ struct Shown {
 [[nodiscard]] Cell known_cell(const Estimated& number, const Shown& shown);
 [[nodiscard]] std::string known_text(const Estimated& number, const Shown& shown);
 
-/// The error for JSON: null where it is not known.
-[[nodiscard]] inline Json error_or_null(const Estimated& number) {
-  return number.is_known() ? number_or_null(number.error) : Json(nullptr);
+/// The error, or nothing where it is not known.
+[[nodiscard]] inline Value error_or_nothing(const Estimated& number) {
+  return number.is_known() ? Value(number.error) : Value();
 }
 
 }  // namespace clatter::validation

@@ -40,20 +40,23 @@ std::string html_escaped(const std::string& text) {
   return out;
 }
 
-std::string html_table(const Table& table) {
-  std::string out = paragraphs(table.head) + "<table>\n<thead><tr>";
+std::string html_table(const Report& report) {
+  const Grid& table = report.table();
+  std::vector<std::string> head{report.title};
+  head.insert(head.end(), report.head.begin(), report.head.end());
+  std::string out = paragraphs(head) + "<table>\n<thead><tr>";
   for (const Column& column : table.columns) {
     if (column.shown) out += heading(column);
   }
   out += "</tr></thead>\n<tbody>\n";
-  for (const std::vector<Cell>& row : table.rows) {
+  for (const Row& row : table.rows) {
     out += "<tr>";
     for (std::size_t i = 0; i < row.size(); ++i) {
       if (table.columns[i].shown) out += cell_text(row[i], table.columns[i]);
     }
     out += "</tr>\n";
   }
-  return out + "</tbody>\n</table>\n" + paragraphs(table.notes);
+  return out + "</tbody>\n</table>\n" + paragraphs(report.notes);
 }
 
 }  // namespace clatter::validation

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "validation/output/table.hpp"
+#include "validation/output/report.hpp"
 
 namespace clatter::validation {
 
@@ -11,6 +11,6 @@ namespace clatter::validation {
 [[nodiscard]] std::string html_escaped(const std::string& text);
 
 /// The shown columns as a `table` between paragraphs with head and notes; numbers to the right.
-[[nodiscard]] std::string html_table(const Table& table);
+[[nodiscard]] std::string html_table(const Report& report);
 
 }  // namespace clatter::validation

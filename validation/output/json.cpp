@@ -3,60 +3,129 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "validation/output/number.hpp"
+#include "validation/output/report.hpp"
 
 namespace clatter::validation {
 namespace {
 
-bool one_line(const Json& value) {
-  if (!value.is_array()) return false;
-  for (const Json& item : value) {
-    if (item.is_structured()) return false;
-  }
-  return true;
+using List = Value::List;
+using Fields = Value::Fields;
+
+/// As JSON writes it; bytes that are no UTF-8 become U+FFFD.
+std::string quoted(const std::string& text) { return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+bool is_structured(const Value& value) {
+  return std::holds_alternative<List>(value.content()) || std::holds_alternative<Fields>(value.content());
 }
 
-void write(const Json& value, const std::string& indent, std::string& out);
+/// Writes values; `indented` over several lines.
+class Writer {
+ public:
+  explicit Writer(bool indented) : indented_(indented) {}
 
-void write_items(const Json& value, const std::string& indent, std::string& out) {
-  const bool flat = one_line(value);
-  const std::string inner = indent + "  ";
-  const std::string separator = flat ? ", " : ",\n" + inner;
-  out += value.is_array() ? "[" : "{";
-  if (!flat) out += "\n" + inner;
-  bool first = true;
-  for (const auto& [key, item] : value.items()) {
-    if (!first) out += separator;
-    first = false;
-    if (value.is_object()) out += Json(key).dump() + ": ";
-    write(item, inner, out);
+  void write(const Value& value, const std::string& indent) {
+    if (const auto* list = std::get_if<List>(&value.content())) return write_list(*list, indent);
+    if (const auto* fields = std::get_if<Fields>(&value.content())) return write_fields(*fields, indent);
+    if (const auto* text = std::get_if<std::string>(&value.content())) out_ += quoted(*text);
+    else out_ += value.is_nothing() ? "null" : value.text();
   }
-  if (!flat) out += "\n" + indent;
-  out += value.is_array() ? "]" : "}";
-}
+  [[nodiscard]] const std::string& text() const { return out_; }
 
-void write(const Json& value, const std::string& indent, std::string& out) {
-  if (value.is_structured() && !value.empty()) return write_items(value, indent, out);
-  if (value.is_number_float()) {
-    const double number = value.get<double>();
-    out += std::isfinite(number) ? shortest(number) : "null";
-    return;
+ private:
+  void write_list(const List& list, const std::string& indent) {
+    if (list.empty()) {
+      out_ += "[]";
+      return;
+    }
+    bool flat = true;
+    for (const Value& item : list) flat = flat && !is_structured(item);
+    const bool lines = indented_ && !flat;
+    out_ += '[';
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (i > 0) out_ += lines || !indented_ ? "," : ", ";
+      if (lines) out_ += "\n" + indent + "  ";
+      write(list[i], indent + "  ");
+    }
+    if (lines) out_ += "\n" + indent;
+    out_ += ']';
   }
-  out += value.dump();
-}
+
+  void write_fields(const Fields& fields, const std::string& indent) {
+    if (fields.empty()) {
+      out_ += "{}";
+      return;
+    }
+    out_ += '{';
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      if (i > 0) out_ += ',';
+      if (indented_) out_ += "\n" + indent + "  ";
+      out_ += quoted(fields[i].name) + (indented_ ? ": " : ":");
+      write(fields[i].value, indent + "  ");
+    }
+    if (indented_) out_ += "\n" + indent;
+    out_ += '}';
+  }
+
+  bool indented_;
+  std::string out_;
+};
 
 }  // namespace
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value + 0.0) : Json(nullptr); }
 
-Json text_json(const std::string& text) {
-  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace));
+Json text_json(const std::string& text) { return Json::parse(quoted(text)); }
+
+Value value_of(const Json& json) {
+  switch (json.type()) {
+    case Json::value_t::boolean: return json.get<bool>();
+    case Json::value_t::number_integer:
+    case Json::value_t::number_unsigned: return json.get<long long>();
+    case Json::value_t::number_float: return json.get<double>();
+    case Json::value_t::string: return json.get<std::string>();
+    case Json::value_t::array: {
+      List list;
+      for (const Json& item : json) list.push_back(value_of(item));
+      return list;
+    }
+    case Json::value_t::object: {
+      Fields fields;
+      for (const auto& [name, item] : json.items()) fields.push_back({name, value_of(item)});
+      return fields;
+    }
+    default: return nullptr;
+  }
 }
 
-std::string json_text(const Json& value) {
-  std::string out;
-  write(value, "", out);
-  return out + "\n";
+Value read_json(const std::string& text) { return value_of(Json::parse(text, nullptr, false)); }
+
+std::string json_text(const Value& value) {
+  Writer writer(true);
+  writer.write(value, "");
+  return writer.text() + "\n";
+}
+
+std::string compact_json(const Value& value) {
+  Writer writer(false);
+  writer.write(value, "");
+  return writer.text();
+}
+
+Value row_object(const std::vector<Column>& columns, const Row& row) {
+  Value object(Fields{});
+  for (std::size_t i = 0; i < columns.size() && i < row.size(); ++i) {
+    const Column& column = columns[i];
+    Value& place = (column.object.empty() ? object : object[column.object])[column.json_key()];
+    if (column.listed) place.push_back(row[i].value);
+    else place = row[i].value;
+  }
+  return object;
+}
+
+Value row_objects(const Grid& grid) {
+  List rows;
+  for (const Row& row : grid.rows) rows.push_back(row_object(grid.columns, row));
+  return rows;
 }
 
 }  // namespace clatter::validation

@@ -1,9 +1,10 @@
-// JSON text.  Sources that make or take values include <nlohmann/json.hpp>, which takes a second to compile,
-// themselves.
+// JSON text.  Only sources that take JSON apart include <nlohmann/json.hpp>, which takes seconds to compile.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+
+#include "validation/output/value.hpp"
 
 namespace clatter::validation {
 
@@ -16,8 +17,15 @@ using Json = nlohmann::ordered_json;
 /// say them.
 [[nodiscard]] Json text_json(const std::string& text);
 
+/// The same tree.
+[[nodiscard]] Value value_of(const Json& json);
+/// The tree that a text says, or nothing.
+[[nodiscard]] Value read_json(const std::string& text);
+
 /// Indented JSON with every number in its shortest round-trip form (nlohmann's own writer is not always
 /// shortest) and short arrays of numbers on one line.
-[[nodiscard]] std::string json_text(const Json& value);
+[[nodiscard]] std::string json_text(const Value& value);
+/// The same without blanks, on one line.
+[[nodiscard]] std::string compact_json(const Value& value);
 
 }  // namespace clatter::validation

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "analytic/errors.hpp"
-#include "validation/output/names.hpp"
 #include "validation/plan/closed_form.hpp"
 #include "validation/plan/symmetry.hpp"
+#include "validation/record/names.hpp"
 #include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation {

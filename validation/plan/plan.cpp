@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "validation/compare/prediction.hpp"
-#include "validation/output/names.hpp"
 #include "validation/output/number.hpp"
 #include "validation/plan/cost_table.hpp"
 #include "validation/plan/tolerance_search.hpp"
+#include "validation/record/names.hpp"
 
 namespace clatter::validation {
 namespace {

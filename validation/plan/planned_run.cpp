@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "validation/compare/motion_numbers.hpp"
 #include "validation/plan/cost_table.hpp"
 #include "validation/plan/symmetry.hpp"
 #include "validation/plan/tolerance_search.hpp"
+#include "validation/record/motion_numbers.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -38,7 +38,7 @@ void judge(const numeric::Body& body, PlannedRun& planned) {
   const MotionNumbers sizes = motion_sizes(planned.run, count, body);
   planned.achieved = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    planned.achieved = std::max(planned.achieved, row_distance(motion_numbers(rows[i].error), {}, sizes));
+    planned.achieved = std::max(planned.achieved, row_distance(motion_errors(rows[i]), {}, sizes));
   }
 }
 
@@ -97,8 +97,7 @@ class Runner {
     const MotionNumbers sizes = motion_sizes(finer, finer.impacts.size(), body_);
     double worst = 0;
     for (std::size_t i = 0; i < std::min(run.impacts.size(), finer.impacts.size()); ++i) {
-      const double apart =
-          row_distance(motion_numbers(run.impacts[i].value), motion_numbers(finer.impacts[i].value), sizes);
+      const double apart = row_distance(motion_numbers(run.impacts[i]), motion_numbers(finer.impacts[i]), sizes);
       if (!(apart <= different_ways)) break;
       worst = std::max(worst, apart);
     }

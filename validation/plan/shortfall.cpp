@@ -5,19 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "validation/output/names.hpp"
+#include "validation/output/message.hpp"
+#include "validation/record/names.hpp"
 #include "validation/scene/failure.hpp"
 
 namespace clatter::validation {
-namespace {
-
-std::string digits_words(int asked, double achieved) {
+std::string digits_shortfall(int asked, double achieved) {
   if (achieved <= std::pow(10.0, -asked)) return "";
   if (!std::isfinite(achieved)) return fmt::format("asked {} digits, achieved none of all impacts", asked);
   return fmt::format("asked {} digits, achieved {:.1f}", asked, std::max(-std::log10(achieved), 0.0));
 }
-
-}  // namespace
 
 double largest_error(const analytic::Sequence& sequence) {
   double worst = 0;
@@ -31,11 +28,22 @@ double largest_error(const analytic::Sequence& sequence) {
 
 std::string shortfall(const Asked& asked, const analytic::Sequence& sequence) {
   if (is_cut_short(sequence.outcome)) return fmt::format("{}: {}", outcome_name(sequence.outcome), sequence.message);
-  return asked.require_digits ? digits_words(asked.digits, largest_error(sequence)) : "";
+  return asked.require_digits ? digits_shortfall(asked.digits, largest_error(sequence)) : "";
 }
 
 std::string shortfall(const Scene& scene, const analytic::Sequence& sequence) {
   return shortfall(Asked{scene.options.digits, scene.require_digits}, sequence);
+}
+
+void Shortfalls::add(const std::string& place, const std::string& why) {
+  if (why.empty()) return;
+  if (count_++ == 0) first_ = fmt::format("{}: {}", place, why);
+}
+
+int Shortfalls::status(long long all, const char* what) const {
+  if (count_ == 0) return 0;
+  say(fmt::format("{} of {} {} fall short; {}", count_, all, what, first_));
+  return exit_status(FailureKind::not_computed);
 }
 
 int shortfall_status(analytic::Outcome outcome) {
@@ -52,7 +60,7 @@ std::string shortfall(const Scene& scene, const PlannedRun& planned) {
   if (planned.known_impacts < impacts)
     return fmt::format("asked {} digits, achieved of the first {} of {} impacts only", scene.options.digits,
                        planned.known_impacts, impacts);
-  return digits_words(scene.options.digits, planned.achieved);
+  return digits_shortfall(scene.options.digits, planned.achieved);
 }
 
 }  // namespace clatter::validation

@@ -5,7 +5,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "numeric/mesh/generators.hpp"
 #include "numeric/mesh/import.hpp"
@@ -201,19 +200,15 @@ BodyProperties body_properties(const Scene& scene, Model model) {
   return is_nominal ? nominal_properties(scene) : of_solid(solid_body(scene));
 }
 
-Json body_json(const Scene& scene, Model model) {
+Value body_value(const Scene& scene, Model model) {
   const BodyProperties body = body_properties(scene, model);
-  const auto list = [](const auto& numbers) {
-    Json json = Json::array();
-    for (const double number : numbers) json.push_back(number_or_null(number));
-    return json;
-  };
+  const auto list = [](const Vector3& v) { return std::vector<double>{v.x(), v.y(), v.z()}; };
   const Matrix3 i = body.mass * body.gyration_square;
-  return {{"mass", number_or_null(body.mass)},
-          {"extents", list(body.extents)},
-          {"centre", list(body.centre)},
-          {"principal_inertia", list(body.principal_inertia())},
-          {"inertia", list(std::vector<double>{i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2)})}};
+  return Value::Fields{{"mass", body.mass},
+                       {"extents", list(body.extents)},
+                       {"centre", list(body.centre)},
+                       {"principal_inertia", list(body.principal_inertia())},
+                       {"inertia", std::vector<double>{i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2)}}};
 }
 
 std::vector<std::string> scene_head(const Scene& scene, Model model) {

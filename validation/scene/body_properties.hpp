@@ -4,7 +4,7 @@
 #include <string>
 
 #include "numeric/mass_properties.hpp"
-#include "validation/output/json.hpp"
+#include "validation/output/value.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
@@ -38,7 +38,7 @@ struct SolidBody {
 [[nodiscard]] BodyProperties body_properties(const Scene& scene, Model model);
 
 /// "mass", "extents", "centre", "principal_inertia" (ascending), "inertia" (xx, yy, zz, xy, xz, yz), SI.
-[[nodiscard]] Json body_json(const Scene& scene, Model model = Model::continuous);
+[[nodiscard]] Value body_value(const Scene& scene, Model model = Model::continuous);
 /// The scene's summary and a line with the same numbers for a reader: the head of a table.
 [[nodiscard]] std::vector<std::string> scene_head(const Scene& scene, Model model = Model::continuous);
 

@@ -6,6 +6,8 @@
 
 #include "analytic/sequence.hpp"
 #include "numeric/simulate.hpp"
+#include "validation/output/report.hpp"
+#include "validation/plan/shortfall.hpp"
 #include "validation/sweep/sweep_plan.hpp"
 
 namespace clatter::validation {
@@ -17,7 +19,7 @@ namespace clatter::validation {
 /// or per impact what `clatter sequence` and `clatter simulate` write as CSV, the scene's outcome and reason.
 /// The reason says why a scene has no numbers, fewer impacts than asked for or fewer digits than required; else it is
 /// empty.  Errors and predictable are empty where no errors were asked for, an error alone where it is not known.
-[[nodiscard]] std::string column_names(const SweepPlan& plan);
+[[nodiscard]] std::vector<Column> sweep_columns(const SweepPlan& plan);
 
 /// What all rows of a scene begin with.
 [[nodiscard]] std::string row_prefix(long long index, const std::vector<double>& values);
@@ -41,21 +43,19 @@ void append_failure(const RowForm& form, Model model, const char* outcome);
 /// model.
 class ShortfallCount {
  public:
-  explicit ShortfallCount(const std::string& column_names);
+  explicit ShortfallCount(const SweepPlan& plan);
 
   /// Takes whole rows; lines of a head are skipped.
   void add(std::string_view rows);
 
-  [[nodiscard]] long long scenes() const { return scenes_; }
-  /// "INDEX: REASON" of the first of them.
-  [[nodiscard]] const std::string& first() const { return first_; }
+  [[nodiscard]] const Shortfalls& found() const { return found_; }
 
  private:
   void add_row(std::string_view row);
 
   std::size_t outcome_ = 0;  ///< place of that column
-  long long scenes_ = 0;
-  std::string last_, first_;
+  Shortfalls found_;
+  std::string last_;  ///< index of the last of them
 };
 
 }  // namespace clatter::validation

@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <nlohmann/json.hpp>
 
-#include "validation/cli/version.hpp"
 #include "validation/output/digest.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/bad_input.hpp"
 #include "validation/scene/body_properties.hpp"
+#include "validation/scene/scene_value.hpp"
 #include "validation/sweep/rows.hpp"
 
 namespace clatter::validation {
@@ -222,14 +221,21 @@ SweepPlan read_sweep_plan(const SweepRequest& request) {
   return plan;
 }
 
-std::string SweepPlan::head() const {
-  std::string head = fmt::format("# clatter {}, sweep: {} model, one row per {}\n# scene: {}\n", version,
-                                 model_names[static_cast<std::size_t>(model)],
-                                 row_names[static_cast<std::size_t>(rows)], scene.json().dump());
-  if (body_axes.empty()) head += "# body: " + body_json(scene, model).dump() + "\n";
-  if (!scene.body.file.empty()) head += fmt::format("# mesh: CRC-64/XZ {:016x}\n", file_digest(scene.body.file));
-  for (const std::string& line : words) head += "# " + line + "\n";
-  return head + column_names(*this) + "\n";
+Report SweepPlan::report() const {
+  const std::string& name = model_names[static_cast<std::size_t>(model)];
+  Report report =
+      begun_report("sweep", fmt::format("{} model, one row per {}", name, row_names[static_cast<std::size_t>(rows)]));
+  report.head = body_axes.empty() ? scene_head(scene, model) : scene.summary(model);
+  report.fields["model"] = name;
+  report.fields["scene"] = scene_value(scene);
+  if (body_axes.empty()) report.fields["body"] = body_value(scene, model);
+  report.fields["sweep"] = words;
+  if (!scene.body.file.empty()) {
+    report.remarks.push_back(fmt::format("mesh: CRC-64/XZ {:016x}", file_digest(scene.body.file)));
+  }
+  report.remarks.insert(report.remarks.end(), words.begin(), words.end());
+  report.grid.columns = sweep_columns(*this);
+  return report;
 }
 
 }  // namespace clatter::validation

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "validation/output/report.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/scene/scene.hpp"
 #include "validation/sweep/grid.hpp"
@@ -35,9 +36,8 @@ struct SweepPlan {
   /// How it was asked for: the values set, and how many scenes there are.
   std::vector<std::string> words;
 
-  /// The first lines of the output, each with its end; the last one names the columns.  Equal for equal sweeps;
-  /// a body's mesh is in them by a digest of its file.
-  [[nodiscard]] std::string head() const;
+  /// The report without rows.  Equal for equal sweeps; a body's mesh is in it by a digest of its file.
+  [[nodiscard]] Report report() const;
 };
 
 /// A scene with a ground is for the continuous model unless the other one is named.  As in scene files, one coefficient

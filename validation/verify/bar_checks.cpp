@@ -5,10 +5,10 @@
 #include <cmath>
 #include <vector>
 
-#include "validation/compare/motion_numbers.hpp"
 #include "validation/compare/random_scenes.hpp"
 #include "validation/output/number.hpp"
 #include "validation/plan/planned_run.hpp"
+#include "validation/record/motion_numbers.hpp"
 #include "validation/verify/check.hpp"
 #include "validation/verify/discrete_bars.hpp"
 
@@ -75,8 +75,8 @@ Measured bars_of_the_simulator(Laboratory& laboratory) {
     for (std::size_t i = 0; i < std::min(run.impacts.size(), truth.impacts.size()); ++i) {
       const numeric::ImpactRecord& row = run.impacts[i];
       if (!row.predictable || std::isnan(row.error.start)) continue;
-      const MotionNumbers value = motion_numbers(row.value), bar = motion_numbers(row.error),
-                          exact = motion_numbers(truth.impacts[i].value);
+      const MotionNumbers value = motion_numbers(row), bar = motion_errors(row),
+                          exact = motion_numbers(truth.impacts[i]);
       for (std::size_t q = 0; q < motion_number_count; ++q) {
         if (exact[q] != 0) sample.take(std::fabs(value[q] - exact[q]) / sizes[q], bar[q] / sizes[q]);
       }

@@ -5,11 +5,11 @@
 #include <set>
 
 #include "validation/cli/verify_report.hpp"
-#include "validation/cli/version.hpp"
 #include "validation/figures/drawing.hpp"
 #include "validation/figures/figure.hpp"
 #include "validation/output/html.hpp"
 #include "validation/output/number.hpp"
+#include "validation/output/version.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -25,9 +25,7 @@ Report verify(bool quick, const std::vector<std::string>& only) {
   });
   const auto run = std::make_shared<const std::vector<CheckResult>>(std::move(results));
   const std::string words = selection.words;
-  return {.json = [run, words] { return validation::verify_json(*run, words); },
-          .table = [run, words] { return validation::verify_table(*run, words, validation::Format::table); },
-          .records = [run, words] { return validation::verify_records(*run, words); }};
+  return {[run, words] { return validation::verify_report(*run, words); }};
 }
 
 }  // namespace

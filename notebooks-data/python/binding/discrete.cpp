@@ -35,9 +35,7 @@ Report sequence(const Given& given, const std::string& method) {
   const py::gil_scoped_release release;
   const auto run = std::make_shared<const DiscreteRun>(
       DiscreteRun{scene, validation::sequence_by_method(scene, validation::read_sequence_method(method))});
-  return {.json = [run] { return validation::sequence_json(run->scene, run->sequence); },
-          .table = [run] { return validation::sequence_table(run->scene, run->sequence); },
-          .records = [run] { return validation::sequence_records(run->scene, run->sequence); }};
+  return {[run] { return validation::sequence_report(run->scene, run->sequence); }};
 }
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -86,10 +84,7 @@ py::tuple angles(const std::optional<Numbers>& theta, const Given& given) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(request.count); ++i) values[i] = rows[i * columns.size() + k];
     arrays[py::str(columns[k].name)] = columns[k].name == "impacts" ? py::object(array.attr("astype")("int64")) : array;
   }
-  return py::make_tuple(Report{.json = [request] { return validation::angles_json(request); },
-                               .table = [request] { return validation::angles_table(request); },
-                               .records = [request] { return validation::angles_records(request); }},
-                        arrays);
+  return py::make_tuple(Report{[request] { return validation::angles_report(request); }}, arrays);
 }
 
 }  // namespace

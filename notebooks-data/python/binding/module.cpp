@@ -3,7 +3,7 @@
 
 #include "report.hpp"
 #include "runs.hpp"
-#include "validation/cli/version.hpp"
+#include "validation/output/version.hpp"
 #include "validation/scene/failure.hpp"
 
 namespace clatter::python {

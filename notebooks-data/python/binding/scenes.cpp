@@ -7,9 +7,9 @@
 #include "interruptible.hpp"
 #include "report.hpp"
 #include "runs.hpp"
-#include "validation/cli/comparison_report.hpp"
 #include "validation/cli/history_file.hpp"
 #include "validation/cli/simulation_report.hpp"
+#include "validation/cli/swept_comparison_report.hpp"
 #include "validation/embedded/embedded.hpp"
 #include "validation/plan/planned_run.hpp"
 #include "validation/scene/keys.hpp"
@@ -52,9 +52,7 @@ struct SweptRuns {
 
 Report single_report(Scene scene, PlannedRun planned) {
   const auto run = std::make_shared<const ContinuousRun>(ContinuousRun{std::move(scene), std::move(planned)});
-  return {.json = [run] { return validation::simulation_json(run->scene, run->planned); },
-          .table = [run] { return validation::simulation_table(run->scene, run->planned); },
-          .records = [run] { return validation::simulation_records(run->scene, run->planned); }};
+  return {[run] { return validation::simulation_report(run->scene, run->planned); }};
 }
 
 Report swept_report(const Scene& scene, const std::function<bool()>& goes_on) {
@@ -65,9 +63,7 @@ Report swept_report(const Scene& scene, const std::function<bool()>& goes_on) {
     swept.runs.push_back({value, one, run_scene(one, goes_on, nullptr)});
   }
   const auto run = std::make_shared<const SweptRuns>(std::move(swept));
-  return {.json = [run] { return validation::sweep_json(run->scene, run->runs); },
-          .table = [run] { return validation::sweep_table(run->scene, run->runs); },
-          .records = [run] { return validation::sweep_records(run->scene, run->runs); }};
+  return {[run] { return validation::sweep_report(run->scene, run->runs); }};
 }
 
 /// (report, history or None)
@@ -100,14 +96,10 @@ Report compare(const std::string& name, const std::optional<std::string>& text, 
     return true;
   });
   const auto run = std::make_shared<const ComparedScene>(std::move(compared));
-  if (scene.sweep) {
-    return {.json = [run] { return validation::swept_comparison_json(run->scene, run->values); },
-            .table = [run] { return validation::swept_comparison_table(run->scene, run->values); },
-            .records = [run] { return validation::swept_comparison_records(run->scene, run->values); }};
-  }
-  return {.json = [run] { return validation::comparison_json(run->scene, run->values[0].comparison); },
-          .table = [run] { return validation::comparison_table(run->scene, run->values[0].comparison); },
-          .records = [run] { return validation::comparison_records(run->scene, run->values[0].comparison); }};
+  return {[run] {
+    return run->scene.sweep ? validation::swept_comparison_report(run->scene, run->values)
+                            : validation::comparison_report(run->scene, run->values[0].comparison);
+  }};
 }
 
 /// Name to text of the scene files that the program carries.

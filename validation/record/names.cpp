@@ -1,4 +1,4 @@
-#include "validation/output/names.hpp"
+#include "validation/record/names.hpp"
 
 namespace clatter::validation {
 

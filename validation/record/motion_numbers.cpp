@@ -1,8 +1,10 @@
-#include "validation/compare/motion_numbers.hpp"
+#include "validation/record/motion_numbers.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "validation/record/impact_quantities.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -12,36 +14,30 @@ MotionNumbers sizes_of(double time, double speed, double radius, double mass) {
   return {time, 90, impulse, impulse, impulse, speed, speed, speed, turn, turn, turn};
 }
 
+/// The numbers of the list, vectors spread over three; or their errors.
+template <class Impact>
+MotionNumbers numbers_of(const Impact& impact, bool errors) {
+  MotionNumbers numbers{};
+  std::size_t place = 0;
+  for (const ImpactQuantity& quantity : impact_quantities()) {
+    if (!quantity.motion) continue;
+    const Getter<Impact>& get = quantity.of<Impact>();
+    const Entry entry = errors ? get.error(impact) : get.value(impact);
+    if (const auto* vector = std::get_if<EntryVector>(&entry)) {
+      for (const double part : *vector) numbers.at(place++) = part;
+    } else {
+      numbers.at(place++) = std::get<double>(entry);
+    }
+  }
+  return numbers;
+}
+
 }  // namespace
 
-MotionNumbers motion_numbers(const analytic::ImpactRow& row) {
-  const analytic::PlanarVelocity& after = row.impact.after;
-  return {row.start,
-          row.contact_angle * analytic::degrees_per_radian,
-          row.impact.tangential_impulse,
-          0,
-          row.impact.normal_impulse,
-          after.tangential,
-          0,
-          after.normal,
-          0,
-          after.angular,
-          0};
-}
-
-MotionNumbers motion_numbers(const numeric::ImpactNumbers& n) {
-  return {n.start,
-          n.contact_angle * analytic::degrees_per_radian,
-          n.impulse.x(),
-          n.impulse.y(),
-          n.impulse.z(),
-          n.velocity_after.x(),
-          n.velocity_after.y(),
-          n.velocity_after.z(),
-          n.angular_velocity_after.x(),
-          n.angular_velocity_after.y(),
-          n.angular_velocity_after.z()};
-}
+MotionNumbers motion_numbers(const analytic::ImpactRow& row) { return numbers_of(DiscreteRow{row, 0}, false); }
+MotionNumbers motion_numbers(const numeric::ImpactRecord& row) { return numbers_of(ContinuousRow{row}, false); }
+MotionNumbers motion_errors(const analytic::ImpactRow& row) { return numbers_of(DiscreteRow{row, 0}, true); }
+MotionNumbers motion_errors(const numeric::ImpactRecord& row) { return numbers_of(ContinuousRow{row}, true); }
 
 std::vector<MotionNumbers> motion_rows(const analytic::Sequence& sequence) {
   std::vector<MotionNumbers> rows;
@@ -51,7 +47,7 @@ std::vector<MotionNumbers> motion_rows(const analytic::Sequence& sequence) {
 
 std::vector<MotionNumbers> motion_rows(const numeric::Simulation& run) {
   std::vector<MotionNumbers> rows;
-  for (const numeric::ImpactRecord& record : run.impacts) rows.push_back(motion_numbers(record.value));
+  for (const numeric::ImpactRecord& record : run.impacts) rows.push_back(motion_numbers(record));
   return rows;
 }
 
@@ -77,7 +73,25 @@ MotionNumbers motion_sizes(const analytic::Sequence& sequence, const analytic::P
   return sizes_of(time, speed, body.reach(), body.mass);
 }
 
-Quantities in_plane(const MotionNumbers& n) { return {n[0], n[1], n[4], n[2], n[7], n[5], n[9]}; }
+Quantities in_plane(const MotionNumbers& numbers) {
+  Quantities plane{};
+  for (std::size_t q = 0; q < quantity_count; ++q) plane[q] = numbers[plane_quantities[q].place];
+  return plane;
+}
+
+Quantities quantity_scales(const analytic::Sequence& sequence, const analytic::PlanarBody& body) {
+  double speed = 0, time = 0;
+  for (const analytic::ImpactRow& row : sequence.rows) {
+    for (const analytic::PlanarVelocity& v : {row.before, row.impact.after}) {
+      speed = std::max({speed, std::fabs(v.normal), std::fabs(v.tangential), std::fabs(v.angular) * body.reach()});
+    }
+    time = std::max(time, row.start);
+  }
+  if (time == 0) time = body.reach() / speed;
+  MotionNumbers sizes = sizes_of(time, speed, body.reach(), body.mass);
+  sizes[1] = analytic::degrees_per_radian;
+  return in_plane(sizes);
+}
 
 double row_distance(const MotionNumbers& row, const MotionNumbers& other, const MotionNumbers& sizes) {
   double worst = 0;

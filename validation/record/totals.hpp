@@ -1,6 +1,8 @@
 // Sums over the impacts of a run, with the errors that follow from those of the impacts.
 #pragma once
 
+#include <string>
+
 #include "analytic/sequence.hpp"
 #include "numeric/simulate.hpp"
 #include "validation/output/estimated.hpp"
@@ -22,5 +24,10 @@ struct Totals {
 
 [[nodiscard]] Totals totals(const analytic::Sequence& sequence);
 [[nodiscard]] Totals totals(const numeric::Simulation& run);
+
+/// Adds the sum of normal impulses, its error and whether all can be predicted to the fields of a run.
+void add_totals(const Totals& sums, Value& fields);
+/// The sum and its error as a comment of CSV.
+[[nodiscard]] std::string totals_line(const Totals& sums);
 
 }  // namespace clatter::validation

@@ -1,4 +1,4 @@
-#include "validation/output/totals.hpp"
+#include "validation/record/totals.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -40,6 +40,18 @@ Totals totals(const numeric::Simulation& run) {
   }
   if (!sums.predictable) forget(sums);
   return sums;
+}
+
+void add_totals(const Totals& sums, Value& fields) {
+  fields["total_normal_impulse"] = sums.normal_impulse.value;
+  fields["total_normal_impulse_error"] = error_or_nothing(sums.normal_impulse);
+  fields["predictable"] = sums.predictable;
+}
+
+std::string totals_line(const Totals& sums) {
+  const auto text = [](const Value& number) { return number.is_nothing() ? "unknown" : number.text(); };
+  return "total_normal_impulse: " + text(sums.normal_impulse.value) +
+         "; total_normal_impulse_error: " + text(error_or_nothing(sums.normal_impulse));
 }
 
 }  // namespace clatter::validation

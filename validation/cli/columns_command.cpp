@@ -1,0 +1,98 @@
+// `clatter columns`: every column of CSV and JSON, by command.
+#include <memory>
+
+#include "validation/cli/angles_report.hpp"
+#include "validation/cli/commands.hpp"
+#include "validation/cli/comparison_report.hpp"
+#include "validation/cli/extremes_report.hpp"
+#include "validation/cli/history_file.hpp"
+#include "validation/cli/options.hpp"
+#include "validation/cli/plan_report.hpp"
+#include "validation/cli/sequence_report.hpp"
+#include "validation/cli/simulation_report.hpp"
+#include "validation/cli/tradeoff_report.hpp"
+#include "validation/cli/verify_report.hpp"
+#include "validation/scene/option_values.hpp"
+#include "validation/sweep/rows.hpp"
+
+namespace clatter::validation {
+namespace {
+
+struct ColumnsInput {
+  std::string command;
+  OutputTexts output;
+};
+
+/// A command and what asks for its columns.
+struct ColumnsOf {
+  const char* command;
+  std::vector<Column> (*columns)();
+};
+
+SweepPlan sweep_of(Model model) {
+  SweepPlan plan;
+  plan.model = model;
+  return plan;
+}
+
+std::vector<Column> angles_all() {
+  AnglesRequest request;
+  request.as_printed = true;
+  return angles_frame(request).grid.columns;
+}
+std::vector<Column> sequence_all() { return sequence_columns(); }
+std::vector<Column> sweep_all() { return sweep_columns(sweep_of(Model::continuous)); }
+
+const std::vector<ColumnsOf>& all_columns() {
+  static const std::vector<ColumnsOf> all{{"sequence", sequence_all},       {"angles", angles_all},
+                                          {"regimes", regimes_columns},     {"explain", explain_columns},
+                                          {"simulate", simulation_columns}, {"history", history_columns},
+                                          {"compare", comparison_columns},  {"sweep", sweep_all},
+                                          {"verify", verify_columns},       {"plan", plan_columns},
+                                          {"tradeoff", tradeoff_columns},   {"extremes", extremes_columns}};
+  return all;
+}
+
+Report columns_report(const std::string& command) {
+  Report report = begun_report("columns", "the columns of CSV, which are the names in JSON");
+  report.grid.columns = {word_column("command", "command", "that writes the column"),
+                         word_column("column", "column", "its name"), word_column("unit", "unit", "its unit"),
+                         word_column("meaning", "meaning", "what its numbers are")};
+  for (const ColumnsOf& of : all_columns()) {
+    if (!command.empty() && command != of.command) continue;
+    for (const Column& column : of.columns()) {
+      report.grid.rows.push_back({Cell(of.command), Cell(column.name), Cell(column.unit), Cell(column.meaning)});
+    }
+  }
+  report.notes = {
+      "history: of simulate --history.  sweep: one row per scene; with --rows impact the columns of sequence or "
+      "simulate.  Before them come the swept keys, which clatter keys explains.  The files of figures explain theirs."};
+  report.fields["columns"] = row_objects(report.grid);
+  return report;
+}
+
+int run_columns(const ColumnsInput& input) {
+  const OutputChoice choice = read_output(input.output);
+  if (!input.command.empty()) {
+    std::vector<std::string> names;
+    for (const ColumnsOf& of : all_columns()) names.emplace_back(of.command);
+    static_cast<void>(read_name_option("columns COMMAND", input.command, names));
+  }
+  check_files(choice, {});
+  write_report(choice, columns_report(input.command));
+  return 0;
+}
+
+}  // namespace
+
+Command columns_command() {
+  auto input = std::make_shared<ColumnsInput>();
+  Command command{.name = "columns", .help = "every column of CSV and JSON, its unit and meaning"};
+  command.add({.name = "COMMAND", .target = &input->command, .type = "", .help = "the columns of this one alone"});
+  add_output_options(command, input->output);
+  command.footer = "Example: clatter columns sequence --format markdown";
+  command.run = [input] { return run_columns(*input); };
+  return command;
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,30 @@
+// One number of an impact in both models.
+#pragma once
+
+#include <cstddef>
+
+#include "validation/compare/comparison.hpp"
+#include "validation/output/estimated.hpp"
+
+namespace clatter::validation {
+
+/// A number of an impact in both models.  Each function needs the models, or the limit, that its words name.
+struct NumberPair {
+  const ComparedImpact& impact;
+  std::size_t quantity;
+
+  [[nodiscard]] double discrete() const { return (*impact.discrete)[quantity]; }
+  [[nodiscard]] double continuous() const { return (*impact.continuous)[quantity]; }
+  [[nodiscard]] double deviation() const { return continuous() - discrete(); }
+  [[nodiscard]] Estimated discrete_number() const { return {discrete(), impact.discrete_error[quantity]}; }
+  [[nodiscard]] Estimated continuous_number() const { return {continuous(), impact.continuous_error[quantity]}; }
+  [[nodiscard]] Estimated deviation_number() const { return continuous_number() - discrete_number(); }
+  /// Of the limit off the discrete value; its own error bar stands beside it.
+  [[nodiscard]] Estimated miss_number() const { return {miss(), impact.discrete_error[quantity] + bar()}; }
+  [[nodiscard]] double predicted() const { return impact.predicted.total()[quantity]; }
+  [[nodiscard]] double miss() const { return impact.limit->value[quantity] - discrete(); }
+  [[nodiscard]] double allowance() const { return impact.allowance[quantity]; }
+  [[nodiscard]] double bar() const { return impact.limit->error[quantity]; }
+};
+
+}  // namespace clatter::validation

@@ -1,0 +1,56 @@
+#include "validation/output/symbols.hpp"
+
+#include <algorithm>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace clatter::validation {
+namespace {
+
+/// Characters, and after each what stands for it: separated by blanks, or a text for each.
+constexpr const char* latex =
+    R"(\ \textbackslash{} % \% # \# _ \_ & \& ° $^\circ$ Ω $\Omega$ β $\beta$ γ $\gamma$ θ $\theta$ μ $\mu$ Σ
+$\Sigma$ · $\cdot$ … \dots{} ∞ $\infty$ ± $\pm$ − $-$ ₁ $_1$ ₂ $_2$ ₃ $_3$ ² $^2$ ₙ $_n$ ₜ $_t$ ≤ $\le$ ₖ
+$_k$ ₛ $_s$ ³ $^3$ ⁴ $^4$ → $\to$ ≈ $\approx$ – -- π $\pi$ ω $\omega$ α $\alpha$ √ $\surd$ × $\times$ ✓
+$\surd$ ✗ $\times$)";
+constexpr std::string_view ascii[]{
+    "°", "deg", "Ω", "Omega", "ω", "omega", "β", "beta",  "γ", "gamma", "θ", "theta", "μ", "mu", "Σ", "sum ",
+    "·", "*",   "…", "...",   "∞", "inf",   "±", "+-",    "−", "-",     "₁", "1",     "₂", "2",  "₃", "3",
+    "²", "^2",  "³", "^3",    "⁴", "^4",    "ₛ", "_s",    "≈", "~",     "✓", "+",     "✗", "X",  "δ", "delta",
+    "ₖ", "_k",  "ₙ", "_n",    "ₜ", "_t",    "ᵢ", "_i",    "≤", "<=",    "≥", ">=",    "─", "-",  "–", "-",
+    "é", "e",   "×", "x",     "φ", "phi",   "α", "alpha", "σ", "sigma", "′", "'",     "″", "''", "½", "1/2",
+    "→", "->",  "√", "sqrt ", "Δ", "d",     "⇒", "=>",    "π", "pi",    "Γ", "Gamma", "₀", "0"};
+
+std::vector<std::string_view> words_of(std::string_view text) {
+  std::vector<std::string_view> words;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of(" \n"), text.size());
+    words.push_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return words;
+}
+
+/// Each character by that of the table, in one pass, so that nothing is replaced twice.
+std::string replaced(std::string_view text, std::span<const std::string_view> table) {
+  std::string out;
+  while (!text.empty()) {
+    std::size_t i = 0;
+    while (i < table.size() && !text.starts_with(table[i])) i += 2;
+    const bool found = i < table.size();
+    out += found ? table[i + 1] : text.substr(0, 1);
+    text.remove_prefix(found ? table[i].size() : 1);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string to_latex(const std::string& text) {
+  static const std::vector<std::string_view> table = words_of(latex);
+  return replaced(text, table);
+}
+std::string to_ascii(const std::string& text) { return replaced(text, ascii); }
+
+}  // namespace clatter::validation

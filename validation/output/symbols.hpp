@@ -1,0 +1,13 @@
+// The program's characters in other notations.
+#pragma once
+
+#include <string>
+
+namespace clatter::validation {
+
+/// LaTeX for the characters that it reads as commands, and for the symbols that the program prints.
+[[nodiscard]] std::string to_latex(const std::string& text);
+/// Plain ASCII for the mathematical and Greek characters that the program prints.
+[[nodiscard]] std::string to_ascii(const std::string& text);
+
+}  // namespace clatter::validation

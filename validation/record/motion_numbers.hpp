@@ -1,0 +1,59 @@
+// The numbers of an impact that every model has, and how far two models are apart in them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "analytic/sequence.hpp"
+#include "numeric/simulate.hpp"
+
+namespace clatter::validation {
+
+/// The quantities of ImpactQuantity::motion: time of touch-down [s], contact angle [°], impulse x, y, z [N·s], velocity
+/// after x, y, z [m/s], angular velocity after x, y, z [rad/s]; world frame.  What lies out of the plane is zero in a
+/// planar model.
+inline constexpr std::size_t motion_number_count = 11;
+using MotionNumbers = std::array<double, motion_number_count>;
+
+[[nodiscard]] MotionNumbers motion_numbers(const analytic::ImpactRow& row);
+[[nodiscard]] MotionNumbers motion_numbers(const numeric::ImpactRecord& row);
+/// Their errors; not finite where not known.
+[[nodiscard]] MotionNumbers motion_errors(const analytic::ImpactRow& row);
+[[nodiscard]] MotionNumbers motion_errors(const numeric::ImpactRecord& row);
+[[nodiscard]] std::vector<MotionNumbers> motion_rows(const analytic::Sequence& sequence);
+[[nodiscard]] std::vector<MotionNumbers> motion_rows(const numeric::Simulation& run);
+
+/// Sizes against which errors of the first `count` >= 1 impacts count as relative: the time of the last of them, 90°,
+/// the largest speed v of the centre or the tips, m v, and v over the body's radius.
+[[nodiscard]] MotionNumbers motion_sizes(const numeric::Simulation& run, std::size_t count, const numeric::Body& body);
+[[nodiscard]] MotionNumbers motion_sizes(const analytic::Sequence& sequence, const analytic::PlanarBody& body);
+
+/// A number of the motion in the plane, which both models have.
+struct PlaneQuantity {
+  const char *name, *heading;
+  std::size_t place;  ///< in MotionNumbers
+};
+inline constexpr std::size_t quantity_count = 7;
+inline constexpr std::array<PlaneQuantity, quantity_count> plane_quantities{{{"start", "t", 0},
+                                                                             {"contact_angle_deg", "angle", 1},
+                                                                             {"impulse_normal", "Pₙ", 4},
+                                                                             {"impulse_tangential", "Pₜ", 2},
+                                                                             {"velocity_normal", "Vₙ", 7},
+                                                                             {"velocity_tangential", "Vₜ", 5},
+                                                                             {"angular_velocity", "Ω", 9}}};
+inline constexpr std::size_t normal_impulse_quantity = 2;  ///< its place among them
+using Quantities = std::array<double, quantity_count>;     ///< in their order
+[[nodiscard]] Quantities in_plane(const MotionNumbers& numbers);
+
+/// Size against which a deviation counts as relative: time, angle and velocities of the drop at large, so that a
+/// number that is zero by symmetry has a scale too.
+[[nodiscard]] Quantities quantity_scales(const analytic::Sequence& sequence, const analytic::PlanarBody& body);
+
+/// Largest distance of a row's numbers, relative to `sizes`; infinite if one is no number.
+[[nodiscard]] double row_distance(const MotionNumbers& row, const MotionNumbers& other, const MotionNumbers& sizes);
+/// The same over the rows of `truth`; infinite if `rows` has fewer.
+[[nodiscard]] double distance(const std::vector<MotionNumbers>& rows, const std::vector<MotionNumbers>& truth,
+                              const MotionNumbers& sizes);
+
+}  // namespace clatter::validation
