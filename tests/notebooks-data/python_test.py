@@ -96,7 +96,7 @@ class TheSameBits(unittest.TestCase):
 
     def test_every_flag_of_the_program_is_an_argument(self):
         flags = {word.strip(",") for word in printed("simulate", "--help").split() if word.startswith("--")}
-        others = {"--help", "--format", "--output", "--ascii", "--history", "--no-contact-gravity", "--plot", "--plot-script"}
+        others = {"--help", "--format", "--output", "--ascii", "--bare", "--history", "--no-contact-gravity", "--plot", "--plot-script"}
         for flag in flags - others:
             name = flag[2:].replace("-", "_")
             with self.subTest(argument=name), self.assertRaises(clatter.BadInput) as refused:
@@ -286,7 +286,7 @@ class Errors(unittest.TestCase):
 
     def test_an_unknown_name_of_an_impact_lists_the_known(self):
         with self.assertRaisesRegex(AttributeError, "impulse_normal"):
-            clatter.sequence(10)[0].impulse
+            clatter.sequence(10)[0].momentum
 
 
 class LongCalls(unittest.TestCase):

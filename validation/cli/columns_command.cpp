@@ -19,7 +19,7 @@ namespace clatter::validation {
 namespace {
 
 struct ColumnsInput {
-  std::string command;
+  std::optional<std::string> command;
   OutputTexts output;
 };
 
@@ -73,13 +73,13 @@ Report columns_report(const std::string& command) {
 
 int run_columns(const ColumnsInput& input) {
   const OutputChoice choice = read_output(input.output);
-  if (!input.command.empty()) {
+  if (input.command) {
     std::vector<std::string> names;
     for (const ColumnsOf& of : all_columns()) names.emplace_back(of.command);
-    static_cast<void>(read_name_option("columns COMMAND", input.command, names));
+    static_cast<void>(read_name_option("--only", *input.command, names));
   }
   check_files(choice, {});
-  write_report(choice, columns_report(input.command));
+  write_report(choice, columns_report(input.command.value_or("")));
   return 0;
 }
 
@@ -88,9 +88,9 @@ int run_columns(const ColumnsInput& input) {
 Command columns_command() {
   auto input = std::make_shared<ColumnsInput>();
   Command command{.name = "columns", .help = "every column of CSV and JSON, its unit and meaning"};
-  command.add({.name = "COMMAND", .target = &input->command, .type = "", .help = "the columns of this one alone"});
+  command.add_text("--only", input->command, "COMMAND", "the columns of this one alone");
   add_output_options(command, input->output);
-  command.footer = "Example: clatter columns sequence --format markdown";
+  command.footer = "Example: clatter columns --only sequence --format markdown";
   command.run = [input] { return run_columns(*input); };
   return command;
 }

@@ -97,8 +97,6 @@ Value value_of(const Json& json) {
   }
 }
 
-Value read_json(const std::string& text) { return value_of(Json::parse(text, nullptr, false)); }
-
 std::string json_text(const Value& value) {
   Writer writer(true);
   writer.write(value, "");

@@ -19,8 +19,6 @@ using Json = nlohmann::ordered_json;
 
 /// The same tree.
 [[nodiscard]] Value value_of(const Json& json);
-/// The tree that a text says, or nothing.
-[[nodiscard]] Value read_json(const std::string& text);
 
 /// Indented JSON with every number in its shortest round-trip form (nlohmann's own writer is not always
 /// shortest) and short arrays of numbers on one line.

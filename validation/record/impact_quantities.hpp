@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "analytic/sequence.hpp"
+#include "analytic/space/sequence.hpp"
 #include "numeric/impact_record.hpp"
 
 namespace clatter::validation {
@@ -20,15 +21,24 @@ struct DiscreteRow {
   double drop_deg = 0;  ///< inclination of the drop, which came in degrees [°]
 };
 
+/// Impact n, counted from 1, of the discrete model in space.
+struct SpaceRow {
+  const analytic::space::ImpactRow& row;
+  int n = 1;
+  std::string end{}, corners{};   ///< which end of the body strikes, and which of its corners
+  std::array<double, 3> place{};  ///< of the first corner, from the geometric centre (a mesh: in its file's frame) [m]
+};
+
 /// Impact n, counted from 1, of the continuous model.
 struct ContinuousRow {
   const numeric::ImpactRecord& row;
   int n = 1;
 };
 
-using EntryVector = std::array<double, 3>;  ///< x, y, z
+using EntryVector = std::array<double, 3>;      ///< x, y, z
+using EntryParameters = std::array<double, 4>;  ///< Euler parameters, scalar first
 /// A quantity of one impact; nothing where the model has none, a number that is not finite where it is not to be had.
-using Entry = std::variant<std::nullptr_t, bool, int, double, std::string, EntryVector>;
+using Entry = std::variant<std::nullptr_t, bool, int, double, std::string, EntryVector, EntryParameters>;
 
 /// What the numbers of one kind are measured by: one against which they count as zero.
 enum class Scale { none, time, angle, impulse, speed, rate, energy, ratio };
@@ -49,6 +59,7 @@ struct ImpactQuantity {
   const char* meaning;
   Scale scale = Scale::none;
   Getter<DiscreteRow> discrete{};
+  Getter<SpaceRow> space{};
   Getter<ContinuousRow> continuous{};
   Getter<analytic::Tail> tail{};  ///< the sum of all further impacts of the discrete model
   bool motion = false;            ///< one of the MotionNumbers, which every model has
@@ -56,6 +67,7 @@ struct ImpactQuantity {
   template <class Impact>
   [[nodiscard]] const Getter<Impact>& of() const {
     if constexpr (std::is_same_v<Impact, DiscreteRow>) return discrete;
+    else if constexpr (std::is_same_v<Impact, SpaceRow>) return space;
     else if constexpr (std::is_same_v<Impact, ContinuousRow>) return continuous;
     else return tail;
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <sstream>
 #include <string_view>
 
@@ -21,13 +22,20 @@ constexpr double unknown = std::numeric_limits<double>::infinity();
 Value to_value(const Entry& entry) {
   return std::visit(
       [](const auto& content) -> Value {
-        if constexpr (std::is_same_v<std::decay_t<decltype(content)>, EntryVector>) return nullptr;
+        using Content = std::decay_t<decltype(content)>;
+        constexpr bool is_list = std::is_same_v<Content, EntryVector> || std::is_same_v<Content, EntryParameters>;
+        if constexpr (is_list) return nullptr;
         else return content;
       },
       entry);
 }
 
-const EntryVector* vector_of(const Entry& entry) { return std::get_if<EntryVector>(&entry); }
+/// The parts of a vector or of Euler parameters; empty: the entry is neither.
+std::span<const double> list_of(const Entry& entry) {
+  if (const auto* vector = std::get_if<EntryVector>(&entry)) return *vector;
+  if (const auto* parameters = std::get_if<EntryParameters>(&entry)) return *parameters;
+  return {};
+}
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -35,16 +43,21 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 
 /// Rows to ask for the kinds of quantities.
 const ImpactRow some_row{};
+const analytic::space::ImpactRow some_flown{};
 const numeric::ImpactRecord some_record{};
 DiscreteRow some_impact(const DiscreteRow*) { return {some_row}; }
+SpaceRow some_impact(const SpaceRow*) { return {some_flown}; }
 ContinuousRow some_impact(const ContinuousRow*) { return {some_record}; }
 
 /// Columns that an entry of this kind takes.
-std::size_t width_of(const Entry& entry) { return vector_of(entry) ? 3 : 1; }
+std::size_t width_of(const Entry& entry) { return std::max<std::size_t>(list_of(entry).size(), 1); }
+
+constexpr const char* axes[] = {"x", "y", "z"};
+constexpr const char* parameters[] = {"q0", "q1", "q2", "q3"};
 
 void add_columns(const ImpactQuantity& quantity, const Entry& kind, const std::vector<std::string>& shown,
                  std::vector<Column>& columns) {
-  if (!vector_of(kind)) {
+  if (list_of(kind).empty()) {
     columns.push_back({.name = quantity.name,
                        .heading = quantity.symbol,
                        .unit = quantity.unit,
@@ -53,14 +66,16 @@ void add_columns(const ImpactQuantity& quantity, const Entry& kind, const std::v
     return;
   }
   std::istringstream symbols(quantity.symbol);
-  for (const char axis : {'x', 'y', 'z'}) {
+  const bool is_vector = width_of(kind) == 3;
+  for (const char* const part :
+       is_vector ? std::span<const char* const>(axes) : std::span<const char* const>(parameters)) {
     std::string symbol;
     symbols >> symbol;
-    const std::string name = fmt::format("{}_{}", quantity.name, axis);
+    const std::string name = fmt::format("{}_{}", quantity.name, part);
     columns.push_back({.name = name,
                        .heading = symbol,
                        .unit = quantity.unit,
-                       .meaning = fmt::format("{}: {}", axis, quantity.meaning),
+                       .meaning = fmt::format("{}: {}", part, quantity.meaning),
                        .shown = contains(shown, name),
                        .key = quantity.name,
                        .listed = true});
@@ -69,7 +84,7 @@ void add_columns(const ImpactQuantity& quantity, const Entry& kind, const std::v
 
 /// The part of an entry as a number; NaN: none.
 double part_of(const Entry& entry, std::size_t part) {
-  if (const auto* vector = vector_of(entry)) return (*vector)[part];
+  if (const auto list = list_of(entry); !list.empty()) return list[part];
   const auto* number = std::get_if<double>(&entry);
   return number ? *number : std::numeric_limits<double>::quiet_NaN();
 }
@@ -77,7 +92,7 @@ double part_of(const Entry& entry, std::size_t part) {
 /// Cells of a value, three of a vector.
 void add_cells(const ImpactQuantity& quantity, const Entry& value, const Entry& error, const ImpactDigits& digits,
                Row& row) {
-  if (!vector_of(value) && !std::holds_alternative<double>(value)) {
+  if (list_of(value).empty() && !std::holds_alternative<double>(value)) {
     row.emplace_back(to_value(value));
     return;
   }
@@ -118,7 +133,11 @@ void for_each_error(const Impact& impact, Use&& use) {
 /// The entries of the tail in the places of an impact's.
 Entry tail_entry(const Entry& kind, Entry (*get)(const Tail&), const Tail& tail) {
   if (get) return get(tail);
-  return vector_of(kind) ? Entry(EntryVector{unknown, unknown, unknown}) : Entry(nullptr);
+  switch (width_of(kind)) {
+    case 3: return EntryVector{unknown, unknown, unknown};
+    case 4: return EntryParameters{unknown, unknown, unknown, unknown};
+    default: return nullptr;
+  }
 }
 
 void append_part(std::string& out, double number) {
@@ -127,10 +146,8 @@ void append_part(std::string& out, double number) {
 }
 
 void append_entry(std::string& out, const Entry& entry) {
-  if (const auto* vector = vector_of(entry)) {
-    for (const double part : *vector) append_part(out, part);
-    return;
-  }
+  for (const double part : list_of(entry)) append_part(out, part);
+  if (!list_of(entry).empty()) return;
   out += ',';
   if (const auto* number = std::get_if<double>(&entry)) append_number(out, *number);
   else if (const auto* text = std::get_if<std::string>(&entry)) out += *text;
@@ -212,10 +229,13 @@ void append_tail(std::string& out, const Tail& tail, bool with_errors) {
 }
 
 template std::vector<Column> impact_columns<DiscreteRow>(const std::vector<std::string>&);
+template std::vector<Column> impact_columns<SpaceRow>(const std::vector<std::string>&);
 template std::vector<Column> impact_columns<ContinuousRow>(const std::vector<std::string>&);
 template Row impact_row(const DiscreteRow&, const ImpactDigits&);
+template Row impact_row(const SpaceRow&, const ImpactDigits&);
 template Row impact_row(const ContinuousRow&, const ImpactDigits&);
 template void append_impact(std::string&, const DiscreteRow&, bool);
+template void append_impact(std::string&, const SpaceRow&, bool);
 template void append_impact(std::string&, const ContinuousRow&, bool);
 
 }  // namespace clatter::validation

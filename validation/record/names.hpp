@@ -2,11 +2,13 @@
 #pragma once
 
 #include "analytic/sequence.hpp"
+#include "analytic/space/impact.hpp"
 #include "numeric/impact_record.hpp"
 
 namespace clatter::validation {
 
 [[nodiscard]] const char* mode_name(analytic::ImpactMode mode);
+[[nodiscard]] const char* mode_name(analytic::space::PathKind path);
 [[nodiscard]] const char* mode_name(numeric::FrictionMode mode);
 [[nodiscard]] const char* outcome_name(analytic::Outcome outcome);
 [[nodiscard]] const char* outcome_name(numeric::Outcome outcome);
