@@ -127,7 +127,7 @@ class Drop(SpaceFolder):
         runs = [self.json_of("simulate", "--attitude", words(a), "--angular-velocity", words(b), "--centre", words(CENTRE), *self.RUN)
                 for a, b in ((q, w), (product(turned, q), rotated(turned, w)))]
         self.same_rows(runs[1], runs[0], self.grown, lambda name, b: rotated(turned, b) if len(b) == 3 else b)
-        self.refused("moves in space: drop.angular_velocity = [0.1,2.0,0.0]", "sequence", "--angle", "20", "--angular-velocity", "0.1,2,0",
+        self.refused("moves in space: drop.angular_velocity = [0.1,2.0,0.0]", "explain", "1", "--angle", "20", "--angular-velocity", "0.1,2,0",
                      status=4)
         self.refused("give one of them, not both", "simulate", *BOX, "--angle=20", "--angular-velocity=0,2,0", "--spin=2")
 
@@ -155,9 +155,9 @@ class Drop(SpaceFolder):
 
 
 class Space(SpaceFolder):
-    """What moves in space is for the continuous model."""
+    """What moves in space is for the continuous model and for sequences."""
 
-    def test_the_discrete_model_refuses_what_leaves_its_plane_and_names_the_key(self):
+    def test_explain_and_compare_refuse_what_leaves_the_plane_and_name_the_key(self):
         sparing = {"drop.attitude": ["--attitude", words(product(turn(2, -35), turn(1, 25)))],
                    "drop.tilt_deg": ["--angle", "20", "--tilt", "5"],
                    "drop.velocity": ["--angle", "20", "--velocity", "0,0.1,-1"],
@@ -165,7 +165,8 @@ class Space(SpaceFolder):
                    "body.inertia": ["--angle", "20", "--inertia", words(INERTIA)]}
         size = ["--body", "box", "--size", "x".join(map(str, SIZE)), "--mass", str(MASS)]
         for key, given in sparing.items():
-            for command in (["sequence"], ["explain", "1"], ["compare", "--stiffness", "1e9"]):
+            self.assertTrue(self.json_of("sequence", *size, *given)["impacts"])
+            for command in (["explain", "1"], ["compare", "--stiffness", "1e9"]):
                 self.refused("moves in space: " + key, *command, *size, *given, status=4)
             done = self.json_of("simulate", *size, *given, "--stiffness", "1e9", "--impacts", "1", "--digits", "3")
             self.assertEqual(len(done["impacts"]), 1)

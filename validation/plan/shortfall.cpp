@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "validation/output/message.hpp"
 #include "validation/record/names.hpp"
@@ -24,6 +25,34 @@ double largest_error(const analytic::Sequence& sequence) {
   if (tail.end_time > 0) worst = std::max(worst, tail.end_time_error / tail.end_time);
   if (tail.normal_impulse > 0) worst = std::max(worst, tail.normal_impulse_error / tail.normal_impulse);
   return worst;
+}
+
+double largest_error(const analytic::space::Sequence& sequence) {
+  double time = 0, speed = 0, rate = 0, impulse = 0, worst = 0;
+  for (const analytic::space::ImpactRow& row : sequence.rows) {
+    time = std::max(time, row.start);
+    speed = std::max({speed, row.before.velocity.norm(), row.impact.velocity_after.norm()});
+    rate = std::max({rate, row.before.angular_velocity.norm(), row.impact.angular_velocity_after.norm()});
+    impulse = std::max(impulse, row.impact.impulse.norm());
+  }
+  const auto take = [&](double error, double size) {
+    if (error > 0) worst = std::max(worst, size > 0 ? error / size : std::numeric_limits<double>::infinity());
+  };
+  for (const analytic::space::ImpactRow& row : sequence.rows) {
+    const analytic::space::RowErrors& error = row.error;
+    if (!error.predictable) return std::numeric_limits<double>::infinity();
+    take(row.start > 0 ? error.start : 0, time);
+    take(error.attitude, 1);
+    take(error.impulse, impulse);
+    take(error.velocity_after, speed);
+    take(error.angular_velocity_after, std::max(rate, std::numeric_limits<double>::min()));
+  }
+  return worst;
+}
+
+std::string shortfall(const Scene& scene, const analytic::space::Sequence& sequence) {
+  if (is_cut_short(sequence.outcome)) return fmt::format("{}: {}", outcome_name(sequence.outcome), sequence.message);
+  return scene.require_digits ? digits_shortfall(scene.options.digits, largest_error(sequence)) : "";
 }
 
 std::string shortfall(const Asked& asked, const analytic::Sequence& sequence) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "analytic/sequence.hpp"
+#include "analytic/space/sequence.hpp"
 #include "validation/plan/planned_run.hpp"
 #include "validation/scene/option_values.hpp"
 
@@ -11,10 +12,12 @@ namespace clatter::validation {
 
 /// Largest relative error of the sequence's numbers, its tail's too; infinite if one cannot be predicted.
 [[nodiscard]] double largest_error(const analytic::Sequence& sequence);
+[[nodiscard]] double largest_error(const analytic::space::Sequence& sequence);
 
 /// In one line why there are fewer impacts than asked for, where a number that could not be computed or a limit is the
 /// reason, or, with run.require_digits, that fewer digits are known than asked for; empty: neither.
 [[nodiscard]] std::string shortfall(const Scene& scene, const analytic::Sequence& sequence);
+[[nodiscard]] std::string shortfall(const Scene& scene, const analytic::space::Sequence& sequence);
 [[nodiscard]] std::string shortfall(const Scene& scene, const PlannedRun& planned);
 /// "asked 6 digits, achieved 4.2"; empty where the relative error gives the digits.
 [[nodiscard]] std::string digits_shortfall(int asked, double achieved);

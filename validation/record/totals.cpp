@@ -24,6 +24,20 @@ Totals totals(const analytic::Sequence& sequence) {
   return sums;
 }
 
+Totals totals(const analytic::space::Sequence& sequence) {
+  Totals sums;
+  sums.impacts = static_cast<int>(sequence.rows.size());
+  for (const analytic::space::ImpactRow& row : sequence.rows) {
+    sums.predictable = sums.predictable && row.error.predictable;
+    sums.normal_impulse += {row.impact.impulse.z(), row.error.impulse};
+    sums.energy_loss += {row.impact.energy_loss, row.error.energy_before + row.error.energy_after};
+    sums.last_start = {row.start, row.error.start};
+  }
+  if (sequence.tail) sums.normal_impulse += {sequence.tail->normal_impulse, sequence.tail->normal_impulse_error};
+  if (!sums.predictable) forget(sums);
+  return sums;
+}
+
 Totals totals(const numeric::Simulation& run) {
   Totals sums;
   sums.impacts = static_cast<int>(run.impacts.size());

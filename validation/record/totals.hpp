@@ -4,6 +4,7 @@
 #include <string>
 
 #include "analytic/sequence.hpp"
+#include "analytic/space/sequence.hpp"
 #include "numeric/simulate.hpp"
 #include "validation/output/estimated.hpp"
 
@@ -23,6 +24,7 @@ struct Totals {
 };
 
 [[nodiscard]] Totals totals(const analytic::Sequence& sequence);
+[[nodiscard]] Totals totals(const analytic::space::Sequence& sequence);
 [[nodiscard]] Totals totals(const numeric::Simulation& run);
 
 /// Adds the sum of normal impulses, its error and whether all can be predicted to the fields of a run.

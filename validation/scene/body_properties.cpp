@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "numeric/mesh/generators.hpp"
 #include "numeric/mesh/import.hpp"

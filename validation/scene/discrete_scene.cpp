@@ -13,6 +13,7 @@
 #include "validation/scene/bad_input.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/keys.hpp"
+#include "validation/scene/space_scene.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -222,7 +223,9 @@ Scene read_discrete_scene(const SceneValues& values, const std::vector<SceneOver
   if (scene.sweep && scene.sweep->quantity == SceneSweep::Quantity::angle_deg) {
     throw BadInput(fmt::format("{}: sweep.angle_deg: must be left out here; give --angle", values.path()));
   }
-  if (scene.height) scene.speed = -impact_drop(scene).velocity.normal;
+  if (scene.height) {
+    scene.speed = is_planar(scene) ? -impact_drop(scene).velocity.normal : -impact_space_drop(scene).velocity.z();
+  }
   return scene;
 }
 

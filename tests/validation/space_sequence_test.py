@@ -1,0 +1,124 @@
+#!/usr/bin/python3
+"""clatter sequence of a drop in space: one scene language, one record, laws of mechanics as oracles."""
+
+import csv
+import json
+import math
+import unittest
+
+from space_folder import BOX, CENTRE, INERTIA, MASS, SIZE, SpaceFolder, box_moments, cross, rotated, times, words
+
+PHONE = ["--body", "box", "--size", "x".join(map(str, SIZE)), "--mass", str(MASS)]
+CORNER = [*PHONE, "--angle", "40", "--tilt", "25"]
+VERTICES = [(0, 0, 0), (0.1, 0, 0), (0.1, 0.03, 0), (0.03, 0.03, 0), (0.03, 0.08, 0), (0, 0.08, 0)]  # of an L, clockwise or not
+
+
+def l_shape(height):
+    """An L of this height as the triangles of an STL file, outward."""
+    low, high = ([(x, y, z) for x, y, _ in VERTICES] for z in (0, height))
+    faces = []
+    for i, j, k in ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5)):
+        faces += [(low[i], low[k], low[j]), (high[i], high[j], high[k])]
+    for i in range(6):
+        j = (i + 1) % 6
+        faces += [(low[i], low[j], high[j]), (low[i], high[j], high[i])]
+    lines = ["solid l"]
+    for face in faces:
+        lines += ["facet normal 0 0 0", "outer loop", *("vertex %r %r %r" % corner for corner in face), "endloop", "endfacet"]
+    return "\n".join([*lines, "endsolid l", ""])
+
+
+class Sequence(SpaceFolder):
+    def energy(self, row, name, inertia):
+        """Kinetic after a row, from its own numbers."""
+        v = row["velocity_after"]
+        turned = rotated([row["attitude"][0], *(-x for x in row["attitude"][1:])], row["angular_velocity_after"])
+        return MASS * sum(x * x for x in v) / 2 + sum(a * b for a, b in zip(turned, times(inertia, turned))) / 2
+
+    def test_the_first_impact_without_friction_is_the_closed_form_of_its_corner(self):
+        for e in (1, 0.5, 0):
+            row = self.json_of("sequence", *CORNER, "--restitution", str(e), "--impacts", "1")["impacts"][0]
+            arm = rotated(row["attitude"], row["place"])
+            a = rotated([row["attitude"][0], *(-x for x in row["attitude"][1:])], cross(arm, (0, 0, 1)))
+            inverse = 1 / MASS + sum(x * x / i for x, i in zip(a, box_moments(SIZE, MASS)))
+            self.assertAlmostEqual(row["impulse_normal"], (1 + e) * 1 / inverse, delta=1e-14 * row["impulse_normal"])
+            self.assertEqual((row["mode"], row["impulse"][:2]), ("frictionless", [0, 0]))
+
+    def test_energy_and_momentum_follow_from_the_impulses(self):
+        inertia = [*box_moments(SIZE, MASS), 0, 0, 0]
+        rows = self.json_of("sequence", *CORNER, "--impacts", "5", "--gravity", "9.81")["impacts"]
+        self.assertEqual(len(rows), 5)
+        velocity = (0, 0, -1)
+        for i, row in enumerate(rows):
+            self.assertAlmostEqual(row["energy_loss"], 0, delta=1e-13 * row["energy_before"])
+            if i == 0:
+                for k in range(3):
+                    self.assertAlmostEqual(MASS * (row["velocity_after"][k] - velocity[k]), row["impulse"][k], delta=1e-15)
+            height = row["energy_after"] - self.energy(row, "after", inertia)
+            self.assertGreater(height, 0)  # the potential energy of the centre of mass above the ground
+            self.assertLess(height, MASS * 9.81 * math.dist((0, 0, 0), SIZE))
+
+    def test_a_scene_in_its_plane_runs_in_the_plane_and_one_tilted_by_next_to_nothing_gives_its_numbers(self):
+        planar = self.json_of("sequence", *PHONE, "--angle", "20", "--restitution", "0.6", "--gravity", "9.81", "--impacts", "3")
+        self.assertNotIn("attitude", planar["impacts"][0])
+        for tilt in ("1e-7", "-1e-7"):
+            space = self.json_of("sequence", *PHONE, "--angle", "20", "--tilt", tilt, "--restitution", "0.6", "--gravity", "9.81",
+                                 "--impacts", "1")
+            row, other = space["impacts"][0], planar["impacts"][0]
+            # The edge of the planar model is a corner now: it strikes beside the middle, which turns the body about x too.
+            self.assertEqual(row["end"], other["end"])
+            self.assertLess(row["impulse_normal"], other["impulse_normal"])
+
+    def test_an_attitude_about_y_is_planar_and_gives_the_same_rows_to_the_bit(self):
+        half = math.radians(20) / 2
+        by_angle = self.json_of("sequence", *PHONE, "--angle", "20")["impacts"]
+        by_attitude = self.json_of("sequence", *PHONE, "--attitude", words((math.cos(half), 0, -math.sin(half), 0)))["impacts"]
+        for a, b in zip(by_angle, by_attitude):
+            self.assertAlmostEqual(a["impulse_normal"], b["impulse_normal"], delta=1e-14)
+
+    def test_the_corner_that_strikes_is_named_and_placed(self):
+        for n in range(19, 27):
+            row = self.json_of("sequence", *PHONE, "--orientation", str(n), "--impacts", "1")["impacts"][0]
+            name = "".join(("-" if x < 0 else "+") + axis for x, axis in zip(row["place"], "xyz"))
+            self.assertEqual(row["corners"], name)
+            self.assertEqual([abs(x) for x in row["place"]], [s / 2 for s in SIZE])
+
+    def test_a_body_with_its_mass_off_its_centre_keeps_the_angular_momentum_about_the_corner(self):
+        given = ["--centre", words(CENTRE), "--inertia", words(INERTIA), "--friction", "0.3", "--impacts", "1"]
+        row = self.json_of("sequence", *CORNER, *given)["impacts"][0]
+        arm = rotated(row["attitude"], [p - c for p, c in zip(row["place"], CENTRE)])
+        turned = rotated([row["attitude"][0], *(-x for x in row["attitude"][1:])], row["angular_velocity_after"])
+        spin = rotated(row["attitude"], times(INERTIA, turned))
+        for k, moment in enumerate(cross(arm, row["impulse"])):
+            self.assertAlmostEqual(spin[k], moment, delta=1e-15)
+        self.assertLessEqual(math.hypot(*row["impulse"][:2]), 0.3 * row["impulse_normal"] * (1 + 1e-13))
+
+    def test_an_l_of_triangles_falls_on_any_of_its_corners(self):
+        self.write("l.stl", l_shape(0.02))
+        self.write("l.toml", '[body]\nshape = "mesh"\nmass = 0.2\nmesh = { file = "l.stl", unit = 1 }\n[drop]\nangle_deg = 10\nspeed = 1\n')
+        struck = set()
+        for angle in (15, 35, 55, 75):
+            for tilt in (-150, -100, -50, 20, 60, 130):
+                done = self.json_of("sequence", "l.toml", "--angle", str(angle), "--tilt", str(tilt), "--impacts", "2")
+                self.assertTrue(done["impacts"])
+                struck.add(done["impacts"][0]["corners"])
+                for row in done["impacts"]:
+                    self.assertGreater(row["impulse_normal"], 0)
+        self.assertGreaterEqual(len(struck), 5)
+
+    def test_every_format_has_the_rows(self):
+        table = self.run_program("sequence", *CORNER, "--impacts", "3").stdout
+        self.assertIn("discrete model in space", table)
+        self.assertLessEqual(max(map(len, table.splitlines())), 80)
+        text = self.run_program("sequence", *CORNER, "--impacts", "3", "--format", "csv", "--bare").stdout
+        rows = list(csv.DictReader(text.splitlines()))
+        data = self.json_of("sequence", *CORNER, "--impacts", "3")["impacts"]
+        self.assertEqual([float(row["attitude_q0"]) for row in rows], [row["attitude"][0] for row in data])
+        self.assertEqual([float(row["velocity_after_y"]) for row in rows], [row["velocity_after"][1] for row in data])
+
+    def test_the_closed_form_is_refused_in_space(self):
+        self.refused("closed-form", "sequence", *CORNER, "--method", "closed-form")
+
+
+if __name__ == "__main__":
+    unittest.main()
