@@ -139,7 +139,7 @@ class Forms(unittest.TestCase):
         command = COMMANDS["sweep"][0]
         rows = records(self.printed(*command))
         data = json.loads(self.printed(*command, "--format", "json"))["rows"]
-        self.assertEqual(len(rows), 3)
+        self.assertEqual((len(rows), len(data)), (3, 3))
         for row, fields in zip(rows, data):
             self.assertEqual(float(row["total_normal_impulse"]), fields["total_normal_impulse"])
             self.assertEqual(fields["predictable"], row["predictable"] == "true")
