@@ -116,8 +116,9 @@ class Forms(unittest.TestCase):
     def test_each_number_that_is_computed_has_an_error_beside_it(self):
         numbers = {"start", "contact_angle_deg", "approach_speed", "impulse_normal", "velocity_after_z", "energy_loss"}
         for name in ("sequence", "simulate"):
-            names = set(records(self.printed(*COMMANDS[name][0], "--format", "csv"))[0])
-            self.assertEqual({number + "_error" for number in numbers} - names, set())
+            for row in records(self.printed(*COMMANDS[name][0], "--format", "csv")):
+                for number in numbers:
+                    self.assertGreaterEqual(float(row[number + "_error"]), 0, (name, number))
 
     def test_both_models_give_the_energy_loss_in_joule_in_tables_and_data(self):
         # A flat landing with e < 1 loses (1 - e^2) of its kinetic energy m v^2/2.
