@@ -12,6 +12,7 @@
 #include "validation/output/version.hpp"
 #include "validation/plan/shortfall.hpp"
 #include "validation/record/names.hpp"
+#include "validation/scene/body_properties.hpp"
 #include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/scene_value.hpp"
 

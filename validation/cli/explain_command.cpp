@@ -12,6 +12,7 @@
 #include "validation/output/message.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/symbols.hpp"
+#include "validation/scene/body_properties.hpp"
 
 namespace clatter::validation {
 namespace {

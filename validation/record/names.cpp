@@ -17,6 +17,20 @@ const char* mode_name(analytic::ImpactMode mode) {
   return "";
 }
 
+/// Slip that turns is slip.
+const char* mode_name(analytic::space::PathKind path) {
+  using analytic::space::PathKind;
+  switch (path) {
+    case PathKind::frictionless: return "frictionless";
+    case PathKind::slip:
+    case PathKind::turning_slip: return "slip";
+    case PathKind::stick: return "stick";
+    case PathKind::slip_stick: return "slip-stick";
+    case PathKind::slip_reslip: return "slip-reslip";
+  }
+  return "";
+}
+
 const char* outcome_name(analytic::Outcome outcome) {
   switch (outcome) {
     case analytic::Outcome::no_further_impact: return "no-further-impact";
