@@ -17,8 +17,8 @@ constexpr double deviations = 3;
 constexpr double relative_step = 1e-6;
 /// Largest error of an attitude [rad], and share of a velocity, that counts as first order.
 constexpr double first_order = 0.02;
-/// Accuracy that impact.hpp promises for an impulse with friction.
-constexpr double friction_rounding = 1e-13;
+/// Rounding of an impulse with friction, relative: a quarter of what impact.hpp promises, as a standard deviation.
+constexpr double friction_rounding = 2.5e-14;
 
 Matrix3 cross_matrix(const Vector3& v) {
   Matrix3 m;
@@ -61,7 +61,7 @@ RowErrors RowErrors::unknown() {
 
 ErrorGrowth::ErrorGrowth(const Body& body, const State& start, double gravity)
     : body_(body), gravity_(gravity), inverse_inertia_(body.inertia.inverse()), factor_(size, 0) {
-  Eigen::Matrix<double, size, 1> d;
+  Deviations d;
   d << 0, Vector3::Constant(epsilon), epsilon * start.velocity.cwiseAbs(), epsilon * start.angular_velocity.cwiseAbs();
   add(d);
   of_drop_.setZero();
@@ -72,17 +72,31 @@ ErrorGrowth::ErrorGrowth(const Body& body, const State& start, double gravity)
   }
 }
 
-void ErrorGrowth::add(const Eigen::Matrix<double, size, 1>& d) {
-  const Eigen::Index columns = factor_.cols();
-  Factor wider(size, columns + size);
-  wider << factor_, Jacobian(d.asDiagonal());
-  if (wider.cols() > 2 * size) {  // F Fᵀ = (R Q)ᵀ… = Rᵀ R of Fᵀ
+void ErrorGrowth::add(const Deviations& d) { append(Jacobian(d.asDiagonal())); }
+
+void ErrorGrowth::append(const Factor& columns) {
+  Factor wider(size, factor_.cols() + columns.cols());
+  wider << factor_, columns;
+  if (wider.cols() > 2 * size) {  // F Fᵀ = Rᵀ R with Fᵀ = Q R
     const Eigen::MatrixXd rows = wider.transpose();
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows);
     const Eigen::MatrixXd upper = qr.matrixQR().topRows(size).triangularView<Eigen::Upper>();
     wider = upper.transpose();
   }
   factor_ = wider;
+}
+
+/// What rounding of the impulse, δP in each direction, does to the state: δV = δP/m, δω = I⁻¹ (r × δP).
+ErrorGrowth::Factor ErrorGrowth::impulse_rounding(const ImpactRow& row) const {
+  const double speed = row.before.velocity.norm() + row.before.angular_velocity.norm() * body_.reach();
+  const double share = row.impact.path == PathKind::frictionless ? 8 * epsilon : friction_rounding;
+  const double rounding = share * row.impact.impulse.norm() + 8 * epsilon * body_.mass * speed;
+  const Matrix3 axes = row.before.attitude.toRotationMatrix();
+  const Matrix3 lever = axes * inverse_inertia_ * axes.transpose() * cross_matrix(axes * row.corners.front().place);
+  Factor columns = Factor::Zero(size, 3);
+  columns.middleRows(4, 3) = rounding / body_.mass * Matrix3::Identity();
+  columns.bottomRows(3) = rounding * lever;
+  return columns;
 }
 
 void ErrorGrowth::advance(const Jacobian& jacobian) {
@@ -138,22 +152,21 @@ void ErrorGrowth::fill(const Eigen::MatrixXd& derivatives, ImpactRow& row) const
   energy_after.block<1, 3>(0, 1) = energy.block<1, 3>(0, 1) - momentum.cross(w).transpose() +
                                    momentum_after.cross(row.impact.angular_velocity_after).transpose();
   energy_after += body_.mass * row.impact.velocity_after.transpose() * velocity + momentum_after.transpose() * turning;
-  const bool rubs = row.impact.path != PathKind::frictionless;
-  const double rounding = (rubs ? friction_rounding : 16 * epsilon) * row.impact.impulse.norm();
-  const double lever = inverse_inertia_.norm() * body_.reach();
+  const Factor rounding = impulse_rounding(row);
+  const double in_velocity = deviations * rounding.middleRows(4, 3).norm();
+  const double in_turning = deviations * rounding.bottomRows(3).norm();
   const double size_of_energy = std::fabs(row.energy_before) + std::fabs(row.energy_after);
   RowErrors& e = row.error;
   e.predictable = true;
   e.start = row.start == 0 ? 0 : bound(time) + epsilon * row.start;
   e.attitude = bound(angle) + 4 * epsilon;
   e.approach_speed = bound(approach) + 4 * epsilon * (before.velocity.norm() + w.norm() * body_.reach());
-  e.impulse = bound(impulse) + rounding;
-  e.velocity_after = bound(velocity) + rounding / body_.mass + 4 * epsilon * before.velocity.norm();
-  e.angular_velocity_after = bound(turning) + rounding * lever + 4 * epsilon * w.norm();
+  e.impulse = bound(impulse) + body_.mass * in_velocity;
+  e.velocity_after = bound(velocity) + in_velocity + 4 * epsilon * before.velocity.norm();
+  e.angular_velocity_after = bound(turning) + in_turning + 4 * epsilon * w.norm();
   e.energy_before = bound(energy) + 8 * epsilon * size_of_energy;
-  e.energy_after =
-      bound(energy_after) + 8 * epsilon * size_of_energy +
-      rounding * (row.impact.velocity_after.norm() + body_.reach() * row.impact.angular_velocity_after.norm());
+  e.energy_after = bound(energy_after) + 8 * epsilon * size_of_energy +
+                   body_.mass * in_velocity * row.impact.velocity_after.norm() + in_turning * momentum_after.norm();
 }
 
 void ErrorGrowth::strike(const Strike& strike, ImpactRow& row) {
@@ -185,14 +198,11 @@ void ErrorGrowth::strike(const Strike& strike, ImpactRow& row) {
   Jacobian jacobian = Jacobian::Identity();
   jacobian.bottomRightCorner(6, 9) = derivatives.bottomRows(6);
   advance(jacobian);
-  const bool rubs = row.impact.path != PathKind::frictionless;
-  const double rounding = (rubs ? friction_rounding : 8 * epsilon) * row.impact.impulse.norm();
-  const double in_velocity =
-      rounding / body_.mass + epsilon * (row.before.velocity.norm() + row.impact.velocity_after.norm());
-  const double in_turning = rounding * inverse_inertia_.norm() * body_.reach() +
-                            epsilon * (row.before.angular_velocity.norm() + row.impact.angular_velocity_after.norm());
-  Eigen::Matrix<double, size, 1> d;
-  d << 0, Vector3::Constant(epsilon), Vector3::Constant(in_velocity), Vector3::Constant(in_turning);
+  append(impulse_rounding(row));
+  Deviations d;
+  d << 0, Vector3::Constant(epsilon),
+      Vector3::Constant(epsilon * (row.before.velocity.norm() + row.impact.velocity_after.norm())),
+      Vector3::Constant(epsilon * (row.before.angular_velocity.norm() + row.impact.angular_velocity_after.norm()));
   add(d);
 }
 
@@ -242,7 +252,7 @@ void ErrorGrowth::fly(const FreeFlight& flight, const FirstContact& contact, con
   advance(j);
   const double size_of_height = body_.reach() + t * (flight.start().velocity.norm() + gravity_ * t);
   const double turned_by = 1 + 1e-3 * flight.rotation().fastest() * t;
-  Eigen::Matrix<double, size, 1> d;
+  Deviations d;
   d << epsilon * t + 2 * epsilon * size_of_height / std::fabs(contact.normal_velocity),
       Vector3::Constant(2 * epsilon * turned_by), Vector3::Constant(epsilon * (now.velocity.norm() + gravity_ * t)),
       Vector3::Constant(2 * epsilon * now.angular_velocity.norm());

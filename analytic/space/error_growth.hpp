@@ -41,7 +41,11 @@ class ErrorGrowth {
   using Factor = Eigen::Matrix<double, size, Eigen::Dynamic>;
   using Jacobian = Eigen::Matrix<double, size, size>;
 
-  void add(const Eigen::Matrix<double, size, 1>& deviations);
+  using Deviations = Eigen::Matrix<double, size, 1>;
+
+  void add(const Deviations& deviations);
+  void append(const Factor& columns);
+  [[nodiscard]] Factor impulse_rounding(const ImpactRow& row) const;
   void advance(const Jacobian& jacobian);
   [[nodiscard]] Eigen::MatrixXd strike_jacobian(const Strike& strike, const ImpactRow& row) const;
   void fill(const Eigen::MatrixXd& derivatives, ImpactRow& row) const;
