@@ -17,8 +17,8 @@ constexpr double deviations = 3;
 constexpr double relative_step = 1e-6;
 /// Largest error of an attitude [rad], and share of a velocity, that counts as first order.
 constexpr double first_order = 0.02;
-/// Rounding of an impulse with friction, relative: a quarter of what impact.hpp promises, as a standard deviation.
-constexpr double friction_rounding = 2.5e-14;
+/// Rounding of an impulse with friction, relative: half of what impact.hpp promises, as a standard deviation.
+constexpr double friction_rounding = 5e-14;
 
 Matrix3 cross_matrix(const Vector3& v) {
   Matrix3 m;
@@ -93,9 +93,13 @@ ErrorGrowth::Factor ErrorGrowth::impulse_rounding(const ImpactRow& row) const {
   const double rounding = share * row.impact.impulse.norm() + 8 * epsilon * body_.mass * speed;
   const Matrix3 axes = row.before.attitude.toRotationMatrix();
   const Matrix3 lever = axes * inverse_inertia_ * axes.transpose() * cross_matrix(axes * row.corners.front().place);
-  Factor columns = Factor::Zero(size, 3);
-  columns.middleRows(4, 3) = rounding / body_.mass * Matrix3::Identity();
-  columns.bottomRows(3) = rounding * lever;
+  // The inverse inertia in world axes errs by its largest element.
+  const double turning =
+      2 * epsilon * inverse_inertia_.norm() * (axes * row.corners.front().place).cross(row.impact.impulse).norm();
+  Factor columns = Factor::Zero(size, 6);
+  columns.block<3, 3>(4, 0) = rounding / body_.mass * Matrix3::Identity();
+  columns.block<3, 3>(7, 0) = rounding * lever;
+  columns.block<3, 3>(7, 3) = turning * Matrix3::Identity();
   return columns;
 }
 

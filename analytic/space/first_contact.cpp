@@ -17,7 +17,9 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double never = std::numeric_limits<double>::infinity();
 /// Length of a piece [rad].
 constexpr double piece_angle = 0.6;
-constexpr int most_pieces = 1 << 21;
+constexpr int most_pieces = 1 << 18;
+/// Stretches of fewer pieces are looked through at once.
+constexpr double shortest_stretch = 24;
 
 /// A moment of a point.
 struct Node {
@@ -56,7 +58,8 @@ class Search {
     for (std::size_t i = 0; i < count; ++i) {
       const int point = static_cast<int>(i);
       PointHeight& h = from_[i] = heights_.at(point, start);
-      depths_[i] = heights_.depth(point);
+      // With room for rounding, and for the point to be well above the ground where the search begins again.
+      depths_[i] = heights_.depth(point) + heights_.reach() / 1024;
       const Touch* known = touch(point);
       if (known) h.velocity = known->normal_velocity;
       if (known || std::fabs(h.height) <= heights_.noise(0)) h.height = 0;
@@ -84,7 +87,6 @@ class Search {
     }
     start = heights_.moment(falls);
     ++found_.evaluations;
-    for (std::size_t i = 0; i < from_.size(); ++i) from_[i] = heights_.at(static_cast<int>(i), start);
     through(start, certain);
   }
 
@@ -97,13 +99,33 @@ class Search {
       return true;  // a body that neither turns nor falls
     }
     if (periodic_hover && flight_.rotation().is_steady()) end = start.time + 2 * std::numbers::pi / speed;
-    return pieces(start, end, piece_angle / speed);
+    return stretch(start, end, piece_angle / speed);
+  }
+
+  /// Leaves out what is clear whatever the spin, so that many turns far above the ground cost little.
+  bool stretch(FlightMoment& start, double end, double length) {
+    if (!(end - start.time > shortest_stretch * length) || end == never) return pieces(start, end, length);
+    const FlightMoment last = heights_.moment(end);
+    ++found_.evaluations;
+    const double lowest = heights_.lowest_between(start, last);
+    if (lowest > 0) {
+      NearMiss& miss = found_.near_miss;
+      if (lowest < std::fmin(threshold_, miss.clearance)) {
+        miss = {.clearance = lowest, .margin = heights_.noise(end), .time = start.time, .vertex = 0};
+      }
+      start = last;
+      return true;
+    }
+    const double middle = start.time + (end - start.time) / 2;
+    return stretch(start, middle, length) && stretch(start, end, length);
   }
 
   bool pieces(FlightMoment& start, double end, double length) {
+    if (from_.front().time != start.time) {
+      for (std::size_t i = 0; i < from_.size(); ++i) from_[i] = heights_.at(static_cast<int>(i), start);
+    }
     while (start.time < end) {
-      if (++pieces_ > most_pieces)
-        throw NumericalError("no contact found nor excluded in two million pieces of a flight");
+      if (++pieces_ > most_pieces) throw NumericalError("no contact found nor excluded in 250 000 pieces of a flight");
       const double stop = start.time + length < end ? start.time + length : end;
       if (!(stop > start.time)) throw NumericalError("the flight is so long that no double tells its pieces apart");
       const FlightMoment next = heights_.moment(stop);

@@ -31,15 +31,15 @@ struct FirstContact {
   double normal_velocity = 0;  ///< h′ of `point` then [m/s]
   double velocity_error = 0;   ///< rounding error of normal_velocity [m/s]
   double acceleration = 0;     ///< h″ of `point` then [m/s²]
-  NearMiss near_miss;          ///< lowest turning point below a twentieth of the reach; infinite clearance: none
-  int evaluations = 0;         ///< of the rotation
+  NearMiss near_miss;   ///< lowest turning point below a twentieth of the reach, or a bound on many; infinite: none
+  int evaluations = 0;  ///< of the rotation
 };
 
 /// Earliest time t > 0 at which a vertex or rim reaches the ground.
 /// Points at height 0 to rounding at t = 0 count as touching: they do not arrive then unless they approach.
 /// Accuracy of the time: some ulp × (1 + condition number).  Where a point that touches returns after less than a tenth
 /// of a radian, its height comes from its Taylor series at t = 0, so that small hops keep their relative accuracy.
-/// @throws NumericalError if no contact is found, nor excluded, in two million pieces, or a root cannot be polished.
+/// @throws NumericalError if no contact is found, nor excluded, in 250 000 pieces, or a root cannot be polished.
 [[nodiscard]] FirstContact first_contact(const Body& body, const FreeFlight& flight, std::span<const Touch> touching);
 
 }  // namespace clatter::analytic::space

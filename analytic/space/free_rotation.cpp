@@ -55,6 +55,8 @@ FreeRotation::FreeRotation(const PrincipalAxes& principal, const Quaternion& att
   fastest_ =
       std::fmax(std::hypot(w[0], w[2]), std::hypot(w[1], third)) * (1 + 8 * std::numeric_limits<double>::epsilon());
   axes_ = theta_->axes().cast<double>();
+  axis_ = axes_.col(2);
+  axis_speed_ = std::fmax(w[0], w[1]) * (1 + 8 * std::numeric_limits<double>::epsilon());
   axes_attitude_ = Quaternion(axes_).normalized();
   const ThetaRotation::Moment now = theta_->at(0);
   const Quaternion spin = Quaternion(Eigen::AngleAxisd(std::atan2(now.sine, now.cosine), Vector3::UnitZ()));

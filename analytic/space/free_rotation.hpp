@@ -35,6 +35,10 @@ class FreeRotation {
   /// Bound γ <= 1/√2 in |ω̇| <= γ |ω|²: from Euler's equations, whose coefficients are below 1 by the triangle
   /// inequality.
   [[nodiscard]] double acceleration_factor() const { return acceleration_factor_; }
+  /// The axis that the momentum circles, or of a steady rotation; body frame, unit.
+  [[nodiscard]] const Vector3& spin_axis() const { return axis_; }
+  /// Bound on the speed at which spin_axis() turns, |ω| across that axis [rad/s].
+  [[nodiscard]] double axis_speed() const { return axis_speed_; }
   /// Bound on how far the point `place` comes below the centre of mass at any time, from |r| and the angles that r and
   /// the vertical make with the momentum [m].
   [[nodiscard]] double depth(const Vector3& place) const;
@@ -49,14 +53,14 @@ class FreeRotation {
   std::optional<ThetaRotation> theta_;
   Quaternion start_;                           ///< attitude at t = 0
   Vector3 start_vertical_ = Vector3::UnitZ();  ///< e at t = 0
-  Vector3 axis_ = Vector3::UnitX();            ///< of a steady rotation, body frame
+  Vector3 axis_ = Vector3::UnitX();            ///< spin_axis()
   long double speed_ = 0;                      ///< of a steady rotation [rad/s]
   Matrix3 axes_ = Matrix3::Identity();         ///< columns: axes 1, 2, 3 in the body frame
   Quaternion axes_attitude_, frame_;           ///< as quaternions; frame of the momentum to world
   Vector3 frame_vertical_ = Vector3::UnitZ();  ///< world's vertical in the frame of the momentum
   Vector3 inverse_moments_ = Vector3::Ones();  ///< |L|/I_i
   Vector3 coefficients_ = Vector3::Zero();     ///< (I₂ − I₃)/I₁ and so on
-  double fastest_ = 0, acceleration_factor_ = 0;
+  double fastest_ = 0, acceleration_factor_ = 0, axis_speed_ = 0;
 };
 
 }  // namespace clatter::analytic::space

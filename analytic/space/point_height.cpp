@@ -63,10 +63,11 @@ PointHeight PointHeights::at(int point, const FlightMoment& m) const {
           second.dot(c) - gravity - radius * bend};
 }
 
-Vector3 PointHeights::place(int point, const Vertical& vertical) const {
-  if (!is_rim(point)) return body_.vertices[static_cast<std::size_t>(point)];
-  const auto& [c, a, radius] = rim(point);
-  const Vector3 v = vertical.direction - vertical.direction.dot(a) * a;
+Vector3 touching_place(const Body& body, const Quaternion& attitude, int point) {
+  const auto index = static_cast<std::size_t>(point);
+  if (index < body.vertices.size()) return body.vertices[index];
+  const auto& [c, a, radius] = body.rims[index - body.vertices.size()];
+  const Vector3 e = attitude.conjugate() * Vector3::UnitZ(), v = e - e.dot(a) * a;
   const double size = v.norm();
   return size > 0 ? Vector3(c - radius / size * v) : c;
 }
@@ -80,6 +81,24 @@ double PointHeights::noise(double time) const {
   return 16 * epsilon *
          (reach_ + std::fabs(start.position.z()) +
           time * (std::fabs(start.velocity.z()) + flight_.gravity() / 2 * time));
+}
+
+double PointHeights::lowest_between(const FlightMoment& a, const FlightMoment& b) const {
+  const Vector3& axis = flight_.rotation().spin_axis();
+  const double first = a.vertical.direction.dot(axis), last = b.vertical.direction.dot(axis);
+  const double turn = flight_.rotation().axis_speed() * (b.time - a.time) / 2;
+  const double low = std::fmax((first + last) / 2 - turn, -1.0), high = std::fmin((first + last) / 2 + turn, 1.0);
+  double deepest = 0;
+  const auto reaches = [&](double along, double across) {
+    deepest = std::fmax(deepest, across - std::fmin(along * low, along * high));
+  };
+  for (const Vector3& r : body_.vertices) reaches(r.dot(axis), (r - r.dot(axis) * axis).norm());
+  for (const auto& [c, normal, radius] : body_.rims) {
+    const double along = c.dot(axis), tilt = normal.cross(axis).norm();
+    reaches(along, (c - along * axis).norm() + radius);
+    if (tilt > 0) reaches(along, (c - along * axis).norm() + radius * (1 + tilt));
+  }
+  return std::fmin(a.centre, b.centre) - deepest - noise(b.time);
 }
 
 double PointHeights::lowest_of_vertex(const Piece& piece, double tolerance) const {

@@ -47,6 +47,9 @@ struct Piece {
   bool touching = false;  ///< from: h = 0 at t = 0
 };
 
+/// Where a point touches the ground or is nearest to it, body frame: a vertex, or the lowest point of a rim [m].
+[[nodiscard]] Vector3 touching_place(const Body& body, const Quaternion& attitude, int point);
+
 /// The heights of a body's vertices and rims.
 class PointHeights {
  public:
@@ -56,14 +59,15 @@ class PointHeights {
   [[nodiscard]] FlightMoment moment(double time) const;
   [[nodiscard]] PointHeight at(int point, const FlightMoment& moment) const;
   [[nodiscard]] HeightBounds bounds(int point, const Piece& piece) const;
-  /// Where the point touches the ground or is nearest to it, body frame [m].
-  [[nodiscard]] Vector3 place(int point, const Vertical& vertical) const;
   /// Largest distance of a point from the centre of mass [m].
   [[nodiscard]] double reach() const { return reach_; }
   /// Bound on how far the point comes below the centre of mass at any time [m].
   [[nodiscard]] double depth(int point) const;
   /// Bound on |e⁽ⁿ⁾| of (3), n <= 6.
   [[nodiscard]] double rate_bound(int n) const { return rates_[n]; }
+  /// Bound from below on the height of every point between two moments, however often the body spins in between: the
+  /// spin axis turns at axis_speed() at most, and a point lies within its distance across that axis.
+  [[nodiscard]] double lowest_between(const FlightMoment& a, const FlightMoment& b) const;
   /// Rounding error of a height at a moment [m].
   [[nodiscard]] double noise(double time) const;
 

@@ -97,6 +97,8 @@ struct Sequence {
 /// velocity threshold.  With e = 0 the sign of the corner's acceleration decides whether the corner stays on the
 /// ground. Errors are propagated to first order, with derivatives of each impact and flight by central differences
 /// (error_growth.hpp), and bounded by three standard deviations.
+/// A number that cannot be had after the first impact ends the sequence as not_computed, an impact after the first that
+/// jams as outside_model; so do more than a million evaluations of the rotation.
 /// Results scale exactly with powers of two of every unit.
 /// @throws std::domain_error for a drop whose first contact does not approach the ground, or whose parameters are out
 ///         of range; OutsideModelError if the first impact jams; NumericalError if the first impact cannot be computed.

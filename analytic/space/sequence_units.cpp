@@ -1,6 +1,10 @@
 #include "analytic/space/sequence_units.hpp"
 
 #include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "analytic/errors.hpp"
 
 namespace clatter::analytic::space {
 namespace {
@@ -12,6 +16,14 @@ void scale(Eigen::MatrixBase<Derived>& value, int exponent) {
   for (Eigen::Index i = 0; i < value.rows(); ++i) {
     for (Eigen::Index j = 0; j < value.cols(); ++j) value(i, j) = std::ldexp(value(i, j), exponent);
   }
+}
+
+void require(bool holds, const char* field, double value, const char* allowed) {
+  if (holds) return;
+  std::ostringstream text;
+  text.precision(17);
+  text << field << " = " << value << ": must be " << allowed;
+  throw std::domain_error(text.str());
 }
 
 int exponent_of(double value) { return value > 0 && std::isfinite(value) ? std::ilogb(value) : 0; }
@@ -120,6 +132,29 @@ void SequenceUnits::to_si(Sequence& sequence) const {
   to_si(sequence.near_miss);
   scale(sequence.end_acceleration, 2 * speed_ - length_);
   scale(sequence.total_normal_impulse, mass_ + speed_);
+}
+
+void Drop::validate() const {
+  body.validate();
+  law.validate();
+  require(std::isfinite(attitude.norm()) && attitude.norm() > 0, "length of the attitude's Euler parameters",
+          attitude.norm(), "above 0 and finite");
+  for (int i = 0; i < 3; ++i) {
+    require(std::isfinite(velocity[i]), "velocity", velocity[i], "finite");
+    require(std::isfinite(angular_velocity[i]), "angular velocity", angular_velocity[i], "finite");
+  }
+  require(gravity >= 0 && std::isfinite(gravity), "gravity", gravity, "at least 0 and finite");
+}
+
+void require_representable(const Sequence& sequence) {
+  for (const ImpactRow& row : sequence.rows) {
+    const Impact& impact = row.impact;
+    if (std::isfinite(row.start) && impact.impulse.allFinite() && impact.velocity_after.allFinite() &&
+        impact.angular_velocity_after.allFinite() && std::isfinite(row.energy_after)) {
+      continue;
+    }
+    throw NumericalError("a time, impulse, velocity or energy of the sequence is beyond the doubles");
+  }
 }
 
 }  // namespace clatter::analytic::space

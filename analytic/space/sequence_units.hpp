@@ -25,4 +25,7 @@ class SequenceUnits {
   int length_ = 0, speed_ = 0, mass_ = 0;
 };
 
+/// @throws NumericalError for numbers that leave the doubles on the way back to SI units.
+void require_representable(const Sequence& sequence);
+
 }  // namespace clatter::analytic::space

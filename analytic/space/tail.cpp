@@ -136,6 +136,24 @@ Vector3 SpaceAccumulation::lever(const Tail& tail) const {
   return moment / normal;
 }
 
+bool undisturbed(const Drop& drop, const State& now, const Tail& tail) {
+  const PrincipalAxes principal(drop.body.inertia);
+  const FreeFlight flight(principal, now, drop.gravity);
+  const PointHeights heights(drop.body, flight);
+  const FlightMoment moment = heights.moment(0);
+  const double reach = heights.reach(), least = static_cast<double>(principal.moments[0]);
+  const double impulse = tail.normal_impulse + tail.tangential_impulse.norm(), time = 2 * tail.end_time;
+  const double jump = impulse / drop.body.mass + impulse * reach * reach / least;
+  const double speed = now.angular_velocity.norm() + jump / reach;
+  const double bend = drop.gravity + 2 * speed * speed * reach;
+  for (int i = 0; i < heights.count(); ++i) {
+    if (std::find(tail.corners.begin(), tail.corners.end(), i) != tail.corners.end()) continue;
+    const PointHeight h = heights.at(i, moment);
+    if (!(h.height + std::fmin(h.velocity - jump, 0.0) * time - bend / 2 * time * time > 0)) return false;
+  }
+  return true;
+}
+
 void end_state(const Body& body, const ImpactRow& last, const Vector3& lever, Tail& tail) {
   const Impact& impact = last.impact;
   const Vector3 impulse(tail.tangential_impulse.x(), tail.tangential_impulse.y(), tail.normal_impulse);

@@ -39,6 +39,11 @@ class SpaceAccumulation {
   std::vector<Event> events_;
 };
 
+/// Whether no other point reaches the ground before twice the remaining time has passed, whatever the impulses to come
+/// do.
+/// @param now the state after the last impact
+[[nodiscard]] bool undisturbed(const Drop& drop, const State& now, const Tail& tail);
+
 /// Velocities at the end of an extrapolated tail from those after the last impact: at rest but for sliding and spinning
 /// about the vertical with three corners or more, otherwise the corners stay on the ground while the body turns.
 void end_state(const Body& body, const ImpactRow& last, const Vector3& lever, Tail& tail);

@@ -9,6 +9,8 @@
 
 #include "analytic/contact_angles.hpp"
 #include "analytic/sequence.hpp"
+#include "analytic/space/sequence.hpp"
+#include "analytic/space/shapes.hpp"
 #include "tests/analytic/space/random_contact.hpp"
 
 namespace {
@@ -126,6 +128,50 @@ void frictionless_corner_in_space(benchmark::State& state) { corner_in_space(sta
 BENCHMARK(frictionless_corner_in_space);
 void corner_with_friction_in_space(benchmark::State& state) { corner_in_space(state, 1); }
 BENCHMARK(corner_with_friction_in_space);
+
+/// A box of a phone's shape that lands on its corner.
+space::Drop phone_corner(double friction) {
+  space::Drop drop;
+  drop.body = space::box(0.18, {.size = {0.14, 0.07, 0.008}});
+  drop.attitude = space::Quaternion(0.76, 0.19, -0.51, 0.36);
+  drop.velocity = {0.9, 0.2, -1.7};
+  drop.angular_velocity = {2, 3, -1};
+  drop.gravity = 9.81;
+  if (friction > 0) {
+    drop.law.law = {.restitution = 0.8,
+                    .law = RestitutionLaw::stronge,
+                    .friction = FrictionKind::coulomb,
+                    .friction_value = friction};
+  }
+  return drop;
+}
+
+/// A frictionless corner impact in space and the flight to the next.
+void space_impact_and_flight(benchmark::State& state) {
+  const space::Drop drop = phone_corner(0);
+  const auto s = space::impact_sequence(drop, {.impacts = 2, .amplification = false});
+  const space::State before = s.rows[0].before;
+  const space::Corner corner = s.rows[0].corners[0];
+  const space::PrincipalAxes principal(drop.body.inertia);
+  for (auto _ : state) {
+    const space::Impact impact = space::strike(drop.body, before, corner.place, drop.law);
+    space::State after = before;
+    after.velocity = impact.velocity_after;
+    after.angular_velocity = impact.angular_velocity_after;
+    const space::FreeFlight flight(principal, after, drop.gravity);
+    const space::Touch touch{corner.index, impact.contact_after.z()};
+    benchmark::DoNotOptimize(space::first_contact(drop.body, flight, {&touch, 1}));
+  }
+}
+BENCHMARK(space_impact_and_flight);
+
+/// Three impacts of a box in space; argument: hundredths of the friction coefficient, then whether errors are followed.
+void space_sequence(benchmark::State& state) {
+  const space::Drop drop = phone_corner(static_cast<double>(state.range(0)) / 100);
+  const SequenceOptions options{.impacts = 3, .amplification = state.range(1) != 0};
+  for (auto _ : state) benchmark::DoNotOptimize(space::impact_sequence(drop, options));
+}
+BENCHMARK(space_sequence)->Args({0, 0})->Args({0, 1})->Args({30, 0})->Args({30, 1});
 
 }  // namespace
 

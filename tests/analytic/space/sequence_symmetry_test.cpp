@@ -122,7 +122,9 @@ BOOST_AUTO_TEST_CASE(planar_scenes_through_the_space_code_agree_with_the_planar_
       const double late = p.start > 0 ? std::fabs(p.start - r.start) / p.start : 0;
       worst = std::fmax(worst, std::fmax(off, late) / allowed(r) * tolerance);
       const bool same = p.vertices == (1u << r.corners.front().index) && r.corners.size() == 1;
-      if (same && off <= allowed(r) && late <= allowed(r) && r.impact.velocity_after.y() == 0) continue;
+      if (same && off <= allowed(r) && late <= allowed(r) &&
+          std::fabs(r.impact.velocity_after.y()) <= 4 * allowed(r) * scale)
+        continue;
       if (++wrong < 6) {
         BOOST_TEST_MESSAGE("drop " << n << " impact " << i + 1 << ": " << int(p.vertices) << " and corner "
                                    << r.corners.front().index << ", off " << off << " and " << late << ", allowed "
@@ -130,8 +132,10 @@ BOOST_AUTO_TEST_CASE(planar_scenes_through_the_space_code_agree_with_the_planar_
       }
     }
     if (planar.end_predictable && in_space.end_predictable) {
-      BOOST_TEST(planar.rows.size() == in_space.rows.size());
-      BOOST_CHECK(planar.outcome == in_space.outcome);
+      BOOST_TEST_CONTEXT("drop " << n << ": " << planar.message << " | " << in_space.message) {
+        BOOST_CHECK_EQUAL(planar.rows.size(), in_space.rows.size());
+        BOOST_CHECK(planar.outcome == in_space.outcome);
+      }
     }
   }
   BOOST_TEST_MESSAGE(rows << " rows, worst " << worst);
