@@ -232,7 +232,7 @@ class Run {
                                            .time = ulps * time_,
                                            .impulse = ulps * result_.total_normal_impulse});
     if (!tail || !undisturbed(drop_, state_, *tail)) return false;
-    end_state(body_, result_.rows.back(), accumulation_.lever(*tail), *tail);
+    end_state(drop_, result_.rows.back(), accumulation_.lever(*tail), *tail);
     tail->end_time += time_;
     finish(*tail);
     return true;

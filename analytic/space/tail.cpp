@@ -154,13 +154,18 @@ bool undisturbed(const Drop& drop, const State& now, const Tail& tail) {
   return true;
 }
 
-void end_state(const Body& body, const ImpactRow& last, const Vector3& lever, Tail& tail) {
+void end_state(const Drop& drop, const ImpactRow& last, const Vector3& lever, Tail& tail) {
+  const Body& body = drop.body;
   const Impact& impact = last.impact;
   const Vector3 impulse(tail.tangential_impulse.x(), tail.tangential_impulse.y(), tail.normal_impulse);
   const Matrix3 axes = last.before.attitude.toRotationMatrix();
   const Vector3 change = axes * (body.inertia.inverse() * (axes.transpose() * (tail.normal_impulse * lever)));
-  tail.velocity_after = impact.velocity_after + impulse / body.mass;
-  tail.angular_velocity_after = impact.angular_velocity_after + change;
+  const Vector3 fall(0, 0, -drop.gravity * tail.end_time);
+  // Euler's equations over the time that is left.
+  const Vector3 w = axes.transpose() * impact.angular_velocity_after;
+  const Vector3 drift = axes * (body.inertia.inverse() * (body.inertia * w).cross(w)) * tail.end_time;
+  tail.velocity_after = impact.velocity_after + impulse / body.mass + fall;
+  tail.angular_velocity_after = impact.angular_velocity_after + change + drift;
   if (tail.corners.size() < 3) return;
   tail.velocity_after.z() = 0;
   tail.angular_velocity_after.head<2>().setZero();

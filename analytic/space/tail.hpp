@@ -44,8 +44,9 @@ class SpaceAccumulation {
 /// @param now the state after the last impact
 [[nodiscard]] bool undisturbed(const Drop& drop, const State& now, const Tail& tail);
 
-/// Velocities at the end of an extrapolated tail from those after the last impact: at rest but for sliding and spinning
-/// about the vertical with three corners or more, otherwise the corners stay on the ground while the body turns.
-void end_state(const Body& body, const ImpactRow& last, const Vector3& lever, Tail& tail);
+/// Velocities at the end of an extrapolated tail, whose end_time counts from the last impact, from those after it: at
+/// rest but for sliding and spinning about the vertical with three corners or more, otherwise the corners stay on the
+/// ground while the body turns.
+void end_state(const Drop& drop, const ImpactRow& last, const Vector3& lever, Tail& tail);
 
 }  // namespace clatter::analytic::space
