@@ -27,7 +27,7 @@ class Drop(SpaceFolder):
         corners = [[s * l / 2 for s, l in zip(signs, SIZE)] for signs in itertools.product((-1, 1), repeat=3)]
         seen = set()
         for n in range(1, 27):
-            q = self.json_of("simulate", "--orientation", str(n), *BOX, "--impacts", "1")["scene"]["drop"]["attitude"]
+            q = self.json_of("simulate", "--orientation", str(n), *BOX, "--impacts", "1")["impacts"][0]["attitude"]
             heights = [rotated(q, corner)[2] for corner in corners]
             lowest = [corner for corner, height in zip(corners, heights) if height < min(heights) + 1e-12]
             self.assertEqual(len(lowest), 4 if n <= 6 else 2 if n <= 18 else 1, n)

@@ -33,7 +33,10 @@ Scales scales_of(const Sequence& sequence) {
   grow(Scale::angle, 90);
   grow(Scale::ratio, 1);
   for (const Flown& row : sequence.rows) {
-    grow(Scale::speed, std::max(row.before.velocity.norm(), row.impact.velocity_after.norm()));
+    const double speed = std::max(row.before.velocity.norm(), row.impact.velocity_after.norm());
+    grow(Scale::speed, speed);
+    // A body that does not turn has a size of rates, too: that of its speed about the corner.
+    grow(Scale::rate, speed / row.corners.front().place.norm());
     grow(Scale::rate, std::max(row.before.angular_velocity.norm(), row.impact.angular_velocity_after.norm()));
     grow(Scale::time, row.start);
     grow(Scale::impulse, row.impact.impulse.norm());

@@ -32,7 +32,8 @@ double largest_error(const analytic::space::Sequence& sequence) {
   for (const analytic::space::ImpactRow& row : sequence.rows) {
     time = std::max(time, row.start);
     speed = std::max({speed, row.before.velocity.norm(), row.impact.velocity_after.norm()});
-    rate = std::max({rate, row.before.angular_velocity.norm(), row.impact.angular_velocity_after.norm()});
+    rate = std::max({rate, row.before.angular_velocity.norm(), row.impact.angular_velocity_after.norm(),
+                     row.impact.velocity_after.norm() / row.corners.front().place.norm()});
     impulse = std::max(impulse, row.impact.impulse.norm());
   }
   const auto take = [&](double error, double size) {
@@ -45,7 +46,7 @@ double largest_error(const analytic::space::Sequence& sequence) {
     take(error.attitude, 1);
     take(error.impulse, impulse);
     take(error.velocity_after, speed);
-    take(error.angular_velocity_after, std::max(rate, std::numeric_limits<double>::min()));
+    take(error.angular_velocity_after, rate);
   }
   return worst;
 }

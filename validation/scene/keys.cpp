@@ -5,6 +5,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "validation/scene/orientation.hpp"
+
 namespace clatter::validation {
 namespace {
 
@@ -29,6 +31,7 @@ constexpr Range heights{0, 1e12, true, "greater than 0 and at most 1e12"};
 constexpr Range angles{0, 90, false, "from 0 to 90 degrees"};
 constexpr Range tilts{-180, 180, false, "from -180 to 180 degrees"};
 constexpr Range parameters{-1.01, 1.01, false, "from -1.01 to 1.01"};
+constexpr Range orientations{1, orientation_count, false, "a whole number from 1 to 26"};
 constexpr Range restitutions{0, 1, false, "from 0 to 1"};
 constexpr Range tolerances{numeric::least_tolerance, 0.1, false, "from 5e-14 to 0.1"};
 
@@ -74,8 +77,8 @@ void append_drop(std::vector<Key>& keys) {
                    nullptr, false, turns},
                   {"drop.orientation", Use::both, "--orientation", "N", "",
                    "or which part of a box points down: 1-6 faces, 7-18 edges, 19-26 corners",
-                   WholeNumber{[](Scene& s) -> int& { return s.orientation; }, 0, 26},
-                   [](const Scene& s, Model) { return only_if(s.orientation > 0); }, false, ways_to_turn},
+                   OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.orientation; }, orientations},
+                   nullptr, false, ways_to_turn},
                   {"drop.speed", Use::both, "--speed", "M/S", "m/s", "downward, of the centre of mass at first touch",
                    NumberValue{[](Scene& s) -> double& { return s.speed; }, speeds, &positive},
                    [](const Scene& s, Model model) {

@@ -123,17 +123,12 @@ double inclination_of(const std::vector<double>& q) {
 
 void check_drop(const SceneValues& values, Scene& scene) {
   const bool swept = scene.sweep && scene.sweep->quantity == SceneSweep::Quantity::angle_deg;
-  if (scene.orientation > 0) {
-    if (scene.body.shape != BodyScene::Shape::box)
-      values.refuse("drop.orientation", "left out where the body is no box");
-    scene.attitude = orientation_attitude(scene.orientation, scene.body.size);
-  }
+  scene.settle();
   if (!scene.attitude.empty()) {
     const std::vector<double>& q = scene.attitude;
     const double length = std::sqrt(std::inner_product(q.begin(), q.end(), q.begin(), 0.0));
     if (!(std::fabs(length - 1) <= attitude_rounding))
       values.refuse("drop.attitude", key_named("drop.attitude").allowed());
-    scene.angle_deg = inclination_of(q);
   } else if (!swept) {
     values.require("drop.angle_deg", "the inclination at the first impact");
   }
@@ -196,6 +191,18 @@ std::vector<std::string> case_names() {
 }
 
 }  // namespace
+
+void Scene::settle() {
+  if (orientation) {
+    if (body.shape != BodyScene::Shape::box)
+      throw BadInput("drop.orientation: must be left out where the body is no box");
+    const int number = static_cast<int>(*orientation);
+    if (number != *orientation)
+      throw BadInput(fmt::format("drop.orientation = {}: must be a whole number from 1 to 26", shortest(*orientation)));
+    attitude = orientation_attitude(number, body.size);
+  }
+  if (!attitude.empty()) angle_deg = inclination_of(attitude);
+}
 
 SceneValues scene_values(const std::string& source) {
   if (source.empty()) return {"", "", scene_keys()};

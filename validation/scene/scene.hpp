@@ -64,11 +64,11 @@ struct Scene {
   /// Turn about −y, after one of tilt_deg about the body's x axis.  With `attitude` its turn about −y if it is no more.
   double angle_deg = 0, tilt_deg = 0;
   std::vector<double> attitude;  ///< Euler parameters, body → world, scalar first, about unit length; empty: by angles
-  int orientation = 0;  ///< of a box, in 1..26 (orientation.hpp), whose attitude is then `attitude`; 0: not given
-  double speed = 1;     ///< of the centre of mass at the first touch, downward [m/s]
-  std::optional<double> height;    ///< of the centre of mass at release, if given [m]
-  double tangential_velocity = 0;  ///< [m/s]
-  double spin = 0;                 ///< [rad/s]
+  std::optional<double> orientation;  ///< of a box, in 1..26 (orientation.hpp); gives `attitude`, by settle()
+  double speed = 1;                   ///< of the centre of mass at the first touch, downward [m/s]
+  std::optional<double> height;       ///< of the centre of mass at release, if given [m]
+  double tangential_velocity = 0;     ///< [m/s]
+  double spin = 0;                    ///< [rad/s]
   /// Of the centre of mass at the first touch, world [m/s]; empty: (tangential_velocity, 0, −speed).
   std::vector<double> velocity;
   std::vector<double> angular_velocity;  ///< at the first touch, world components [rad/s]; empty: (0, spin, 0)
@@ -83,6 +83,9 @@ struct Scene {
   /// The scene with the swept quantity at one value, and no sweep.
   [[nodiscard]] Scene at(double value) const;
   [[nodiscard]] numeric::Body make_body() const;
+  /// Takes `attitude` from `orientation`, and `angle_deg` from the attitude, where they are given.
+  /// @throws BadInput if the orientation is no whole number, or the body no box.
+  void settle();
   /// Body → world; unit.
   [[nodiscard]] Eigen::Quaterniond touch_attitude() const;
   /// Of the centre of mass at the first touch, world [m/s]; with `height` the speed is not yet that of the fall.

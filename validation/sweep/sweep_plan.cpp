@@ -200,7 +200,11 @@ void choose_setters(const SceneValues& values, const std::vector<Setting>& setti
     if (!setting.axis) continue;
     if (setting.number->is_of_body()) plan.body_axes.push_back(plan.put.size());
     if (is_both_frictions(setting, values, settings)) plan.put.emplace_back(put_both_frictions);
-    else plan.put.emplace_back([key = setting.number](Scene& scene, double value) { key->put_number(scene, value); });
+    else
+      plan.put.emplace_back([key = setting.number](Scene& scene, double value) {
+        key->put_number(scene, value);
+        scene.settle();
+      });
   }
 }
 
