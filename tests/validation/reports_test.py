@@ -105,7 +105,8 @@ class Forms(unittest.TestCase):
                 for ending, fields in (("", impact), ("_error", impact["error_estimate"])):
                     for key, value in fields.items():
                         if isinstance(value, list):
-                            spelt.update({f"{key}_{axis}{ending}": part for axis, part in zip("xyz", value)})
+                            parts = "xyz" if len(value) == 3 else ("q0", "q1", "q2", "q3")
+                            spelt.update({f"{key}_{part}{ending}": number for part, number in zip(parts, value)})
                         elif not isinstance(value, dict):
                             spelt[key + ending] = value
                 self.assertEqual(set(row), set(spelt))
