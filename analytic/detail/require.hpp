@@ -12,5 +12,8 @@ namespace clatter::analytic::detail {
 inline void require(bool holds, const char* field, double value, const char* allowed) {
   if (!holds) refuse(field, value, allowed);
 }
+inline void require(bool holds, const std::string& field, double value, const char* allowed) {
+  if (!holds) refuse(field, value, allowed);
+}
 
 }  // namespace clatter::analytic::detail

@@ -3,24 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
 
+#include "analytic/detail/require.hpp"
 #include "analytic/space/principal_axes.hpp"
 
 namespace clatter::analytic::space {
+
+using detail::require;
 namespace {
-
-[[noreturn]] void refuse(const std::string& field, double value, const char* allowed) {
-  std::ostringstream text;
-  text.precision(17);
-  text << field << " = " << value << ": must be " << allowed;
-  throw std::domain_error(text.str());
-}
-
-void require(bool holds, const std::string& field, double value, const char* allowed) {
-  if (!holds) refuse(field, value, allowed);
-}
 
 void require_finite(const Vector3& v, const std::string& field) {
   for (int i = 0; i < 3; ++i) require(std::isfinite(v[i]), field, v[i], "finite");

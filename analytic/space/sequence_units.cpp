@@ -1,12 +1,13 @@
 #include "analytic/space/sequence_units.hpp"
 
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 
+#include "analytic/detail/require.hpp"
 #include "analytic/errors.hpp"
 
 namespace clatter::analytic::space {
+
+using detail::require;
 namespace {
 
 void scale(double& value, int exponent) { value = std::ldexp(value, exponent); }
@@ -16,14 +17,6 @@ void scale(Eigen::MatrixBase<Derived>& value, int exponent) {
   for (Eigen::Index i = 0; i < value.rows(); ++i) {
     for (Eigen::Index j = 0; j < value.cols(); ++j) value(i, j) = std::ldexp(value(i, j), exponent);
   }
-}
-
-void require(bool holds, const char* field, double value, const char* allowed) {
-  if (holds) return;
-  std::ostringstream text;
-  text.precision(17);
-  text << field << " = " << value << ": must be " << allowed;
-  throw std::domain_error(text.str());
 }
 
 int exponent_of(double value) { return value > 0 && std::isfinite(value) ? std::ilogb(value) : 0; }

@@ -1,22 +1,12 @@
 #include "analytic/space/shapes.hpp"
 
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
+
+#include "analytic/detail/require.hpp"
 
 namespace clatter::analytic::space {
-namespace {
 
-void require(bool holds, const char* field, double value, const char* allowed) {
-  if (holds) return;
-  std::ostringstream text;
-  text.precision(17);
-  text << field << " = " << value << ": must be " << allowed;
-  throw std::domain_error(text.str());
-}
-
-}  // namespace
-
+using detail::require;
 Body box(double mass, const Box& shape) {
   Body body;
   body.mass = mass;
