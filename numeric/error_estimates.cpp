@@ -22,7 +22,8 @@ constexpr double step_part = 0.5;
 constexpr double error_per_distance_of_steps = 3;  ///< 8/7 where the step is short enough for the order to show
 
 /// Single numbers agree by chance in two runs that differ: of a vector's distance, at least, for each component, and of
-/// the impulse's relative distance for what the same steps yield.
+/// the impulse's relative distance for what the same steps yield; energies and works take the latter of the energy
+/// before.
 constexpr double least_part = 0.1;
 
 constexpr Vector3 ImpactNumbers::*vectors[] = {&ImpactNumbers::impulse, &ImpactNumbers::velocity_after,
@@ -49,6 +50,10 @@ void widen(const ImpactNumbers& a, const ImpactNumbers& b, ImpactNumbers& error)
   for (const auto member : {&Numbers::duration, &Numbers::restitution, &Numbers::peak_force}) {
     const double least = relative * std::fabs(a.*member);
     if (error.*member < least) error.*member = least;
+  }
+  for (const auto member : {&Numbers::energy_after, &Numbers::energy_loss, &Numbers::work_damping,
+                            &Numbers::work_friction, &Numbers::work_released}) {
+    if (a.*member != 0 || b.*member != 0) error.*member = std::max(error.*member, relative * a.energy_before);
   }
   for (const auto member : vectors) {
     Vector3& of = error.*member;

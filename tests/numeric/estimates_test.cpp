@@ -140,6 +140,7 @@ BOOST_AUTO_TEST_CASE(a_number_in_which_two_runs_agree_by_chance_is_not_taken_for
   ImpactRecord row;
   row.value.duration = 0.1;
   row.value.approach_speed = row.value.restitution = row.value.peak_force = 1;
+  row.value.energy_before = row.value.work_friction = 1;
   row.value.impulse = row.value.velocity_after = row.value.angular_velocity_after = Vector3(1, 0, 2);
   std::vector<ImpactRecord> rows{row}, second{row};
   for (const auto vector :
@@ -155,6 +156,8 @@ BOOST_AUTO_TEST_CASE(a_number_in_which_two_runs_agree_by_chance_is_not_taken_for
   BOOST_TEST(error.impulse.z() > distance / 2);
   BOOST_TEST(error.duration > 0.1 * distance / 100);
   BOOST_TEST(error.peak_force > distance / 100);
+  BOOST_TEST(error.work_friction > distance / 100);
+  BOOST_TEST(error.work_damping < rounding);  // 0 in both runs: nothing damps
 }
 
 /// Steps are then as long as they may be, whatever the tolerance: a second run at a tenth of it alone would be the same
