@@ -1,18 +1,20 @@
 #include "analytic/contact_angles.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "analytic/body_motion.hpp"
+#include "analytic/detail/limits.hpp"
 #include "analytic/detail/require.hpp"
 #include "analytic/detail/small_angle.hpp"
 
 namespace clatter::analytic {
+
+using detail::missing;
+
 namespace {
 
 using detail::require;
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 constexpr VertexSet end_a = 1;
 constexpr VertexSet end_b = 2;
 

@@ -5,12 +5,15 @@
 #include <cmath>
 #include <limits>
 
+#include "analytic/detail/limits.hpp"
 #include "analytic/errors.hpp"
 
 namespace clatter::analytic {
+
+using detail::epsilon;
+
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double unknown = std::numeric_limits<double>::infinity();
 /// Beyond this share of the second order beside the first, the first no longer tells how errors
 /// grow.

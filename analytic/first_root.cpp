@@ -2,18 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "analytic/angle.hpp"
+#include "analytic/detail/limits.hpp"
 #include "analytic/detail/root_finder.hpp"
 #include "analytic/errors.hpp"
 
 namespace clatter::analytic {
+
+using detail::epsilon;
+using detail::never;
+
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double never = std::numeric_limits<double>::infinity();
 /// Rounding error of a height at a turning point: this times the sum of the magnitudes of its
 /// terms. Twice what is seen against 50 digits near the folds.
 constexpr double height_noise = 2 * epsilon;

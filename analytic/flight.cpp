@@ -1,15 +1,16 @@
 #include "analytic/flight.hpp"
 
 #include <cmath>
-#include <limits>
 
+#include "analytic/detail/limits.hpp"
 #include "analytic/detail/small_angle.hpp"
 
 namespace clatter::analytic {
-namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double never = std::numeric_limits<double>::infinity();
+using detail::epsilon;
+using detail::never;
+
+namespace {
 
 bool contains(VertexSet set, int vertex) { return (set >> vertex & 1) != 0; }
 

@@ -4,12 +4,15 @@
 #include <cmath>
 #include <limits>
 
+#include "analytic/detail/limits.hpp"
+
 #include "analytic/error_growth.hpp"
 
 namespace clatter::analytic {
-namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+using detail::epsilon;
+
+namespace {
 
 /// The other outermost vertex of a flat landing.
 ContactPoint partner(const BodyMotion& motion, VertexSet vertices, int reference) {

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "analytic/detail/limits.hpp"
 
 namespace clatter::analytic {
-namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
+using detail::infinite;
+
+namespace {
 
 /// Numerator over denominator, infinite with the numerator's sign where the denominator vanishes.
 double quotient(double numerator, double denominator) {

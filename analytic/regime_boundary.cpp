@@ -3,12 +3,15 @@
 #include <limits>
 #include <numeric>
 
+#include "analytic/detail/limits.hpp"
+
 #include "analytic/contact_angles.hpp"
 
 namespace clatter::analytic {
-namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+using detail::missing;
+
+namespace {
 
 /// The decisions on both sides of a boundary.
 struct Sides {

@@ -9,18 +9,20 @@
 
 #include "analytic/accumulation.hpp"
 #include "analytic/body_motion.hpp"
+#include "analytic/detail/limits.hpp"
 #include "analytic/detail/require.hpp"
 #include "analytic/error_growth.hpp"
 #include "analytic/errors.hpp"
 #include "analytic/units.hpp"
 
 namespace clatter::analytic {
+
+using detail::infinite;
+using detail::missing;
+
 namespace {
 
 using detail::require;
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 /// In units of its own length and speed, gravity and the other speeds must still be numbers.
 void require_representable(const Drop& drop, const Drop& internal) {

@@ -9,13 +9,13 @@
 #include <numeric>
 #include <string>
 
+#include "analytic/detail/limits.hpp"
 #include "analytic/errors.hpp"
 
 namespace clatter::analytic::detail {
 namespace {
 
 constexpr int budget = 80;
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /// GSL's solvers of one thread, allocated once; its error handler, which would abort, is switched off
 /// here and every status is looked at instead.

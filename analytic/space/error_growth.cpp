@@ -6,11 +6,16 @@
 #include <cmath>
 #include <limits>
 
+#include "analytic/detail/limits.hpp"
+#include "analytic/space/cross_matrix.hpp"
+
 namespace clatter::analytic::space {
+
+using detail::epsilon;
+using detail::infinite;
+
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Bounds are this many standard deviations of the errors assumed.
 constexpr double deviations = 3;
 /// Relative step of central differences: rounding leaves ten digits, the second order twelve.
@@ -19,12 +24,6 @@ constexpr double relative_step = 1e-6;
 constexpr double first_order = 0.02;
 /// Rounding of an impulse with friction, relative: half of what impact.hpp promises, as a standard deviation.
 constexpr double friction_rounding = 5e-14;
-
-Matrix3 cross_matrix(const Vector3& v) {
-  Matrix3 m;
-  m << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0;
-  return m;
-}
 
 Quaternion turned(const Vector3& angle, const Quaternion& attitude) {
   return (Quaternion(1, angle[0] / 2, angle[1] / 2, angle[2] / 2) * attitude).normalized();

@@ -2,19 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 
+#include "analytic/detail/limits.hpp"
 #include "analytic/detail/root_finder.hpp"
 #include "analytic/errors.hpp"
 #include "analytic/space/hop.hpp"
 
 namespace clatter::analytic::space {
+
+using detail::epsilon;
+using detail::never;
+
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double never = std::numeric_limits<double>::infinity();
 /// Length of a piece [rad].
 constexpr double piece_angle = 0.6;
 constexpr int most_pieces = 1 << 18;

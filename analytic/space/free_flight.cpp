@@ -1,14 +1,14 @@
 #include "analytic/space/free_flight.hpp"
 
 #include <cmath>
-#include <limits>
+
+#include "analytic/detail/limits.hpp"
 
 namespace clatter::analytic::space {
-namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
+using detail::never;
 
-}  // namespace
+namespace {}  // namespace
 
 State FreeFlight::at(double time) const {
   State state;

@@ -7,18 +7,11 @@
 #include <stdexcept>
 
 #include "analytic/errors.hpp"
+#include "analytic/space/cross_matrix.hpp"
 #include "analytic/space/impulse_path.hpp"
 
 namespace clatter::analytic::space {
-namespace {
-
-Matrix3 cross_matrix(const Vector3& r) {
-  Matrix3 cross;
-  cross << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
-  return cross;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 void Law::validate() const {
   law.validate();

@@ -6,15 +6,18 @@
 #include <sstream>
 
 #include "analytic/contact_impulse.hpp"
+#include "analytic/detail/limits.hpp"
 #include "analytic/errors.hpp"
 #include "analytic/space/path_progress.hpp"
 #include "analytic/space/slip_field.hpp"
 #include "analytic/space/turning_slip.hpp"
 
 namespace clatter::analytic::space {
+
+using detail::epsilon;
+
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 /// Relative distances below this are decided by rounding of W and v.
 constexpr double rounding = 1e-13;

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+
+#include "analytic/detail/limits.hpp"
 
 namespace clatter::analytic::space {
+
+using detail::epsilon;
+using detail::infinite;
+
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double infinite = std::numeric_limits<double>::infinity();
 /// max of t³(1 − t)³/6!, t²(1 − t)³/6! and of the error of the second derivative, which interpolates ë at four places:
 /// t³(1 − t)/4!.
 constexpr double value_error = 1.0 / 46080, quotient_error = 0.03456 / 720, bend_error = 27.0 / 256 / 24;

@@ -5,16 +5,18 @@
 #include <limits>
 #include <sstream>
 
+#include "analytic/detail/limits.hpp"
 #include "analytic/errors.hpp"
 #include "analytic/space/error_growth.hpp"
 #include "analytic/space/sequence_units.hpp"
 #include "analytic/space/tail.hpp"
 
 namespace clatter::analytic::space {
-namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+using detail::epsilon;
+using detail::missing;
+
+namespace {
 
 /// Of the rotation, in a sequence: a third of a second.
 constexpr int most_evaluations = 1'000'000;

@@ -6,14 +6,16 @@
 #include <limits>
 
 #include "analytic/contact_impulse.hpp"
+#include "analytic/detail/limits.hpp"
 #include "analytic/errors.hpp"
 #include "analytic/space/ground_polygon.hpp"
 #include "analytic/space/impulse_path.hpp"
 
 namespace clatter::analytic::space {
-namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+using detail::epsilon;
+
+namespace {
 
 /// A body with its touching corners while its velocity changes and its attitude does not.
 class StrikingGroup {

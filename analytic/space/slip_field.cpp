@@ -4,11 +4,15 @@
 #include <limits>
 #include <numbers>
 
+#include "analytic/detail/limits.hpp"
+
 namespace clatter::analytic::space {
+
+using detail::epsilon;
+
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 struct Quadratic {
   double b1, b2, d;

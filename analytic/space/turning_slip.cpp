@@ -2,15 +2,17 @@
 
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
-#include <limits>
 
+#include "analytic/detail/limits.hpp"
 #include "analytic/errors.hpp"
 
 namespace clatter::analytic::space {
+
+using detail::epsilon;
+
 namespace {
 
 constexpr int order = 15;
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// y beyond which the direction is the attracting one to rounding.
 constexpr double last_y = 37;
 constexpr double longest_panel = 8;

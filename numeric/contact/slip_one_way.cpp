@@ -9,8 +9,8 @@
 namespace clatter::numeric {
 namespace {
 
-constexpr double far_ellipse = 3;  ///< ρ from which the closed form would cancel more than Gauss's rule errs
-constexpr int most = 4;            ///< degree of the polynomials
+constexpr double far_ellipse_one_way = 3;  ///< ρ from which the closed form would cancel more than Gauss's rule errs
+constexpr int most = 4;                    ///< degree of the polynomials
 
 /// A polynomial along an edge.
 struct Polynomial {
@@ -152,8 +152,8 @@ class EdgeSum {
                     patch_.stiffness.along(across_)};
     const Linear slip{patch_.east.at(origin_) + along.value * steep_, along.slope * steep_};
     const double ellipse = segment_ellipse({slip.value, 0}, {slip.slope, 0}, patch_.rounding);
-    const EdgeSums here = ellipse >= far_ellipse ? by_gauss(edge, slip, patch_.rounding, ellipse)
-                                                 : in_closed_form(edge, slip, patch_.rounding);
+    const EdgeSums here = ellipse >= far_ellipse_one_way ? by_gauss(edge, slip, patch_.rounding, ellipse)
+                                                         : in_closed_form(edge, slip, patch_.rounding);
     sums.force -= along.slope * here.force;
     sums.by_along -= along.slope * here.by_along;
     sums.by_across -= along.slope * here.by_across;

@@ -7,10 +7,10 @@
 namespace clatter::numeric {
 namespace {
 
-constexpr double least_ellipse = 2.2;  ///< ρ from which Gauss's rule is taken
-constexpr double least_part = 1e-15;   ///< of the segment: rounding
-constexpr double least_ratio = 0.25;   ///< (W/v_r)² from which the closed forms do not cancel
-constexpr int slow_order = 12;         ///< of Gauss's rule below it, right to 1e-15
+constexpr double least_ellipse_along_rays = 2.2;  ///< ρ from which Gauss's rule is taken
+constexpr double least_part_of_ray = 1e-15;       ///< of the segment: rounding
+constexpr double least_ratio = 0.25;              ///< (W/v_r)² from which the closed forms do not cancel
+constexpr int slow_order = 12;                    ///< of Gauss's rule below it, right to 1e-15
 
 /// ∫_0^1 λⁿ/√(λ² W² + v_r²) dλ, n from 2 to 5.
 struct RayIntegrals {
@@ -57,7 +57,7 @@ class Rays {
   void add_part(double low, double high) {
     const double middle = (low + high) / 2, half = (high - low) / 2;
     const double ellipse = segment_ellipse(slip(middle), {half * change_.east, half * change_.north}, rounding_);
-    if (ellipse < least_ellipse && half > least_part) {
+    if (ellipse < least_ellipse_along_rays && half > least_part_of_ray) {
       add_part(low, middle);
       add_part(middle, high);
       return;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <bitset>
 #include <cmath>
-#include <limits>
 
 #include "validation/cli/rod_options.hpp"
 
@@ -16,8 +15,6 @@ using Style = FigureCurve::Style;
 
 constexpr long long most_rows = 4000;
 constexpr long long most_with_points = 60;  // so few rows are marked on their curves
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 using Existing = std::bitset<std::tuple_size_v<AnglesRow>>;
 
 /// Which numbers a row has.
@@ -104,7 +101,7 @@ Picture angles_picture(const AnglesRequest& request) {
                                        .y_label = "normal impulse [m|vₙ|]",
                                        .curves = {curve("P1", "P₁"), curve("P2", "P₂"), curve("P3", "P₃")},
                                        .x = range,
-                                       .y = {0, none}}};
+                                       .y = {0, no_number}}};
   return {.what = "Contact angles and impulses of the first three impacts",
           .scene = {rod_summary(request.rod)},
           .panels = {angles, impulses}};

@@ -15,12 +15,13 @@
 #include "validation/output/number.hpp"
 #include "validation/plan/shortfall.hpp"
 #include "validation/scene/bad_input.hpp"
+#include "validation/scene/failure.hpp"
 
 namespace clatter::validation {
 namespace {
 
-constexpr int check_failed = 1, not_computed = 3, outside_model = 4;
-const char* const what_it_is = "discrete and continuous model, impact by impact";
+constexpr int check_failed = 1;
+const char* const comparison_summary = "discrete and continuous model, impact by impact";
 
 struct CompareInput {
   SceneFlags scene;
@@ -32,16 +33,17 @@ int compare_one(const Scene& scene, const OutputChoice& choice, PlotFile& plot) 
   const Comparison comparison = compare_models(scene, scene.make_body());
   write_report(choice, comparison_report(scene, comparison));
   if (comparison.impacts.empty()) plot.leave_out("no impact");
-  else if (plot.is_wanted()) plot.write(comparison_picture(scene, comparison), run_words("compare", what_it_is, scene));
+  else if (plot.is_wanted())
+    plot.write(comparison_picture(scene, comparison), run_words("compare", comparison_summary, scene));
   if (!comparison.agrees()) return check_failed;
   if (!comparison.shortfall.empty()) {
     say(comparison.shortfall);
-    return not_computed;
+    return exit_status(FailureKind::not_computed);
   }
   if (comparison.has_content()) return 0;
   say("nothing could be compared: " +
       (comparison.impacts.empty() ? comparison.run.message : comparison.impacts[0].reason));
-  return outside_model;
+  return exit_status(FailureKind::outside_model);
 }
 
 int status_of(const std::vector<SweptComparison>& swept) {
@@ -69,7 +71,7 @@ int compare_swept(const Scene& scene, const OutputChoice& choice, PlotFile& plot
     return interrupted_status;
   }
   if (plot.is_wanted()) {
-    plot.write(swept_comparison_picture(scene, swept), run_words("compare", what_it_is, scene));
+    plot.write(swept_comparison_picture(scene, swept), run_words("compare", comparison_summary, scene));
   }
   const bool agree =
       std::all_of(swept.begin(), swept.end(), [](const SweptComparison& one) { return one.comparison.agrees(); });

@@ -1,7 +1,5 @@
 #include "validation/cli/comparison_picture.hpp"
 
-#include <limits>
-
 #include "validation/cli/swept_column.hpp"
 
 namespace clatter::validation {
@@ -9,7 +7,6 @@ namespace {
 
 using Style = FigureCurve::Style;
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr auto impulse = normal_impulse_quantity;
 
 /// What the impacts are drawn over.
@@ -21,7 +18,7 @@ struct XAxis {
 
 /// The numbers of one impact, NaN where there is none to show.
 std::vector<double> row_of(double x, const Comparison& comparison, const ComparedImpact& impact) {
-  std::vector<double> row{x, none, none, none, none, none, none};
+  std::vector<double> row{x, no_number, no_number, no_number, no_number, no_number, no_number};
   if (impact.discrete) row[1] = (*impact.discrete)[impulse];
   if (impact.continuous) row[2] = (*impact.continuous)[impulse];
   if (impact.has_landing()) row[3] = impact.limit->value[impulse];
@@ -58,7 +55,7 @@ std::vector<PicturePanel> panels(const XAxis& axis, const std::vector<std::vecto
                       .curves = {marks("discrete", "discrete"), marks("continuous", "continuous"),
                                  marks("limit", "limit on stiff ground")},
                       .x = axis.range,
-                      .y = {0, none},
+                      .y = {0, no_number},
                       .whole_x = axis.is_number};
   FigurePlot deviations{
       .title = "",

@@ -10,7 +10,7 @@
 namespace clatter::validation {
 namespace {
 
-const char* const what_it_is = "the map of what holds, to both ends of every quantity";
+const char* const extremes_summary = "the map of what holds, to both ends of every quantity";
 
 /// Numbers texts in the order in which they first come.
 class Legend {
@@ -182,7 +182,7 @@ std::vector<Column> extremes_columns() {
 }
 
 Report extremes_report(const ExtremesMap& map) {
-  Report report = begun_report("extremes", what_it_is);
+  Report report = begun_report("extremes", extremes_summary);
   report.head = head_of(map);
   report.grid.columns = extremes_columns();
   for (const ExtremeCell& cell : map.cells) report.grid.rows.push_back(cell_row(cell));

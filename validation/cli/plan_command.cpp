@@ -9,11 +9,10 @@
 #include "validation/cli/scene_flags.hpp"
 #include "validation/output/message.hpp"
 #include "validation/scene/bad_input.hpp"
+#include "validation/scene/failure.hpp"
 
 namespace clatter::validation {
 namespace {
-
-constexpr int not_computed = 3;
 
 struct PlanInput {
   SceneFlags scene;
@@ -50,7 +49,7 @@ int run_plan(const PlanInput& input) {
   const std::string shortfall = plan_shortfall(plan);
   if (shortfall.empty()) return 0;
   say(shortfall);
-  return not_computed;
+  return exit_status(FailureKind::not_computed);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 std::string error_words(double error) { return std::isfinite(error) ? significant(error, 2) : "too large to tell"; }
 
-std::string what_it_is(const Plan& plan) {
+std::string summary_of(const Plan& plan) {
   if (plan.target.most_accurate) {
     return fmt::format("the most accurate model within {} ms", shortest(*plan.target.within_ms));
   }
@@ -175,7 +175,7 @@ std::vector<Column> plan_columns() {
 }
 
 Report plan_report(const Scene& scene, const Plan& plan) {
-  Report report = begun_report("plan", what_it_is(plan));
+  Report report = begun_report("plan", summary_of(plan));
   report.head = scene_head(scene);
   report.grid.columns = plan_columns();
   for (const WeighedRung& rung : plan.rungs) report.grid.rows.push_back(rung_row(rung, plan));

@@ -23,7 +23,7 @@ using analytic::ImpactNumber;
 using analytic::RegimeBoundary;
 using analytic::RodParameters;
 
-const char* const what_it_is = "how many impacts, and where that changes";
+const char* const regimes_summary = "how many impacts, and where that changes";
 
 struct RegimesInput {
   std::optional<std::string> over, digits;
@@ -128,7 +128,7 @@ void add_boundary(const RegimeBoundary& b, int digits, Row& row) {
 }
 
 Report report_of(const std::vector<Regimes>& all, const Quantity& quantity, const RodParameters& rod, int digits) {
-  Report report = begun_report("regimes", what_it_is);
+  Report report = begun_report("regimes", regimes_summary);
   report.grid.columns = columns_of(quantity);
   report.notes = {"Three impacts below θ₃, two from θ₃ to θ₂, one above (β, γ ≤ 90°).",
                   "fold: the end grazes the ground; upright: it arrives at 90°; order: another contact comes first."};
@@ -167,7 +167,7 @@ std::string rod_words(const RegimesInput& input, const Quantity& quantity) {
 
 std::vector<std::string> script_head(const RegimesInput& input, const Quantity& quantity,
                                      const std::vector<double>& values) {
-  return {headline("regimes", what_it_is),
+  return {headline("regimes", regimes_summary),
           fmt::format("{}; {} from {} to {}, {} values", rod_words(input, quantity), quantity.heading,
                       shortest(values.front()), shortest(values.back()), values.size())};
 }

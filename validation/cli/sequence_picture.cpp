@@ -18,8 +18,6 @@ using analytic::PlanarVelocity;
 using analytic::Sequence;
 using Style = FigureCurve::Style;
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 /// Lowest point of each half of the body [m].
 struct EndHeights {
   double a = std::numeric_limits<double>::infinity();
@@ -142,11 +140,12 @@ PicturePanel height_panel(const Scene& scene, const Sequence& sequence) {
                               .curves = {{.x = "time", .y = "a", .legend = "end a", .where = {}},
                                          {.x = "time", .y = "b", .legend = "end b", .where = {}}},
                               .x = {},
-                              .y = {0, none}}};
+                              .y = {0, no_number}}};
   if (!sequence.tail) return panel;
   double highest = 0;
   for (const auto& row : panel.rows) highest = std::max({highest, row[1], row[2]});
-  for (const double height : {0.0, highest}) panel.rows.push_back({sequence.tail->end_time, none, none, height});
+  for (const double height : {0.0, highest})
+    panel.rows.push_back({sequence.tail->end_time, no_number, no_number, height});
   panel.plot.curves.push_back(
       {.x = "time", .y = "end", .legend = "the impacts end", .style = Style::thin_line, .where = {}});
   return panel;
@@ -173,16 +172,16 @@ PicturePanel impulse_panel(const Scene& scene, const Sequence& sequence) {
                               .y_label = "normal impulse [N·s]",
                               .curves = {},
                               .x = {},
-                              .y = {0, none}}};
+                              .y = {0, no_number}}};
   const PlanarBody body = nominal_body(scene);
   bool is_used[5] = {};
   for (const ImpactRow& row : sequence.rows) {
-    auto& numbers = panel.rows.emplace_back(std::vector<double>{row.start, none, none, none, none});
+    auto& numbers = panel.rows.emplace_back(std::vector<double>{row.start, no_number, no_number, no_number, no_number});
     numbers[side_of(body, row)] = row.impact.normal_impulse;
     is_used[side_of(body, row)] = true;
   }
   if (sequence.tail) {
-    panel.rows.push_back({sequence.tail->end_time, none, none, none, sequence.tail->normal_impulse});
+    panel.rows.push_back({sequence.tail->end_time, no_number, no_number, no_number, sequence.tail->normal_impulse});
     is_used[4] = true;
   }
   const char* const legends[] = {"", "at end a", "at end b", "at both ends", "all further impacts"};

@@ -20,6 +20,7 @@
 #include "validation/plan/shortfall.hpp"
 #include "validation/scene/bad_input.hpp"
 #include "validation/scene/body_properties.hpp"
+#include "validation/scene/failure.hpp"
 #include "validation/scene/scene_value.hpp"
 
 namespace clatter::validation {
@@ -34,7 +35,6 @@ struct SimulateInput {
   PlotTexts plot;
 };
 
-constexpr int not_computed = 3;
 constexpr long evaluations_before_progress = 200'000;
 
 PlannedRun run_scene(const Scene& scene, const numeric::Body& body, const CooperativeInterrupt& interrupt,
@@ -59,7 +59,7 @@ int status_of(const Scene& scene, const PlannedRun& planned) {
   const std::string why = shortfall(scene, planned);
   if (why.empty()) return 0;
   say(why);
-  return not_computed;
+  return exit_status(FailureKind::not_computed);
 }
 
 int status_of(const std::vector<SweptRun>& runs) {

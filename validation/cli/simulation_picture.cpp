@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "numeric/motion/free_flight.hpp"
 #include "validation/cli/swept_column.hpp"
@@ -13,8 +12,6 @@ namespace clatter::validation {
 namespace {
 
 using Style = FigureCurve::Style;
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// In the order of PictureHistory's rows.
 const std::vector<FigureColumn>& history_columns() {
@@ -76,7 +73,7 @@ Picture simulation_picture(const Scene& scene, const PictureHistory& history) {
                                            {over_time("translation", "translation"), over_time("rotation", "rotation"),
                                             over_time("potential", "potential"), over_time("ground", "ground"),
                                             over_time("total", "total")})}};
-  for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) picture.panels[i].plot.y = {0, none};
+  for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) picture.panels[i].plot.y = {0, no_number};
   picture.panels.back().plot.x_label = "time since the first touch-down [s]";
   return picture;
 }
@@ -91,7 +88,7 @@ Picture sweep_picture(const Scene& scene, const std::vector<SweptRun>& runs) {
   std::vector<std::vector<double>> rows;
   for (const SweptRun& swept : runs) {
     if (swept.planned.run.impacts.empty()) {
-      rows.push_back({swept.value, none, none, none, none});
+      rows.push_back({swept.value, no_number, no_number, no_number, no_number});
       continue;
     }
     const numeric::ImpactNumbers& first = swept.planned.run.impacts[0].value;

@@ -11,11 +11,10 @@
 #include "validation/output/interrupt.hpp"
 #include "validation/output/message.hpp"
 #include "validation/scene/bad_input.hpp"
+#include "validation/scene/failure.hpp"
 
 namespace clatter::validation {
 namespace {
-
-constexpr int not_computed = 3;
 
 struct TradeoffInput {
   SceneFlags scene;
@@ -49,7 +48,7 @@ int run_tradeoff(const TradeoffInput& input) {
   plot.write(tradeoff_picture(scene, tradeoff), run_words("tradeoff", "cost against true error", scene));
   if (tradeoff.shortfall.empty()) return 0;
   say(tradeoff.shortfall);
-  return not_computed;
+  return exit_status(FailureKind::not_computed);
 }
 
 }  // namespace

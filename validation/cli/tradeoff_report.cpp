@@ -13,7 +13,7 @@
 namespace clatter::validation {
 namespace {
 
-const char* const what_it_is = "cost against true error";
+const char* const tradeoff_summary = "cost against true error";
 
 std::string setting_words(const TradePoint& point) {
   if (point.tolerance > 0) return significant(point.tolerance, 1);
@@ -82,7 +82,7 @@ std::vector<Column> tradeoff_columns() {
 }
 
 Report tradeoff_report(const Scene& scene, const Tradeoff& tradeoff) {
-  Report report = begun_report("tradeoff", what_it_is);
+  Report report = begun_report("tradeoff", tradeoff_summary);
   report.head = scene_head(scene);
   report.grid.columns = tradeoff_columns();
   for (const TradePoint& point : tradeoff.points) report.grid.rows.push_back(point_row(point));

@@ -10,7 +10,7 @@
 namespace clatter::validation {
 namespace {
 
-const char* const what_it_is = "every claim, its oracle, tolerance and measured error";
+const char* const verify_summary = "every claim, its oracle, tolerance and measured error";
 
 std::string verdict_word(const CheckResult& result) {
   if (!result.done) return "not run";
@@ -116,7 +116,7 @@ std::string summary_words(const VerifySummary& summary) {
 }
 
 Report verify_report(const std::vector<CheckResult>& results, const std::string& selection) {
-  Report report = begun_report("verify", what_it_is);
+  Report report = begun_report("verify", verify_summary);
   const VerifySummary summary = summary_of(results);
   report.head = {selection};
   report.grid.columns = verify_columns();

@@ -3,12 +3,16 @@
 
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
 #include "validation/plan/ladder.hpp"
 
 namespace clatter::validation {
+
+inline constexpr double eps = std::numeric_limits<double>::epsilon();
+inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// What became of a cell.
 enum class CellVerdict {

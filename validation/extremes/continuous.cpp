@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "numeric/mesh/generators.hpp"
+#include "validation/extremes/cell.hpp"
 #include "validation/record/names.hpp"
 
 namespace clatter::validation {
@@ -16,7 +17,6 @@ using numeric::ImpactNumbers;
 using numeric::Outcome;
 using numeric::Simulation;
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double degree = 3.14159265358979323846 / 180;
 
 /// How the numbers of an impact scale with the units, and the size that each kind has there.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "analytic/sequence.hpp"
+#include "validation/extremes/cell.hpp"
 #include "validation/extremes/exact_rod.hpp"
 #include "validation/extremes/probes.hpp"
 #include "validation/extremes/retrace.hpp"
@@ -18,7 +19,6 @@ using analytic::Drop;
 using analytic::FrictionKind;
 using analytic::Sequence;
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
 /// Of contact_angles.hpp: (2 + 2κ) ulp, 12 times that with e < 1 or μ_i ≠ 0.
 constexpr double closed_form_ulps = 24;
 /// A law of motion has up to ten roundings on the way from the state to the row, on terms that its size counts once.

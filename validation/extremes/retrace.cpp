@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "validation/extremes/cell.hpp"
+
 namespace clatter::validation {
 namespace {
 
@@ -17,8 +19,6 @@ using analytic::ImpactRow;
 using analytic::RestitutionLaw;
 using analytic::Sequence;
 using Real = long double;
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// The largest residual so far.  A vanishing size belongs to a residual that vanishes too.
 class Worst {

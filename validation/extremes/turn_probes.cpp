@@ -5,6 +5,7 @@
 #include "analytic/sequence.hpp"
 #include "numeric/mesh/generators.hpp"
 #include "numeric/motion/free_flight.hpp"
+#include "validation/extremes/cell.hpp"
 #include "validation/extremes/probes.hpp"
 #include "validation/extremes/retrace.hpp"
 #include "validation/extremes/spin.hpp"
@@ -13,7 +14,6 @@
 namespace clatter::validation {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double turn = 2 * std::numbers::pi;
 /// A few eps for each radian (free_rotation.hpp).
 constexpr double ulps_per_radian = 8;

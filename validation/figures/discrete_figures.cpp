@@ -1,7 +1,6 @@
 // Figs. 7 and 9 to 12: the thin rod's first three impacts, with the continuous model of a very thin rod on a very
 // stiff ground as points.
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "analytic/contact_angles.hpp"
@@ -14,14 +13,13 @@ using analytic::Angle;
 using analytic::ContactAngles;
 using analytic::degrees_per_radian;
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double last_angle = 60;
 constexpr double line_step = 0.25, point_step = 5;
 
 /// Angles and impulses of the first three impacts; NaN where an impact does not happen.
 struct FirstImpacts {
-  double beta = none, gamma = none;
-  double impulse[3] = {none, none, none};
+  double beta = no_number, gamma = no_number;
+  double impulse[3] = {no_number, no_number, no_number};
 };
 
 FirstImpacts discrete(double theta_deg, double gravity_number) {
@@ -136,7 +134,7 @@ Figure discrete_figure(int number, const std::string& title, const Wanted& wante
                   .y_label = wanted.impulses > 0 ? "normal impulse [m |vₙ|]" : "contact angle [°]",
                   .curves = {},
                   .x = {0, last_angle},
-                  .y = {0, wanted.impulses > 0 ? none : 90}};
+                  .y = {0, wanted.impulses > 0 ? no_number : 90}};
   for (const double gravity_number : wanted.gravity_numbers) add_columns(figure, plot, wanted, gravity_number);
   for (const double theta : line_angles(wanted)) {
     const bool with_point = theta > 0 && std::fmod(theta, point_step) == 0;

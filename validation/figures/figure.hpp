@@ -12,6 +12,9 @@
 
 namespace clatter::validation {
 
+/// In place of a number that a row or a range does not have: nothing is drawn there.
+inline constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
 struct FigureColumn {
   std::string name;      ///< of the CSV
   std::string unit;      ///< "1" for none

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 #include "analytic/sequence.hpp"
 #include "validation/figures/figures.hpp"
@@ -13,8 +12,6 @@ namespace clatter::validation {
 namespace {
 
 using Style = FigureCurve::Style;
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// More digits than the cases ask for make shorter steps, so that the courses are drawn as smooth as they are.
 /// The elastic phone is kept in its plane: in space nothing after its second impact can be predicted.
@@ -80,7 +77,7 @@ Figure figure_phone_impacts(Laboratory& laboratory, bool damped) {
   const numeric::Simulation& run = laboratory.history(phone.name, phone.options).run;
   for (std::size_t i = 0; i < run.impacts.size(); ++i) {
     const numeric::ImpactNumbers& n = run.impacts[i].value;
-    const double interval = i == 0 ? none : n.start - run.impacts[i - 1].value.start;
+    const double interval = i == 0 ? no_number : n.start - run.impacts[i - 1].value.start;
     figure.rows.push_back(
         {static_cast<double>(i + 1), n.peak_force, n.start, interval, n.duration, run.impacts[i].amplification});
   }
@@ -90,13 +87,13 @@ Figure figure_phone_impacts(Laboratory& laboratory, bool damped) {
                    .y_label = "peak normal force [N]",
                    .curves = {{.x = "impact", .y = "peak_force", .legend = "", .style = Style::bars, .where = {}}},
                    .x = {0.4, last},
-                   .y = {0, none}},
+                   .y = {0, no_number}},
                   {.title = "",
                    .x_label = "impact",
                    .y_label = "elapsed time [s]",
                    .curves = {{.x = "impact", .y = "start", .legend = "", .style = Style::bars, .where = {}}},
                    .x = {0.4, last},
-                   .y = {0, none}}};
+                   .y = {0, no_number}}};
   return figure;
 }
 

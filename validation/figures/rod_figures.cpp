@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 #include "analytic/sequence.hpp"
 #include "validation/figures/figures.hpp"
@@ -15,11 +14,10 @@ namespace {
 
 using Style = FigureCurve::Style;
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 /// What Figs. 14 and 15 show of a first impact.
 struct FirstImpact {
-  double normal_velocity = none, tangential_velocity = none, angular_velocity = none, impulse = none, loss = none;
+  double normal_velocity = no_number, tangential_velocity = no_number, angular_velocity = no_number,
+         impulse = no_number, loss = no_number;
 };
 
 FirstImpact of(const analytic::Drop& drop) {

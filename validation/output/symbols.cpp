@@ -9,7 +9,7 @@ namespace clatter::validation {
 namespace {
 
 /// Characters, and after each what stands for it: separated by blanks, or a text for each.
-constexpr const char* latex =
+constexpr const char* latex_words =
     R"(\ \textbackslash{} % \% # \# _ \_ & \& ° $^\circ$ Ω $\Omega$ β $\beta$ γ $\gamma$ θ $\theta$ μ $\mu$ Σ
 $\Sigma$ · $\cdot$ … \dots{} ∞ $\infty$ ± $\pm$ − $-$ ₁ $_1$ ₂ $_2$ ₃ $_3$ ² $^2$ ₙ $_n$ ₜ $_t$ ≤ $\le$ ₖ
 $_k$ ₛ $_s$ ³ $^3$ ⁴ $^4$ → $\to$ ≈ $\approx$ – -- π $\pi$ ω $\omega$ α $\alpha$ √ $\surd$ × $\times$ ✓
@@ -48,7 +48,7 @@ std::string replaced(std::string_view text, std::span<const std::string_view> ta
 }  // namespace
 
 std::string to_latex(const std::string& text) {
-  static const std::vector<std::string_view> table = words_of(latex);
+  static const std::vector<std::string_view> table = words_of(latex_words);
   return replaced(text, table);
 }
 std::string to_ascii(const std::string& text) { return replaced(text, ascii); }

@@ -21,9 +21,7 @@ using analytic::ContactAngles;
 using analytic::degrees_per_radian;
 using numeric::Vector3;
 
-std::string number(double value, int digits = 6) { return significant(value, digits); }
-
-ContactAngles elastic(double degrees) { return contact_angles(Angle::from_degrees(degrees), {}); }
+ContactAngles elastic_angles(double degrees) { return contact_angles(Angle::from_degrees(degrees), {}); }
 
 /// Fourth line of Eq. 8, V_n − Ω d_t = −e v_n, for θ = 30°, v_n = −1, μ_i = 0.2, end a.
 Measured sign_of_omega(Laboratory&) {
@@ -33,7 +31,7 @@ Measured sign_of_omega(Laboratory&) {
   const double printed = 12 * (c - mu * s) / denominator * v;
   const auto residual = [&](double omega) { return normal - omega * (-c / 2) + v; };
   return {residual(printed), std::fabs(residual(-printed)), Answer::holds,
-          fmt::format("residual of Eq. 8 with Ω as printed; with the minus {}", number(residual(-printed), 1))};
+          fmt::format("residual of Eq. 8 with Ω as printed; with the minus {}", significant(residual(-printed), 1))};
 }
 
 /// β at θ = 20°, v_n = −1, g = 9.81 by following the free end's height in small steps, in long double.
@@ -62,14 +60,14 @@ Measured gravity_term(Laboratory&) {
     return contact_angle_as_printed(theta, signed_g).angle * degrees_per_radian;
   };
   return {beta, std::fabs(beta - marched) / marched, Answer::holds,
-          fmt::format("β at 20°, v_n = −1, g = 9.81; printed {}° (g > 0) or {}° (g < 0)", number(printed(g), 4),
-                      number(printed(-g), 3))};
+          fmt::format("β at 20°, v_n = −1, g = 9.81; printed {}° (g > 0) or {}° (g < 0)", significant(printed(g), 4),
+                      significant(printed(-g), 3))};
 }
 
 /// V_b after impact 2 for v_n = −2: the end leaves as fast as it came.
 Measured factor_v(Laboratory&) {
   const double v = -2;
-  const ContactAngles at = elastic(20);
+  const ContactAngles at = elastic_angles(20);
   const double c = std::cos(at.beta.angle), speed = std::fabs(v);
   const double came = speed * (at.velocity[0] - at.angular[0] * c / 2);
   const double right = speed * at.velocity[1] - speed * at.angular[1] * c / 2;
@@ -80,14 +78,14 @@ Measured factor_v(Laboratory&) {
 
 Measured relative_velocity(Laboratory&) {
   const double v = -1;
-  const ContactAngles at = elastic(20);
+  const ContactAngles at = elastic_angles(20);
   const double c = std::cos(Angle::from_degrees(20).radians), d = 1 + 3 * c * c;
   const double printed = (1 - 3 * c * c) / d * v - std::cos(at.beta.angle) * 6 * c / d * v;
   const double actual = at.velocity[0] - at.angular[0] * std::cos(at.beta.angle) / 2;
   const ContactAngles heavy = contact_angles(Angle::from_degrees(20), {.gravity_number = 1});
   return {printed / actual, std::fabs(printed / actual + 1), Answer::holds,
           fmt::format("v_rn over the normal velocity of the contact point; with G = 1 also − gT = {}",
-                      number(-heavy.beta.time, 3))};
+                      significant(-heavy.beta.time, 3))};
 }
 
 Measured second_fold(Laboratory&) {
@@ -95,7 +93,7 @@ Measured second_fold(Laboratory&) {
   const double exact = second_impact_fold_beta();
   return {fold.beta * degrees_per_radian, std::fabs(fold.beta - exact) / exact, Answer::holds,
           fmt::format("β at the end of the second impact, θ = {}°; printed 90° at 58°",
-                      number(fold.theta * degrees_per_radian, 14))};
+                      significant(fold.theta * degrees_per_radian, 14))};
 }
 
 Measured third_fold(Laboratory&) {
@@ -103,15 +101,15 @@ Measured third_fold(Laboratory&) {
   constexpr double theta = 27.577809606636;  // from an independent computation in 60 digits
   return {fold.theta * degrees_per_radian, std::fabs(fold.theta * degrees_per_radian / theta - 1), Answer::holds,
           fmt::format("θ at the end of the third impact, β = {}°, γ = {}°; printed around 27°",
-                      number(fold.beta * degrees_per_radian, 9), number(fold.gamma * degrees_per_radian, 9))};
+                      significant(fold.beta * degrees_per_radian, 9), significant(fold.gamma * degrees_per_radian, 9))};
 }
 
 Measured centre_after_first(Laboratory&) {
-  const double at_45 = elastic(45).velocity[0];
+  const double at_45 = elastic_angles(45).velocity[0];
   return {at_45, std::fabs(at_45 + 0.2), Answer::holds,
           fmt::format("V₁ at 45°, downward; {} at 54.7356°, {} at 58°",
-                      number(elastic(std::acos(1 / std::sqrt(3.0)) * degrees_per_radian).velocity[0], 1),
-                      number(elastic(58).velocity[0], 3))};
+                      significant(elastic_angles(std::acos(1 / std::sqrt(3.0)) * degrees_per_radian).velocity[0], 1),
+                      significant(elastic_angles(58).velocity[0], 3))};
 }
 
 /// A body in a general state under a general load.
@@ -135,7 +133,7 @@ Measured singular_mass_matrix(Laboratory&) {
   const Vector3 moment = general.state.attitude.conjugate() * general.wrench.moment;
   const Vector3 exact = general.body.inertia.inverse() * (moment - omega.cross(general.body.inertia * omega));
   return {values[0] / values[6], (solved.angular - exact).norm() / exact.norm(), Answer::holds,
-          fmt::format("smallest over largest eigenvalue of M; the next is {}", number(values[1] / values[6], 2))};
+          fmt::format("smallest over largest eigenvalue of M; the next is {}", significant(values[1] / values[6], 2))};
 }
 
 /// ½ q̇ᵀ M q̇ with both rows of the block column, and with the printed one alone.
@@ -181,7 +179,7 @@ Measured two_versions_of_figure_17(Laboratory& laboratory) {
       fmt::format(
           "m/s at the first touch from 2 m, text 1; the third impact is apart, as described, only in the caption's: "
           "its interval is {} times the first (text: {})",
-          number(gaps(caption), 3), number(gaps(text), 2))};
+          significant(gaps(caption), 3), significant(gaps(text), 2))};
 }
 
 }  // namespace
