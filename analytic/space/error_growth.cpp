@@ -1,7 +1,8 @@
 #include "analytic/space/error_growth.hpp"
 
+#include <gsl/gsl_linalg.h>
+
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -73,14 +74,17 @@ ErrorGrowth::ErrorGrowth(const Body& body, const State& start, double gravity)
 
 void ErrorGrowth::add(const Deviations& d) { append(Jacobian(d.asDiagonal())); }
 
+/// F Fᵀ = Rᵀ R with Fᵀ = Q R: F's columns are the rows of Fᵀ, as GSL stores them.
 void ErrorGrowth::append(const Factor& columns) {
   Factor wider(size, factor_.cols() + columns.cols());
   wider << factor_, columns;
-  if (wider.cols() > 2 * size) {  // F Fᵀ = Rᵀ R with Fᵀ = Q R
-    const Eigen::MatrixXd rows = wider.transpose();
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows);
-    const Eigen::MatrixXd upper = qr.matrixQR().topRows(size).triangularView<Eigen::Upper>();
-    wider = upper.transpose();
+  if (wider.cols() > 2 * size) {
+    double scales[size];
+    gsl_matrix_view rows = gsl_matrix_view_array(wider.data(), static_cast<std::size_t>(wider.cols()), size);
+    gsl_vector_view tau = gsl_vector_view_array(scales, size);
+    gsl_linalg_QR_decomp(&rows.matrix, &tau.vector);
+    wider.conservativeResize(Eigen::NoChange, size);
+    for (int i = 0; i < size; ++i) wider.col(i).head(i).setZero();
   }
   factor_ = wider;
 }
@@ -103,12 +107,12 @@ ErrorGrowth::Factor ErrorGrowth::impulse_rounding(const ImpactRow& row) const {
 }
 
 void ErrorGrowth::advance(const Jacobian& jacobian) {
-  factor_ = (jacobian * factor_).eval();
-  of_drop_ = (jacobian * of_drop_).eval();
+  factor_ = jacobian.lazyProduct(factor_).eval();
+  of_drop_ = jacobian.lazyProduct(of_drop_).eval();
 }
 
 double ErrorGrowth::bound(const Eigen::MatrixXd& gradient) const {
-  const double value = deviations * (gradient * factor_).norm();
+  const double value = deviations * gradient.lazyProduct(factor_).norm();
   return std::isfinite(value) ? value : infinite;
 }
 
@@ -154,7 +158,8 @@ void ErrorGrowth::fill(const Eigen::MatrixXd& derivatives, ImpactRow& row) const
   const Vector3 momentum_after = inertia * row.impact.angular_velocity_after;
   energy_after.block<1, 3>(0, 1) = energy.block<1, 3>(0, 1) - momentum.cross(w).transpose() +
                                    momentum_after.cross(row.impact.angular_velocity_after).transpose();
-  energy_after += body_.mass * row.impact.velocity_after.transpose() * velocity + momentum_after.transpose() * turning;
+  energy_after += body_.mass * row.impact.velocity_after.transpose().lazyProduct(velocity) +
+                  momentum_after.transpose().lazyProduct(turning);
   const Factor rounding = impulse_rounding(row);
   const double in_velocity = deviations * rounding.middleRows(4, 3).norm();
   const double in_turning = deviations * rounding.bottomRows(3).norm();
@@ -195,7 +200,8 @@ void ErrorGrowth::strike(const Strike& strike, ImpactRow& row) {
   }
   fill(derivatives, row);
   const double of_time = row.start > 0 ? of_drop_.row(0).norm() / row.start : 0;
-  const double of_impulse = (derivatives.topRows(3) * of_drop_.bottomRows(9)).norm() / row.impact.impulse.norm();
+  const double of_impulse =
+      derivatives.topRows(3).lazyProduct(of_drop_.bottomRows(9)).norm() / row.impact.impulse.norm();
   row.amplification = std::fmax(std::fmax(of_time, of_impulse), of_drop_.middleRows(1, 3).norm());
 
   Jacobian jacobian = Jacobian::Identity();

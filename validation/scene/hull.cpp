@@ -1,6 +1,6 @@
 #include "validation/scene/hull.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/QR>
 #include <algorithm>
 #include <limits>
 
@@ -23,12 +23,12 @@ struct Nearest {
 void take_if_nearer(const std::vector<Vector3>& corners, Nearest& best) {
   constexpr double rounding = 1e-12;
   const auto count = static_cast<Eigen::Index>(corners.size());
-  Eigen::Matrix<double, 3, Eigen::Dynamic> edges(3, count - 1);
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> edges(3, count - 1);
   for (Eigen::Index i = 1; i < count; ++i) edges.col(i - 1) = corners[static_cast<std::size_t>(i)] - corners[0];
-  Eigen::VectorXd weights(count - 1);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> weights(count - 1);
   if (count > 1) weights = edges.colPivHouseholderQr().solve(-corners[0]);
   const bool among = (weights.array() >= -rounding).all() && weights.sum() <= 1 + rounding;
-  const Vector3 point = corners[0] + edges * weights;
+  const Vector3 point = corners[0] + edges.lazyProduct(weights);
   if (among && point.norm() < best.distance) best = {corners, point, point.norm()};
 }
 
