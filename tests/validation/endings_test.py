@@ -26,11 +26,11 @@ class Devices(Folder):
     COMMANDS = (["sequence", "--angle", "10"], ["angles", "--format", "csv"], ["explain", "2", "--angle", "10"],
                 ["sweep", os.path.join(CASES, "rod-at-1ms.toml"), "--model", "discrete"])
 
-    def test_devices_are_written_through(self):
+    def test_devices_and_standard_output_by_its_dash_are_written_through(self):
         for command in self.COMMANDS:
             expected = self.run_program(*command).stdout
             before = self.contents()
-            for device in ("/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"):
+            for device in ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"):
                 done = self.run_program(*command, "--output", device)
                 self.assertEqual((done.returncode, done.stderr, done.stdout), (0, "", expected), (command, device))
             done = self.run_program(*command, "--output", "/dev/null")

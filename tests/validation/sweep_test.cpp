@@ -123,6 +123,31 @@ BOOST_AUTO_TEST_CASE(a_grid_has_clean_decimals_and_both_its_ends) {
   BOOST_TEST(read_grid_axis("k", "0.12345678901234568:1:0.5", false).at(0) == 0.12345678901234568);
 }
 
+BOOST_AUTO_TEST_CASE(a_logarithmic_grid_has_clean_decades_and_both_its_ends) {
+  const SweepAxis decades = read_grid_axis("k", "1e-3:1e4:log:8", false);
+  BOOST_TEST(decades.count == 8);
+  for (int i = 0; i < 8; ++i) BOOST_TEST(decades.at(i) == std::stod("1e" + std::to_string(i - 3)));
+  const SweepAxis down = read_grid_axis("k", "-300:-7:log:5", false);
+  BOOST_TEST(down.at(0) == -300);
+  BOOST_TEST(down.at(4) == -7);
+  for (int i = 1; i < 4; ++i) {
+    BOOST_TEST(down.at(i) / down.at(i - 1) == down.at(i + 1) / down.at(i), boost::test_tools::tolerance(1e-13));
+  }
+  const SweepAxis extreme = read_grid_axis("k", "1e-200:1e-190:log:2", false);
+  BOOST_TEST(extreme.at(0) == 1e-200);
+  BOOST_TEST(extreme.at(1) == 1e-190);
+}
+
+BOOST_AUTO_TEST_CASE(a_list_is_taken_value_by_value) {
+  const SweepAxis list = read_grid_axis("k", "20,10,45.5", false);
+  BOOST_TEST(list.count == 3);
+  BOOST_TEST(list.at(0) == 20);
+  BOOST_TEST(list.at(1) == 10);
+  BOOST_TEST(list.at(2) == 45.5);
+  BOOST_TEST(list.first == 10);  // the ends are what the scene is checked at
+  BOOST_TEST(list.last == 45.5);
+}
+
 BOOST_AUTO_TEST_CASE(the_last_axis_of_a_grid_varies_fastest) {
   const SweepPoints points({read_grid_axis("a", "1:3:1", false), read_grid_axis("b", "10:40:10", false)});
   BOOST_TEST(points.count() == 12);
@@ -148,6 +173,15 @@ BOOST_AUTO_TEST_CASE(axes_that_make_no_sense_are_refused_by_name) {
   refused("1::1", "TO");
   refused("1:2:", "STEP");
   refused("0:1:1e-10", "more than 1000000000 scenes");
+  refused("1,,2", "each value of a list");
+  refused("1,2:3", "each value of a list");
+  refused("1,2.5", "whole number", true);
+  refused("0:1:log:3", "one sign");
+  refused("-1:1:log:3", "one sign");
+  refused("1:2:log:1", "COUNT");
+  refused("1:2:log:2.5", "COUNT");
+  refused("1:2:log:2e9", "more than 1000000000 scenes");
+  refused("1:8:log:4", "whole", true);
   refused("-1e308:1e308:1", "more than");
   refused("1:2:0.5", "whole", true);
   const auto refused_range = [](const char* text, const char* why, bool whole = false) {

@@ -244,7 +244,7 @@ Command sweep_command() {
   add_scene_argument(command, request.file, true);
   command.add({.name = "--set",
                .target = &request.sets,
-               .type = "KEY=VALUE|FROM:TO:STEP",
+               .type = "KEY=VALUE|A,B,...|FROM:TO:STEP|FROM:TO:log:COUNT",
                .help = "values of a key of the scene file; may be repeated, the last varies fastest",
                .repeats = true});
   command.add_text("--random", request.random, "N", "N scenes with random values, --set KEY=LOW:HIGH or LOW:HIGH:log");

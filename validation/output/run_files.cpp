@@ -84,6 +84,7 @@ void refuse_same(const RunFile& file, const RunFile& other) {
 }  // namespace
 
 Destination destination_of(const RunFile& file) {
+  if (file.path == "-") return {.path = file.path, .is_stream = true, .open_file = STDOUT_FILENO};
   struct stat status {};
   const bool is_there = stat(file.path.c_str(), &status) == 0;
   if (!is_there && errno != ENOENT) refuse(file, fmt::format("cannot be created ({})", std::strerror(errno)));

@@ -19,7 +19,7 @@ struct RunFile {
 struct Destination {
   std::string path;                 ///< a file to replace or to make; of a stream the path as given
   bool is_stream = false;           ///< device, FIFO or open file: written in place, from one end to the other
-  int open_file = -1;               ///< the descriptor that /dev/stdout, /dev/fd/N or /proc/self/fd/N means
+  int open_file = -1;               ///< the descriptor that -, /dev/stdout, /dev/fd/N or /proc/self/fd/N means
   std::optional<mode_t> mode = {};  ///< permissions of a file that is there
 };
 

@@ -16,7 +16,7 @@ class ReaderGone : public std::runtime_error {
   ReaderGone() : std::runtime_error("nobody reads the output any more") {}
 };
 
-/// Stdout; or a device, FIFO or open file (/dev/stdout, /dev/fd/N), which is written in place; or a new file in the
+/// Stdout; or a device, FIFO or open file (-, /dev/stdout, /dev/fd/N), which is written in place; or a new file in the
 /// folder of the one that it replaces in commit(), at the end of all symbolic links.  Not committed (an error or a
 /// signal on the way), the new file is removed and what was there before stays.
 class Sink {

@@ -14,12 +14,13 @@ namespace {
 
 constexpr double largest_whole = 0x1p53;
 
-/// The texts between the colons of one --set.
+/// The texts between the separators of one --set.
 class AxisText {
  public:
-  AxisText(const std::string& key, const std::string& text, bool whole) : key_(key), text_(text), whole_(whole) {
+  AxisText(const std::string& key, const std::string& text, bool whole, char separator = ':')
+      : key_(key), text_(text), whole_(whole) {
     for (std::size_t begin = 0; begin <= text.size();) {
-      const std::size_t end = std::min(text.find(':', begin), text.size());
+      const std::size_t end = std::min(text.find(separator, begin), text.size());
       parts_.push_back(text.substr(begin, end - begin));
       begin = end + 1;
     }
@@ -47,12 +48,46 @@ class AxisText {
 
 std::string too_many() { return fmt::format("more than {} scenes", most_scenes); }
 
+SweepAxis read_listed_axis(const std::string& key, const std::string& text, bool whole) {
+  const AxisText given(key, text, whole, ',');
+  SweepAxis axis{.key = key, .count = static_cast<long long>(given.parts().size()), .whole = whole};
+  for (std::size_t i = 0; i < given.parts().size(); ++i) axis.listed.push_back(given.number(i, "each value of a list"));
+  const auto [least, most] = std::minmax_element(axis.listed.begin(), axis.listed.end());
+  axis.first = *least;
+  axis.last = *most;
+  return axis;
+}
+
+SweepAxis read_ratio_axis(const AxisText& given, const std::string& key, bool whole) {
+  SweepAxis axis{.key = key, .first = given.number(0, "FROM"), .last = given.number(1, "TO"), .logarithmic = true};
+  if (whole) given.refuse("a key of whole numbers has no logarithmic grid");
+  if (axis.first == 0 || axis.last == 0 || (axis.first > 0) != (axis.last > 0)) {
+    given.refuse("FROM and TO of a logarithmic grid must have one sign, and not be 0");
+  }
+  const double count = given.number(3, "COUNT");
+  if (!(count >= 2) || count != std::floor(count)) given.refuse("COUNT must be a whole number from 2 on");
+  if (!(count <= static_cast<double>(most_scenes))) given.refuse(too_many());
+  axis.count = static_cast<long long>(count);
+  return axis;
+}
+
 }  // namespace
 
 double SweepAxis::at(long long i) const {
+  if (!listed.empty()) return listed[static_cast<std::size_t>(i)];
   if (i == 0) return first;
+  if (logarithmic) return at_ratio(i);
   const double value = clean_step(first, step, i);
   return step > 0 ? std::fmin(value, last) : std::fmax(value, last);
+}
+
+/// With equal ratios, rounded like a step.
+double SweepAxis::at_ratio(long long i) const {
+  if (i == count - 1) return last;
+  const double part = static_cast<double>(i) / static_cast<double>(count - 1);
+  const double value =
+      std::copysign(std::exp(std::log(std::fabs(first)) * (1 - part) + std::log(std::fabs(last)) * part), first);
+  return clean_step(value, 0, 0);
 }
 
 double SweepAxis::drawn(double part) const {
@@ -62,8 +97,11 @@ double SweepAxis::drawn(double part) const {
 }
 
 SweepAxis read_grid_axis(const std::string& key, const std::string& text, bool whole) {
+  if (text.find(',') != std::string::npos) return read_listed_axis(key, text, whole);
   const AxisText given(key, text, whole);
-  if (given.parts().size() != 3) given.refuse("must be VALUE or FROM:TO:STEP");
+  const std::size_t parts = given.parts().size();
+  if (parts == 4 && given.parts()[2] == "log") return read_ratio_axis(given, key, whole);
+  if (parts != 3) given.refuse("must be VALUE, A,B,..., FROM:TO:STEP or FROM:TO:log:COUNT");
   SweepAxis axis{
       .key = key, .first = given.number(0, "FROM"), .last = 0, .step = given.number(2, "STEP"), .whole = whole};
   const double to = given.number(1, "TO");

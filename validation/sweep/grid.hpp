@@ -13,19 +13,24 @@ inline constexpr long long most_scenes = 1'000'000'000;
 /// The values that one key takes.
 struct SweepAxis {
   std::string key;
-  double first = 0, last = 0;  ///< of the grid, both taken; or the ends of the range
-  double step = 0;             ///< of the grid; 0: a range
-  long long count = 1;         ///< of the grid's values
-  bool logarithmic = false;    ///< a range whose logarithm is uniform
-  bool whole = false;          ///< only whole numbers
+  double first = 0, last = 0;    ///< of the grid, both taken; or the ends of the range
+  double step = 0;               ///< of a grid with equal steps
+  long long count = 1;           ///< of the grid's values
+  bool logarithmic = false;      ///< a grid with equal ratios, or a range whose logarithm is uniform
+  bool whole = false;            ///< only whole numbers
+  std::vector<double> listed{};  ///< the values themselves, where they were listed
 
   /// Value i of the grid, i from 0; rounded to 15 digits, so that steps that are decimal fractions give clean decimals.
   [[nodiscard]] double at(long long i) const;
   /// The value at `part` of the range, part in [0, 1).
   [[nodiscard]] double drawn(double part) const;
+
+ private:
+  [[nodiscard]] double at_ratio(long long i) const;
 };
 
-/// FROM:TO:STEP, the values from FROM by STEP as far as TO.  STEP has the sign of TO − FROM.
+/// FROM:TO:STEP, the values from FROM by STEP as far as TO, STEP with the sign of TO − FROM; FROM:TO:log:COUNT, values
+/// with equal ratios, both ends taken; or A,B,...: these.
 /// @throws BadInput naming the key, what was given and what is allowed.
 [[nodiscard]] SweepAxis read_grid_axis(const std::string& key, const std::string& text, bool whole);
 /// LOW:HIGH or LOW:HIGH:log.  @throws BadInput likewise.

@@ -69,7 +69,7 @@ bool is_list(const std::string& name) {
 Setting read_setting(const std::string& given, bool random) {
   const std::size_t equal = given.find('=');
   if (equal == std::string::npos)
-    throw BadInput(fmt::format("--set '{}': must be KEY=VALUE or KEY=FROM:TO:STEP", given));
+    throw BadInput(fmt::format("--set '{}': must be KEY=VALUE, KEY=A,B,... or KEY=FROM:TO:STEP", given));
   Setting setting{.key = given.substr(0, equal), .text = given.substr(equal + 1), .axis = {}};
   const std::vector<std::string> keys = settable_keys();
   if (std::find(keys.begin(), keys.end(), setting.key) == keys.end()) {
@@ -81,7 +81,7 @@ Setting read_setting(const std::string& given, bool random) {
   if (setting.text.find(':') != std::string::npos && is_list(setting.key)) {
     throw BadInput(fmt::format("--set {}={}: a list cannot be swept; give one value", setting.key, setting.text));
   }
-  if (setting.number == nullptr || setting.text.find(':') == std::string::npos) return setting;
+  if (setting.number == nullptr || setting.text.find_first_of(":,") == std::string::npos) return setting;
   setting.axis = random ? read_random_axis(setting.key, setting.text, setting.number->is_whole())
                         : read_grid_axis(setting.key, setting.text, setting.number->is_whole());
   return setting;
