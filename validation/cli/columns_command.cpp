@@ -2,12 +2,14 @@
 #include <memory>
 
 #include "validation/cli/angles_report.hpp"
+#include "validation/cli/benchmark_report.hpp"
 #include "validation/cli/commands.hpp"
 #include "validation/cli/comparison_report.hpp"
 #include "validation/cli/extremes_report.hpp"
 #include "validation/cli/history_file.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/plan_report.hpp"
+#include "validation/cli/score_report.hpp"
 #include "validation/cli/sequence_report.hpp"
 #include "validation/cli/simulation_report.hpp"
 #include "validation/cli/tradeoff_report.hpp"
@@ -44,12 +46,21 @@ std::vector<Column> sequence_all() { return sequence_columns(); }
 std::vector<Column> sweep_all() { return sweep_columns(sweep_of(Model::continuous)); }
 
 const std::vector<ColumnsOf>& all_columns() {
-  static const std::vector<ColumnsOf> all{{"sequence", sequence_all},       {"angles", angles_all},
-                                          {"regimes", regimes_columns},     {"explain", explain_columns},
-                                          {"simulate", simulation_columns}, {"history", history_columns},
-                                          {"compare", comparison_columns},  {"sweep", sweep_all},
-                                          {"verify", verify_columns},       {"plan", plan_columns},
-                                          {"tradeoff", tradeoff_columns},   {"extremes", extremes_columns}};
+  static const std::vector<ColumnsOf> all{{"sequence", sequence_all},
+                                          {"angles", angles_all},
+                                          {"regimes", regimes_columns},
+                                          {"explain", explain_columns},
+                                          {"simulate", simulation_columns},
+                                          {"history", history_columns},
+                                          {"compare", comparison_columns},
+                                          {"sweep", sweep_all},
+                                          {"verify", verify_columns},
+                                          {"plan", plan_columns},
+                                          {"tradeoff", tradeoff_columns},
+                                          {"extremes", extremes_columns},
+                                          {"benchmark-list", benchmark_list_columns},
+                                          {"benchmark-truth", benchmark_truth_columns},
+                                          {"benchmark-score", score_columns}};
   return all;
 }
 

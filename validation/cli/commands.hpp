@@ -20,6 +20,7 @@ namespace clatter::validation {
 [[nodiscard]] Command plan_command();
 [[nodiscard]] Command tradeoff_command();
 [[nodiscard]] Command extremes_command();
+[[nodiscard]] Command benchmark_command();
 [[nodiscard]] Command demo_command();
 [[nodiscard]] Command keys_command();
 [[nodiscard]] Command columns_command();

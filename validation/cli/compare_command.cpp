@@ -9,13 +9,16 @@
 #include "validation/cli/plot_options.hpp"
 #include "validation/cli/progress.hpp"
 #include "validation/cli/scene_flags.hpp"
+#include "validation/cli/score_report.hpp"
 #include "validation/cli/swept_comparison_report.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/message.hpp"
 #include "validation/output/number.hpp"
 #include "validation/plan/shortfall.hpp"
 #include "validation/scene/bad_input.hpp"
+#include "validation/scene/body_properties.hpp"
 #include "validation/scene/failure.hpp"
+#include "validation/scene/scene_value.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -25,9 +28,38 @@ const char* const comparison_summary = "discrete and continuous model, impact by
 
 struct CompareInput {
   SceneFlags scene;
+  std::vector<std::string> against;
+  std::optional<std::string> columns, require;
   OutputTexts output;
   PlotTexts plot;
 };
+
+/// Foreign runs of the scene against the discrete model.
+int compare_foreign(const CompareInput& input) {
+  SceneFlags flags = input.scene;
+  flags.model = Model::discrete;
+  const Scene scene = read_scene_flags(flags);
+  const OutputChoice choice = read_output(input.output);
+  if (scene.sweep) throw BadInput(fmt::format("{}: --against takes a scene that sweeps nothing", scene.path));
+  if (input.plot.plot) throw BadInput("--plot: not with --against");
+  const Requirement requirement = read_requirement(input.require);
+  const ColumnNames names = input.columns ? read_column_names("--columns", *input.columns) : ColumnNames{};
+  std::vector<RunFile> read = files_of(scene);
+  for (const std::string& file : input.against) read.push_back({"a file to score", file});
+  check_files(choice, {}, read);
+  const Reference reference = reference_of(scene);
+  std::vector<Submission> submissions;
+  bool is_met = true;
+  for (const std::string& file : input.against) {
+    submissions.push_back(judge_file(file, reference, names));
+    is_met = is_met && requirement.is_met(submissions.back());
+  }
+  Report report = score_report("compare", submissions);
+  report.head = scene_head(scene, Model::discrete);
+  report.fields["scene"] = scene_value(scene, Model::discrete);
+  write_report(choice, report);
+  return is_met ? 0 : check_failed;
+}
 
 int compare_one(const Scene& scene, const OutputChoice& choice, PlotFile& plot) {
   const Comparison comparison = compare_models(scene, scene.make_body());
@@ -79,6 +111,9 @@ int compare_swept(const Scene& scene, const OutputChoice& choice, PlotFile& plot
 }
 
 int run_compare(const CompareInput& input) {
+  if (!input.against.empty()) return compare_foreign(input);
+  if (input.columns) throw BadInput("--columns: only with --against");
+  if (input.require) throw BadInput("--require: only with --against");
   const Scene scene = read_scene_flags(input.scene);
   const OutputChoice choice = read_output(input.output);
   if (is_given(input.scene, "--history")) throw BadInput("--history: compare writes none; clatter simulate does");
@@ -93,10 +128,15 @@ Command compare_command() {
   auto input = std::make_shared<CompareInput>();
   Command command{.name = "compare", .help = "both models side by side, and why they differ"};
   add_scene_flags(command, input->scene);
+  command.add_list("--against", input->against, "FILE",
+                   "score these runs of another program, as clatter benchmark does");
+  command.add_text("--columns", input->columns, "NAME=COLUMN,...", "what the files of --against call their columns");
+  command.add_text("--require", input->require, "CLASS", "of --against: exact|sharp|good|coarse, or a largest error");
   add_output_options(command, input->output);
   add_plot_options(command, input->plot);
   command.footer =
       "Example: clatter compare validation/cases/phone-damped.toml --impacts 2\n"
+      "With --against FILE a foreign run is judged by the discrete model: its impacts, V, Ω, t, energy.\n"
       "Exit status 1 if the stiff limit of the continuous model misses the discrete value,\n"
       "3 if a limit or a number that could not be computed left fewer impacts than asked for,\n"
       "4 if nothing can be compared.";

@@ -14,76 +14,12 @@
 
 #include "validation/output/number.hpp"
 #include "validation/scene/bad_input.hpp"
+#include "validation/tables/csv_line.hpp"
 
 namespace clatter::validation {
 namespace {
 
-constexpr std::string_view blanks = " \t\r";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-/// A field as an error shows it: on one line, printable, short.
-std::string shown(std::string_view field) {
-  constexpr std::size_t longest = 40;
-  std::string text(field.substr(0, longest));
-  for (char& c : text) {
-    if (c < ' ' || c > '~') c = '?';
-  }
-  return text.empty() ? "(empty)" : text + (field.size() > longest ? "..." : "");
-}
-
-/// A field of a line: where it is and what it says, without quotes.
-struct Field {
-  std::size_t column = 1;  ///< of its first byte, from 1
-  std::string_view text;
-  bool closed = true;
-};
-
-/// Cuts a line into fields.  A quoted field that holds quotes is put together in `unquoted`.
-class Fields {
- public:
-  Fields(std::string_view line, char separator) : line_(line), separator_(separator) {}
-
-  bool next(Field& field) {
-    if (at_ > line_.size()) return false;
-    const std::size_t start = std::min(line_.find_first_not_of(" ", at_), line_.size());
-    if (start < line_.size() && line_[start] == '"') return quoted(start, field);
-    const std::size_t end = std::min(line_.find(separator_, at_), line_.size());
-    field = {at_ + 1, trimmed(line_.substr(at_, end - at_)), true};
-    at_ = end + 1;
-    return true;
-  }
-
- private:
-  bool quoted(std::size_t start, Field& field) {
-    unquoted_.clear();
-    std::size_t i = start + 1;
-    for (; i < line_.size(); ++i) {
-      if (line_[i] == '"' && !(i + 1 < line_.size() && line_[i + 1] == '"')) break;
-      if (line_[i] == '"') ++i;
-      unquoted_ += line_[i];
-    }
-    const std::size_t end = std::min(line_.find(separator_, i), line_.size());
-    const bool closed = i < line_.size() && trimmed(line_.substr(i + 1, end - i - 1)).empty();
-    field = {start + 1, trimmed(unquoted_), closed};
-    at_ = end + 1;
-    return true;
-  }
-
-  std::string_view line_;
-  char separator_;
-  std::size_t at_ = 0;
-  std::string unquoted_;
-};
-
-char separator_of(std::string_view header) {
-  const std::size_t at = header.find_first_of(",;\t");
-  return at == std::string_view::npos ? ',' : header[at];
-}
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 /// A number too small for a double is 0.
 bool read_field(std::string_view text, double& value) {
@@ -96,16 +32,6 @@ bool read_field(std::string_view text, double& value) {
   return end == copy.c_str() + copy.size() && std::fabs(value) < 1;
 }
 
-std::string file_text(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) throw BadInput(path + ": is a directory, must be a CSV file");
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  if (!file || file.bad()) throw BadInput(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
-  return std::move(text).str();
-}
-
 }  // namespace
 
 ColumnNames read_column_names(const std::string& option, const std::string& text) {
@@ -116,7 +42,7 @@ ColumnNames read_column_names(const std::string& option, const std::string& text
     const std::string name(trimmed(pair.substr(0, equals)));
     const std::string column(equals == std::string::npos ? "" : trimmed(pair.substr(equals + 1)));
     if (name.empty() || column.empty()) {
-      throw BadInput(fmt::format("{}: {}: must be NAME=COLUMN, more of them after a comma", option, shown(pair)));
+      throw BadInput(fmt::format("{}: {}: must be NAME=COLUMN, more of them after a comma", option, shown_field(pair)));
     }
     if (!names.emplace(name, column).second) throw BadInput(fmt::format("{}: {} is given twice", option, name));
   }
@@ -132,7 +58,7 @@ class NumericTable::Parser {
   void parse() {
     check_names();
     const std::string_view text = table_.text_;
-    std::size_t offset = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+    std::size_t offset = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
     while (offset < text.size()) {
       const std::size_t end = std::min(text.find('\n', offset), text.size());
       ++line_;
@@ -155,7 +81,7 @@ class NumericTable::Parser {
     known.insert(known.end(), request_.words.begin(), request_.words.end());
     for (const auto& [name, column] : request_.names) {
       if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-      throw BadInput(fmt::format("{}: unknown column {}; did you mean {}?", request_.names_option, shown(name),
+      throw BadInput(fmt::format("{}: unknown column {}; did you mean {}?", request_.names_option, shown_field(name),
                                  nearest_name(name, known)));
     }
   }
@@ -179,12 +105,12 @@ class NumericTable::Parser {
 
   void take_header(std::string_view line) {
     table_.separator_ = separator_of(line);
-    Fields fields(line, table_.separator_);
+    CsvLine fields(line, table_.separator_);
     std::vector<std::string> header;
-    for (Field field; fields.next(field);) {
+    for (CsvField field; fields.next(field);) {
       if (!field.closed) fail(field.column, "a quote is not closed");
       if (std::find(header.begin(), header.end(), field.text) != header.end() && !field.text.empty()) {
-        fail(field.column, fmt::format("column {} is there twice", shown(field.text)));
+        fail(field.column, fmt::format("column {} is there twice", shown_field(field.text)));
       }
       header.emplace_back(field.text);
     }
@@ -200,7 +126,8 @@ class NumericTable::Parser {
     }
     for (std::size_t i = 0; i < header.size(); ++i) {
       if (wanted[i].empty()) continue;
-      if (table_.kind_[i] != -1) fail(1, fmt::format("column {} cannot be both number and text", shown(header[i])));
+      if (table_.kind_[i] != -1)
+        fail(1, fmt::format("column {} cannot be both number and text", shown_field(header[i])));
       table_.kind_[i] = static_cast<int>(table_.columns_.size());
       table_.columns_.push_back(wanted[i]);
     }
@@ -214,8 +141,8 @@ class NumericTable::Parser {
     const auto place = std::find(header.begin(), header.end(), wanted);
     if (place != header.end()) return static_cast<std::size_t>(place - header.begin());
     if (!needed) return std::nullopt;
-    fail(1, fmt::format("no column {}; there are {} ({} NAME=COLUMN maps names)", shown(wanted),
-                        shown(fmt::format("{}", fmt::join(header, " "))), request_.names_option));
+    fail(1, fmt::format("no column {}; there are {} ({} NAME=COLUMN maps names)", shown_field(wanted),
+                        shown_field(fmt::format("{}", fmt::join(header, " "))), request_.names_option));
   }
 
   void take_row(std::string_view line, std::size_t offset) {
@@ -223,22 +150,22 @@ class NumericTable::Parser {
     const std::size_t row = table_.starts_.size() - 1, width = table_.kind_.size();
     table_.numbers_.resize(table_.numbers_.size() + table_.columns_.size());
     double* const numbers = table_.numbers_.data() + row * table_.columns_.size();
-    Fields fields(line, table_.separator_);
+    CsvLine fields(line, table_.separator_);
     std::size_t count = 0;
-    for (Field field; fields.next(field); ++count) {
+    for (CsvField field; fields.next(field); ++count) {
       if (!field.closed) fail(field.column, "a quote is not closed");
       if (count >= width) fail(field.column, fmt::format("more fields than the header's {}", width));
       const int kind = table_.kind_[count];
       if (kind < -1) take_word(row, kind, field);
       if (kind >= 0 && !read_field(field.text, numbers[kind])) {
         fail(field.column, fmt::format("{} = {}: must be a finite number",
-                                       table_.columns_[static_cast<std::size_t>(kind)], shown(field.text)));
+                                       table_.columns_[static_cast<std::size_t>(kind)], shown_field(field.text)));
       }
     }
     if (count < width) fail(line.size() + 1, fmt::format("{} fields, must be {} as in the header", count, width));
   }
 
-  void take_word(std::size_t row, int kind, const Field& field) {
+  void take_word(std::size_t row, int kind, const CsvField& field) {
     const auto index = static_cast<std::size_t>(-2 - kind);
     if (field.text.empty()) fail(field.column, table_.words_[index] + " = (empty): must be a text");
     table_.texts_.resize((row + 1) * table_.words_.size());
@@ -250,8 +177,32 @@ class NumericTable::Parser {
   std::size_t line_ = 0;
 };
 
+std::string NumericTable::text_of(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) throw BadInput(path + ": is a directory, must be a CSV file");
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (file) text << file.rdbuf();
+  if (!file || file.bad()) throw BadInput(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+  return std::move(text).str();
+}
+
+std::vector<std::string> NumericTable::header_of(std::string_view text) {
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  std::vector<std::string> names;
+  for (std::size_t offset = 0; offset < text.size() && names.empty();) {
+    const std::size_t end = std::min(text.find('\n', offset), text.size());
+    const std::string_view line = text.substr(offset, end - offset);
+    offset = end + 1;
+    if (trimmed(line).empty() || trimmed(line).front() == '#') continue;
+    CsvLine fields(line, separator_of(line));
+    for (CsvField field; fields.next(field);) names.emplace_back(field.text);
+  }
+  return names;
+}
+
 NumericTable NumericTable::read(const std::string& path, const TableRequest& request) {
-  return parse(path, file_text(path), request);
+  return parse(path, text_of(path), request);
 }
 
 NumericTable NumericTable::parse(const std::string& path, std::string text, const TableRequest& request) {
@@ -282,18 +233,25 @@ const std::string& NumericTable::word(std::size_t row, std::string_view column) 
   return texts_.at(row * words_.size() + static_cast<std::size_t>(at - words_.begin()));
 }
 
-void NumericTable::refuse(std::size_t row, std::string_view column, const std::string& allowed) const {
-  const Start& start = starts_.at(row);
+std::pair<std::size_t, std::string> NumericTable::locate(std::size_t row, std::string_view column) const {
   const std::string_view text = text_;
-  Fields fields(text.substr(start.offset, text.find('\n', start.offset) - start.offset), separator_);
-  Field field;
+  const std::size_t offset = starts_.at(row).offset;
+  CsvLine fields(text.substr(offset, text.find('\n', offset) - offset), separator_);
+  CsvField field;
   for (const int kind : kind_) {
     fields.next(field);
     const auto index = static_cast<std::size_t>(kind < -1 ? -2 - kind : kind);
     if (kind != -1 && (kind < -1 ? words_[index] : columns_[index]) == column) break;
   }
-  throw BadInput(fmt::format("{}:{}:{}: {} = {}: must be {}", path_, start.line, field.column, column,
-                             shown(field.text), allowed));
+  return {field.column, std::string(field.text)};
+}
+
+std::string NumericTable::field(std::size_t row, std::string_view column) const { return locate(row, column).second; }
+
+void NumericTable::refuse(std::size_t row, std::string_view column, const std::string& allowed) const {
+  const auto [place, field] = locate(row, column);
+  throw BadInput(
+      fmt::format("{}:{}:{}: {} = {}: must be {}", path_, line(row), place, column, shown_field(field), allowed));
 }
 
 }  // namespace clatter::validation

@@ -44,7 +44,11 @@ class NumericTable {
   /// missing
   ///         or named twice, a row of another length than the header, or a field that is no finite decimal number.
   [[nodiscard]] static NumericTable read(const std::string& path, const TableRequest& request);
-  /// The same from a text; `path` is its name in errors.
+  /// The bytes of a file.  @throws BadInput if it cannot be read or is a directory.
+  [[nodiscard]] static std::string text_of(const std::string& path);
+  /// Names in a text's header, as the file has them; empty where there is none.
+  [[nodiscard]] static std::vector<std::string> header_of(std::string_view text);
+  /// The same as read() from a text; `path` is its name in errors.
   [[nodiscard]] static NumericTable parse(const std::string& path, std::string text, const TableRequest& request);
 
   [[nodiscard]] const std::string& path() const { return path_; }
@@ -67,6 +71,8 @@ class NumericTable {
   }
   /// A field of a column of words.  @pre the column was requested
   [[nodiscard]] const std::string& word(std::size_t row, std::string_view column) const;
+  /// A field of a column that was read, as the file has it.
+  [[nodiscard]] std::string field(std::size_t row, std::string_view column) const;
   /// Line of a row, from 1.
   [[nodiscard]] std::size_t line(std::size_t row) const { return starts_[row].line; }
 
@@ -78,6 +84,8 @@ class NumericTable {
     std::size_t line = 0, offset = 0;  ///< of a row's first byte in text_
   };
   class Parser;
+  /// Byte of a field's line, from 1, and its text.
+  [[nodiscard]] std::pair<std::size_t, std::string> locate(std::size_t row, std::string_view column) const;
 
   std::string path_, text_;
   char separator_ = ',';

@@ -1,0 +1,197 @@
+#include "validation/benchmark/found_impacts.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/benchmark/step_impulses.hpp"
+
+namespace clatter::validation {
+namespace {
+
+namespace space = analytic::space;
+using space::State;
+using space::Vector3;
+
+constexpr std::size_t most_steps = 20000;  ///< with jumps; a body at rest has one in each
+
+/// Impulses of neighbouring steps at the same points.
+struct Contact {
+  std::vector<int> points;
+  Vector3 impulse = Vector3::Zero();
+  double weighted_time = 0;  ///< ∫ t dP_n
+  std::size_t first_row = 0, last_row = 0;
+  std::size_t steps = 0;
+
+  [[nodiscard]] double time() const { return weighted_time / impulse.z(); }
+};
+
+class Search {
+ public:
+  Search(const Motion& motion, const Reference& reference, const ImpactSearch& search)
+      : motion_(motion), reference_(reference), search_(search) {}
+
+  std::vector<FoundImpact> run() {
+    const double least_moment = search_.least_impulse * reference_.reach();
+    for (std::size_t row = 0; row + 1 < motion_.size(); ++row) {
+      const Motion::Jump jump = motion_.jump(row);
+      if (!(jump.impulse.norm() > search_.least_impulse || jump.moment.norm() > least_moment)) {
+        if (contacts_.size() >= search_.most && contacts_.back().last_row + 1 < row) break;
+        continue;
+      }
+      if (++steps_ > most_steps || contacts_.size() > search_.most + 1) break;
+      for (const StepImpulse& impulse : step_impulses(motion_, reference_, row)) add(row, impulse);
+    }
+    return impacts();
+  }
+
+ private:
+  /// Normal velocity of a point.
+  [[nodiscard]] double approach(const State& state, int point) const {
+    const Vector3 arm = reference_.arms(state.attitude)[static_cast<std::size_t>(point)];
+    return state.velocity.z() + state.angular_velocity.cross(arm).z();
+  }
+
+  /// Whether the points came down anew in this step.
+  [[nodiscard]] bool is_new(const Contact& contact, std::size_t row, const StepImpulse& impulse) const {
+    if (contact.points.empty()) return false;
+    const State start = motion_.state(row);
+    const int point = contact.points.front();
+    const State then = reference_.flight(start).at(impulse.time - motion_.time(row));
+    const bool comes_down = approach(then, point) < 0;
+    return comes_down && (contact.last_row < row || approach(start, point) > 0);
+  }
+
+  void add(std::size_t row, const StepImpulse& impulse) {
+    Contact* contact = nullptr;
+    for (Contact& one : contacts_) {
+      if (one.points == impulse.points && one.last_row + 1 >= row) contact = &one;
+    }
+    if (contact == nullptr || is_new(*contact, row, impulse)) {
+      contact = &contacts_.emplace_back();
+      contact->points = impulse.points;
+      contact->first_row = row;
+    }
+    contact->impulse += impulse.impulse;
+    contact->weighted_time += impulse.time * impulse.impulse.z();
+    contact->last_row = row + 1;
+    ++contact->steps;
+  }
+
+  [[nodiscard]] bool overlap(std::size_t i) const {
+    return i + 1 < contacts_.size() && contacts_[i + 1].first_row < contacts_[i].last_row;
+  }
+
+  std::vector<FoundImpact> impacts() {
+    std::erase_if(contacts_, [&](const Contact& one) { return one.impulse.norm() <= search_.least_impulse; });
+    std::stable_sort(contacts_.begin(), contacts_.end(),
+                     [](const Contact& a, const Contact& b) { return a.time() < b.time(); });
+    std::vector<FoundImpact> found;
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      const bool follows = i > 0 && overlap(i - 1);
+      found.push_back(impact(i, follows ? &found.back() : nullptr));
+    }
+    return found;
+  }
+
+  [[nodiscard]] FoundImpact impact(std::size_t i, const FoundImpact* previous) const {
+    const Contact& contact = contacts_[i];
+    const State start = motion_.state(contact.first_row), end = motion_.state(contact.last_row);
+    const double begin = motion_.time(contact.first_row), finish = motion_.time(contact.last_row);
+    FoundImpact impact{.points = contact.points,
+                       .place = reference_.place_name(contact.points),
+                       .impulse = contact.impulse,
+                       .before = {},
+                       .after = {},
+                       .poses = {},
+                       .first_row = contact.first_row,
+                       .last_row = contact.last_row};
+    const bool alone = previous == nullptr && !overlap(i);
+    const double time = alone && contact.steps > 1
+                            ? begin + meeting_time(start, end, finish - begin, reference_.gravity)
+                            : contact.time();
+    impact.time = time - motion_.first_touch();
+    impact.before = previous != nullptr ? reference_.flight(previous->after).at(impact.time - previous->time)
+                                        : reference_.flight(start).at(time - begin);
+    impact.after = overlap(i) ? struck(impact) : reference_.flight(end).at(time - finish);
+    impact.poses.push_back(impact.before);
+    if (alone) {
+      for (const State* pose : {&start, &end}) {
+        impact.poses.push_back(impact.before);
+        impact.poses.back().attitude = pose->attitude;
+      }
+    }
+    return impact;
+  }
+
+  /// The state before with the impulse applied.
+  [[nodiscard]] State struck(const FoundImpact& impact) const {
+    State state = impact.before;
+    state.velocity += impact.impulse / reference_.body.mass;
+    if (impact.points.empty()) return state;
+    const Vector3 arm = reference_.arms(state.attitude)[static_cast<std::size_t>(impact.points.front())];
+    const Vector3 moment = state.attitude.conjugate() * arm.cross(impact.impulse);
+    state.angular_velocity += state.attitude * reference_.body.inertia.ldlt().solve(moment);
+    return state;
+  }
+
+  const Motion& motion_;
+  const Reference& reference_;
+  const ImpactSearch search_;
+  std::vector<Contact> contacts_;
+  std::size_t steps_ = 0;
+};
+
+}  // namespace
+
+std::vector<FoundImpact> find_impacts(const Motion& motion, const Reference& reference, const ImpactSearch& search) {
+  return Search(motion, reference, search).run();
+}
+
+TableRequest impact_list_request(bool in_space, const ColumnNames& names) {
+  return {.required = in_space ? std::vector<std::string>{"t", "Px", "Py", "Pz", "Vx", "Vy", "Vz", "Wx", "Wy", "Wz"}
+                               : std::vector<std::string>{"t", "Pn", "Pt", "V", "Omega"},
+          .optional = {},
+          .words = {"place"},
+          .names = names};
+}
+
+std::vector<FoundImpact> listed_impacts(const NumericTable& table, const Reference& reference) {
+  const auto number = [&](std::size_t row, const char* name) { return table.at(row, table.column(name).value()); };
+  const auto vector = [&](std::size_t row, const char* x, const char* y, const char* z) {
+    return Vector3(number(row, x), number(row, y), number(row, z));
+  };
+  const bool in_space = table.column("Px").has_value();
+  std::vector<FoundImpact> found;
+  State state = reference.start;
+  double time = reference.sequences.front().truth.front().time, shift = 0;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const double given = number(row, "t");
+    if (row == 0) shift = given - time;
+    if (row > 0 && !(given >= number(row - 1, "t"))) table.refuse(row, "t", "no earlier than in the row before");
+    const auto points = reference.place_named(table.word(row, "place"));
+    if (!points) table.refuse(row, "place", fmt::format("one of {}", fmt::join(reference.points, ", ")));
+    FoundImpact impact{
+        .points = *points,
+        .place = reference.place_name(*points),
+        .time = given - shift,
+        .impulse = in_space ? vector(row, "Px", "Py", "Pz") : Vector3(number(row, "Pt"), 0, number(row, "Pn")),
+        .before = reference.flight(state).at(given - shift - (row == 0 ? 0 : time)),
+        .after = {},
+        .poses = {}};
+    time = impact.time;
+    state = impact.before;
+    state.velocity = in_space
+                         ? vector(row, "Vx", "Vy", "Vz")
+                         : Vector3(state.velocity.x() + impact.impulse.x() / reference.body.mass, 0, number(row, "V"));
+    state.angular_velocity = in_space ? vector(row, "Wx", "Wy", "Wz") : Vector3(0, number(row, "Omega"), 0);
+    impact.after = state;
+    impact.poses = {impact.before};
+    found.push_back(impact);
+  }
+  return found;
+}
+
+}  // namespace clatter::validation

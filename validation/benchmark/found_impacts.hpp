@@ -1,0 +1,40 @@
+// The impacts of a foreign run: those found in its motion, or those that it lists.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "validation/benchmark/motion.hpp"
+
+namespace clatter::validation {
+
+/// One impact of a foreign run.
+struct FoundImpact {
+  std::vector<int> points;  ///< that struck; none: no point of the body explains the jump
+  std::string place;        ///< their names
+  double time = 0;          ///< since the first touch [s]
+  analytic::space::Vector3 impulse = analytic::space::Vector3::Zero();  ///< [N·s]
+  analytic::space::State before, after;                                 ///< of the flights, at `time`
+  /// States that the code may have struck from: with the pose at `time`, of the last row before and the first after.
+  std::vector<analytic::space::State> poses;
+  std::size_t first_row = 0, last_row = 0;  ///< of the motion, around it
+};
+
+/// What is looked for in a motion.
+struct ImpactSearch {
+  double least_impulse = 0;  ///< smaller jumps are none: rounding, drift [N·s]
+  std::size_t most = 0;      ///< impacts to find
+};
+
+/// Impacts of a motion, by velocity jumps that free flight does not explain (step_impulses.hpp).  Jumps of the same
+/// points in neighbouring steps are one impact, unless these points left the ground and came down in between.
+[[nodiscard]] std::vector<FoundImpact> find_impacts(const Motion& motion, const Reference& reference,
+                                                    const ImpactSearch& search);
+
+/// Impacts of a list t,place,Pn,Pt,V,Omega, or in space t,place,Px,Py,Pz,Vx,Vy,Vz,Wx,Wy,Wz; Omega and W as in the
+/// program's own tables, positive clockwise on the page.  States follow from the reference's start by free flight.
+/// @throws BadInput for a place that the body does not have, and times that decrease
+[[nodiscard]] std::vector<FoundImpact> listed_impacts(const NumericTable& table, const Reference& reference);
+[[nodiscard]] TableRequest impact_list_request(bool in_space, const ColumnNames& names);
+
+}  // namespace clatter::validation

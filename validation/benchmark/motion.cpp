@@ -1,0 +1,142 @@
+#include "validation/benchmark/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/scene/bad_input.hpp"
+
+namespace clatter::validation {
+namespace {
+
+namespace space = analytic::space;
+using space::Vector3;
+
+const std::vector<std::string> in_plane{"t", "x", "z", "phi", "vx", "vz", "omega"};
+const std::vector<std::string> in_three{"t", "x", "y", "z", "q0", "q1", "q2", "q3", "vx", "vy", "vz", "wx", "wy", "wz"};
+
+/// Time at which the lowest point of a flight comes down to the ground; 0 where it does not come down.
+double touch_time(const Reference& reference, const space::FreeFlight& flight) {
+  const double fastest = flight.rotation().fastest();
+  const double bound = reference.gravity + 2 * reference.reach() * fastest * fastest + 1e-300;
+  const double resolution = 1e-15 * reference.reach();
+  double time = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const space::State state = flight.at(time);
+    double least = std::numeric_limits<double>::infinity();
+    for (const Vector3& arm : reference.arms(state.attitude)) {
+      const double height = state.position.z() + arm.z();
+      const double speed = state.velocity.z() + state.angular_velocity.cross(arm).z();
+      if (height <= resolution) {
+        if (speed < 0) return time - height / speed;
+        least = std::fmin(least, std::fmax(speed / bound, 1e-9));
+      } else {
+        least = std::fmin(least, (speed + std::sqrt(speed * speed + 2 * bound * height)) / bound);
+      }
+    }
+    if (!(least > 1e-15 * (time + reference.reach() / reference.speed()))) return time + least;
+    time += least;
+  }
+  return time;
+}
+
+}  // namespace
+
+bool Motion::is_in_space(const std::vector<std::string>& header, const ColumnNames& names) {
+  const auto has = [&](const std::string& name) {
+    return std::find(header.begin(), header.end(), name) != header.end();
+  };
+  return names.contains("q0") || has("q0");
+}
+
+TableRequest Motion::request(bool in_space, const ColumnNames& names) {
+  return {.required = in_space ? in_three : in_plane, .optional = {}, .words = {}, .names = names};
+}
+
+Motion::Motion(NumericTable table, const Reference& reference) : table_(std::move(table)), reference_(reference) {
+  in_space_ = table_.column("q0").has_value();
+  if (!in_space_ && !reference.is_planar) {
+    throw BadInput(table_.path() + ": the body moves in space; the file needs t,x,y,z,q0,q1,q2,q3,vx,vy,vz,wx,wy,wz");
+  }
+  for (const std::string& name : in_space_ ? in_three : in_plane) column_.push_back(table_.column(name).value());
+  check_rows();
+  find_first_touch();
+}
+
+void Motion::check_rows() const {
+  if (table_.rows() < 2) table_.refuse(0, "t", "followed by more rows: one row is no motion");
+  for (std::size_t i = 0; i < table_.rows(); ++i) {
+    if (i > 0 && !(number(i, 0) > number(i - 1, 0))) table_.refuse(i, "t", "later than in the row before");
+    if (!in_space_) continue;
+    double square = 0;
+    for (std::size_t k = 4; k < 8; ++k) square += number(i, k) * number(i, k);
+    if (!(std::fabs(square - 1) < 0.02)) table_.refuse(i, "q0", "with q1, q2 and q3 of length 1 to within 0.01");
+  }
+}
+
+double Motion::time(std::size_t row) const { return lead_ && row == 0 ? number(1, 0) : number(row, 0); }
+
+space::State Motion::state(std::size_t row) const {
+  if (lead_ && row == 0) return *lead_;
+  const auto vector = [&](std::size_t k) { return Vector3(number(row, k), number(row, k + 1), number(row, k + 2)); };
+  if (in_space_) {
+    return {.position = vector(1),
+            .attitude = space::Quaternion(number(row, 4), number(row, 5), number(row, 6), number(row, 7)).normalized(),
+            .velocity = vector(8),
+            .angular_velocity = vector(11)};
+  }
+  const double half = number(row, 3) / 2;
+  return {.position = {number(row, 1), 0, number(row, 2)},
+          .attitude = space::Quaternion(std::cos(half), 0, -std::sin(half), 0),
+          .velocity = {number(row, 4), 0, number(row, 5)},
+          .angular_velocity = {0, -number(row, 6), 0}};
+}
+
+double Motion::energy(std::size_t row) const {
+  if (in_space_ || (lead_ && row == 0)) return reference_.energy(state(row));
+  const double vx = number(row, 4), vz = number(row, 5), omega = number(row, 6);
+  return (reference_.body.mass * (vx * vx + vz * vz) + reference_.body.inertia(1, 1) * omega * omega) / 2 +
+         reference_.body.mass * reference_.gravity * number(row, 2);
+}
+
+Vector3 Motion::angular_momentum(std::size_t row) const {
+  const space::State now = state(row);
+  return now.attitude * (reference_.body.inertia * (now.attitude.conjugate() * now.angular_velocity));
+}
+
+Motion::Jump Motion::jump(std::size_t row) const {
+  const double mass = reference_.body.mass, fall = reference_.gravity * (time(row + 1) - time(row));
+  if (in_space_ || (lead_ && row == 0)) {
+    const Vector3 change = state(row + 1).velocity - state(row).velocity;
+    return {mass * (change + Vector3(0, 0, fall)), angular_momentum(row + 1) - angular_momentum(row)};
+  }
+  return {{mass * (number(row + 1, 4) - number(row, 4)), 0, mass * (number(row + 1, 5) - number(row, 5) + fall)},
+          {0, -reference_.body.inertia(1, 1) * (number(row + 1, 6) - number(row, 6)), 0}};
+}
+
+void Motion::find_first_touch() {
+  const double reach = reference_.reach();
+  const space::State first = state(0);
+  const std::vector<Vector3> arms = reference_.arms(first.attitude);
+  const auto low =
+      std::min_element(arms.begin(), arms.end(), [](const Vector3& a, const Vector3& b) { return a.z() < b.z(); });
+  const double height = first.position.z() + low->z();
+  const double speed = first.velocity.z() + first.angular_velocity.cross(*low).z();
+  if (std::fabs(height) <= 1e-6 * reach && speed >= 0) {
+    lead_ = reference_.start;
+    lead_->position += first.position - Vector3(0, 0, first.position.z());
+  }
+  const space::FreeFlight flight = reference_.flight(state(0));
+  const double delay = touch_time(reference_, flight);
+  first_touch_ = time(0) + delay;
+  const space::State touch = flight.at(delay);
+  const space::State& start = reference_.start;
+  start_error_ = std::max((touch.velocity - start.velocity).norm(),
+                          reach * (touch.angular_velocity - start.angular_velocity).norm()) /
+                 reference_.speed();
+  const std::vector<Vector3> now = reference_.arms(touch.attitude), wanted = reference_.arms(start.attitude);
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    start_error_ = std::max(start_error_, (now[i] - wanted[i]).norm() / reach);
+  }
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,63 @@
+// A motion that another program sampled: rows of time, place and velocity.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "validation/benchmark/reference.hpp"
+#include "validation/tables/numeric_table.hpp"
+
+namespace clatter::validation {
+
+/// In the plane  t,x,z,phi,vx,vz,omega: of the centre of mass, floor z = 0, x to the right, phi and omega
+/// counter-clockwise on the page, so that phi > 0 has end a low.  In space  t,x,y,z,q0,q1,q2,q3,vx,vy,vz,wx,wy,wz:
+/// y into the page, Euler parameters body → world with the scalar first, angular velocity in world components.
+class Motion {
+ public:
+  /// What a header must have for the file to be one of a motion.
+  [[nodiscard]] static bool is_in_space(const std::vector<std::string>& header, const ColumnNames& names);
+  [[nodiscard]] static TableRequest request(bool in_space, const ColumnNames& names);
+
+  /// @param reference must outlive the motion
+  /// @throws BadInput "FILE:LINE:COLUMN: …" for times that do not grow, Euler parameters that are none, fewer than two
+  ///         rows, or a file in the plane where the reference is in space.
+  Motion(NumericTable table, const Reference& reference);
+
+  [[nodiscard]] std::size_t size() const { return table_.rows() + (lead_ ? 1 : 0); }
+  [[nodiscard]] double time(std::size_t row) const;
+  [[nodiscard]] analytic::space::State state(std::size_t row) const;
+  /// Translational, rotational and potential energy [J].
+  [[nodiscard]] double energy(std::size_t row) const;
+
+  /// What free flight does not explain of the step from a row to the next.
+  struct Jump {
+    analytic::space::Vector3 impulse;  ///< m (ΔV + g Δt z) [N·s]
+    analytic::space::Vector3 moment;   ///< change of the angular momentum about the centre of mass [N·m·s]
+  };
+  [[nodiscard]] Jump jump(std::size_t row) const;
+
+  /// Time of the first touch in a flight from the first row [s].
+  [[nodiscard]] double first_touch() const { return first_touch_; }
+  /// How far the state then is from the reference's: the largest of |ΔV|, |ΔΩ| × reach (relative to the speed) and the
+  /// distance of a point (relative to the reach).
+  [[nodiscard]] double start_error() const { return start_error_; }
+  [[nodiscard]] const NumericTable& table() const { return table_; }
+
+ private:
+  void check_rows() const;
+  [[nodiscard]] analytic::space::Vector3 angular_momentum(std::size_t row) const;
+  void find_first_touch();
+  [[nodiscard]] double number(std::size_t row, std::size_t quantity) const {
+    return table_.at(row - (lead_ ? 1 : 0), column_[quantity]);
+  }
+
+  NumericTable table_;
+  const Reference& reference_;
+  bool in_space_;
+  std::vector<std::size_t> column_;  ///< of each quantity of the request
+  /// The reference's start, where the file begins right after the first impact.
+  std::optional<analytic::space::State> lead_;
+  double first_touch_ = 0, start_error_ = 0;
+};
+
+}  // namespace clatter::validation

@@ -1,0 +1,240 @@
+#include "validation/benchmark/reference.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analytic/sequence.hpp"
+#include "analytic/space/sequence.hpp"
+#include "validation/output/number.hpp"
+#include "validation/scene/bad_input.hpp"
+#include "validation/scene/discrete_scene.hpp"
+#include "validation/scene/space_scene.hpp"
+
+namespace clatter::validation {
+namespace {
+
+namespace space = analytic::space;
+using space::Vector3;
+
+DeclaredLaw declared(const std::string& name, const analytic::ImpactLaw& base) {
+  DeclaredLaw declared{.name = name, .law = {}};
+  declared.law.law = base;
+  if (name == "any") return declared;
+  declared.law.law.law = name.starts_with("poisson")   ? analytic::RestitutionLaw::poisson
+                         : name.starts_with("stronge") ? analytic::RestitutionLaw::stronge
+                                                       : analytic::RestitutionLaw::newton;
+  declared.is_moreau = name.ends_with("moreau");
+  return declared;
+}
+
+/// The same body in space, with its plane's moment of inertia about every axis, so that it turns about y alone.
+space::Body in_space(const analytic::PlanarBody& planar) {
+  space::Body body{
+      .mass = planar.mass, .inertia = planar.inertia() * space::Matrix3::Identity(), .vertices = {}, .rims = {}};
+  for (int i = 0; i < planar.vertex_count; ++i) {
+    const analytic::Vertex& vertex = planar.vertices[static_cast<std::size_t>(i)];
+    body.vertices.emplace_back(vertex.x, 0, vertex.z);
+  }
+  return body;
+}
+
+void set_planar(Reference& reference, const analytic::Drop& drop) {
+  reference.body = in_space(drop.body);
+  reference.principal = space::PrincipalAxes(reference.body.inertia);
+  for (int i = 0; i < drop.body.vertex_count; ++i) {
+    reference.points.push_back(analytic::PlanarBody::vertex_set_name(static_cast<analytic::VertexSet>(1 << i)));
+  }
+  const double half = drop.inclination.radians / 2;
+  reference.start.attitude = space::Quaternion(std::cos(half), 0, -std::sin(half), 0);
+  reference.start.velocity = {drop.velocity.tangential, 0, drop.velocity.normal};
+  reference.start.angular_velocity = {0, drop.velocity.angular, 0};
+  reference.gravity = drop.gravity;
+}
+
+void set_space(Reference& reference, const Scene& scene, const space::Drop& drop) {
+  reference.is_planar = false;
+  reference.body = drop.body;
+  reference.principal = space::PrincipalAxes(drop.body.inertia);
+  for (std::size_t i = 0; i < drop.body.vertices.size(); ++i) {
+    reference.points.push_back(corner_name(scene, {static_cast<int>(i), drop.body.vertices[i]}));
+  }
+  for (const space::Rim& rim : drop.body.rims) reference.points.push_back(corner_name(scene, {0, rim.centre}));
+  reference.start.attitude = drop.attitude.normalized();
+  reference.start.velocity = drop.velocity;
+  reference.start.angular_velocity = drop.angular_velocity;
+  reference.gravity = drop.gravity;
+}
+
+/// Puts the lowest point on the ground.
+void touch_down(Reference& reference) {
+  double lowest = 0;
+  for (const Vector3& arm : reference.arms(reference.start.attitude)) lowest = std::fmin(lowest, arm.z());
+  reference.start.position.z() = -lowest;
+}
+
+void add_states(const Reference& reference, ReferenceSequence& sequence) {
+  space::State state = reference.start;
+  double time = 0;
+  for (const TruthRow& row : sequence.truth) {
+    state = reference.flight(state).at(row.time - time);
+    time = row.time;
+    state.velocity = row.velocity;
+    state.angular_velocity = row.angular_velocity;
+    sequence.after.push_back(state);
+  }
+}
+
+std::vector<TruthRow> planar_truth(const analytic::Drop& drop, int impacts) {
+  const analytic::Sequence sequence = impact_sequence(drop, {.impacts = impacts});
+  std::vector<TruthRow> rows;
+  for (const analytic::ImpactRow& row : sequence.rows) {
+    const analytic::PlanarVelocity& after = row.impact.after;
+    rows.push_back({.place = analytic::PlanarBody::vertex_set_name(row.vertices),
+                    .time = row.start,
+                    .impulse = {row.impact.tangential_impulse, 0, row.impact.normal_impulse},
+                    .velocity = {after.tangential, 0, after.normal},
+                    .angular_velocity = {0, after.angular, 0},
+                    .uncertainty = row.error.start});
+  }
+  return rows;
+}
+
+std::vector<TruthRow> space_truth(const Reference& reference, const space::Drop& drop, int impacts) {
+  const space::Sequence sequence = impact_sequence(drop, {.impacts = impacts});
+  std::vector<TruthRow> rows;
+  for (const space::ImpactRow& row : sequence.rows) {
+    std::vector<int> group;
+    for (const space::Corner& corner : row.corners) group.push_back(corner.index);
+    std::sort(group.begin(), group.end());
+    rows.push_back({.place = reference.place_name(group),
+                    .time = row.start,
+                    .impulse = row.group ? row.group->impulse : row.impact.impulse,
+                    .velocity = row.impact.velocity_after,
+                    .angular_velocity = row.impact.angular_velocity_after,
+                    .uncertainty = row.error.start});
+  }
+  return rows;
+}
+
+}  // namespace
+
+double Reference::speed() const { return start.velocity.norm() + start.angular_velocity.norm() * reach(); }
+
+double Reference::energy(const space::State& state) const {
+  const Vector3 rate = state.attitude.conjugate() * state.angular_velocity;
+  return (body.mass * state.velocity.squaredNorm() + rate.dot(body.inertia * rate)) / 2 +
+         body.mass * gravity * state.position.z();
+}
+
+space::FreeFlight Reference::flight(const space::State& state) const { return {principal, state, gravity}; }
+
+std::string Reference::place_name(const std::vector<int>& group) const {
+  if (is_planar) {
+    analytic::VertexSet set = 0;
+    for (const int point : group) set = static_cast<analytic::VertexSet>(set | 1 << point);
+    return group.empty() ? "?" : analytic::PlanarBody::vertex_set_name(set);
+  }
+  std::string words;
+  for (const int point : group) words += (words.empty() ? "" : " ") + points[static_cast<std::size_t>(point)];
+  return group.empty() ? "?" : words;
+}
+
+std::optional<std::vector<int>> Reference::place_named(const std::string& place) const {
+  const int count = static_cast<int>(points.size());
+  for (int i = 0; i < count; ++i) {
+    if (place_name({i}) == place) return std::vector<int>{i};
+    for (int j = i + 1; j < count; ++j) {
+      if (place_name({i, j}) == place) return std::vector<int>{i, j};
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<Vector3> Reference::arms(const space::Quaternion& attitude) const {
+  const space::Matrix3 turned = attitude.toRotationMatrix();
+  std::vector<Vector3> arms;
+  arms.reserve(points.size());
+  for (const Vector3& vertex : body.vertices) arms.emplace_back(turned * vertex);
+  for (const space::Rim& rim : body.rims) {
+    const Vector3 axis = turned * rim.axis;
+    const Vector3 down = axis.z() * axis - Vector3::UnitZ();
+    arms.emplace_back(turned * rim.centre + (down.norm() > 0 ? Vector3(rim.radius * down.normalized())
+                                                             : Vector3(rim.radius * Vector3::UnitX())));
+  }
+  return arms;
+}
+
+Reference::Release Reference::release(double gap) const {
+  if (gap == 0) return {start, 0};
+  const space::FreeFlight back = flight(start);
+  const auto height = [&](double time) {
+    const space::State state = back.at(-time);
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const Vector3& arm : arms(state.attitude)) lowest = std::fmin(lowest, state.position.z() + arm.z());
+    return lowest;
+  };
+  double low = 0, high = gap / speed();
+  for (int i = 0; i < 60 && height(high) < gap; ++i) high *= 1.25;
+  if (!(height(high) >= gap)) {
+    throw BadInput(fmt::format("gap {}: the drop does not come from so high above the ground", shortest(gap)));
+  }
+  for (int i = 0; i < 200 && low < high; ++i) {
+    const double middle = low + (high - low) / 2;
+    if (middle <= low || middle >= high) break;
+    (height(middle) < gap ? low : high) = middle;
+  }
+  return {back.at(-high), high};
+}
+
+Reference reference_of(const Problem& problem) {
+  Reference reference{.name = problem.id,
+                      .is_compliant = problem.is_compliant,
+                      .energy_alone = problem.energy_alone,
+                      .body = {},
+                      .points = {},
+                      .start = {},
+                      .tolerances = problem.tolerances,
+                      .until = problem.until,
+                      .sequences = {}};
+  if (problem.scene.attitude.empty()) set_planar(reference, impact_drop(problem.scene));
+  else set_space(reference, problem.scene, impact_space_drop(problem.scene));
+  touch_down(reference);
+  for (const std::string& law : truth_laws(problem)) {
+    ReferenceSequence sequence{
+        .law = declared(law, impact_law(problem.scene)), .truth = truth_of(problem, law), .after = {}};
+    add_states(reference, sequence);
+    reference.sequences.push_back(std::move(sequence));
+  }
+  return reference;
+}
+
+Reference reference_of(const Scene& scene) {
+  Reference reference{.name = scene.path.empty() ? "the scene" : scene.path,
+                      .body = {},
+                      .points = {},
+                      .start = {},
+                      .until = {},
+                      .sequences = {}};
+  const bool has_ground = scene.ground.stiffness > 0;
+  const int impacts = scene.options.impacts;
+  ReferenceSequence sequence;
+  if (has_ground ? is_planar(scene, scene.make_body()) : is_planar(scene)) {
+    const analytic::Drop drop = has_ground ? discrete_drop(scene, scene.make_body()) : impact_drop(scene);
+    set_planar(reference, drop);
+    touch_down(reference);
+    sequence = {.law = {.name = "any", .law = {.law = drop.law}}, .truth = planar_truth(drop, impacts), .after = {}};
+  } else {
+    const space::Drop drop = has_ground ? space_drop(scene, scene.make_body()) : impact_space_drop(scene);
+    set_space(reference, scene, drop);
+    touch_down(reference);
+    sequence = {.law = {.name = "any", .law = drop.law}, .truth = space_truth(reference, drop, impacts), .after = {}};
+  }
+  if (sequence.truth.empty()) throw BadInput(reference.name + ": the scene has no impact to compare with");
+  add_states(reference, sequence);
+  reference.sequences.push_back(std::move(sequence));
+  return reference;
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,75 @@
+// What a foreign run is judged by: the body, how it touches the ground first, the laws that a run may declare, and the
+// impacts that each of them gives.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analytic/space/free_flight.hpp"
+#include "analytic/space/impact.hpp"
+#include "validation/benchmark/problem.hpp"
+
+namespace clatter::validation {
+
+/// A law of impact that a run may declare.
+struct DeclaredLaw {
+  std::string name;  ///< "newton routh", …; "any" where the laws agree
+  analytic::space::Law law;
+  bool is_moreau = false;  ///< Newton's e and Coulomb's cone at the end of the impact, instead of along it
+
+  [[nodiscard]] bool is_named(const std::string& other) const { return name == other || name == "any"; }
+};
+
+/// A sequence that a law gives.
+struct ReferenceSequence {
+  DeclaredLaw law;
+  std::vector<TruthRow> truth;
+  /// States right after each impact, from the truth's velocities and free flight.
+  std::vector<analytic::space::State> after;
+};
+
+/// A planar body stands here with its vertices in the plane y = 0 and its moment of inertia about every axis.
+struct Reference {
+  std::string name;  ///< the problem's ID, or the scene's file
+  bool is_planar = true;
+  bool is_compliant = false;
+  bool energy_alone = false;
+  analytic::space::Body body;
+  /// Of the body.
+  analytic::space::PrincipalAxes principal{analytic::space::Matrix3::Identity()};
+  std::vector<std::string> points;  ///< names of the vertices, then of the rims
+  analytic::space::State start;     ///< at the first touch
+  double gravity = 0;               ///< [m/s²]
+  std::vector<double> tolerances{1e-9, 1e-6, 1e-3, 1e-2};
+  std::optional<double> until;  ///< no impact more until then, since the first touch [s]
+  std::vector<ReferenceSequence> sequences;
+
+  [[nodiscard]] double reach() const { return body.reach(); }
+  /// Speed at the first touch, of translation and of turning [m/s].
+  [[nodiscard]] double speed() const;
+  /// Translational, rotational and potential energy [J].
+  [[nodiscard]] double energy(const analytic::space::State& state) const;
+  [[nodiscard]] analytic::space::FreeFlight flight(const analytic::space::State& state) const;
+  /// Points of a group, by their indices, in words.
+  [[nodiscard]] std::string place_name(const std::vector<int>& group) const;
+  /// Indices of the points of a place; nothing for an unknown one.
+  [[nodiscard]] std::optional<std::vector<int>> place_named(const std::string& place) const;
+  /// From the centre of mass to each point, world frame; of a rim the lowest point.
+  [[nodiscard]] std::vector<analytic::space::Vector3> arms(const analytic::space::Quaternion& attitude) const;
+  /// The state from which the drop begins so that its lowest point is `gap` above the ground, and the time from there
+  /// to the first touch.  @throws BadInput for a gap that the motion before the touch does not have.
+  struct Release {
+    analytic::space::State state;
+    double time = 0;  ///< [s]
+  };
+  [[nodiscard]] Release release(double gap) const;
+};
+
+[[nodiscard]] Reference reference_of(const Problem& problem);
+/// The discrete model's answer: with the real body and ground where the scene has one, otherwise by its impact.* keys.
+/// @throws as the discrete model does; BadInput for a scene that has no impact.
+[[nodiscard]] Reference reference_of(const Scene& scene);
+
+}  // namespace clatter::validation

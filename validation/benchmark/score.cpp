@@ -1,0 +1,300 @@
+#include "validation/benchmark/score.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+#include "validation/benchmark/exact_map.hpp"
+#include "validation/output/number.hpp"
+
+namespace clatter::validation {
+namespace {
+
+namespace space = analytic::space;
+using space::State;
+using space::Vector3;
+
+constexpr double least_share = 2e-3;  ///< of the truth's smallest impulse: what counts as an impact
+
+/// The larger of two errors; one that is no number counts as unknown.
+double worse(double error, double other) {
+  if (std::isnan(error) || std::isnan(other)) return Score::unknown;
+  return std::max(error, other);
+}
+
+/// Sizes that errors are relative to.
+struct Sizes {
+  double velocity = 0, angular = 0, time = 0, energy = 0;
+};
+
+Sizes sizes_of(const Reference& reference, const ReferenceSequence& sequence) {
+  Sizes sizes;
+  for (const TruthRow& row : sequence.truth) {
+    sizes.velocity = std::fmax(sizes.velocity, row.velocity.norm());
+    sizes.angular = std::fmax(sizes.angular, row.angular_velocity.norm());
+  }
+  sizes.velocity = std::fmax(sizes.velocity, reference.start.velocity.norm());
+  sizes.angular = std::fmax(sizes.angular, sizes.velocity / reference.reach());
+  sizes.time = std::fmax(sequence.truth.back().time, reference.reach() / reference.speed());
+  sizes.energy = reference.energy(reference.start);
+  return sizes;
+}
+
+/// Twice the kinetic energy of a difference of velocities.
+double distance(const Reference& reference, const State& a, const State& b) {
+  const Vector3 turn = a.attitude.conjugate() * (a.angular_velocity - b.angular_velocity);
+  return std::sqrt(reference.body.mass * (a.velocity - b.velocity).squaredNorm() +
+                   turn.dot(reference.body.inertia * turn));
+}
+
+double law_error(const Reference& reference, const DeclaredLaw& law, const FoundImpact& impact) {
+  if (impact.points.empty()) return Score::unknown;
+  double least = Score::unknown;
+  for (const State& pose : impact.poses) {
+    try {
+      const State exact = exact_map(reference, law, pose, impact.points);
+      const double change = std::fmax(distance(reference, exact, pose), distance(reference, impact.after, pose));
+      least = std::fmin(least, distance(reference, exact, impact.after) / change);
+    } catch (const std::exception&) {
+      continue;  // the law has no answer there: the error is unknown
+    }
+  }
+  return least;
+}
+
+ImpactScore impact_score(const Reference& reference, const ReferenceSequence& sequence, const FoundImpact& impact,
+                         std::size_t i) {
+  const Sizes sizes = sizes_of(reference, sequence);
+  ImpactScore score{.place = impact.place,
+                    .true_place = "",
+                    .time = impact.time,
+                    .law_error = reference.is_compliant ? 0 : law_error(reference, sequence.law, impact),
+                    .impulse_normal = impact.impulse.z(),
+                    .impulse_tangential = impact.impulse.x(),
+                    .after = impact.after};
+  if (i >= sequence.truth.size()) return score;
+  const TruthRow& truth = sequence.truth[i];
+  const State& after = sequence.after[i];
+  score.true_place = truth.place;
+  score.time_error = impact.time - truth.time;
+  score.velocity_error = (impact.after.velocity - truth.velocity).norm() / sizes.velocity;
+  score.angular_error = (impact.after.angular_velocity - truth.angular_velocity).norm() / sizes.angular;
+  score.energy_error = (reference.energy(impact.after) - reference.energy(after)) / sizes.energy;
+  return score;
+}
+
+void find_missing(Score& score, const ReferenceSequence& sequence) {
+  for (std::size_t i = 0; i < sequence.truth.size(); ++i) {
+    const std::string& place = sequence.truth[i].place;
+    if (i >= score.impacts.size()) {
+      score.findings.push_back(fmt::format("impact {} at {} is missing", i + 1, place));
+    } else if (score.impacts[i].place != place) {
+      score.findings.push_back(fmt::format("impact {} is at {}, must be at {}", i + 1, score.impacts[i].place, place));
+    } else {
+      continue;
+    }
+    return;
+  }
+  if (score.found > score.expected) {
+    score.findings.push_back(fmt::format("an impact more at {}, {} s after the first touch", score.impacts.back().place,
+                                         significant(score.impacts.back().time, 4)));
+  }
+}
+
+/// Scores 1 to 3 and the energies after impacts.
+Score score_impacts(const std::vector<FoundImpact>& impacts, const Reference& reference,
+                    const ReferenceSequence& sequence) {
+  Score score{.law = sequence.law.name,
+              .impacts = {},
+              .expected = sequence.truth.size(),
+              .drift = {},
+              .stray = {},
+              .findings = {}};
+  const Sizes sizes = sizes_of(reference, sequence);
+  std::size_t kept = score.expected;
+  if (impacts.size() > kept && reference.until && !reference.energy_alone && impacts[kept].time < *reference.until) {
+    ++kept;
+  }
+  for (std::size_t i = 0; i < std::min(kept, impacts.size()); ++i) {
+    score.impacts.push_back(impact_score(reference, sequence, impacts[i], i));
+    const ImpactScore& one = score.impacts.back();
+    if (i >= score.expected) break;
+    score.law_error = worse(score.law_error, one.law_error);
+    score.velocity_error = worse(score.velocity_error, one.velocity_error);
+    score.angular_error = worse(score.angular_error, one.angular_error);
+    score.time_error = worse(score.time_error, std::fabs(one.time_error) / sizes.time);
+    score.energy_error = worse(score.energy_error, std::fabs(one.energy_error));
+  }
+  score.found = score.impacts.size();
+  find_missing(score, sequence);
+  score.order_is_right = score.findings.empty();
+  return score;
+}
+
+/// Scores of the motion between impacts.
+class Flights {
+ public:
+  Flights(const Motion& motion, const Reference& reference, const ReferenceSequence& sequence,
+          const std::vector<FoundImpact>& impacts)
+      : motion_(motion), reference_(reference), sequence_(sequence), impacts_(impacts) {}
+
+  void score(Score& score) {
+    energy_ = reference_.energy(reference_.start);
+    const double end = motion_.first_touch() + last_time();
+    std::size_t row = 0;
+    const std::size_t count = std::min(impacts_.size(), sequence_.truth.size());
+    for (std::size_t i = 0; i <= count; ++i) {
+      std::size_t last = i < impacts_.size() ? impacts_[i].first_row : motion_.size() - 1;
+      while (i == count && last > row && motion_.time(last) > end) --last;
+      if (last > row) follow(row, last, score, i);
+      if (i < count) row = impacts_[i].last_row;
+    }
+    if (reference_.energy_alone) long_run(score);
+  }
+
+ private:
+  [[nodiscard]] double last_time() const {
+    const double last = sequence_.truth.back().time;
+    return reference_.until && !reference_.energy_alone ? *reference_.until : last + 0.2 * last;
+  }
+
+  /// From one row to another without impacts in between; `n` impacts came before.
+  void follow(std::size_t from, std::size_t to, Score& score, std::size_t n) const {
+    const double start = motion_.energy(from);
+    double drift = 0;
+    for (std::size_t row = from; row <= to; ++row) {
+      drift = worse(drift, std::fabs(motion_.energy(row) - start) / energy_);
+    }
+    if (drift > score.energy_error) {
+      score.energy_error = drift;
+      score.drift = n;
+    }
+    const State begin = motion_.state(from), end = motion_.state(to);
+    const State flown = reference_.flight(begin).at(motion_.time(to) - motion_.time(from));
+    double away = (flown.position - end.position).norm();
+    const std::vector<Vector3> wanted = reference_.arms(flown.attitude), arms = reference_.arms(end.attitude);
+    for (std::size_t i = 0; i < arms.size(); ++i) away = worse(away, (arms[i] - wanted[i]).norm());
+    if (away / reference_.reach() > score.flight_error) {
+      score.flight_error = away / reference_.reach();
+      score.stray = n;
+    }
+  }
+
+  /// Energy at the end of a long run, whatever impacts there are.
+  void long_run(Score& score) const {
+    const double end = motion_.first_touch() + *reference_.until;
+    std::size_t row = motion_.size() - 1;
+    if (motion_.time(row) < end - 1e-6 * *reference_.until) {
+      score.energy_error = Score::unknown;
+      score.findings.push_back(fmt::format("the run ends before {} s", shortest(*reference_.until)));
+      return;
+    }
+    while (row > 0 && motion_.time(row) > end) --row;
+    const double wanted = reference_.energy(sequence_.after.back());
+    const double error = std::fabs(motion_.energy(row) - wanted) / energy_;
+    if (error > score.energy_error) {
+      score.energy_error = error;
+      score.drift = sequence_.truth.size();
+    }
+  }
+
+  const Motion& motion_;
+  const Reference& reference_;
+  const ReferenceSequence& sequence_;
+  const std::vector<FoundImpact>& impacts_;
+  double energy_ = 1;
+};
+
+/// Words for each error beyond the class "good".
+void explain(Score& score, double tolerance) {
+  const auto percent = [](double error) {
+    return std::isfinite(error) ? significant(error, 2) : std::string("unknown");
+  };
+  const auto add = [&](double error, const std::string& words) {
+    if (!(error <= tolerance)) score.findings.push_back(words + ", error " + percent(error));
+  };
+  add(score.start_error, "the run does not start as the problem says");
+  for (std::size_t i = 0; i < std::min(score.impacts.size(), score.expected); ++i) {
+    const ImpactScore& one = score.impacts[i];
+    if (one.law_error <= tolerance) continue;
+    add(one.law_error, fmt::format("impact {} does not follow the law", i + 1));
+    break;
+  }
+  if (score.drift) add(score.energy_error, fmt::format("energy drifts in flight after impact {}", *score.drift));
+  if (score.stray) add(score.flight_error, fmt::format("the flight after impact {} is not free", *score.stray));
+  for (std::size_t i = 0; i < std::min(score.impacts.size(), score.expected); ++i) {
+    const ImpactScore& one = score.impacts[i];
+    const std::string at = fmt::format(" of impact {} is off", i + 1);
+    const std::size_t before = score.findings.size();
+    add(one.velocity_error, "velocity" + at);
+    add(one.angular_error, "angular velocity" + at);
+    if (score.findings.size() != before) break;
+  }
+}
+
+template <class Judge>
+Score best_of(const Reference& reference, const std::string& law, Judge&& judge) {
+  Score best;
+  bool first = true;
+  for (const ReferenceSequence& sequence : reference.sequences) {
+    if (!law.empty() && !sequence.law.is_named(law)) continue;
+    Score score = judge(sequence);
+    score.law_is_declared = !law.empty();
+    explain(score, reference.tolerances[2]);
+    if (first || score.error() < best.error() || (score.order_is_right && !best.order_is_right)) best = score;
+    first = false;
+  }
+  return best;
+}
+
+double least_impulse(const Reference& reference) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const ReferenceSequence& sequence : reference.sequences) {
+    for (const TruthRow& row : sequence.truth) least = std::fmin(least, row.impulse.norm());
+  }
+  return least_share * least;
+}
+
+}  // namespace
+
+const std::vector<std::string>& verdict_names() {
+  static const std::vector<std::string> names{"exact", "sharp", "good", "coarse", "fails"};
+  return names;
+}
+
+const char* verdict_name(Verdict verdict) { return verdict_names()[static_cast<std::size_t>(verdict)].c_str(); }
+
+double Score::motion_error() const { return worse(velocity_error, worse(angular_error, time_error)); }
+
+double Score::error() const {
+  if (!order_is_right) return unknown;
+  return worse(worse(law_error, motion_error()), worse(energy_error, worse(flight_error, start_error)));
+}
+
+Verdict verdict_of(const Score& score, const std::vector<double>& tolerances) {
+  for (std::size_t i = 0; i < tolerances.size(); ++i) {
+    if (score.error() <= tolerances[i]) return static_cast<Verdict>(i);
+  }
+  return Verdict::fails;
+}
+
+Score score_motion(const Motion& motion, const Reference& reference, const std::string& law) {
+  const std::size_t most = reference.sequences.front().truth.size() + 1;
+  const std::vector<FoundImpact> impacts =
+      find_impacts(motion, reference, {.least_impulse = least_impulse(reference), .most = most});
+  return best_of(reference, law, [&](const ReferenceSequence& sequence) {
+    Score score = score_impacts(impacts, reference, sequence);
+    score.start_error = motion.start_error();
+    Flights(motion, reference, sequence, impacts).score(score);
+    return score;
+  });
+}
+
+Score score_list(const std::vector<FoundImpact>& impacts, const Reference& reference, const std::string& law) {
+  return best_of(reference, law,
+                 [&](const ReferenceSequence& sequence) { return score_impacts(impacts, reference, sequence); });
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,67 @@
+// How well a foreign run answers: five scores, and a verdict.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/benchmark/found_impacts.hpp"
+
+namespace clatter::validation {
+
+/// Classes of tolerance, the best first; each has its largest error in Reference::tolerances.
+enum class Verdict { exact, sharp, good, coarse, fails };
+[[nodiscard]] const char* verdict_name(Verdict verdict);
+[[nodiscard]] const std::vector<std::string>& verdict_names();
+
+/// Errors of one impact.
+struct ImpactScore {
+  std::string place, true_place;
+  double time = 0;            ///< since the first touch, as found [s]
+  double law_error = 0;       ///< (1)
+  double time_error = 0;      ///< [s], signed
+  double velocity_error = 0;  ///< |ΔV| over the sequence's largest |V|
+  double angular_error = 0;   ///< |ΔΩ| over the sequence's largest |Ω|, at least |V|/reach
+  double energy_error = 0;    ///< of the energy after it, relative to that of the start, signed
+  double impulse_normal = 0;  ///< [N·s]
+  double impulse_tangential = 0;
+  analytic::space::State after;
+};
+
+/// The scores of one run.  Errors are relative; a score that cannot be had is infinite.
+///   law       distance of the velocities after an impact from the exact map at the code's own state before it, in the
+///             norm of kinetic energy, over the map's own change; the nearest of the poses in FoundImpact
+///   order     number and places of the impacts, in their order
+///   motion    V, Ω and t against the truth; t over the last impact's time, at least reach/speed
+///   energy    after the impacts against the truth, and what is gained or lost between impacts
+///   flight    what free flight does not explain of the way between impacts, over the reach
+///   start     of the state at the first touch, as Motion::start_error()
+struct Score {
+  static constexpr double unknown = std::numeric_limits<double>::infinity();
+
+  std::string law;  ///< that the run is judged by
+  bool law_is_declared = false;
+  std::vector<ImpactScore> impacts;
+  std::size_t found = 0, expected = 0;
+  bool order_is_right = false;
+  double law_error = 0, velocity_error = 0, angular_error = 0, time_error = 0, energy_error = 0, flight_error = 0,
+         start_error = 0;
+  std::optional<std::size_t> drift, stray;  ///< after how many impacts energy or flight is worst
+  std::vector<std::string> findings;        ///< what is wrong, in words, the first first
+
+  /// V, Ω and t.
+  [[nodiscard]] double motion_error() const;
+  /// The largest of all.
+  [[nodiscard]] double error() const;
+};
+
+[[nodiscard]] Verdict verdict_of(const Score& score, const std::vector<double>& tolerances);
+
+/// The scores of a motion.  Without a declared law (empty) the one that fits best.
+[[nodiscard]] Score score_motion(const Motion& motion, const Reference& reference, const std::string& law);
+/// The scores of a list of impacts; no score of flight and start.
+[[nodiscard]] Score score_list(const std::vector<FoundImpact>& impacts, const Reference& reference,
+                               const std::string& law);
+
+}  // namespace clatter::validation

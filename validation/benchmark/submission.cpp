@@ -1,0 +1,174 @@
+#include "validation/benchmark/submission.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <tuple>
+
+#include "validation/output/number.hpp"
+#include "validation/scene/bad_input.hpp"
+#include "validation/tables/csv_line.hpp"
+
+namespace clatter::validation {
+namespace {
+
+/// A file's text as a table of the kind that its header says.
+struct ReadFile {
+  NumericTable table;
+  bool is_list;
+};
+
+ReadFile read_file(const std::string& path, const ColumnNames& names) {
+  std::string text = NumericTable::text_of(path);
+  const std::vector<std::string> header = NumericTable::header_of(text);
+  const auto has = [&](const char* name) {
+    return names.contains(name) || std::find(header.begin(), header.end(), name) != header.end();
+  };
+  const bool is_list = has("place");
+  const TableRequest request =
+      is_list ? impact_list_request(has("Px"), names) : Motion::request(Motion::is_in_space(header, names), names);
+  return {NumericTable::parse(path, std::move(text), request), is_list};
+}
+
+std::string place_of(const NumericTable& table, const std::string& key) {
+  for (const NumericTable::Comment& one : table.comments()) {
+    if (one.key == key) return fmt::format("{}:{}:1: {}", table.path(), one.line, key);
+  }
+  return table.path() + ": " + key;
+}
+
+/// "0.001", "1/60", with or without "s".
+std::optional<double> read_step(const NumericTable& table) {
+  const auto given = table.comment("step");
+  if (!given) return std::nullopt;
+  std::string text = *given;
+  if (text.ends_with("s")) text = trimmed(std::string_view(text).substr(0, text.size() - 1));
+  const std::size_t slash = text.find('/');
+  double value = 0, divisor = 1;
+  const bool is_number =
+      read_number(trimmed(std::string_view(text).substr(0, slash)), value) &&
+      (slash == std::string::npos || read_number(trimmed(std::string_view(text).substr(slash + 1)), divisor));
+  if (!is_number || !(value / divisor > 0 && std::isfinite(value / divisor))) {
+    throw BadInput(fmt::format("{} = {}: must be a number of seconds above 0, or 1/N", place_of(table, "step"),
+                               shown_field(*given)));
+  }
+  return value / divisor;
+}
+
+SubmissionHead head_of(const NumericTable& table) {
+  const auto text = [&](const char* key) { return table.comment(key).value_or(""); };
+  SubmissionHead head{.problem = text("problem"),
+                      .engine = text("engine"),
+                      .version = text("version"),
+                      .settings = text("settings"),
+                      .law = {},
+                      .step = read_step(table)};
+  if (table.comment("law")) head.law = read_law(place_of(table, "law"), text("law"));
+  return head;
+}
+
+Submission judge(ReadFile file, const SubmissionHead& head, const Reference& reference) {
+  Submission submission{.path = file.table.path(), .head = head, .is_list = file.is_list, .score = {}};
+  if (file.is_list) {
+    submission.score = score_list(listed_impacts(file.table, reference), reference, head.law);
+  } else {
+    const Motion motion(std::move(file.table), reference);
+    submission.score = score_motion(motion, reference, head.law);
+  }
+  submission.verdict = verdict_of(submission.score, reference.tolerances);
+  return submission;
+}
+
+/// Least-squares slope of ln(error) over ln(step).
+std::optional<double> observed_order(const std::vector<SubmissionGroup::Step>& steps) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (const SubmissionGroup::Step& one : steps) {
+    if (!one.step || !(one.motion_error > 0 && std::isfinite(one.motion_error))) continue;
+    const double a = std::log(*one.step), b = std::log(one.motion_error);
+    n += 1, x += a, y += b, xx += a * a, xy += a * b;
+  }
+  const double spread = n * xx - x * x;
+  if (!(n >= 2 && spread > 1e-12 * n * xx)) return std::nullopt;
+  return (n * xy - x * y) / spread;
+}
+
+}  // namespace
+
+std::string read_law(const std::string& where, const std::string& text) {
+  const std::vector<std::string> known{"newton", "poisson", "stronge", "routh", "moreau"};
+  std::string words = text, restitution, friction;
+  std::transform(words.begin(), words.end(), words.begin(),
+                 [](unsigned char c) { return std::isalpha(c) ? static_cast<char>(std::tolower(c)) : ' '; });
+  std::istringstream stream(words);
+  for (std::string word; stream >> word;) {
+    const auto at = std::find(known.begin(), known.end(), word);
+    std::string& part = at < known.begin() + 3 ? restitution : friction;
+    if (at == known.end() || !part.empty()) {
+      throw BadInput(
+          fmt::format("{} = {}: must be newton, poisson or stronge, then routh or moreau", where, shown_field(text)));
+    }
+    part = word;
+  }
+  if (restitution.empty()) restitution = "newton";
+  if (friction.empty()) friction = "routh";
+  if (words.find_first_not_of(' ') == std::string::npos || (friction == "moreau" && restitution != "newton")) {
+    throw BadInput(fmt::format("{} = {}: must be newton, poisson or stronge, then routh, or newton moreau", where,
+                               shown_field(text)));
+  }
+  return restitution + " " + friction;
+}
+
+Submission judge_file(const std::string& path, const std::string& problem, const ColumnNames& names) {
+  ReadFile file = read_file(path, names);
+  SubmissionHead head = head_of(file.table);
+  std::string where = place_of(file.table, "problem");
+  if (!problem.empty()) head.problem = problem, where = "--problem";
+  if (head.problem.empty()) {
+    throw BadInput(path + ": no line \"# problem: ID\" above the header; --problem names one");
+  }
+  const Problem& named = problem_named(where, head.problem);
+  static std::map<std::string, Reference> references;  // many files have the same problem
+  const auto found = references.find(named.id);
+  const Reference& reference =
+      found != references.end() ? found->second : references.emplace(named.id, reference_of(named)).first->second;
+  Submission submission = judge(std::move(file), head, reference);
+  submission.problem_version = named.version;
+  return submission;
+}
+
+Submission judge_file(const std::string& path, const Reference& reference, const ColumnNames& names) {
+  ReadFile file = read_file(path, names);
+  const SubmissionHead head = head_of(file.table);
+  return judge(std::move(file), head, reference);
+}
+
+std::vector<SubmissionGroup> group_submissions(const std::vector<Submission>& submissions) {
+  using Name = std::tuple<std::string, std::string, std::string, std::string, std::string>;
+  std::map<Name, SubmissionGroup> groups;
+  for (const Submission& one : submissions) {
+    const SubmissionHead& head = one.head;
+    SubmissionGroup& group = groups[{head.problem, head.engine, head.version, head.settings, head.law}];
+    group.head = head;
+    group.verdict = std::max(group.verdict, one.verdict);
+    auto step = std::find_if(group.steps.begin(), group.steps.end(),
+                             [&](const SubmissionGroup::Step& other) { return other.step == head.step; });
+    if (step == group.steps.end()) step = group.steps.insert(step, {.step = head.step});
+    ++step->files;
+    step->motion_error = std::max(step->motion_error, one.score.motion_error());
+    step->law_error = std::max(step->law_error, one.score.law_error);
+    step->error = std::max(step->error, one.score.error());
+  }
+  std::vector<SubmissionGroup> all;
+  for (auto& [name, group] : groups) {
+    std::sort(group.steps.begin(), group.steps.end(),
+              [](const auto& a, const auto& b) { return a.step.value_or(0) > b.step.value_or(0); });
+    group.order = observed_order(group.steps);
+    all.push_back(std::move(group));
+  }
+  return all;
+}
+
+}  // namespace clatter::validation

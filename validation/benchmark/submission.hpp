@@ -1,0 +1,56 @@
+// Files with answers of others: read, judged, and put together by problem.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/benchmark/score.hpp"
+
+namespace clatter::validation {
+
+/// Lines above a file's header, "# key: value"; the problem alone is required, and not even that where a scene is
+/// given.
+struct SubmissionHead {
+  std::string problem, engine, version, settings;
+  std::string law;             ///< as DeclaredLaw::name; empty: not declared
+  std::optional<double> step;  ///< of the code [s]
+};
+
+/// A file and how it does.
+struct Submission {
+  std::string path;
+  SubmissionHead head;
+  int problem_version = 0;
+  bool is_list = false;  ///< of impacts, not a motion
+  Score score;
+  Verdict verdict = Verdict::fails;
+};
+
+/// Files of one problem, engine, version, settings and law.
+struct SubmissionGroup {
+  struct Step {
+    std::optional<double> step;                         ///< [s]
+    std::size_t files = 0;                              ///< phases: starting gaps
+    double motion_error = 0, law_error = 0, error = 0;  ///< of the worst phase
+  };
+  SubmissionHead head;
+  std::vector<Step> steps;           ///< the longest first
+  std::optional<double> order;       ///< of V, Ω and t in the step, by least squares; nothing for fewer than two steps
+  Verdict verdict = Verdict::exact;  ///< of the worst file
+};
+
+/// "newton routh", "poisson, routh", "moreau", … as DeclaredLaw::name.  @throws BadInput beginning with `where`
+[[nodiscard]] std::string read_law(const std::string& where, const std::string& text);
+
+/// Judges a file by its problem.
+/// @param problem in place of the file's own line; empty: none
+/// @throws BadInput "FILE:LINE:COLUMN: …"
+[[nodiscard]] Submission judge_file(const std::string& path, const std::string& problem, const ColumnNames& names);
+/// Judges a file by a scene.
+[[nodiscard]] Submission judge_file(const std::string& path, const Reference& reference, const ColumnNames& names);
+
+/// @param submissions in any order
+[[nodiscard]] std::vector<SubmissionGroup> group_submissions(const std::vector<Submission>& submissions);
+
+}  // namespace clatter::validation

@@ -1,0 +1,118 @@
+// `clatter benchmark list|show|truth|score`: problems with certified answers, and others' answers to them.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "validation/cli/benchmark_report.hpp"
+#include "validation/cli/commands.hpp"
+#include "validation/cli/options.hpp"
+#include "validation/cli/score_report.hpp"
+#include "validation/scene/bad_input.hpp"
+#include "validation/scene/option_values.hpp"
+
+namespace clatter::validation {
+namespace {
+
+constexpr int check_failed = 1;
+
+struct BenchmarkInput {
+  std::string action;
+  std::vector<std::string> names;
+  std::optional<std::string> law, columns, problem, require;
+  OutputTexts output;
+};
+
+void only_for(const std::optional<std::string>& text, const char* option, const char* action, bool is_used) {
+  if (text && !is_used) throw BadInput(fmt::format("{}: only for benchmark {}", option, action));
+}
+
+const Problem& named_problem(const BenchmarkInput& input) {
+  if (input.names.size() != 1) {
+    throw BadInput(
+        fmt::format("benchmark {}: needs the ID of one problem; clatter benchmark list names them", input.action));
+  }
+  return problem_named("benchmark " + input.action, input.names.front());
+}
+
+int run_list(const BenchmarkInput& input, const OutputChoice& choice) {
+  if (!input.names.empty()) throw BadInput("benchmark list: takes no names");
+  if (choice.style.format == Format::table) write_out(choice, benchmark_list_text());
+  else write_report(choice, benchmark_list_report());
+  return 0;
+}
+
+int run_truth(const BenchmarkInput& input, const OutputChoice& choice) {
+  const Problem& problem = named_problem(input);
+  const std::vector<std::string> laws = truth_laws(problem);
+  std::string law = laws.front();
+  if (input.law) {
+    const std::string asked = read_law("--law", *input.law);
+    if (law != "any") law = asked;
+  }
+  write_report(choice, benchmark_truth_report(problem, law));
+  return 0;
+}
+
+int run_score(const BenchmarkInput& input, const OutputChoice& choice) {
+  if (input.names.empty()) throw BadInput("benchmark score: needs a FILE or more");
+  const Requirement requirement = read_requirement(input.require);
+  const ColumnNames names = input.columns ? read_column_names("--columns", *input.columns) : ColumnNames{};
+  std::vector<Submission> submissions;
+  bool is_met = true;
+  for (const std::string& file : input.names) {
+    submissions.push_back(judge_file(file, input.problem.value_or(""), names));
+    is_met = is_met && requirement.is_met(submissions.back());
+  }
+  write_report(choice, score_report("benchmark", submissions));
+  return is_met ? 0 : check_failed;
+}
+
+int run_benchmark(const BenchmarkInput& input) {
+  const std::vector<std::string> actions{"list", "show", "truth", "score"};
+  const std::size_t action = read_name_option("benchmark", input.action, actions);
+  const OutputChoice choice = read_output(input.output);
+  only_for(input.law, "--law", "truth", action == 2);
+  only_for(input.columns, "--columns", "score", action == 3);
+  only_for(input.problem, "--problem", "score", action == 3);
+  only_for(input.require, "--require", "score", action == 3);
+  std::vector<RunFile> read;
+  if (action == 3) {
+    for (const std::string& file : input.names) read.push_back({"a file to score", file});
+  }
+  check_files(choice, {}, read);
+  switch (action) {
+    case 0: return run_list(input, choice);
+    case 1: write_report(choice, benchmark_statement(named_problem(input))); return 0;
+    case 2: return run_truth(input, choice);
+    default: return run_score(input, choice);
+  }
+}
+
+}  // namespace
+
+Command benchmark_command() {
+  auto input = std::make_shared<BenchmarkInput>();
+  Command command{.name = "benchmark", .help = "problems with certified answers, and others' answers scored"};
+  command.add({.name = "ACTION",
+               .target = &input->action,
+               .type = "list|show|truth|score",
+               .help = "name the problems, state one, its truth, or score files",
+               .required = true});
+  command.add({.name = "NAME", .target = &input->names, .type = "FILE", .help = "ID of a problem, or files to score"});
+  command.add_text("--law", input->law, "LAW", "of truth: newton|poisson|stronge, then routh|moreau (newton routh)");
+  command.add_text("--columns", input->columns, "NAME=COLUMN,...", "what the files to score call their columns");
+  command.add_text("--problem", input->problem, "ID", "of the files to score, in place of their lines # problem:");
+  command.add_text("--require", input->require, "CLASS",
+                   "exact|sharp|good|coarse, or a largest error: exit status 1 where a file does worse");
+  add_output_options(command, input->output);
+  command.footer =
+      "Example: clatter benchmark score rod-10.csv --require good\n"
+      "Files are CSV, t,x,z,phi,vx,vz,omega of the centre of mass (floor z = 0, phi and omega\n"
+      "counter-clockwise), in space t,x,y,z,q0,q1,q2,q3,vx,vy,vz,wx,wy,wz, or impacts\n"
+      "t,place,Pn,Pt,V,Omega (Omega clockwise, as in clatter benchmark truth), after lines\n"
+      "# problem: ID, and as they apply # engine:, # version:, # step:, # settings:, # law:.";
+  command.run = [input] { return run_benchmark(*input); };
+  return command;
+}
+
+}  // namespace clatter::validation

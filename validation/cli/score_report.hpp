@@ -1,0 +1,23 @@
+// The report on others' answers, of `clatter benchmark score` and `clatter compare --against`.
+#pragma once
+
+#include "validation/benchmark/submission.hpp"
+#include "validation/output/report.hpp"
+
+namespace clatter::validation {
+
+[[nodiscard]] std::vector<Column> score_columns();
+
+/// One row per file; groups with their worst phase and order in words and JSON.
+[[nodiscard]] Report score_report(const std::string& command, const std::vector<Submission>& submissions);
+
+/// What is asked of each file: a class, "good", or a largest error, "1e-3".
+struct Requirement {
+  std::optional<Verdict> verdict;
+  std::optional<double> error;
+  [[nodiscard]] bool is_met(const Submission& submission) const;
+};
+/// @throws BadInput
+[[nodiscard]] Requirement read_requirement(const std::optional<std::string>& text);
+
+}  // namespace clatter::validation
