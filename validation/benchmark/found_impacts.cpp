@@ -24,6 +24,7 @@ struct Contact {
   double weighted_time = 0;  ///< ∫ t dP_n
   std::size_t first_row = 0, last_row = 0;
   std::size_t steps = 0;
+  double separation = 0;  ///< normal velocity after the last step [m/s]
 
   [[nodiscard]] double time() const { return weighted_time / impulse.z(); }
 };
@@ -34,10 +35,10 @@ class Search {
       : motion_(motion), reference_(reference), search_(search) {}
 
   std::vector<FoundImpact> run() {
-    const double least_moment = search_.least_impulse * reference_.reach();
     for (std::size_t row = 0; row + 1 < motion_.size(); ++row) {
       const Motion::Jump jump = motion_.jump(row);
-      if (!(jump.impulse.norm() > search_.least_impulse || jump.moment.norm() > least_moment)) {
+      const double least = least_jump(motion_.time(row + 1) - motion_.time(row));
+      if (!(jump.impulse.norm() > least || jump.moment.norm() > least * reference_.reach())) {
         if (contacts_.size() >= search_.most && contacts_.back().last_row + 1 < row) break;
         continue;
       }
@@ -48,28 +49,18 @@ class Search {
   }
 
  private:
-  /// Normal velocity of a point.
-  [[nodiscard]] double approach(const State& state, int point) const {
-    const Vector3 arm = reference_.arms(state.attitude)[static_cast<std::size_t>(point)];
-    return state.velocity.z() + state.angular_velocity.cross(arm).z();
-  }
-
-  /// Whether the points came down anew in this step.
-  [[nodiscard]] bool is_new(const Contact& contact, std::size_t row, const StepImpulse& impulse) const {
-    if (contact.points.empty()) return false;
-    const State start = motion_.state(row);
-    const int point = contact.points.front();
-    const State then = reference_.flight(start).at(impulse.time - motion_.time(row));
-    const bool comes_down = approach(then, point) < 0;
-    return comes_down && (contact.last_row < row || approach(start, point) > 0);
+  [[nodiscard]] double least_jump(double step) const {
+    return std::fmax(search_.least_impulse * std::fmin(1, step / search_.spread_time), search_.rounding);
   }
 
   void add(std::size_t row, const StepImpulse& impulse) {
+    if (impulse.points.empty() && impulse.impulse.norm() <= search_.least_impulse) return;  // drift
     Contact* contact = nullptr;
     for (Contact& one : contacts_) {
       if (one.points == impulse.points && one.last_row + 1 >= row) contact = &one;
     }
-    if (contact == nullptr || is_new(*contact, row, impulse)) {
+    // Points that had rebounded and come down anew have another impact.
+    if (contact == nullptr || (contact->separation > 0 && impulse.approach < 0)) {
       contact = &contacts_.emplace_back();
       contact->points = impulse.points;
       contact->first_row = row;
@@ -77,6 +68,7 @@ class Search {
     contact->impulse += impulse.impulse;
     contact->weighted_time += impulse.time * impulse.impulse.z();
     contact->last_row = row + 1;
+    contact->separation = impulse.separation;
     ++contact->steps;
   }
 
@@ -126,15 +118,9 @@ class Search {
     return impact;
   }
 
-  /// The state before with the impulse applied.
   [[nodiscard]] State struck(const FoundImpact& impact) const {
-    State state = impact.before;
-    state.velocity += impact.impulse / reference_.body.mass;
-    if (impact.points.empty()) return state;
-    const Vector3 arm = reference_.arms(state.attitude)[static_cast<std::size_t>(impact.points.front())];
-    const Vector3 moment = state.attitude.conjugate() * arm.cross(impact.impulse);
-    state.angular_velocity += state.attitude * reference_.body.inertia.ldlt().solve(moment);
-    return state;
+    return impact.points.empty() ? impact.before
+                                 : reference_.struck(impact.before, impact.points.front(), impact.impulse);
   }
 
   const Motion& motion_;

@@ -22,7 +22,9 @@ struct FoundImpact {
 
 /// What is looked for in a motion.
 struct ImpactSearch {
-  double least_impulse = 0;  ///< smaller jumps are none: rounding, drift [N·s]
+  double least_impulse = 0;  ///< smaller impacts are none: rounding, drift [N·s]
+  double spread_time = 0;    ///< over which a code may spread an impact: shorter steps have their share of it [s]
+  double rounding = 0;       ///< smaller jumps of a step are none [N·s]
   std::size_t most = 0;      ///< impacts to find
 };
 

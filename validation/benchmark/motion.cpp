@@ -30,7 +30,9 @@ double touch_time(const Reference& reference, const space::FreeFlight& flight) {
         if (speed < 0) return time - height / speed;
         least = std::fmin(least, std::fmax(speed / bound, 1e-9));
       } else {
-        least = std::fmin(least, (speed + std::sqrt(speed * speed + 2 * bound * height)) / bound);
+        const double root = std::sqrt(speed * speed + 2 * bound * height);
+        // Of the two forms the one that does not cancel.
+        least = std::fmin(least, speed < 0 ? 2 * height / (root - speed) : (speed + root) / bound);
       }
     }
     if (!(least > 1e-15 * (time + reference.reach() / reference.speed()))) return time + least;

@@ -130,6 +130,15 @@ double Reference::energy(const space::State& state) const {
 
 space::FreeFlight Reference::flight(const space::State& state) const { return {principal, state, gravity}; }
 
+space::State Reference::struck(const space::State& state, int point, const Vector3& impulse) const {
+  space::State after = state;
+  after.velocity += impulse / body.mass;
+  const Vector3 arm = arms(state.attitude)[static_cast<std::size_t>(point)];
+  const Vector3 moment = state.attitude.conjugate() * arm.cross(impulse);
+  after.angular_velocity += state.attitude * body.inertia.ldlt().solve(moment);
+  return after;
+}
+
 std::string Reference::place_name(const std::vector<int>& group) const {
   if (is_planar) {
     analytic::VertexSet set = 0;

@@ -52,6 +52,9 @@ struct Reference {
   /// Translational, rotational and potential energy [J].
   [[nodiscard]] double energy(const analytic::space::State& state) const;
   [[nodiscard]] analytic::space::FreeFlight flight(const analytic::space::State& state) const;
+  /// The state with an impulse applied at a point [N·s].
+  [[nodiscard]] analytic::space::State struck(const analytic::space::State& state, int point,
+                                              const analytic::space::Vector3& impulse) const;
   /// Points of a group, by their indices, in words.
   [[nodiscard]] std::string place_name(const std::vector<int>& group) const;
   /// Indices of the points of a place; nothing for an unknown one.

@@ -249,12 +249,20 @@ Score best_of(const Reference& reference, const std::string& law, Judge&& judge)
   return best;
 }
 
-double least_impulse(const Reference& reference) {
-  double least = std::numeric_limits<double>::infinity();
+ImpactSearch search_for(const Reference& reference) {
+  constexpr double rounding = 1e-6;      // of momentum, of codes with the digits of a float
+  constexpr double shortest_way = 0.02;  // of the reach, within which a compliant code turns the body round
+  ImpactSearch search{.least_impulse = std::numeric_limits<double>::infinity(),
+                      .spread_time = shortest_way * reference.reach() / reference.speed(),
+                      .rounding = rounding * reference.body.mass * reference.speed(),
+                      .most = reference.sequences.front().truth.size() + 1};
   for (const ReferenceSequence& sequence : reference.sequences) {
-    for (const TruthRow& row : sequence.truth) least = std::fmin(least, row.impulse.norm());
+    for (const TruthRow& row : sequence.truth) {
+      search.least_impulse = std::fmin(search.least_impulse, least_share * row.impulse.norm());
+      search.spread_time = std::fmax(search.spread_time, row.duration);
+    }
   }
-  return least_share * least;
+  return search;
 }
 
 }  // namespace
@@ -281,9 +289,7 @@ Verdict verdict_of(const Score& score, const std::vector<double>& tolerances) {
 }
 
 Score score_motion(const Motion& motion, const Reference& reference, const std::string& law) {
-  const std::size_t most = reference.sequences.front().truth.size() + 1;
-  const std::vector<FoundImpact> impacts =
-      find_impacts(motion, reference, {.least_impulse = least_impulse(reference), .most = most});
+  const std::vector<FoundImpact> impacts = find_impacts(motion, reference, search_for(reference));
   return best_of(reference, law, [&](const ReferenceSequence& sequence) {
     Score score = score_impacts(impacts, reference, sequence);
     score.start_error = motion.start_error();

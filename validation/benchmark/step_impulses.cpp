@@ -7,6 +7,7 @@ namespace clatter::validation {
 namespace {
 
 namespace space = analytic::space;
+using space::State;
 using space::Vector3;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -14,6 +15,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 // Residuals of the angular momentum, relative to |P| × reach.
 constexpr double rounding = 1e-7;       ///< of rows with the digits of a float
 constexpr double clearly_one = 5e-3;    ///< a second impulse below this share is left out
+constexpr double spread = 0.2;          ///< pressure of a compliant contact acts beside the corner
 constexpr double pose_of_a_step = 0.1;  ///< of codes that strike with a pose of their own
 constexpr double together = 1e-6;       ///< heights of points that come down as one, relative to the reach
 
@@ -31,11 +33,12 @@ class Step {
 
   [[nodiscard]] std::vector<StepImpulse> impulses() const {
     const One one = best_one();
-    if (one.residual <= rounding) return single(one);
+    if (one.residual <= rounding) return {whole({one.point})};
     const Two two = best_two();
-    const bool exact = two.residual <= rounding * 1e-2 && two.residual < 1e-3 * one.residual;
-    if (exact || (one.residual > clearly_one && two.residual < 0.3 * one.residual)) return both(two);
-    if (one.residual <= pose_of_a_step) return single(one);
+    const bool exact = two.is_timed && two.residual <= rounding * 1e-2;
+    if (exact || (one.residual > (reference_.is_compliant ? spread : clearly_one) && two.residual < 0.3 * one.residual))
+      return both(two);
+    if (one.residual <= (reference_.is_compliant ? spread : pose_of_a_step)) return {whole({one.point})};
     if (two.residual <= pose_of_a_step) return both(two);
     return {{.points = {}, .impulse = jump_.impulse, .time = start_time_ + middle_}};
   }
@@ -49,6 +52,7 @@ class Step {
     int first = -1, second = -1;
     double share = 0;  ///< λ of the first
     double first_time = 0, second_time = 0;
+    bool is_timed = false;  ///< the flights touch and leave the ground within the step, in this order
     double residual = std::numeric_limits<double>::infinity();
   };
 
@@ -78,7 +82,7 @@ class Step {
   }
 
   [[nodiscard]] double height(const space::FreeFlight& flight, int point, double time) const {
-    const space::State state = flight.at(time);
+    const State state = flight.at(time);
     return state.position.z() + reference_.arms(state.attitude)[static_cast<std::size_t>(point)].z();
   }
 
@@ -112,19 +116,30 @@ class Step {
       if (!(share > 0 && share < 1 && residual < two.residual)) continue;
       two.share = share;
       two.residual = residual;
-      if (i == 0 && touch <= leave) two.first_time = touch, two.second_time = leave;
+      if (i > 0 || !(touch <= leave)) continue;
+      two.is_timed = true;
+      two.first_time = touch;
+      two.second_time = leave;
+      if (residual <= rounding) break;  // in the plane other poses can fit as well
     }
     return two;
+  }
+
+  [[nodiscard]] static bool is_better(const Two& two, const Two& best) {
+    if (two.residual > rounding || best.residual > rounding) return two.residual < best.residual;
+    if (two.is_timed != best.is_timed) return two.is_timed;
+    return two.is_timed ? two.first_time < best.first_time : two.residual < best.residual;
   }
 
   [[nodiscard]] Two best_two() const {
     Two best;
     for (const int k : candidates_) {
       for (const int l : candidates_) {
-        // The one that is lower before the step comes first.
-        if (k == l || height_before(k) > height_before(l)) continue;
+        if (k == l) continue;
         const Two two = pair(k, l);
-        if (two.residual < best.residual) best = two;
+        // Without times the one that is lower before the step comes first.
+        if (!two.is_timed && height_before(k) > height_before(l)) continue;
+        if (is_better(two, best)) best = two;
       }
     }
     return best;
@@ -137,8 +152,19 @@ class Step {
     return pose_.position.z() + arms_[0][static_cast<std::size_t>(k)].z();
   }
 
-  [[nodiscard]] std::vector<StepImpulse> single(const One& one) const {
-    return {{.points = {one.point}, .impulse = jump_.impulse, .time = start_time_ + middle_}};
+  /// Normal velocity of a point.
+  [[nodiscard]] double speed_of(const State& state, int point) const {
+    const Vector3 arm = reference_.arms(state.attitude)[static_cast<std::size_t>(point)];
+    return state.velocity.z() + state.angular_velocity.cross(arm).z();
+  }
+
+  [[nodiscard]] StepImpulse whole(const std::vector<int>& points) const {
+    const State after = flight_after_.at(middle_ - length_);
+    return {.points = points,
+            .impulse = jump_.impulse,
+            .time = start_time_ + middle_,
+            .approach = speed_of(pose_, points.front()),
+            .separation = speed_of(after, points.front())};
   }
 
   [[nodiscard]] std::vector<StepImpulse> both(const Two& two) const {
@@ -148,20 +174,31 @@ class Step {
       for (const int k : candidates_) {
         if (std::fabs(height_between(k) - level) <= slack) group.push_back(k);
       }
-      return {{.points = group, .impulse = jump_.impulse, .time = start_time_ + middle_}};
+      return {whole(group)};
     }
-    return {
-        {.points = {two.first}, .impulse = two.share * jump_.impulse, .time = start_time_ + two.first_time},
-        {.points = {two.second}, .impulse = (1 - two.share) * jump_.impulse, .time = start_time_ + two.second_time}};
+    const State before = flight_.at(two.first_time);
+    const Vector3 first = two.share * jump_.impulse, second = jump_.impulse - first;
+    const State after = reference_.struck(before, two.first, first);
+    const State then = reference_.flight(after).at(two.second_time - two.first_time);
+    return {{.points = {two.first},
+             .impulse = first,
+             .time = start_time_ + two.first_time,
+             .approach = speed_of(before, two.first),
+             .separation = speed_of(after, two.first)},
+            {.points = {two.second},
+             .impulse = second,
+             .time = start_time_ + two.second_time,
+             .approach = speed_of(then, two.second),
+             .separation = speed_of(flight_after_.at(two.second_time - length_), two.second)}};
   }
 
   const Reference& reference_;
   double start_time_, length_;
-  space::State before_, after_;
+  State before_, after_;
   Motion::Jump jump_;
   space::FreeFlight flight_, flight_after_;
   double middle_;
-  space::State pose_;
+  State pose_;
   double scale_;
   std::vector<std::vector<Vector3>> arms_;  ///< at (1), in the first and in the last row
   std::vector<int> candidates_;

@@ -12,6 +12,8 @@ struct StepImpulse {
   std::vector<int> points;  ///< ascending; none: no point of the body explains the step
   analytic::space::Vector3 impulse = analytic::space::Vector3::Zero();  ///< [N·s]
   double time = 0;                                                      ///< [s]
+  double approach = 0;    ///< normal velocity of the first of the points right before [m/s]
+  double separation = 0;  ///< and right after [m/s]
 };
 
 /// Cuts the jump between two rows into impulses, the earlier first.
@@ -22,6 +24,7 @@ struct StepImpulse {
 /// since a code may strike with either, with the pose of the first or last row.  Two points do, one after the other, if
 ///     r₁ × λP + r₂ × (1 − λ)P                                                                        (2)
 /// is, r₁ where the flight before touches the ground, r₂ where the flight after leaves it.
+/// More than two impacts within a step cannot be told apart.
 /// @pre row + 1 < motion.size()
 [[nodiscard]] std::vector<StepImpulse> step_impulses(const Motion& motion, const Reference& reference, std::size_t row);
 

@@ -79,8 +79,12 @@ class Scan {
       return;
     }
     std::size_t allowed = 0;
-    for (const Argument& one : command_.arguments) allowed += one.is_option() ? 0 : 1;
-    if (++positionals_ > allowed) {
+    bool takes_many = false;
+    for (const Argument& one : command_.arguments) {
+      allowed += one.is_option() ? 0 : 1;
+      takes_many = takes_many || (!one.is_option() && one.is_list());
+    }
+    if (++positionals_ > allowed && !takes_many) {
       throw BadInput(fmt::format("'{}': unexpected argument for {}", argument, command_.name));
     }
     out_.push_back(argument);

@@ -241,7 +241,11 @@ Report benchmark_statement(const Problem& problem) {
 Report benchmark_truth_report(const Problem& problem, const std::string& law) {
   Report report = begun_report("benchmark", "the truth of " + problem.id);
   report.head = {"problem: " + problem.id, "truth by " + oracle_of(problem)};
-  if (law != "any") report.head.insert(report.head.begin() + 1, "law: " + law);
+  report.remarks = {"problem: " + problem.id};  // as a file to score has them
+  if (law != "any") {
+    report.head.insert(report.head.begin() + 1, "law: " + law);
+    report.remarks.push_back("law: " + law);
+  }
   report.grid = truth_grid(problem, law);
   report.fields["problem"] = problem.id;
   report.fields["version"] = problem.version;

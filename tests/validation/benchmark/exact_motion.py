@@ -1,0 +1,155 @@
+"""Motions sampled from the truth of a benchmark's problem: parabola and free turning between the truth's impacts."""
+import json
+import math
+import os
+import subprocess
+
+PROGRAM = os.environ["CLATTER_PROGRAM"]
+
+
+def run(*arguments):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=300)
+
+
+def told(*arguments):
+    done = run(*arguments, "--format", "json")
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def product(p, q):
+    a, b, c, d = p
+    e, f, g, h = q
+    return (a * e - b * f - c * g - d * h, a * f + b * e + c * h - d * g,
+            a * g - b * h + c * e + d * f, a * h + b * g - c * f + d * e)
+
+
+def turned(q, v):
+    return product(product(q, (0.0, *v)), (q[0], -q[1], -q[2], -q[3]))[1:]
+
+
+def turned_back(q, v):
+    return turned((q[0], -q[1], -q[2], -q[3]), v)
+
+
+class Body:
+    """Principal moments about body axes; a planar body turns about y alone, whatever they are."""
+
+    def __init__(self, scene):
+        body = scene["body"]
+        self.mass = body["mass"]
+        if body["shape"] == "rod":
+            moment = self.mass * (body["length"] ** 2 + 3 * body["radius"] ** 2) / 12
+            self.moments = (moment, moment, moment)
+            half, radius = body["length"] / 2, body["radius"]
+            self.points = [(x, 0.0, z) for x in (-half, half) for z in {-radius, radius}]
+        else:
+            length, width, height = body["size"]
+            self.moments = tuple(self.mass * (a * a + b * b) / 12
+                                 for a, b in ((width, height), (length, height), (length, width)))
+            self.points = [(x * length / 2, y * width / 2, z * height / 2)
+                           for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+
+    def turn(self, q, rates, time):
+        """Free rotation by the classical Runge-Kutta method, body rates."""
+        if max(abs(r) for r in (rates[0], rates[2])) == 0:
+            half = rates[1] * time / 2
+            return product(q, (math.cos(half), 0.0, math.sin(half), 0.0)), rates
+        i = self.moments
+
+        def slope(y):
+            w = y[4:]
+            dq = product(y[:4], (0.0, *w))
+            return [x / 2 for x in dq] + [(i[1] - i[2]) / i[0] * w[1] * w[2], (i[2] - i[0]) / i[1] * w[2] * w[0],
+                                          (i[0] - i[1]) / i[2] * w[0] * w[1]]
+
+        y = [*q, *rates]
+        count = max(1, math.ceil(abs(time) / 5e-5))
+        h = time / count
+        for _ in range(count):
+            a = slope(y)
+            b = slope([u + h / 2 * v for u, v in zip(y, a)])
+            c = slope([u + h / 2 * v for u, v in zip(y, b)])
+            d = slope([u + h * v for u, v in zip(y, c)])
+            y = [u + h / 6 * (p + 2 * r + 2 * s + v) for u, p, r, s, v in zip(y, a, b, c, d)]
+        norm = math.sqrt(sum(x * x for x in y[:4]))
+        return tuple(x / norm for x in y[:4]), tuple(y[4:])
+
+
+class State:
+    def __init__(self, time, position, attitude, velocity, omega):
+        self.time, self.position, self.attitude = time, list(position), tuple(attitude)
+        self.velocity, self.omega = list(velocity), tuple(omega)
+
+    def flown(self, body, gravity, time):
+        dt = time - self.time
+        position = [x + v * dt for x, v in zip(self.position, self.velocity)]
+        position[2] -= gravity * dt * dt / 2
+        velocity = [self.velocity[0], self.velocity[1], self.velocity[2] - gravity * dt]
+        attitude, rates = body.turn(self.attitude, turned_back(self.attitude, self.omega), dt)
+        return State(time, position, attitude, velocity, turned(attitude, rates))
+
+
+class Motion:
+    """Pieces of free flight, each from the state right after an impact."""
+
+    def __init__(self, problem, gap_index=0, law=None):
+        self.statement = told("benchmark", "show", problem)
+        self.truth = told("benchmark", "truth", problem, *(["--law", law] if law else []))
+        self.problem, self.law = problem, law
+        scene = self.statement["scene"]
+        self.body, self.gravity = Body(scene), scene["world"]["gravity"]
+        start = self.statement["starts"][gap_index]
+        self.is_planar = "phi" in start
+        self.touch = start["first_touch"]
+        state = State(0.0, start["position"], start["attitude"], start["velocity"], start["angular_velocity"])
+        self.pieces = [state]
+        for row in self.truth["impacts"]:
+            self.strike(self.touch + row["t"], *self.velocities(row))
+
+    def velocities(self, row):
+        if self.is_planar:
+            return [row["Vt"], 0.0, row["V"]], (0.0, row["Omega"], 0.0)
+        return [row[k] for k in ("Vx", "Vy", "Vz")], tuple(row[k] for k in ("Wx", "Wy", "Wz"))
+
+    def at(self, time):
+        piece = [p for p in self.pieces if p.time <= time or p is self.pieces[0]][-1]
+        return piece.flown(self.body, self.gravity, time)
+
+    def strike(self, time, velocity, omega):
+        """From this time on with these velocities."""
+        before = self.pieces[-1].flown(self.body, self.gravity, time)
+        self.pieces.append(State(time, before.position, before.attitude, velocity, omega))
+
+    def end(self):
+        until = self.statement["until"]
+        last = self.truth["impacts"][-1]["t"]
+        return self.touch + (until if until else 1.02 * last + 0.004)
+
+    def rows(self, step, end=None):
+        end = self.end() if end is None else end
+        rows, piece = [], 0
+        for k in range(math.ceil(end / step) + 1):
+            time = k * step
+            while piece + 1 < len(self.pieces) and self.pieces[piece + 1].time <= time:
+                piece += 1
+            rows.append(self.row(self.pieces[piece].flown(self.body, self.gravity, time)))
+        return rows
+
+    def row(self, state):
+        if not self.is_planar:
+            return [state.time, *state.position, *state.attitude, *state.velocity, *state.omega]
+        phi = 2 * math.atan2(-state.attitude[2], state.attitude[0])
+        return [state.time, state.position[0], state.position[2], phi, state.velocity[0], state.velocity[2],
+                -state.omega[1]]
+
+    def header(self):
+        return "t,x,z,phi,vx,vz,omega" if self.is_planar else "t,x,y,z,q0,q1,q2,q3,vx,vy,vz,wx,wy,wz"
+
+    def text(self, rows, **head):
+        lines = [f"# problem: {self.problem}"]
+        lines += [f"# {key}: {value}" for key, value in head.items()]
+        if self.law:
+            lines.append(f"# law: {self.law}")
+        lines.append(self.header())
+        return "\n".join(lines + [",".join(repr(float(x)) for x in row) for row in rows]) + "\n"
