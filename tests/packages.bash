@@ -22,7 +22,7 @@ test_packages=(libboost-test-dev python3)
 # clang-format holds the form of C++ files.  The Python module, the figures and the notebooks take the line of Python packages.
 # shellcheck disable=SC2034
 full_packages=(clang-format libgmsh-dev libbenchmark-dev zsh fish groff-base chromium chromium-driver libopenmpi-dev openmpi-bin
-               pybind11-dev python3-dev python3-numpy python3-matplotlib jupyter-nbconvert python3-ipykernel mypy
+               pybind11-dev python3-dev python3-numpy python3-matplotlib python3-mpmath jupyter-nbconvert python3-ipykernel mypy
                python3-venv doxygen pkg-config dpkg-dev lintian mmdebstrap)
 
 say() { printf '%s: %s\n' "$speaker" "$*" >&2; }

@@ -50,7 +50,9 @@ class Search {
 
  private:
   [[nodiscard]] double least_jump(double step) const {
-    return std::fmax(search_.least_impulse * std::fmin(1, step / search_.spread_time), search_.rounding);
+    // A compliant contact begins and ends with forces as small as may be.
+    const double share = reference_.is_compliant ? 0 : std::fmin(1, step / search_.spread_time);
+    return std::fmax(search_.least_impulse * share, search_.rounding);
   }
 
   void add(std::size_t row, const StepImpulse& impulse) {

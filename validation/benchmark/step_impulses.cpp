@@ -15,7 +15,6 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 // Residuals of the angular momentum, relative to |P| × reach.
 constexpr double rounding = 1e-7;       ///< of rows with the digits of a float
 constexpr double clearly_one = 5e-3;    ///< a second impulse below this share is left out
-constexpr double spread = 0.2;          ///< pressure of a compliant contact acts beside the corner
 constexpr double pose_of_a_step = 0.1;  ///< of codes that strike with a pose of their own
 constexpr double together = 1e-6;       ///< heights of points that come down as one, relative to the reach
 
@@ -32,13 +31,14 @@ class Step {
   }
 
   [[nodiscard]] std::vector<StepImpulse> impulses() const {
+    // The pressure of a compliant contact acts anywhere beside its corner.
+    if (reference_.is_compliant && candidates_.size() == 1) return {whole(candidates_)};
     const One one = best_one();
     if (one.residual <= rounding) return {whole({one.point})};
     const Two two = best_two();
     const bool exact = two.is_timed && two.residual <= rounding * 1e-2;
-    if (exact || (one.residual > (reference_.is_compliant ? spread : clearly_one) && two.residual < 0.3 * one.residual))
-      return both(two);
-    if (one.residual <= (reference_.is_compliant ? spread : pose_of_a_step)) return {whole({one.point})};
+    if (exact || (one.residual > clearly_one && two.residual < 0.3 * one.residual)) return both(two);
+    if (one.residual <= pose_of_a_step) return {whole({one.point})};
     if (two.residual <= pose_of_a_step) return both(two);
     return {{.points = {}, .impulse = jump_.impulse, .time = start_time_ + middle_}};
   }
@@ -61,7 +61,7 @@ class Step {
     const double speed =
         std::fmax(before_.velocity.norm(), after_.velocity.norm()) +
         reference_.reach() * std::fmax(before_.angular_velocity.norm(), after_.angular_velocity.norm());
-    const double margin = 0.02 * reference_.reach() + speed * length_;
+    const double margin = reference_.is_compliant ? 0 : 0.02 * reference_.reach() + speed * length_;
     const double heights[]{pose_.position.z(), before_.position.z(), after_.position.z()};
     for (std::size_t k = 0; k < reference_.points.size(); ++k) {
       double lowest = std::numeric_limits<double>::infinity();

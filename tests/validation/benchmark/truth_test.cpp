@@ -1,0 +1,193 @@
+// The truth of the benchmark's problems, computed again by another route: the discrete model, Moreau's condition, the
+// simulator.
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "analytic/sequence.hpp"
+#include "analytic/space/sequence.hpp"
+#include "numeric/simulate.hpp"
+#include "validation/benchmark/exact_map.hpp"
+#include "validation/benchmark/reference.hpp"
+#include "validation/scene/discrete_scene.hpp"
+#include "validation/scene/space_scene.hpp"
+
+namespace {
+
+using namespace clatter;
+using namespace clatter::validation;
+using Vector3 = analytic::space::Vector3;
+
+constexpr double agreement = 1e-12;  // of the sequence's sizes, as the benchmark promises
+
+/// Largest sizes of a sequence.
+struct Sizes {
+  double impulse = 0, velocity = 0, angular = 0, time = 0;
+};
+
+Sizes sizes_of(const std::vector<TruthRow>& truth) {
+  Sizes sizes;
+  for (const TruthRow& row : truth) {
+    sizes.impulse = std::max(sizes.impulse, row.impulse.norm());
+    sizes.velocity = std::max(sizes.velocity, row.velocity.norm());
+    sizes.angular = std::max(sizes.angular, row.angular_velocity.norm());
+    sizes.time = std::max(sizes.time, row.time);
+  }
+  return sizes;
+}
+
+void check_close(const std::string& what, double difference, double size) {
+  BOOST_TEST_CONTEXT(what) { BOOST_TEST((difference <= agreement * size), difference << " of " << size); }
+}
+
+void check_row(const std::string& what, const TruthRow& truth, const TruthRow& other, const Sizes& sizes) {
+  BOOST_TEST_CONTEXT(what) { BOOST_TEST(truth.place == other.place); }
+  check_close(what + " time", std::fabs(truth.time - other.time), sizes.time);
+  check_close(what + " impulse", (truth.impulse - other.impulse).norm(), sizes.impulse);
+  check_close(what + " velocity", (truth.velocity - other.velocity).norm(), sizes.velocity);
+  // A rod that lands flat does not turn: the size of its rates is that of its speed over half its length.
+  check_close(what + " turning", (truth.angular_velocity - other.angular_velocity).norm(),
+              std::max(sizes.angular, sizes.velocity));
+}
+
+analytic::ImpactLaw with_law(analytic::ImpactLaw law, const std::string& name) {
+  if (name.starts_with("poisson")) law.law = analytic::RestitutionLaw::poisson;
+  if (name.starts_with("stronge")) law.law = analytic::RestitutionLaw::stronge;
+  return law;
+}
+
+std::vector<TruthRow> planar_rows(const Problem& problem, const std::string& law, int impacts) {
+  analytic::Drop drop = impact_drop(problem.scene);
+  drop.law = with_law(drop.law, law);
+  std::vector<TruthRow> rows;
+  for (const analytic::ImpactRow& row : impact_sequence(drop, {.impacts = impacts}).rows) {
+    const analytic::Impact& impact = row.impact;
+    rows.push_back({.place = analytic::PlanarBody::vertex_set_name(row.vertices),
+                    .time = row.start,
+                    .impulse = {impact.tangential_impulse, 0, impact.normal_impulse},
+                    .velocity = {impact.after.tangential, 0, impact.after.normal},
+                    .angular_velocity = {0, impact.after.angular, 0}});
+  }
+  return rows;
+}
+
+std::vector<TruthRow> space_rows(const Problem& problem, const std::string& law, int impacts) {
+  analytic::space::Drop drop = impact_space_drop(problem.scene);
+  drop.law.law = with_law(drop.law.law, law);
+  std::vector<TruthRow> rows;
+  for (const analytic::space::ImpactRow& row : impact_sequence(drop, {.impacts = impacts}).rows) {
+    BOOST_TEST(row.corners.size() == 1U);
+    rows.push_back({.place = corner_name(problem.scene, row.corners.front()),
+                    .time = row.start,
+                    .impulse = row.impact.impulse,
+                    .velocity = row.impact.velocity_after,
+                    .angular_velocity = row.impact.angular_velocity_after});
+  }
+  return rows;
+}
+
+/// Moreau's law is not one of the discrete model's: its truth is held against the map at the truth's own states.
+void check_moreau(const Problem& problem, const Reference& reference, const ReferenceSequence& sequence) {
+  analytic::space::State state = reference.start;
+  double time = 0;
+  const Sizes sizes = sizes_of(sequence.truth);
+  for (std::size_t i = 0; i < sequence.truth.size(); ++i) {
+    const TruthRow& row = sequence.truth[i];
+    state = reference.flight(state).at(row.time - time);
+    time = row.time;
+    const auto points = reference.place_named(row.place).value();
+    const auto after = exact_map(reference, sequence.law, state, points);
+    const std::string what = problem.id + " moreau";
+    check_close(what, (after.velocity - row.velocity).norm(), sizes.velocity);
+    check_close(what, (after.angular_velocity - row.angular_velocity).norm(), sizes.angular);
+    const double height =
+        state.position.z() + reference.arms(state.attitude)[static_cast<std::size_t>(points.front())].z();
+    check_close(what + " height", std::fabs(height), reference.reach());
+    state = sequence.after[i];
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(the_discrete_model_confirms_the_truth_of_every_rigid_problem_to_1e_12) {
+  int compared = 0;
+  for (const Problem& problem : benchmark_problems()) {
+    if (problem.is_compliant) continue;
+    const Reference reference = reference_of(problem);
+    for (const ReferenceSequence& sequence : reference.sequences) {
+      if (sequence.law.is_moreau) {
+        check_moreau(problem, reference, sequence);
+        continue;
+      }
+      const int count = static_cast<int>(sequence.truth.size());
+      const std::vector<TruthRow> rows = reference.is_planar ? planar_rows(problem, sequence.law.name, count)
+                                                             : space_rows(problem, sequence.law.name, count);
+      BOOST_TEST_REQUIRE(rows.size() == sequence.truth.size());
+      for (std::size_t i = 0; i < rows.size(); ++i, ++compared) {
+        check_row(problem.id + " " + sequence.law.name, sequence.truth[i], rows[i], sizes_of(sequence.truth));
+      }
+    }
+  }
+  BOOST_TEST(compared >= 60);
+}
+
+BOOST_AUTO_TEST_CASE(no_impact_comes_before_the_time_until_which_a_problem_says_that_there_is_none) {
+  for (const Problem& problem : benchmark_problems()) {
+    if (!problem.until || problem.energy_alone) continue;
+    const std::size_t asked = truth_of(problem, "any").size();
+    const std::vector<TruthRow> rows = planar_rows(problem, "any", static_cast<int>(asked) + 1);
+    BOOST_TEST_CONTEXT(problem.id) {
+      BOOST_TEST((rows.size() == asked || rows[asked].time > *problem.until));
+      BOOST_TEST(rows[asked - 1].time < *problem.until);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_simulator_confirms_the_truth_of_the_damped_phone_to_1e_12) {
+  const Problem& problem = problem_named("test", "phone-damped");
+  Scene scene = problem.scene;
+  scene.options.planar = true;
+  scene.options.digits = 12;
+  const std::vector<TruthRow> truth = truth_of(problem, "any");
+  const Sizes sizes = sizes_of(truth);
+  const numeric::Body body = scene.make_body();
+  const numeric::Simulation run = numeric::simulate(body, scene.ground, scene.start(body), scene.options);
+  BOOST_TEST_REQUIRE(run.impacts.size() == truth.size());
+  const double g = scene.options.gravity;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const numeric::ImpactNumbers& impact = run.impacts[i].value;
+    check_close("duration", std::fabs(impact.duration - truth[i].duration), truth[i].duration);
+    check_close("impulse", std::fabs(impact.impulse.z() - truth[i].impulse.z()), sizes.impulse);
+    // The truth follows the flight after the contact back to its own time.
+    const double since = impact.start + impact.duration - truth[i].time;
+    check_close("velocity", std::fabs(impact.velocity_after.z() + g * since - truth[i].velocity.z()), sizes.velocity);
+    check_close("turning", std::fabs(impact.angular_velocity_after.y() - truth[i].angular_velocity.y()), sizes.angular);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_benchmark_has_16_to_24_problems_each_with_its_statement_and_starting_gaps) {
+  const std::vector<Problem>& problems = benchmark_problems();
+  BOOST_TEST(problems.size() >= 16U);
+  BOOST_TEST(problems.size() <= 24U);
+  for (const Problem& problem : problems) {
+    BOOST_TEST_CONTEXT(problem.id) {
+      for (const std::string& text : {problem.title, problem.motivation, problem.separates, problem.acceptance}) {
+        BOOST_TEST(!text.empty());
+      }
+      BOOST_TEST(problem.gaps.size() >= 3U);
+      BOOST_TEST(std::is_sorted(problem.tolerances.begin(), problem.tolerances.end()));
+      const Reference reference = reference_of(problem);
+      for (const double gap : problem.gaps) {
+        // The release flies to the start at the first touch.
+        const auto [state, time] = reference.release(gap);
+        const auto touch = reference.flight(state).at(time);
+        BOOST_TEST((touch.velocity - reference.start.velocity).norm() <= 1e-13 * reference.speed());
+        BOOST_TEST(std::fabs(touch.position.z() - reference.start.position.z()) <= 1e-13 * reference.reach());
+        double lowest = 1;
+        for (const Vector3& arm : reference.arms(state.attitude)) {
+          lowest = std::min(lowest, state.position.z() + arm.z());
+        }
+        BOOST_TEST(std::fabs(lowest - gap) <= 1e-13 * reference.reach());
+      }
+    }
+  }
+}
