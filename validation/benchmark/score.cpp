@@ -7,6 +7,7 @@
 #include <exception>
 
 #include "validation/benchmark/exact_map.hpp"
+#include "validation/benchmark/flight_score.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation {
@@ -17,12 +18,6 @@ using space::State;
 using space::Vector3;
 
 constexpr double least_share = 2e-3;  ///< of the truth's smallest impulse: what counts as an impact
-
-/// The larger of two errors; one that is no number counts as unknown.
-double worse(double error, double other) {
-  if (std::isnan(error) || std::isnan(other)) return Score::unknown;
-  return std::max(error, other);
-}
 
 /// Sizes that errors are relative to.
 struct Sizes {
@@ -133,82 +128,8 @@ Score score_impacts(const std::vector<FoundImpact>& impacts, const Reference& re
   return score;
 }
 
-/// Scores of the motion between impacts.
-class Flights {
- public:
-  Flights(const Motion& motion, const Reference& reference, const ReferenceSequence& sequence,
-          const std::vector<FoundImpact>& impacts)
-      : motion_(motion), reference_(reference), sequence_(sequence), impacts_(impacts) {}
-
-  void score(Score& score) {
-    energy_ = reference_.energy(reference_.start);
-    const double end = motion_.first_touch() + last_time();
-    std::size_t row = 0;
-    const std::size_t count = std::min(impacts_.size(), sequence_.truth.size());
-    for (std::size_t i = 0; i <= count; ++i) {
-      std::size_t last = i < impacts_.size() ? impacts_[i].first_row : motion_.size() - 1;
-      while (i == count && last > row && motion_.time(last) > end) --last;
-      if (last > row) follow(row, last, score, i);
-      if (i < count) row = impacts_[i].last_row;
-    }
-    if (reference_.energy_alone) long_run(score);
-  }
-
- private:
-  [[nodiscard]] double last_time() const {
-    const double last = sequence_.truth.back().time;
-    return reference_.until && !reference_.energy_alone ? *reference_.until : last + 0.2 * last;
-  }
-
-  /// From one row to another without impacts in between; `n` impacts came before.
-  void follow(std::size_t from, std::size_t to, Score& score, std::size_t n) const {
-    const double start = motion_.energy(from);
-    double drift = 0;
-    for (std::size_t row = from; row <= to; ++row) {
-      drift = worse(drift, std::fabs(motion_.energy(row) - start) / energy_);
-    }
-    if (drift > score.energy_error) {
-      score.energy_error = drift;
-      score.drift = n;
-    }
-    const State begin = motion_.state(from), end = motion_.state(to);
-    const State flown = reference_.flight(begin).at(motion_.time(to) - motion_.time(from));
-    double away = (flown.position - end.position).norm();
-    const std::vector<Vector3> wanted = reference_.arms(flown.attitude), arms = reference_.arms(end.attitude);
-    for (std::size_t i = 0; i < arms.size(); ++i) away = worse(away, (arms[i] - wanted[i]).norm());
-    if (away / reference_.reach() > score.flight_error) {
-      score.flight_error = away / reference_.reach();
-      score.stray = n;
-    }
-  }
-
-  /// Energy at the end of a long run, whatever impacts there are.
-  void long_run(Score& score) const {
-    const double end = motion_.first_touch() + *reference_.until;
-    std::size_t row = motion_.size() - 1;
-    if (motion_.time(row) < end - 1e-6 * *reference_.until) {
-      score.energy_error = Score::unknown;
-      score.findings.push_back(fmt::format("the run ends before {} s", shortest(*reference_.until)));
-      return;
-    }
-    while (row > 0 && motion_.time(row) > end) --row;
-    const double wanted = reference_.energy(sequence_.after.back());
-    const double error = std::fabs(motion_.energy(row) - wanted) / energy_;
-    if (error > score.energy_error) {
-      score.energy_error = error;
-      score.drift = sequence_.truth.size();
-    }
-  }
-
-  const Motion& motion_;
-  const Reference& reference_;
-  const ReferenceSequence& sequence_;
-  const std::vector<FoundImpact>& impacts_;
-  double energy_ = 1;
-};
-
-/// Words for each error beyond the class "good".
-void explain(Score& score, double tolerance) {
+/// Words for each error beyond the class "sharp".
+void explain(Score& score, double tolerance, double time) {
   const auto percent = [](double error) {
     return std::isfinite(error) ? significant(error, 2) : std::string("unknown");
   };
@@ -230,6 +151,10 @@ void explain(Score& score, double tolerance) {
     const std::size_t before = score.findings.size();
     add(one.velocity_error, "velocity" + at);
     add(one.angular_error, "angular velocity" + at);
+    if (!(std::fabs(one.time_error) <= tolerance * time)) {
+      score.findings.push_back(fmt::format("impact {} comes {} s {}", i + 1, significant(std::fabs(one.time_error), 2),
+                                           one.time_error < 0 ? "early" : "late"));
+    }
     if (score.findings.size() != before) break;
   }
 }
@@ -242,7 +167,7 @@ Score best_of(const Reference& reference, const std::string& law, Judge&& judge)
     if (!law.empty() && !sequence.law.is_named(law)) continue;
     Score score = judge(sequence);
     score.law_is_declared = !law.empty();
-    explain(score, reference.tolerances[2]);
+    explain(score, reference.tolerances[1], sizes_of(reference, sequence).time);
     if (first || score.error() < best.error() || (score.order_is_right && !best.order_is_right)) best = score;
     first = false;
   }
@@ -272,6 +197,11 @@ const std::vector<std::string>& verdict_names() {
   return names;
 }
 
+double worse(double error, double other) {
+  if (std::isnan(error) || std::isnan(other)) return Score::unknown;
+  return std::max(error, other);
+}
+
 const char* verdict_name(Verdict verdict) { return verdict_names()[static_cast<std::size_t>(verdict)].c_str(); }
 
 double Score::motion_error() const { return worse(velocity_error, worse(angular_error, time_error)); }
@@ -293,7 +223,7 @@ Score score_motion(const Motion& motion, const Reference& reference, const std::
   return best_of(reference, law, [&](const ReferenceSequence& sequence) {
     Score score = score_impacts(impacts, reference, sequence);
     score.start_error = motion.start_error();
-    Flights(motion, reference, sequence, impacts).score(score);
+    score_flights(motion, reference, sequence, impacts, score);
     return score;
   });
 }

@@ -56,6 +56,9 @@ struct Score {
   [[nodiscard]] double error() const;
 };
 
+/// The larger of two errors; one that is no number counts as unknown.
+[[nodiscard]] double worse(double error, double other);
+
 [[nodiscard]] Verdict verdict_of(const Score& score, const std::vector<double>& tolerances);
 
 /// The scores of a motion.  Without a declared law (empty) the one that fits best.

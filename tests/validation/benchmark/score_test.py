@@ -1,0 +1,310 @@
+#!/usr/bin/python3
+"""Answers of others: what is read, how it is scored, what is refused."""
+import json
+import math
+import os
+import pathlib
+import random
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+import exact_motion
+from exact_motion import Motion, run, told
+from planar_code import Code
+
+IDS = [line.split()[0] for line in run("benchmark", "list").stdout.splitlines()]
+SIMULATED = "phone-damped"  # has no motion of impulses
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def put(self, text, name="run.csv"):
+        path = self.folder / name
+        path.write_text(text) if isinstance(text, str) else path.write_bytes(text)
+        return str(path)
+
+    def score(self, *files, options=()):
+        done = run("benchmark", "score", *files, *options, "--format", "json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads(done.stdout)
+
+
+class Problems(unittest.TestCase):
+    def test_list_prints_a_line_per_problem_with_its_id_first(self):
+        self.assertEqual(IDS, [row["id"] for row in told("benchmark", "list")["problems"]])
+        self.assertTrue(16 <= len(IDS) <= 24)
+
+    def test_each_statement_has_the_parts_of_the_library_of_benchmarks(self):
+        for problem in IDS:
+            with self.subTest(problem):
+                text = run("benchmark", "show", problem, "--format", "markdown").stdout
+                for part in ("motivation: ", "separates: ", "data: ", "equations: ", "law", "asked: ", "error: ",
+                             "acceptance: ", "results: as text", "truth by "):
+                    self.assertIn(part, text)
+
+    def test_a_scene_in_a_statement_is_a_scene_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for problem in IDS:
+                if problem == SIMULATED:
+                    continue
+                with self.subTest(problem):
+                    scene = pathlib.Path(folder, "scene.toml")
+                    scene.write_text(told("benchmark", "show", problem)["scene_toml"])
+                    done = run("sequence", str(scene), "--format", "json")
+                    self.assertIn(done.returncode, (0, 3), done.stderr)
+                    truth = told("benchmark", "truth", problem)["impacts"]
+                    for row, impact in zip(truth, json.loads(done.stdout)["impacts"]):
+                        self.assertAlmostEqual(row["t"], impact["start"], delta=1e-12)
+
+    def test_speeds_keep_off_the_known_thresholds(self):
+        for problem in IDS:
+            drop = told("benchmark", "show", problem)["scene"]["drop"]
+            speed = drop["speed"] if drop["velocity"] is None else -drop["velocity"][2]
+            for threshold in (0.1, 0.2, 0.5, 1.0, 2.0):
+                self.assertGreater(abs(speed / threshold - 1), 0.09, problem)
+
+    def test_the_truth_has_25_digits_and_an_uncertainty(self):
+        for problem in IDS:
+            told_truth = told("benchmark", "truth", problem)
+            for row, digits in zip(told_truth["impacts"], told_truth["digits"]):
+                self.assertLessEqual(row["uncertainty"], 1e-20)
+                self.assertGreater(len(digits["Pz"]) if problem not in ("flat", "rod-45", "friction-stick",
+                                                                        "friction-slip-stick") else 25, 20)
+
+    def test_names_that_there_are_not_are_refused_with_the_nearest(self):
+        for arguments, words in ((("show", "rod-12"), "rod-1"), (("truth",), "needs the ID"), (("lst",), "list"),
+                                 (("show", "rod-10", "flat"), "needs the ID"), (("score",), "needs a FILE"),
+                                 (("truth", "flat", "--law", "coulomb"), "newton, poisson or stronge"),
+                                 (("list", "--require", "good"), "only for benchmark score")):
+            done = run("benchmark", *arguments)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), arguments)
+            self.assertIn(words, done.stderr)
+            self.assertEqual(done.stderr.count("\n"), 1)
+
+
+class Exact(Folder):
+    def test_a_motion_sampled_from_the_truth_scores_exact_at_every_step_and_phase(self):
+        for problem in IDS:
+            if problem in (SIMULATED, "long"):
+                continue
+            for gap in (0, 2):
+                motion = Motion(problem, gap)
+                # More than two impacts within a step cannot be told apart: 6.4 ms hold three of clatter-08.
+                for step in (1 / 240 if problem == "clatter-08" else 1 / 60, 1 / 1000):
+                    with self.subTest(problem=problem, gap=gap, step=step):
+                        file = self.score(self.put(motion.text(motion.rows(step))))["files"][0]
+                        self.assertEqual(file["verdict"], "exact", file)
+
+    def test_the_truth_as_a_list_of_impacts_is_exact_by_every_law(self):
+        for problem in IDS:
+            for law in told("benchmark", "show", problem)["laws"]:
+                with self.subTest(problem=problem, law=law):
+                    done = run("benchmark", "truth", problem, "--format", "csv",
+                               *(["--law", law] if law != "any" else []))
+                    path = self.put(done.stdout)
+                    done = run("benchmark", "score", path, "--require", "exact")
+                    self.assertEqual(done.returncode, 0, done.stdout)
+
+    def test_the_simulator_answers_the_compliant_problem_with_a_time_history(self):
+        scene = self.put(told("benchmark", "show", SIMULATED)["scene_toml"], "scene.toml")
+        history = str(self.folder / "history.csv")
+        done = run("simulate", scene, "--planar", "--digits", "11", "--history", history)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        report = self.score(history, options=("--problem", SIMULATED, "--columns",
+                                              "q0=beta0,q1=beta1,q2=beta2,q3=beta3"))
+        self.assertEqual(report["files"][0]["verdict"], "exact", report["files"][0])
+
+    def test_the_long_run_is_followed_to_its_end_whatever_impacts_it_has(self):
+        code = Code("long", 1)
+        rows = code.rows(1 / 200)
+        self.assertGreater(code.impacts, 60)
+        self.assertEqual(self.score(self.put(code.text(rows)))["files"][0]["verdict"], "exact")
+        for spoilt in (rows[:-20], [row[:4] + [v * (1 - 1e-4) ** (row[0] / 10) for v in row[4:]] for row in rows]):
+            self.assertNotIn(self.score(self.put(code.text(spoilt)))["files"][0]["verdict"], ("exact", "sharp"))
+
+    def test_a_file_that_begins_right_after_the_first_impact_has_that_impact(self):
+        motion = Motion("rod-10", 0)
+        rows = motion.rows(1 / 500)
+        rows[0] = motion.row(motion.pieces[1])
+        self.assertEqual(self.score(self.put(motion.text(rows)))["files"][0]["verdict"], "exact")
+
+    def test_a_planar_problem_takes_a_file_in_space(self):
+        motion = Motion("rod-10", 1)
+        lines = ["# problem: rod-10", "t,x,y,z,q0,q1,q2,q3,vx,vy,vz,wx,wy,wz"]
+        for t, x, z, phi, vx, vz, omega in motion.rows(1 / 500):
+            lines.append(",".join(map(repr, (t, x, 0.0, z, math.cos(phi / 2), 0.0, -math.sin(phi / 2), 0.0, vx, 0.0,
+                                             vz, 0.0, -omega, 0.0))))
+        self.assertEqual(self.score(self.put("\n".join(lines) + "\n"))["files"][0]["verdict"], "exact")
+
+    def test_numbers_with_the_digits_of_a_float_score_as_such(self):
+        motion = Motion("rod-10", 1)
+        rows = [[float(f"{v:.7e}") for v in row] for row in motion.rows(1 / 500)]
+        file = self.score(self.put(motion.text(rows)))["files"][0]
+        self.assertLess(file["error"], 1e-5)
+        self.assertGreater(file["error"], 1e-9)
+
+
+class Laws(Folder):
+    def test_a_declared_law_is_the_one_that_judges(self):
+        text = run("benchmark", "truth", "friction-reversal", "--law", "moreau", "--format", "csv").stdout
+        for law, verdict in (("moreau", "exact"), ("Newton, Moreau", "exact"), ("newton routh", "fails"),
+                             ("stronge", "fails")):
+            path = self.put(text.replace("# law: newton moreau", f"# law: {law}"))
+            self.assertEqual(self.score(path)["files"][0]["verdict"], verdict, law)
+
+    def test_without_a_law_the_one_that_fits_best_judges_and_is_named(self):
+        text = run("benchmark", "truth", "friction-reversal", "--law", "poisson", "--format", "csv").stdout
+        file = self.score(self.put(text.replace("# law: poisson routh\n", "")))["files"][0]
+        self.assertEqual((file["law"], file["law_declared"], file["verdict"]), ("poisson routh", False, "exact"))
+
+
+class Groups(Folder):
+    def delayed(self, step, gap, order):
+        """The exact motion, whose impacts' velocities err by step^order."""
+        motion = Motion("rod-45", gap)
+        for piece in motion.pieces[1:]:
+            piece.velocity[2] *= 1 + (1 + gap / 10) * step ** order
+        return motion.text(motion.rows(step), engine="some engine", step=step, settings="tuned")
+
+    def test_files_with_several_steps_give_the_order_of_convergence_from_the_worst_phase(self):
+        for order in (1, 2):
+            files = [self.put(self.delayed(1 / n, gap, order), f"{n}_{gap}.csv")
+                     for n in (100, 200, 400) for gap in (0, 2)]
+            groups = self.score(*files)["problems"]
+            self.assertEqual(len(groups), 1)
+            self.assertAlmostEqual(groups[0]["order"], order, delta=0.02)
+            self.assertEqual([step["files"] for step in groups[0]["steps"]], [2, 2, 2])
+            by_file = {f["file"]: f for f in self.score(*files)["files"]}
+            worst = max(by_file[f]["velocity_error"] for f in files if "/100_" in f)
+            self.assertGreaterEqual(groups[0]["steps"][0]["motion_error"], worst)
+
+    def test_a_step_may_be_written_as_a_fraction(self):
+        motion = Motion("flat", 1)
+        for text in ("1/500", "0.002", "0.002 s"):
+            file = self.score(self.put(motion.text(motion.rows(1 / 500), step=text)))["files"][0]
+            self.assertAlmostEqual(file["step"], 0.002, delta=1e-15)
+
+    def test_the_exit_status_is_1_where_a_file_does_worse_than_required(self):
+        good = self.put(Motion("rod-10").text(Motion("rod-10").rows(1 / 500)), "good.csv")
+        bad = self.put(self.delayed(1 / 30, 0, 2), "bad.csv")
+        for require, files, status in (("exact", [good], 0), ("exact", [good, bad], 1), ("coarse", [bad], 0),
+                                       ("sharp", [bad], 1), ("1e-2", [bad], 0), ("1e-5", [bad, good], 1)):
+            self.assertEqual(run("benchmark", "score", *files, "--require", require).returncode, status, require)
+        self.assertEqual(run("benchmark", "score", bad).returncode, 0)
+        self.assertEqual(run("benchmark", "score", bad, "--require", "fine").returncode, 2)
+
+
+class Against(Folder):
+    FLAGS = ("--angle", "25", "--speed", "1.3", "--impacts", "3")
+
+    def exact(self):
+        """The motion of a scene of one's own, from the impact sequence."""
+        motion = Motion("rod-10")
+        scene = told("sequence", *self.FLAGS)
+        start = motion.pieces[0]
+        angle = math.radians(25)
+        start.position, start.velocity = [0.0, 0.0, math.sin(angle) / 2], [0.0, 0.0, -1.3]
+        start.attitude = (math.cos(angle / 2), 0.0, -math.sin(angle / 2), 0.0)
+        motion.pieces, motion.law = [start], None
+        for impact in scene["impacts"]:
+            motion.strike(impact["start"], impact["velocity_after"], tuple(impact["angular_velocity_after"]))
+        return motion, 1.1 * scene["impacts"][-1]["start"]
+
+    def test_any_scene_is_compared_with_a_foreign_run(self):
+        motion, end = self.exact()
+        path = self.put(motion.text(motion.rows(1 / 400, end)))
+        scene = self.put("[drop]\nangle_deg = 25\nspeed = 1.3\n[world]\ngravity = 0\n[body]\nradius = 0\n"
+                         "[run]\nimpacts = 3\n", "scene.toml")
+        for what in ((*self.FLAGS,), (scene,)):
+            done = run("compare", *what, "--against", path, "--require", "exact", "--format", "json")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(json.loads(done.stdout)["files"][0]["found"], 3)
+        done = run("compare", "--angle", "26", "--speed", "1.3", "--impacts", "3", "--against", path, "--require", "good")
+        self.assertEqual(done.returncode, 1)
+        for arguments in (("--columns", "t=time"), ("--require", "good")):
+            self.assertEqual(run("compare", "rod-10", *arguments).returncode, 2)
+
+    def test_a_box_in_space_is_compared_with_a_foreign_run(self):
+        motion = Motion("corner", 0)
+        scene = self.put(motion.statement["scene_toml"], "scene.toml")
+        path = self.put(motion.text(motion.rows(1 / 400)))
+        done = run("compare", scene, "--against", path, "--require", "1e-8")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+
+class BadFiles(Folder):
+    def test_a_malformed_file_is_refused_in_one_line_with_row_and_column(self):
+        head = "# problem: rod-10\n"
+        rows = "t,x,z,phi,vx,vz,omega\n0,0,0.1,0.1745,0,-1.5,0\n0.01,0,0.09,0.1745,0,-1.5,0\n"
+        cases = (
+            ("", "is empty"), (rows, "no line \"# problem: ID\""), ("# problem: rod-1O\n" + rows, "run.csv:1:1: problem"),
+            (head + rows.replace("vz", "v_z"), "run.csv:2:1: no column vz"),
+            (head + rows.replace("0.01", "nan"), "run.csv:4:1: t = nan: must be a finite number"),
+            (head + rows.replace("0.09", "1e999"), "run.csv:4:8: z = 1e999"),
+            (head + rows.replace("0.01", "0.0"), "run.csv:4:1: t = 0.0: must be later"),
+            (head + rows.replace("0.09,", ""), "run.csv:4:"),
+            (head + rows + "1,2\n", "run.csv:5:4: 2 fields"),
+            (head + "# step: fast\n" + rows, "run.csv:2:1: step = fast: must be"),
+            (head + "# law: coulomb\n" + rows, "run.csv:2:1: law = coulomb"),
+            (head + "# law: poisson moreau\n" + rows, "run.csv:2:1: law = poisson moreau"),
+            (head + head + rows, "run.csv:2:1: problem is given twice"),
+            (head.replace("rod-10", "corner") + rows, "moves in space"),
+            (head + rows.splitlines()[0] + "\n0,0,0.1,0.1745,0,-1.5,0\n", "must be followed by more rows"),
+            (head + "t,place,Pn,Pt,V,Omega\n0,c,1,0,1,1\n", "run.csv:3:3: place = c: must be one of a, b"),
+            (head + "t,place,Pn,Pt,V,Omega\n1,a,1,0,1,1\n0,b,1,0,1,1\n", "run.csv:4:1: t = 0: must be no earlier"))
+        for text, words in cases:
+            done = run("benchmark", "score", self.put(text))
+            self.assertEqual((done.returncode, done.stdout), (2, ""), words)
+            self.assertIn(words, done.stderr)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        for path in (str(self.folder), str(self.folder / "none.csv"), self.put(b"\x7fELF\0\1\2", "binary")):
+            done = run("benchmark", "score", path)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+
+    def test_damaged_files_are_scored_or_refused_and_never_crash(self):
+        draw = random.Random(5)
+        whole = []
+        for problem in ("rod-10", "corner", "friction-reversal"):
+            motion = Motion(problem, 1)
+            whole.append(motion.text(motion.rows(1 / 100)))
+            whole.append(run("benchmark", "truth", problem, "--format", "csv").stdout)
+        refused = 0
+        for i in range(300):
+            text = bytearray(draw.choice(whole).encode())
+            for _ in range(draw.randint(1, 4)):
+                at = draw.randrange(len(text))
+                kind = draw.randrange(4)
+                if kind == 0:
+                    text[at] = draw.randrange(256)
+                elif kind == 1:
+                    del text[at:at + draw.randint(1, 40)]
+                elif kind == 2:
+                    text[at:at] = draw.choice((b"e300", b"-", b"9" * 20, b"\n", b",", b"1e-300", b"\0", b'"'))
+                else:
+                    text = text[:at]
+            done = subprocess.run([exact_motion.PROGRAM, "benchmark", "score", self.put(bytes(text))],
+                                  capture_output=True, timeout=60)
+            self.assertIn(done.returncode, (0, 2), (i, done.stderr, bytes(text)))
+            refused += done.returncode == 2
+            self.assertEqual(done.stderr.count(b"\n"), 1 if done.returncode else 0)
+        self.assertTrue(30 < refused < 290, refused)
+
+
+class Installed(Folder):
+    def test_a_strangers_file_is_scored_by_the_program_alone(self):
+        program = shutil.copy(exact_motion.PROGRAM, self.folder / "clatter")
+        motion = Motion("thick-rod", 1)
+        self.put(motion.text(motion.rows(1 / 200)))
+        done = subprocess.run([program, "benchmark", "score", "run.csv", "--require", "exact"], cwd=self.folder,
+                              env={"PATH": "/usr/bin:/bin"}, capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
