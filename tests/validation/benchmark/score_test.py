@@ -125,7 +125,7 @@ class Exact(Folder):
         rows = code.rows(1 / 200)
         self.assertGreater(code.impacts, 60)
         self.assertEqual(self.score(self.put(code.text(rows)))["files"][0]["verdict"], "exact")
-        for spoilt in (rows[:-20], [row[:4] + [v * (1 - 1e-4) ** (row[0] / 10) for v in row[4:]] for row in rows]):
+        for spoilt in (rows[:-40], [row[:4] + [v * (1 - 1e-4) ** (row[0] / 10) for v in row[4:]] for row in rows]):
             self.assertNotIn(self.score(self.put(code.text(spoilt)))["files"][0]["verdict"], ("exact", "sharp"))
 
     def test_a_file_that_begins_right_after_the_first_impact_has_that_impact(self):
