@@ -15,6 +15,7 @@ namespace space = analytic::space;
 using space::State;
 using space::Vector3;
 
+constexpr double on_ground = 1e-6;         ///< of the reach
 constexpr std::size_t most_steps = 20000;  ///< with jumps; a body at rest has one in each
 
 /// Impulses of neighbouring steps at the same points.
@@ -99,7 +100,7 @@ class Search {
                        .impulse = contact.impulse,
                        .before = {},
                        .after = {},
-                       .poses = {},
+                       .bookings = {},
                        .first_row = contact.first_row,
                        .last_row = contact.last_row};
     const bool alone = previous == nullptr && !overlap(i);
@@ -110,14 +111,37 @@ class Search {
     impact.before = previous != nullptr ? reference_.flight(previous->after).at(impact.time - previous->time)
                                         : reference_.flight(start).at(time - begin);
     impact.after = overlap(i) ? struck(impact) : reference_.flight(end).at(time - finish);
-    impact.poses.push_back(impact.before);
-    if (alone) {
-      for (const State* pose : {&start, &end}) {
-        impact.poses.push_back(impact.before);
-        impact.poses.back().attitude = pose->attitude;
-      }
-    }
+    impact.bookings.push_back({impact.before, impact.after});
+    if (alone && !is_resolved(impact)) add_bookings(impact, start, end);
     return impact;
+  }
+
+  /// Whether the points are on the ground at the instant at which the flights meet.
+  [[nodiscard]] bool is_resolved(const FoundImpact& impact) const {
+    const std::vector<Vector3> arms = reference_.arms(impact.before.attitude);
+    return std::all_of(impact.points.begin(), impact.points.end(), [&](int point) {
+      return std::fabs(impact.before.position.z() + arms[static_cast<std::size_t>(point)].z()) <=
+             on_ground * reference_.reach();
+    });
+  }
+
+  void add_bookings(FoundImpact& impact, const State& start, const State& end) const {
+    const double fall = reference_.gravity * (motion_.time(impact.last_row) - motion_.time(impact.first_row));
+    const Vector3 down(0, 0, fall);
+    for (const space::Quaternion& pose : {impact.before.attitude, start.attitude, end.attitude}) {
+      const auto add = [&](const Vector3& before, const Vector3& after) {
+        Booking booking{impact.before, impact.after};
+        booking.before.attitude = booking.after.attitude = pose;
+        booking.before.velocity = before;
+        booking.after.velocity = after;
+        impact.bookings.push_back(booking);
+      };
+      add(impact.before.velocity, impact.after.velocity);
+      if (!(fall > 0)) continue;
+      add(start.velocity - down, end.velocity);
+      add(start.velocity, end.velocity + down);
+      add(start.velocity, end.velocity);
+    }
   }
 
   [[nodiscard]] State struck(const FoundImpact& impact) const {
@@ -168,7 +192,7 @@ std::vector<FoundImpact> listed_impacts(const NumericTable& table, const Referen
         .impulse = in_space ? vector(row, "Px", "Py", "Pz") : Vector3(number(row, "Pt"), 0, number(row, "Pn")),
         .before = reference.flight(state).at(given - shift - (row == 0 ? 0 : time)),
         .after = {},
-        .poses = {}};
+        .bookings = {}};
     time = impact.time;
     state = impact.before;
     state.velocity = in_space
@@ -176,7 +200,7 @@ std::vector<FoundImpact> listed_impacts(const NumericTable& table, const Referen
                          : Vector3(state.velocity.x() + impact.impulse.x() / reference.body.mass, 0, number(row, "V"));
     state.angular_velocity = in_space ? vector(row, "Wx", "Wy", "Wz") : Vector3(0, number(row, "Omega"), 0);
     impact.after = state;
-    impact.poses = {impact.before};
+    impact.bookings = {{impact.before, impact.after}};
     found.push_back(impact);
   }
   return found;

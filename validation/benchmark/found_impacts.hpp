@@ -8,6 +8,13 @@
 
 namespace clatter::validation {
 
+/// How a code may have booked an impact.  One that resolves the instant has the point on the ground then.  Any other
+/// strikes with the pose at the begin or the end of its step, or between, and adds the step's gravity before the
+/// impact, after it, on both sides of it, or lets the impact make up for it.
+struct Booking {
+  analytic::space::State before, after;
+};
+
 /// One impact of a foreign run.
 struct FoundImpact {
   std::vector<int> points;  ///< that struck; none: no point of the body explains the jump
@@ -15,8 +22,8 @@ struct FoundImpact {
   double time = 0;          ///< since the first touch [s]
   analytic::space::Vector3 impulse = analytic::space::Vector3::Zero();  ///< [N·s]
   analytic::space::State before, after;                                 ///< of the flights, at `time`
-  /// States that the code may have struck from: with the pose at `time`, of the last row before and the first after.
-  std::vector<analytic::space::State> poses;
+  /// States right before and after, as the code may have had them; the first is (before, after).
+  std::vector<Booking> bookings;
   std::size_t first_row = 0, last_row = 0;  ///< of the motion, around it
 };
 

@@ -47,11 +47,11 @@ double distance(const Reference& reference, const State& a, const State& b) {
 double law_error(const Reference& reference, const DeclaredLaw& law, const FoundImpact& impact) {
   if (impact.points.empty()) return Score::unknown;
   double least = Score::unknown;
-  for (const State& pose : impact.poses) {
+  for (const auto& [before, after] : impact.bookings) {
     try {
-      const State exact = exact_map(reference, law, pose, impact.points);
-      const double change = std::fmax(distance(reference, exact, pose), distance(reference, impact.after, pose));
-      least = std::fmin(least, distance(reference, exact, impact.after) / change);
+      const State exact = exact_map(reference, law, before, impact.points);
+      const double change = std::fmax(distance(reference, exact, before), distance(reference, after, before));
+      least = std::fmin(least, distance(reference, exact, after) / change);
     } catch (const std::exception&) {
       continue;  // the law has no answer there: the error is unknown
     }

@@ -31,7 +31,7 @@ struct ImpactScore {
 
 /// The scores of one run.  Errors are relative; a score that cannot be had is infinite.
 ///   law       distance of the velocities after an impact from the exact map at the code's own state before it, in the
-///             norm of kinetic energy, over the map's own change; the nearest of the poses in FoundImpact
+///             norm of kinetic energy, over the map's own change; the nearest of the impact's bookings
 ///   order     number and places of the impacts, in their order
 ///   motion    V, Ω and t against the truth; t over the last impact's time, at least reach/speed
 ///   energy    after the impacts against the truth, and what is gained or lost between impacts
