@@ -7,7 +7,7 @@ namespace {
 
 using Style = FigureCurve::Style;
 
-constexpr auto impulse = normal_impulse_quantity;
+constexpr auto impulse = normal_impulse_place;
 
 /// What the impacts are drawn over.
 struct XAxis {

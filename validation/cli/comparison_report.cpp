@@ -16,7 +16,7 @@ namespace {
 /// Zero in both models and in the limit, by symmetry; a limit that misses is something.
 bool is_nothing(const Comparison& comparison, const ComparedImpact& impact, std::size_t q) {
   if (impact.has_landing() && !(std::fabs(NumberPair{impact, q}.miss()) <= impact.allowance[q])) return false;
-  const double tiny = 1e-12 * comparison.scales[q];
+  const double tiny = 1e-12 * comparison.discrete.scales[q];
   return std::fabs((*impact.discrete)[q]) <= tiny && impact.continuous && std::fabs((*impact.continuous)[q]) <= tiny;
 }
 
@@ -27,12 +27,12 @@ Cell number_cell(const ComparedImpact& impact) {
 
 void add_rows(const Comparison& comparison, const ComparedImpact& impact, Grid& grid) {
   bool first = true;
-  for (std::size_t q = 0; q < quantity_count; ++q) {
+  for (const auto& [name, heading, q] : comparison.discrete.quantities) {
     if (!impact.discrete || is_nothing(comparison, impact, q)) continue;
     const NumberPair pair{impact, q};
-    const double scale = comparison.scales[q];
-    Row row{first ? number_cell(impact) : Cell(), first ? Cell(impact.discrete_end) : Cell(),
-            Cell(plane_quantities[q].heading), known_cell(pair.discrete_number(), {6, scale})};
+    const double scale = comparison.discrete.scales[q];
+    Row row{first ? number_cell(impact) : Cell(), first ? Cell(impact.discrete_end) : Cell(), Cell(heading),
+            known_cell(pair.discrete_number(), {6, scale})};
     if (impact.reason.empty()) {
       row.insert(row.end(), {known_cell(pair.continuous_number(), {6, scale}),
                              difference_cell(pair.deviation_number(), scale), Cell(pair.predicted(), 2)});
@@ -61,6 +61,21 @@ std::vector<std::string> reasons(const Comparison& comparison) {
   return notes;
 }
 
+/// In space, why impacts have no limit that lands; one line for those in a row that share it.
+std::vector<std::string> explanations(const Comparison& comparison) {
+  std::vector<std::string> notes;
+  const auto& impacts = comparison.impacts;
+  for (std::size_t i = 0; i < impacts.size();) {
+    const std::size_t first = i;
+    while (i < impacts.size() && impacts[i].explanation == impacts[first].explanation) ++i;
+    if (impacts[first].explanation.empty()) continue;
+    notes.push_back(i == first + 1
+                        ? fmt::format("Limit of impact {}: {}", i, impacts[first].explanation)
+                        : fmt::format("Limit of impacts {} to {}: {}", first + 1, i, impacts[first].explanation));
+  }
+  return notes;
+}
+
 std::string limit_words(const Comparison& comparison) {
   const StiffLimit& limit = comparison.limit;
   if (limit.rows.empty()) return "No limit: the impacts do not come apart on stiffer ground either.";
@@ -80,8 +95,8 @@ std::string verdict_words(const Comparison& comparison) {
 }
 
 /// Whether every number of either model is known to its error.
-bool is_predictable(const ComparedImpact& impact) {
-  for (std::size_t q = 0; q < quantity_count; ++q) {
+bool is_predictable(const Comparison& comparison, const ComparedImpact& impact) {
+  for (const auto& [name, heading, q] : comparison.discrete.quantities) {
     if (impact.discrete && !std::isfinite(impact.discrete_error[q])) return false;
     if (impact.continuous && !std::isfinite(impact.continuous_error[q])) return false;
   }
@@ -131,30 +146,31 @@ const std::vector<Column>& number_columns() {
 }
 
 /// The quantities of an impact as fields, and as rows of CSV behind `front`.
-Value add_numbers(const ComparedImpact& impact, const Row& front, Grid& grid) {
+Value add_numbers(const Comparison& comparison, const ComparedImpact& impact, const Row& front, Grid& grid) {
   Value numbers;
-  for (std::size_t q = 0; q < quantity_count; ++q) {
-    const std::string name = plane_quantities[q].name;
+  for (const auto& [name, heading, q] : comparison.discrete.quantities) {
     const Row values = number_row({impact, q});
     numbers[name] = row_object(number_columns(), values);
     Row& row = grid.rows.emplace_back(front);
-    row.insert(row.end(),
-               {Cell(impact.n), Cell(name), Cell(is_predictable(impact)), Cell(text_or_nothing(impact.reason))});
+    row.insert(row.end(), {Cell(impact.n), Cell(name), Cell(is_predictable(comparison, impact)),
+                           Cell(text_or_nothing(impact.reason))});
     row.insert(row.end(), values.begin(), values.end());
   }
   return numbers;
 }
 
-Value impact_fields(const ComparedImpact& impact, const Row& front, Grid& grid) {
-  return Value::Fields{{"n", impact.n},
-                       {"comparable", impact.reason.empty()},
-                       {"predictable", is_predictable(impact)},
-                       {"reason", text_or_nothing(impact.reason)},
-                       {"discrete_end", text_or_nothing(impact.discrete_end)},
-                       {"continuous_end", text_or_nothing(impact.continuous_end)},
-                       {"contact_time", impact.continuous ? Value(impact.contact_time) : Value()},
-                       {"limit_is_discrete", impact.has_landing() ? Value(impact.lands()) : Value()},
-                       {"numbers", add_numbers(impact, front, grid)}};
+Value impact_fields(const Comparison& comparison, const ComparedImpact& impact, const Row& front, Grid& grid) {
+  Value fields(Value::Fields{{"n", impact.n},
+                             {"comparable", impact.reason.empty()},
+                             {"predictable", is_predictable(comparison, impact)},
+                             {"reason", text_or_nothing(impact.reason)},
+                             {"discrete_end", text_or_nothing(impact.discrete_end)},
+                             {"continuous_end", text_or_nothing(impact.continuous_end)},
+                             {"contact_time", impact.continuous ? Value(impact.contact_time) : Value()},
+                             {"limit_is_discrete", impact.has_landing() ? Value(impact.lands()) : Value()},
+                             {"numbers", add_numbers(comparison, impact, front, grid)}});
+  if (comparison.discrete.in_space) fields["explanation"] = text_or_nothing(impact.explanation);
+  return fields;
 }
 
 }  // namespace
@@ -197,10 +213,10 @@ Report begun_comparison(const Scene& scene) {
 void add_comparison(const Comparison& comparison, const Row& front, Value& fields, Grid& grid) {
   fields["impacts"] = Value::List{};
   for (const ComparedImpact& impact : comparison.impacts)
-    fields["impacts"].push_back(impact_fields(impact, front, grid));
+    fields["impacts"].push_back(impact_fields(comparison, impact, front, grid));
   fields["limit"] = Value::Fields{
       {"stiffness", comparison.limit.stiffness}, {"power", -comparison.limit.power}, {"runs", comparison.limit.runs}};
-  fields["discrete_ended"] = comparison.sequence.message;
+  fields["discrete_ended"] = comparison.discrete.message;
   fields["continuous_ended"] = comparison.run.message;
   fields["agrees"] = comparison.agrees();
   fields["shortfall"] = text_or_nothing(comparison.shortfall);
@@ -211,7 +227,7 @@ Report comparison_report(const Scene& scene, const Comparison& comparison) {
   Report report = begun_comparison(scene);
   add_comparison(comparison, {}, report.fields, report.grid);
   report.digest->columns = {{"n", "n", ""},
-                            {"end", "end", ""},
+                            {"end", comparison.discrete.in_space ? "corner" : "end", ""},
                             {"quantity", "", ""},
                             {"discrete", "discrete", ""},
                             {"continuous", "contin.", ""},
@@ -221,6 +237,7 @@ Report comparison_report(const Scene& scene, const Comparison& comparison) {
                             {"allowance", "±", ""}};
   for (const ComparedImpact& impact : comparison.impacts) add_rows(comparison, impact, *report.digest);
   report.notes = reasons(comparison);
+  for (const std::string& note : explanations(comparison)) report.notes.push_back(note);
   report.notes.emplace_back(
       "t in s, angles in °, P in N·s, V in m/s, Ω in rad/s; predicted: the size, no bound, of what gravity, turning "
       "and indentation do during contacts, carried on from impact to impact");

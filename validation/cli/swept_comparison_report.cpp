@@ -48,9 +48,9 @@ Row worst_row(double value, const Comparison& comparison, const ComparedImpact& 
 WorstNumber worst_number(const Comparison& comparison, const ComparedImpact& impact) {
   WorstNumber worst;
   double largest = -1, largest_miss = -1;
-  for (std::size_t q = 0; q < quantity_count; ++q) {
+  for (const auto& [name, heading, q] : comparison.discrete.quantities) {
     const NumberPair pair{impact, q};
-    const double scale = comparison.scales[q];
+    const double scale = comparison.discrete.scales[q];
     if (impact.reason.empty() && std::fabs(pair.deviation()) / scale > largest) {
       largest = std::fabs(pair.deviation()) / scale;
       worst.deviation = largest;

@@ -3,185 +3,197 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
-#include "analytic/impact_limits.hpp"
 #include "validation/output/number.hpp"
 #include "validation/plan/shortfall.hpp"
 #include "validation/record/names.hpp"
-#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation {
 namespace {
 
-using analytic::ImpactMode;
-using analytic::ImpactRow;
 using numeric::ImpactRecord;
+using numeric::Vector3;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double bars_apart =
     5;  // a bar holds in all but some of a hundred numbers; a model that is wrong misses by many
 constexpr long evaluations_per_run = 300'000;  // a contact that takes more is none that the discrete model knows
 
-/// End of the continuous model's kind: by the side of the body that the vertices are on.
-std::string end_of(const analytic::PlanarBody& body, const ImpactRow& row) {
-  bool left = false, right = false;
-  for (int i = 0; i < body.vertex_count; ++i) {
-    if (!(row.vertices >> i & 1)) continue;
-    (body.vertices[static_cast<std::size_t>(i)].x < 0 ? left : right) = true;
-  }
-  return left && right ? "both" : left ? "a" : "b";
-}
-
-bool jams(const Comparison& comparison, const ImpactRow& row) {
-  if (comparison.drop.law.friction != analytic::FrictionKind::coulomb || std::popcount(row.vertices) != 1) return false;
-  const analytic::ContactPoint d = comparison.drop.body.contact_point(
-      std::countr_zero(row.vertices), std::sin(row.inclination), std::cos(row.inclination));
-  const double limit = analytic::jamming_ratio(contact_inertia(comparison.drop.body.gyration_square, d));
-  return comparison.drop.law.friction_value >= std::fabs(limit);
-}
-
 /// Whether an impact ended in stick.
-bool sticks(ImpactMode mode) { return mode == ImpactMode::stick || mode == ImpactMode::slip_stick; }
 bool sticks(numeric::FrictionMode mode) {
   return mode == numeric::FrictionMode::stick || mode == numeric::FrictionMode::slip_stick;
 }
 
 /// Whether an impact sticks in one model alone because the discrete one has no static coefficient of its own.
-bool sticks_in_one_model(const numeric::Ground& ground, ImpactMode discrete, numeric::FrictionMode continuous) {
-  return ground.static_friction != ground.sliding_friction && sticks(discrete) != sticks(continuous);
+bool sticks_in_one_model(const numeric::Ground& ground, const SequenceImpact& discrete,
+                         numeric::FrictionMode continuous) {
+  return ground.static_friction != ground.sliding_friction && discrete.sticks != sticks(continuous);
 }
 
-/// The body lies flat or stands upright as it lands.
-bool is_face(const ImpactRow& row) {
-  constexpr double square = 1e-12;  // [rad]
-  return row.contact_angle < square || row.contact_angle > analytic::pi / 2 - square;
+/// Whether both models touch down with the same end, or in space with the same corners.
+bool same_contact(const SequenceImpact& discrete, numeric::ContactEnd end, const Vector3& place, double radius) {
+  if (!discrete.place) return discrete.end == end_name(end);
+  return (*discrete.place - place).norm() <= 1e-6 * radius;
 }
 
-/// A whole face lands while it turns or slides.  Where along the face the ground then presses decides the rebound,
-/// which impulses at corners do not know; only a face that lands at rest against the ground has one answer.
-bool is_open_face(const ImpactRow& row) {
-  return is_face(row) && (row.before.angular != 0 || row.impact.tangential_impulse != 0);
-}
-
-/// Why row i cannot be compared at any stiffness; empty if it can.
-std::string reason_in_principle(const Comparison& comparison, std::size_t i) {
-  const auto& rows = comparison.sequence.rows;
-  if (i >= rows.size()) return "";
-  if (is_open_face(rows[i])) {
-    return "a whole face lands turning or sliding: its rebound depends on where along it the ground presses";
+/// What reports call the contact of the continuous model.
+std::string contact_name(const DiscreteSide& side, numeric::ContactEnd end, const Vector3& place, double radius) {
+  if (!side.in_space) return end_name(end);
+  for (const SequenceImpact& impact : side.impacts) {
+    if (same_contact(impact, end, place, radius)) return impact.end;
   }
-  if (std::any_of(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(i), is_face)) {
-    return "follows the landing of a whole face: rounding decides how it lands again";
+  for (const NamedCorner& corner : side.corners) {
+    if ((corner.place - place).norm() <= 1e-6 * radius) return corner.name;
   }
-  return "";
+  return "several";
 }
 
-/// Why row i cannot be compared at the scene's stiffness; empty if it can.
-std::string reason_against(const Comparison& comparison, const Scene& scene, std::size_t i) {
-  const auto& rows = comparison.sequence.rows;
-  const auto& impacts = comparison.run.impacts;
-  if (i >= rows.size()) return "the discrete sequence has ended: " + comparison.sequence.message;
-  if (i >= impacts.size()) return "the continuous run has ended: " + comparison.run.message;
-  if (const std::string reason = reason_in_principle(comparison, i); !reason.empty()) return reason;
-  const ImpactRecord& record = impacts[i];
-  const std::string end = end_of(comparison.drop.body, rows[i]);
-  if (!record.predictable) {
-    return fmt::format("beyond the predictable: out of its plane an error of the start has grown {} times",
-                       significant(record.amplification, 2));
+/// Why an impact cannot be compared at any stiffness; empty if it can.
+std::string reason_in_principle(const SequenceImpact& impact) {
+  return impact.open.empty() ? impact.follows_open : impact.open;
+}
+
+std::string contacts_differ(const DiscreteSide& side, const std::string& discrete, const std::string& continuous) {
+  if (!side.in_space) return fmt::format("end {} strikes in one model, end {} in the other", discrete, continuous);
+  if (discrete == continuous) return fmt::format("another point of {} strikes in each model", discrete);
+  return fmt::format("corner {} strikes in the discrete model, corner {} in the continuous one", discrete, continuous);
+}
+
+std::string unpredictable_words(const ImpactRecord& record, bool in_space) {
+  return fmt::format("beyond the predictable: {}an error of the start has grown {} times",
+                     in_space ? "" : "out of its plane ", significant(record.amplification, 2));
+}
+
+/// Why impact i cannot be compared at the scene's stiffness; empty if it can.
+std::string reason_against(const Comparison& comparison, const Scene& scene, double radius, std::size_t i) {
+  const DiscreteSide& side = comparison.discrete;
+  const auto& records = comparison.run.impacts;
+  if (i >= side.impacts.size()) return "the discrete sequence has ended: " + side.message;
+  if (i >= records.size()) return "the continuous run has ended: " + comparison.run.message;
+  const SequenceImpact& impact = side.impacts[i];
+  if (const std::string reason = reason_in_principle(impact); !reason.empty()) return reason;
+  const ImpactRecord& record = records[i];
+  if (!record.predictable) return unpredictable_words(record, side.in_space);
+  if (!impact.predictable) return "beyond the predictable: an error of the start has grown too far";
+  if (record.touches > 1 && impact.end != "both") return "another place touches before the first contact has ended";
+  if (impact.jams) return "jamming: friction beyond Painlevé's limit drives the contact into the ground";
+  if (!same_contact(impact, record.end, record.place, radius)) {
+    return contacts_differ(side, impact.end, comparison.impacts[i].continuous_end);
   }
-  if (!(rows[i].amplification * epsilon <= 0.01))
-    return "beyond the predictable: an error of the start has grown too far";
-  if (record.touches > 1 && end != "both") return "another place touches before the first contact has ended";
-  if (jams(comparison, rows[i])) return "jamming: friction beyond Painlevé's limit drives the contact into the ground";
-  if (end != end_name(record.end))
-    return fmt::format("end {} strikes in one model, end {} in the other", end, end_name(record.end));
-  if (sticks_in_one_model(scene.ground, rows[i].impact.mode, record.mode)) {
+  if (sticks_in_one_model(scene.ground, impact, record.mode)) {
     return "static and sliding friction differ; the discrete model has one coefficient";
   }
-  const Quantities size = comparison.impacts[i].predicted.total();
-  if (!std::isfinite(size[0] + size[1] + size[2])) {
+  const MotionNumbers size = comparison.impacts[i].predicted.total();
+  if (!std::isfinite(size[0] + size[1] + size[normal_impulse_place])) {
     return "the contacts last too long: within what they leave open another sequence follows";
   }
   return "";
 }
 
 /// |limit − discrete| that error bars and the rounding of the discrete model leave open.
-Quantities allowance(const ComparedImpact& impact, const ImpactRow& row, const Quantities& scales) {
-  Quantities sum{};
-  const double growth = std::isfinite(row.amplification) ? row.amplification : 1;
-  for (std::size_t q = 0; q < quantity_count; ++q) {
-    sum[q] = bars_apart * impact.limit->error[q] + 8 * epsilon * (1 + growth) * scales[q];
+MotionNumbers allowance(const LimitRow& limit, const SequenceImpact& impact, const MotionNumbers& scales) {
+  MotionNumbers sum{};
+  const double growth = std::isfinite(impact.amplification) ? impact.amplification : 1;
+  for (std::size_t q = 0; q < motion_number_count; ++q) {
+    sum[q] = bars_apart * limit.error[q] + 8 * epsilon * (1 + growth) * scales[q];
   }
   return sum;
 }
 
 /// The estimates, unknown in a row that cannot be predicted.
-Quantities error_of(const ImpactRecord& record) {
-  Quantities error = in_plane(motion_errors(record));
+MotionNumbers error_of(const ImpactRecord& record) {
+  MotionNumbers error = motion_errors(record);
   if (!record.predictable) error.fill(std::numeric_limits<double>::infinity());
   return error;
 }
 
-void add_impact(Comparison& comparison, std::size_t i, const std::vector<PredictedSize>& predicted) {
-  const auto& rows = comparison.sequence.rows;
+void add_impact(Comparison& comparison, double radius, std::size_t i) {
+  const DiscreteSide& side = comparison.discrete;
   const auto& records = comparison.run.impacts;
-  ComparedImpact impact{.n = static_cast<int>(i) + 1,
-                        .reason = {},
-                        .discrete = {},
-                        .continuous = {},
-                        .discrete_error = {},
-                        .continuous_error = {},
-                        .discrete_end = {},
-                        .continuous_end = {},
-                        .predicted = {},
-                        .limit = {}};
-  if (i < rows.size()) {
-    impact.discrete = in_plane(motion_numbers(rows[i]));
-    impact.discrete_error = in_plane(motion_errors(rows[i]));
-    impact.discrete_end = end_of(comparison.drop.body, rows[i]);
+  ComparedImpact& impact = comparison.impacts.emplace_back();
+  impact.n = static_cast<int>(i) + 1;
+  if (i < side.impacts.size()) {
+    impact.discrete = side.impacts[i].numbers;
+    impact.discrete_error = side.impacts[i].errors;
+    impact.discrete_end = side.impacts[i].end;
   }
   if (i < records.size()) {
-    impact.continuous = in_plane(motion_numbers(records[i]));
+    impact.continuous = motion_numbers(records[i]);
     impact.continuous_error = error_of(records[i]);
-    impact.continuous_end = end_name(records[i].end);
+    impact.continuous_end = contact_name(side, records[i].end, records[i].place, radius);
     impact.contact_time = records[i].value.duration;
   }
-  if (i < predicted.size()) impact.predicted = predicted[i];
   const auto& limits = comparison.limit.rows;
-  if (i < limits.size() && i < rows.size() && impact.discrete_end == end_name(limits[i].end) &&
-      reason_in_principle(comparison, i).empty()) {
+  if (i < limits.size() && i < side.impacts.size() &&
+      same_contact(side.impacts[i], limits[i].end, limits[i].place, radius) &&
+      reason_in_principle(side.impacts[i]).empty()) {
     impact.limit = limits[i];
-    impact.allowance = allowance(impact, rows[i], comparison.scales);
+    impact.allowance = allowance(limits[i], side.impacts[i], side.scales);
   }
-  comparison.impacts.push_back(impact);
 }
 
 /// The stiff limit holds the friction of the sequence: with two coefficients it may stick where the discrete model
-/// slips, and is then no limit of it.
+/// slips, and is then no limit of it.  In space an impact after one of another corner has none either.
 void drop_unlike_limits(Comparison& comparison, const Scene& scene) {
   bool alike = true;
   for (std::size_t i = 0; i < comparison.impacts.size(); ++i) {
     ComparedImpact& impact = comparison.impacts[i];
-    if (impact.limit &&
-        sticks_in_one_model(scene.ground, comparison.sequence.rows[i].impact.mode, impact.limit->mode)) {
+    if (impact.limit && sticks_in_one_model(scene.ground, comparison.discrete.impacts[i], impact.limit->mode)) {
       alike = false;
     }
+    if (comparison.discrete.in_space && !impact.limit) alike = false;
     if (!alike) impact.limit.reset();
   }
+}
+
+/// Why the impact has no limit, or its limit misses the discrete value; empty: its limit lands.
+std::string explanation_of(const Comparison& comparison, const Scene& scene, double radius, std::size_t i) {
+  const DiscreteSide& side = comparison.discrete;
+  const ComparedImpact& impact = comparison.impacts[i];
+  if (impact.has_landing()) return impact.lands() ? "" : "its limit misses the discrete value: the models differ here";
+  if (i >= side.impacts.size()) return "the discrete sequence has ended: " + side.message;
+  const SequenceImpact& discrete = side.impacts[i];
+  if (const std::string reason = reason_in_principle(discrete); !reason.empty()) return reason;
+  if (!discrete.predictable) {
+    return "beyond the predictable: rounding, grown by the impacts before, decides what follows";
+  }
+  const auto& limits = comparison.limit.rows;
+  if (i >= limits.size()) return comparison.limit.ended.empty() ? "not asked for" : comparison.limit.ended;
+  if (!same_contact(discrete, limits[i].end, limits[i].place, radius)) {
+    return contacts_differ(side, discrete.end, contact_name(side, limits[i].end, limits[i].place, radius)) +
+           ", however stiff the ground";
+  }
+  if (sticks_in_one_model(scene.ground, discrete, limits[i].mode)) {
+    return "static and sliding friction differ; the discrete model has one coefficient";
+  }
+  return "follows an impact that is not the same in both models";
+}
+
+/// Impacts of which a limit can be held against the discrete model: all in the plane, in space those before the first
+/// that is open or cannot be predicted, and one at least.
+LimitRequest limit_request(const DiscreteSide& side, const Scene& scene) {
+  if (!side.in_space) return {.impacts = scene.options.impacts, .planar = true};
+  LimitRequest request{.impacts = 0, .planar = false};
+  for (const SequenceImpact& impact : side.impacts) {
+    if (!reason_in_principle(impact).empty() || !impact.predictable) break;
+    request.amplification.push_back(impact.amplification);
+    ++request.impacts;
+  }
+  request.impacts = std::max(request.impacts, 1);
+  return request;
 }
 
 /// Largest error of the two models together in a number, relative to its scale; infinite: one is not known.
 double largest_error(const Comparison& comparison) {
   double worst = 0;
   for (const ComparedImpact& impact : comparison.impacts) {
-    for (std::size_t q = 0; q < quantity_count; ++q) {
+    for (const auto& [name, heading, q] : comparison.discrete.quantities) {
       double error = impact.discrete ? impact.discrete_error[q] : 0;
       if (impact.continuous) error += impact.continuous_error[q];
       if (!std::isfinite(error)) return std::numeric_limits<double>::infinity();
-      worst = std::max(worst, error / comparison.scales[q]);
+      worst = std::max(worst, error / comparison.discrete.scales[q]);
     }
   }
   return worst;
@@ -191,7 +203,7 @@ std::string shortfall_of(const Comparison& comparison, const Scene& scene) {
   const auto words = [](const char* model, const auto& ended) {
     return fmt::format("{} model: {}: {}", model, outcome_name(ended.outcome), ended.message);
   };
-  if (is_cut_short(comparison.sequence.outcome)) return words("discrete", comparison.sequence);
+  if (is_cut_short(comparison.discrete.outcome)) return words("discrete", comparison.discrete);
   if (is_cut_short(comparison.run.outcome)) return words("continuous", comparison.run);
   return scene.require_digits ? digits_shortfall(scene.options.digits, largest_error(comparison)) : "";
 }
@@ -199,7 +211,7 @@ std::string shortfall_of(const Comparison& comparison, const Scene& scene) {
 }  // namespace
 
 bool ComparedImpact::lands() const {
-  for (std::size_t q = 0; q < quantity_count; ++q) {
+  for (std::size_t q = 0; q < motion_number_count; ++q) {
     if (!(std::fabs(limit->value[q] - (*discrete)[q]) <= allowance[q])) return false;
   }
   return true;
@@ -216,30 +228,34 @@ bool Comparison::agrees() const {
 }
 
 Comparison compare_models(const Scene& scene, const numeric::Body& body) {
-  Comparison comparison{
-      .drop = discrete_drop(scene, body), .sequence = {}, .run = {}, .limit = {}, .impacts = {}, .shortfall = {}};
-  comparison.sequence = impact_sequence(comparison.drop, {.impacts = scene.options.impacts});
+  Comparison comparison;
+  comparison.discrete = discrete_side(scene, body);
+  const DiscreteSide& side = comparison.discrete;
   numeric::Options options = scene.options;
   options.amplification = true;
   options.history = nullptr;
   options.evaluation_limit = std::min(options.evaluation_limit, evaluations_per_run);
   comparison.run = numeric::simulate(body, scene.ground, scene.start(body), options);
-  comparison.limit = stiff_limit(scene, body, scene.options.impacts);
-  comparison.scales = quantity_scales(comparison.sequence, comparison.drop.body);
+  comparison.limit = stiff_limit(scene, body, limit_request(side, scene));
 
   std::vector<double> contact_times;
   for (const ImpactRecord& record : comparison.run.impacts) contact_times.push_back(record.value.duration);
-  const auto predicted = predicted_sizes(comparison.drop, comparison.sequence, contact_times);
-  const std::size_t count = std::max(comparison.sequence.rows.size(), comparison.run.impacts.size());
+  const std::vector<PredictedSize> predicted = side.predict(contact_times);
+  const double radius = body.radius();
+  const std::size_t count = std::max(side.impacts.size(), comparison.run.impacts.size());
   std::string first_reason;
   for (std::size_t i = 0; i < count; ++i) {
-    add_impact(comparison, i, predicted);
+    add_impact(comparison, radius, i);
     ComparedImpact& impact = comparison.impacts.back();
-    impact.reason =
-        first_reason.empty() ? reason_against(comparison, scene, i) : "follows an impact that cannot be compared";
+    if (i < predicted.size()) impact.predicted = predicted[i];
+    impact.reason = first_reason.empty() ? reason_against(comparison, scene, radius, i)
+                                         : "follows an impact that cannot be compared";
     if (first_reason.empty()) first_reason = impact.reason;
   }
   drop_unlike_limits(comparison, scene);
+  for (std::size_t i = 0; side.in_space && i < count; ++i) {
+    comparison.impacts[i].explanation = explanation_of(comparison, scene, radius, i);
+  }
   comparison.shortfall = shortfall_of(comparison, scene);
   return comparison;
 }

@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "analytic/sequence.hpp"
 #include "numeric/simulate.hpp"
-#include "validation/compare/prediction.hpp"
+#include "validation/compare/discrete_side.hpp"
 #include "validation/compare/stiff_limit.hpp"
 #include "validation/record/motion_numbers.hpp"
 #include "validation/scene/scene.hpp"
@@ -18,25 +17,26 @@ namespace clatter::validation {
 struct ComparedImpact {
   int n = 1;
   std::string reason;  ///< why the numbers at the scene's own stiffness cannot be compared; empty: they can
-  std::optional<Quantities> discrete, continuous;
-  Quantities discrete_error{}, continuous_error{};  ///< of these; not finite: not known
-  std::string discrete_end, continuous_end;
-  double contact_time = 0;  ///< of the continuous model [s]
+  std::optional<MotionNumbers> discrete, continuous;
+  MotionNumbers discrete_error{}, continuous_error{};  ///< of these; not finite: not known
+  std::string discrete_end, continuous_end;            ///< in space the corner
+  double contact_time = 0;                             ///< of the continuous model [s]
   PredictedSize predicted;
   std::optional<LimitRow> limit;  ///< of the continuous model for k_G → ∞, if it has the impact apart from others
-  Quantities allowance{};         ///< |limit − discrete| may be this: five error bars of the limit, rounding of both
+  MotionNumbers allowance{};      ///< |limit − discrete| may be this: five error bars of the limit, rounding of both
   /// Whether every number of the limit is the discrete model's, within `allowance`.  Meaningful with both.
   [[nodiscard]] bool lands() const;
+  /// In space, why there is no limit to hold against the discrete value, or the limit misses it, one clause; empty: it
+  /// lands.
+  std::string explanation;
   /// Whether there is a limit and a discrete impact of the same end to hold against each other.
   [[nodiscard]] bool has_landing() const { return limit && discrete; }
 };
 
 struct Comparison {
-  analytic::Drop drop;
-  analytic::Sequence sequence;
+  DiscreteSide discrete;
   numeric::Simulation run;
   StiffLimit limit;
-  Quantities scales{};
   std::vector<ComparedImpact> impacts;
   /// Whether there is anything to compare: an impact at the scene's stiffness or a limit.
   [[nodiscard]] bool has_content() const;

@@ -32,13 +32,13 @@ Sequence run(const Drop& drop, std::size_t impacts) {
 
 /// |difference| of each number of each row from `first` on, added to `sizes`.
 void add_difference(const Sequence& base, const Sequence& other, std::size_t first, std::vector<PredictedSize>& sizes,
-                    Quantities PredictedSize::*effect) {
+                    MotionNumbers PredictedSize::*effect) {
   bool same = true;
   for (std::size_t i = 0; first + i < sizes.size(); ++i) {
     same = same && i < base.rows.size() && i < other.rows.size() && base.rows[i].vertices == other.rows[i].vertices;
-    for (std::size_t q = i == 0 ? 2 : 0; q < quantity_count; ++q) {  // time and angle of a contact are before it
+    for (std::size_t q = i == 0 ? 2 : 0; q < motion_number_count; ++q) {  // time and angle of a contact are before it
       (sizes[first + i].*effect)[q] +=
-          same ? std::fabs(in_plane(motion_numbers(other.rows[i]))[q] - in_plane(motion_numbers(base.rows[i]))[q])
+          same ? std::fabs(motion_numbers(other.rows[i])[q] - motion_numbers(base.rows[i])[q])
                : std::numeric_limits<double>::infinity();
     }
   }
@@ -80,9 +80,9 @@ void add_effects(const Drop& drop, const ImpactRow& row, double contact_time, st
 
 }  // namespace
 
-Quantities PredictedSize::total() const {
-  Quantities sum{};
-  for (std::size_t q = 0; q < quantity_count; ++q) sum[q] = gravity[q] + turning[q] + indentation[q] + delay[q];
+MotionNumbers PredictedSize::total() const {
+  MotionNumbers sum{};
+  for (std::size_t q = 0; q < motion_number_count; ++q) sum[q] = gravity[q] + turning[q] + indentation[q] + delay[q];
   return sum;
 }
 

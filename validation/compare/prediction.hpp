@@ -11,11 +11,11 @@ namespace clatter::validation {
 /// Sizes of the deviations of one impact's numbers; the sum over this impact and those before it, whose deviations
 /// are carried along by the motion between them.
 struct PredictedSize {
-  Quantities gravity{};      ///< g T added to the approach: gravity acts during the contact, for T
-  Quantities turning{};      ///< the body turns by |Ω| T/2 until the middle of the contact
-  Quantities indentation{};  ///< the contact point lies up to v T/π inside the corner
-  Quantities delay{};        ///< half the duration of each contact before
-  [[nodiscard]] Quantities total() const;
+  MotionNumbers gravity{};      ///< g T added to the approach: gravity acts during the contact, for T
+  MotionNumbers turning{};      ///< the body turns by |Ω| T/2 until the middle of the contact
+  MotionNumbers indentation{};  ///< the contact point lies up to v T/π inside the corner
+  MotionNumbers delay{};        ///< half the duration of each contact before
+  [[nodiscard]] MotionNumbers total() const;
 };
 
 /// One entry per row of `sequence`, as far as `contact_times` (the duration T of each contact [s]) and the rows go.

@@ -99,7 +99,7 @@ RandomScenesResult run_random_scenes(const RandomScenes& scenes) {
     for (const ComparedImpact& impact : comparison.impacts) {
       if (!impact.has_landing()) continue;
       any = true;
-      for (std::size_t q = 0; q < quantity_count; ++q) {
+      for (const auto& [name, heading, q] : comparison.discrete.quantities) {
         if (!counts(impact, q)) continue;
         const double gap = std::fabs(impact.limit->value[q] - (*impact.discrete)[q]);
         result.samples.push_back({gap, impact.limit->error[q]});

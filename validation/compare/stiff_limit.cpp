@@ -1,13 +1,14 @@
 #include "validation/compare/stiff_limit.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
+#include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
 
 #include "numeric/simulate.hpp"
-#include "validation/record/motion_numbers.hpp"
+#include "validation/compare/stiff_runs.hpp"
+#include "validation/output/number.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -16,7 +17,6 @@ using numeric::ImpactRecord;
 using numeric::Simulation;
 
 constexpr double stiffening = 16;  // halves the contact time of a corner, F ∝ δ³, the slowest to converge
-constexpr double small = 0.02;     // what turning, gravity and indentation may be at the first rung
 constexpr int rungs = 5;           // three triples of runs
 constexpr int most_runs = 24;
 constexpr double least_indentation = 1e-8;  // of the body: the depth that doubles still resolve to 12 digits
@@ -25,60 +25,6 @@ constexpr double safety = 2;
 constexpr double no_limit = 1e-3;              // a relative error bar above it: the runs are not near any limit yet
 constexpr double settled_change = 1e-6;        // from one triple of runs to the next; what is left is far below it
 constexpr long evaluations_per_run = 200'000;  // contacts that are short take some thousand each
-
-/// Length below which the contact sees the shape that it has in the limit [m].
-double feature(const Scene& scene, const numeric::Body& body) {
-  switch (scene.body.shape) {
-    case BodyScene::Shape::rod: return scene.body.radius * (1 - std::cos(2 * std::numbers::pi / scene.body.sectors));
-    case BodyScene::Shape::box: return scene.body.size.minCoeff();
-    case BodyScene::Shape::mesh: break;
-  }
-  return body.radius() / 100;
-}
-
-/// Contact `i` of the run is as short as the extrapolation wants it.
-bool is_short(const Simulation& run, std::size_t i, double feature, double gravity) {
-  const ImpactRecord& row = run.impacts[i];
-  const numeric::ImpactNumbers& n = row.value;
-  const double time = n.duration;
-  const double turning = time * n.angular_velocity_after.norm();
-  const double angle = std::min(n.contact_angle, std::numbers::pi / 2 - n.contact_angle);
-  const bool along_an_axis = row.end == numeric::ContactEnd::both || angle < 1e-12;  // flat or upright
-  if (!along_an_axis && !(turning <= small * angle)) return false;
-  if (!(time * n.approach_speed <= small * feature)) return false;
-  const double separation = std::isfinite(n.restitution) ? n.restitution * n.approach_speed : n.approach_speed;
-  if (!(gravity * time <= small * std::min(n.approach_speed, separation))) return false;
-  if (i > 0) {
-    const numeric::ImpactNumbers& before = run.impacts[i - 1].value;
-    const double gap = n.start - before.start - before.duration;
-    if (!(std::max(time, before.duration) <= small * gap)) return false;
-  }
-  return true;
-}
-
-/// How many of the first impacts are single contacts of their own and short.
-std::size_t clean_rows(const Simulation& run, double feature, double gravity) {
-  std::size_t count = 0;
-  for (; count < run.impacts.size(); ++count) {
-    if (run.impacts[count].touches > 1 && run.impacts[count].end != numeric::ContactEnd::both) break;
-    if (!is_short(run, count, feature, gravity)) break;
-  }
-  return count;
-}
-
-/// Rows that all rungs have, with the same ends and the same course of friction.
-std::size_t common_rows(const std::vector<Simulation>& ladder, double feature, double gravity) {
-  std::size_t count = clean_rows(ladder.front(), feature, gravity);
-  for (const Simulation& run : ladder) {
-    count = std::min(count, run.impacts.size());
-    for (std::size_t i = 0; i < count; ++i) {
-      const ImpactRecord& first = ladder.front().impacts[i];
-      const ImpactRecord& here = run.impacts[i];
-      if (here.end != first.end || here.mode != first.mode || here.touches != first.touches) count = i;
-    }
-  }
-  return count;
-}
 
 /// Powers of T in which the numbers approach their limit; the third is that of the error left.
 struct Powers {
@@ -104,13 +50,14 @@ Eigen::Vector3d limit_weights(const Eigen::Vector3d& x, const Powers& powers) {
   return weights / weights.sum();
 }
 
-/// By what a relative error of the state has grown at a row: with the lever by which each contact arises.
-double growth(const Simulation& run, std::size_t row) {
+/// By what a relative error of the state has grown at a row: with the lever by which each contact arises, or as the
+/// discrete model has it.
+double growth(const Simulation& run, std::size_t row, const LimitRequest& request) {
   double grown = 1;
   for (std::size_t i = 1; i <= row; ++i) {
     grown *= 2 + 1 / std::max(std::min(run.impacts[i].value.contact_angle, 1.0), 1e-3);
   }
-  return grown;
+  return row < request.amplification.size() ? std::max(grown, request.amplification[row]) : grown;
 }
 
 /// Error bar of the last of three extrapolations by the two changes between them.  They should fall by the factor
@@ -123,71 +70,82 @@ double error_bar(double before, double last, double expected) {
   return safety * larger / (std::clamp(seen, slowest, expected) - 1);
 }
 
-/// @param largest_change  is raised to the relative change from triple to triple.
-LimitRow extrapolate(const std::vector<Simulation>& ladder, std::size_t row, const numeric::Body& body, double exponent,
-                     double& largest_change) {
+/// What an extrapolation needs beside the runs.
+struct Extrapolation {
+  const numeric::Body& body;
+  const LimitRequest& request;
+  double exponent = 1;        ///< p of the force ∝ δ^p
+  double largest_change = 0;  ///< relative, from triple to triple, over all numbers so far
+};
+
+LimitRow extrapolate(const std::vector<Simulation>& ladder, std::size_t row, Extrapolation& at) {
   Eigen::Matrix<double, rungs, 1> x;
-  Eigen::Matrix<double, static_cast<int>(quantity_count), rungs> y;
+  Eigen::Matrix<double, static_cast<int>(motion_number_count), rungs> y;
   for (int j = 0; j < rungs; ++j) {
     const Simulation& run = ladder[static_cast<std::size_t>(j)];
     x[j] = run.impacts[0].value.duration;
-    const Quantities numbers = in_plane(motion_numbers(run.impacts[row]));
-    for (std::size_t q = 0; q < quantity_count; ++q) y(static_cast<int>(q), j) = numbers[q];
+    const MotionNumbers numbers = motion_numbers(run.impacts[row]);
+    for (std::size_t q = 0; q < motion_number_count; ++q) y(static_cast<int>(q), j) = numbers[q];
   }
-  const Powers powers = powers_of(ladder, row, exponent);
+  const Powers powers = powers_of(ladder, row, at.exponent);
   const Eigen::Vector3d weights[] = {limit_weights(x.segment<3>(0), powers), limit_weights(x.segment<3>(1), powers),
                                      limit_weights(x.segment<3>(2), powers)};
   const double expected = std::pow(x[3] / x[4], powers.third);
-  const Quantities size = in_plane(motion_sizes(ladder.back(), row + 1, body));
-  const double rounding = weights[2].cwiseAbs().sum() * run_error * growth(ladder.back(), row);
-  LimitRow limit{.end = ladder.back().impacts[row].end, .mode = ladder.back().impacts[row].mode};
-  for (std::size_t q = 0; q < quantity_count; ++q) {
+  const MotionNumbers size = motion_sizes(ladder.back(), row + 1, at.body);
+  const double rounding = weights[2].cwiseAbs().sum() * run_error * growth(ladder.back(), row, at.request);
+  const ImpactRecord& stiffest = ladder.back().impacts[row];
+  LimitRow limit{.end = stiffest.end, .place = stiffest.place, .mode = stiffest.mode};
+  for (std::size_t q = 0; q < motion_number_count; ++q) {
     const Eigen::Matrix<double, 1, rungs> values = y.row(static_cast<int>(q));
     double triples[3];
     for (int t = 0; t < 3; ++t) triples[t] = values.segment<3>(t).dot(weights[t]);
     const double last = triples[2] - triples[1];
     limit.value[q] = triples[2];
     limit.error[q] = error_bar(triples[1] - triples[0], last, expected) + rounding * size[q];
-    largest_change = std::max(largest_change, std::fabs(last) / size[q]);
+    at.largest_change = std::max(at.largest_change, std::fabs(last) / size[q]);
     limit.relative_error = std::max(limit.relative_error, limit.error[q] / size[q]);
   }
   return limit;
 }
 
 /// Takes the rows of the ladder into the limit.  @returns whether all impacts are there and settled.
-bool take_limit(const std::vector<Simulation>& ladder, const numeric::Body& body, double feature, double gravity,
+bool take_limit(const std::vector<Simulation>& ladder, const ContactSizes& sizes, const LimitRequest& request,
                 StiffLimit& limit) {
   const double ratio = ladder[rungs - 2].impacts[0].value.duration / ladder[rungs - 1].impacts[0].value.duration;
   limit.power = std::log(ratio) / std::log(stiffening);
-  const double exponent = 1 / limit.power - 1;
-  const std::size_t rows = common_rows(ladder, feature, gravity);
-  double change = 0;
+  const CommonRows rows = common_rows(ladder, sizes);
+  Extrapolation at{.body = sizes.body, .request = request, .exponent = 1 / limit.power - 1};
   limit.rows.clear();
-  for (std::size_t i = 0; i < rows; ++i) {
-    const LimitRow row = extrapolate(ladder, i, body, exponent, change);
-    if (!(row.relative_error <= no_limit)) break;  // another sequence of contacts may follow from here
+  limit.ended = rows.ended;
+  for (std::size_t i = 0; i < rows.count; ++i) {
+    const LimitRow row = extrapolate(ladder, i, at);
+    if (!(row.relative_error <= no_limit)) {  // another sequence of contacts may follow from here
+      limit.ended = fmt::format("its numbers have not come near a limit: error bar {} of their sizes",
+                                significant(row.relative_error, 2));
+      break;
+    }
     limit.rows.push_back(row);
   }
-  return rows == ladder.front().impacts.size() && change <= settled_change;
+  return rows.count == ladder.front().impacts.size() && at.largest_change <= settled_change;
 }
 
 }  // namespace
 
-StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, int impacts) {
+StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, const LimitRequest& request) {
   numeric::Options options = scene.options;
   options.method = numeric::Method::automatic;
   options.step = 0;
   options.digits = 12;
-  options.impacts = impacts;
-  options.planar = true;
+  options.impacts = request.impacts;
+  options.planar = request.planar;
   options.error_estimates = options.amplification = false;
   options.history = nullptr;
   options.evaluation_limit = std::min(options.evaluation_limit, evaluations_per_run);
-  const double size = feature(scene, body);
+  const ContactSizes sizes = ContactSizes::of(scene, body, request.planar);
   const double damping_per_stiffness = scene.ground.damping / scene.ground.stiffness;
   const numeric::MotionState start = scene.start(body);
 
-  StiffLimit limit;
+  StiffLimit limit{.rows = {}, .ended = "the runs end before a limit shows"};
   const auto run_at = [&](double stiffness) {
     numeric::Ground ground = scene.ground;
     ground.stiffness = stiffness;
@@ -200,12 +158,15 @@ StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, int impact
   // The rungs must all be short enough, and the limit must have settled: climb until they are and it has.
   while (limit.runs < most_runs) {
     ladder.push_back(run_at(stiffness));
-    if (ladder.back().impacts.empty()) return limit;
+    if (ladder.back().impacts.empty()) {
+      limit.ended = "no contact ends: " + ladder.back().message;
+      return limit;
+    }
     limit.stiffness = stiffness;
     stiffness *= stiffening;
     if (ladder.size() > rungs) ladder.erase(ladder.begin());
     if (ladder.size() < rungs) continue;
-    const bool settled = take_limit(ladder, body, size, options.gravity, limit);
+    const bool settled = take_limit(ladder, sizes, request, limit);
     const numeric::ImpactNumbers& first = ladder.back().impacts.front().value;
     if (settled || first.duration * first.approach_speed < least_indentation * body.radius()) break;
   }

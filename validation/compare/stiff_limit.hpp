@@ -1,6 +1,7 @@
 // The limit of the continuous model as the ground becomes stiff, by extrapolation over ever stiffer grounds.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "numeric/body.hpp"
@@ -11,10 +12,11 @@ namespace clatter::validation {
 
 /// One impact in the limit.
 struct LimitRow {
-  Quantities value{};
-  Quantities error{};         ///< error bars: twice the estimated error of the extrapolation, plus that of the runs
+  MotionNumbers value{};
+  MotionNumbers error{};      ///< error bars: twice the estimated error of the extrapolation, plus that of the runs
   double relative_error = 0;  ///< largest of them over the sizes that the numbers are made of
   numeric::ContactEnd end = numeric::ContactEnd::a;
+  numeric::Vector3 place = numeric::Vector3::Zero();  ///< as numeric::ImpactRecord::place
   numeric::FrictionMode mode = numeric::FrictionMode::frictionless;
 };
 
@@ -23,16 +25,26 @@ struct StiffLimit {
   double stiffness = 0;        ///< of the stiffest run [N/m³]
   double power = 0;            ///< −d ln T/d ln k_G of the first contact's duration: 1/(p+1) for a force ∝ δ^p
   int runs = 0;
+  std::string ended;  ///< why the next impact has no limit, one clause; empty if all asked for have theirs
 };
 
-/// Numbers of the first impacts as k_G → ∞ with c_G/k_G kept, in the plane.
+/// What is asked of a limit.
+struct LimitRequest {
+  int impacts = 1;
+  bool planar = true;  ///< keep the motion in its x–z plane
+  /// By what a relative error of the drop has grown at each impact, where that is known; empty: not known.
+  std::vector<double> amplification{};
+};
+
+/// Numbers of the first impacts as k_G → ∞ with c_G/k_G kept.
 ///
 /// They are smooth functions of the duration T of the first contact, which falls like k_G^(−1/(p+1)): turning,
 /// gravity and indentation during a contact are all of the order of T.  The stiffness rises sixteenfold from run to
-/// run until every contact is short against the flights beside it, the turning in it small against its angle, and the
-/// indentation against the body's smallest feature; then a + b T + c T² through three runs (T^(1+1/p) in place of T²
-/// where a contact sticks and lets go) gives the value at T = 0, and the changes from one triple of runs to the next
-/// its error.  Impacts whose relative error bar stays above 1e-3 have no limit here, nor do those after them.
-[[nodiscard]] StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, int impacts);
+/// run until every contact is short against the flights beside it, the turning in it small against its angle (in space:
+/// turning and indentation together against the height of the next vertex), and the indentation against the body's
+/// smallest feature; then a + b T + c T² through three runs (T^(1+1/p) in place of T² where a contact sticks and lets
+/// go) gives the value at T = 0, and the changes from one triple of runs to the next its error.  Impacts whose relative
+/// error bar stays above 1e-3 have no limit here, nor do those after them.
+[[nodiscard]] StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, const LimitRequest& request);
 
 }  // namespace clatter::validation

@@ -208,11 +208,10 @@ class Planner {
   [[nodiscard]] double contact_effects() const {
     const analytic::Drop& drop = *ladder_.drop();
     const analytic::Sequence sequence = impact_sequence(drop, {.impacts = impacts(), .amplification = false});
-    const Quantities sizes = in_plane(sizes_);
     double worst = 0;
     for (const PredictedSize& row : predicted_sizes(drop, sequence, contact_times_)) {
-      const Quantities total = row.total();
-      for (std::size_t q = 0; q < quantity_count; ++q) worst = std::max(worst, total[q] / sizes[q]);
+      const MotionNumbers total = row.total();
+      for (std::size_t q = 0; q < motion_number_count; ++q) worst = std::max(worst, total[q] / sizes_[q]);
     }
     return worst;
   }

@@ -14,6 +14,13 @@ MotionNumbers sizes_of(double time, double speed, double radius, double mass) {
   return {time, 90, impulse, impulse, impulse, speed, speed, speed, turn, turn, turn};
 }
 
+/// Sizes of a sequence whose last impact comes at `time`; an angle counts as a radian.
+MotionNumbers scales_of(double time, double speed, double reach, double mass) {
+  MotionNumbers sizes = sizes_of(time == 0 ? reach / speed : time, speed, reach, mass);
+  sizes[1] = analytic::degrees_per_radian;
+  return sizes;
+}
+
 /// The numbers of the list, vectors spread over three; or their errors.
 template <class Impact>
 MotionNumbers numbers_of(const Impact& impact, bool errors) {
@@ -35,8 +42,10 @@ MotionNumbers numbers_of(const Impact& impact, bool errors) {
 }  // namespace
 
 MotionNumbers motion_numbers(const analytic::ImpactRow& row) { return numbers_of(DiscreteRow{row, 0}, false); }
+MotionNumbers motion_numbers(const analytic::space::ImpactRow& row) { return numbers_of(SpaceRow{row}, false); }
 MotionNumbers motion_numbers(const numeric::ImpactRecord& row) { return numbers_of(ContinuousRow{row}, false); }
 MotionNumbers motion_errors(const analytic::ImpactRow& row) { return numbers_of(DiscreteRow{row, 0}, true); }
+MotionNumbers motion_errors(const analytic::space::ImpactRow& row) { return numbers_of(SpaceRow{row}, true); }
 MotionNumbers motion_errors(const numeric::ImpactRecord& row) { return numbers_of(ContinuousRow{row}, true); }
 
 std::vector<MotionNumbers> motion_rows(const analytic::Sequence& sequence) {
@@ -73,13 +82,7 @@ MotionNumbers motion_sizes(const analytic::Sequence& sequence, const analytic::P
   return sizes_of(time, speed, body.reach(), body.mass);
 }
 
-Quantities in_plane(const MotionNumbers& numbers) {
-  Quantities plane{};
-  for (std::size_t q = 0; q < quantity_count; ++q) plane[q] = numbers[plane_quantities[q].place];
-  return plane;
-}
-
-Quantities quantity_scales(const analytic::Sequence& sequence, const analytic::PlanarBody& body) {
+MotionNumbers comparison_scales(const analytic::Sequence& sequence, const analytic::PlanarBody& body) {
   double speed = 0, time = 0;
   for (const analytic::ImpactRow& row : sequence.rows) {
     for (const analytic::PlanarVelocity& v : {row.before, row.impact.after}) {
@@ -87,10 +90,18 @@ Quantities quantity_scales(const analytic::Sequence& sequence, const analytic::P
     }
     time = std::max(time, row.start);
   }
-  if (time == 0) time = body.reach() / speed;
-  MotionNumbers sizes = sizes_of(time, speed, body.reach(), body.mass);
-  sizes[1] = analytic::degrees_per_radian;
-  return in_plane(sizes);
+  return scales_of(time, speed, body.reach(), body.mass);
+}
+
+MotionNumbers comparison_scales(const analytic::space::Sequence& sequence, const analytic::space::Body& body) {
+  double speed = 0, time = 0;
+  const double reach = body.reach();
+  for (const analytic::space::ImpactRow& row : sequence.rows) {
+    speed = std::max({speed, row.before.velocity.norm(), row.impact.velocity_after.norm(),
+                      row.before.angular_velocity.norm() * reach, row.impact.angular_velocity_after.norm() * reach});
+    time = std::max(time, row.start);
+  }
+  return scales_of(time, speed, reach, body.mass);
 }
 
 double row_distance(const MotionNumbers& row, const MotionNumbers& other, const MotionNumbers& sizes) {

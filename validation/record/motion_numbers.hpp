@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "analytic/sequence.hpp"
+#include "analytic/space/sequence.hpp"
 #include "numeric/simulate.hpp"
 
 namespace clatter::validation {
@@ -17,9 +19,11 @@ inline constexpr std::size_t motion_number_count = 11;
 using MotionNumbers = std::array<double, motion_number_count>;
 
 [[nodiscard]] MotionNumbers motion_numbers(const analytic::ImpactRow& row);
+[[nodiscard]] MotionNumbers motion_numbers(const analytic::space::ImpactRow& row);
 [[nodiscard]] MotionNumbers motion_numbers(const numeric::ImpactRecord& row);
 /// Their errors; not finite where not known.
 [[nodiscard]] MotionNumbers motion_errors(const analytic::ImpactRow& row);
+[[nodiscard]] MotionNumbers motion_errors(const analytic::space::ImpactRow& row);
 [[nodiscard]] MotionNumbers motion_errors(const numeric::ImpactRecord& row);
 [[nodiscard]] std::vector<MotionNumbers> motion_rows(const analytic::Sequence& sequence);
 [[nodiscard]] std::vector<MotionNumbers> motion_rows(const numeric::Simulation& run);
@@ -29,26 +33,40 @@ using MotionNumbers = std::array<double, motion_number_count>;
 [[nodiscard]] MotionNumbers motion_sizes(const numeric::Simulation& run, std::size_t count, const numeric::Body& body);
 [[nodiscard]] MotionNumbers motion_sizes(const analytic::Sequence& sequence, const analytic::PlanarBody& body);
 
-/// A number of the motion in the plane, which both models have.
-struct PlaneQuantity {
+/// A number of the motion that a comparison of models shows.
+struct ComparedQuantity {
   const char *name, *heading;
   std::size_t place;  ///< in MotionNumbers
 };
-inline constexpr std::size_t quantity_count = 7;
-inline constexpr std::array<PlaneQuantity, quantity_count> plane_quantities{{{"start", "t", 0},
-                                                                             {"contact_angle_deg", "angle", 1},
-                                                                             {"impulse_normal", "Pₙ", 4},
-                                                                             {"impulse_tangential", "Pₜ", 2},
-                                                                             {"velocity_normal", "Vₙ", 7},
-                                                                             {"velocity_tangential", "Vₜ", 5},
-                                                                             {"angular_velocity", "Ω", 9}}};
-inline constexpr std::size_t normal_impulse_quantity = 2;  ///< its place among them
-using Quantities = std::array<double, quantity_count>;     ///< in their order
-[[nodiscard]] Quantities in_plane(const MotionNumbers& numbers);
+using ComparedQuantities = std::span<const ComparedQuantity>;
+/// Those of a motion in the plane.
+inline constexpr std::array<ComparedQuantity, 7> plane_quantities{{{"start", "t", 0},
+                                                                   {"contact_angle_deg", "angle", 1},
+                                                                   {"impulse_normal", "Pₙ", 4},
+                                                                   {"impulse_tangential", "Pₜ", 2},
+                                                                   {"velocity_normal", "Vₙ", 7},
+                                                                   {"velocity_tangential", "Vₜ", 5},
+                                                                   {"angular_velocity", "Ω", 9}}};
+/// All of them, for a motion in space.
+inline constexpr std::array<ComparedQuantity, motion_number_count> space_quantities{
+    {{"start", "t", 0},
+     {"contact_angle_deg", "angle", 1},
+     {"impulse_x", "Pₜ", 2},
+     {"impulse_y", "P_y", 3},
+     {"impulse_z", "Pₙ", 4},
+     {"velocity_after_x", "Vₜ", 5},
+     {"velocity_after_y", "V_y", 6},
+     {"velocity_after_z", "Vₙ", 7},
+     {"angular_velocity_after_x", "ω_x", 8},
+     {"angular_velocity_after_y", "Ω", 9},
+     {"angular_velocity_after_z", "ω_z", 10}}};
+inline constexpr std::size_t normal_impulse_place = 4;  ///< in MotionNumbers
 
-/// Size against which a deviation counts as relative: time, angle and velocities of the drop at large, so that a
-/// number that is zero by symmetry has a scale too.
-[[nodiscard]] Quantities quantity_scales(const analytic::Sequence& sequence, const analytic::PlanarBody& body);
+/// Sizes against which deviations count as relative: time, angle and velocities of the drop at large, so that a number
+/// that is zero by symmetry has a scale too.
+[[nodiscard]] MotionNumbers comparison_scales(const analytic::Sequence& sequence, const analytic::PlanarBody& body);
+[[nodiscard]] MotionNumbers comparison_scales(const analytic::space::Sequence& sequence,
+                                              const analytic::space::Body& body);
 
 /// Largest distance of a row's numbers, relative to `sizes`; infinite if one is no number.
 [[nodiscard]] double row_distance(const MotionNumbers& row, const MotionNumbers& other, const MotionNumbers& sizes);

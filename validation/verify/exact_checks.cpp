@@ -219,7 +219,7 @@ Measured contact_time_powers(Laboratory&) {
   double worst = 0;
   std::string found;
   const auto power = [&](const Scene& scene, double exact, const char* what) {
-    const double measured = stiff_limit(scene, scene.make_body(), 1).power;
+    const double measured = stiff_limit(scene, scene.make_body(), {.impacts = 1}).power;
     worst = std::max(worst, std::fabs(measured - exact));
     found += fmt::format("{}{} {}", found.empty() ? "" : ", ", what, significant(measured, 5));
     return measured;

@@ -21,15 +21,17 @@ struct Landing {
   void take(const Comparison& comparison) {
     for (const ComparedImpact& impact : comparison.impacts) {
       ++impacts;
-      for (std::size_t q = 0; q < quantity_count && impact.reason.empty(); ++q) {
-        deviation =
-            std::max(deviation, std::fabs((*impact.continuous)[q] - (*impact.discrete)[q]) / comparison.scales[q]);
+      for (const auto& [name, heading, q] : comparison.discrete.quantities) {
+        if (!impact.reason.empty()) break;
+        deviation = std::max(
+            deviation, std::fabs((*impact.continuous)[q] - (*impact.discrete)[q]) / comparison.discrete.scales[q]);
       }
       if (!impact.has_landing()) continue;
       ++landed;
       all_land = all_land && impact.lands();
-      for (std::size_t q = 0; q < quantity_count; ++q) {
-        miss = std::max(miss, std::fabs(impact.limit->value[q] - (*impact.discrete)[q]) / comparison.scales[q]);
+      for (const auto& [name, heading, q] : comparison.discrete.quantities) {
+        miss =
+            std::max(miss, std::fabs(impact.limit->value[q] - (*impact.discrete)[q]) / comparison.discrete.scales[q]);
       }
     }
   }

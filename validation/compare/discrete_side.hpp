@@ -1,0 +1,52 @@
+// The discrete model's part of a comparison, planar or in space: one form for both.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/compare/prediction.hpp"
+#include "validation/record/motion_numbers.hpp"
+#include "validation/scene/scene.hpp"
+
+namespace clatter::validation {
+
+/// One impact.
+struct SequenceImpact {
+  MotionNumbers numbers{}, errors{};
+  std::string end;  ///< which end strikes in the plane; in space the corner
+  /// In space: of the corner that strikes, or the mean of several, body frame from the centre of mass [m].
+  std::optional<numeric::Vector3> place;
+  double amplification = 0;
+  bool predictable = true;  ///< errors of the start have not grown too far
+  bool sticks = false;      ///< ends in stick
+  bool jams = false;        ///< friction is beyond Painlevé's limit
+  /// Why the rebound is not that of an ever stiffer ground: several corners at once; empty: it is.
+  std::string open;
+  std::string follows_open;  ///< the same for an impact that only comes after such a one
+};
+
+/// A corner of a body in space and what reports call it.
+struct NamedCorner {
+  numeric::Vector3 place = numeric::Vector3::Zero();  ///< body frame, from the centre of mass [m]
+  std::string name;
+};
+
+struct DiscreteSide {
+  bool in_space = false;
+  std::vector<NamedCorner> corners;  ///< in space
+  ComparedQuantities quantities;     ///< those that the comparison shows
+  std::vector<SequenceImpact> impacts;
+  MotionNumbers scales{};
+  analytic::Outcome outcome = analytic::Outcome::no_further_impact;
+  std::string message;  ///< why the sequence ended
+  /// Sizes of the deviations to expect at the scene's own stiffness, for the durations of the contacts [s].
+  std::function<std::vector<PredictedSize>(const std::vector<double>&)> predict;
+};
+
+/// The sequence of the scene, planar where that does (is_planar), otherwise in space.
+/// @throws analytic::OutsideModelError if the discrete model cannot represent the scene.
+[[nodiscard]] DiscreteSide discrete_side(const Scene& scene, const numeric::Body& body);
+
+}  // namespace clatter::validation

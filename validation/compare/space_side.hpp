@@ -1,0 +1,11 @@
+// The discrete model in space, in the form that comparisons have.
+#pragma once
+
+#include "validation/compare/discrete_side.hpp"
+
+namespace clatter::validation {
+
+/// @throws analytic::OutsideModelError for regularised friction, and where the first impact leaves the model.
+[[nodiscard]] DiscreteSide space_side(const Scene& scene, const numeric::Body& body);
+
+}  // namespace clatter::validation

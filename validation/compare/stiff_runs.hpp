@@ -1,0 +1,33 @@
+// Runs over ever stiffer grounds: which of their impacts are single, short contacts that all of them have.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "numeric/body.hpp"
+#include "numeric/simulate.hpp"
+#include "validation/scene/scene.hpp"
+
+namespace clatter::validation {
+
+/// Against what contacts are short.
+struct ContactSizes {
+  const numeric::Body& body;
+  double feature = 0;  ///< length below which the contact of a planar run sees the shape that it has in the limit [m]
+  double gravity = 0;  ///< [m/s²]
+  bool planar = true;
+
+  [[nodiscard]] static ContactSizes of(const Scene& scene, const numeric::Body& body, bool planar);
+};
+
+/// The first impacts of a ladder of runs, and why there are no more.
+struct CommonRows {
+  std::size_t count = 0;
+  std::string ended;  ///< one clause; empty if the runs end there
+};
+
+/// Rows that all runs have, with the same places and the same course of friction, and whose contacts are single and
+/// short in the softest of them.
+[[nodiscard]] CommonRows common_rows(const std::vector<numeric::Simulation>& ladder, const ContactSizes& sizes);
+
+}  // namespace clatter::validation
