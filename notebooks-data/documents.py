@@ -28,7 +28,8 @@ EXTREMES = ROOT / "notebooks-data" / "extremes.md"
 FIGURES = ROOT / "notebooks-data" / "figures"
 COSTS_OF = ("rod-10", "rod-45", "phone-damped")
 GROUPS = {"C": "Claims of the paper", "E": "Errata", "F": "Figures", "X": "Exact results",
-          "M": "Both models over every scene", "R": "Random scenes", "B": "Error bars"}
+          "M": "Both models over every scene", "R": "Random scenes", "B": "Error bars",
+          "S": "The discrete model in space"}
 
 
 def printed(program, arguments):

@@ -65,6 +65,7 @@ class Run {
     control_.steps_per_contact = accuracy.steps_per_contact;
     control_.evaluation_limit = options.evaluation_limit;
     control_.estimate_local_slip = extras.local_slip;
+    control_.point_friction = options.point_friction;
     if (extras.history || extras.progress) {
       control_.observe = [this](const ContactInstant& at) { return observe(at); };
     }

@@ -24,6 +24,10 @@ struct Options {
   /// Whether it acts during contacts too.  Without it a contact of time T is wrong by g T in speed, and the ledger by
   /// m g times the rise of the centre of mass.
   bool gravity_in_contact = true;
+  /// Friction of a slipping contact in space acts at its pressure centre alone (FrictionLaw::coulomb), as if the patch
+  /// were a point.  Otherwise slip varies over the patch with its spin about the vertical; what that changes vanishes
+  /// with the patch as the ground becomes stiff, but a spinning patch that hardly slips takes very short steps.
+  bool point_friction = false;
   long evaluation_limit = 3'000'000;   ///< of the contact forces, in the main run; then the run ends
   bool error_estimates = true;         ///< by a second run, at a coarser tolerance or half the step
   bool amplification = true;           ///< by a neighbouring run

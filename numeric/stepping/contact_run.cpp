@@ -130,6 +130,7 @@ void ContactRun::start_phase(FrictionPhase::Kind kind, const AlongGround& direct
 
 /// Whether the patch spins noticeably; returns how fast its farthest point might.
 double ContactRun::note_variation(FrictionPhase& phase) const {
+  if (control_->point_friction) return 0;
   const double spin_speed = std::fabs(system_.vertical_spin(now_.state)) * system_.body().radius();
   phase.varies = spin_speed > least_spin * control_->tolerance * scales_.speed;
   return spin_speed;

@@ -31,6 +31,7 @@ struct ContactControl {
   double step_cap = 1;               ///< of an adaptive method: factor of the longest step and of the first one
   long evaluation_limit = 0;         ///< of the system's count, at which the run stops
   bool estimate_local_slip = false;  ///< see ContactResult::local_slip
+  bool point_friction = false;       ///< see Options
   /// Called after every accepted step, and before that with a peak of the force inside it; return false to stop.
   std::function<bool(const ContactInstant&)> observe = nullptr;
 };

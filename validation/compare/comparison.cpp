@@ -148,11 +148,20 @@ void drop_unlike_limits(Comparison& comparison, const Scene& scene) {
   }
 }
 
-/// Why the impact has no limit, or its limit misses the discrete value; empty: its limit lands.
+/// Where a limit is off by more than its bar says; empty: by less.
+std::string landing_words(const ComparedImpact& impact) {
+  if (!impact.lands()) return "its limit misses the discrete value: the models differ here";
+  const double bars = impact.bars_off();
+  if (bars <= 1) return "";
+  return fmt::format("off by up to {} of its error bars: the numbers approach it more slowly than the bar assumes",
+                     significant(bars, 2));
+}
+
+/// Why the impact has no limit, or its limit lies outside its error bar; empty: it lies within.
 std::string explanation_of(const Comparison& comparison, const Scene& scene, double radius, std::size_t i) {
   const DiscreteSide& side = comparison.discrete;
   const ComparedImpact& impact = comparison.impacts[i];
-  if (impact.has_landing()) return impact.lands() ? "" : "its limit misses the discrete value: the models differ here";
+  if (impact.has_landing()) return landing_words(impact);
   if (i >= side.impacts.size()) return "the discrete sequence has ended: " + side.message;
   const SequenceImpact& discrete = side.impacts[i];
   if (const std::string reason = reason_in_principle(discrete); !reason.empty()) return reason;
@@ -215,6 +224,17 @@ bool ComparedImpact::lands() const {
     if (!(std::fabs(limit->value[q] - (*discrete)[q]) <= allowance[q])) return false;
   }
   return true;
+}
+
+double ComparedImpact::bars_off() const {
+  double worst = 0;
+  for (std::size_t q = 0; q < motion_number_count; ++q) {
+    const double gap = std::fabs(limit->value[q] - (*discrete)[q]);
+    if (gap == 0) continue;
+    const double bars = gap / (limit->error[q] + discrete_error[q]);
+    if (!(bars <= worst)) worst = std::isnan(bars) ? std::numeric_limits<double>::infinity() : bars;
+  }
+  return worst;
 }
 
 bool Comparison::has_content() const {

@@ -26,8 +26,11 @@ struct ComparedImpact {
   MotionNumbers allowance{};      ///< |limit − discrete| may be this: five error bars of the limit, rounding of both
   /// Whether every number of the limit is the discrete model's, within `allowance`.  Meaningful with both.
   [[nodiscard]] bool lands() const;
-  /// In space, why there is no limit to hold against the discrete value, or the limit misses it, one clause; empty: it
-  /// lands.
+  /// Largest |limit − discrete| over the limit's error bar and the discrete model's error together.  Meaningful with
+  /// both.
+  [[nodiscard]] double bars_off() const;
+  /// In space, why there is no limit to hold against the discrete value, or the limit lies outside its error bar, one
+  /// clause; empty: it lies within.
   std::string explanation;
   /// Whether there is a limit and a discrete impact of the same end to hold against each other.
   [[nodiscard]] bool has_landing() const { return limit && discrete; }

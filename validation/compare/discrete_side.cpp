@@ -55,6 +55,7 @@ SequenceImpact planar_impact(const analytic::Drop& drop, const ImpactRow& row) {
                         .place = {},
                         .amplification = row.amplification,
                         .predictable = row.amplification * epsilon <= 0.01,
+                        .is_group = false,
                         .sticks = mode == ImpactMode::stick || mode == ImpactMode::slip_stick,
                         .jams = jams(drop, row),
                         .open = {},

@@ -20,6 +20,7 @@ struct SequenceImpact {
   std::optional<numeric::Vector3> place;
   double amplification = 0;
   bool predictable = true;  ///< errors of the start have not grown too far
+  bool is_group = false;    ///< in space: several corners land at once
   bool sticks = false;      ///< ends in stick
   bool jams = false;        ///< friction is beyond Painlevé's limit
   /// Why the rebound is not that of an ever stiffer ground: several corners at once; empty: it is.

@@ -4,27 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "analytic/restitution_map.hpp"
 #include "validation/compare/comparison.hpp"
+#include "validation/compare/uniform.hpp"
 
 namespace clatter::validation {
 namespace {
-
-/// Uniform numbers that do not depend on the library's distributions.
-class Uniform {
- public:
-  Uniform(std::uint64_t seed, int index) : engine_(seed + 1'000'003ULL * static_cast<std::uint64_t>(index)) {}
-  double operator()(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-  double logarithmic(double low, double high) { return std::exp((*this)(std::log(low), std::log(high))); }
-  bool one_in(int n) { return (*this)(0, n) < 1; }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 void choose_body(Uniform& random, BodyScene& body) {
   body.mass = random.logarithmic(0.01, 10);

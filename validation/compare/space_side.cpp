@@ -69,6 +69,7 @@ SequenceImpact space_impact(const Scene& scene, const space::Drop& drop, const s
                         .place = place,
                         .amplification = row.amplification,
                         .predictable = row.error.predictable,
+                        .is_group = row.group.has_value(),
                         .sticks = path == PathKind::stick || path == PathKind::slip_stick,
                         .jams = false,
                         .open = {},

@@ -19,12 +19,13 @@ using numeric::Simulation;
 constexpr double stiffening = 16;  // halves the contact time of a corner, F ∝ δ³, the slowest to converge
 constexpr int rungs = 5;           // three triples of runs
 constexpr int most_runs = 24;
-constexpr double least_indentation = 1e-8;  // of the body: the depth that doubles still resolve to 12 digits
-constexpr double run_error = 3e-12;         // of a run of 12 digits, relative, per impact
-constexpr double safety = 2;
-constexpr double no_limit = 1e-3;              // a relative error bar above it: the runs are not near any limit yet
-constexpr double settled_change = 1e-6;        // from one triple of runs to the next; what is left is far below it
-constexpr long evaluations_per_run = 200'000;  // contacts that are short take some thousand each
+constexpr double least_indentation = 1e-8;         // of the body: the depth that doubles still resolve to 12 digits
+constexpr double run_error = 3e-12;                // of a run of 12 digits, relative, per impact
+constexpr double safety = 2, safety_in_space = 4;  // eleven numbers of turning slip must lie within their bars at once
+constexpr double no_limit = 1e-3;                  // a relative error bar above it: the runs are not near any limit yet
+constexpr double settled_change = 1e-6;            // from one triple of runs to the next; what is left is far below it
+constexpr long evaluations_per_run = 200'000;      // contacts that are short take some thousand each
+constexpr long evaluations_in_space = 2'000'000;  // slip that is let go, or turns, close to zero takes very short steps
 
 /// Powers of T in which the numbers approach their limit; the third is that of the error left.
 struct Powers {
@@ -63,11 +64,11 @@ double growth(const Simulation& run, std::size_t row, const LimitRequest& reques
 /// Error bar of the last of three extrapolations by the two changes between them.  They should fall by the factor
 /// `expected`; where they do not, the numbers approach their limit more slowly than the powers say (on a strongly
 /// damped ground the clamp acts on parts of the patch), and the factor seen counts.
-double error_bar(double before, double last, double expected) {
+double error_bar(double before, double last, double expected, double factor) {
   constexpr double slowest = 1.3;
   const double larger = std::max(std::fabs(last), std::fabs(before) / expected);  // `last` may be small by chance
   const double seen = larger > 0 ? std::fabs(before) / larger : expected;
-  return safety * larger / (std::clamp(seen, slowest, expected) - 1);
+  return factor * larger / (std::clamp(seen, slowest, expected) - 1);
 }
 
 /// What an extrapolation needs beside the runs.
@@ -101,7 +102,8 @@ LimitRow extrapolate(const std::vector<Simulation>& ladder, std::size_t row, Ext
     for (int t = 0; t < 3; ++t) triples[t] = values.segment<3>(t).dot(weights[t]);
     const double last = triples[2] - triples[1];
     limit.value[q] = triples[2];
-    limit.error[q] = error_bar(triples[1] - triples[0], last, expected) + rounding * size[q];
+    limit.error[q] = error_bar(triples[1] - triples[0], last, expected, at.request.planar ? safety : safety_in_space) +
+                     rounding * size[q];
     at.largest_change = std::max(at.largest_change, std::fabs(last) / size[q]);
     limit.relative_error = std::max(limit.relative_error, limit.error[q] / size[q]);
   }
@@ -140,7 +142,9 @@ StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, const Limi
   options.planar = request.planar;
   options.error_estimates = options.amplification = false;
   options.history = nullptr;
-  options.evaluation_limit = std::min(options.evaluation_limit, evaluations_per_run);
+  options.point_friction = !request.planar;
+  options.evaluation_limit =
+      request.planar ? std::min(options.evaluation_limit, evaluations_per_run) : evaluations_in_space;
   const ContactSizes sizes = ContactSizes::of(scene, body, request.planar);
   const double damping_per_stiffness = scene.ground.damping / scene.ground.stiffness;
   const numeric::MotionState start = scene.start(body);
@@ -158,12 +162,14 @@ StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, const Limi
   // The rungs must all be short enough, and the limit must have settled: climb until they are and it has.
   while (limit.runs < most_runs) {
     ladder.push_back(run_at(stiffness));
-    if (ladder.back().impacts.empty()) {
-      limit.ended = "no contact ends: " + ladder.back().message;
-      return limit;
-    }
     limit.stiffness = stiffness;
     stiffness *= stiffening;
+    if (ladder.back().impacts.empty()) {
+      limit.ended = "no contact ends: " + ladder.back().message;
+      if (request.planar) return limit;
+      ladder.clear();  // a soft ground may hold a body that a stiffer one throws back
+      continue;
+    }
     if (ladder.size() > rungs) ladder.erase(ladder.begin());
     if (ladder.size() < rungs) continue;
     const bool settled = take_limit(ladder, sizes, request, limit);

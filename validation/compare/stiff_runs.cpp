@@ -82,6 +82,7 @@ CommonRows clean_rows(const Simulation& run, const ContactSizes& sizes) {
     rows.ended = merged ? fmt::format("{} contacts merge into one", row.touches) : what_is_long(run, rows.count, sizes);
     if (!rows.ended.empty()) return rows;
   }
+  if (run.outcome != numeric::Outcome::impact_limit) rows.ended = "the runs have ended: " + run.message;
   return rows;
 }
 

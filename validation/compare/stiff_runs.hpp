@@ -23,7 +23,7 @@ struct ContactSizes {
 /// The first impacts of a ladder of runs, and why there are no more.
 struct CommonRows {
   std::size_t count = 0;
-  std::string ended;  ///< one clause; empty if the runs end there
+  std::string ended;  ///< one clause; empty: all that were asked for are there
 };
 
 /// Rows that all runs have, with the same places and the same course of friction, and whose contacts are single and

@@ -91,6 +91,7 @@ const Measures& all_measures() {
     add_figure_measures(all);
     add_model_measures(all);
     add_bar_measures(all);
+    add_space_measures(all);
     return all;
   }();
   return measures;

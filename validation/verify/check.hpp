@@ -21,7 +21,7 @@ enum class Answer {
 /// One row of validation/verify/checks.toml.
 struct Check {
   std::string id;  ///< C1 … C20 claims, E1 … E11 errata, F7 … F24 figures, X… exact results, M… scenes, R… random, B…
-                   ///< error bars
+                   ///< error bars, S… the discrete model in space
   std::string what;    ///< in a few words
   std::string claim;   ///< in full
   std::string number;  ///< which number is measured
@@ -61,5 +61,6 @@ void add_erratum_measures(Measures& measures);
 void add_figure_measures(Measures& measures);
 void add_model_measures(Measures& measures);
 void add_bar_measures(Measures& measures);
+void add_space_measures(Measures& measures);
 
 }  // namespace clatter::validation

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "validation/compare/random_scenes.hpp"
+#include "validation/compare/random_space_scenes.hpp"
 #include "validation/output/number.hpp"
 #include "validation/verify/check.hpp"
 
@@ -68,6 +69,21 @@ Measured random_scenes(Laboratory& laboratory, int count) {
                       result.samples.size(), result.with_limit, significant(result.median_bar, 2))};
 }
 
+constexpr int random_impacts_in_space = 4;
+
+Measured random_scenes_in_space(Laboratory& laboratory, int count) {
+  const RandomSpaceResult result = run_random_space_scenes(
+      {.seed = family, .count = count, .impacts = random_impacts_in_space, .goes_on = laboratory.goes_on});
+  if (!result.complete) throw Laboratory::Interrupted{};
+  const bool explained = std::ranges::none_of(result.unsettled, &std::string::empty, &UnsettledImpact::explanation);
+  return {100 * result.share(), 1 - result.share(),
+          result.share() >= 0.95 && explained && result.median_bar <= 20 ? Answer::holds : Answer::refuted,
+          fmt::format("% of {} impacts of {} scenes lie within their bars with all numbers, {} are explained; bars are "
+                      "{} times the gap in the median, the farthest limit is {} bars off",
+                      result.impacts, count, result.unsettled.size(), significant(result.median_bar, 2),
+                      significant(result.farthest, 2))};
+}
+
 }  // namespace
 
 void add_model_measures(Measures& measures) {
@@ -87,6 +103,9 @@ void add_model_measures(Measures& measures) {
   measures["M14"] = [](Laboratory& laboratory) { return of_case(laboratory, "rod-10"); };
   measures["M15"] = [](Laboratory& laboratory) { return of_case(laboratory, "rod-damped"); };
   measures["M16"] = [](Laboratory& laboratory) { return of_case(laboratory, "box-flat"); };
+  measures["S7"] = [](Laboratory& laboratory) { return of_case(laboratory, "phone-corner"); };
+  measures["S8"] = [](Laboratory& laboratory) { return random_scenes_in_space(laboratory, 20); };
+  measures["S9"] = [](Laboratory& laboratory) { return random_scenes_in_space(laboratory, 200); };
   measures["R1"] = [](Laboratory& laboratory) { return random_scenes(laboratory, 20); };
   measures["R2"] = [](Laboratory& laboratory) { return random_scenes(laboratory, 200); };
 }

@@ -46,7 +46,8 @@ constexpr Group groups[] = {
     {'X', "Exact results", "Closed forms, 30-digit tables, conservation laws, orders of convergence."},
     {'M', "Both models over every scene", "The limit of ever stiffer grounds is the discrete model's value."},
     {'R', "Random scenes", "Random rods and boxes through both models."},
-    {'B', "Error bars", "How many errors lie within their bars."}};
+    {'B', "Error bars", "How many errors lie within their bars."},
+    {'S', "The discrete model in space", "40-digit scenes, conservation, symmetry, and the simulator's stiff limit."}};
 
 std::string row_of(const CheckResult& result) {
   const Check& check = *result.check;

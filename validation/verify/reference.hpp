@@ -1,4 +1,4 @@
-// The 30-digit tables of the thin rod's first three impacts.
+// Reference tables that the program carries: 30 digits of the thin rod's first three impacts, and others.
 #pragma once
 
 #include <map>
@@ -10,6 +10,11 @@ namespace clatter::validation {
 /// One row: column name → value rounded to double; columns with a gap are absent (this impact does not happen with a
 /// contact angle up to 90°).
 using ReferenceRow = std::map<std::string, double>;
+
+/// One row of any table: column name → the cell's text.
+using ReferenceWords = std::map<std::string, std::string>;
+/// The rows of tests/analytic/reference/NAME, if the program carries that.
+[[nodiscard]] std::vector<ReferenceWords> reference_words(const std::string& name);
 
 enum class ReferenceTable { no_gravity, gravity };
 
