@@ -59,7 +59,7 @@ BOOST_AUTO_TEST_CASE(the_stiff_limit_holds_95_of_100_impacts_of_random_drops_in_
   const RandomSpaceResult result = run_random_space_scenes({.seed = 77, .count = random_scene_count, .impacts = 4});
   BOOST_TEST(result.impacts >= 2 * random_scene_count);
   BOOST_TEST(result.share() >= 0.95);
-  BOOST_TEST(result.median_bar <= 20);
+  BOOST_TEST(result.median_bar <= 50);
   for (const UnsettledImpact& impact : result.unsettled) {
     BOOST_TEST_CONTEXT("scene " << impact.scene << ", impact " << impact.n) BOOST_TEST(!impact.explanation.empty());
     BOOST_TEST_MESSAGE("scene " << impact.scene << ", impact " << impact.n << ": " << impact.explanation);
@@ -78,7 +78,8 @@ BOOST_AUTO_TEST_CASE(random_drops_in_space_are_boxes_off_centre_boxes_tetrahedra
     BOOST_TEST(!is_planar(drop.scene, drop.body));
     numeric::Vector3 sum = numeric::Vector3::Zero();
     for (const numeric::Vector3& vertex : body.vertices) sum += vertex;
-    BOOST_TEST((sum.norm() > 1e-6 * drop.body.radius()) == (index % 4 != 0));
+    // A uniform box and a uniform tetrahedron have their mass in the middle of their corners.
+    BOOST_TEST((sum.norm() <= 1e-9 * drop.body.radius()) == (index % 2 == 0));
   }
 }
 
@@ -170,7 +171,7 @@ BOOST_AUTO_TEST_CASE(deviations_in_space_have_the_predicted_size_and_fall_with_t
     double deviation = 0;
     for (std::size_t q = 2; q < motion_number_count; ++q) {
       const double here = std::fabs((*impact.continuous)[q] - (*impact.discrete)[q]);
-      BOOST_TEST(here <= 3 * predicted[q] + 1e-9);
+      BOOST_TEST(here <= predicted[q] + 1e-9);
       if (q == normal_impulse_place) deviation = here;
     }
     BOOST_TEST(deviation >= predicted[normal_impulse_place] / 100);        // a size, not a bound without content

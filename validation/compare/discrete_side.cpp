@@ -57,6 +57,7 @@ SequenceImpact planar_impact(const analytic::Drop& drop, const ImpactRow& row) {
                         .predictable = row.amplification * epsilon <= 0.01,
                         .is_group = false,
                         .sticks = mode == ImpactMode::stick || mode == ImpactMode::slip_stick,
+                        .nearly_stops = false,
                         .jams = jams(drop, row),
                         .open = {},
                         .follows_open = {}};

@@ -19,10 +19,11 @@ struct SequenceImpact {
   /// In space: of the corner that strikes, or the mean of several, body frame from the centre of mass [m].
   std::optional<numeric::Vector3> place;
   double amplification = 0;
-  bool predictable = true;  ///< errors of the start have not grown too far
-  bool is_group = false;    ///< in space: several corners land at once
-  bool sticks = false;      ///< ends in stick
-  bool jams = false;        ///< friction is beyond Painlevé's limit
+  bool predictable = true;    ///< errors of the start have not grown too far
+  bool is_group = false;      ///< in space: several corners land at once
+  bool sticks = false;        ///< ends in stick
+  bool nearly_stops = false;  ///< in space: slip comes within a thousandth of the contact's speed of stopping
+  bool jams = false;          ///< friction is beyond Painlevé's limit
   /// Why the rebound is not that of an ever stiffer ground: several corners at once; empty: it is.
   std::string open;
   std::string follows_open;  ///< the same for an impact that only comes after such a one

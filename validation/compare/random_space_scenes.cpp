@@ -15,6 +15,8 @@ namespace {
 
 using numeric::Vector3;
 
+constexpr double rounding = 1e-12;  ///< of a number's scale: smaller gaps are chance
+
 std::vector<double> list_of(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
 Vector3 in_cube(Uniform& random) {
@@ -116,8 +118,9 @@ void take_bars(const Comparison& comparison, const ComparedImpact& impact, Rando
   for (const auto& [name, heading, q] : comparison.discrete.quantities) {
     const NumberPair pair{impact, q};
     const double gap = std::fabs(pair.miss()), bar = pair.bar() + impact.discrete_error[q];
-    if (gap > 0) ratios.push_back(bar / gap);
-    result.largest_bar = std::max(result.largest_bar, bar / comparison.discrete.scales[q]);
+    const double scale = comparison.discrete.scales[q];
+    if (gap > rounding * scale) ratios.push_back(bar / gap);
+    result.largest_bar = std::max(result.largest_bar, bar / scale);
   }
   result.farthest = std::max(result.farthest, impact.bars_off());
 }

@@ -39,7 +39,7 @@ struct RandomSpaceResult {
   bool complete = true;  ///< false: ended by `goes_on`, and the numbers are those of the scenes before
   int impacts = 0;       ///< of the discrete model, up to the first of several corners and to the end of predictability
   int within = 0;        ///< of those: each number of the limit lies within its error bar of the discrete value
-  double median_bar = 0;                   ///< of bar/gap, over all numbers
+  double median_bar = 0;                   ///< of bar/gap, over the numbers with a gap above 1e-12 of their scale
   double farthest = 0;                     ///< largest gap over bar and discrete error together
   double largest_bar = 0;                  ///< over the number's scale
   std::vector<UnsettledImpact> unsettled;  ///< the others

@@ -49,13 +49,11 @@ Drop turned(Drop drop, const Vector3& by) {
   return drop;
 }
 
-Drop shrunk(Drop drop, double by) {
-  const double factor = 1 - std::min(by / drop.body.reach(), 0.5);
-  for (Vector3& vertex : drop.body.vertices) vertex *= factor;
-  for (analytic::space::Rim& rim : drop.body.rims) {
-    rim.centre *= factor;
-    rim.radius *= factor;
-  }
+/// The body with the corner `by` further inside along one of its axes.
+Drop shrunk(Drop drop, const Vector3& corner, int axis, double by) {
+  const double reach = std::fabs(corner[axis]);
+  const double factor = 1 - (reach > 0 ? std::min(by / reach, 0.5) : 0);
+  for (Vector3& vertex : drop.body.vertices) vertex[axis] *= factor;
   return drop;
 }
 
@@ -76,7 +74,10 @@ void add_effects(const Drop& drop, const ImpactRow& row, double time, std::size_
     add_difference(base, run(turned(here, turn), impacts), index, sizes, &PredictedSize::turning);
   }
   const double depth = row.approach_speed * time / std::numbers::pi;
-  add_difference(base, run(shrunk(here, depth), impacts), index, sizes, &PredictedSize::indentation);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Drop smaller = shrunk(here, row.corners.front().place, axis, depth);
+    add_difference(base, run(smaller, impacts), index, sizes, &PredictedSize::indentation);
+  }
   for (std::size_t i = index + 1; i < sizes.size(); ++i) sizes[i].delay[0] += time / 2;
 }
 

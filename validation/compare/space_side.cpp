@@ -71,6 +71,7 @@ SequenceImpact space_impact(const Scene& scene, const space::Drop& drop, const s
                         .predictable = row.error.predictable,
                         .is_group = row.group.has_value(),
                         .sticks = path == PathKind::stick || path == PathKind::slip_stick,
+                        .nearly_stops = row.impact.least_slip <= 1e-3 * row.impact.contact_before.norm(),
                         .jams = false,
                         .open = {},
                         .follows_open = {}};

@@ -19,12 +19,13 @@ using numeric::Simulation;
 constexpr double stiffening = 16;  // halves the contact time of a corner, F ∝ δ³, the slowest to converge
 constexpr int rungs = 5;           // three triples of runs
 constexpr int most_runs = 24;
-constexpr double least_indentation = 1e-8;         // of the body: the depth that doubles still resolve to 12 digits
-constexpr double run_error = 3e-12;                // of a run of 12 digits, relative, per impact
-constexpr double safety = 2, safety_in_space = 4;  // eleven numbers of turning slip must lie within their bars at once
-constexpr double no_limit = 1e-3;                  // a relative error bar above it: the runs are not near any limit yet
-constexpr double settled_change = 1e-6;            // from one triple of runs to the next; what is left is far below it
-constexpr long evaluations_per_run = 200'000;      // contacts that are short take some thousand each
+constexpr double least_indentation = 1e-8;  // of the body: the depth that doubles still resolve to 12 digits
+constexpr double run_error = 3e-12;         // of a planar run of 12 digits, relative, per impact
+constexpr double space_run_error = 3e-11;   // in space, at most: slip that turns costs digits
+constexpr double safety = 2;
+constexpr double no_limit = 1e-3;                 // a relative error bar above it: the runs are not near any limit yet
+constexpr double settled_change = 1e-6;           // from one triple of runs to the next; what is left is far below it
+constexpr long evaluations_per_run = 200'000;     // contacts that are short take some thousand each
 constexpr long evaluations_in_space = 2'000'000;  // slip that is let go, or turns, close to zero takes very short steps
 
 /// Powers of T in which the numbers approach their limit; the third is that of the error left.
@@ -51,24 +52,39 @@ Eigen::Vector3d limit_weights(const Eigen::Vector3d& x, const Powers& powers) {
   return weights / weights.sum();
 }
 
-/// By what a relative error of the state has grown at a row: with the lever by which each contact arises, or as the
-/// discrete model has it.
-double growth(const Simulation& run, std::size_t row, const LimitRequest& request) {
+/// By what a relative error of the state has grown at a row: with the lever by which each contact arises.
+double growth(const Simulation& run, std::size_t row) {
   double grown = 1;
   for (std::size_t i = 1; i <= row; ++i) {
     grown *= 2 + 1 / std::max(std::min(run.impacts[i].value.contact_angle, 1.0), 1e-3);
   }
-  return row < request.amplification.size() ? std::max(grown, request.amplification[row]) : grown;
+  return grown;
+}
+
+/// What errors of the runs make of a limit with these weights: in the plane by how errors grow there; in space as the
+/// stiffest run estimates them by a rougher one, at most what runs of these digits were seen to have, grown as the
+/// discrete model says.
+MotionNumbers error_of_runs(const Simulation& stiffest, std::size_t row, double weight, const LimitRequest& request,
+                            const MotionNumbers& size) {
+  const MotionNumbers estimates = motion_errors(stiffest.impacts[row]);
+  const double most = request.planar ? weight * run_error * growth(stiffest, row)
+                                     : weight * space_run_error * std::max(request.amplification[row], 1.0);
+  MotionNumbers errors{};
+  for (std::size_t q = 0; q < motion_number_count; ++q) {
+    const bool estimated = !request.planar && weight * estimates[q] <= most * size[q];
+    errors[q] = estimated ? weight * estimates[q] : most * size[q];
+  }
+  return errors;
 }
 
 /// Error bar of the last of three extrapolations by the two changes between them.  They should fall by the factor
 /// `expected`; where they do not, the numbers approach their limit more slowly than the powers say (on a strongly
 /// damped ground the clamp acts on parts of the patch), and the factor seen counts.
-double error_bar(double before, double last, double expected, double factor) {
+double error_bar(double before, double last, double expected) {
   constexpr double slowest = 1.3;
   const double larger = std::max(std::fabs(last), std::fabs(before) / expected);  // `last` may be small by chance
   const double seen = larger > 0 ? std::fabs(before) / larger : expected;
-  return factor * larger / (std::clamp(seen, slowest, expected) - 1);
+  return safety * larger / (std::clamp(seen, slowest, expected) - 1);
 }
 
 /// What an extrapolation needs beside the runs.
@@ -93,7 +109,8 @@ LimitRow extrapolate(const std::vector<Simulation>& ladder, std::size_t row, Ext
                                      limit_weights(x.segment<3>(2), powers)};
   const double expected = std::pow(x[3] / x[4], powers.third);
   const MotionNumbers size = motion_sizes(ladder.back(), row + 1, at.body);
-  const double rounding = weights[2].cwiseAbs().sum() * run_error * growth(ladder.back(), row, at.request);
+  const double weight = weights[2].cwiseAbs().sum();
+  const MotionNumbers runs = error_of_runs(ladder.back(), row, weight, at.request, size);
   const ImpactRecord& stiffest = ladder.back().impacts[row];
   LimitRow limit{.end = stiffest.end, .place = stiffest.place, .mode = stiffest.mode};
   for (std::size_t q = 0; q < motion_number_count; ++q) {
@@ -102,8 +119,7 @@ LimitRow extrapolate(const std::vector<Simulation>& ladder, std::size_t row, Ext
     for (int t = 0; t < 3; ++t) triples[t] = values.segment<3>(t).dot(weights[t]);
     const double last = triples[2] - triples[1];
     limit.value[q] = triples[2];
-    limit.error[q] = error_bar(triples[1] - triples[0], last, expected, at.request.planar ? safety : safety_in_space) +
-                     rounding * size[q];
+    limit.error[q] = error_bar(triples[1] - triples[0], last, expected) + runs[q];
     at.largest_change = std::max(at.largest_change, std::fabs(last) / size[q]);
     limit.relative_error = std::max(limit.relative_error, limit.error[q] / size[q]);
   }
@@ -176,6 +192,11 @@ StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, const Limi
     const numeric::ImpactNumbers& first = ladder.back().impacts.front().value;
     if (settled || first.duration * first.approach_speed < least_indentation * body.radius()) break;
   }
+  if (request.planar || ladder.size() < rungs) return limit;
+  // Slip that turns costs the runs digits: how many, the stiffest estimates.
+  options.error_estimates = true;
+  ladder.back() = run_at(limit.stiffness);
+  static_cast<void>(take_limit(ladder, sizes, request, limit));
   return limit;
 }
 

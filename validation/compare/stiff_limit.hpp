@@ -32,7 +32,7 @@ struct StiffLimit {
 struct LimitRequest {
   int impacts = 1;
   bool planar = true;  ///< keep the motion in its x–z plane
-  /// By what a relative error of the drop has grown at each impact, where that is known; empty: not known.
+  /// In space, by what a relative error of the drop has grown at each impact.
   std::vector<double> amplification{};
 };
 
