@@ -25,13 +25,19 @@ Cell number_cell(const ComparedImpact& impact) {
   return {impact.n, std::to_string(impact.n) + (impact.has_landing() && !impact.lands() ? "!" : "")};
 }
 
+/// The corner, or how many they are.
+std::string short_end(const std::string& end) {
+  const auto spaces = std::count(end.begin(), end.end(), ' ');
+  return spaces == 0 ? end : fmt::format("{} at once", spaces + 1);
+}
+
 void add_rows(const Comparison& comparison, const ComparedImpact& impact, Grid& grid) {
   bool first = true;
   for (const auto& [name, heading, q] : comparison.discrete.quantities) {
     if (!impact.discrete || is_nothing(comparison, impact, q)) continue;
     const NumberPair pair{impact, q};
     const double scale = comparison.discrete.scales[q];
-    Row row{first ? number_cell(impact) : Cell(), first ? Cell(impact.discrete_end) : Cell(), Cell(heading),
+    Row row{first ? number_cell(impact) : Cell(), first ? Cell(short_end(impact.discrete_end)) : Cell(), Cell(heading),
             known_cell(pair.discrete_number(), {6, scale})};
     if (impact.reason.empty()) {
       row.insert(row.end(), {known_cell(pair.continuous_number(), {6, scale}),
@@ -226,13 +232,14 @@ void add_comparison(const Comparison& comparison, const Row& front, Value& field
 Report comparison_report(const Scene& scene, const Comparison& comparison) {
   Report report = begun_comparison(scene);
   add_comparison(comparison, {}, report.fields, report.grid);
+  const bool in_space = comparison.discrete.in_space;
   report.digest->columns = {{"n", "n", ""},
-                            {"end", comparison.discrete.in_space ? "corner" : "end", ""},
+                            {"end", in_space ? "corner" : "end", ""},
                             {"quantity", "", ""},
                             {"discrete", "discrete", ""},
                             {"continuous", "contin.", ""},
-                            {"deviation", "deviation", ""},
-                            {"predicted", "predicted", ""},
+                            {"deviation", in_space ? "dev." : "deviation", ""},
+                            {"predicted", in_space ? "pred." : "predicted", ""},
                             {"miss", "limit off", ""},
                             {"allowance", "±", ""}};
   for (const ComparedImpact& impact : comparison.impacts) add_rows(comparison, impact, *report.digest);

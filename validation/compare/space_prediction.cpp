@@ -73,7 +73,7 @@ void add_effects(const Drop& drop, const ImpactRow& row, double time, std::size_
     const Vector3 turn = (before.norm() > after.norm() ? before : after) * (time / 2);
     add_difference(base, run(turned(here, turn), impacts), index, sizes, &PredictedSize::turning);
   }
-  const double depth = row.approach_speed * time / std::numbers::pi;
+  const double depth = row.approach_speed * time / (2 * std::numbers::pi);  // of the pressure centre, in the mean
   for (int axis = 0; axis < 3; ++axis) {
     const Drop smaller = shrunk(here, row.corners.front().place, axis, depth);
     add_difference(base, run(smaller, impacts), index, sizes, &PredictedSize::indentation);

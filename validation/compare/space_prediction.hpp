@@ -7,8 +7,8 @@
 namespace clatter::validation {
 
 /// As predicted_sizes in the plane: gravity for T, a turn by |Ω| T/2 about the axis of Ω before or after, whichever is
-/// faster, the corner v T/π further inside along each of the body's axes, half the duration of each contact before. The
-/// body has no rims.
+/// faster, the corner v T/(2π) further inside along each of the body's axes, half the duration of each contact before.
+/// The body has no rims.
 [[nodiscard]] std::vector<PredictedSize> predicted_sizes(const analytic::space::Drop& drop,
                                                          const analytic::space::Sequence& sequence,
                                                          const std::vector<double>& contact_times);

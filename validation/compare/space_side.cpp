@@ -37,13 +37,20 @@ bool is_edge(const space::ImpactRow& row) {
   });
 }
 
-/// Corners that come down and leave with one speed have one answer on any ground; where they do not, or friction tips
-/// a face, the rebound depends on where between them the ground presses.
-bool is_settled(const space::ImpactRow& row, double scale) {
+/// Whether the impulse acts at the middle of the corners, where a ground that gives way evenly presses.
+bool acts_in_the_middle(const space::ImpactRow& row, const Vector3& middle) {
+  const Vector3 arm = row.before.attitude * middle, &impulse = row.impact.impulse;
+  return (row.group->moment - arm.cross(impulse)).norm() <= 1e-9 * arm.norm() * impulse.norm();
+}
+
+/// Corners that come down and leave with one speed, pressed in their middle, have one answer on any ground; where they
+/// do not, or friction tips a face, the rebound depends on where between them the ground presses.
+bool is_settled(const space::ImpactRow& row, const Vector3& middle, double scale) {
   const space::Impact& impact = row.impact;
   const bool as_one = moves_as_one(row, row.before.velocity, row.before.angular_velocity, scale) &&
                       moves_as_one(row, impact.velocity_after, impact.angular_velocity_after, scale);
-  return row.group->is_whole && as_one && (is_edge(row) || impact.impulse.head<2>().isZero(0));
+  return row.group->is_whole && as_one && acts_in_the_middle(row, middle) &&
+         (is_edge(row) || impact.impulse.head<2>().isZero(0));
 }
 
 std::string open_words(const space::Drop& drop, const space::ImpactRow& row) {
@@ -76,7 +83,7 @@ SequenceImpact space_impact(const Scene& scene, const space::Drop& drop, const s
                         .open = {},
                         .follows_open = {}};
   const double scale = row.before.velocity.norm() + row.before.angular_velocity.norm() * drop.body.reach();
-  if (row.group && !is_settled(row, scale)) impact.open = open_words(drop, row);
+  if (row.group && !is_settled(row, place, scale)) impact.open = open_words(drop, row);
   return impact;
 }
 

@@ -64,7 +64,7 @@ Measured random_scenes(Laboratory& laboratory, int count) {
       run_random_scenes({.seed = random_family, .count = count, .impacts = random_impacts, .goes_on = laboratory.goes_on});
   if (!result.complete) throw Laboratory::Interrupted{};
   return {100 * result.covered, result.farthest,
-          result.covered >= 0.95 && result.median_bar <= 50 ? Answer::holds : Answer::refuted,
+          result.covered >= 0.95 && result.median_bar <= 10 ? Answer::holds : Answer::refuted,
           fmt::format("% of {} numbers of {} scenes lie within their bars; bars are {} times the gap in the median",
                       result.samples.size(), result.with_limit, significant(result.median_bar, 2))};
 }
