@@ -32,6 +32,8 @@ class FreeRotation {
   [[nodiscard]] double fastest() const { return fastest_; }
   /// About a fixed axis, or no rotation at all.
   [[nodiscard]] bool is_steady() const { return !theta_; }
+  /// The rotation of different principal moments, unless it is steady.
+  [[nodiscard]] const std::optional<ThetaRotation>& theta() const { return theta_; }
   /// Bound γ <= 1/√2 in |ω̇| <= γ |ω|²: from Euler's equations, whose coefficients are below 1 by the triangle
   /// inequality.
   [[nodiscard]] double acceleration_factor() const { return acceleration_factor_; }

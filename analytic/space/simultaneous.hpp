@@ -54,7 +54,7 @@ struct GroupImpact {
 
 /// What a small tilt makes of it.
 struct TiltedOutcome {
-  double tilt_direction = 0;  ///< of one such tilt: the horizontal direction in which the ground rises [rad]
+  double tilt_direction = 0;  ///< of one such tilt: the horizontal direction in which corners lie higher [rad]
   GroupImpact impact;         ///< is_whole: one corner alone struck
 };
 

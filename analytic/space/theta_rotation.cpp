@@ -124,6 +124,7 @@ ThetaRotation::ThetaRotation(const PrincipalAxes& principal, const PrincipalVelo
   const Extended dn_square = square(cn) + c.complement * square(sn);
   start_ = sn * boost::math::ellint_rf(square(cn), dn_square, Extended{1});
   momentum_ = static_cast<double>(c.momentum);
+  modulus_square_ = static_cast<double>(c.modulus);
   const auto amplitude = [&](Extended m) { return static_cast<double>(std::sqrt(m) / c.momentum); };
   amplitudes_ = {amplitude(m1), amplitude(m2), amplitude(m3)};
   least_third_ = static_cast<double>(std::sqrt(c.complement)) * amplitudes_[2];

@@ -49,6 +49,10 @@ class ThetaRotation {
   [[nodiscard]] double momentum() const { return momentum_; }
   /// M₁, M₂, M₃: largest sizes of the components of m.
   [[nodiscard]] const Vector3& amplitudes() const { return amplitudes_; }
+  /// k² of (1).
+  [[nodiscard]] double modulus_square() const { return modulus_square_; }
+  /// 4K/λ, after which ω in body axes repeats; infinite on the separatrix [s].
+  [[nodiscard]] double period() const { return static_cast<double>(4 * quarter_ / rate_); }
   /// k′ M₃: the least that m₃ becomes.
   [[nodiscard]] double least_third() const { return least_third_; }
 
@@ -69,7 +73,7 @@ class ThetaRotation {
 
   PrincipalAxes::Matrix axes_;
   Vector3 moments_, amplitudes_;
-  double momentum_ = 0, least_third_ = 0, sense_ = 1;
+  double momentum_ = 0, modulus_square_ = 0, least_third_ = 0, sense_ = 1;
   bool dual_ = false;
   long double rate_ = 0, start_ = 0, quarter_ = 0;  ///< λ, u₀, K
   long double precession_ = 0;                      ///< c λ of (3) or (4) [rad/s]

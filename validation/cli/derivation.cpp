@@ -6,15 +6,15 @@
 #include <bit>
 #include <cmath>
 
-#include "validation/cli/sequence_report.hpp"
+#include "validation/cli/space_derivation.hpp"
 #include "validation/output/estimated.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/version.hpp"
 #include "validation/plan/shortfall.hpp"
 #include "validation/record/names.hpp"
 #include "validation/scene/body_properties.hpp"
-#include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/scene_value.hpp"
+#include "validation/scene/space_scene.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -25,8 +25,8 @@ using analytic::ImpactRow;
 /// Writes the equations of one sequence with its number of digits.
 class Derivation {
  public:
-  Derivation(const Scene& scene, const analytic::Sequence& sequence)
-      : scene_(scene), drop_(impact_drop(scene)), sequence_(sequence) {}
+  Derivation(const Scene& scene, const analytic::Drop& drop, const analytic::Sequence& sequence)
+      : scene_(scene), drop_(drop), sequence_(sequence) {}
 
   std::vector<Step> impact(int n) {
     const auto index = static_cast<std::size_t>(n - 1);
@@ -38,20 +38,6 @@ class Derivation {
     else point_impact(row);
     energy(row);
     set_errors();
-    return std::move(steps_);
-  }
-
-  std::vector<Step> missing(int n) {
-    const std::size_t have = sequence_.rows.size();
-    Step& step = open(fmt::format("Impact {} does not happen", n),
-                      fmt::format("The sequence has {} impact{}. It ends with {}: {}.", have, have == 1 ? "" : "s",
-                                  outcome_name(sequence_.outcome), sequence_.message));
-    const analytic::NearMiss& miss = sequence_.near_miss;
-    if (sequence_.outcome == analytic::Outcome::no_further_impact && std::isfinite(miss.clearance)) {
-      step.equations.push_back(
-          {"clearance", "least height of a vertex at a turning point", "", miss.clearance, "m", miss.margin});
-      step.equations.push_back({"margin", "rounding error of that height", "", miss.margin, "m"});
-    }
     return std::move(steps_);
   }
 
@@ -227,7 +213,7 @@ class Derivation {
   }
 
   const Scene& scene_;
-  analytic::Drop drop_;
+  const analytic::Drop& drop_;
   const analytic::Sequence& sequence_;
   std::vector<Step> steps_;
   analytic::RowErrors error_;
@@ -240,23 +226,28 @@ std::string value_text(const Equation& equation, int digits) {
   return known_text({equation.value, equation.error}, shown) + (equation.unit.empty() ? "" : " " + equation.unit);
 }
 
-std::vector<Step> derive_impact(const Scene& scene, const analytic::Sequence& sequence, int n) {
-  Derivation derivation(scene, sequence);
-  return static_cast<std::size_t>(n) <= sequence.rows.size() ? derivation.impact(n) : derivation.missing(n);
+std::vector<Step> derive_impact(const Scene& scene, const analytic::Drop& drop, const analytic::Sequence& sequence,
+                                int n) {
+  return Derivation(scene, drop, sequence).impact(n);
 }
 
 Explanation explain_impact(Scene scene, int n) {
   scene.options.impacts = std::max(scene.options.impacts, n);
-  const analytic::Sequence sequence =
-      analytic::impact_sequence(impact_drop(scene), {.impacts = n, .digits = scene.options.digits});
-  const bool has_impact = static_cast<std::size_t>(n) <= sequence.rows.size();
-  const bool falls_short = scene.require_digits || !has_impact;
-  return {.scene = scene,
-          .impact = n,
-          .steps = derive_impact(scene, sequence, n),
-          .warnings = sequence.warnings,
-          .shortfall = falls_short ? shortfall(scene, sequence) : "",
-          .shortfall_status = shortfall_status(sequence.outcome)};
+  const auto explained = [&](const auto& drop) -> Explanation {
+    const auto sequence = impact_sequence(drop, {.impacts = n, .digits = scene.options.digits});
+    const std::size_t have = sequence.rows.size();
+    const bool has_impact = static_cast<std::size_t>(n) <= have;
+    const bool falls_short = scene.require_digits || !has_impact;
+    return {.scene = scene,
+            .impact = n,
+            .steps = has_impact ? derive_impact(scene, drop, sequence, n)
+                                : std::vector<Step>{missing_impact(
+                                      n, {have, sequence.outcome, sequence.message, sequence.near_miss})},
+            .warnings = sequence.warnings,
+            .shortfall = falls_short ? shortfall(scene, sequence) : "",
+            .shortfall_status = shortfall_status(sequence.outcome)};
+  };
+  return std::visit(explained, chosen_drop(scene));
 }
 
 Value explanation_fields(const Explanation& explanation) {

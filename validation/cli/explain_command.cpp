@@ -6,6 +6,7 @@
 
 #include "validation/cli/commands.hpp"
 #include "validation/cli/derivation.hpp"
+#include "validation/cli/explanation_latex.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/scene_flags.hpp"
 #include "validation/output/estimated.hpp"
@@ -63,65 +64,6 @@ std::string as_markdown(const std::vector<std::string>& head, const std::vector<
   return out;
 }
 
-/// LaTeX mathematics for the notation of the equations.
-std::string latex_math(std::string text) {
-  static const std::vector<std::pair<std::string, std::string>> table{
-      {"−", "-"},         {"·", "\\cdot "},   {"Ω", "\\Omega "}, {"ω", "\\omega "}, {"θ", "\\theta "},
-      {"φ", "\\varphi "}, {"α", "\\alpha "},  {"Γ", "\\Gamma "}, {"μᵢ", "\\mu_i "}, {"μ", "\\mu "},
-      {"²", "^2"},        {"₀", "_0"},        {"′", "'"},        {"±", "\\pm "},    {"°", "^\\circ "},
-      {"sin ", "\\sin "}, {"cos ", "\\cos "}, {"sin(", "\\sin("}};
-  for (const auto& [from, to] : table) {
-    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
-      text.replace(at, from.size(), to);
-    }
-  }
-  return text;
-}
-
-bool is_words(const std::string& formula) {
-  return formula.find("the ") != std::string::npos || formula.find("after ") != std::string::npos ||
-         formula.find("before") != std::string::npos || formula.find("mode") != std::string::npos ||
-         formula.find("angle") != std::string::npos || formula.find("height") != std::string::npos ||
-         formula.find("end") != std::string::npos || formula.find("velocity") != std::string::npos ||
-         formula.find("speed") != std::string::npos || formula.find("spin") != std::string::npos ||
-         formula.find("time") != std::string::npos;
-}
-
-std::string latex_name(const std::string& name) {
-  return name.find(' ') == std::string::npos ? latex_math(name) : "\\text{" + name + "}";
-}
-
-std::string as_latex(const std::vector<std::string>& head, const std::vector<Step>& steps, int digits) {
-  std::string out;
-  for (const std::string& line : head) out += "% " + line + "\n";
-  for (const Step& step : steps) {
-    out += "\n\\paragraph{" + step.title + "}\n\\begin{align*}\n";
-    std::string separator;
-    for (const Equation& e : step.equations) {
-      out += separator + "  " +
-             latex_name(e.name == "φ low"    ? "\\varphi_{low}"
-                        : e.name == "φ high" ? "\\varphi_{high}"
-                                             : e.name);
-      const bool words = is_words(e.formula);
-      if (!e.formula.empty() && !words) out += " &= " + latex_math(e.formula);
-      else out += " &";
-      if (!e.numbers.empty()) out += " = " + latex_math(e.numbers);
-      out += " = " + known_text({e.value, e.error}, {.digits = digits, .size = e.size}) +
-             (e.unit.empty() ? "" : "\\ \\mathrm{" + latex_math(e.unit) + "}");
-      if (words && e.formula.find("Ω") == std::string::npos)
-        out += " &&\\text{" +
-               (e.formula.find("φ") == std::string::npos && e.formula.find("_") == std::string::npos &&
-                        e.formula.find("μ") == std::string::npos
-                    ? e.formula
-                    : std::string("at the root")) +
-               "}";
-      separator = " \\\\\n";
-    }
-    out += "\n\\end{align*}\n";
-  }
-  return out;
-}
-
 Report report_of(const Explanation& explanation, const std::string& what) {
   Report report = begun_report("explain", what);
   report.head = scene_head(explanation.scene, Model::discrete);
@@ -152,7 +94,7 @@ int run_explain(const ExplainInput& input) {
     case Format::json:
     case Format::csv: text = report_text(report, choice.style); break;
     case Format::markdown: text = as_markdown(head, steps, scene.options.digits); break;
-    case Format::latex: text = as_latex(head, steps, scene.options.digits); break;
+    case Format::latex: text = explanation_latex(head, steps, scene.options.digits); break;
     case Format::table: text = as_text(head, steps, scene.options.digits, choice.style.ascii); break;
   }
   write_out(choice, text);

@@ -8,12 +8,9 @@
 #include "validation/cli/scene_flags.hpp"
 #include "validation/cli/sequence_picture.hpp"
 #include "validation/cli/sequence_report.hpp"
-#include "validation/cli/space_sequence_report.hpp"
 #include "validation/output/message.hpp"
 #include "validation/plan/sequence_method.hpp"
 #include "validation/plan/shortfall.hpp"
-#include "validation/scene/bad_input.hpp"
-#include "validation/scene/space_scene.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -33,33 +30,24 @@ int status_of(const Scene& scene, const Sequence& sequence) {
   return shortfall_status(sequence.outcome);
 }
 
-int run_in_space(const Scene& scene, const OutputChoice& choice, PlotFile& plot) {
-  const analytic::space::Sequence sequence =
-      impact_sequence(impact_space_drop(scene), {.impacts = scene.options.impacts, .digits = scene.options.digits});
-  for (const std::string& warning : sequence.warnings) say(warning);
-  write_report(choice, sequence_report(scene, sequence));
-  if (plot.is_wanted()) plot.leave_out("a sequence in space has no picture");
-  return status_of(scene, sequence);
-}
-
 int run_sequence(const SequenceInput& input) {
   const Scene scene = read_scene_flags(input.scene);
   const OutputChoice choice = read_output(input.output);
   const SequenceMethod method = read_sequence_method(input.method.value_or("auto"));
   check_files(choice, plot_files(input.plot), files_of(scene));
   PlotFile plot(input.plot);
-  if (!is_planar(scene)) {
-    if (method == SequenceMethod::closed_form) throw BadInput("--method closed-form: the body moves in space");
-    return run_in_space(scene, choice, plot);
-  }
-  const analytic::Sequence sequence = sequence_by_method(scene, method);
-  for (const std::string& warning : sequence.warnings) say(warning);
-  write_report(choice, sequence_report(scene, sequence));
+  const DiscreteRun run = run_discrete(scene, method);
+  for (const std::string& warning : run.warnings()) say(warning);
+  write_report(choice, sequence_report(scene, run));
   if (plot.is_wanted()) {
-    plot.write(sequence_picture(scene, sequence),
-               run_words("sequence", "impact sequence, discrete model", scene, Model::discrete));
+    if (run.planar()) {
+      plot.write(sequence_picture(scene, *run.planar()),
+                 run_words("sequence", "impact sequence, discrete model", scene, Model::discrete));
+    } else {
+      plot.leave_out("a sequence in space has no picture");
+    }
   }
-  return status_of(scene, sequence);
+  return std::visit([&](const auto& sequence) { return status_of(scene, sequence); }, run.sequence);
 }
 
 }  // namespace

@@ -3,9 +3,8 @@
 
 #include <vector>
 
-#include "analytic/sequence.hpp"
 #include "validation/output/report.hpp"
-#include "validation/scene/scene.hpp"
+#include "validation/plan/sequence_method.hpp"
 
 namespace clatter::validation {
 
@@ -13,5 +12,7 @@ namespace clatter::validation {
 [[nodiscard]] std::vector<Column> sequence_columns(bool friction = true, bool loses = true);
 /// A row for each impact, and in tables and CSV one for the tail.
 [[nodiscard]] Report sequence_report(const Scene& scene, const analytic::Sequence& sequence);
+/// Of a drop in the plane or in space.
+[[nodiscard]] Report sequence_report(const Scene& scene, const DiscreteRun& run);
 
 }  // namespace clatter::validation

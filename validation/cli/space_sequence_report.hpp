@@ -11,6 +11,7 @@ namespace clatter::validation {
 /// The rows of a sequence with the names of the corners that strike.
 [[nodiscard]] std::vector<SpaceRow> space_rows(const Scene& scene, const analytic::space::Sequence& sequence);
 /// A row for each impact.
-[[nodiscard]] Report sequence_report(const Scene& scene, const analytic::space::Sequence& sequence);
+[[nodiscard]] Report sequence_report(const Scene& scene, const analytic::space::Drop& drop,
+                                     const analytic::space::Sequence& sequence);
 
 }  // namespace clatter::validation

@@ -73,7 +73,7 @@ Scene discrete_scene(const NamedTexts& texts) {
 
 Value sequence(NamedTexts texts) {
   const Scene scene = discrete_scene(texts);
-  return sequence_report(scene, sequence_by_method(scene, SequenceMethod::automatic)).fields;
+  return sequence_report(scene, run_discrete(scene, SequenceMethod::automatic)).fields;
 }
 
 Value explain(NamedTexts texts) {

@@ -2,7 +2,6 @@
 
 #include "validation/plan/closed_form.hpp"
 #include "validation/scene/bad_input.hpp"
-#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation {
 
@@ -10,16 +9,35 @@ SequenceMethod read_sequence_method(const std::string& name) {
   return static_cast<SequenceMethod>(read_name_option("--method", name, {"auto", "closed-form", "discrete"}));
 }
 
+namespace {
+
 // By plan: the closed form costs as much as the discrete model, which goes on after the third impact, knows how errors
 // grow and takes any body; only Eq. 9 by itself is cheaper.
-analytic::Sequence sequence_by_method(const Scene& scene, SequenceMethod method) {
-  const analytic::Drop drop = impact_drop(scene);
+analytic::Sequence planar_sequence(const Scene& scene, const analytic::Drop& drop, SequenceMethod method) {
   if (method != SequenceMethod::closed_form) {
-    return analytic::impact_sequence(drop, {.impacts = scene.options.impacts, .digits = scene.options.digits});
+    return impact_sequence(drop, {.impacts = scene.options.impacts, .digits = scene.options.digits});
   }
   const std::string reason = reason_against_closed_form(drop);
   if (!reason.empty()) throw BadInput("--method closed-form: does not apply: " + reason);
   return closed_form_sequence(drop, scene.options.impacts, true);
+}
+
+}  // namespace
+
+const std::vector<std::string>& DiscreteRun::warnings() const {
+  return std::visit([](const auto& s) -> const std::vector<std::string>& { return s.warnings; }, sequence);
+}
+
+DiscreteRun run_discrete(const Scene& scene, SequenceMethod method) {
+  DiscreteDrop drop = chosen_drop(scene);
+  if (const auto* const planar = std::get_if<analytic::Drop>(&drop)) {
+    analytic::Sequence sequence = planar_sequence(scene, *planar, method);
+    return {std::move(drop), std::move(sequence)};
+  }
+  if (method == SequenceMethod::closed_form) throw BadInput("--method closed-form: the body moves in space");
+  analytic::space::Sequence sequence = impact_sequence(
+      std::get<analytic::space::Drop>(drop), {.impacts = scene.options.impacts, .digits = scene.options.digits});
+  return {std::move(drop), std::move(sequence)};
 }
 
 }  // namespace clatter::validation

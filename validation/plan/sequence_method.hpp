@@ -1,10 +1,9 @@
-// The discrete model by the name of its method.
+// A run of the discrete model by the name of its method.
 #pragma once
 
 #include <string>
 
-#include "analytic/sequence.hpp"
-#include "validation/scene/scene.hpp"
+#include "validation/scene/space_scene.hpp"
 
 namespace clatter::validation {
 
@@ -17,7 +16,18 @@ enum class SequenceMethod {
 /// @throws BadInput naming the nearest of auto, closed-form and discrete.
 [[nodiscard]] SequenceMethod read_sequence_method(const std::string& name);
 
-/// Warnings are left in the sequence.  @throws BadInput if the closed form does not apply, with the reason.
-[[nodiscard]] analytic::Sequence sequence_by_method(const Scene& scene, SequenceMethod method);
+/// A drop and its sequence, in the plane or in space: both the same.
+struct DiscreteRun {
+  DiscreteDrop drop;
+  std::variant<analytic::Sequence, analytic::space::Sequence> sequence;
+
+  [[nodiscard]] const std::vector<std::string>& warnings() const;
+  /// The sequence if it is one in the plane.
+  [[nodiscard]] const analytic::Sequence* planar() const { return std::get_if<analytic::Sequence>(&sequence); }
+};
+
+/// Runs the scene.  Warnings are left in the sequence.
+/// @throws as chosen_drop and impact_sequence; BadInput if the closed form does not apply, with the reason.
+[[nodiscard]] DiscreteRun run_discrete(const Scene& scene, SequenceMethod method);
 
 }  // namespace clatter::validation

@@ -9,7 +9,6 @@
 
 #include "analytic/body_motion.hpp"
 #include "analytic/errors.hpp"
-#include "validation/output/number.hpp"
 #include "validation/scene/bad_input.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/keys.hpp"
@@ -91,19 +90,6 @@ bool vanish(std::initializer_list<double> parts, double whole) {
 void require_plane(const Scene& scene) {
   const std::string reason = reason_in_space(scene);
   if (!reason.empty()) in_space(reason);
-}
-
-/// Downward speed at the touch, of a centre of mass that fell from `height`.
-double fallen_speed(double height, double gravity, const analytic::PlanarBody& body,
-                    const analytic::Angle& inclination) {
-  const double touch = analytic::BodyMotion(body, inclination, {}, 0).centre_height();
-  if (!(height > touch)) {
-    throw BadInput(
-        fmt::format("drop.height = {}: must be greater than {} m, the height of the centre of mass at the "
-                    "first touch",
-                    shortest(height), significant(touch, 6)));
-  }
-  return std::sqrt(2 * gravity * (height - touch));
 }
 
 }  // namespace
@@ -208,7 +194,8 @@ analytic::Drop impact_drop(const Scene& scene, const analytic::PlanarBody& body)
   const analytic::Angle inclination = analytic::Angle::from_degrees(scene.angle_deg);
   const double gravity = scene.options.gravity;
   const Vector3 velocity = scene.touch_velocity();
-  const double normal = scene.height ? -fallen_speed(*scene.height, gravity, body, inclination) : velocity.z();
+  const auto touch = [&] { return analytic::BodyMotion(body, inclination, {}, 0).centre_height(); };
+  const double normal = scene.height ? -scene.fallen_speed(touch()) : velocity.z();
   return {.body = body,
           .inclination = inclination,
           .velocity = {.normal = normal, .tangential = velocity.x(), .angular = scene.touch_angular_velocity().y()},
@@ -224,7 +211,9 @@ Scene read_discrete_scene(const SceneValues& values, const std::vector<SceneOver
     throw BadInput(fmt::format("{}: sweep.angle_deg: must be left out here; give --angle", values.path()));
   }
   if (scene.height) {
-    scene.speed = is_planar(scene) ? -impact_drop(scene).velocity.normal : -impact_space_drop(scene).velocity.z();
+    const DiscreteDrop drop = chosen_drop(scene);
+    const auto* const planar = std::get_if<analytic::Drop>(&drop);
+    scene.speed = planar ? -planar->velocity.normal : -std::get<analytic::space::Drop>(drop).velocity.z();
   }
   return scene;
 }

@@ -94,6 +94,9 @@ struct Scene {
   /// State at the first touch; with `height` the speed there follows from the fall.
   /// @throws BadInput if `height` is not above the centre of mass at the touch, or no touching vertex comes down.
   [[nodiscard]] numeric::MotionState start(const numeric::Body& body) const;
+  /// Downward speed after a fall from `height`, of a centre of mass that is `touch` [m] above the ground at the first
+  /// touch [m/s].  @throws BadInput if `height` is not above that.
+  [[nodiscard]] double fallen_speed(double touch) const;
   /// The keys of the model, defaults included, under the names of the file; all of them for the continuous one.
   [[nodiscard]] Json json(Model model = Model::continuous) const;
   /// Whether attitude, velocity or angular velocity are given as vectors.
@@ -103,9 +106,6 @@ struct Scene {
   /// The scene for a reader: a few lines.
   [[nodiscard]] std::vector<std::string> summary(Model model = Model::continuous) const;
 
- private:
-  /// Speed of the fall from `height` to the touch [m/s].
-  [[nodiscard]] double fallen_speed(const numeric::MotionState& touch) const;
 };
 
 /// The values of a scene file, of a case that comes with the program (by its name, "phone-damped"), or of neither ("":

@@ -56,7 +56,7 @@ numeric::MotionState Scene::start(const numeric::Body& dropped) const {
   state.velocity = touch_velocity();
   state.angular_velocity = state.attitude.conjugate() * touch_angular_velocity();
   state = numeric::on_ground(dropped, state);
-  if (height) state.velocity.z() = -fallen_speed(state);
+  if (height) state.velocity.z() = -fallen_speed(state.centre.z());
   const numeric::FirstTouch first = numeric::first_touch(dropped, state);
   if (!(first.approach_speed > 0)) {  // in the discrete model's words
     throw BadInput(
@@ -66,12 +66,11 @@ numeric::MotionState Scene::start(const numeric::Body& dropped) const {
   return state;
 }
 
-double Scene::fallen_speed(const numeric::MotionState& state) const {
-  const double touch = state.centre.z();
+double Scene::fallen_speed(double touch) const {
   if (!(*height > touch)) {
     throw BadInput(fmt::format(
-        "{}: drop.height = {}: must be greater than {} m, the height of the centre of mass at the first touch", path,
-        shortest(*height), significant(touch, 6)));
+        "{}drop.height = {}: must be greater than {} m, the height of the centre of mass at the first touch",
+        path.empty() ? "" : path + ": ", shortest(*height), significant(touch, 6)));
   }
   return std::sqrt(2 * options.gravity * (*height - touch));
 }

@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "analytic/errors.hpp"
 #include "analytic/space/shapes.hpp"
-#include "validation/output/number.hpp"
-#include "validation/scene/bad_input.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/hull.hpp"
@@ -47,16 +46,6 @@ double touch_height(const space::Body& body, const space::Quaternion& attitude) 
   return -lowest;
 }
 
-/// Downward speed at the touch after a fall from `height`.
-double fallen_speed(double height, double gravity, double touch) {
-  if (!(height > touch)) {
-    throw BadInput(
-        fmt::format("drop.height = {}: must be greater than {} m, the height of the centre of mass at the first touch",
-                    shortest(height), significant(touch, 6)));
-  }
-  return std::sqrt(2 * gravity * (height - touch));
-}
-
 /// By sizes alone, about the centre of mass.
 space::Body simple_body(const Scene& scene) {
   const BodyScene& body = scene.body;
@@ -70,21 +59,19 @@ space::Body simple_body(const Scene& scene) {
   return made;
 }
 
-}  // namespace
-
-bool is_planar(const Scene& scene, const numeric::Body& body) {
-  if (!reason_in_space(scene).empty()) return false;
+/// The outline of a body that is symmetric about the plane; none if it has no such outline.
+std::optional<analytic::PlanarBody> symmetric_outline(const numeric::Body& body) {
   try {
-    static_cast<void>(planar_body(body));
-    return true;
+    return planar_body(body);
   } catch (const analytic::OutsideModelError&) {
-    return false;
+    return std::nullopt;
   }
 }
 
-bool is_planar(const Scene& scene) {
-  if (scene.body.shape == BodyScene::Shape::mesh) return is_planar(scene, scene.make_body());
-  return reason_in_space(scene).empty();
+}  // namespace
+
+bool is_planar(const Scene& scene, const numeric::Body& body) {
+  return reason_in_space(scene).empty() && symmetric_outline(body).has_value();
 }
 
 space::Body space_body(const numeric::Body& body) {
@@ -114,21 +101,43 @@ space::Drop space_drop(const Scene& scene, const numeric::Body& body) {
   return drop;
 }
 
-space::Body nominal_space_body(const Scene& scene) {
-  return scene.body.shape == BodyScene::Shape::mesh ? space_body(scene.make_body()) : simple_body(scene);
-}
-
-space::Drop impact_space_drop(const Scene& scene) {
-  space::Drop drop{.body = nominal_space_body(scene),
+space::Drop impact_space_drop(const Scene& scene, space::Body body) {
+  space::Drop drop{.body = std::move(body),
                    .attitude = scene.touch_attitude(),
                    .velocity = scene.touch_velocity(),
                    .angular_velocity = scene.touch_angular_velocity(),
                    .gravity = scene.options.gravity,
                    .law = {}};
   drop.law.law = impact_law(scene);
-  if (scene.height)
-    drop.velocity.z() = -fallen_speed(*scene.height, drop.gravity, touch_height(drop.body, drop.attitude));
+  if (scene.height) drop.velocity.z() = -scene.fallen_speed(touch_height(drop.body, drop.attitude));
   return drop;
+}
+
+DiscreteBody::DiscreteBody(const Scene& scene) : scene_(scene) {
+  if (scene.body.shape == BodyScene::Shape::mesh) solid_ = scene.make_body();
+}
+
+const std::optional<analytic::PlanarBody>& DiscreteBody::outline() {
+  if (!has_looked_for_outline_) outline_ = solid_ ? symmetric_outline(*solid_) : nominal_body(scene_);
+  has_looked_for_outline_ = true;
+  return outline_;
+}
+
+const space::Body& DiscreteBody::in_space() {
+  if (!in_space_) in_space_ = solid_ ? space_body(*solid_) : simple_body(scene_);
+  return *in_space_;
+}
+
+DiscreteDrop DiscreteBody::drop(const Scene& scene) {
+  if (reason_in_space(scene).empty() && outline()) return impact_drop(scene, *outline());
+  return impact_space_drop(scene, in_space());
+}
+
+DiscreteDrop chosen_drop(const Scene& scene) { return DiscreteBody(scene).drop(scene); }
+
+DiscreteDrop chosen_drop(const Scene& scene, const numeric::Body& body) {
+  if (is_planar(scene, body)) return discrete_drop(scene, body);
+  return space_drop(scene, body);
 }
 
 std::string corner_name(const Scene& scene, const space::Corner& corner) {

@@ -1,6 +1,10 @@
 // A scene as the discrete model in space sees it.
 #pragma once
 
+#include <optional>
+#include <string>
+#include <variant>
+
 #include "analytic/space/sequence.hpp"
 #include "numeric/body.hpp"
 #include "validation/scene/scene.hpp"
@@ -10,8 +14,6 @@ namespace clatter::validation {
 /// Whether the planar discrete model does for the drop: it stays in its plane by symmetry, and the body has an outline
 /// of at most four corners there.  Otherwise the model in space runs, which gives the same in the plane up to rounding.
 [[nodiscard]] bool is_planar(const Scene& scene, const numeric::Body& body);
-/// The same for the body by its sizes alone.
-[[nodiscard]] bool is_planar(const Scene& scene);
 
 /// The body with its own corners: the vertices of the hull of its surface.
 [[nodiscard]] analytic::space::Body space_body(const numeric::Body& body);
@@ -20,11 +22,36 @@ namespace clatter::validation {
 /// @throws analytic::OutsideModelError for regularised friction.
 [[nodiscard]] analytic::space::Drop space_drop(const Scene& scene, const numeric::Body& body);
 
-/// The body by its sizes alone: a rod is a round cylinder with its rims (radius 0: a thin rod).
-[[nodiscard]] analytic::space::Body nominal_space_body(const Scene& scene);
-/// The drop with restitution and friction as its impact.* keys give them; an impulse ratio acts along x.
+/// The drop of `body` with restitution and friction as the impact.* keys give them; an impulse ratio acts along x.
 /// @throws BadInput if drop.height is not above the centre of mass at the touch.
-[[nodiscard]] analytic::space::Drop impact_space_drop(const Scene& scene);
+[[nodiscard]] analytic::space::Drop impact_space_drop(const Scene& scene, analytic::space::Body body);
+
+/// The drop for the discrete model that runs it: in the plane or in space, as is_planar() says.
+using DiscreteDrop = std::variant<analytic::Drop, analytic::space::Drop>;
+/// With restitution and friction as the impact.* keys give them.  @throws as impact_drop and impact_space_drop
+[[nodiscard]] DiscreteDrop chosen_drop(const Scene& scene);
+/// On the scene's own ground, as discrete_drop and space_drop have it.  @throws as those
+[[nodiscard]] DiscreteDrop chosen_drop(const Scene& scene, const numeric::Body& body);
+
+/// A scene's body by its sizes alone, for both models, each form made when a drop first needs it: a rod is a round
+/// cylinder with its rims in space (radius 0: a thin rod).
+class DiscreteBody {
+ public:
+  /// @throws as Scene::make_body, for a mesh
+  explicit DiscreteBody(const Scene& scene);
+  /// The drop of a scene that has this body.  @throws as impact_drop and impact_space_drop
+  [[nodiscard]] DiscreteDrop drop(const Scene& scene);
+
+ private:
+  [[nodiscard]] const std::optional<analytic::PlanarBody>& outline();
+  [[nodiscard]] const analytic::space::Body& in_space();
+
+  Scene scene_;
+  std::optional<numeric::Body> solid_;  ///< of a mesh
+  bool has_looked_for_outline_ = false;
+  std::optional<analytic::PlanarBody> outline_;
+  std::optional<analytic::space::Body> in_space_;
+};
 
 /// Name of a corner of the body: the signs of the coordinates of a box's corner ("+x-y+z"), "a" and "b" of a rod's
 /// ends, otherwise its number from 1.

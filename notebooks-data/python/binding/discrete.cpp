@@ -25,17 +25,12 @@ using validation::AnglesRequest;
 using validation::Scene;
 
 using Given = validation::NamedTexts;
-struct DiscreteRun {
-  Scene scene;
-  analytic::Sequence sequence;
-};
-
 Report sequence(const Given& given, const std::string& method) {
   const Scene scene = validation::read_discrete_scene(validation::scene_values(""), validation::scene_overrides(given));
   const py::gil_scoped_release release;
-  const auto run = std::make_shared<const DiscreteRun>(
-      DiscreteRun{scene, validation::sequence_by_method(scene, validation::read_sequence_method(method))});
-  return {[run] { return validation::sequence_report(run->scene, run->sequence); }};
+  const auto run = std::make_shared<const validation::DiscreteRun>(
+      validation::run_discrete(scene, validation::read_sequence_method(method)));
+  return {[scene, run] { return validation::sequence_report(scene, *run); }};
 }
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;

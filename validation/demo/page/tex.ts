@@ -2,16 +2,17 @@
 
 const GREEK: Readonly<Record<string, string>> = {
   α: "\\alpha", β: "\\beta", γ: "\\gamma", θ: "\\theta", φ: "\\varphi", μ: "\\mu", ω: "\\omega", Ω: "\\Omega", Γ: "\\Gamma",
+  σ: "\\sigma", λ: "\\lambda", Δ: "\\Delta",
 };
-const SUBSCRIPT: Readonly<Record<string, string>> = { "₀": "0", "₁": "1", "₂": "2", "₃": "3", "ᵢ": "i", "ₙ": "n", "ₜ": "t" };
-const POWER: Readonly<Record<string, string>> = { "²": "2", "³": "3", "⁴": "4" };
+const SUBSCRIPT: Readonly<Record<string, string>> = { "₀": "0", "₁": "1", "₂": "2", "₃": "3", "₄": "4", "ᵢ": "i", "ₙ": "n", "ₜ": "t" };
+const POWER: Readonly<Record<string, string>> = { "²": "2", "³": "3", "⁴": "4", "⁻¹": "-1" };
 const FUNCTIONS = new Set(["sin", "cos", "tan", "arccos", "arctan", "ln", "exp"]);
-const TOKEN = /\s+|\d+(?:\.\d+)?(?:e[-+]?\d+)?|\p{L}(?:_\p{L})?(?:[₀₁₂₃ᵢₙₜ]*)[′]?|[-+−·/()|=,±<>≤≥²³⁴]/uy;
+const TOKEN = /\s+|\d+(?:\.\d+)?(?:e[-+]?\d+)?|\p{L}(?:_\p{L})?(?:[₀₁₂₃₄ᵢₙₜ]*)[′]?|⁻¹|[-+−·×/()|=,±<>≤≥²³⁴]/uy;
 
 /** Text with words that are not names of quantities is prose, not a formula. */
 function isProse(text: string): boolean {
   const words = text.match(/\p{L}{2,}/gu) ?? [];
-  return words.some((word) => !FUNCTIONS.has(word) && !/^(?:ωt|[A-Z]?\p{L}[₀-₃ᵢₙₜ])$/u.test(word));
+  return words.some((word) => !FUNCTIONS.has(word) && !/^(?:ωt|[A-Z]?\p{L}[₀-₄ᵢₙₜ])$/u.test(word));
 }
 
 /** "P_t/P_n, mode slip" is a formula and a remark; other prose is a remark alone. */
@@ -106,9 +107,9 @@ class Formula {
     for (;;) {
       const next = this.peek();
       if (next === undefined || this.ends(next) || SUMS.has(next)) return tex;
-      if (next === "·") {
+      if (next === "·" || next === "×") {
         this.position++;
-        tex += `\\cdot ${this.factor()}`;
+        tex += `${next === "·" ? "\\cdot" : "\\times"} ${this.factor()}`;
       } else if (next === "/") {
         this.position++;
         tex = `\\frac{${tex}}{${bare(this.factor())}}`;
@@ -168,7 +169,7 @@ function bare(tex: string): string {
 }
 
 function nameTex(token: string): string {
-  const match = /^(\p{L})(?:_(\p{L}))?([₀₁₂₃ᵢₙₜ]*)(′?)$/u.exec(token);
+  const match = /^(\p{L})(?:_(\p{L}))?([₀₁₂₃₄ᵢₙₜ]*)(′?)$/u.exec(token);
   if (!match) throw new SyntaxError(token);
   const [, letter = "", under = "", digits = "", prime = ""] = match;
   const below = under + [...digits].map((digit) => SUBSCRIPT[digit] ?? "").join("");
