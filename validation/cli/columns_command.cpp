@@ -1,4 +1,5 @@
 // `clatter columns`: every column of CSV and JSON, by command.
+#include <algorithm>
 #include <memory>
 
 #include "validation/cli/angles_report.hpp"
@@ -14,6 +15,7 @@
 #include "validation/cli/simulation_report.hpp"
 #include "validation/cli/tradeoff_report.hpp"
 #include "validation/cli/verify_report.hpp"
+#include "validation/record/impact_rows.hpp"
 #include "validation/scene/option_values.hpp"
 #include "validation/sweep/rows.hpp"
 
@@ -42,7 +44,15 @@ std::vector<Column> angles_all() {
   request.as_printed = true;
   return angles_frame(request).grid.columns;
 }
-std::vector<Column> sequence_all() { return sequence_columns(); }
+/// In the plane, and what comes to them in space.
+std::vector<Column> sequence_all() {
+  std::vector<Column> all = sequence_columns();
+  for (const Column& column : impact_columns<SpaceRow>({})) {
+    const auto is_it = [&](const Column& other) { return other.name == column.name; };
+    if (std::none_of(all.begin(), all.end(), is_it)) all.push_back(column);
+  }
+  return all;
+}
 std::vector<Column> sweep_all() { return sweep_columns(sweep_of(Model::continuous)); }
 
 const std::vector<ColumnsOf>& all_columns() {
@@ -77,7 +87,9 @@ Report columns_report(const std::string& command) {
   }
   report.notes = {
       "history: of simulate --history.  sweep: one row per scene; with --rows impact the columns of sequence or "
-      "simulate.  Before them come the swept keys, which clatter keys explains.  The files of figures explain theirs."};
+      "simulate.  Before them come the swept keys, which clatter keys explains.  The files of figures explain theirs.",
+      "corners, place, attitude and touches of a sequence are those of a drop in space; in the plane they are left "
+      "out."};
   report.fields["columns"] = row_objects(report.grid);
   return report;
 }

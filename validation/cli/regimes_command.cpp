@@ -216,7 +216,11 @@ Command regimes_command() {
   add_output_options(command, input->output);
   add_plot_options(command, input->plot);
   command.add_text("--digits", input->digits, "N", "significant digits in tables (8)", "Output");
-  command.footer = "Example: clatter regimes --over restitution --from 0.2 --to 1 --step 0.1";
+  command.footer =
+      "Example: clatter regimes --over restitution --from 0.2 --to 1 --step 0.1\n"
+      "Of the thin rod in its plane, whose regimes end at folds of one angle. In space an attitude has three angles, "
+      "and\n"
+      "the number of impacts of its drops is a row of clatter sweep.";
   command.run = [input] { return run_regimes(*input); };
   return command;
 }

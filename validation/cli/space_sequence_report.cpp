@@ -85,24 +85,6 @@ Value tail_fields(const std::optional<analytic::space::Tail>& some) {
 
 }  // namespace
 
-std::vector<SpaceRow> space_rows(const Scene& scene, const Sequence& sequence) {
-  const numeric::Vector3 centre = body_properties(scene, Model::discrete).centre;
-  std::vector<SpaceRow> rows;
-  for (const Flown& row : sequence.rows) {
-    SpaceRow named{.row = row, .n = static_cast<int>(rows.size()) + 1};
-    bool left = false, right = false;
-    for (const analytic::space::Corner& corner : row.corners) {
-      (corner.place.x() + centre.x() < 0 ? left : right) = true;
-      named.corners += (named.corners.empty() ? "" : " ") + corner_name(scene, corner);
-    }
-    named.end = left && right ? "both" : left ? "a" : "b";
-    const numeric::Vector3 place = row.corners.front().place + centre;
-    named.place = {place.x(), place.y(), place.z()};
-    rows.push_back(named);
-  }
-  return rows;
-}
-
 Report sequence_report(const Scene& scene, const analytic::space::Drop& drop, const Sequence& sequence) {
   Report report = begun_sequence_report(scene, "impact sequence, discrete model in space", totals(sequence));
   report.notes = closing_notes(scene, drop, sequence);
@@ -117,7 +99,8 @@ Report sequence_report(const Scene& scene, const analytic::space::Drop& drop, co
   if (impact_law(scene).friction != analytic::FrictionKind::none) shown.emplace_back("mode");
   report.grid.columns = impact_columns<SpaceRow>(shown);
   const ImpactDigits digits{.digits = scene.options.digits, .scales = scales_of(sequence)};
-  for (const SpaceRow& row : space_rows(scene, sequence)) add_impact_row(report, row, digits);
+  const numeric::Vector3 centre = body_properties(scene, Model::discrete).centre;
+  for (const SpaceRow& row : space_rows(scene, sequence, centre)) add_impact_row(report, row, digits);
   report.fields["impacts"] = row_objects(report.grid);
   add_results(scene, sequence, tail_fields(sequence.tail), sequence.evaluations, report.fields);
   fit_columns(report, scene.options.digits, {3, 2});

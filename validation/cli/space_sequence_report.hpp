@@ -3,13 +3,10 @@
 
 #include "analytic/space/sequence.hpp"
 #include "validation/output/report.hpp"
-#include "validation/record/impact_quantities.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
 
-/// The rows of a sequence with the names of the corners that strike.
-[[nodiscard]] std::vector<SpaceRow> space_rows(const Scene& scene, const analytic::space::Sequence& sequence);
 /// A row for each impact.
 [[nodiscard]] Report sequence_report(const Scene& scene, const analytic::space::Drop& drop,
                                      const analytic::space::Sequence& sequence);

@@ -51,18 +51,20 @@ double largest_error(const analytic::space::Sequence& sequence) {
   return worst;
 }
 
-std::string shortfall(const Scene& scene, const analytic::space::Sequence& sequence) {
+namespace {
+
+template <class Sequence>
+std::string shortfall_of(const Scene& scene, const Sequence& sequence) {
   if (is_cut_short(sequence.outcome)) return fmt::format("{}: {}", outcome_name(sequence.outcome), sequence.message);
   return scene.require_digits ? digits_shortfall(scene.options.digits, largest_error(sequence)) : "";
 }
 
-std::string shortfall(const Asked& asked, const analytic::Sequence& sequence) {
-  if (is_cut_short(sequence.outcome)) return fmt::format("{}: {}", outcome_name(sequence.outcome), sequence.message);
-  return asked.require_digits ? digits_shortfall(asked.digits, largest_error(sequence)) : "";
-}
+}  // namespace
 
-std::string shortfall(const Scene& scene, const analytic::Sequence& sequence) {
-  return shortfall(Asked{scene.options.digits, scene.require_digits}, sequence);
+std::string shortfall(const Scene& scene, const analytic::Sequence& sequence) { return shortfall_of(scene, sequence); }
+
+std::string shortfall(const Scene& scene, const analytic::space::Sequence& sequence) {
+  return shortfall_of(scene, sequence);
 }
 
 void Shortfalls::add(const std::string& place, const std::string& why) {

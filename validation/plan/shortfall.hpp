@@ -40,11 +40,5 @@ class Shortfalls {
 
 /// Exit status of a sequence that falls short: 4 where it leaves the model, else 3.
 [[nodiscard]] int shortfall_status(analytic::Outcome outcome);
-/// The same of a sequence with other settings.
-struct Asked {
-  int digits = 6;
-  bool require_digits = false;
-};
-[[nodiscard]] std::string shortfall(const Asked& asked, const analytic::Sequence& sequence);
 
 }  // namespace clatter::validation

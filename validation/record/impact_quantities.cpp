@@ -14,6 +14,7 @@ using analytic::ImpactRow;
 using analytic::PlanarBody;
 using analytic::RowErrors;
 using analytic::Tail;
+using SpaceTail = analytic::space::Tail;
 using numeric::ImpactNumbers;
 
 constexpr double degrees = 180 / std::numbers::pi;
@@ -78,6 +79,17 @@ constexpr Getter<Tail> tail() {
           [](const Tail& t) { return entry(std::invoke(Error, t)); }};
 }
 
+template <auto Get>
+constexpr Getter<SpaceTail> space_tail() {
+  return {[](const SpaceTail& t) { return entry(std::invoke(Get, t)); }, nullptr};
+}
+
+template <auto Get, auto Error>
+constexpr Getter<SpaceTail> space_tail() {
+  return {[](const SpaceTail& t) { return entry(std::invoke(Get, t)); },
+          [](const SpaceTail& t) { return entry(std::invoke(Error, t)); }};
+}
+
 /// The model has the quantity, and no value of it.
 constexpr Getter<DiscreteRow> none{[](const DiscreteRow&) { return Entry(nullptr); }, nullptr};
 
@@ -115,19 +127,24 @@ double ratio_in_space(const Flown& row) { return row.impact.impulse.x() / row.im
 double ratio_error_in_space(const SpaceRow& i) {
   return i.row.error.impulse * (1 + std::fabs(ratio_in_space(i.row))) / std::fabs(i.row.impact.impulse.z());
 }
+Entry summed_impulse(const SpaceTail& t) {
+  return EntryVector{t.tangential_impulse.x(), t.tangential_impulse.y(), t.normal_impulse};
+}
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
 constexpr ImpactQuantity quantity(const char* name, const char* symbol, const char* unit, const char* meaning,
                                   Scale scale, Getter<DiscreteRow> of_discrete, Getter<SpaceRow> of_space,
-                                  Getter<ContinuousRow> of_continuous, Getter<Tail> of_tail = {}, bool motion = false) {
-  return {name, symbol, unit, meaning, scale, of_discrete, of_space, of_continuous, of_tail, motion};
+                                  Getter<ContinuousRow> of_continuous, Getter<Tail> of_tail = {}, bool motion = false,
+                                  Getter<SpaceTail> of_space_tail = {}) {
+  return {name, symbol, unit, meaning, scale, of_discrete, of_space, of_continuous, of_tail, motion, of_space_tail};
 }
 
 constexpr ImpactQuantity all[]{
     quantity("n", "n", "", "number of the impact, from 1", Scale::none,
              {[](const DiscreteRow& i) { return Entry(i.n); }}, {[](const SpaceRow& i) { return Entry(i.n); }},
              {[](const ContinuousRow& i) { return Entry(i.n); }},
-             tail<[](const Tail&) { return Entry(std::string("tail")); }>()),
+             tail<[](const Tail&) { return Entry(std::string("tail")); }>(), false,
+             space_tail<[](const SpaceTail&) { return Entry(std::string("tail")); }>()),
     quantity("end", "end", "", "which end of the body strikes, or its vertices", Scale::none,
              discrete<[](const Row& r) { return Entry(PlanarBody::vertex_set_name(r.vertices)); }>(),
              {[](const SpaceRow& i) { return Entry(i.end); }},
@@ -148,7 +165,8 @@ constexpr ImpactQuantity all[]{
              fact<&Record::touches>()),
     quantity("start", "t", "s", "time of touch-down, after that of impact 1", Scale::time,
              discrete<&Row::start, &Errors::start>(), in_space<&Flown::start, &Bars::start>(),
-             number<&Numbers::start>(), tail<&Tail::end_time, &Tail::end_time_error>(), true),
+             number<&Numbers::start>(), tail<&Tail::end_time, &Tail::end_time_error>(), true,
+             space_tail<&SpaceTail::end_time, &SpaceTail::end_time_error>()),
     quantity("duration", "contact", "s", "how long anything touches", Scale::time,
              discrete<[](const Row&) { return 0.0; }>(), in_space<[](const Flown&) { return 0.0; }>(),
              number<&Numbers::duration>()),
@@ -173,12 +191,14 @@ constexpr ImpactQuantity all[]{
              discrete<[](const Row& r) { return r.impact.normal_impulse; }, &Errors::normal_impulse>(),
              in_space<[](const Flown& r) { return r.impact.impulse.z(); }, &Bars::impulse>(),
              number<[](const Numbers& n) { return n.impulse.z(); }>(),
-             tail<&Tail::normal_impulse, &Tail::normal_impulse_error>()),
+             tail<&Tail::normal_impulse, &Tail::normal_impulse_error>(), false,
+             space_tail<&SpaceTail::normal_impulse, &SpaceTail::normal_impulse_error>()),
     quantity("impulse_tangential", "Pₜ", "N·s", "tangential impulse of the ground, along x", Scale::impulse,
              discrete<[](const Row& r) { return r.impact.tangential_impulse; }, &Errors::tangential_impulse>(),
              in_space<[](const Flown& r) { return r.impact.impulse.x(); }, &Bars::impulse>(),
              number<[](const Numbers& n) { return n.impulse.x(); }>(),
-             tail<&Tail::tangential_impulse, &Tail::tangential_impulse_error>()),
+             tail<&Tail::tangential_impulse, &Tail::tangential_impulse_error>(), false,
+             space_tail<[](const SpaceTail& t) { return t.tangential_impulse.x(); }>()),
     quantity("impulse_ratio", "Pₜ/Pₙ", "", "tangential over normal impulse", Scale::ratio,
              discrete<[](const Row& r) { return r.impact.impulse_ratio(); }, &Errors::impulse_ratio>(),
              {[](const SpaceRow& i) { return Entry(ratio_in_space(i.row)); },
@@ -190,7 +210,7 @@ constexpr ImpactQuantity all[]{
                       [](const Errors& e) { return impulse(e.tangential_impulse, e.normal_impulse); }>(),
              in_space<[](const Flown& r) { return r.impact.impulse; },
                       [](const Bars& e) { return Entry(each(e.impulse)); }>(),
-             number<&Numbers::impulse>(), {}, true),
+             number<&Numbers::impulse>(), {}, true, space_tail<&summed_impulse>()),
     quantity("peak_force", "peak Fₙ", "N", "largest normal force; the discrete model has none", Scale::none, none,
              none_in_space, number<&Numbers::peak_force>()),
     quantity("peak_time", "peak t", "s", "when, after touch-down", Scale::time, none, none_in_space,
@@ -203,7 +223,7 @@ constexpr ImpactQuantity all[]{
              number<&Numbers::velocity_after>(),
              tail<[](const Tail& t) { return Entry(velocity(t.after)); },
                   [](const Tail& t) { return Entry(velocity(t.after_error)); }>(),
-             true),
+             true, space_tail<&SpaceTail::velocity_after>()),
     quantity("angular_velocity_after", "ω_x Ω ω_z", "rad/s", "after the impact, world frame", Scale::rate,
              discrete<[](const Row& r) { return Entry(rotation(r.impact.after)); },
                       [](const Errors& e) { return Entry(rotation(e.after)); }>(),
@@ -212,7 +232,7 @@ constexpr ImpactQuantity all[]{
              number<&Numbers::angular_velocity_after>(),
              tail<[](const Tail& t) { return Entry(rotation(t.after)); },
                   [](const Tail& t) { return Entry(rotation(t.after_error)); }>(),
-             true),
+             true, space_tail<&SpaceTail::angular_velocity_after>()),
     quantity("energy_before", "", "J", "translational, rotational and potential, before", Scale::energy,
              discrete<&Row::energy_before, &Errors::energy_before>(),
              in_space<&Flown::energy_before, &Bars::energy_before>(), number<&Numbers::energy_before>()),

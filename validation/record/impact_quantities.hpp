@@ -61,15 +61,17 @@ struct ImpactQuantity {
   Getter<DiscreteRow> discrete{};
   Getter<SpaceRow> space{};
   Getter<ContinuousRow> continuous{};
-  Getter<analytic::Tail> tail{};  ///< the sum of all further impacts of the discrete model
-  bool motion = false;            ///< one of the MotionNumbers, which every model has
+  Getter<analytic::Tail> tail{};               ///< the sum of all further impacts of the discrete model
+  bool motion = false;                         ///< one of the MotionNumbers, which every model has
+  Getter<analytic::space::Tail> space_tail{};  ///< as `tail`, in space
 
   template <class Impact>
   [[nodiscard]] const Getter<Impact>& of() const {
     if constexpr (std::is_same_v<Impact, DiscreteRow>) return discrete;
     else if constexpr (std::is_same_v<Impact, SpaceRow>) return space;
     else if constexpr (std::is_same_v<Impact, ContinuousRow>) return continuous;
-    else return tail;
+    else if constexpr (std::is_same_v<Impact, analytic::Tail>) return tail;
+    else return space_tail;
   }
 };
 

@@ -131,7 +131,8 @@ void for_each_error(const Impact& impact, Use&& use) {
 }
 
 /// The entries of the tail in the places of an impact's.
-Entry tail_entry(const Entry& kind, Entry (*get)(const Tail&), const Tail& tail) {
+template <class AnyTail>
+Entry tail_entry(const Entry& kind, Entry (*get)(const AnyTail&), const AnyTail& tail) {
   if (get) return get(tail);
   switch (width_of(kind)) {
     case 3: return EntryVector{unknown, unknown, unknown};
@@ -206,25 +207,29 @@ Row tail_row(const Tail& tail, const ImpactDigits& digits) {
   return row;
 }
 
-template <class Impact>
+template <class Columns, class Impact>
 void append_impact(std::string& out, const Impact& impact, bool with_errors) {
-  for_each_value(impact, [&](const ImpactQuantity& quantity, const Entry& value) {
-    if (with_errors || quantity.name != std::string_view("predictable")) append_entry(out, value);
-    else append_nothing(out, value);
+  const Columns columns = some_impact(static_cast<const Columns*>(nullptr));
+  for_each_value(columns, [&](const ImpactQuantity& quantity, const Entry& kind) {
+    const auto value = quantity.of<Impact>().value;
+    if (value && (with_errors || quantity.name != std::string_view("predictable"))) append_entry(out, value(impact));
+    else append_nothing(out, kind);
   });
-  for_each_error(impact, [&](const ImpactQuantity&, const Entry& error) {
-    if (with_errors) append_entry(out, error);
-    else append_nothing(out, error);
+  for_each_error(columns, [&](const ImpactQuantity& quantity, const Entry& kind) {
+    const auto error = quantity.of<Impact>().error;
+    if (error && with_errors) append_entry(out, error(impact));
+    else append_nothing(out, kind);
   });
 }
 
-void append_tail(std::string& out, const Tail& tail, bool with_errors) {
-  const DiscreteRow impact = some_impact(static_cast<const DiscreteRow*>(nullptr));
-  for_each_value(impact, [&](const ImpactQuantity& quantity, const Entry& kind) {
-    append_entry(out, tail_entry(kind, quantity.tail.value, tail));
+template <class Columns, class AnyTail>
+void append_tail(std::string& out, const AnyTail& tail, bool with_errors) {
+  const Columns columns = some_impact(static_cast<const Columns*>(nullptr));
+  for_each_value(columns, [&](const ImpactQuantity& quantity, const Entry& kind) {
+    append_entry(out, tail_entry(kind, quantity.of<AnyTail>().value, tail));
   });
-  for_each_error(impact, [&](const ImpactQuantity& quantity, const Entry& kind) {
-    append_entry(out, tail_entry(kind, with_errors ? quantity.tail.error : nullptr, tail));
+  for_each_error(columns, [&](const ImpactQuantity& quantity, const Entry& kind) {
+    append_entry(out, tail_entry(kind, with_errors ? quantity.of<AnyTail>().error : nullptr, tail));
   });
 }
 
@@ -234,8 +239,12 @@ template std::vector<Column> impact_columns<ContinuousRow>(const std::vector<std
 template Row impact_row(const DiscreteRow&, const ImpactDigits&);
 template Row impact_row(const SpaceRow&, const ImpactDigits&);
 template Row impact_row(const ContinuousRow&, const ImpactDigits&);
-template void append_impact(std::string&, const DiscreteRow&, bool);
-template void append_impact(std::string&, const SpaceRow&, bool);
-template void append_impact(std::string&, const ContinuousRow&, bool);
+template void append_impact<DiscreteRow>(std::string&, const DiscreteRow&, bool);
+template void append_impact<SpaceRow>(std::string&, const DiscreteRow&, bool);
+template void append_impact<SpaceRow>(std::string&, const SpaceRow&, bool);
+template void append_impact<ContinuousRow>(std::string&, const ContinuousRow&, bool);
+template void append_tail<DiscreteRow>(std::string&, const analytic::Tail&, bool);
+template void append_tail<SpaceRow>(std::string&, const analytic::Tail&, bool);
+template void append_tail<SpaceRow>(std::string&, const analytic::space::Tail&, bool);
 
 }  // namespace clatter::validation

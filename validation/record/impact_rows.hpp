@@ -30,10 +30,12 @@ template <class Impact>
 /// The same of the tail: its quantities under the columns of the discrete model.
 [[nodiscard]] Row tail_row(const analytic::Tail& tail, const ImpactDigits& digits);
 
-/// Appends the cells of an impact as CSV, each after a comma.
-template <class Impact>
+/// Appends the cells of an impact as CSV, each after a comma, under the columns of the kind of impacts `Columns`; what
+/// an impact in the plane has no value of is left empty under the columns of one in space.
+template <class Columns, class Impact>
 void append_impact(std::string& out, const Impact& impact, bool with_errors);
-/// The same of the tail.
-void append_tail(std::string& out, const analytic::Tail& tail, bool with_errors);
+/// The same of the tail, in the plane or in space.
+template <class Columns, class AnyTail>
+void append_tail(std::string& out, const AnyTail& tail, bool with_errors);
 
 }  // namespace clatter::validation

@@ -113,7 +113,8 @@ space::Drop impact_space_drop(const Scene& scene, space::Body body) {
   return drop;
 }
 
-DiscreteBody::DiscreteBody(const Scene& scene) : scene_(scene) {
+DiscreteBody::DiscreteBody(const Scene& scene)
+    : scene_(scene), centre_(body_properties(scene, Model::discrete).centre) {
   if (scene.body.shape == BodyScene::Shape::mesh) solid_ = scene.make_body();
 }
 
@@ -152,6 +153,23 @@ std::string corner_name(const Scene& scene, const space::Corner& corner) {
     case BodyScene::Shape::mesh: break;
   }
   return std::to_string(corner.index + 1);
+}
+
+std::vector<SpaceRow> space_rows(const Scene& scene, const space::Sequence& sequence, const Vector3& centre) {
+  std::vector<SpaceRow> rows;
+  for (const space::ImpactRow& row : sequence.rows) {
+    SpaceRow named{.row = row, .n = static_cast<int>(rows.size()) + 1};
+    bool left = false, right = false;
+    for (const space::Corner& corner : row.corners) {
+      (corner.place.x() + centre.x() < 0 ? left : right) = true;
+      named.corners += (named.corners.empty() ? "" : " ") + corner_name(scene, corner);
+    }
+    named.end = left && right ? "both" : left ? "a" : "b";
+    const Vector3 place = row.corners.front().place + centre;
+    named.place = {place.x(), place.y(), place.z()};
+    rows.push_back(named);
+  }
+  return rows;
 }
 
 }  // namespace clatter::validation

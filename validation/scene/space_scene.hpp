@@ -7,6 +7,7 @@
 
 #include "analytic/space/sequence.hpp"
 #include "numeric/body.hpp"
+#include "validation/record/impact_quantities.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
@@ -37,16 +38,19 @@ using DiscreteDrop = std::variant<analytic::Drop, analytic::space::Drop>;
 /// cylinder with its rims in space (radius 0: a thin rod).
 class DiscreteBody {
  public:
-  /// @throws as Scene::make_body, for a mesh
+  /// @throws as body_properties
   explicit DiscreteBody(const Scene& scene);
   /// The drop of a scene that has this body.  @throws as impact_drop and impact_space_drop
   [[nodiscard]] DiscreteDrop drop(const Scene& scene);
+  /// Of mass, in the body's frame [m].
+  [[nodiscard]] const numeric::Vector3& centre() const { return centre_; }
 
  private:
   [[nodiscard]] const std::optional<analytic::PlanarBody>& outline();
   [[nodiscard]] const analytic::space::Body& in_space();
 
   Scene scene_;
+  numeric::Vector3 centre_;
   std::optional<numeric::Body> solid_;  ///< of a mesh
   bool has_looked_for_outline_ = false;
   std::optional<analytic::PlanarBody> outline_;
@@ -56,5 +60,9 @@ class DiscreteBody {
 /// Name of a corner of the body: the signs of the coordinates of a box's corner ("+x-y+z"), "a" and "b" of a rod's
 /// ends, otherwise its number from 1.
 [[nodiscard]] std::string corner_name(const Scene& scene, const analytic::space::Corner& corner);
+/// The rows of a sequence with the names of the corners that strike.
+/// @param centre  of mass, in the body's frame [m]
+[[nodiscard]] std::vector<SpaceRow> space_rows(const Scene& scene, const analytic::space::Sequence& sequence,
+                                               const numeric::Vector3& centre);
 
 }  // namespace clatter::validation

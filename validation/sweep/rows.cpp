@@ -60,10 +60,19 @@ std::vector<Column> scene_columns(Model model) {
 const std::vector<std::string> shown_of_impacts{
     "n", "end", "start", "contact_angle_deg", "impulse_normal", "velocity_after_z", "angular_velocity_after_y"};
 
-std::vector<Column> result_columns(Model model, RowKind rows) {
-  std::vector<Column> columns = rows == RowKind::scene     ? scene_columns(model)
-                                : model == Model::discrete ? impact_columns<DiscreteRow>(shown_of_impacts)
-                                                           : impact_columns<ContinuousRow>(shown_of_impacts);
+/// What decides on the columns.
+struct Kind {
+  Model model;
+  RowKind rows;
+  bool in_space;
+};
+
+std::vector<Column> result_columns(const Kind& kind) {
+  const auto& [model, rows, in_space] = kind;
+  std::vector<Column> columns = rows == RowKind::scene       ? scene_columns(model)
+                                : model == Model::continuous ? impact_columns<ContinuousRow>(shown_of_impacts)
+                                : in_space                   ? impact_columns<SpaceRow>(shown_of_impacts)
+                                                             : impact_columns<DiscreteRow>(shown_of_impacts);
   if (rows == RowKind::impact) columns.push_back(outcome_column());
   columns.push_back({"reason", "reason", "", "why it has no numbers, or fewer impacts or digits than asked for"});
   return columns;
@@ -77,7 +86,7 @@ void append_ending(const RowForm& form, const char* outcome) {
 }
 
 void append_empty_row(const RowForm& form, Model model, std::string_view impacts, const char* outcome) {
-  const std::size_t columns = result_columns(model, form.rows).size();
+  const std::size_t columns = result_columns({model, form.rows, form.in_space}).size();
   form.out += form.prefix;
   if (form.rows == RowKind::impact) {
     form.out.append(columns - 2, ',');
@@ -112,7 +121,7 @@ std::vector<Column> sweep_columns(const SweepPlan& plan) {
   for (const SweepAxis& axis : plan.points.axes()) {
     columns.push_back({axis.key, axis.key, "", "swept key; clatter keys explains it"});
   }
-  const std::vector<Column> results = result_columns(plan.model, plan.rows);
+  const std::vector<Column> results = result_columns({plan.model, plan.rows, plan.in_space});
   columns.insert(columns.end(), results.begin(), results.end());
   return columns;
 }
@@ -129,12 +138,29 @@ void append_rows(const RowForm& form, const analytic::Sequence& sequence, double
   int n = 0;
   for (const analytic::ImpactRow& row : sequence.rows) {
     form.out += form.prefix;
-    append_impact(form.out, DiscreteRow{row, ++n, drop_deg}, form.errors);
+    const DiscreteRow impact{row, ++n, drop_deg};
+    if (form.in_space) append_impact<SpaceRow>(form.out, impact, form.errors);
+    else append_impact<DiscreteRow>(form.out, impact, form.errors);
     append_ending(form, outcome);
   }
   if (!sequence.tail) return;
   form.out += form.prefix;
-  append_tail(form.out, *sequence.tail, form.errors);
+  if (form.in_space) append_tail<SpaceRow>(form.out, *sequence.tail, form.errors);
+  else append_tail<DiscreteRow>(form.out, *sequence.tail, form.errors);
+  append_ending(form, outcome);
+}
+
+void append_rows(const RowForm& form, const analytic::space::Sequence& sequence, const std::vector<SpaceRow>& rows) {
+  const char* const outcome = outcome_name(sequence.outcome);
+  if (form.rows == RowKind::scene) return append_scene_row(form, totals(sequence), Model::discrete, outcome);
+  for (const SpaceRow& row : rows) {
+    form.out += form.prefix;
+    append_impact<SpaceRow>(form.out, row, form.errors);
+    append_ending(form, outcome);
+  }
+  if (!sequence.tail) return;
+  form.out += form.prefix;
+  append_tail<SpaceRow>(form.out, *sequence.tail, form.errors);
   append_ending(form, outcome);
 }
 
@@ -145,7 +171,7 @@ void append_rows(const RowForm& form, const numeric::Simulation& run) {
   int n = 0;
   for (const numeric::ImpactRecord& row : run.impacts) {
     form.out += form.prefix;
-    append_impact(form.out, ContinuousRow{row, ++n}, true);  // empty where none were asked for
+    append_impact<ContinuousRow>(form.out, ContinuousRow{row, ++n}, true);  // empty where none were asked for
     append_ending(form, outcome);
   }
 }

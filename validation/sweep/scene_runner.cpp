@@ -4,7 +4,6 @@
 
 #include "validation/plan/planned_run.hpp"
 #include "validation/plan/shortfall.hpp"
-#include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/failure.hpp"
 
 namespace clatter::validation {
@@ -21,7 +20,7 @@ const char* outcome_of(FailureKind kind) {
 }  // namespace
 
 SweepBody make_sweep_body(const SweepPlan& plan, const Scene& scene) {
-  if (plan.model == Model::discrete) return {nominal_body(scene), nullptr};
+  if (plan.model == Model::discrete) return {DiscreteBody(scene), nullptr};
   return {{}, std::make_shared<const numeric::Body>(scene.make_body())};
 }
 
@@ -45,14 +44,25 @@ void SceneRunner::renew_body() {
   for (const std::size_t axis : plan_.body_axes) body_values_.push_back(values_[axis]);
 }
 
+/// In the plane or in space.
+void SceneRunner::append_sequence(RowForm& form) {
+  const analytic::SequenceOptions options{
+      .impacts = scene_.options.impacts, .digits = scene_.options.digits, .amplification = form.errors};
+  const DiscreteDrop drop = body_.discrete->drop(scene_);
+  if (const auto* const planar = std::get_if<analytic::Drop>(&drop)) {
+    const analytic::Sequence sequence = impact_sequence(*planar, options);
+    form.reason = shortfall(scene_, sequence);
+    return append_rows(form, sequence, scene_.angle_deg);
+  }
+  const analytic::space::Sequence sequence = impact_sequence(std::get<analytic::space::Drop>(drop), options);
+  form.reason = shortfall(scene_, sequence);
+  append_rows(form, sequence, space_rows(scene_, sequence, body_.discrete->centre()));
+}
+
 bool SceneRunner::append_result(RowForm& form) {
   renew_body();
   if (plan_.model == Model::discrete) {
-    const analytic::Sequence sequence = analytic::impact_sequence(
-        impact_drop(scene_, body_.planar),
-        {.impacts = scene_.options.impacts, .digits = scene_.options.digits, .amplification = form.errors});
-    form.reason = shortfall(Asked{scene_.options.digits, scene_.require_digits}, sequence);
-    append_rows(form, sequence, scene_.angle_deg);
+    append_sequence(form);
     return true;
   }
   const PlannedRun planned = run_to_digits(*body_.solid, scene_.ground, scene_.start(*body_.solid), scene_.options);
@@ -68,6 +78,7 @@ RowForm SceneRunner::form_of(const std::string& prefix, std::string& out) const 
   return {.out = out,
           .prefix = prefix,
           .rows = plan_.rows,
+          .in_space = plan_.in_space,
           .errors = plan_.model == Model::discrete ? both : options.error_estimates,
           .predictions = plan_.model == Model::discrete ? both : options.amplification,
           .reason = {}};

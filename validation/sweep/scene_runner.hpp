@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "analytic/planar_body.hpp"
 #include "numeric/body.hpp"
+#include "validation/scene/space_scene.hpp"
 #include "validation/sweep/rows.hpp"
 #include "validation/sweep/sweep_plan.hpp"
 #include "validation/sweep/sweep_run.hpp"
@@ -16,15 +16,15 @@ namespace clatter::validation {
 
 /// The body as the sweep's model wants it.
 struct SweepBody {
-  analytic::PlanarBody planar;
+  std::optional<DiscreteBody> discrete;
   std::shared_ptr<const numeric::Body> solid;
 };
-/// The body of one scene of the plan, swept sizes and all.  @throws as Scene::make_body and nominal_body.
+/// The body of one scene of the plan, swept sizes and all.  @throws as Scene::make_body and DiscreteBody.
 [[nodiscard]] SweepBody make_sweep_body(const SweepPlan& plan, const Scene& scene);
 
 /// One thread's part in a sweep.  A scene that the model refuses or cannot compute is a row whose outcome is "refused"
-/// (speed and spin do not bring the contact down, a size is out of range, ...), "outside-model" (jamming, a body that
-/// is not planar, ...) or "not-computed".
+/// (speed and spin do not bring the contact down, a size is out of range, ...), "outside-model" (jamming, ...) or
+/// "not-computed".
 class SceneRunner {
  public:
   /// @param body of all scenes, where no key of the body is swept
@@ -39,6 +39,7 @@ class SceneRunner {
   /// False if it was stopped; then nothing is appended.
   bool append_scene(long long index, std::string& out);
   bool append_result(RowForm& form);
+  void append_sequence(RowForm& form);
   [[nodiscard]] RowForm form_of(const std::string& prefix, std::string& out) const;
   void renew_body();
 

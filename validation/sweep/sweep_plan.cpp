@@ -10,6 +10,7 @@
 #include "validation/output/number.hpp"
 #include "validation/scene/bad_input.hpp"
 #include "validation/scene/body_properties.hpp"
+#include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/scene_value.hpp"
 #include "validation/sweep/rows.hpp"
 
@@ -208,6 +209,14 @@ void choose_setters(const SceneValues& values, const std::vector<Setting>& setti
   }
 }
 
+bool may_leave_its_plane(const SweepPlan& plan) {
+  if (plan.scene.body.shape == BodyScene::Shape::mesh || !reason_in_space(plan.scene).empty()) return true;
+  const std::vector<SweepAxis>& axes = plan.points.axes();
+  return std::any_of(axes.begin(), axes.end(), [](const SweepAxis& axis) {
+    return axis.key == "drop.tilt_deg" || axis.key == "drop.orientation";
+  });
+}
+
 }  // namespace
 
 SweepPlan read_sweep_plan(const SweepRequest& request) {
@@ -222,6 +231,7 @@ SweepPlan read_sweep_plan(const SweepRequest& request) {
   for (const Setting& setting : settings) plan.words.push_back(fmt::format("set: {} = {}", setting.key, setting.text));
   read_points(request, settings, plan);
   choose_setters(values, settings, plan);
+  plan.in_space = plan.model == Model::discrete && may_leave_its_plane(plan);
   return plan;
 }
 

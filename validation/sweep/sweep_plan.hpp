@@ -28,6 +28,8 @@ struct SweepPlan {
   Scene scene;  ///< the swept keys have their first values
   Model model = Model::discrete;
   RowKind rows = RowKind::scene;
+  /// Whether a scene may leave its plane: by the first scene, by a swept tilt or orientation, or a mesh.
+  bool in_space = false;
   SweepPoints points;
   /// What puts the value of each axis into a scene.
   std::vector<std::function<void(Scene&, double)>> put;
