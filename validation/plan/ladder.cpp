@@ -9,6 +9,7 @@
 #include "validation/plan/symmetry.hpp"
 #include "validation/record/names.hpp"
 #include "validation/scene/discrete_scene.hpp"
+#include "validation/scene/space_scene.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -24,6 +25,7 @@ const char* rung_name(Rung rung) {
   switch (rung) {
     case Rung::closed_form: return "closed form";
     case Rung::discrete: return "discrete";
+    case Rung::discrete_in_space: return "discrete in space";
     case Rung::planar: return "planar";
     case Rung::spatial: return "spatial";
   }
@@ -33,7 +35,8 @@ const char* rung_name(Rung rung) {
 const char* rung_assumption(Rung rung) {
   switch (rung) {
     case Rung::closed_form: return "the rod is thin, and nothing strikes after the third impact";
-    case Rung::discrete: return "contacts take no time and no depth";
+    case Rung::discrete:
+    case Rung::discrete_in_space: return "contacts take no time and no depth";
     case Rung::planar: return "the body stays in the plane of its motion";
     case Rung::spatial: return "the body is rigid, the ground a bed of springs and dampers";
   }
@@ -77,13 +80,25 @@ Scene limited(Scene scene) {
 }
 
 Ladder::Ladder(Scene scene) : scene_(std::move(scene)), body_(scene_.make_body()), start_(scene_.start(body_)) {
+  find_discrete();
+  against_[index(Rung::closed_form)] = find_closed_form();
+  against_[index(Rung::planar)] = reason_against_planar();
+}
+
+/// The drop in the plane, or else in space.
+void Ladder::find_discrete() {
   try {
     drop_ = discrete_drop(scene_, body_);
+    against_[index(Rung::discrete_in_space)] = "the drop stays in its plane, where the discrete rung gives the same";
+    return;
   } catch (const analytic::OutsideModelError& error) {
     against_[index(Rung::discrete)] = error.what();
   }
-  against_[index(Rung::closed_form)] = find_closed_form();
-  against_[index(Rung::planar)] = reason_against_planar();
+  try {
+    space_drop_ = validation::space_drop(scene_, body_);
+  } catch (const analytic::OutsideModelError& error) {
+    against_[index(Rung::discrete_in_space)] = error.what();
+  }
 }
 
 /// The same rod without its radius.
@@ -125,6 +140,11 @@ RungResult Ladder::run(const RungSetting& setting, int impacts) const {
   if (setting.rung == Rung::discrete) {
     const analytic::Sequence sequence = impact_sequence(*drop_, {.impacts = impacts, .amplification = false});
     return {motion_rows(sequence), sequence.root_evaluations, sequence.message};
+  }
+  if (setting.rung == Rung::discrete_in_space) {
+    const analytic::space::Sequence sequence =
+        impact_sequence(*space_drop_, {.impacts = impacts, .amplification = false});
+    return {motion_rows(sequence), sequence.evaluations, sequence.message};
   }
   const Simulation run = simulate(setting, impacts);
   return {motion_rows(run), run.force_evaluations, std::string(outcome_name(run.outcome)) + ": " + run.message};

@@ -1,10 +1,12 @@
 // The ladder of models: from a formula to the body in space, each rung under one interface.
 #pragma once
 
+#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "analytic/space/sequence.hpp"
 #include "validation/record/motion_numbers.hpp"
 #include "validation/scene/scene.hpp"
 
@@ -13,11 +15,13 @@ namespace clatter::validation {
 /// The models, from the cheapest to the one that leaves nothing out.
 enum class Rung {
   closed_form,  ///< Eqs. 9 and 12: thin rod that falls straight, without friction or damping; at most three impacts
-  discrete,     ///< instantaneous impacts at the real corners, flights between them
-  planar,       ///< continuous contact, kept in its plane
-  spatial,      ///< continuous contact in three dimensions
+  discrete,     ///< instantaneous impacts at the real corners, flights between them, in the plane of the motion
+  discrete_in_space,  ///< the same in three dimensions, for a drop that leaves its plane
+  planar,             ///< continuous contact, kept in its plane
+  spatial,            ///< continuous contact in three dimensions
 };
-inline constexpr Rung all_rungs[] = {Rung::closed_form, Rung::discrete, Rung::planar, Rung::spatial};
+inline constexpr Rung all_rungs[] = {Rung::closed_form, Rung::discrete, Rung::discrete_in_space, Rung::planar,
+                                     Rung::spatial};
 
 [[nodiscard]] const char* rung_name(Rung rung);
 /// What a rung takes for granted, in which the rung above it does not follow.
@@ -66,6 +70,8 @@ class Ladder {
   [[nodiscard]] const numeric::Body& body() const { return body_; }
   /// As the discrete rung has it, if it applies.
   [[nodiscard]] const std::optional<analytic::Drop>& drop() const { return drop_; }
+  /// As the discrete rung in space has it, if that applies.
+  [[nodiscard]] const std::optional<analytic::space::Drop>& space_drop() const { return space_drop_; }
   /// Why the rung does not apply to the scene; empty: it does.
   [[nodiscard]] const std::string& against(Rung rung) const { return against_[static_cast<std::size_t>(rung)]; }
   /// The lowest rung that leaves nothing out of this scene: a body that is symmetric about the plane of its motion
@@ -78,6 +84,7 @@ class Ladder {
   [[nodiscard]] numeric::Simulation simulate(const RungSetting& setting, int impacts) const;
 
  private:
+  void find_discrete();
   [[nodiscard]] std::string find_closed_form();
   [[nodiscard]] std::string reason_against_planar() const;
 
@@ -85,7 +92,8 @@ class Ladder {
   numeric::Body body_;
   numeric::MotionState start_;
   std::optional<analytic::Drop> drop_, thin_rod_;
-  std::string against_[4];
+  std::optional<analytic::space::Drop> space_drop_;
+  std::string against_[std::size(all_rungs)];
 };
 
 /// Reference values of a scene: the full rung by rk8pd at the smallest tolerance.

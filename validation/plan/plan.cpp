@@ -6,7 +6,9 @@
 #include <chrono>
 #include <cmath>
 
+#include "analytic/errors.hpp"
 #include "validation/compare/prediction.hpp"
+#include "validation/compare/space_prediction.hpp"
 #include "validation/output/number.hpp"
 #include "validation/plan/cost_table.hpp"
 #include "validation/plan/tolerance_search.hpp"
@@ -180,8 +182,16 @@ class Planner {
       weighed.setting.rung = weighed.rung;
     }
     RungResult result;
-    weighed.seconds = least_seconds_of(is_continuous(weighed.rung) ? timings : timings_of_a_formula,
-                                       [&] { result = ladder_.run(weighed.setting, impacts()); });
+    try {
+      weighed.seconds = least_seconds_of(is_continuous(weighed.rung) ? timings : timings_of_a_formula,
+                                         [&] { result = ladder_.run(weighed.setting, impacts()); });
+    } catch (const analytic::OutsideModelError& error) {  // from the first impact on
+      weighed.against = error.what();
+      return;
+    } catch (const analytic::NumericalError& error) {
+      weighed.against = error.what();
+      return;
+    }
     weighed.error = distance(result.rows, truth_, sizes_);
     weighed.serves = margin * weighed.error <= budget_;
     if (weighed.rung == Rung::closed_form) closed_form_rows_ = result.rows;
@@ -193,7 +203,8 @@ class Planner {
   void weigh_assumption(WeighedRung& weighed) const {
     weighed.assumption_words = rung_assumption(weighed.rung);
     if (weighed.rung == Rung::closed_form) weighed.assumption_error = thinness();
-    if (weighed.rung == Rung::discrete) weighed.assumption_error = contact_effects();
+    if (weighed.rung == Rung::discrete) weighed.assumption_error = contact_effects(*ladder_.drop());
+    if (weighed.rung == Rung::discrete_in_space) weighed.assumption_error = contact_effects(*ladder_.space_drop());
     if (weighed.rung == Rung::planar) {
       weighed.assumption_error = plan_.growth_out_of_plane * std::numeric_limits<double>::epsilon();
     }
@@ -205,9 +216,9 @@ class Planner {
   }
 
   /// What gravity, turning, indentation and delay of the contacts change, carried on by the discrete model.
-  [[nodiscard]] double contact_effects() const {
-    const analytic::Drop& drop = *ladder_.drop();
-    const analytic::Sequence sequence = impact_sequence(drop, {.impacts = impacts(), .amplification = false});
+  template <class Drop>
+  [[nodiscard]] double contact_effects(const Drop& drop) const {
+    const auto sequence = impact_sequence(drop, {.impacts = impacts(), .amplification = false});
     double worst = 0;
     for (const PredictedSize& row : predicted_sizes(drop, sequence, contact_times_)) {
       const MotionNumbers total = row.total();

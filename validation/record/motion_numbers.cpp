@@ -48,17 +48,20 @@ MotionNumbers motion_errors(const analytic::ImpactRow& row) { return numbers_of(
 MotionNumbers motion_errors(const analytic::space::ImpactRow& row) { return numbers_of(SpaceRow{row}, true); }
 MotionNumbers motion_errors(const numeric::ImpactRecord& row) { return numbers_of(ContinuousRow{row}, true); }
 
-std::vector<MotionNumbers> motion_rows(const analytic::Sequence& sequence) {
+namespace {
+
+template <class Impacts>
+std::vector<MotionNumbers> rows_of(const Impacts& impacts) {
   std::vector<MotionNumbers> rows;
-  for (const analytic::ImpactRow& row : sequence.rows) rows.push_back(motion_numbers(row));
+  for (const auto& impact : impacts) rows.push_back(motion_numbers(impact));
   return rows;
 }
 
-std::vector<MotionNumbers> motion_rows(const numeric::Simulation& run) {
-  std::vector<MotionNumbers> rows;
-  for (const numeric::ImpactRecord& record : run.impacts) rows.push_back(motion_numbers(record));
-  return rows;
-}
+}  // namespace
+
+std::vector<MotionNumbers> motion_rows(const analytic::Sequence& sequence) { return rows_of(sequence.rows); }
+std::vector<MotionNumbers> motion_rows(const analytic::space::Sequence& sequence) { return rows_of(sequence.rows); }
+std::vector<MotionNumbers> motion_rows(const numeric::Simulation& run) { return rows_of(run.impacts); }
 
 MotionNumbers motion_sizes(const numeric::Simulation& run, std::size_t count, const numeric::Body& body) {
   double speed = 0;

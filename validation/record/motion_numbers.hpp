@@ -26,6 +26,7 @@ using MotionNumbers = std::array<double, motion_number_count>;
 [[nodiscard]] MotionNumbers motion_errors(const analytic::space::ImpactRow& row);
 [[nodiscard]] MotionNumbers motion_errors(const numeric::ImpactRecord& row);
 [[nodiscard]] std::vector<MotionNumbers> motion_rows(const analytic::Sequence& sequence);
+[[nodiscard]] std::vector<MotionNumbers> motion_rows(const analytic::space::Sequence& sequence);
 [[nodiscard]] std::vector<MotionNumbers> motion_rows(const numeric::Simulation& run);
 
 /// Sizes against which errors of the first `count` >= 1 impacts count as relative: the time of the last of them, 90°,

@@ -76,7 +76,8 @@ class Bench {
   [[nodiscard]] int impacts() const { return static_cast<int>(truth_.rows.size()); }
 
   [[nodiscard]] std::size_t points_in_all() const {
-    std::size_t count = 2 + std::size(mesh_factors);
+    std::size_t count = std::size(mesh_factors);
+    for (const Rung rung : all_rungs) count += is_continuous(rung) ? 0 : 1;
     for (const Rung rung : {Rung::planar, Rung::spatial}) {
       if (ladder_.against(rung).empty()) count += std::size(adaptive) * tolerance_count + step_halvings;
     }
