@@ -110,6 +110,71 @@ class TheSameBits(unittest.TestCase):
                 text = printed("compare", f"validation/cases/{name}.toml", "--impacts", "1", "--format", "json")
                 self.assertEqual(result.to_dict(), json.loads(text))
 
+    def test_sequences_and_explanations_of_scenes_in_space_are_the_programs_whatever_form_the_scene_has(self):
+        path = ROOT / "validation" / "cases" / "phone-corner.toml"
+        for scene in ("phone-corner", path, tomllib.loads(path.read_text(encoding="utf-8"))):
+            result = clatter.sequence(scene, friction=0.3, restitution=0.6)
+            data = json.loads(printed("sequence", "phone-corner", "--friction", "0.3", "--restitution", "0.6", "--format", "json"))
+            self.assertEqual(result.to_dict()["impacts"], data["impacts"])
+            self.assertIn("attitude", data["impacts"][0])
+        drop = {"body": "box", "size": (0.1, 0.05, 0.02), "attitude": (0.8, 0.1, -0.3, 0.2 ** 0.5 - 0.2), "velocity": (0.3, 0.2, -1)}
+        drop["attitude"] = tuple(np.array(drop["attitude"]) / np.linalg.norm(drop["attitude"]))
+        words = ["--" + name + "=" + ("x".join(map(repr, map(float, value))) if isinstance(value, tuple) else value)
+                 for name, value in drop.items()]
+        self.assertEqual(clatter.sequence(**drop).to_dict(), json.loads(printed("sequence", *words, "--format", "json")))
+        explained = clatter.explain(1, **drop)
+        for form in ("table", "csv", "json", "markdown", "latex"):
+            self.assertEqual(explained.to_text(form), printed("explain", "1", *words, "--format", form))
+        self.assertEqual(explained["What the impulse does"]["V_z′"], clatter.sequence(**drop)[0].velocity_after[2])
+        self.assertEqual(clatter.explain(2, 10).to_text(), printed("explain", "2", "--angle", "10"))
+
+    def test_sweeps_are_the_programs_rows_in_the_plane_and_in_space(self):
+        for values in ({"drop.orientation": "1:26:5", "impact.restitution": 0.5}, {"drop.attitude": [1, 0, 0, 0], "drop.speed": "1:3:1"}):
+            sets = [word for key, value in values.items() for word in
+                    ("--set", f"{key}=" + ("x".join(map(repr, map(float, value))) if isinstance(value, list) else str(value)))]
+            mine = clatter.sweep(clatter.case("phone-corner") | {"drop": {"speed": 1}} if "drop.attitude" in values else "phone-corner",
+                                 values, model="discrete", rows="impact")
+            self.assertGreater(len(mine), 5)
+            if "drop.attitude" in values:
+                self.assertEqual(set(mine.column("drop.speed")), {1.0, 2.0, 3.0})
+                continue
+            program = json.loads(printed("sweep", "phone-corner", "--model", "discrete", "--rows", "impact", *sets, "--format", "json"))
+            self.assertEqual(mine.to_dict()["rows"], program["rows"])
+        few = clatter.sweep("rod-10", {"drop.angle_deg": "5:60", "drop.speed": "0.1:10:log"}, random=20, seed=4, model="discrete")
+        again = clatter.sweep("rod-10", {"drop.angle_deg": "5:60", "drop.speed": "0.1:10:log"}, random=20, seed=4, model="discrete")
+        self.assertEqual(few.to_dict(), again.to_dict())
+
+    def test_plans_regimes_and_tradeoffs_are_the_programs(self):
+        def timeless(value):
+            if isinstance(value, dict):
+                return {key: timeless(part) for key, part in value.items() if key not in ("seconds", "front", "repeats")}
+            return [timeless(part) for part in value] if isinstance(value, list) else value
+
+        for case in ("phone-corner", "phone-damped"):
+            mine = clatter.plan(case, digits=3, impacts=2)
+            program = json.loads(printed("plan", case, "--digits", "3", "--impacts", "2", "--format", "json"))
+            self.assertEqual(timeless(mine.to_dict()["rungs"]), timeless(program["rungs"]))
+            self.assertEqual(mine.choice.model, program["choice"]["model"])
+        self.assertEqual([rung.model for rung in mine.rungs], ["closed form", "discrete", "discrete 3D", "planar", "spatial"])
+        self.assertEqual(clatter.regimes("restitution", from_=0.5, to=1, step=0.25).to_text(),
+                         printed("regimes", "--over", "restitution", "--from", "0.5", "--to", "1", "--step", "0.25"))
+        self.assertEqual(clatter.regimes().to_dict(), json.loads(printed("regimes", "--format", "json")))
+        mine = clatter.tradeoff("phone-corner", impacts=1)
+        program = json.loads(printed("tradeoff", "phone-corner", "--impacts", "1", "--format", "json"))
+        self.assertEqual(timeless(mine.to_dict()["points"]), timeless(program["points"]))
+        self.assertGreater(len(mine.front), 1)
+
+    def test_what_the_new_functions_refuse_names_the_argument(self):
+        for words, call in (("impact 0", lambda: clatter.explain(0, 10)), ("given twice", lambda: clatter.sequence(10, angle=20)),
+                            ("unknown argument", lambda: clatter.explain(1, 10, frictoin=0.1)),
+                            ("drop.angel_deg: unknown key", lambda: clatter.sweep("rod-10", {"drop.angel_deg": "1:2:1"})),
+                            ("within '-1'", lambda: clatter.plan("rod-10", within=-1)), ("method: left out", lambda: clatter.plan("rod-10", method="rk4")),
+                            ("over", lambda: clatter.regimes("angle")), ("drop.angle_deg", lambda: clatter.sequence({"drop": {"angle_deg": 91}}))):
+            with self.subTest(words), self.assertRaisesRegex(clatter.BadInput, words):
+                call()
+        with self.assertRaises(KeyError):
+            clatter.explain(1, 10)["Eq. 99"]
+
     def test_verification_is_the_programs(self):
         def without_time(data):
             checks = [{key: value for key, value in check.items() if key != "seconds"} for check in data["checks"]]

@@ -99,7 +99,7 @@ class Plan(unittest.TestCase):
 
     def test_csv_has_a_row_for_every_rung(self):
         lines = [line for line in run("plan", case("rod-45"), "--format", "csv").stdout.splitlines() if line[0] != "#"]
-        self.assertEqual([line.split(",")[0] for line in lines], ["model", "closed form", "discrete", "planar", "spatial"])
+        self.assertEqual([line.split(",")[0] for line in lines], ["model", "closed form", "discrete", "discrete 3D", "planar", "spatial"])
 
     def test_bad_input_is_one_line(self):
         for arguments in (["--digits", "1"], ["--within", "0"], ["--within", "nan"], ["--method", "rk4"], ["--step", "1e-6"],

@@ -1,6 +1,3 @@
-#include <fmt/format.h>
-
-#include <cmath>
 #include <memory>
 
 #include "validation/cli/commands.hpp"
@@ -8,7 +5,6 @@
 #include "validation/cli/plan_report.hpp"
 #include "validation/cli/scene_flags.hpp"
 #include "validation/output/message.hpp"
-#include "validation/scene/bad_input.hpp"
 #include "validation/scene/failure.hpp"
 
 namespace clatter::validation {
@@ -20,30 +16,12 @@ struct PlanInput {
   OutputTexts output;
 };
 
-PlanTarget read_target(const PlanInput& input, const Scene& scene) {
-  PlanTarget target{.digits = scene.options.digits};
-  if (!input.within) return target;
-  target.within_ms = read_number_option("--within", *input.within, {0, 1e9, true, "greater than 0"});
-  target.most_accurate = !is_given(input.scene, "--digits");
-  return target;
-}
-
-void refuse_what_it_plans(const PlanInput& input) {
-  for (const char* name : {"--method", "--tolerance", "--step"}) {
-    if (is_given(input.scene, name)) throw BadInput(fmt::format("{}: left out here: the plan chooses it", name));
-  }
-  if (is_given(input.scene, "--history")) throw BadInput("--history: plan writes none; clatter simulate does");
-}
-
 int run_plan(const PlanInput& input) {
   const Scene scene = read_scene_flags(input.scene);
   const OutputChoice choice = read_output(input.output);
-  const PlanTarget target = read_target(input, scene);
-  refuse_what_it_plans(input);
+  const auto is_typed = [&](const std::string& name) { return is_given(input.scene, "--" + name); };
+  const PlanTarget target = plan_target(scene, {input.within, is_typed});
   check_files(choice, {}, files_of(scene));
-  if (scene.sweep) {
-    throw BadInput(fmt::format("{}: a sweep has no plan; give --angle or leave out [sweep]", scene.path));
-  }
   const Plan plan = make_plan(scene, target);
   write_report(choice, plan_report(scene, plan));
   const std::string shortfall = plan_shortfall(plan);

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "validation/output/number.hpp"
+#include "validation/scene/bad_input.hpp"
 #include "validation/scene/body_properties.hpp"
+#include "validation/scene/option_values.hpp"
 #include "validation/scene/scene_value.hpp"
 
 namespace clatter::validation {
@@ -158,6 +160,20 @@ std::string plan_shortfall(const Plan& plan) {
   const std::string within =
       plan.target.within_ms ? fmt::format(" within {} ms", shortest(*plan.target.within_ms)) : "";
   return fmt::format("{} digits cannot be had{}; {}", plan.target.digits, within, best);
+}
+
+PlanTarget plan_target(const Scene& scene, const PlanRequest& request) {
+  PlanTarget target{.digits = scene.options.digits};
+  if (request.within) {
+    target.within_ms = read_number_option("--within", *request.within, {0, 1e9, true, "greater than 0"});
+    target.most_accurate = !request.is_given("digits");
+  }
+  for (const char* name : {"method", "tolerance", "step"}) {
+    if (request.is_given(name)) throw BadInput(fmt::format("--{}: left out here: the plan chooses it", name));
+  }
+  if (request.is_given("history")) throw BadInput("--history: plan writes none; clatter simulate does");
+  if (!scene.sweep) return target;
+  throw BadInput(fmt::format("{}: a sweep has no plan; give --angle or leave out [sweep]", scene.path));
 }
 
 std::vector<Column> plan_columns() {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "validation/cli/options.hpp"
 #include "validation/cli/plot_options.hpp"
 #include "validation/cli/regimes_picture.hpp"
+#include "validation/cli/regimes_report.hpp"
 #include "validation/cli/rod_options.hpp"
 #include "validation/output/estimated.hpp"
 #include "validation/output/number.hpp"
@@ -172,36 +174,70 @@ std::vector<std::string> script_head(const RegimesInput& input, const Quantity& 
                       shortest(values.front()), shortest(values.back()), values.size())};
 }
 
-int run_regimes(const RegimesInput& input) {
+/// The regimes over the values of a quantity.
+struct FoundRegimes {
+  const Quantity& quantity;
+  std::vector<double> values;
+  std::vector<Regimes> all;
+  Report report;
+};
+
+FoundRegimes find_regimes(const RegimesInput& input) {
   const auto& quantities = all_quantities();
   std::vector<std::string> names;
   for (const Quantity& quantity : quantities) names.emplace_back(quantity.name);
   const Quantity& quantity = quantities[input.over ? read_name_option("--over", *input.over, names) : 0];
   RodParameters rod = read_rod(input.rod);
   const int digits = input.digits ? read_integer_option("--digits", *input.digits, 1, 17) : 8;
+  FoundRegimes found{quantity, values_of(input, quantity), {}, {}};
+  for (const double value : found.values) {
+    rod.*quantity.member = value;
+    found.all.push_back({value, analytic::regime_boundary(ImpactNumber::second, rod),
+                         analytic::regime_boundary(ImpactNumber::third, rod)});
+  }
+  found.report = report_of(found.all, quantity, read_rod(input.rod), digits);
+  found.report.head = {rod_summary(read_rod(input.rod)) + ", but for the first column"};
+  return found;
+}
+
+int run_regimes(const RegimesInput& input) {
   const OutputChoice choice = read_output(input.output);
-  const std::vector<double> values = values_of(input, quantity);
+  const FoundRegimes found = find_regimes(input);
+  const Quantity& quantity = found.quantity;
   check_files(choice, plot_files(input.plot));
   PlotFile plot(input.plot);
-  std::vector<Regimes> all;
-  for (const double value : values) {
-    rod.*quantity.member = value;
-    all.push_back({value, analytic::regime_boundary(ImpactNumber::second, rod),
-                   analytic::regime_boundary(ImpactNumber::third, rod)});
-  }
-  Report report = report_of(all, quantity, read_rod(input.rod), digits);
-  report.head = {rod_summary(read_rod(input.rod)) + ", but for the first column"};
-  write_report(choice, report);
+  write_report(choice, found.report);
   if (plot.is_wanted()) {
     const bool logarithmic =
-        input.logarithmic || (quantity.member == &RodParameters::gravity_number && spans_decades(values));
-    plot.write(regimes_picture(all, {quantity.name, quantity.words, logarithmic}, rod_words(input, quantity)),
-               script_head(input, quantity, values));
+        input.logarithmic || (quantity.member == &RodParameters::gravity_number && spans_decades(found.values));
+    plot.write(regimes_picture(found.all, {quantity.name, quantity.words, logarithmic}, rod_words(input, quantity)),
+               script_head(input, quantity, found.values));
   }
   return 0;
 }
 
 }  // namespace
+
+Report regimes_report(const NamedTexts& given) {
+  RegimesInput input;
+  std::optional<std::string> logarithmic;
+  const std::map<std::string, std::optional<std::string>*> places{{"over", &input.over},
+                                                                  {"from", &input.sweep.from},
+                                                                  {"to", &input.sweep.to},
+                                                                  {"step", &input.sweep.step},
+                                                                  {"count", &input.sweep.count},
+                                                                  {"log", &logarithmic},
+                                                                  {"gravity_number", &input.rod.gravity_number},
+                                                                  {"gravity", &input.rod.gravity},
+                                                                  {"length", &input.rod.length},
+                                                                  {"speed", &input.rod.speed},
+                                                                  {"restitution", &input.rod.restitution},
+                                                                  {"impulse_ratio", &input.rod.impulse_ratio},
+                                                                  {"digits", &input.digits}};
+  for (const auto& [name, text] : given) *named(places, name) = text;
+  input.logarithmic = read_name_option("--log", logarithmic.value_or("false"), {"false", "true"}) == 1;
+  return find_regimes(input).report;
+}
 
 std::vector<Column> regimes_columns() { return columns_of(all_quantities().front()); }
 

@@ -41,12 +41,6 @@ struct SweepWork {
   const CooperativeInterrupt& interrupt;
 };
 
-/// Scenes handed out at a time: some milliseconds' work.
-long long range_size(const SweepPlan& plan) {
-  if (plan.model == Model::continuous) return 1;
-  return std::clamp(4096 / plan.scene.options.impacts, 1, 512);
-}
-
 std::string time_left(double seconds) {
   if (seconds < 100) return fmt::format("{:.0f} s left", std::ceil(seconds));
   if (seconds < 6000) return fmt::format("{:.0f} min left", std::ceil(seconds / 60));
@@ -164,13 +158,6 @@ void check_output(const SweepInput& input, const SweepPlan& plan) {
   } else if (input.restart) {
     throw BadInput("--restart: needs a file as --output, there is nothing to go on with");
   }
-}
-
-MakeCompute runners_of(const SweepPlan& plan, const SweepBody& body) {
-  return [&plan, &body](std::function<bool()> stop) -> ComputeRange {
-    const auto runner = std::make_shared<SceneRunner>(plan, body, std::move(stop));
-    return [runner](const SceneRange& range) { return (*runner)(range); };
-  };
 }
 
 /// Computes what the output lacks, as far as it comes.

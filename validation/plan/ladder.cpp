@@ -25,7 +25,7 @@ const char* rung_name(Rung rung) {
   switch (rung) {
     case Rung::closed_form: return "closed form";
     case Rung::discrete: return "discrete";
-    case Rung::discrete_in_space: return "discrete in space";
+    case Rung::discrete_in_space: return "discrete 3D";
     case Rung::planar: return "planar";
     case Rung::spatial: return "spatial";
   }

@@ -1,5 +1,6 @@
 #include "validation/sweep/scene_runner.hpp"
 
+#include <algorithm>
 #include <new>
 
 #include "validation/plan/planned_run.hpp"
@@ -102,6 +103,18 @@ bool SceneRunner::append_scene(long long index, std::string& out) {
   }
   append_failure(form, plan_.model, outcome);
   return true;
+}
+
+MakeCompute runners_of(const SweepPlan& plan, const SweepBody& body) {
+  return [&plan, &body](std::function<bool()> stop) -> ComputeRange {
+    const auto runner = std::make_shared<SceneRunner>(plan, body, std::move(stop));
+    return [runner](const SceneRange& range) { return (*runner)(range); };
+  };
+}
+
+long long range_size(const SweepPlan& plan) {
+  if (plan.model == Model::continuous) return 1;
+  return std::clamp(4096 / plan.scene.options.impacts, 1, 512);
 }
 
 }  // namespace clatter::validation

@@ -51,4 +51,9 @@ class SceneRunner {
   std::vector<double> body_values_;  ///< of the body axes that body_ was made with
 };
 
+/// A runner for each thread.
+[[nodiscard]] MakeCompute runners_of(const SweepPlan& plan, const SweepBody& body);
+/// Scenes handed out at a time: some milliseconds' work.
+[[nodiscard]] long long range_size(const SweepPlan& plan);
+
 }  // namespace clatter::validation

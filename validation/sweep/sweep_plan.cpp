@@ -221,7 +221,8 @@ bool may_leave_its_plane(const SweepPlan& plan) {
 
 SweepPlan read_sweep_plan(const SweepRequest& request) {
   SweepPlan plan;
-  SceneValues values = scene_values(request.file);
+  SceneValues values =
+      request.text ? SceneValues(request.file, *request.text, scene_keys()) : scene_values(request.file);
   std::vector<std::string> sets = request.sets;
   if (request.no_errors) sets.emplace_back("run.errors=false");
   if (request.require_digits) sets.emplace_back("run.require_digits=true");

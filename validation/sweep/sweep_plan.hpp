@@ -16,6 +16,7 @@ namespace clatter::validation {
 /// What was typed, empty where not given.
 struct SweepRequest {
   std::string file;
+  std::optional<std::string> text;  ///< of the scene that `file` then only names in messages
   std::vector<std::string> sets;
   std::optional<std::string> random, seed, model, rows;
   bool no_errors = false;       ///< as --set run.errors=false

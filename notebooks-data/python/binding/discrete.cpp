@@ -10,7 +10,10 @@
 #include "interruptible.hpp"
 #include "report.hpp"
 #include "runs.hpp"
+#include "scene_source.hpp"
 #include "validation/cli/angles_report.hpp"
+#include "validation/cli/explanation_report.hpp"
+#include "validation/cli/regimes_report.hpp"
 #include "validation/cli/sequence_report.hpp"
 #include "validation/plan/sequence_method.hpp"
 #include "validation/scene/bad_input.hpp"
@@ -25,12 +28,35 @@ using validation::AnglesRequest;
 using validation::Scene;
 
 using Given = validation::NamedTexts;
-Report sequence(const Given& given, const std::string& method) {
-  const Scene scene = validation::read_discrete_scene(validation::scene_values(""), validation::scene_overrides(given));
+Scene read_scene(const SceneSource& source, const Given& given) {
+  return validation::read_discrete_scene(source.values(), validation::scene_overrides(given));
+}
+
+Report sequence(const std::string& name, const std::optional<std::string>& text, const Given& changes,
+                const std::string& method) {
+  const Scene scene = read_scene({name, text}, changes);
   const py::gil_scoped_release release;
   const auto run = std::make_shared<const validation::DiscreteRun>(
       validation::run_discrete(scene, validation::read_sequence_method(method)));
   return {[scene, run] { return validation::sequence_report(scene, *run); }};
+}
+
+/// (report, warnings)
+py::tuple explain(int impact, const std::string& name, const std::optional<std::string>& text, const Given& changes) {
+  if (impact < 1) throw validation::BadInput(fmt::format("impact {}: must be at least 1", impact));
+  const Scene scene = read_scene({name, text}, changes);
+  const auto found = [&] {
+    const py::gil_scoped_release release;
+    return std::make_shared<const validation::Explanation>(validation::explain_impact(scene, impact));
+  }();
+  return py::make_tuple(Report{[found] { return validation::explanation_report(*found); },
+                               [found](const validation::TextStyle& style) { return explanation_text(*found, style); }},
+                        found->warnings);
+}
+
+Report regimes(const Given& options) {
+  const auto report = std::make_shared<const validation::Report>(validation::regimes_report(options));
+  return {[report] { return *report; }};
 }
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -85,7 +111,11 @@ py::tuple angles(const std::optional<Numbers>& theta, const Given& given) {
 }  // namespace
 
 void add_discrete_functions(py::module_& module) {
-  module.def("sequence", &sequence, py::arg("options"), py::arg("method"), "Impact sequence of a rod or box.");
+  module.def("sequence", &sequence, py::arg("name"), py::arg("text"), py::arg("changes"), py::arg("method"),
+             "Impact sequence of a drop, in the plane or in space.");
+  module.def("explain", &explain, py::arg("impact"), py::arg("name"), py::arg("text"), py::arg("changes"),
+             "How an impact came about.");
+  module.def("regimes", &regimes, py::arg("options"), "Number of impacts of the thin rod, and its fold angles.");
   module.def("angles", &angles, py::arg("theta"), py::arg("options"), "Contact angles of the thin rod.");
 }
 

@@ -46,6 +46,7 @@ PYBIND11_MODULE(_clatter, module) {
   add_report_class(module);
   add_discrete_functions(module);
   add_scene_functions(module);
+  add_study_functions(module);
   add_verify_function(module);
 }
 

@@ -19,7 +19,8 @@ using validation::Value;
 std::string text_of(const Report& report, const std::string& format, bool ascii) {
   static const std::vector<std::string> names{"table", "csv", "json", "markdown", "latex"};
   const auto chosen = static_cast<Format>(validation::read_name_option("format", format, names));
-  return validation::report_text(report.made(), {chosen, ascii});
+  const validation::TextStyle style{chosen, ascii};
+  return report.text ? report.text(style) : validation::report_text(report.made(), style);
 }
 
 }  // namespace

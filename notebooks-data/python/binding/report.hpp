@@ -12,6 +12,8 @@ namespace clatter::python {
 
 struct Report {
   std::function<validation::Report()> made;  ///< when something of it is asked for
+  /// The text where the program prints another one than the report's.
+  std::function<std::string(const validation::TextStyle&)> text = nullptr;
 };
 
 /// Fields as dict, lists as list, nothing as None; numbers keep all their bits.

@@ -5,10 +5,12 @@
 
 namespace clatter::python {
 
-/// sequence, angles.
+/// sequence, explain, regimes, angles.
 void add_discrete_functions(pybind11::module_& module);
 /// simulate, compare; scenes.
 void add_scene_functions(pybind11::module_& module);
+/// plan, tradeoff, sweep.
+void add_study_functions(pybind11::module_& module);
 /// verify.
 void add_verify_function(pybind11::module_& module);
 

@@ -7,12 +7,12 @@
 #include "interruptible.hpp"
 #include "report.hpp"
 #include "runs.hpp"
+#include "scene_source.hpp"
 #include "validation/cli/history_file.hpp"
 #include "validation/cli/simulation_report.hpp"
 #include "validation/cli/swept_comparison_report.hpp"
 #include "validation/embedded/embedded.hpp"
 #include "validation/plan/planned_run.hpp"
-#include "validation/scene/keys.hpp"
 #include "validation/scene/named_texts.hpp"
 
 namespace clatter::python {
@@ -23,11 +23,8 @@ using validation::NamedTexts;
 using validation::PlannedRun;
 using validation::Scene;
 
-/// `text`: the scene file's content, `name` what messages call it; without a text the file `name` is read.
-Scene read_scene(const std::string& name, const std::optional<std::string>& text, const NamedTexts& given) {
-  const validation::SceneValues values =
-      text ? validation::SceneValues(name, *text, validation::scene_keys()) : validation::scene_values(name);
-  return read_scene(values, validation::scene_overrides(given), validation::Model::continuous);
+Scene read_scene(const SceneSource& source, const NamedTexts& given) {
+  return read_scene(source.values(), validation::scene_overrides(given), validation::Model::continuous);
 }
 
 PlannedRun run_scene(const Scene& scene, const std::function<bool()>& goes_on, numeric::HistoryRecorder* history) {
@@ -69,7 +66,7 @@ Report swept_report(const Scene& scene, const std::function<bool()>& goes_on) {
 /// (report, history or None)
 py::tuple simulate(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes,
                    bool with_history) {
-  const Scene scene = read_scene(name, text, changes);
+  const Scene scene = read_scene({name, text}, changes);
   History history;
   Report report = run_interruptible([&](const std::function<bool()>& goes_on) {
     if (scene.sweep) return swept_report(scene, goes_on);
@@ -84,7 +81,7 @@ struct ComparedScene {
 };
 
 Report compare(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes) {
-  const Scene scene = read_scene(name, text, changes);
+  const Scene scene = read_scene({name, text}, changes);
   ComparedScene compared{scene, {}};
   run_interruptible([&](const std::function<bool()>& goes_on) {
     const numeric::Body body = scene.make_body();

@@ -1,0 +1,118 @@
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <thread>
+
+#include "interruptible.hpp"
+#include "report.hpp"
+#include "runs.hpp"
+#include "scene_source.hpp"
+#include "validation/cli/plan_report.hpp"
+#include "validation/cli/tradeoff_report.hpp"
+#include "validation/scene/bad_input.hpp"
+#include "validation/scene/named_texts.hpp"
+#include "validation/sweep/rows.hpp"
+#include "validation/sweep/scene_runner.hpp"
+
+namespace clatter::python {
+namespace {
+
+namespace py = pybind11;
+using validation::NamedTexts;
+using validation::Scene;
+
+using GoesOn = std::function<bool()>;
+
+Scene read_scene(const SceneSource& source, const NamedTexts& given) {
+  return read_scene(source.values(), validation::scene_overrides(given), validation::Model::continuous);
+}
+
+struct PlannedScene {
+  Scene scene;
+  validation::Plan plan;
+};
+
+/// (report, why it does not give what was asked, or "")
+py::tuple plan(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes,
+               const std::optional<std::string>& within) {
+  const Scene scene = read_scene({name, text}, changes);
+  const auto is_given = [&](const char* argument) { return changes.contains(argument); };
+  const validation::PlanTarget target = validation::plan_target(scene, {within, is_given});
+  const auto planned = run_interruptible([&](const GoesOn& goes_on) {
+    Scene watched = scene;
+    watched.options.progress = [&](int, long) { return goes_on(); };
+    validation::Plan made = make_plan(watched, target);
+    made.scene.options.progress = nullptr;
+    return std::make_shared<const PlannedScene>(PlannedScene{scene, std::move(made)});
+  });
+  return py::make_tuple(Report{[planned] { return plan_report(planned->scene, planned->plan); }},
+                        plan_shortfall(planned->plan));
+}
+
+struct MeasuredScene {
+  Scene scene;
+  validation::Tradeoff tradeoff;
+};
+
+/// (report, why the reference falls short, or "")
+py::tuple tradeoff(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes) {
+  const Scene scene = read_scene({name, text}, changes);
+  if (scene.sweep) throw validation::BadInput("sweep: a sweep has no tradeoff; leave out [sweep]");
+  const auto measured = run_interruptible([&](const GoesOn& goes_on) {
+    validation::TradeoffOptions options;
+    options.progress = [&](std::size_t, std::size_t) { return goes_on(); };
+    return std::make_shared<const MeasuredScene>(MeasuredScene{scene, measure_tradeoff(scene, options)});
+  });
+  return py::make_tuple(Report{[measured] { return tradeoff_report(measured->scene, measured->tradeoff); }},
+                        measured->tradeoff.shortfall);
+}
+
+/// All rows on all cores.
+std::string rows_of(const validation::SweepPlan& plan, const GoesOn& goes_on) {
+  const validation::SweepBody body =
+      plan.body_axes.empty() ? make_sweep_body(plan, plan.scene) : validation::SweepBody{};
+  validation::RangeQueue queue({0, plan.points.count()}, range_size(plan));
+  std::string rows;
+  validation::SweepHooks hooks;
+  hooks.write = [&](const validation::RangeRows& some) { rows += some.text; };
+  hooks.tick = [] {};
+  hooks.stop = [&] { return !goes_on(); };
+  const int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  run_on_threads(queue, threads, runners_of(plan, body), hooks);
+  return rows;
+}
+
+/// (report, how many scenes fall short and why the first, or "")
+py::tuple sweep(const std::string& name, const std::optional<std::string>& text, const std::vector<std::string>& sets,
+                const NamedTexts& options) {
+  const auto option = [&](const char* word) -> std::optional<std::string> {
+    const auto found = options.find(word);
+    return found == options.end() ? std::nullopt : std::optional(found->second);
+  };
+  const validation::SweepPlan plan = validation::read_sweep_plan({.file = name,
+                                                                  .text = text,
+                                                                  .sets = sets,
+                                                                  .random = option("random"),
+                                                                  .seed = option("seed"),
+                                                                  .model = option("model"),
+                                                                  .rows = option("rows")});
+  const std::string rows = run_interruptible([&](const GoesOn& goes_on) { return rows_of(plan, goes_on); });
+  validation::ShortfallCount shortfalls(plan);
+  shortfalls.add(rows);
+  const auto report = std::make_shared<validation::Report>(plan.report());
+  report->grid.rows = validation::read_csv_rows(rows);
+  report->fields["rows"] = row_objects(report->grid);
+  return py::make_tuple(Report{[report] { return *report; }}, shortfalls.found().first());
+}
+
+}  // namespace
+
+void add_study_functions(py::module_& module) {
+  module.def("plan", &plan, py::arg("name"), py::arg("text"), py::arg("changes"), py::arg("within"),
+             "The smallest model that serves.");
+  module.def("tradeoff", &tradeoff, py::arg("name"), py::arg("text"), py::arg("changes"), "Cost against error.");
+  module.def("sweep", &sweep, py::arg("name"), py::arg("text"), py::arg("sets"), py::arg("options"),
+             "Many scenes, a row each.");
+}
+
+}  // namespace clatter::python
