@@ -73,7 +73,7 @@ constexpr int random_impacts_in_space = 4;
 
 Measured random_scenes_in_space(Laboratory& laboratory, int count) {
   const RandomSpaceResult result = run_random_space_scenes(
-      {.seed = family, .count = count, .impacts = random_impacts_in_space, .goes_on = laboratory.goes_on});
+      {.seed = random_family, .count = count, .impacts = random_impacts_in_space, .goes_on = laboratory.goes_on});
   if (!result.complete) throw Laboratory::Interrupted{};
   const bool explained = std::ranges::none_of(result.unsettled, &std::string::empty, &UnsettledImpact::explanation);
   return {100 * result.share(), 1 - result.share(),
