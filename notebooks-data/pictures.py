@@ -6,7 +6,7 @@ from typing import Callable
 
 import matplotlib
 import numpy as np
-from matplotlib.patches import Patch
+from matplotlib.patches import Patch, Polygon
 
 from plotting import BLUE, GREY, INK, PALETTE, RED, STYLES, Table, common_legend, logarithmic, new_figure, panel_legend
 from sources import Source
@@ -218,8 +218,68 @@ def draw_strip(axes, place, rows, shades):
                          hatch=HATCHES[what][0] if refused else None)
 
 
+CORNERS = Source("corner_sequence.csv", ("sequence", "phone-corner"),
+                 ("n", "corners", "place_x", "place_y", "place_z", "attitude_q0", "attitude_q1", "attitude_q2", "attitude_q3",
+                  "start", "impulse_normal"))
+VIEW = np.radians([-60, 18])  # azimuth and elevation from which the drop is seen
+FACES = [(axis, side) for axis in range(3) for side in (-1, 1)]
+
+
+def rotation(q):
+    """Body to world, Euler parameters with the scalar first."""
+    w, v = q[0], np.array(q[1:])
+    cross = np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+    return (w * w - v @ v) * np.eye(3) + 2 * np.outer(v, v) + 2 * w * cross
+
+
+def seen(points):
+    """Coordinates on the page of points [m]: to the right, upwards [mm]."""
+    azimuth, elevation = VIEW
+    right = np.array([-np.sin(azimuth), np.cos(azimuth), 0])
+    towards = np.array([np.cos(azimuth) * np.cos(elevation), np.sin(azimuth) * np.cos(elevation), np.sin(elevation)])
+    return 1e3 * np.stack([points @ right, points @ np.cross(towards, right)], axis=-1), towards
+
+
+def corner_sequence(data):
+    """A phone on its corner: its attitude at each impact, the corner that strikes and the impulse."""
+    table = Table.read(data / "figures" / CORNERS.file)
+    figure = new_figure(9.6, 3.2)
+    axes = figure.subplots()
+    axes.axhline(0, color=INK, linewidth=0.8)
+    for i in range(len(table["n"])):
+        place = np.array([table[f"place_{axis}"][i] for axis in "xyz"])
+        attitude = rotation([table[f"attitude_q{k}"][i] for k in range(4)])
+        corner = 140 * i - seen(-attitude @ place)[0][0]
+        draw_struck_box(axes, place, attitude, corner, table["impulse_normal"][i] / max(table["impulse_normal"]))
+        axes.annotate(f"impact {table['n'][i]:.0f}, corner {table['corners'][i]}\n{1e3 * table['start'][i]:.3g} ms, "
+                      f"{table['impulse_normal'][i]:.3g} N·s", (140 * i, -8), ha="center", va="top")
+    axes.set(aspect="equal", xlim=(-75, 140 * i + 75), ylim=(-32, 90), xlabel="along the page, one drop beside the other [mm]",
+             ylabel="height on the page [mm]")
+    axes.grid(False)
+    return figure
+
+
+def draw_struck_box(axes, place, attitude, at, impulse):
+    """The box of which `place` is a corner, that corner on the ground at `at`; hidden edges are thin."""
+    half = np.abs(place)
+    towards = seen(np.zeros(3))[1]
+    for axis, side in sorted(FACES, key=lambda face: face[1] * attitude[:, face[0]] @ towards):
+        others = [other for other in range(3) if other != axis]
+        corners = np.zeros((4, 3))
+        corners[:, axis] = side * half[axis]
+        for other, signs in zip(others, ([-1, 1, 1, -1], [-1, -1, 1, 1])):
+            corners[:, other] = np.array(signs) * half[other]
+        page = seen((corners - place) @ attitude.T)[0] + [at, 0]
+        hidden = side * attitude[:, axis] @ towards < 0
+        axes.add_patch(Polygon(page, facecolor="none" if hidden else BLUE + "30", edgecolor=GREY if hidden else INK,
+                               linewidth=0.5 if hidden else 1, linestyle=":" if hidden else "-"))
+    axes.annotate("", (at, 60 * impulse), (at, 0), arrowprops={"arrowstyle": "-|>", "color": RED, "linewidth": 1.5})
+    axes.plot(at, 0, color=RED, marker="o", markersize=4)
+
+
 PICTURES = {"contact_angles": Picture("contact_angles.svg", contact_angles),
             "regimes": Picture("figures/regimes.svg", regimes, REGIMES),
+            "corner_sequence": Picture("figures/corner_sequence.svg", corner_sequence, (CORNERS,)),
             "fold": Picture("figures/fold.svg", fold),
             "error_against_cost": Picture("figures/error_against_cost.svg", error_against_cost),
             "extremes_map": Picture("figures/extremes_map.svg", extremes_map, (EXTREMES,))}
