@@ -61,6 +61,7 @@ Motion::Motion(NumericTable table, const Reference& reference) : table_(std::mov
   }
   for (const std::string& name : in_space_ ? in_three : in_plane) column_.push_back(table_.column(name).value());
   check_rows();
+  for (std::size_t row = 0; in_space_ && row < table_.rows(); ++row) momenta_.push_back(angular_momentum(row));
   find_first_touch();
 }
 
@@ -94,7 +95,13 @@ space::State Motion::state(std::size_t row) const {
 }
 
 double Motion::energy(std::size_t row) const {
-  if (in_space_ || (lead_ && row == 0)) return reference_.energy(state(row));
+  if (lead_) return reference_.energy(state(row));
+  if (in_space_) {
+    const Vector3 velocity(number(row, 8), number(row, 9), number(row, 10));
+    const Vector3 rate(number(row, 11), number(row, 12), number(row, 13));
+    return (reference_.body.mass * velocity.squaredNorm() + rate.dot(momenta_[row])) / 2 +
+           reference_.body.mass * reference_.gravity * number(row, 3);
+  }
   const double vx = number(row, 4), vz = number(row, 5), omega = number(row, 6);
   return (reference_.body.mass * (vx * vx + vz * vz) + reference_.body.inertia(1, 1) * omega * omega) / 2 +
          reference_.body.mass * reference_.gravity * number(row, 2);
@@ -108,8 +115,12 @@ Vector3 Motion::angular_momentum(std::size_t row) const {
 Motion::Jump Motion::jump(std::size_t row) const {
   const double mass = reference_.body.mass, fall = reference_.gravity * (time(row + 1) - time(row));
   if (in_space_ || (lead_ && row == 0)) {
-    const Vector3 change = state(row + 1).velocity - state(row).velocity;
-    return {mass * (change + Vector3(0, 0, fall)), angular_momentum(row + 1) - angular_momentum(row)};
+    const auto velocity = [&](std::size_t i) {
+      return in_space_ && !lead_ ? Vector3(number(i, 8), number(i, 9), number(i, 10)) : state(i).velocity;
+    };
+    const Vector3 change = velocity(row + 1) - velocity(row);
+    const auto momentum = [&](std::size_t i) { return in_space_ && !lead_ ? momenta_[i] : angular_momentum(i); };
+    return {mass * (change + Vector3(0, 0, fall)), momentum(row + 1) - momentum(row)};
   }
   return {{mass * (number(row + 1, 4) - number(row, 4)), 0, mass * (number(row + 1, 5) - number(row, 5) + fall)},
           {0, -reference_.body.inertia(1, 1) * (number(row + 1, 6) - number(row, 6)), 0}};

@@ -57,6 +57,7 @@ class Motion {
   std::vector<std::size_t> column_;  ///< of each quantity of the request
   /// The reference's start, where the file begins right after the first impact.
   std::optional<analytic::space::State> lead_;
+  std::vector<analytic::space::Vector3> momenta_;  ///< angular, of each row of a file in space [N·m·s]
   double first_touch_ = 0, start_error_ = 0;
 };
 

@@ -92,7 +92,7 @@ int run_benchmark(const BenchmarkInput& input) {
 
 Command benchmark_command() {
   auto input = std::make_shared<BenchmarkInput>();
-  Command command{.name = "benchmark", .help = "problems with certified answers, and others' answers scored"};
+  Command command{.name = "benchmark", .help = "certified problems, and answers of others"};
   command.add({.name = "ACTION",
                .target = &input->action,
                .type = "list|show|truth|score",

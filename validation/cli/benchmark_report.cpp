@@ -14,7 +14,7 @@
 namespace clatter::validation {
 namespace {
 
-constexpr int certain = 15;
+constexpr int certain = 12;
 
 std::vector<Column> truth_columns(bool in_space) {
   std::vector<Column> columns{{"n", "n", "", "number of the impact"},
@@ -46,8 +46,8 @@ Grid truth_grid(const Problem& problem, const std::string& law) {
   Grid grid{truth_columns(in_space), {}};
   int n = 0;
   for (const TruthRow& row : truth_of(problem, law)) {
-    Row cells{Cell(++n), Cell(row.time, certain), Cell(row.place)};
-    const auto add = [&](double number) { cells.emplace_back(number, in_space ? 8 : certain - 3); };
+    Row cells{Cell(++n), Cell(row.time, in_space ? 9 : certain), Cell(row.place)};
+    const auto add = [&](double number) { cells.emplace_back(number, in_space ? 6 : 9); };
     if (in_space) {
       for (const auto* vector : {&row.impulse, &row.velocity, &row.angular_velocity}) {
         for (int i = 0; i < 3; ++i) add((*vector)[i]);
@@ -133,6 +133,28 @@ std::string asked_words(const Problem& problem) {
   return words + "; place, time, and V and Ω after each";
 }
 
+std::string equations_of(const Problem& problem) {
+  const std::string flight = "between impacts a parabola and torque-free turning";
+  if (problem.is_compliant) {
+    return "pressure f = (k + c ddelta/dt) delta on each place at the depth delta below z = 0, over the body's "
+           "projected "
+           "area, k and c the ground's stiffness and damping; Newton's and Euler's equations with its resultant; " +
+           flight;
+  }
+  const std::string contact = "an impulse P at the place r from the centre of mass: m dV = P, dL = r x P; ";
+  if (!problem.scene.impact.friction) {
+    return contact +
+           "without friction P = -(1 + e) u/(1/m + (r x n) I^-1 (r x n)), n upward, u the place's normal "
+           "velocity; " +
+           flight;
+  }
+  return contact +
+         "Coulomb's law |P_t| <= mu P_n, against the slip: at every instant of the impact (routh) or for the "
+         "velocity at its end (moreau); e relates velocities (newton), impulses (poisson) or works (stronge) "
+         "of compression and restitution; " +
+         flight;
+}
+
 std::vector<std::string> data_lines(const Problem& problem) {
   std::vector<std::string> lines{
       "data: the scene below in the keys of scene files (clatter keys); floor z = 0, x to the right, y into the page; "
@@ -145,10 +167,7 @@ std::vector<std::string> data_lines(const Problem& problem) {
     else if (!line.empty()) lines.push_back("  " + table + "." + line);
   }
   for (const double gap : problem.gaps) lines.push_back("  " + start_words(problem, gap));
-  lines.push_back(
-      "equations: P = -(1 + e) u / (1/m + d^2/I) at the point that strikes without friction, d its horizontal "
-      "distance from the centre of mass, u its normal velocity; V += P/m, angular momentum by r x P; "
-      "between impacts parabola and torque-free turning");
+  lines.push_back("equations: " + equations_of(problem));
   return lines;
 }
 

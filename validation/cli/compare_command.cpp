@@ -136,7 +136,7 @@ Command compare_command() {
   add_plot_options(command, input->plot);
   command.footer =
       "Example: clatter compare validation/cases/phone-damped.toml --impacts 2\n"
-      "With --against FILE a foreign run is judged by the discrete model: its impacts, V, Ω, t, energy.\n"
+      "With --against FILE a foreign run is judged by the discrete model: its impacts, velocities, times, energy.\n"
       "Exit status 1 if the stiff limit of the continuous model misses the discrete value,\n"
       "3 if a limit or a number that could not be computed left fewer impacts than asked for,\n"
       "4 if nothing can be compared.";

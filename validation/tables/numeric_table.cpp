@@ -59,6 +59,7 @@ class NumericTable::Parser {
     check_names();
     const std::string_view text = table_.text_;
     std::size_t offset = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+    lines_ = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
     while (offset < text.size()) {
       const std::size_t end = std::min(text.find('\n', offset), text.size());
       ++line_;
@@ -131,6 +132,9 @@ class NumericTable::Parser {
       table_.kind_[i] = static_cast<int>(table_.columns_.size());
       table_.columns_.push_back(wanted[i]);
     }
+    table_.starts_.reserve(lines_);
+    table_.numbers_.reserve(lines_ * table_.columns_.size());
+    table_.texts_.reserve(lines_ * table_.words_.size());
   }
 
   /// Where the file has the column that the reader knows as `name`.
@@ -174,7 +178,7 @@ class NumericTable::Parser {
 
   NumericTable& table_;
   const TableRequest& request_;
-  std::size_t line_ = 0;
+  std::size_t line_ = 0, lines_ = 0;
 };
 
 std::string NumericTable::text_of(const std::string& path) {

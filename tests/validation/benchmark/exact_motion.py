@@ -8,7 +8,7 @@ PROGRAM = os.environ["CLATTER_PROGRAM"]
 
 
 def run(*arguments):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=300)
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=3600)
 
 
 def told(*arguments):

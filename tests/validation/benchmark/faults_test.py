@@ -305,6 +305,14 @@ class PlantedFaults(unittest.TestCase):
                 done = exact_motion.run("benchmark", "score", str(path), "--require", "exact")
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
+    def test_an_error_of_restitution_is_measured_as_such_where_the_instant_is_resolved(self):
+        # An impulse (1 + e') P in place of (1 + e) P errs by their difference over the larger, gravity or not.
+        for name, n, wrong, right in (("e = 0.52 at the third impact", 3, 0.52, 0.5), ("e = 0.75 for 0.8", 1, 0.75, 0.8),
+                                      ("e = 0.99 at the second impact", 2, 0.99, 1.0)):
+            with self.subTest(name):
+                error = self.scored[name]["impact_scores"][n - 1]["law_error"]
+                self.assertAlmostEqual(error, abs(wrong - right) / (1 + max(wrong, right)), delta=1e-9)
+
     def test_a_wrong_law_is_found_at_the_impact_that_breaks_it(self):
         for name, place in (("e = 1.01 at the first impact", 0), ("e = 0.99 at the second impact", 1),
                             ("e = 0.99 at the third impact", 2), ("e = 0.52 at the third impact", 2)):

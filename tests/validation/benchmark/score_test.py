@@ -289,7 +289,7 @@ class BadFiles(Folder):
                 else:
                     text = text[:at]
             done = subprocess.run([exact_motion.PROGRAM, "benchmark", "score", self.put(bytes(text))],
-                                  capture_output=True, timeout=60)
+                                  capture_output=True, timeout=3600)
             self.assertIn(done.returncode, (0, 2), (i, done.stderr, bytes(text)))
             refused += done.returncode == 2
             self.assertEqual(done.stderr.count(b"\n"), 1 if done.returncode else 0)
@@ -302,7 +302,7 @@ class Installed(Folder):
         motion = Motion("thick-rod", 1)
         self.put(motion.text(motion.rows(1 / 200)))
         done = subprocess.run([program, "benchmark", "score", "run.csv", "--require", "exact"], cwd=self.folder,
-                              env={"PATH": "/usr/bin:/bin"}, capture_output=True, text=True, timeout=60)
+                              env={"PATH": "/usr/bin:/bin"}, capture_output=True, text=True, timeout=3600)
         self.assertEqual(done.returncode, 0, done.stderr)
 
 
