@@ -185,10 +185,14 @@ std::string NumericTable::text_of(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) throw BadInput(path + ": is a directory, must be a CSV file");
   std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  if (!file || file.bad()) throw BadInput(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
-  return std::move(text).str();
+  if (!file) throw BadInput(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+  std::string text;
+  std::vector<char> part(std::size_t{1} << 20);
+  while (file.read(part.data(), static_cast<std::streamsize>(part.size())) || file.gcount() > 0) {
+    text.append(part.data(), static_cast<std::size_t>(file.gcount()));
+  }
+  if (file.bad()) throw BadInput(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+  return text;
 }
 
 std::vector<std::string> NumericTable::header_of(std::string_view text) {
