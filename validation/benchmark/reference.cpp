@@ -86,10 +86,13 @@ void add_states(const Reference& reference, ReferenceSequence& sequence) {
   }
 }
 
+// Rows from the first that cannot be predicted on are no truth.
+
 std::vector<TruthRow> planar_truth(const analytic::Drop& drop, int impacts) {
   const analytic::Sequence sequence = impact_sequence(drop, {.impacts = impacts});
   std::vector<TruthRow> rows;
   for (const analytic::ImpactRow& row : sequence.rows) {
+    if (!row.error.predictable) break;
     const analytic::PlanarVelocity& after = row.impact.after;
     rows.push_back({.place = analytic::PlanarBody::vertex_set_name(row.vertices),
                     .time = row.start,
@@ -105,6 +108,7 @@ std::vector<TruthRow> space_truth(const Reference& reference, const space::Drop&
   const space::Sequence sequence = impact_sequence(drop, {.impacts = impacts});
   std::vector<TruthRow> rows;
   for (const space::ImpactRow& row : sequence.rows) {
+    if (!row.error.predictable) break;
     std::vector<int> group;
     for (const space::Corner& corner : row.corners) group.push_back(corner.index);
     std::sort(group.begin(), group.end());
@@ -239,6 +243,12 @@ Reference reference_of(const Scene& scene) {
     set_space(reference, scene, drop);
     touch_down(reference);
     sequence = {.law = {.name = "any", .law = drop.law}, .truth = space_truth(reference, drop, impacts), .after = {}};
+  }
+  const std::size_t known = sequence.truth.size();
+  if (known > 0 && known < static_cast<std::size_t>(impacts)) {
+    reference.remark =
+        fmt::format("the truth has {} impact{}: nothing strikes after them, or rounding decides what does", known,
+                    known == 1 ? "" : "s");
   }
   if (sequence.truth.empty()) throw BadInput(reference.name + ": the scene has no impact to compare with");
   add_states(reference, sequence);

@@ -45,6 +45,7 @@ struct Reference {
   std::vector<double> tolerances{1e-9, 1e-6, 1e-3, 1e-2};
   std::optional<double> until;  ///< no impact more until then, since the first touch [s]
   std::vector<ReferenceSequence> sequences;
+  std::string remark{};  ///< on the truth, for readers; empty: none
 
   [[nodiscard]] double reach() const { return body.reach(); }
   /// Speed at the first touch, of translation and of turning [m/s].

@@ -71,8 +71,9 @@ SubmissionHead head_of(const NumericTable& table) {
 }
 
 Submission judge(ReadFile file, const SubmissionHead& head, const Reference& reference) {
-  Submission submission{.path = file.table.path(), .head = head, .is_list = file.is_list, .score = {}};
+  Submission submission{.path = file.table.path(), .head = head, .is_list = file.is_list, .remark = {}, .score = {}};
   if (file.is_list) {
+    if (is_counter_clockwise(file.table, reference)) submission.remark = "Omega is read as positive counter-clockwise";
     submission.score = score_list(listed_impacts(file.table, reference), reference, head.law);
   } else {
     const Motion motion(std::move(file.table), reference);

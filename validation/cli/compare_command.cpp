@@ -57,6 +57,8 @@ int compare_foreign(const CompareInput& input) {
   Report report = score_report("compare", submissions);
   report.head = scene_head(scene, Model::discrete);
   report.fields["scene"] = scene_value(scene, Model::discrete);
+  report.fields["message"] = text_or_nothing(reference.remark);
+  if (!reference.remark.empty()) report.notes.push_back(reference.remark);
   write_report(choice, report);
   return is_met ? 0 : check_failed;
 }

@@ -146,6 +146,7 @@ Report score_report(const std::string& command, const std::vector<Submission>& s
     files.push_back(submission_value(report.grid.columns, one));
     worst = std::max(worst, one.verdict);
     const std::string name = std::filesystem::path(one.path).filename().string();
+    if (!one.remark.empty()) report.notes.push_back(name + ": " + one.remark);
     for (const std::string& finding : one.score.findings) report.notes.push_back(name + ": " + finding);
     if (!one.score.law_is_declared && one.score.law != "any") {
       report.notes.push_back(name + ": declares no law; judged by the one that fits best, " + one.score.law);
