@@ -41,6 +41,13 @@ int run_list(const BenchmarkInput& input, const OutputChoice& choice) {
   return 0;
 }
 
+int run_show(const BenchmarkInput& input, const OutputChoice& choice) {
+  const Problem& problem = named_problem(input);
+  const bool in_markdown = choice.style.format == Format::markdown;
+  write_report(choice, in_markdown ? markdown_statement(problem) : benchmark_statement(problem));
+  return 0;
+}
+
 int run_truth(const BenchmarkInput& input, const OutputChoice& choice) {
   const Problem& problem = named_problem(input);
   const std::vector<std::string> laws = truth_laws(problem);
@@ -82,7 +89,7 @@ int run_benchmark(const BenchmarkInput& input) {
   check_files(choice, {}, read);
   switch (action) {
     case 0: return run_list(input, choice);
-    case 1: write_report(choice, benchmark_statement(named_problem(input))); return 0;
+    case 1: return run_show(input, choice);
     case 2: return run_truth(input, choice);
     default: return run_score(input, choice);
   }

@@ -257,6 +257,21 @@ Report benchmark_statement(const Problem& problem) {
   return report;
 }
 
+Report markdown_statement(const Problem& problem) {
+  Report report = benchmark_statement(problem);
+  report.title = "# " + problem.id + ": " + problem.title;
+  bool in_list = false;
+  for (std::string& line : report.head) {
+    const bool is_item = line.starts_with("  ");
+    const std::size_t colon = line.find(':');
+    if (is_item) line = (in_list ? "- `" : "\n- `") + line.substr(2) + "`";
+    else if (colon < 40) line = "\n**" + line.substr(0, colon + 1) + "**" + line.substr(colon + 1);
+    else line = "\n" + line;
+    in_list = is_item;
+  }
+  return report;
+}
+
 Report benchmark_truth_report(const Problem& problem, const std::string& law) {
   Report report = begun_report("benchmark", "the truth of " + problem.id);
   report.head = {"problem: " + problem.id, "truth by " + oracle_of(problem)};

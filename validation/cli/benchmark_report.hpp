@@ -15,6 +15,8 @@ namespace clatter::validation {
 /// The statement in the form of the IFToMM library of computational benchmark problems: motivation, data, what is
 /// asked, error, acceptance, results.
 [[nodiscard]] Report benchmark_statement(const Problem& problem);
+/// The same with its head as paragraphs and lists of Markdown.
+[[nodiscard]] Report markdown_statement(const Problem& problem);
 /// The truth by `law`, in columns that `clatter benchmark score` reads.
 [[nodiscard]] Report benchmark_truth_report(const Problem& problem, const std::string& law);
 

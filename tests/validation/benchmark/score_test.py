@@ -44,8 +44,8 @@ class Problems(unittest.TestCase):
         for problem in IDS:
             with self.subTest(problem):
                 text = run("benchmark", "show", problem, "--format", "markdown").stdout
-                for part in ("motivation: ", "separates: ", "data: ", "equations: ", "law", "asked: ", "error: ",
-                             "acceptance: ", "results: as text", "truth by "):
+                for part in ("**motivation:** ", "**separates:** ", "**data:** ", "**equations:** ", "law", "**asked:** ",
+                             "**error:** ", "**acceptance:** ", "**results:** as text", "truth by ", "run.impacts = "):
                     self.assertIn(part, text)
 
     def test_a_scene_in_a_statement_is_a_scene_file(self):
