@@ -138,6 +138,7 @@ Command compare_command() {
   add_plot_options(command, input->plot);
   command.footer =
       "Example: clatter compare validation/cases/phone-damped.toml --impacts 2\n"
+      "         clatter compare phone-corner --impacts 8 (in space, corner by corner)\n"
       "With --against FILE a foreign run is judged by the discrete model: its impacts, velocities, times, energy.\n"
       "Exit status 1 if the stiff limit of the continuous model misses the discrete value,\n"
       "3 if a limit or a number that could not be computed left fewer impacts than asked for,\n"

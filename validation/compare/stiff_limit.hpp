@@ -45,6 +45,9 @@ struct LimitRequest {
 /// smallest feature; then a + b T + c T² through three runs (T^(1+1/p) in place of T² where a contact sticks and lets
 /// go) gives the value at T = 0, and the changes from one triple of runs to the next its error.  Impacts whose relative
 /// error bar stays above 1e-3 have no limit here, nor do those after them.
+///
+/// In space friction acts at the pressure centre alone (numeric::Options::point_friction): what a patch's spin does to
+/// it vanishes with the patch, so that the limit is the same, and the bars hold the stiffest run's own error estimates.
 [[nodiscard]] StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, const LimitRequest& request);
 
 }  // namespace clatter::validation

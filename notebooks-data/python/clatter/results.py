@@ -159,7 +159,9 @@ class Comparison(Result):
 
     impacts: records with n, comparable, predictable, reason, discrete_end, continuous_end, contact_time, limit_is_discrete and
     numbers: by quantity (start, contact_angle_deg, impulse_normal ...) discrete, continuous, deviation and the error of
-    each (discrete_error ...), predicted, limit, limit_error, allowance.
+    each (discrete_error ...), predicted, limit, limit_error, allowance.  In space the quantities are start,
+    contact_angle_deg, impulse_x, velocity_after_x, angular_velocity_after_x ... with _y and _z, the ends are corners, and
+    explanation says why an impact has no limit within its bar.
     """
 
     def __init__(self, report: Report) -> None:
