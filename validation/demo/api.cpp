@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 
 #include "validation/cli/angles_report.hpp"
@@ -13,7 +14,6 @@
 #include "validation/cli/history_file.hpp"
 #include "validation/cli/sequence_report.hpp"
 #include "validation/cli/simulation_report.hpp"
-#include "validation/embedded/embedded.hpp"
 #include "validation/output/number.hpp"
 #include "validation/plan/planned_run.hpp"
 #include "validation/plan/sequence_method.hpp"
@@ -65,20 +65,36 @@ void limit(const char* what, long long count, long long most) {
   throw BadInput(fmt::format("{} {}: at most {} here; the command line has no such limit", what, count, most));
 }
 
-Scene discrete_scene(const NamedTexts& texts) {
-  Scene scene = read_discrete_scene(scene_values(""), scene_overrides(texts));
+/// The case that is named, taken out of the arguments; nothing if none is.
+std::optional<SceneValues> case_values(NamedTexts& texts) {
+  const std::string name = taken(texts, "case");
+  if (name.empty()) return std::nullopt;
+  return SceneValues("scene", case_text(name), scene_keys());
+}
+
+/// What a page can show.
+Scene shown(Scene scene) {
+  if (scene.body.shape == BodyScene::Shape::mesh)
+    throw BadInput("body 'mesh': must be rod or box; a page can name no file");
+  if (scene.sweep) throw BadInput("case: sweeps a quantity; give another");
   limit("impacts", scene.options.impacts, most_impacts);
   return scene;
 }
 
+/// The case or flags alone, with the arguments in it; in the plane or in space.
+Scene discrete_scene(NamedTexts texts) {
+  const std::optional<SceneValues> given = case_values(texts);
+  return shown(read_discrete_scene(given ? *given : scene_values(""), scene_overrides(texts)));
+}
+
 Value sequence(NamedTexts texts) {
-  const Scene scene = discrete_scene(texts);
+  const Scene scene = discrete_scene(std::move(texts));
   return sequence_report(scene, run_discrete(scene, SequenceMethod::automatic)).fields;
 }
 
 Value explain(NamedTexts texts) {
   const int n = read_integer_option("impact", taken(texts, "impact"), 1, most_impacts);
-  return explanation_fields(explain_impact(discrete_scene(texts), n));
+  return explanation_fields(explain_impact(discrete_scene(std::move(texts)), n));
 }
 
 Value angles(NamedTexts texts) {
@@ -87,23 +103,11 @@ Value angles(NamedTexts texts) {
   return angles_report(request).fields;
 }
 
-/// A scene that comes with the program, or an empty one, with the arguments in it.
+/// The case or an empty scene, with the arguments in it.
 Scene continuous_scene(NamedTexts texts) {
-  const std::string name = taken(texts, "case");
-  std::string_view text;
-  if (!name.empty()) {
-    const std::string path = "validation/cases/" + name + ".toml";
-    for (const EmbeddedFile& file : embedded_files()) {
-      if (file.name == path) text = file.text;
-    }
-    if (text.empty()) throw BadInput(fmt::format("case '{}': there is none of this name", name));
-  }
-  const SceneValues values("scene", text, scene_keys());
-  Scene scene = read_scene(values, scene_overrides(texts), Model::continuous);
-  if (scene.body.shape == BodyScene::Shape::mesh)
-    throw BadInput("body 'mesh': must be rod or box; a page can name no file");
-  if (scene.sweep) throw BadInput(fmt::format("case '{}': sweeps a quantity; give another", name));
-  limit("impacts", scene.options.impacts, most_impacts);
+  const std::optional<SceneValues> given = case_values(texts);
+  Scene scene = shown(
+      read_scene(given ? *given : SceneValues("scene", "", scene_keys()), scene_overrides(texts), Model::continuous));
   scene.options.evaluation_limit = std::min<long>(scene.options.evaluation_limit, most_evaluations);
   return scene;
 }
@@ -185,12 +189,8 @@ std::string error_json(const std::string& words, int exit_status) {
 }
 
 std::string cases_json() {
-  constexpr std::string_view folder = "validation/cases/", extension = ".toml";
   Value cases;
-  for (const EmbeddedFile& file : embedded_files()) {
-    if (!file.name.starts_with(folder)) continue;
-    const std::string_view base = file.name.substr(folder.size());
-    const std::string name(base.substr(0, base.size() - extension.size()));
+  for (const std::string& name : case_names()) {
     const Scene scene = case_scene(name);
     if (!scene.sweep) cases[name] = scene_value(scene);
   }

@@ -180,16 +180,6 @@ bool is_plain_name(const std::string& source) { return source.find_first_of("./\
 
 std::string case_path(const std::string& name) { return "validation/cases/" + name + ".toml"; }
 
-std::vector<std::string> case_names() {
-  std::vector<std::string> names;
-  const std::string before = case_path(""), folder = before.substr(0, before.rfind('/') + 1);
-  for (const EmbeddedFile& file : embedded_files()) {
-    const std::filesystem::path path(file.name);
-    if (std::string_view(file.name).starts_with(folder)) names.push_back(path.stem().string());
-  }
-  return names;
-}
-
 }  // namespace
 
 void Scene::settle() {
@@ -204,13 +194,30 @@ void Scene::settle() {
   if (!attitude.empty()) angle_deg = inclination_of(attitude);
 }
 
+std::vector<std::string> case_names() {
+  std::vector<std::string> names;
+  const std::string before = case_path(""), folder = before.substr(0, before.rfind('/') + 1);
+  for (const EmbeddedFile& file : embedded_files()) {
+    const std::filesystem::path path(file.name);
+    if (std::string_view(file.name).starts_with(folder)) names.push_back(path.stem().string());
+  }
+  return names;
+}
+
+std::string_view case_text(const std::string& name) {
+  const std::vector<std::string> names = case_names();
+  if (std::find(names.begin(), names.end(), name) != names.end()) return embedded_text(case_path(name));
+  throw BadInput(
+      fmt::format("case '{}': there is none of this name; did you mean {}?", name, nearest_name(name, names)));
+}
+
 SceneValues scene_values(const std::string& source) {
   if (source.empty()) return {"", "", scene_keys()};
   std::error_code error;
   if (!is_plain_name(source) || std::filesystem::exists(source, error)) return {source, scene_keys()};
   const std::vector<std::string> names = case_names();
   if (std::find(names.begin(), names.end(), source) != names.end()) {
-    return {case_path(source), embedded_text(case_path(source)), scene_keys()};
+    return {case_path(source), case_text(source), scene_keys()};
   }
   throw BadInput(fmt::format("{}: neither a file nor a case; did you mean {}?", source, nearest_name(source, names)));
 }
@@ -224,8 +231,7 @@ Scene read_scene(const std::string& source, const std::vector<SceneOverride>& ov
 }
 
 Scene case_scene(const std::string& name, const std::vector<SceneOverride>& overrides) {
-  const std::string path = case_path(name);
-  return read_values({path, embedded_text(path), scene_keys()}, overrides, Model::continuous);
+  return read_values({case_path(name), case_text(name), scene_keys()}, overrides, Model::continuous);
 }
 
 }  // namespace clatter::validation

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analytic/impact_law.hpp"
@@ -117,7 +118,11 @@ struct Scene {
 [[nodiscard]] Scene read_scene(const std::string& source, const std::vector<SceneOverride>& overrides,
                                Model model = Model::continuous);
 
-/// The scene of a case.  @throws std::out_of_range if there is none of this name.
+/// Names of the cases that come with the program.
+[[nodiscard]] std::vector<std::string> case_names();
+/// The text of a case.  @throws BadInput if there is none of this name, with the nearest.
+[[nodiscard]] std::string_view case_text(const std::string& name);
+/// The scene of a case.  @throws as case_text
 [[nodiscard]] Scene case_scene(const std::string& name, const std::vector<SceneOverride>& overrides = {});
 
 [[nodiscard]] const char* method_name(numeric::Method method);

@@ -11,7 +11,6 @@
 #include "validation/cli/history_file.hpp"
 #include "validation/cli/simulation_report.hpp"
 #include "validation/cli/swept_comparison_report.hpp"
-#include "validation/embedded/embedded.hpp"
 #include "validation/plan/planned_run.hpp"
 #include "validation/scene/named_texts.hpp"
 
@@ -101,13 +100,8 @@ Report compare(const std::string& name, const std::optional<std::string>& text, 
 
 /// Name to text of the scene files that the program carries.
 std::map<std::string, std::string> cases() {
-  constexpr std::string_view folder = "validation/cases/", extension = ".toml";
   std::map<std::string, std::string> texts;
-  for (const validation::EmbeddedFile& file : validation::embedded_files()) {
-    if (!file.name.starts_with(folder)) continue;
-    const std::string_view name = file.name.substr(folder.size());
-    texts.emplace(name.substr(0, name.size() - extension.size()), file.text);
-  }
+  for (const std::string& name : validation::case_names()) texts.emplace(name, validation::case_text(name));
   return texts;
 }
 

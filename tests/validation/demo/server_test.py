@@ -17,6 +17,10 @@ from pathlib import Path
 from running_demo import JSON, PROGRAM, Demo, WithServer, free_port, printed
 
 
+BOX = {"body": "box", "size": [0.10566, 0.04394, 0.01905]}
+IN_WORDS = ["--body", "box", "--size", "0.10566x0.04394x0.01905"]
+
+
 class Answers(WithServer):
     def test_they_are_what_the_program_prints(self):
         for path, arguments, command in (
@@ -24,7 +28,13 @@ class Answers(WithServer):
                 ("sequence", {"angle": 12.5, "body": "box", "size": [0.10566, 0.04394, 0.01905], "friction": 0.1},
                  ["sequence", "--angle", "12.5", "--body", "box", "--size", "0.10566x0.04394x0.01905", "--friction", "0.1"]),
                 ("angles", {"step": 10, "gravity_number": 0.1}, ["angles", "--step", "10", "--gravity-number", "0.1"]),
-                ("explain", {"angle": 10, "impact": 2}, ["explain", "2", "--angle", "10"])):
+                ("explain", {"angle": 10, "impact": 2}, ["explain", "2", "--angle", "10"]),
+                ("sequence", {"angle": 30, "tilt": 40, **BOX, "friction": 0.3}, ["sequence", "--angle", "30", "--tilt", "40", *IN_WORDS,
+                                                                               "--friction", "0.3"]),
+                ("sequence", {"orientation": 22, **BOX, "velocity": [0.1, 0.2, -1]}, ["sequence", "--orientation", "22", *IN_WORDS,
+                                                                                      "--velocity", "0.1,0.2,-1.0"]),
+                ("explain", {"attitude": [0.8, 0.36, -0.48, 0], **BOX, "gravity": 9.81, "impact": 2},
+                 ["explain", "2", "--attitude", "0.8,0.36,-0.48,0", *IN_WORDS, "--gravity", "9.81"])):
             with self.subTest(path=path, arguments=arguments):
                 status, headers, text = self.demo.post(f"/api/{path}", arguments)
                 self.assertEqual((status, headers["Content-Type"]), (200, "application/json; charset=utf-8"))
@@ -56,6 +66,14 @@ class Answers(WithServer):
         self.assertEqual(cases["phone-damped"]["ground"]["damping"], 1e7)
         answer = json.loads(self.demo.post("/api/simulate", {"case": "phone-damped", "impacts": 1})[2])
         self.assertEqual(answer["scene"]["ground"], cases["phone-damped"]["ground"])
+
+    def test_the_discrete_model_takes_the_cases_too_those_in_space_among_them(self):
+        for case in ("phone-corner", "rod-10"):
+            answer = json.loads(self.demo.post("/api/sequence", {"case": case, "friction": 0.2})[2])
+            expected = json.loads(printed("sequence", case, "--friction", "0.2"))
+            self.assertEqual(answer["impacts"], expected["impacts"])
+            steps = json.loads(self.demo.post("/api/explain", {"case": case, "friction": 0.2, "impact": 1})[2])["steps"]
+            self.assertEqual(steps, json.loads(printed("explain", "1", case, "--friction", "0.2"))["steps"])
 
     def test_two_hundred_at_once_are_all_right(self):
         angles = [5 + 0.25 * i for i in range(200)]
@@ -111,6 +129,8 @@ class Refusals(WithServer):
                 ("angles", {"count": 1000000}, "count 1000000"), ("explain", {"angle": 10}, "impact ''"),
                 ("simulate", {"angle": 10}, "ground.stiffness: required"), ("simulate", {"case": "phone-dampd"}, "case 'phone-dampd'"),
                 ("simulate", {"case": "../cases/rod-45"}, "case '../cases/rod-45'"), ("simulate", {"case": "rod-sweep"}, "sweeps"),
+                ("sequence", {"case": "phone-corer"}, "did you mean phone-corner?"), ("explain", {"case": "rod-friction-sweep", "impact": 1}, "sweeps"),
+                ("sequence", {"case": "../cases/rod-45"}, "case '../cases/rod-45'"),
                 ("compare", {"angle": 10, "stiffness": -1}, "stiffness '-1'")):
             with self.subTest(path=path, arguments=arguments):
                 self.refused(self.demo.post(f"/api/{path}", arguments), 400, words)
