@@ -100,4 +100,4 @@ void simulate(const league::Problem& problem, league::Trajectory& trajectory) {
 
 }  // namespace
 
-int main() { return league::run_all({"MuJoCo 2", mj_versionString(), "compliant"}, simulate); }
+int main() { return league::run_all({"MuJoCo 2", mj_versionString(), "newton routh"}, simulate); }

@@ -53,8 +53,8 @@ struct Problem {
   double phi() const { return -2 * std::atan2(attitude[2], attitude[0]); }
   double omega() const { return -angular_velocity[1]; }
   double planar_inertia() const { return inertia[1]; }
-  void require_plane() const {
-    if (space) throw Unsupported("an engine of the plane");
+  void require_plane(const char* reason = "an engine of the plane") const {
+    if (space) throw Unsupported(reason);
   }
 };
 
@@ -69,7 +69,7 @@ inline std::vector<Vector3> contact_points(const Problem& problem) {
 
 struct Engine {
   std::string name, version;
-  std::string law = "newton";
+  std::string law = "newton moreau";
 };
 
 /// Rows of one run.
@@ -97,8 +97,8 @@ class Trajectory {
   void write(const Engine& engine) const {
     std::ofstream file(problem_.output);
     file << "# engine: " << engine.name << "\n# version: " << engine.version << "\n# problem: " << problem_.id
-         << "\n# step: " << exact(problem_.step) << "\n# settings: " << problem_.settings << "\n# law: " << engine.law
-         << '\n'
+         << "\n# step: " << exact(problem_.step) << "\n# settings: " << problem_.settings
+         << "\n# law: " << (law.empty() ? engine.law : law) << '\n'
          << (problem_.space ? "t,x,y,z,q0,q1,q2,q3,vx,vy,vz,wx,wy,wz\n" : "t,x,z,phi,vx,vz,omega\n");
     for (const auto& row : rows_) {
       for (std::size_t i = 0; i < row.size(); ++i) file << (i ? "," : "") << exact(row[i]);
@@ -120,6 +120,7 @@ class Trajectory {
   }
 
   double seconds = 0;
+  std::string law;  // where the settings choose another than the engine's
   /// Time of the next row; an engine that chooses its own steps sets it before it adds a row.
   double own_time = NAN;
 

@@ -22,13 +22,14 @@ void record_events(const league::Problem& problem, EventDriven& simulation, Lagr
 }
 
 void simulate(const league::Problem& problem, league::Trajectory& trajectory) {
-  problem.require_plane();
+  problem.require_plane("the adapter is written for the plane");
   if (problem.friction > 0) throw league::Unsupported("this integrator takes no friction");
   const auto body = league::falling_body<LagrangianDS>(problem);
   const auto world = league::over_floor(problem, body);
   const auto integrator = std::make_shared<LsodarOSI>();
   const auto simulation = std::make_shared<EventDriven>(world, std::make_shared<TimeDiscretisation>(0, problem.step));
   simulation->insertIntegrator(integrator);
+  // LsodarOSI.hpp: 10 and 100 times the machine's precision, as default tolerances, relative and absolute.
   simulation->insertNonSmoothProblem(std::make_shared<LCP>(), SICONOS_OSNSP_ED_IMPACT);
   simulation->insertNonSmoothProblem(std::make_shared<LCP>(), SICONOS_OSNSP_ED_SMOOTH_ACC);
   simulation->initialize();

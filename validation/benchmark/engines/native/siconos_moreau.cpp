@@ -6,7 +6,7 @@
 namespace {
 
 void simulate(const league::Problem& problem, league::Trajectory& trajectory) {
-  problem.require_plane();
+  problem.require_plane("the adapter is written for the plane");
   const auto body = league::falling_body<LagrangianLinearTIDS>(problem);
   const auto world = league::over_floor(problem, body);
   const auto integrator = std::make_shared<MoreauJeanOSI>(0.5);

@@ -80,6 +80,7 @@ void simulate(const league::Problem& problem, league::Trajectory& trajectory) {
   body.setUToFitVelocity(start, SimTK::SpatialVec(vector(problem.angular_velocity), vector(problem.velocity)));
   SimTK::SemiExplicitEulerTimeStepper stepper(system);
   if (problem.tuned()) use_tuned_settings(stepper);
+  if (!problem.tuned()) trajectory.law = "poisson routh";
   stepper.initialize(start);
   int steps = 0;
   trajectory.record([&] { stepper.stepTo(++steps * problem.step); },

@@ -63,7 +63,7 @@ class Trajectory {
   write(engine) {
     const { problem } = this;
     const heads = { engine: engine.name, version: engine.version, problem: problem.problem, step: problem.step,
-                    settings: problem.settings, law: engine.law ?? 'newton' };
+                    settings: problem.settings, law: engine.law ?? 'newton moreau' };
     const columns = problem.space ? 't,x,y,z,q0,q1,q2,q3,vx,vy,vz,wx,wy,wz' : 't,x,z,phi,vx,vz,omega';
     const lines = [...Object.entries(heads).map(([key, value]) => `# ${key}: ${value}`), columns, ...this.rows.map(row => row.join(','))];
     writeFileSync(problem.output, lines.join('\n') + '\n');
