@@ -14,6 +14,7 @@ from pathlib import Path
 ROD_RADIUS = 1e-4  # of the length: spheres that stand for the ends of a thin rod
 SLENDER_INERTIA = 0.01  # of the largest: about the rod's axis, which no motion of the plane feels and some engines need
 STEPS_AFTER_THE_END = 2
+LONG_RUN = 120  # impacts, more than any problem has until its end
 AFTER_THE_LAST = 0.05  # s after the last impact that is asked for
 TURNING_STEPS = 400  # of Runge and Kutta's method over a flight of some milliseconds: rounding is all that is left
 
@@ -34,8 +35,10 @@ class Problem:
     attitude: tuple
     velocity: tuple
     spin: tuple  # angular velocity
+    cylinder: float  # radius of a rod that has one: in its plane it touches as a box does
     gaps: tuple
     until: float  # s after the first touch
+    impacts: int  # that the answer must go through
 
 
 def read_problems(folder):
@@ -63,7 +66,7 @@ def read_problem(path, last_impact):
         attitude=tuple(q / norm for q in attitude),
         velocity=tuple(drop.get("velocity", (drop.get("tangential_velocity", 0.0), 0.0, -speed))),
         spin=tuple(drop.get("angular_velocity", (0.0, drop.get("spin", 0.0), 0.0))),
-        gaps=tuple(problem["gaps"]), until=problem.get("until") or last_impact[problem["id"]] + AFTER_THE_LAST)
+        impacts=LONG_RUN if problem.get("energy_alone") else data["run"]["impacts"] + 1, cylinder=body.get("radius", 0.0), gaps=tuple(problem["gaps"]), until=problem.get("until") or last_impact[problem["id"]] + AFTER_THE_LAST)
 
 
 def shape_of(body):
@@ -167,7 +170,8 @@ def flat_numbers(problem, gap, step, settings, output):
         "height": problem.size[2], "radius": radius, "mass": problem.mass, "inertia": problem.inertia,
         "restitution": problem.restitution, "friction": problem.friction, "gravity": problem.gravity,
         "position": position, "attitude": attitude, "velocity": velocity, "angular_velocity": spin,
-        "space": int(problem.space), "start": 0, "duration": time + problem.until + STEPS_AFTER_THE_END * step,
+        "cylinder": problem.cylinder, "stiffness": problem.ground.get("stiffness", 0), "damping": problem.ground.get("damping", 0),
+        "impacts": problem.impacts, "space": int(problem.space), "start": 0, "duration": time + problem.until + STEPS_AFTER_THE_END * step,
         "step": step, "settings": settings, "output": output}
     return " ".join(f"{key}={as_text(value)}" for key, value in numbers.items())
 
