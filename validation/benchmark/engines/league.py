@@ -99,9 +99,16 @@ class League:
         begun, results = time.monotonic(), []
         for number, cell in enumerate(cells, 1):
             results.append(self.result(cell))
-            print(f"\r{number}/{len(cells)} {time.monotonic() - begun:.0f} s  {cell.name:60}", end="", file=sys.stderr, flush=True)
-        print(file=sys.stderr)
+            tell(f"{number}/{len(cells)} {time.monotonic() - begun:.0f} s  {cell.name}", number == len(cells))
         return results
+
+
+def tell(text, is_last):
+    """Progress in one line of a terminal; elsewhere every hundredth."""
+    if sys.stderr.isatty():
+        print(f"\r{text:72}", end="\n" if is_last else "", file=sys.stderr, flush=True)
+    elif is_last or int(text.split("/")[0]) % 100 == 0:
+        print(f"league: {text}", file=sys.stderr, flush=True)
 
 
 def written(value):

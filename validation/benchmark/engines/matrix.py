@@ -98,9 +98,10 @@ def carry_out(cell, places):
             run.reason = COMPLIANT
         return
     attempt(cell, cell.runs, places)
-    for run in cell.runs:
+    for run in filter(is_undone, cell.runs):
+        failure = attempt(cell, [run], places)
         if is_undone(run):
-            run.reason = attempt(cell, [run], places) if is_undone(run) else ""
+            run.reason = failure
     for run in cell.runs:
         if not run.reason:
             run.reason = what_is_wrong_with(run.file)

@@ -81,13 +81,15 @@ def heads(run, engine, version):
 
 
 def trajectory(history, run, radius):
-    """Rows of the history in the form that is asked for, those of equal times once."""
+    """Flights of the history in the form that is asked for: rows within a contact are left out, but for its ends."""
     lines = [line for line in history.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
     names = lines[0].split(",")
+    states = [{name: float(cell) for name, cell in zip(names, line.split(",")) if cell} for line in lines[1:]]
+    touching = [True, *(state["in_contact"] > 0 for state in states), True]
     rows, phi = [], 0.0
-    for cells in (line.split(",") for line in lines[1:]):
-        now = {name: float(cell) for name, cell in zip(names, cells) if cell}
-        if rows and not now["t"] > rows[-1][0]:
+    for number, now in enumerate(states, 1):
+        is_within = all(touching[number - 1:number + 2])
+        if (is_within and 1 < number < len(states)) or (rows and not now["t"] > rows[-1][0]):
             continue
         q = [now[f"beta{i}"] for i in range(4)]
         v, w = [now[f"v{axis}"] for axis in "xyz"], [now[f"w{axis}"] for axis in "xyz"]

@@ -11,7 +11,15 @@ btScalar real(double value) { return static_cast<btScalar>(value); }
 btVector3 vector(const league::Vector3& v) { return {real(v[0]), real(v[1]), real(v[2])}; }
 league::Vector3 array(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
-std::unique_ptr<btCollisionShape> shape_of(const league::Problem& problem) {
+/// Tuned: a sphere for each point that can touch, as a capsule or box that lands flat gets one contact in a step.
+std::unique_ptr<btCollisionShape> shape_of(const league::Problem& problem, btSphereShape& point) {
+  if (problem.tuned()) {
+    auto points = std::make_unique<btCompoundShape>();
+    for (const league::Vector3& place : league::contact_points(problem)) {
+      points->addChildShape(btTransform(btQuaternion::getIdentity(), vector(place)), &point);
+    }
+    return points;
+  }
   if (problem.rod()) return std::make_unique<btCapsuleShapeX>(real(problem.radius), real(problem.length));
   return std::make_unique<btBoxShape>(
       btVector3(real(problem.length / 2), real(problem.width / 2), real(problem.height / 2)));
@@ -21,6 +29,8 @@ void use_tuned_settings(btDiscreteDynamicsWorld& world, btRigidBody& body) {
   btContactSolverInfo& solver = world.getSolverInfo();
   solver.m_restitutionVelocityThreshold = 0;  // btContactSolverInfo.h: no restitution below 0.2 m/s by default
   solver.m_numIterations = 100;
+  // By default friction acts along one direction, which is arbitrary where nothing slips before the impact.
+  solver.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
   // Correction of overlaps by velocity (Baumgarte) adds energy to what bounces.
   solver.m_erp = 0;
   solver.m_erp2 = 0;
@@ -41,7 +51,8 @@ void simulate(const league::Problem& problem, league::Trajectory& trajectory) {
   floor.setRestitution(1);  // coefficients of a contact are products
   floor.setFriction(1);
   world.addRigidBody(&floor);
-  const auto shape = shape_of(problem);
+  btSphereShape point(real(problem.radius));
+  const auto shape = shape_of(problem, point);
   const btRigidBody::btRigidBodyConstructionInfo made_of(real(problem.mass), nullptr, shape.get(),
                                                          vector(problem.inertia));
   btRigidBody body(made_of);
@@ -49,7 +60,7 @@ void simulate(const league::Problem& problem, league::Trajectory& trajectory) {
   body.setFriction(real(problem.friction));
   const auto& q = problem.attitude;
   const btTransform start(btQuaternion(real(q[1]), real(q[2]), real(q[3]), real(q[0])), vector(problem.position));
-  body.setWorldTransform(start);
+  body.setCenterOfMassTransform(start);  // turns the tensor of inertia, too
   body.setInterpolationWorldTransform(start);
   body.setLinearVelocity(vector(problem.velocity));
   body.setAngularVelocity(vector(problem.angular_velocity));

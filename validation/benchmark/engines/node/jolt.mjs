@@ -61,6 +61,7 @@ function addBody(problem, bodies) {
   settings.mLinearVelocity = vector(problem.velocity);
   settings.mAngularVelocity = vector(problem.angular_velocity);
   settings.mMaxAngularVelocity = 1e4;
+  settings.mApplyGyroscopicForce = problem.tuned;  // BodyCreationSettings.h: off by default
   settings.mOverrideMassProperties = jolt.EOverrideMassProperties_MassAndInertiaProvided;
   const inertia = jolt.Mat44.prototype.sIdentity();
   const [x, y, z] = problem.inertia;
