@@ -1,5 +1,6 @@
 """How the league makes runs of problems, reads adapters' reports and puts phases together; no engine is needed."""
 
+import argparse
 import math
 import os
 import sys
@@ -10,6 +11,7 @@ from pathlib import Path
 ROOT = Path(os.environ["CLATTER_ROOT"])
 sys.path.insert(0, str(ROOT / "validation" / "benchmark" / "engines"))
 
+import league
 import matrix
 import runs
 import scores
@@ -23,6 +25,14 @@ pairs = dict(pair.split("=", 1) for pair in sys.stdin.readline().split())
 open(pairs["output"], "w").write("t,x,z,phi,vx,vz,omega\\n0,0,0,0,0,0,0\\n")
 print("done", pairs["output"], 0.5, flush=True)
 sys.exit("assertion failed" if sys.stdin.readline() else 0)
+"""
+
+
+#: An adapter whose reason for not answering is never the same.
+RANDOM = """
+import random, sys
+for line in sys.stdin:
+    print("cannot", dict(p.split("=", 1) for p in line.split())["output"], random.random())
 """
 
 
@@ -51,20 +61,22 @@ def start_of(problem, gap):
 
 
 class Starts(unittest.TestCase):
-    def each(self):
+    def each(self, check):
+        """`check` of each problem, gap and start."""
         for problem in PROBLEMS.values():
             for gap in problem.gaps:
                 with self.subTest(problem=problem.id, gap=gap):
-                    yield problem, gap, start_of(problem, gap)
+                    check(problem, gap, start_of(problem, gap))
 
     def test_the_lowest_point_begins_at_the_gap(self):
-        for problem, gap, start in self.each():
+        def check(problem, gap, start):
             turn = matrix_of(start["attitude"])
             low = min(sum(turn[2][j] * vertex[j] for j in range(3)) for vertex in vertices(problem))
             self.assertAlmostEqual(start["position"][2] - start["radius"][0] + low, gap, delta=ROUNDING)
+        self.each(check)
 
     def test_the_fall_to_the_touch_keeps_energy_and_angular_momentum(self):
-        for problem, gap, start in self.each():
+        def check(problem, gap, start):
             drop = start["position"][2] - start["radius"][0] - runs.lowest(problem, problem.attitude)
             speeds = [sum(part**2 for part in velocity) for velocity in (problem.velocity, start["velocity"])]
             self.assertAlmostEqual(speeds[0], speeds[1] + 2 * problem.gravity * drop, delta=ROUNDING)
@@ -72,6 +84,7 @@ class Starts(unittest.TestCase):
                        ((problem.attitude, problem.spin), (start["attitude"], start["angular_velocity"]))]
             for before, after in zip(*momenta):
                 self.assertAlmostEqual(before, after, delta=ROUNDING)
+        self.each(check)
 
     def test_a_body_that_spins_begins_turned_back_by_its_spin(self):
         problem = PROBLEMS["corner"]
@@ -86,8 +99,7 @@ class Starts(unittest.TestCase):
             self.assertAlmostEqual(got, spin, delta=10 * time)
 
     def test_a_run_lasts_until_the_last_impact_that_is_asked_for(self):
-        for problem, gap, start in self.each():
-            self.assertGreaterEqual(start["duration"][0], runs.time_before(problem, gap) + problem.until)
+        self.each(lambda problem, gap, start: self.assertGreaterEqual(start["duration"][0], runs.time_before(problem, gap) + problem.until))
 
 
 class Reports(unittest.TestCase):
@@ -124,6 +136,24 @@ class Reports(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             cell = self.cell(Path(folder), broken)
             self.assertEqual({run.reason for run in cell.runs}, {"a number that is none at t = 0.25"})
+
+
+class Repeats(unittest.TestCase):
+    def test_numbers_that_differ_from_those_kept_are_told(self):
+        """An engine whose answers are random, run again and again."""
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            options = argparse.Namespace(build=folder, program=folder / "clatter", again=True, keep=False)
+            class Random(matrix.Engine):
+                def command(self, places):
+                    return [sys.executable, "-c", RANDOM]
+            engine = Random("random", "", "native", "", "", 64, "", "", "")
+            told = []
+            for _ in range(3):
+                made = league.League(options)
+                made.result(matrix.planned(engine, PROBLEMS["rod-10"], "default", made.places.trajectories))
+                told.append(made.differ)
+            self.assertEqual(told, [[], ["random-rod-10-default"], ["random-rod-10-default"]])
 
 
 class Phases(unittest.TestCase):

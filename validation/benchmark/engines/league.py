@@ -30,8 +30,9 @@ def arguments():
     parser.add_argument("--output", type=Path, default=ROOT / "notebooks-data", help="folder of league.csv and league_costs.csv")
     parser.add_argument("--engines", help="IDs, separated by commas (all)")
     parser.add_argument("--problems", help="IDs, separated by commas (all)")
-    parser.add_argument("--keep", action="store_true", help="keep the trajectories (600 MB for all)")
+    parser.add_argument("--keep", action="store_true", help="keep the trajectories, so that another scorer can judge them without new runs (600 MB for all)")
     parser.add_argument("--again", action="store_true", help="run every cell anew and say which numbers differ from those kept")
+    parser.add_argument("--check", action="store_true", help="look at the arguments and stop")
     return parser.parse_args()
 
 
@@ -40,31 +41,47 @@ def chosen(names, known, what):
     wanted = names.split(",") if names else list(known)
     unknown = [name for name in wanted if name not in known]
     if unknown:
-        sys.exit(f"league: unknown {what} '{unknown[0]}'; known: {', '.join(known)}")
+        print(f"engines/run: unknown {what} '{unknown[0]}'; known: {', '.join(known)}", file=sys.stderr)
+        sys.exit(2)
     return [known[name] for name in wanted]
 
 
-def fingerprint(engine, problem_file, places):
-    """Of all that a cell depends on."""
-    adapter = {"native": places.native / f"run-{engine.id}", "node": places.node / f"{engine.id}.mjs", "program": HERE / "program.py"}
-    parts = [adapter[engine.adapter], problem_file, places.program, HERE / "runs.py", HERE / "matrix.py", HERE / "scores.py"]
-    parts += [places.node / "package-lock.json", places.node / "problem.mjs"] if engine.adapter == "node" else []
+def digest_of(files):
     total = hashlib.sha256()
-    for part in parts:
-        total.update(part.read_bytes() if part.exists() else b"absent")
+    for file in files:
+        total.update(file.read_bytes() if file.exists() else b"absent")
     return total.hexdigest()
 
 
-def done(cell, places):
-    """Rows and costs of a cell that is run now."""
-    matrix.carry_out(cell, places)
+def fingerprints(engine, problem, places):
+    """Of all that a cell's trajectories depend on, and of all that its scores depend on besides."""
+    adapter = {"native": [places.native / f"run-{engine.id}"],
+               "node": [places.node / f"{engine.id}.mjs", places.node / "package-lock.json", places.node / "problem.mjs"],
+               "program": [HERE / "program.py", places.program]}
+    shared = [BENCHMARK / "problems" / f"{problem.id}.toml", BENCHMARK / "truth.csv", HERE / "runs.py", HERE / "matrix.py"]
+    return {"ran": digest_of(adapter[engine.adapter] + shared), "judged": digest_of([places.program, HERE / "scores.py"])}
+
+
+def carried_out_before(cell, kept):
+    """Takes over the runs of a cell if their trajectories are still there."""
+    told = {one["file"]: one for one in kept["runs"]}
+    if not all(str(run.file) in told and (told[str(run.file)]["reason"] or run.file.exists()) for run in cell.runs):
+        return False
+    for run in cell.runs:
+        run.seconds, run.reason = told[str(run.file)]["seconds"], told[str(run.file)]["reason"]
+    return True
+
+
+def scores_of(cell, places):
+    """Rows and costs of a cell that has been carried out."""
+    told = [{"file": str(run.file), "seconds": run.seconds, "reason": run.reason} for run in cell.runs]
     try:
         rows, costs = scores.scored(cell, str(places.program))
     except scores.CannotScore as refusal:
         for run in cell.runs:
             run.reason = run.reason or f"refused by the scorer: {str(refusal).splitlines()[-1]}".replace(",", ";")
         rows, costs = scores.scored(cell, str(places.program))
-    return {"rows": rows, "costs": costs}
+    return {"rows": rows, "costs": costs, "runs": told}
 
 
 class League:
@@ -78,13 +95,14 @@ class League:
     def result(self, cell):
         """Kept or new."""
         file = self.cells / f"{cell.name}.json"
-        mark = fingerprint(cell.engine, BENCHMARK / "problems" / f"{cell.problem.id}.toml", self.places)
-        kept = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {}
-        is_same = kept.get("fingerprint") == mark
-        if is_same and not self.options.again:
+        marks = fingerprints(cell.engine, cell.problem, self.places)
+        kept = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {"marks": {}}
+        if kept["marks"] == marks and not self.options.again:
             return kept
-        result = done(cell, self.places) | {"fingerprint": mark}
-        if is_same and kept["rows"] != result["rows"]:
+        if self.options.again or kept["marks"].get("ran") != marks["ran"] or not carried_out_before(cell, kept):
+            matrix.carry_out(cell, self.places)
+        result = scores_of(cell, self.places) | {"marks": marks}
+        if kept["marks"] == marks and kept["rows"] != result["rows"]:
             self.differ.append(cell.name)
         file.write_text(json.dumps(result), encoding="utf-8")
         if not self.options.keep:
@@ -126,9 +144,12 @@ def write_table(file, title, columns, rows):
 
 def main():
     options = arguments()
-    known, _ = matrix.read_engines()
+    engines = chosen(options.engines, matrix.read_engines()[0], "engine")
+    problems = chosen(options.problems, runs.read_problems(BENCHMARK), "problem")
+    if options.check:
+        return
     league = League(options)
-    results = league.run(chosen(options.engines, known, "engine"), chosen(options.problems, runs.read_problems(BENCHMARK), "problem"))
+    results = league.run(engines, problems)
     options.output.mkdir(parents=True, exist_ok=True)
     write_table(options.output / "league.csv", "The league: errors of engines on the benchmark, by validation/benchmark/engines/run",
                 scores.COLUMNS, [row for result in results for row in result["rows"]])

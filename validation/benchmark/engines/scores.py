@@ -17,7 +17,7 @@ COLUMNS = {
     "energy_error": "after impacts and between them", "flight_error": "way that free flight does not explain", "error": "the largest",
     "order": "of convergence of V, Omega and t over the steps", "digest": "of the trajectories: equal numbers to the bit have equal ones",
     "finding": "what is wrong in the worst phase, the first", "reason": "why there is no answer"}
-COST_COLUMNS = {"engine": "", "settings": "", "problem": "", "step": "s", "steps": "of the run",
+COST_COLUMNS = {"engine": "", "settings": "", "problem": "", "step": "s", "duration": "of the motion that is asked for, s",
                 "seconds": "wall time of the steps alone, the least over the phases"}
 
 
@@ -73,6 +73,4 @@ def largest(errors):
 
 
 def cost_of(chosen, problem):
-    step = matrix.STEPS.get(chosen[0].step)
-    return {"steps": round(problem.until / step) if step else "",
-            "seconds": f"{min(run.seconds for run in chosen if not run.reason):.3g}"}
+    return {"duration": f"{problem.until:.4g}", "seconds": f"{min(run.seconds for run in chosen if not run.reason):.3g}"}
