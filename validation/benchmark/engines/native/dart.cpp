@@ -50,16 +50,23 @@ SkeletonPtr make_body(const league::Problem& problem) {
   return skeleton;
 }
 
+/// The default is Dantzig's method, which finds friction from the normal impulse without friction.
+std::unique_ptr<dart::constraint::ConstraintSolver> tuned_solver() {
+  auto iterations = std::make_shared<dart::constraint::PgsBoxedLcpSolver>();
+  iterations->setOption({1000, 1e-12, 1e-12, 1e-12, false});  // 30, 1e-6, 1e-3, 1e-9, false by default
+  auto solver = std::make_unique<dart::constraint::BoxedLcpConstraintSolver>(iterations);
+  // The default is FCL, which turns spheres into meshes; DART's tutorials choose a detector for exact shapes this way.
+  solver->setCollisionDetector(dart::collision::OdeCollisionDetector::create());
+  return solver;
+}
+
 void choose_settings(const league::Problem& problem, dart::simulation::World& world) {
   // These two belong to the class, not to a world.
   static const double error_reduction = ContactConstraint::getErrorReductionParameter();
   static const double force_mixing = ContactConstraint::getConstraintForceMixing();
   ContactConstraint::setErrorReductionParameter(problem.tuned() ? 0 : error_reduction);
   ContactConstraint::setConstraintForceMixing(problem.tuned() ? 1e-9 : force_mixing);  // ContactConstraint.hpp
-  // The default is FCL, which turns spheres into meshes; DART's tutorials choose a detector for exact shapes this way.
-  if (problem.tuned()) {
-    world.getConstraintSolver()->setCollisionDetector(dart::collision::OdeCollisionDetector::create());
-  }
+  if (problem.tuned()) world.setConstraintSolver(tuned_solver());
 }
 
 void simulate(const league::Problem& problem, league::Trajectory& trajectory) {

@@ -7,7 +7,9 @@ namespace {
 
 void simulate(const league::Problem& problem, league::Trajectory& trajectory) {
   problem.require_plane("the adapter is written for the plane");
-  const auto body = league::falling_body<LagrangianLinearTIDS>(problem);
+  // Of a system that is not known as linear Newton's method is iterated.
+  const std::shared_ptr<LagrangianDS> body = problem.tuned() ? league::falling_body<LagrangianDS>(problem)
+                                                             : league::falling_body<LagrangianLinearTIDS>(problem);
   const auto world = league::over_floor(problem, body);
   const auto integrator = std::make_shared<MoreauJeanOSI>(0.5);
   SP::OneStepNSProblem impacts;

@@ -58,7 +58,6 @@ function addBody(problem, scene, material) {
     body.setMaxDepenetrationVelocity(1e-6);  // overlaps are left alone
     body.setSolverIterationCounts(32, 8);    // 4 and 1 by default
     body.setSleepThreshold(0);
-    body.setRigidBodyFlag(physx.PxRigidBodyFlagEnum.eENABLE_GYROSCOPIC_FORCES, true);  // off by default
   }
   scene.addActor(body);
   body.setLinearVelocity(vector(problem.velocity));
