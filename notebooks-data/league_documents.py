@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Writes what the league's numbers say: league.md, league.html and two pictures, from league.csv and league_costs.csv.
+"""Writes what the league's numbers say: league.md, league.html, two pictures and the README's block "<!-- league -->", from
+league.csv and league_costs.csv.
 
     notebooks-data/league_documents.py            writes them
     notebooks-data/league_documents.py --check    says which are not what the numbers say, and changes nothing
@@ -8,6 +9,7 @@ The numbers are made by validation/benchmark/engines/run.  A row of "what goes w
 it names show it.
 """
 
+import re
 import sys
 import tomllib
 from pathlib import Path
@@ -19,6 +21,9 @@ from plotting import svg
 
 DATA = Path(__file__).resolve().parent
 ENGINES = DATA.parent / "validation" / "benchmark" / "engines"
+README = DATA.parent / "README.md"
+README_BLOCK = re.compile(r"(?<=<!-- league -->\n).*?(?=<!-- end -->)", re.DOTALL)
+README_ROWS = 8
 COMMAND = "validation/benchmark/engines/run"
 PICTURES = {"league_steps.svg": against_step, "league_costs.svg": against_cost}
 
@@ -40,6 +45,18 @@ def main_table(league):
             rows.append([engine["name"], settings, str(engine["precision"]), power(league.median(engine, settings, last, "law_error")), *steps,
                          power(league.median(engine, settings, last, "energy_error")), f"{right} of {all_phases}"])
     return table(head, rows)
+
+
+def first_lines(league):
+    """The head of the table, both settings in a row."""
+    head = ["engine", "V, Ω off by", "tuned", "impulse off by, tuned", "sequences right", "tuned"]
+    rows = []
+    for engine in league.ranked()[:README_ROWS]:
+        last = league.last_step(engine)
+        errors = [power(league.median(engine, settings, last, "velocities")) for settings in league.settings_of(engine)]
+        right = ["{} of {}".format(*league.right(engine, settings, last)) for settings in league.settings_of(engine)]
+        rows.append([engine["name"], *errors, power(league.median(engine, "tuned", last, "law_error")), *right])
+    return as_markdown([table(head, rows)])
 
 
 def digits_table(league):
@@ -101,7 +118,8 @@ def documents():
     page = blocks(league, told["finding"], told["notes"])
     pictures = {DATA / "figures" / name: svg(draw(league)) for name, draw in PICTURES.items()}
     drawn = {f"figures/{path.name}": text for path, text in pictures.items()}
-    return pictures | {DATA / "league.md": as_markdown(page), DATA / "league.html": as_html(page, drawn)}
+    readme = README.read_text(encoding="utf-8")
+    return pictures | {README: README_BLOCK.sub(lambda _: first_lines(league), readme), DATA / "league.md": as_markdown(page), DATA / "league.html": as_html(page, drawn)}
 
 
 def main():

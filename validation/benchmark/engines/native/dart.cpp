@@ -55,7 +55,7 @@ std::unique_ptr<dart::constraint::ConstraintSolver> tuned_solver() {
   auto iterations = std::make_shared<dart::constraint::PgsBoxedLcpSolver>();
   iterations->setOption({1000, 1e-12, 1e-12, 1e-12, false});  // 30, 1e-6, 1e-3, 1e-9, false by default
   auto solver = std::make_unique<dart::constraint::BoxedLcpConstraintSolver>(iterations);
-  // The default is FCL, which turns spheres into meshes; DART's tutorials choose a detector for exact shapes this way.
+  // The default is FCL, which turns spheres into meshes; exact shapes are chosen like this.
   solver->setCollisionDetector(dart::collision::OdeCollisionDetector::create());
   return solver;
 }
