@@ -8,6 +8,7 @@ until its adapter, its problem or the program changes; so a league that was inte
 
 import argparse
 import csv
+import functools
 import hashlib
 import json
 import sys
@@ -46,6 +47,7 @@ def chosen(names, known, what):
     return [known[name] for name in wanted]
 
 
+@functools.lru_cache(maxsize=None)
 def digest_of(files):
     total = hashlib.sha256()
     for file in files:
@@ -59,7 +61,7 @@ def fingerprints(engine, problem, places):
                "node": [places.node / f"{engine.id}.mjs", places.node / "package-lock.json", places.node / "problem.mjs"],
                "program": [HERE / "program.py", places.program]}
     shared = [BENCHMARK / "problems" / f"{problem.id}.toml", BENCHMARK / "truth.csv", HERE / "runs.py", HERE / "matrix.py"]
-    return {"ran": digest_of(adapter[engine.adapter] + shared), "judged": digest_of([places.program, HERE / "scores.py"])}
+    return {"ran": digest_of((*adapter[engine.adapter], *shared)), "judged": digest_of((places.program, HERE / "scores.py"))}
 
 
 def carried_out_before(cell, kept):
@@ -130,7 +132,8 @@ def tell(text, is_last):
 
 
 def written(value):
-    return "" if value is None else repr(value) if isinstance(value, float) else str(value)
+    """Errors to six digits: the digest holds the rest."""
+    return "" if value is None else f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
 def write_table(file, title, columns, rows):
