@@ -73,14 +73,18 @@ def findings_table(league, findings):
     for finding in findings:
         engine = league.engine(finding["engine"])
         shown = [f"{run['problem']}, {run['settings']}{', ' + run['step'] + ' s' if run['step'] else ''}: {words_of(run)} "
-                 f"{power(league.shown(finding['engine'], run))}" for run in finding["shown"]]
+                 f"{number_of(run, league.shown(finding['engine'], run))}" for run in finding["shown"]]
         rows.append([engine["name"], finding["says"], "; ".join(shown)])
     return table(["engine", "what goes wrong", "shown by"], rows)
 
 
+def number_of(run, value):
+    return f"{value:.0f}" if run["column"] == "right" else power(value)
+
+
 def words_of(run):
     return {"law_error": "law", "velocity_error": "V", "angular_velocity_error": "Ω", "energy_error": "energy", "time_error": "t",
-            "flight_error": "flight", "right": "phases right"}[run["column"]]
+            "flight_error": "flight", "right": "starting heights right"}[run["column"]]
 
 
 def settings_table(league):

@@ -65,10 +65,10 @@ class League:
         return sum(int(row["right"]) for row in rows), sum(int(row["phases"]) for row in rows)
 
     def ranked(self):
-        """By the median error of the velocities with the engine's own settings at the finest step."""
+        """By the median error of the velocities with the engine's own settings at the finest step; this program's last."""
         def key(engine):
             error = self.median(engine, "default", self.last_step(engine), "velocities")
-            return (math.inf if error is None else error, engine["name"])
+            return (engine["adapter"] == "program", math.inf if error is None else error, engine["name"])
         return sorted(self.engines, key=key)
 
     def digits(self, engine, settings, problem, step):
