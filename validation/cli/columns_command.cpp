@@ -8,6 +8,7 @@
 #include "validation/cli/comparison_report.hpp"
 #include "validation/cli/extremes_report.hpp"
 #include "validation/cli/history_file.hpp"
+#include "validation/cli/measured_report.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/plan_report.hpp"
 #include "validation/cli/score_report.hpp"
@@ -70,7 +71,10 @@ const std::vector<ColumnsOf>& all_columns() {
                                           {"extremes", extremes_columns},
                                           {"benchmark-list", benchmark_list_columns},
                                           {"benchmark-truth", benchmark_truth_columns},
-                                          {"benchmark-score", score_columns}};
+                                          {"benchmark-score", score_columns},
+                                          {"measured-fit", measured_fit_columns},
+                                          {"measured-predict", measured_predict_columns},
+                                          {"measured-score", measured_score_columns}};
   return all;
 }
 

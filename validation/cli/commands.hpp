@@ -21,6 +21,7 @@ namespace clatter::validation {
 [[nodiscard]] Command tradeoff_command();
 [[nodiscard]] Command extremes_command();
 [[nodiscard]] Command benchmark_command();
+[[nodiscard]] Command measured_command();
 [[nodiscard]] Command demo_command();
 [[nodiscard]] Command keys_command();
 [[nodiscard]] Command columns_command();

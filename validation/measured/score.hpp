@@ -1,0 +1,91 @@
+// Fitted on one part of a file's drops, scored on the other.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "validation/measured/forecast.hpp"
+
+namespace clatter::validation {
+
+/// Which drops to fit on and which to score: never the same.
+struct TrackSplit {
+  TrackPart fitted, scored;
+};
+/// At random, from a seed: drop i is fitted on if uniform_at(seed, i, 0) < share.
+[[nodiscard]] TrackSplit split_by_seed(std::size_t tracks, std::uint64_t seed, double share);
+/// Fitted on those of a list "1,3,10-20" of names.  @throws BadInput naming `option` for a name that is not there.
+[[nodiscard]] TrackSplit split_by_list(const TrackFile& file, const std::string& option, const std::string& list);
+
+/// Which of motion_parts() a body can have: in a plane v_x, v_z and k Ω_y.
+[[nodiscard]] std::vector<int> active_parts(const TrackDescription& description);
+
+/// Everything that a fit says.
+struct MeasuredFit {
+  CalibrationResult calibration;   ///< of the body
+  CalibrationResult as_described;  ///< the ground alone
+  std::vector<LawFit> laws;        ///< newton, poisson, stronge, with the calibrated body
+  LawFit dependent;                ///< the best of them, with restitution that depends on the effective mass
+  LawFit described;                ///< the best law with the body as it is described
+  std::size_t best = 0;            ///< index in laws: least loss
+  std::vector<PairedDifference> against_best;  ///< loss of each law less the best's
+  PairedDifference dependent_gain;             ///< loss of the best pure law less that of `dependent`
+  double law_scatter = 0;   ///< of the motion's parts with the best pure law, over the motion's size before
+  double width_factor = 0;  ///< that makes 90 % intervals hold 90 % of the fitted part's numbers
+  std::size_t impacts = 0;  ///< first impacts in the fitted part
+  double contact_time = 0;  ///< share of point impacts with a frame in contact, over the rate [s]
+  double contact_time_error = 0;
+};
+
+[[nodiscard]] MeasuredFit fit_measured(const MeasuredFile& file, const TrackPart& part);
+/// What forecasts are made with after a fit.
+[[nodiscard]] ForecastModel forecast_model(const MeasuredFile& file, const MeasuredFit& fit);
+
+/// A drop's forecast beside its measurement.
+struct ScoredDrop {
+  std::string name;
+  TrackImpact measured;
+  Forecast predicted;
+  double error = 0;                           ///< relative_error of the prediction
+  std::optional<TrackImpact> second;          ///< as measured
+  std::optional<std::size_t> face;            ///< that lies down at rest, as measured
+  std::optional<std::size_t> published_face;  ///< as the authors' parameters have it
+  int measured_impacts = 0;
+};
+
+/// Errors of one way to predict.
+struct ErrorRow {
+  std::string name;
+  std::vector<double> errors;  ///< relative, of point impacts in the scored part
+};
+
+/// A share of drops, or nothing to count.
+struct Share {
+  int right = 0, of = 0;
+  [[nodiscard]] double value() const;
+};
+
+/// Residuals in a range of a quantity.
+struct ResidualBin {
+  std::string quantity, unit;
+  double low = 0, high = 0;
+  int impacts = 0, points = 0;
+  double error = 0;        ///< middle, of point impacts
+  double lever = 0;        ///< middle lever_miss, of all
+  double restitution = 0;  ///< middle, of point impacts
+};
+
+struct Scores {
+  std::vector<ScoredDrop> drops;
+  std::vector<ErrorRow> rows;
+  Share first_corner, second_corner, second_corner_sure, second_corner_clear, inside, points, face, published_face,
+      count, count_published;
+  std::vector<double> time_errors;   ///< of the second impact, over the flight's measured duration
+  std::vector<double> ratio_errors;  ///< of P₂/P₁, relative
+  std::vector<ResidualBin> bins;
+};
+/// @param sequences  follow each drop to its rest
+[[nodiscard]] Scores score_measured(const MeasuredFile& file, const MeasuredFit& fit, const TrackPart& part,
+                                    bool sequences);
+
+}  // namespace clatter::validation

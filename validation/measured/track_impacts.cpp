@@ -1,0 +1,283 @@
+#include "validation/measured/track_impacts.hpp"
+
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+
+#include "analytic/errors.hpp"
+#include "analytic/space/first_contact.hpp"
+
+namespace clatter::validation {
+namespace {
+
+using analytic::space::FirstContact;
+using analytic::space::FreeFlight;
+using analytic::space::PrincipalAxes;
+using analytic::space::State;
+
+constexpr std::size_t frames_before = 16, frames_after = 12;  // of a flight, next to the impact
+constexpr double same_motion = 6;                             // standard deviations
+constexpr double slight = 0.05;                               // change of a motion over the motion
+constexpr double moved_on = 50, bar = 3;                      // standard deviations
+constexpr int meeting_bits = 20;
+constexpr double at_the_ground = 0.2;                    // height of the lowest point, over the body's size
+constexpr double most_skipped = 1;                       // [s]
+constexpr double skip_tolerance = 0.1, skip_turn = 0.3;  // of the way and the velocity; [rad]
+
+double distance_at(const FlightFit& a, const FlightFit& b, const PoseNoise& noise, double time) {
+  const State before = a.state_at(time), after = b.state_at(time);
+  return ((after.position - before.position) / noise.position).squaredNorm() +
+         (rotation_vector(after.attitude * before.attitude.conjugate()) / noise.rotation).squaredNorm();
+}
+
+double meeting_time(const FlightFit& a, const FlightFit& b, const PoseNoise& noise) {
+  return boost::math::tools::brent_find_minima([&](double t) { return distance_at(a, b, noise, t); }, a.last(),
+                                               b.first(), meeting_bits)
+      .first;
+}
+
+bool is_one_motion(const FlightFit& a, const FlightFit& b, double gyration) {
+  const double time = (a.last() + b.first()) / 2;
+  const MeasuredState before = a.at(time), after = b.at(time);
+  const Vector3 jump = after.state.velocity - before.state.velocity;
+  const Vector3 twist = after.state.angular_velocity - before.state.angular_velocity;
+  const auto size = [&](const Vector3& v, const Vector3& w) { return std::hypot(v.norm(), gyration * w.norm()); };
+  if (size(jump, twist) < slight * size(before.state.velocity, before.state.angular_velocity)) return true;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto spread = [&](int i) { return std::sqrt(before.covariance(i, i) + after.covariance(i, i)); };
+    if (std::fabs(jump[axis]) > same_motion * spread(6 + axis)) return false;
+    if (std::fabs(twist[axis]) > same_motion * spread(9 + axis)) return false;
+  }
+  return true;
+}
+
+/// Whether poses jump though the motion goes on: samples are missing.
+bool has_moved_on(const FlightFit& a, const FlightFit& b, const FlightModel& model) {
+  return distance_at(a, b, model.noise, (a.last() + b.first()) / 2) > moved_on * moved_on;
+}
+
+Matrix3 cross_matrix(const Vector3& v) {
+  Matrix3 m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+Matrix3 gyration(const TrackedBody& body, const Quaternion& attitude) {
+  const Matrix3 axes = attitude.toRotationMatrix();
+  return axes * (body.core().inertia / body.core().mass) * axes.transpose();
+}
+
+/// Rows: derivative of the touching point's velocity by position, attitude, velocity and angular velocity.
+Eigen::Matrix<double, 3, 12> point_velocity_map(const State& state, const Vector3& arm) {
+  Eigen::Matrix<double, 3, 12> map = Eigen::Matrix<double, 3, 12>::Zero();
+  map.block<3, 3>(0, 3) = -cross_matrix(state.angular_velocity) * cross_matrix(arm);
+  map.block<3, 3>(0, 6) = Matrix3::Identity();
+  map.block<3, 3>(0, 9) = -cross_matrix(arm);
+  return map;
+}
+
+void add_lever(const TrackedBody& body, TrackImpact& impact, double tolerance) {
+  impact.lever_miss = lever(body, impact, impact.arm);
+  const Vector3 jump = impact.after.state.velocity - impact.before.state.velocity;
+  const StateCovariance both = impact.before.covariance + impact.after.covariance;
+  Eigen::Matrix<double, 3, 12> map = Eigen::Matrix<double, 3, 12>::Zero();
+  map.block<3, 3>(0, 3) = cross_matrix(jump) * cross_matrix(impact.arm);
+  map.block<3, 3>(0, 6) = cross_matrix(impact.arm);
+  map.block<3, 3>(0, 9) = -gyration(body, impact.before.state.attitude);
+  const double spread = std::sqrt((map * both * map.transpose()).trace());
+  impact.lever_error = bar * spread / (jump.norm() * body.reach());
+  impact.is_point = impact.lever_miss <= tolerance + impact.lever_error && impact.approach > 0;
+  double least = impact.lever_miss;
+  impact.momentum_corner = impact.corner;
+  for (std::size_t i = 0; i < body.core().vertices.size(); ++i) {
+    const double miss = lever(body, impact, body.arm(impact.before.state.attitude, static_cast<int>(i)));
+    if (miss < least) impact.momentum_corner = static_cast<int>(i);
+    least = std::min(least, miss);
+  }
+}
+
+void add_ratios(TrackImpact& impact) {
+  const State &before = impact.before.state, &after = impact.after.state;
+  const Vector3 u = before.velocity + before.angular_velocity.cross(impact.arm);
+  const Vector3 w = after.velocity + after.angular_velocity.cross(impact.arm);
+  impact.approach = -u.z();
+  impact.slip = u.head<2>().norm();
+  impact.restitution = w.z() / impact.approach;
+  const Eigen::Matrix<double, 3, 12> start = point_velocity_map(before, impact.arm),
+                                     end = point_velocity_map(after, impact.arm);
+  // The arm is common to both: its error, that of the attitude before, enters through both velocities.
+  Eigen::Matrix<double, 1, 12> by_before = impact.restitution * start.row(2);
+  by_before.segment<3>(3) += end.row(2).segment<3>(3);
+  Eigen::Matrix<double, 1, 12> by_after = end.row(2);
+  by_after.segment<3>(3).setZero();
+  // A touch dt later: the arm turns with the body, and both velocities are those of another time.
+  const Vector3 turned = before.angular_velocity.cross(impact.arm);
+  const double by_time = after.angular_velocity.cross(turned).z() +
+                         impact.restitution * before.angular_velocity.cross(turned).z() -
+                         (1 + impact.restitution) * impact.gravity;
+  impact.restitution_error = std::sqrt((by_before * impact.before.covariance * by_before.transpose())(0) +
+                                       (by_after * impact.after.covariance * by_after.transpose())(0) +
+                                       std::pow(by_time * impact.time_error, 2)) /
+                             impact.approach;
+  const Vector3 jump = after.velocity - before.velocity;
+  const double tangential = jump.head<2>().norm();
+  impact.impulse_ratio = tangential / jump.z();
+  Vector3 by_jump(0, 0, -impact.impulse_ratio / jump.z());
+  if (tangential > 0) by_jump.head<2>() = jump.head<2>() / (tangential * jump.z());
+  const Matrix3 spread = impact.before.covariance.block<3, 3>(6, 6) + impact.after.covariance.block<3, 3>(6, 6);
+  impact.impulse_ratio_error = std::sqrt(by_jump.dot(spread * by_jump));
+  const double along = u.head<2>().dot(w.head<2>());
+  impact.slips_throughout = along > 0.5 * u.head<2>().norm() * w.head<2>().norm();
+}
+
+MeasuredState calibrated(const TrackedBody& body, MeasuredState measured) {
+  measured.state.attitude = body.attitude(measured.state.attitude);
+  return measured;
+}
+
+}  // namespace
+
+std::vector<Meeting> find_meetings(const Track& track, const TrackFlights& flights, const FlightModel& model,
+                                   const TrackedBody& body) {
+  std::vector<Meeting> meetings;
+  for (std::size_t i = 1; i < flights.flights.size(); ++i) {
+    const FlightFrames &earlier = flights.flights[i - 1], &later = flights.flights[i];
+    const FlightFit before = fit_flight(track, earlier, model, FlightSide::last, frames_before);
+    const FlightFit after = fit_flight(track, later, model, FlightSide::first, frames_after);
+    if (is_one_motion(before, after, std::sqrt(body.gyration_square())) && !has_moved_on(before, after, model))
+      continue;
+    Meeting meeting{.before = before, .after = after};
+    meeting.between = static_cast<int>(later.front() - earlier.back()) - 1;
+    meeting.time = meeting_time(before, after, model.noise);
+    meeting.distance = std::sqrt(distance_at(before, after, model.noise, meeting.time));
+    const State met = before.state_at(meeting.time);
+    meeting.low = met.position.z() + body.arm(met.attitude, body.lowest(met.attitude)).z();
+    meetings.push_back(std::move(meeting));
+  }
+  return meetings;
+}
+
+double lever(const TrackedBody& body, const TrackImpact& impact, const Vector3& arm) {
+  const State &before = impact.before.state, &after = impact.after.state;
+  const Vector3 jump = after.velocity - before.velocity;
+  const Vector3 twist = after.angular_velocity - before.angular_velocity;
+  return (arm.cross(jump) - gyration(body, before.attitude) * twist).norm() / (jump.norm() * body.reach());
+}
+
+std::optional<double> contact_time(const TrackedBody& body, const FlightFit& flight, double start, double until) {
+  State state = flight.state_at(start);
+  state.attitude = body.attitude(state.attitude);
+  state.position.z() -= body.calibration().ground + body.calibration().rounding;
+  try {
+    const FreeFlight free(PrincipalAxes(body.core().inertia), state, std::max(0.0, flight.gravity()));
+    const double lowest =
+        state.position.z() +
+        (state.attitude * body.core().vertices[static_cast<std::size_t>(body.lowest(state.attitude))]).z();
+    if (!(lowest > 0)) return std::nullopt;
+    const FirstContact contact = analytic::space::first_contact(body.core(), free, {});
+    if (contact.end != analytic::FlightEnd::contact || !(start + contact.time <= until)) return std::nullopt;
+    return start + contact.time;
+  } catch (const analytic::NumericalError&) {
+    return std::nullopt;
+  }
+}
+
+TrackImpact measured_impact(const Meeting& meeting, const TrackedBody& body, double ground_error,
+                            double lever_tolerance) {
+  TrackImpact impact;
+  impact.number = meeting.number;
+  const FlightFit& before = meeting.before;
+  const double frame = (before.last() - before.first()) / std::max(1, before.frames() - 1);
+  impact.time =
+      contact_time(body, before, before.last() - 2 * frame, meeting.after.first() + frame).value_or(meeting.time);
+  impact.between = meeting.between;
+  impact.gravity = meeting.after.gravity();
+  impact.before = calibrated(body, before.at(impact.time));
+  impact.after = calibrated(body, meeting.after.at(impact.time));
+  const Quaternion& attitude = impact.before.state.attitude;
+  impact.corner = body.lowest(attitude);
+  impact.arm = body.arm(attitude, impact.corner);
+  impact.angle = std::acos(std::clamp(-impact.arm.z() / impact.arm.norm(), -1.0, 1.0));
+  const State met = before.state_at(meeting.time);
+  const Quaternion met_attitude = body.attitude(met.attitude);
+  impact.height = met.position.z() + body.arm(met_attitude, body.lowest(met_attitude)).z() - body.calibration().ground;
+  const double fall =
+      std::fabs((impact.before.state.velocity + impact.before.state.angular_velocity.cross(impact.arm)).z());
+  impact.time_error = std::hypot(ground_error, std::sqrt(impact.before.covariance(2, 2))) / std::max(fall, 1e-3);
+  add_ratios(impact);
+  add_lever(body, impact, lever_tolerance);
+  return impact;
+}
+
+namespace {
+
+/// Height of the ground over that of the description: where the first two flights of each track meet, in the middle.
+double first_ground(const MeasuredFile& measured) {
+  std::vector<double> heights;
+  for (const MeasuredTrack& track : measured.tracks) {
+    if (!track.meetings.empty()) heights.push_back(track.meetings.front().low);
+  }
+  return heights.empty() ? measured.file.description.ground : median(heights);
+}
+
+/// The time that samples left out, if the later flight is the earlier one continued after that.
+std::optional<double> skipped_time(const Meeting& meeting, const FlightModel& model) {
+  const State last = meeting.before.state_at(meeting.time), next = meeting.after.state_at(meeting.time);
+  const double apart = (next.position - last.position).head<2>().dot(last.velocity.head<2>());
+  const double late = apart / last.velocity.head<2>().squaredNorm();
+  if (!(late * meeting.before.frames() > (meeting.before.last() - meeting.before.first()) / 2 && late < most_skipped))
+    return std::nullopt;
+  const State go_on = meeting.before.state_at(meeting.time + late);
+  const double off = (next.position - go_on.position).norm();
+  const double turned_off = rotation_vector(next.attitude * go_on.attitude.conjugate()).norm();
+  const double way = (go_on.position - last.position).norm();
+  const bool same =
+      off < skip_tolerance * way + same_motion * model.noise.position && turned_off < skip_turn &&
+      (next.velocity - go_on.velocity).norm() < skip_tolerance * last.velocity.norm() + model.gravity.spread * late;
+  return same ? std::optional(late) : std::nullopt;
+}
+
+/// Impacts apart from other changes, and numbered.
+void sort_changes(MeasuredTrack& track, double ground, const MeasuredFile& measured) {
+  const double near = at_the_ground * measured.file.description.size.minCoeff();
+  std::vector<Meeting> impacts;
+  for (Meeting& meeting : track.meetings) {
+    const auto skipped = skipped_time(meeting, measured.model);
+    if (skipped) meeting.skipped = *skipped;
+    meeting.change = skipped ? Change::skipped : meeting.low - ground < near ? Change::impact : Change::disturbed;
+    meeting.number = static_cast<int>(impacts.size()) + (meeting.change == Change::impact ? 1 : 0);
+    (meeting.change == Change::impact ? impacts : track.other_changes).push_back(std::move(meeting));
+  }
+  track.meetings = std::move(impacts);
+}
+
+}  // namespace
+
+MeasuredFile measure_tracks(TrackFile file) {
+  MeasuredFile measured{.file = std::move(file), .model = {}, .tracks = {}};
+  const TrackDescription& description = measured.file.description;
+  measured.model = {.noise = pose_noise(measured.file), .gravity = {}, .planar = description.is_planar()};
+  measured.model.gravity = fall_gravity(measured.file, measured.model.noise);
+  const TrackedBody body(description, {});
+  for (const Track& track : measured.file.tracks) {
+    MeasuredTrack result{.name = track.name,
+                         .flights = {},
+                         .missing = track.missing,
+                         .meetings = {},
+                         .other_changes = {},
+                         .rest = {},
+                         .rest_position = {}};
+    result.flights = find_flights(track, measured.model);
+    result.meetings = find_meetings(track, result.flights, measured.model, body);
+    if (result.flights.rests) {
+      result.rest = track.frames.back().attitude;
+      result.rest_position = track.frames.back().position;
+    }
+    measured.tracks.push_back(std::move(result));
+  }
+  const double ground = first_ground(measured);
+  for (MeasuredTrack& track : measured.tracks) sort_changes(track, ground, measured);
+  return measured;
+}
+
+}  // namespace clatter::validation
