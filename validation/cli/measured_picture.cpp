@@ -32,13 +32,13 @@ PicturePanel height_panel(const MeasuredRun& run, const ScoredDrop& drop) {
                   {"kind", "1", "0 measured, 1 predicted"}},
       .rows = {},
       .plot = {
-          .title = "drop " + drop.name + ": measured track and predicted sequence",
+          .title = "",
           .x_label = "t [s]",
           .y_label = "height of the centre [m]",
           .curves = {
               {.x = "time",
                .y = "height",
-               .legend = "measured",
+               .legend = "drop " + drop.name + ", measured",
                .style = FigureCurve::Style::points,
                .where = {{"kind", measured}}},
               {.x = "time", .y = "height", .legend = "predicted from impact 1 on", .where = {{"kind", predicted}}}}}};
@@ -60,7 +60,7 @@ PicturePanel residual_panel(const Scores& scores) {
                                  {"error", "%", "of the motion after impact 1"},
                                  {"point", "1", "1: a point impact"}},
                      .rows = {},
-                     .plot = {.title = "Errors of drops not fitted to",
+                     .plot = {.title = "",
                               .x_label = "angle between the corner's arm and the vertical [°]",
                               .y_label = "error [%]",
                               .curves = {{.x = "angle",
@@ -82,10 +82,12 @@ PicturePanel coverage_panel(const MeasuredRun& run, const Scores& scores) {
   PicturePanel panel{
       .columns = {{"width", "1", "over that of the 90 % interval"}, {"share", "%", "of the numbers within"}},
       .rows = {},
-      .plot = {.title = "Coverage: 90 % belong at 1",
-               .x_label = "distance over half the 90 % interval",
-               .y_label = "numbers within [%]",
-               .curves = {{.x = "width", .y = "share", .legend = "velocities after impact 1", .where = {}}}}};
+      .plot = {
+          .title = "",
+          .x_label = "distance over half the 90 % interval",
+          .y_label = "numbers within [%]",
+          .curves = {
+              {.x = "width", .y = "share", .legend = "velocities after impact 1; 90 % belong at 1", .where = {}}}}};
   const TrackedBody body(run.file.file.description, run.fit.calibration.calibration);
   std::vector<double> ratios;
   for (const ScoredDrop& drop : scores.drops) {

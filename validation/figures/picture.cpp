@@ -66,6 +66,8 @@ struct Layout {
     for (const PicturePanel& one : panels) {
       tops.push_back(height + Key(one.plot).height());
       height = tops.back() + panel;
+      const bool is_last = &one == &panels.back();
+      if (!is_last && !one.plot.x_label.empty()) height += bottom;  // an axis of its own
     }
     height += bottom;
   }

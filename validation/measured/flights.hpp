@@ -28,8 +28,8 @@ struct TrackFlights {
 
 /// The flight of these frames, of the first or the last `most` of them.
 enum class FlightSide { first, last };
-[[nodiscard]] FlightFit fit_flight(const Track& track, const FlightFrames& frames, const FlightModel& model, FlightSide side,
-                                   std::size_t most);
+[[nodiscard]] FlightFit fit_flight(const Track& track, const FlightFrames& frames, const FlightModel& model,
+                                   FlightSide side, std::size_t most);
 
 /// Gravity along the falls: the middle of all first flights of 8 frames or more, and its spread; where there are fewer
 /// than 5 of those the description's, known to 5 %.

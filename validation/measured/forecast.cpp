@@ -22,7 +22,7 @@ using analytic::space::PrincipalAxes;
 using analytic::space::State;
 
 constexpr double one_in_two_to_54 = 0x1p-54;  // uniform_at() may be 0
-constexpr int most_impacts = 200;
+constexpr int most_impacts = 200, most_touches = 20;
 constexpr double frames_of_a_flight = 3;
 
 double point_speed(const TrackedBody& body, const State& state, int corner) {
@@ -153,6 +153,23 @@ std::optional<NextImpact> next_contact(const TrackedBody& body, State after, int
   } catch (const analytic::NumericalError&) {
     return std::nullopt;
   }
+}
+
+State after_touches(const ForecastModel& model, const TrackImpact& start, double duration) {
+  State state = struck(model.body, start.before.state, start.corner, model.law);
+  int corner = start.corner;
+  double time = 0;
+  for (int touch = 0; touch < most_touches; ++touch) {
+    const auto next = next_contact(model.body, state, corner, start.gravity);
+    if (!next || !(time + next->time < duration)) break;
+    time += next->time;
+    corner = next->corner;
+    state.attitude = (rotation_of(next->time * state.angular_velocity) * state.attitude).normalized();
+    state.velocity.z() -= start.gravity * next->time;
+    state = struck(model.body, state, corner, model.law);
+  }
+  state.velocity.z() += start.gravity * time;
+  return state;
 }
 
 std::vector<HeightAt> predicted_heights(const ForecastModel& model, const TrackImpact& start, double until,

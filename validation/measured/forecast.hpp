@@ -73,6 +73,11 @@ struct ForecastRequest {
 [[nodiscard]] std::optional<NextImpact> next_contact(const TrackedBody& body, analytic::space::State after, int corner,
                                                      double gravity);
 
+/// Motion after all impacts within `duration` of the first, as a sequence of impacts and flights; gravity aside, which
+/// the flights on both sides have.
+[[nodiscard]] analytic::space::State after_touches(const ForecastModel& model, const TrackImpact& start,
+                                                   double duration);
+
 /// Number `column` of sample `sample`: standard normal, from uniform_at().
 [[nodiscard]] double normal_at(std::uint64_t seed, std::uint64_t sample, std::uint32_t column);
 /// A sample of a measured state.

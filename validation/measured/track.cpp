@@ -70,6 +70,29 @@ double spread_of(std::vector<double>& magnitudes) {
   return magnitudes.empty() ? 0 : deviation_of_median * median(std::move(magnitudes)) / std::sqrt(third_difference);
 }
 
+TrackFile tracks_of(const NumericTable& table, const TrackDescription& description) {
+  const FrameReader reader(table, description);
+  TrackFile file{.path = table.path(), .description = description, .tracks = {}, .frames = table.rows()};
+  double before = 0;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const std::string name = shortest(reader.value(row, "drop"));
+    const double sample = reader.value(row, "sample");
+    if (file.tracks.empty() || file.tracks.back().name != name) {
+      const auto same = [&](const Track& track) { return track.name == name; };
+      if (std::any_of(file.tracks.begin(), file.tracks.end(), same))
+        table.refuse(row, "drop", "a new one, or that of the row before");
+      file.tracks.push_back({.name = name, .frames = {}});
+    } else {
+      if (!(sample > before))
+        table.refuse(row, "sample", fmt::format("greater than {}, that of the row before", before));
+      file.tracks.back().missing += static_cast<int>(std::lround(sample - before)) - 1;
+    }
+    before = sample;
+    file.tracks.back().frames.push_back(reader.frame(row));
+  }
+  return file;
+}
+
 }  // namespace
 
 Vector3 rotation_vector(const Quaternion& rotation) {
@@ -100,27 +123,11 @@ double quantile(std::vector<double> values, double share) {
 double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
 
 TrackFile read_tracks(const std::string& path, const TrackDescription& description) {
-  const NumericTable table = NumericTable::read(path, request_for(description));
-  const FrameReader reader(table, description);
-  TrackFile file{.path = path, .description = description, .tracks = {}, .frames = table.rows()};
-  double before = 0;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const std::string name = shortest(reader.value(row, "drop"));
-    const double sample = reader.value(row, "sample");
-    if (file.tracks.empty() || file.tracks.back().name != name) {
-      const auto same = [&](const Track& track) { return track.name == name; };
-      if (std::any_of(file.tracks.begin(), file.tracks.end(), same))
-        table.refuse(row, "drop", "a new one, or that of the row before");
-      file.tracks.push_back({.name = name, .frames = {}});
-    } else {
-      if (!(sample > before))
-        table.refuse(row, "sample", fmt::format("greater than {}, that of the row before", before));
-      file.tracks.back().missing += static_cast<int>(std::lround(sample - before)) - 1;
-    }
-    before = sample;
-    file.tracks.back().frames.push_back(reader.frame(row));
-  }
-  return file;
+  return tracks_of(NumericTable::read(path, request_for(description)), description);
+}
+
+TrackFile parse_tracks(const std::string& path, std::string text, const TrackDescription& description) {
+  return tracks_of(NumericTable::parse(path, std::move(text), request_for(description)), description);
 }
 
 PoseNoise pose_noise(const TrackFile& file) {

@@ -35,6 +35,9 @@ struct TrackFile {
 ///         off 1 by more than a twentieth.
 [[nodiscard]] TrackFile read_tracks(const std::string& path, const TrackDescription& description);
 
+/// The same from a text; `path` is its name in errors.
+[[nodiscard]] TrackFile parse_tracks(const std::string& path, std::string text, const TrackDescription& description);
+
 /// Standard deviations of a pose's noise, of each component.
 struct PoseNoise {
   double position = 0;  ///< [m]
