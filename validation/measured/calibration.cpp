@@ -8,7 +8,7 @@ namespace clatter::validation {
 namespace {
 
 constexpr double deviation_of_median = 1.4826;
-constexpr double least_ground_error = 1e-5;  // [m]
+constexpr double least_ground_error = 1e-6;  // [m]
 constexpr std::size_t enough = 3;            // resting poses, or impacts, to calibrate on
 
 Matrix3 cross_matrix(const Vector3& v) {
@@ -64,7 +64,7 @@ void calibrate_ground(const MeasuredFile& file, const TrackPart& part, Calibrati
   Calibration calibration = result.calibration;
   calibration.ground = stated;
   const TrackedBody body(file.file.description, calibration);
-  std::vector<double> heights, distances;
+  std::vector<double> heights, distances, own;
   for (const std::size_t index : part) {
     for (const Meeting& meeting : file.tracks[index].meetings) distances.push_back(meeting.distance);
   }
@@ -74,13 +74,18 @@ void calibrate_ground(const MeasuredFile& file, const TrackPart& part, Calibrati
       if (meeting.distance > clean) continue;
       const analytic::space::State met = meeting.before.state_at(meeting.time);
       const Quaternion attitude = body.attitude(met.attitude);
+      own.push_back(meeting.low_error);
       heights.push_back(met.position.z() + body.arm(attitude, body.lowest(attitude)).z());
     }
   }
   result.touches = heights.size();
   result.calibration.ground = heights.empty() ? stated : median(heights);
   for (double& height : heights) height = std::fabs(height - result.calibration.ground);
-  result.ground_spread = heights.empty() ? 0 : std::max(least_ground_error, deviation_of_median * median(heights));
+  if (heights.empty()) return;
+  const double spread = deviation_of_median * median(heights), noise = median(own);
+  result.ground_spread =
+      std::sqrt(std::max(0.0, spread * spread - noise * noise) + spread * spread / static_cast<double>(heights.size()));
+  result.ground_spread = std::max(least_ground_error, result.ground_spread);
 }
 
 /// How far an impulse at the touching point fails to explain the change of turning: with k² = I/m of the uniform body,

@@ -131,7 +131,9 @@ void FlightFit::settle_misfit(std::span<const Frame> frames) {
   const double per_frame = planar_ ? 3 : 6, parameters = planar_ ? 6 : 12;
   const double freedom = per_frame * frames_ - parameters;
   misfit_ = freedom > 0 ? std::sqrt(sum / freedom) : 1;
-  const double scale = std::max(1.0, misfit_ * misfit_);
+  // Residuals beyond what chance leaves say that the noise is larger here.
+  const double chance = freedom > 0 ? 1 + 2 / std::sqrt(2 * freedom) : misfit_;
+  const double scale = misfit_ > chance ? misfit_ * misfit_ : 1;
   position_covariance_ *= scale;
   rotation_covariance_ *= scale;
 }

@@ -53,6 +53,10 @@ class FlightFit {
   [[nodiscard]] int frames() const { return frames_; }
   /// Root of the mean square residual over its expectation; 1: noise alone.
   [[nodiscard]] double misfit() const { return misfit_; }
+  /// Residual of a frame, position and rotation vector, in standard deviations of the noise.
+  [[nodiscard]] Eigen::Matrix<double, 6, 1> standard_residual(const Frame& frame) const {
+    return residuals(frame).head<6>();
+  }
   /// Largest component of a frame's residual, in standard deviations.
   [[nodiscard]] double residual(const Frame& frame) const;
 

@@ -10,10 +10,10 @@ constexpr double explained = 5;  // standard deviations
 constexpr std::size_t seed_frames = 4;
 constexpr std::size_t window = 12;  // frames that a new one is fitted with
 constexpr std::size_t rest_frames = 5;
-constexpr std::size_t gravity_frames = 8;
+constexpr std::size_t gravity_frames = 8, noise_frames = 16;
 constexpr std::size_t gravity_flights = 5;
 constexpr std::size_t most_torn = 2;  // in a row
-constexpr double unknown_gravity = 0.05, least_spread = 0.02;
+constexpr double unknown_gravity = 0.05, least_spread = 1e-3;
 constexpr double deviation_of_median = 1.4826;
 
 /// Grows flights through the frames of a track up to `end`.
@@ -112,20 +112,49 @@ FlightFit fit_flight(const Track& track, const FlightFrames& frames, const Fligh
   return {chosen, model};
 }
 
+PoseNoise flight_noise(const TrackFile& file, const std::vector<TrackFlights>& flights, const FlightModel& model) {
+  std::vector<double> parts[6];
+  for (std::size_t i = 0; i < file.tracks.size(); ++i) {
+    for (const FlightFrames& flight : flights[i].flights) {
+      const std::size_t count = std::min(flight.size(), noise_frames);
+      if (count < gravity_frames) continue;
+      const FlightFit fit = fit_flight(file.tracks[i], flight, model, FlightSide::last, count);
+      const double taken = std::sqrt(1 - 2.0 / static_cast<double>(count));  // by two parameters an axis
+      for (std::size_t k = flight.size() - count; k < flight.size(); ++k) {
+        const auto off = fit.standard_residual(file.tracks[i].frames[flight[k]]);
+        for (int part = 0; part < 6; ++part) parts[part].push_back(std::fabs(off[part]) / taken);
+      }
+    }
+  }
+  if (parts[0].empty()) return model.noise;
+  PoseNoise noise;
+  for (int part = 0; part < 6; ++part) {
+    const double deviation = deviation_of_median * median(parts[part]);
+    double& size = part < 3 ? noise.position : noise.rotation;
+    size = std::max(size, deviation * (part < 3 ? model.noise.position : model.noise.rotation));
+  }
+  return noise;
+}
+
 FallGravity fall_gravity(const TrackFile& file, const PoseNoise& noise) {
   const double stated = file.description.gravity;
   const FallGravity known{stated, unknown_gravity * stated};
   const FlightModel wide{noise, {stated, stated}, file.description.is_planar()};
-  std::vector<double> falls;
+  std::vector<double> falls, own;
   for (const Track& track : file.tracks) {
     const TrackFlights found = find_flights(track, {noise, {stated, 2 * known.spread}, wide.planar});
     if (found.flights.empty() || found.flights[0].size() < gravity_frames) continue;
-    falls.push_back(fit_flight(track, found.flights[0], wide, FlightSide::first, track.frames.size()).gravity());
+    const FlightFit fall = fit_flight(track, found.flights[0], wide, FlightSide::first, track.frames.size());
+    falls.push_back(fall.gravity());
+    own.push_back(fall.gravity_error());
   }
   if (falls.size() < gravity_flights) return known;
   const double middle = median(falls);
   for (double& fall : falls) fall = std::fabs(fall - middle);
-  return {middle, std::max(least_spread, deviation_of_median * median(falls))};
+  const double spread = deviation_of_median * median(falls), known_to = median(own);
+  const double rest =
+      std::max(0.0, spread * spread - known_to * known_to) + spread * spread / static_cast<double>(falls.size());
+  return {middle, std::max(least_spread, std::sqrt(rest))};
 }
 
 }  // namespace clatter::validation

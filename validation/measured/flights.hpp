@@ -31,8 +31,13 @@ enum class FlightSide { first, last };
 [[nodiscard]] FlightFit fit_flight(const Track& track, const FlightFrames& frames, const FlightModel& model,
                                    FlightSide side, std::size_t most);
 
-/// Gravity along the falls: the middle of all first flights of 8 frames or more, and its spread; where there are fewer
-/// than 5 of those the description's, known to 5 %.
+/// Noise from what flights of 8 frames or more leave unexplained, of the noisiest axis; the model's own without any.
+/// Better than pose_noise(), which impacts and torn frames enlarge.
+[[nodiscard]] PoseNoise flight_noise(const TrackFile& file, const std::vector<TrackFlights>& flights,
+                                     const FlightModel& model);
+
+/// Gravity along the falls: the middle of all first flights of 8 frames or more, and its spread beyond their own
+/// errors; where there are fewer than 5 of those the description's, known to 5 %.
 [[nodiscard]] FallGravity fall_gravity(const TrackFile& file, const PoseNoise& noise);
 
 }  // namespace clatter::validation

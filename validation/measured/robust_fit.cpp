@@ -82,18 +82,26 @@ class Derivatives {
     return gradient;
   }
 
-  [[nodiscard]] Eigen::MatrixXd mean_second() const {
-    Eigen::MatrixXd second(at_.size(), at_.size());
-    const auto mean = [&](const Moves& moves) { return losses_(moved(moves)).mean(); };
+  /// Second derivatives of each item's loss.
+  [[nodiscard]] std::vector<Eigen::MatrixXd> second() const {
+    std::vector<Eigen::MatrixXd> all(static_cast<std::size_t>(centre_.size()),
+                                     Eigen::MatrixXd::Zero(at_.size(), at_.size()));
+    const auto put = [&](Eigen::Index i, Eigen::Index j, const Vector& values) {
+      for (Eigen::Index k = 0; k < values.size(); ++k) {
+        Eigen::MatrixXd& matrix = all[static_cast<std::size_t>(k)];
+        matrix(i, j) = matrix(j, i) = values[k];
+      }
+    };
+    const auto at = [&](const Moves& moves) { return losses_(moved(moves)); };
     for (Eigen::Index i = 0; i < at_.size(); ++i) {
-      second(i, i) = (mean({{i, 1}}) - 2 * centre_.mean() + mean({{i, -1}})) / (step(i) * step(i));
+      put(i, i, (at({{i, 1}}) - 2 * centre_ + at({{i, -1}})) / (step(i) * step(i)));
       for (Eigen::Index j = 0; j < i; ++j) {
-        const double mixed =
-            mean({{i, 1}, {j, 1}}) - mean({{i, 1}, {j, -1}}) - mean({{i, -1}, {j, 1}}) + mean({{i, -1}, {j, -1}});
-        second(i, j) = second(j, i) = mixed / (4 * step(i) * step(j));
+        put(i, j,
+            (at({{i, 1}, {j, 1}}) - at({{i, 1}, {j, -1}}) - at({{i, -1}, {j, 1}}) + at({{i, -1}, {j, -1}})) /
+                (4 * step(i) * step(j)));
       }
     }
-    return second;
+    return all;
   }
 
  private:
@@ -111,16 +119,26 @@ class Derivatives {
   Vector centre_;
 };
 
-Eigen::MatrixXd sandwich(const Losses& losses, const Vector& at, const std::vector<double>& steps) {
+bool is_positive(const Eigen::LDLT<Eigen::MatrixXd>& factors) {
+  return factors.isPositive() && factors.vectorD().minCoeff() > 0;
+}
+
+Eigen::MatrixXd jackknife(const Losses& losses, const Vector& at, const std::vector<double>& steps) {
   const Derivatives derivatives(losses, at, steps);
-  const Eigen::MatrixXd first = derivatives.first(), second = derivatives.mean_second();
-  const auto n = static_cast<double>(first.rows()), p = static_cast<double>(first.cols());
-  const Eigen::LDLT<Eigen::MatrixXd> factors(second);
-  if (!factors.isPositive() || !(factors.vectorD().minCoeff() > 0) || !(n > p)) {
-    return Eigen::MatrixXd::Constant(first.cols(), first.cols(), missing);
+  const Eigen::MatrixXd first = derivatives.first();
+  const std::vector<Eigen::MatrixXd> second = derivatives.second();
+  const Eigen::Index n = first.rows(), p = first.cols();
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(p, p), covariance = sum;
+  for (const Eigen::MatrixXd& one : second) sum += one;
+  const Eigen::LDLT<Eigen::MatrixXd> all(sum);
+  if (!is_positive(all) || n <= p) return Eigen::MatrixXd::Constant(p, p, missing);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::LDLT<Eigen::MatrixXd> others(sum - second[static_cast<std::size_t>(i)]);
+    const Vector gradient = first.row(i).transpose();
+    const Vector moved = is_positive(others) ? others.solve(gradient) : all.solve(gradient);
+    covariance += moved * moved.transpose();
   }
-  const Eigen::MatrixXd inverse = factors.solve(Eigen::MatrixXd::Identity(first.cols(), first.cols()));
-  return inverse * (first.transpose() * first / (n - p)) * inverse / n;
+  return covariance * static_cast<double>(n - 1) / static_cast<double>(n);
 }
 
 }  // namespace
@@ -140,7 +158,7 @@ RobustFit fit_robustly(const Losses& losses, const FitStart& start) {
   RobustFit fit;
   fit.value = least_point(losses, start);
   fit.losses = losses(fit.value);
-  fit.covariance = sandwich(losses, fit.value, start.step);
+  fit.covariance = jackknife(losses, fit.value, start.step);
   return fit;
 }
 

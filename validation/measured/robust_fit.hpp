@@ -17,8 +17,8 @@ struct FitStart {
 
 struct RobustFit {
   Eigen::VectorXd value;
-  /// Sandwich H⁻¹ G H⁻¹/n with H the mean loss's second derivatives and G the scatter of the items' first ones, by
-  /// central differences; NaN where H is not positive definite.
+  /// Of the jackknife: without item i the parameters move by (Σ H − H_i)⁻¹ g_i to first order, g and H an item's first
+  /// and second derivatives by central differences; NaN where Σ H is not positive definite.
   Eigen::MatrixXd covariance;
   Eigen::VectorXd losses;  ///< of each item at `value`
 

@@ -1,7 +1,6 @@
 #include "validation/measured/track_impacts.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/minima.hpp>
 #include <cmath>
 
 #include "analytic/errors.hpp"
@@ -15,46 +14,7 @@ using analytic::space::FreeFlight;
 using analytic::space::PrincipalAxes;
 using analytic::space::State;
 
-constexpr std::size_t frames_before = 16, frames_after = 12;  // of a flight, next to the impact
-constexpr double same_motion = 6;                             // standard deviations
-constexpr double slight = 0.05;                               // change of a motion over the motion
-constexpr double moved_on = 50, bar = 3;                      // standard deviations
-constexpr int meeting_bits = 20;
-constexpr double at_the_ground = 0.2;                    // height of the lowest point, over the body's size
-constexpr double most_skipped = 1;                       // [s]
-constexpr double skip_tolerance = 0.1, skip_turn = 0.3;  // of the way and the velocity; [rad]
-
-double distance_at(const FlightFit& a, const FlightFit& b, const PoseNoise& noise, double time) {
-  const State before = a.state_at(time), after = b.state_at(time);
-  return ((after.position - before.position) / noise.position).squaredNorm() +
-         (rotation_vector(after.attitude * before.attitude.conjugate()) / noise.rotation).squaredNorm();
-}
-
-double meeting_time(const FlightFit& a, const FlightFit& b, const PoseNoise& noise) {
-  return boost::math::tools::brent_find_minima([&](double t) { return distance_at(a, b, noise, t); }, a.last(),
-                                               b.first(), meeting_bits)
-      .first;
-}
-
-bool is_one_motion(const FlightFit& a, const FlightFit& b, double gyration) {
-  const double time = (a.last() + b.first()) / 2;
-  const MeasuredState before = a.at(time), after = b.at(time);
-  const Vector3 jump = after.state.velocity - before.state.velocity;
-  const Vector3 twist = after.state.angular_velocity - before.state.angular_velocity;
-  const auto size = [&](const Vector3& v, const Vector3& w) { return std::hypot(v.norm(), gyration * w.norm()); };
-  if (size(jump, twist) < slight * size(before.state.velocity, before.state.angular_velocity)) return true;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto spread = [&](int i) { return std::sqrt(before.covariance(i, i) + after.covariance(i, i)); };
-    if (std::fabs(jump[axis]) > same_motion * spread(6 + axis)) return false;
-    if (std::fabs(twist[axis]) > same_motion * spread(9 + axis)) return false;
-  }
-  return true;
-}
-
-/// Whether poses jump though the motion goes on: samples are missing.
-bool has_moved_on(const FlightFit& a, const FlightFit& b, const FlightModel& model) {
-  return distance_at(a, b, model.noise, (a.last() + b.first()) / 2) > moved_on * moved_on;
-}
+constexpr double bar = 3;  // standard deviations
 
 Matrix3 cross_matrix(const Vector3& v) {
   Matrix3 m;
@@ -96,7 +56,15 @@ void add_lever(const TrackedBody& body, TrackImpact& impact, double tolerance) {
   }
 }
 
-void add_ratios(TrackImpact& impact) {
+/// Derivative of the touching point's height by position, attitude, velocity and angular velocity.
+Eigen::Matrix<double, 1, 12> height_map(const Vector3& arm) {
+  Eigen::Matrix<double, 1, 12> map = Eigen::Matrix<double, 1, 12>::Zero();
+  map(2) = 1;
+  map.segment<3>(3) = arm.cross(Vector3::UnitZ()).transpose();
+  return map;
+}
+
+void add_ratios(TrackImpact& impact, double ground_error) {
   const State &before = impact.before.state, &after = impact.after.state;
   const Vector3 u = before.velocity + before.angular_velocity.cross(impact.arm);
   const Vector3 w = after.velocity + after.angular_velocity.cross(impact.arm);
@@ -115,9 +83,11 @@ void add_ratios(TrackImpact& impact) {
   const double by_time = after.angular_velocity.cross(turned).z() +
                          impact.restitution * before.angular_velocity.cross(turned).z() -
                          (1 + impact.restitution) * impact.gravity;
+  // The pose before settles the moment of the touch.
+  by_before += by_time / impact.approach * height_map(impact.arm);
   impact.restitution_error = std::sqrt((by_before * impact.before.covariance * by_before.transpose())(0) +
                                        (by_after * impact.after.covariance * by_after.transpose())(0) +
-                                       std::pow(by_time * impact.time_error, 2)) /
+                                       std::pow(by_time * ground_error / impact.approach, 2)) /
                              impact.approach;
   const Vector3 jump = after.velocity - before.velocity;
   const double tangential = jump.head<2>().norm();
@@ -136,26 +106,6 @@ MeasuredState calibrated(const TrackedBody& body, MeasuredState measured) {
 }
 
 }  // namespace
-
-std::vector<Meeting> find_meetings(const Track& track, const TrackFlights& flights, const FlightModel& model,
-                                   const TrackedBody& body) {
-  std::vector<Meeting> meetings;
-  for (std::size_t i = 1; i < flights.flights.size(); ++i) {
-    const FlightFrames &earlier = flights.flights[i - 1], &later = flights.flights[i];
-    const FlightFit before = fit_flight(track, earlier, model, FlightSide::last, frames_before);
-    const FlightFit after = fit_flight(track, later, model, FlightSide::first, frames_after);
-    if (is_one_motion(before, after, std::sqrt(body.gyration_square())) && !has_moved_on(before, after, model))
-      continue;
-    Meeting meeting{.before = before, .after = after};
-    meeting.between = static_cast<int>(later.front() - earlier.back()) - 1;
-    meeting.time = meeting_time(before, after, model.noise);
-    meeting.distance = std::sqrt(distance_at(before, after, model.noise, meeting.time));
-    const State met = before.state_at(meeting.time);
-    meeting.low = met.position.z() + body.arm(met.attitude, body.lowest(met.attitude)).z();
-    meetings.push_back(std::move(meeting));
-  }
-  return meetings;
-}
 
 double lever(const TrackedBody& body, const TrackImpact& impact, const Vector3& arm) {
   const State &before = impact.before.state, &after = impact.after.state;
@@ -203,81 +153,12 @@ TrackImpact measured_impact(const Meeting& meeting, const TrackedBody& body, dou
   impact.height = met.position.z() + body.arm(met_attitude, body.lowest(met_attitude)).z() - body.calibration().ground;
   const double fall =
       std::fabs((impact.before.state.velocity + impact.before.state.angular_velocity.cross(impact.arm)).z());
-  impact.time_error = std::hypot(ground_error, std::sqrt(impact.before.covariance(2, 2))) / std::max(fall, 1e-3);
-  add_ratios(impact);
+  const auto height = height_map(impact.arm);
+  const double low_error = std::sqrt((height * impact.before.covariance * height.transpose())(0));
+  impact.time_error = std::hypot(ground_error, low_error) / std::max(fall, 1e-3);
+  add_ratios(impact, ground_error);
   add_lever(body, impact, lever_tolerance);
   return impact;
-}
-
-namespace {
-
-/// Height of the ground over that of the description: where the first two flights of each track meet, in the middle.
-double first_ground(const MeasuredFile& measured) {
-  std::vector<double> heights;
-  for (const MeasuredTrack& track : measured.tracks) {
-    if (!track.meetings.empty()) heights.push_back(track.meetings.front().low);
-  }
-  return heights.empty() ? measured.file.description.ground : median(heights);
-}
-
-/// The time that samples left out, if the later flight is the earlier one continued after that.
-std::optional<double> skipped_time(const Meeting& meeting, const FlightModel& model) {
-  const State last = meeting.before.state_at(meeting.time), next = meeting.after.state_at(meeting.time);
-  const double apart = (next.position - last.position).head<2>().dot(last.velocity.head<2>());
-  const double late = apart / last.velocity.head<2>().squaredNorm();
-  if (!(late * meeting.before.frames() > (meeting.before.last() - meeting.before.first()) / 2 && late < most_skipped))
-    return std::nullopt;
-  const State go_on = meeting.before.state_at(meeting.time + late);
-  const double off = (next.position - go_on.position).norm();
-  const double turned_off = rotation_vector(next.attitude * go_on.attitude.conjugate()).norm();
-  const double way = (go_on.position - last.position).norm();
-  const bool same =
-      off < skip_tolerance * way + same_motion * model.noise.position && turned_off < skip_turn &&
-      (next.velocity - go_on.velocity).norm() < skip_tolerance * last.velocity.norm() + model.gravity.spread * late;
-  return same ? std::optional(late) : std::nullopt;
-}
-
-/// Impacts apart from other changes, and numbered.
-void sort_changes(MeasuredTrack& track, double ground, const MeasuredFile& measured) {
-  const double near = at_the_ground * measured.file.description.size.minCoeff();
-  std::vector<Meeting> impacts;
-  for (Meeting& meeting : track.meetings) {
-    const auto skipped = skipped_time(meeting, measured.model);
-    if (skipped) meeting.skipped = *skipped;
-    meeting.change = skipped ? Change::skipped : meeting.low - ground < near ? Change::impact : Change::disturbed;
-    meeting.number = static_cast<int>(impacts.size()) + (meeting.change == Change::impact ? 1 : 0);
-    (meeting.change == Change::impact ? impacts : track.other_changes).push_back(std::move(meeting));
-  }
-  track.meetings = std::move(impacts);
-}
-
-}  // namespace
-
-MeasuredFile measure_tracks(TrackFile file) {
-  MeasuredFile measured{.file = std::move(file), .model = {}, .tracks = {}};
-  const TrackDescription& description = measured.file.description;
-  measured.model = {.noise = pose_noise(measured.file), .gravity = {}, .planar = description.is_planar()};
-  measured.model.gravity = fall_gravity(measured.file, measured.model.noise);
-  const TrackedBody body(description, {});
-  for (const Track& track : measured.file.tracks) {
-    MeasuredTrack result{.name = track.name,
-                         .flights = {},
-                         .missing = track.missing,
-                         .meetings = {},
-                         .other_changes = {},
-                         .rest = {},
-                         .rest_position = {}};
-    result.flights = find_flights(track, measured.model);
-    result.meetings = find_meetings(track, result.flights, measured.model, body);
-    if (result.flights.rests) {
-      result.rest = track.frames.back().attitude;
-      result.rest_position = track.frames.back().position;
-    }
-    measured.tracks.push_back(std::move(result));
-  }
-  const double ground = first_ground(measured);
-  for (MeasuredTrack& track : measured.tracks) sort_changes(track, ground, measured);
-  return measured;
 }
 
 }  // namespace clatter::validation

@@ -92,6 +92,7 @@ const Measures& all_measures() {
     add_model_measures(all);
     add_bar_measures(all);
     add_space_measures(all);
+    add_measured_measures(all);
     return all;
   }();
   return measures;

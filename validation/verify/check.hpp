@@ -62,5 +62,6 @@ void add_figure_measures(Measures& measures);
 void add_model_measures(Measures& measures);
 void add_bar_measures(Measures& measures);
 void add_space_measures(Measures& measures);
+void add_measured_measures(Measures& measures);
 
 }  // namespace clatter::validation

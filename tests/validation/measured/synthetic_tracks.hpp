@@ -32,7 +32,8 @@ struct Truth {
   std::vector<double> impact_times;  // of the file's clock [s]
   std::vector<int> flights;          // frames of flight between impact i and i + 1 that were kept and whole
   std::vector<double> torn_times;
-  int frames_before = 0;  // of the flight before impact 1
+  double restitution = 0, impulse_ratio = 0;  // of impact 1
+  int frames_before = 0;                      // of the flight before impact 1
 };
 
 struct Synthetic {
@@ -65,6 +66,9 @@ class TrackMaker {
     for (const auto& row : sequence.rows) {
       if (before + row.start < end) truth.impact_times.push_back(before + row.start);
     }
+    const auto& first = sequence.rows[0].impact;
+    truth.restitution = first.restitution();
+    truth.impulse_ratio = first.impulse.head<2>().norm() / first.impulse.z();
     truth.flights.assign(truth.impact_times.size(), 0);
     Track track{.name = std::to_string(index_), .frames = {}};
     for (int sample = 0; sample / recipe_.rate < end; ++sample) add_frame(drop, sequence, sample, before, track, truth);

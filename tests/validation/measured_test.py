@@ -1,0 +1,122 @@
+#!/usr/bin/python3
+"""`clatter measured`: tracked drops from a file to a table, a picture, or one line that says what is wrong."""
+
+import json
+import os
+import shutil
+import unittest
+
+from run_folder import Folder
+
+HERE = os.path.join(os.environ["CLATTER_ROOT"], "validation", "measured")
+SQUARES = os.path.join(HERE, "square-drops.csv")
+CUBES = os.path.join(HERE, "cube-tosses.csv")
+
+
+class Measured(Folder):
+    def result(self, *arguments):
+        done = self.run_program("measured", *arguments, "--format", "json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads(done.stdout)
+
+    def lines(self, name):
+        with open(name, encoding="utf-8") as file:
+            return file.read().splitlines(keepends=True)
+
+    def test_words_may_come_in_either_order(self):
+        self.assertEqual(self.run_program("measured", "fit", SQUARES).stdout, self.run_program("measured", SQUARES, "fit").stdout)
+
+    def test_the_reports_name_source_and_licence_of_the_data(self):
+        for file, name in ((SQUARES, "ImpactModeling"), (CUBES, "contact-nets")):
+            shown = self.run_program("measured", "fit", file).stdout
+            self.assertIn(name, shown)
+            self.assertIn("BSD-3-Clause", shown)
+
+    def test_a_fit_gives_each_law_with_its_intervals(self):
+        fits = {fit["model"]: fit for fit in self.result("fit", CUBES)["fits"]}
+        for law in ("newton", "poisson", "stronge"):
+            self.assertGreater(fits[law]["restitution"], 0.1)
+            self.assertLess(fits[law]["restitution"], 0.6)
+            self.assertGreater(fits[law]["friction"], 0.05)
+            self.assertGreater(fits[law]["restitution_half_width"], 0)
+            self.assertGreaterEqual(fits[law]["loss_above"], 0)
+
+    def test_a_score_holds_the_law_against_its_baselines_and_the_floor(self):
+        for file in (SQUARES, CUBES):
+            rows = {row["quantity"]: row for row in self.result("score", file)["scores"]}
+            order = ["floor: any impulse there", "as fitted", "flat rebound", "no change"]
+            middles = [rows[name]["value"] for name in order]
+            self.assertEqual(middles, sorted(middles))
+            # Impacts on several corners are what a sequence is for.
+            self.assertLess(rows["no point impact: the sequence"]["value"], 0.5 * rows["no point impact: one impact"]["value"])
+
+    def test_no_drop_is_fitted_to_and_scored(self):
+        listed = "1,11,21,31,41,51,61,71,81,91,101-250"
+        scored = [row["drop"] for row in self.result("predict", SQUARES, "--fit-on", listed)["drops"]]
+        self.assertNotIn("1", scored)
+        self.assertNotIn("111", scored)
+        self.assertIn("251", scored)
+        self.refused("--fit-from", "measured", "score", SQUARES, "--fit-from", SQUARES)
+
+    def test_a_file_never_seen_goes_through_the_same_command(self):
+        rows = self.lines(SQUARES)
+        comments, head, body = rows[:3], rows[3], rows[4:]
+        half = [row for row in body if int(row.split(",")[0]) % 20 == 1]
+        self.write("new.csv", "".join(comments) + head + "".join(half))
+        alone = self.result("score", self.path("new.csv"), "--body", "square-drops")
+        self.assertEqual(alone["data"]["drops"], 25)
+        elsewhere = self.result("score", self.path("new.csv"), "--body", "square-drops", "--fit-from", SQUARES)
+        self.assertEqual(elsewhere["scored"], 25)
+
+    def test_a_description_may_have_other_columns_units_and_senses(self):
+        rows = self.lines(SQUARES)[4:]
+        turned = ["n;k;X;Z;phi\n"]
+        for row in rows:
+            drop, sample, x, z, angle = row.strip().split(",")
+            turned.append(f"{drop};{sample};{1000 * float(x)};{1000 * float(z)};{-57.29577951308232 * float(angle)}\n")
+        self.write("turned.csv", "".join(turned))
+        self.write("turned.toml", "[body]\nsize = [0.06, 0.06, 0.06]\n[track]\nmotion = 'plane'\nrate = 250\ndrop = 'n'\nsample = 'k'\n"
+                   "x = 'X'\nz = 'Z'\nangle = 'phi'\nunit = 0.001\nangle_unit = 0.017453292519943295\nturns = 'clockwise'\n"
+                   "[world]\ngravity = 9.2\n")
+        one, other = self.result("fit", SQUARES), self.result("fit", self.path("turned.csv"))
+        for a, b in zip(one["fits"], other["fits"]):
+            self.assertAlmostEqual(a["restitution"], b["restitution"], delta=1e-4)
+            self.assertAlmostEqual(a["friction"], b["friction"], delta=1e-4)
+
+    def test_frames_that_are_lost_or_torn_are_reported(self):
+        rows = self.lines(SQUARES)
+        whole = self.result("fit", SQUARES)["data"]
+        less = [row for row in rows if not row.startswith("1,5,")]
+        place = next(i for i, row in enumerate(less) if row.startswith("11,5,"))
+        parts = less[place].split(",")
+        less[place] = ",".join(parts[:2] + [str(float(parts[2]) + 0.02)] + parts[3:])
+        self.write("less.csv", "".join(less))
+        data = self.result("fit", self.path("less.csv"), "--body", "square-drops")["data"]
+        self.assertEqual(data["missing"], whole["missing"] + 1)
+        self.assertEqual(data["torn"], whole["torn"] + 1)
+
+    def test_what_is_wrong_is_said_in_one_line(self):
+        self.refused("ACTION", "measured", "guess", SQUARES)
+        self.refused("--body takes a file or one of", "measured", "fit", self.path("body.stl"))
+        shutil.copy(SQUARES, self.path("a.csv"))
+        self.refused("--body round: neither", "measured", "fit", self.path("a.csv"), "--body", "round")
+        self.refused("q0", "measured", "fit", self.path("a.csv"), "--body", "cube-tosses")
+        self.refused("no drop is called 2", "measured", "fit", SQUARES, "--fit-on", "1,2")
+        self.refused("excludes", "measured", "fit", SQUARES, "--fit-on", "1,11,21", "--seed", "3")
+        self.refused("--share", "measured", "fit", SQUARES, "--share", "1.5")
+        self.refused("--drop x", "measured", "score", SQUARES, "--drop", "x", "--plot", self.path("p.svg"))
+        self.refused("--plot", "measured", "fit", SQUARES, "--plot", self.path("p.svg"))
+        self.write("b.csv", "drop,sample,x_m,z_m,angle_rad\n1,0,0,1,0\n1,0,0,1,0\n")
+        self.refused("b.csv:3:", "measured", "fit", self.path("b.csv"), "--body", "square-drops")
+        self.write("b.toml", "[body]\nsize = [1, 1, 1]\n[track]\nmotion = 'plane'\nrate = 0\n")
+        self.refused("track.rate", "measured", "fit", self.path("b.csv"))
+
+    @unittest.skipUnless(shutil.which("gnuplot"), "gnuplot is not installed")
+    def test_the_picture_has_the_track_beside_the_prediction(self):
+        done = self.run_program("measured", "score", SQUARES, "--plot", self.path("score.svg"), "--plot-script")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("predicted from impact 1 on", self.read("score.svg"))
+
+
+if __name__ == "__main__":
+    unittest.main()
