@@ -100,7 +100,7 @@ class Measured(Folder):
         self.refused("--body takes a file or one of", "measured", "fit", self.path("body.stl"))
         shutil.copy(SQUARES, self.path("a.csv"))
         self.refused("--body round: neither", "measured", "fit", self.path("a.csv"), "--body", "round")
-        self.refused("q0", "measured", "fit", self.path("a.csv"), "--body", "cube-tosses")
+        self.refused("no column toss", "measured", "fit", self.path("a.csv"), "--body", "cube-tosses")
         self.refused("no drop is called 2", "measured", "fit", SQUARES, "--fit-on", "1,2")
         self.refused("excludes", "measured", "fit", SQUARES, "--fit-on", "1,11,21", "--seed", "3")
         self.refused("--share", "measured", "fit", SQUARES, "--share", "1.5")

@@ -40,6 +40,7 @@ void add_score_rows(const Scores& scores, Report& report) {
   put("second corner", scores.second_corner);
   put("… the start leaves no doubt", scores.second_corner_sure);
   put("… nor does the law's scatter", scores.second_corner_clear);
+  put("… from the motion after impact 1", scores.second_corner_flown);
   put("inside 90 % intervals", scores.inside);
   put("face at rest", scores.face);
   put("… by published parameters", scores.published_face);

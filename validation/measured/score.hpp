@@ -78,8 +78,15 @@ struct ResidualBin {
 struct Scores {
   std::vector<ScoredDrop> drops;
   std::vector<ErrorRow> rows;
-  Share first_corner, second_corner, second_corner_sure, second_corner_clear, inside, points, face, published_face,
-      count, count_published;
+  Share points;                      ///< impacts that are point impacts
+  Share first_corner;                ///< predicted, about which momentum is kept best
+  Share second_corner;               ///< from the motion before impact 1
+  Share second_corner_sure;          ///< of those, where 95 % of the start's samples agree
+  Share second_corner_clear;         ///< likewise, with the law's scatter added
+  Share second_corner_flown;         ///< from the motion measured after impact 1: the flight alone
+  Share inside;                      ///< numbers inside their 90 % intervals
+  Share face, published_face;        ///< at rest, with the fitted and the published parameters
+  Share count, count_published;      ///< number of impacts met within one;
   std::vector<double> time_errors;   ///< of the second impact, over the flight's measured duration
   std::vector<double> ratio_errors;  ///< of P₂/P₁, relative
   std::vector<ResidualBin> bins;

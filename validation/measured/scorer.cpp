@@ -109,6 +109,10 @@ class Scorer {
     if (std::any_of(track.other_changes.begin(), track.other_changes.end(), between)) return;
     const NextImpact& next = *drop.predicted.next;
     const bool right = next.corner == drop.second->corner;
+    const auto flown_to =
+        next_contact(model_.body, drop.measured.after.state, drop.measured.corner, drop.measured.gravity);
+    ++scores_.second_corner_flown.of;
+    if (flown_to && flown_to->corner == drop.second->corner) ++scores_.second_corner_flown.right;
     ++scores_.second_corner.of;
     if (right) ++scores_.second_corner.right;
     if (next.certainty >= sure) {

@@ -50,7 +50,9 @@ void add_lever(const TrackedBody& body, TrackImpact& impact, double tolerance) {
   double least = impact.lever_miss;
   impact.momentum_corner = impact.corner;
   for (std::size_t i = 0; i < body.core().vertices.size(); ++i) {
-    const double miss = lever(body, impact, body.arm(impact.before.state.attitude, static_cast<int>(i)));
+    const Vector3 arm = body.arm(impact.before.state.attitude, static_cast<int>(i));
+    if (arm.z() >= 0) continue;  // the ground cannot reach it
+    const double miss = lever(body, impact, arm);
     if (miss < least) impact.momentum_corner = static_cast<int>(i);
     least = std::min(least, miss);
   }

@@ -22,7 +22,7 @@ struct TrackImpact {
   double lever_miss = 0;          ///< (1) of lever(): momentum about the corner that no impulse there explains
   double lever_error = 0;         ///< three standard deviations of that
   bool is_point = false;          ///< lever_miss is within the tolerance and its error
-  int momentum_corner = 0;        ///< the corner about which momentum is kept best
+  int momentum_corner = 0;        ///< of those below the centre, the corner about which momentum is kept best
   double approach = 0;            ///< −normal velocity of the touching point before [m/s]
   double slip = 0;                ///< its tangential speed before [m/s]
   double restitution = 0;         ///< separation over approach
