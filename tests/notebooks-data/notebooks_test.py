@@ -47,8 +47,8 @@ def solutions():
 
 
 class Lectures(unittest.TestCase):
-    def test_there_are_eight_and_each_has_its_parts(self):
-        self.assertEqual([path.name[0] for path in LECTURES], list("12345678"))
+    def test_there_are_nine_and_each_has_its_parts(self):
+        self.assertEqual([path.name[0] for path in LECTURES], list("123456789"))
         for path in LECTURES:
             with self.subTest(notebook=path.name):
                 found = headings(path)

@@ -12,6 +12,7 @@ import unittest
 
 PROGRAM = os.environ["CLATTER_PROGRAM"]
 CASES = os.path.join(os.environ["CLATTER_ROOT"], "validation", "cases")
+SQUARES = os.path.join(os.environ["CLATTER_ROOT"], "validation", "measured", "square-drops.csv")
 PHONE = os.path.join(CASES, "phone-damped.toml")
 FORMS = ("table", "csv", "json", "markdown", "latex")
 # Each with the name of its rows in JSON.
@@ -26,6 +27,9 @@ COMMANDS = {
     "verify": (["verify", "--only", "E1"], "checks"),
     "plan": (["plan", PHONE, "--impacts", "1"], "rungs"),
     "extremes": (["extremes", "--only", "restitution", "--seconds", "600"], "cells"),
+    "measured-fit": (["measured", "fit", SQUARES], "fits"),
+    "measured-predict": (["measured", "predict", SQUARES], "drops"),
+    "measured-score": (["measured", "score", SQUARES], "scores"),
     "keys": (["keys"], "keys"),
     "columns": (["columns"], "columns"),
 }

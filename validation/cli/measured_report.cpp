@@ -74,9 +74,9 @@ std::vector<Column> measured_fit_columns() {
           {"friction", "μ", "", "Coulomb's coefficient"},
           {"friction_half_width", "±", "", "half the 95 % interval of the friction"},
           {"loss", "loss", "1e-4", "mean pseudo-Huber loss of the relative errors"},
-          {"loss_above", "above best", "1e-4", "mean loss above that of the best pure law, drop by drop"},
-          {"loss_above_error", "±", "1e-4", "standard error of that"},
-          {"impacts", "impacts", "", "point impacts fitted to"}};
+          {"loss_above", "above", "1e-4", "mean loss above that of the best pure law, drop by drop"},
+          {"loss_above_error", "±", "1e-4", "standard error of that", false},
+          {"impacts", "impacts", "", "point impacts fitted to", false}};
 }
 
 std::vector<Column> measured_predict_columns() {
@@ -84,8 +84,8 @@ std::vector<Column> measured_predict_columns() {
       word_column("drop", "drop", "its name in the file"),
       {"point", "point", "", "whether one impulse at the corner explains the impact"},
       word_column("corner", "corner", "predicted to strike first, signs of its body coordinates"),
-      word_column("corner_measured", "measured", "about which the momentum is kept best"),
-      {"certainty", "certain", "%", "share of the start's samples that agree on the corner"},
+      word_column("corner_measured", "seen", "about which the momentum is kept best"),
+      {"certainty", "certain", "%", "share of the start's samples that agree on the corner", false},
       {"angle", "angle", "°", "between the corner's arm and the vertical"}};
   for (const char* name : {"v_x", "v_y", "v_z", "k_omega_x", "k_omega_y", "k_omega_z"}) {
     const std::string part = name;
@@ -96,15 +96,15 @@ std::vector<Column> measured_predict_columns() {
   const std::vector<Column> rest{
       {"error", "error", "%", "of the motion after impact 1, over the motion before"},
       word_column("next_corner", "next", "corner that strikes second, predicted"),
-      word_column("next_corner_measured", "measured", "the same, measured"),
+      word_column("next_corner_measured", "seen", "the same, measured"),
       {"next_time", "after", "ms", "time from impact 1 to impact 2, predicted"},
       {"next_time_half_width", "", "ms", "half the 90 % interval from the start's uncertainty", false},
-      {"next_time_measured", "measured", "ms", "the same, measured"},
+      {"next_time_measured", "seen", "ms", "the same, measured"},
       {"impulse_ratio", "", "", "normal impulse of impact 2 over that of impact 1, predicted", false},
       {"impacts", "", "", "predicted that flights of three frames or more follow", false},
       {"impacts_measured", "", "", "impacts found", false},
       word_column("face", "face", "that lies down at rest, predicted"),
-      word_column("face_measured", "measured", "the same, measured"),
+      word_column("face_measured", "seen", "the same, measured"),
       word_column("outcome", "", "of the predicted sequence")};
   columns.insert(columns.end(), rest.begin(), rest.end());
   columns.back().shown = false;
@@ -120,10 +120,10 @@ Report measured_fit_report(const MeasuredRun& run) {
   const std::string best = fitted_law_name(fit.laws[fit.best].law.law);
   report.grid.rows.push_back(
       law_row(best + ", e(ν)", fit.dependent, {-fit.dependent_gain.mean, fit.dependent_gain.error}));
-  report.grid.rows.push_back(law_row(best + ", as described", fit.described, {std::nan(""), std::nan("")}));
+  report.grid.rows.push_back(law_row(best + ", described", fit.described, {std::nan(""), std::nan("")}));
   report.notes = {preference_words(fit), calibration_note(run), contact_words(fit)};
   for (const std::string& note : track_notes(run)) report.notes.push_back(note);
-  report.notes.emplace_back("e(ν) = e + e₁ ν, ν = 1/(m W_nn); as described: body uniform, sharp, its axes as tracked");
+  report.notes.emplace_back("e(ν) = e + e₁ ν, ν = 1/(m W_nn); described: body uniform, sharp, its axes as tracked");
   report.fields["fits"] = row_objects(report.grid);
   report.fields["best"] = best;
   report.fields["contact_time"] = fit.contact_time;

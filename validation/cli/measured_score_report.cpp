@@ -29,7 +29,7 @@ Row share_row(const std::string& group, const std::string& name, const Share& sh
 
 void add_score_rows(const Scores& scores, Report& report) {
   auto& rows = report.grid.rows;
-  for (const ErrorRow& row : scores.rows) rows.push_back(error_row("velocity after", row.name, row.errors));
+  for (const ErrorRow& row : scores.rows) rows.push_back(error_row("velocity", row.name, row.errors));
   rows.push_back(error_row("impact 2", "time", scores.time_errors));
   rows.push_back(error_row("impact 2", "P2/P1", scores.ratio_errors));
   const auto put = [&](const std::string& name, const Share& share) {
@@ -40,7 +40,7 @@ void add_score_rows(const Scores& scores, Report& report) {
   put("second corner", scores.second_corner);
   put("… the start leaves no doubt", scores.second_corner_sure);
   put("… nor does the law's scatter", scores.second_corner_clear);
-  put("… from the motion after impact 1", scores.second_corner_flown);
+  put("… from V and Ω as measured", scores.second_corner_flown);
   put("inside 90 % intervals", scores.inside);
   put("face at rest", scores.face);
   put("… by published parameters", scores.published_face);
@@ -97,7 +97,7 @@ Report measured_score_report(const MeasuredRun& run, const Scores& scores) {
   add_score_rows(scores, report);
   report.notes = {
       "law as fitted: " + law_words(run.fit.laws[run.fit.best].law),
-      "velocity after: error of (V, k Ω) after impact 1 over its size before, k² = I/m of the uniform body; point "
+      "velocity: error of (V, k Ω) after impact 1 over its size before, k² = I/m of the uniform body; point "
       "impacts alone; floor: the best impulse inside the friction cone",
       bin_words(scores), calibration_note(run)};
   for (const std::string& note : track_notes(run)) report.notes.push_back(note);
