@@ -68,6 +68,20 @@ BOOST_AUTO_TEST_CASE(the_stiff_limit_holds_95_of_100_impacts_of_random_drops_in_
                                    << ", farthest " << result.farthest << ", largest bar " << result.largest_bar);
 }
 
+/// On the scene's own ground no contact ends at 12 digits; the limit does not depend on that.
+BOOST_AUTO_TEST_CASE(a_ground_too_soft_for_a_run_of_12_digits_has_its_limit_in_space_too) {
+  SpaceScene drop = random_space_scene(5, 62);
+  drop.scene.options.impacts = 1;
+  drop.scene.options.error_estimates = false;
+  drop.scene.options.evaluation_limit = 100'000;
+  drop.scene.ground.stiffness *= 16;
+  drop.scene.ground.damping *= 16;
+  const Comparison comparison = compare_models(drop.scene, drop.body);
+  BOOST_REQUIRE(!comparison.impacts.empty());
+  BOOST_REQUIRE(comparison.impacts[0].has_landing());
+  BOOST_TEST(comparison.impacts[0].lands());
+}
+
 /// The families are what they say: their bodies differ, and none is refused.
 BOOST_AUTO_TEST_CASE(random_drops_in_space_are_boxes_off_centre_boxes_tetrahedra_and_ls) {
   const std::size_t corners[] = {8, 8, 4, 10};

@@ -23,6 +23,7 @@ constexpr double least_indentation = 1e-8;  // of the body: the depth that doubl
 constexpr double run_error = 3e-12;         // of a planar run of 12 digits, relative, per impact
 constexpr double space_run_error = 3e-11;   // in space, at most: slip that turns costs digits
 constexpr double safety = 2;
+constexpr double strong_damping = 1, doubt_of_damping = 4;  // of c_G v/k_G; in space, where numbers go like T ln T
 constexpr double no_limit = 1e-3;                 // a relative error bar above it: the runs are not near any limit yet
 constexpr double settled_change = 1e-6;           // from one triple of runs to the next; what is left is far below it
 constexpr long evaluations_per_run = 200'000;     // contacts that are short take some thousand each
@@ -92,6 +93,7 @@ struct Extrapolation {
   const numeric::Body& body;
   const LimitRequest& request;
   double exponent = 1;        ///< p of the force ∝ δ^p
+  double doubt = 1;           ///< factor of the bars
   double largest_change = 0;  ///< relative, from triple to triple, over all numbers so far
 };
 
@@ -119,7 +121,7 @@ LimitRow extrapolate(const std::vector<Simulation>& ladder, std::size_t row, Ext
     for (int t = 0; t < 3; ++t) triples[t] = values.segment<3>(t).dot(weights[t]);
     const double last = triples[2] - triples[1];
     limit.value[q] = triples[2];
-    limit.error[q] = error_bar(triples[1] - triples[0], last, expected) + runs[q];
+    limit.error[q] = at.doubt * error_bar(triples[1] - triples[0], last, expected) + runs[q];
     at.largest_change = std::max(at.largest_change, std::fabs(last) / size[q]);
     limit.relative_error = std::max(limit.relative_error, limit.error[q] / size[q]);
   }
@@ -132,7 +134,11 @@ bool take_limit(const std::vector<Simulation>& ladder, const ContactSizes& sizes
   const double ratio = ladder[rungs - 2].impacts[0].value.duration / ladder[rungs - 1].impacts[0].value.duration;
   limit.power = std::log(ratio) / std::log(stiffening);
   const CommonRows rows = common_rows(ladder, sizes);
-  Extrapolation at{.body = sizes.body, .request = request, .exponent = 1 / limit.power - 1};
+  const double damping = sizes.damping_per_stiffness * ladder.back().impacts[0].value.approach_speed;
+  Extrapolation at{.body = sizes.body,
+                   .request = request,
+                   .exponent = 1 / limit.power - 1,
+                   .doubt = !request.planar && damping > strong_damping ? doubt_of_damping : 1};
   limit.rows.clear();
   limit.ended = rows.ended;
   for (std::size_t i = 0; i < rows.count; ++i) {

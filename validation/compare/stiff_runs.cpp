@@ -102,7 +102,11 @@ std::string difference(const ImpactRecord& one, const ImpactRecord& other, const
 }  // namespace
 
 ContactSizes ContactSizes::of(const Scene& scene, const numeric::Body& body, bool planar) {
-  return {.body = body, .feature = feature_of(scene, body), .gravity = scene.options.gravity, .planar = planar};
+  return {.body = body,
+          .feature = feature_of(scene, body),
+          .gravity = scene.options.gravity,
+          .planar = planar,
+          .damping_per_stiffness = scene.ground.damping / scene.ground.stiffness};
 }
 
 CommonRows common_rows(const std::vector<Simulation>& ladder, const ContactSizes& sizes) {

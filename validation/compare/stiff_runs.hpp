@@ -10,12 +10,13 @@
 
 namespace clatter::validation {
 
-/// Against what contacts are short.
+/// Against what contacts are short, and how their ground is damped.
 struct ContactSizes {
   const numeric::Body& body;
   double feature = 0;  ///< length below which the contact of a planar run sees the shape that it has in the limit [m]
   double gravity = 0;  ///< [m/s²]
   bool planar = true;
+  double damping_per_stiffness = 0;  ///< c_G/k_G, the same for all runs [s/m]
 
   [[nodiscard]] static ContactSizes of(const Scene& scene, const numeric::Body& body, bool planar);
 };
