@@ -32,6 +32,17 @@ void write_first_touch(const ImpactInSpace& impact, StepWriter& writer) {
   writer.add_vector("ω", "", "angular velocity before", before.angular_velocity, "rad/s");
 }
 
+void write_steady_rotation(const Vector3& rate, const Vector3& momentum, double time, StepWriter& writer) {
+  writer.open("Rotation without torque", "The body turns about a fixed axis, ω constant.");
+  writer.add({.name = "2T", .formula = "ω·I ω", .value = rate.dot(momentum), .unit = "J"});
+  writer.add({.name = "L", .formula = "|I ω|", .value = momentum.norm(), .unit = "kg·m²/s"});
+  writer.add({.name = "φ",
+              .formula = "|ω| T",
+              .numbers = fmt::format("{}·{}", writer.number(rate.norm()), writer.number(time)),
+              .value = rate.norm() * time,
+              .unit = "rad"});
+}
+
 void write_rotation(const ImpactInSpace& impact, StepWriter& writer) {
   const space::State& start = impact.previous().before;
   const space::FreeRotation rotation(space::PrincipalAxes(impact.drop.body.inertia), start.attitude,
@@ -40,17 +51,7 @@ void write_rotation(const ImpactInSpace& impact, StepWriter& writer) {
   const Vector3 momentum = impact.drop.body.inertia * rate;
   const double time = impact.row().flight.time;
   const char* const unit = "kg·m²/s";
-  if (rotation.is_steady()) {
-    writer.open("Rotation without torque", "The body turns about a fixed axis, ω constant.");
-    writer.add({.name = "2T", .formula = "ω·I ω", .value = rate.dot(momentum), .unit = "J"});
-    writer.add({.name = "L", .formula = "|I ω|", .value = momentum.norm(), .unit = unit});
-    writer.add({.name = "φ",
-                .formula = "|ω| T",
-                .numbers = fmt::format("{}·{}", writer.number(rate.norm()), writer.number(time)),
-                .value = rate.norm() * time,
-                .unit = "rad"});
-    return;
-  }
+  if (rotation.is_steady()) return write_steady_rotation(rate, momentum, time, writer);
   const space::ThetaRotation& theta = *rotation.theta();
   writer.open("Rotation without torque",
               "2T and L are constant.  In principal axes, numbered so that L circles axis 3, ω follows Jacobi's "
@@ -98,26 +99,12 @@ void write_next_corner(const ImpactInSpace& impact, StepWriter& writer) {
               .size = body.reach()});
 }
 
-void write_earliest_corner(const ImpactInSpace& impact, StepWriter& writer) {
+/// Of the centre of mass and of the corner that arrives.
+void write_heights(const ImpactInSpace& impact, StepWriter& writer) {
   const space::ImpactRow& row = impact.row();
-  const space::FirstContact& flight = row.flight;
   const space::State& start = impact.previous().before;
-  const double fall = impact.previous().impact.velocity_after.z(), g = impact.drop.gravity, t = flight.time;
+  const double fall = impact.previous().impact.velocity_after.z(), g = impact.drop.gravity, t = row.flight.time;
   const double reach = impact.drop.body.reach();
-  writer.open("The earliest corner",
-              fmt::format("Height of a corner at r in the body: h(t) = z + V_z t − g t²/2 + e(t)·r, e(t) the vertical "
-                          "in body axes.  Certificate: the flight is cut into pieces, on each of which bounds on h and "
-                          "h″ hold; before the bracket no corner comes down, within it h of {} has one root.",
-                          impact.corner_names(flight.together)));
-  if (flight.bracket_high < 1e300) {
-    writer.add(
-        {.name = "t low", .formula = "left end of the certified bracket", .value = flight.bracket_low, .unit = "s"});
-    writer.add({.name = "t high", .formula = "right end", .value = flight.bracket_high, .unit = "s"});
-  }
-  writer.add({.name = "T",
-              .formula = fmt::format("the root, after {} evaluations of the rotation", flight.evaluations),
-              .value = t,
-              .unit = "s"});
   writer.add({.name = "z",
               .formula = "z + V_z T − g T²/2",
               .numbers = fmt::format("{} + {}·{} − {}·{}²/2", writer.number(start.position.z()), writer.number(fall),
@@ -133,7 +120,26 @@ void write_earliest_corner(const ImpactInSpace& impact, StepWriter& writer) {
               .value = centre + low,
               .unit = "m",
               .size = reach});
-  writer.add({.name = "h′(T)", .formula = "its normal velocity", .value = flight.normal_velocity, .unit = "m/s"});
+  writer.add({.name = "h′(T)", .formula = "its normal velocity", .value = row.flight.normal_velocity, .unit = "m/s"});
+}
+
+void write_earliest_corner(const ImpactInSpace& impact, StepWriter& writer) {
+  const space::FirstContact& flight = impact.row().flight;
+  writer.open("The earliest corner",
+              fmt::format("Height of a corner at r in the body: h(t) = z + V_z t − g t²/2 + e(t)·r, e(t) the vertical "
+                          "in body axes.  Certificate: the flight is cut into pieces, on each of which bounds on h and "
+                          "h″ hold; before the bracket no corner comes down, within it h of {} has one root.",
+                          impact.corner_names(flight.together)));
+  if (flight.bracket_high < 1e300) {
+    writer.add(
+        {.name = "t low", .formula = "left end of the certified bracket", .value = flight.bracket_low, .unit = "s"});
+    writer.add({.name = "t high", .formula = "right end", .value = flight.bracket_high, .unit = "s"});
+  }
+  writer.add({.name = "T",
+              .formula = fmt::format("the root, after {} evaluations of the rotation", flight.evaluations),
+              .value = flight.time,
+              .unit = "s"});
+  write_heights(impact, writer);
   write_next_corner(impact, writer);
   if (std::isfinite(flight.near_miss.clearance)) {
     writer.add({.name = "near miss",

@@ -11,8 +11,8 @@ struct ApiAnswer {
 };
 
 /// @param path "/api/sequence", "/api/angles", "/api/explain", "/api/simulate", "/api/compare"
-/// @param body a flat JSON object: flags of the command without dashes, "_" for "-"; all but angles also "case", a scene
-///             that comes with the program, simulate "history", explain "impact".  Nothing in it can name a file.
+/// @param body a flat JSON object: flags of the command without dashes, "_" for "-"; all but angles also "case", a
+///             scene that comes with the program, simulate "history", explain "impact".  Nothing in it names a file.
 /// Thread-safe.  Does not throw: what goes wrong is {"error": one line, "status": the program's exit status}.
 [[nodiscard]] ApiAnswer answer_request(const std::string& path, const std::string& body);
 

@@ -1,7 +1,5 @@
 #include "validation/plan/plan.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -9,7 +7,6 @@
 #include "analytic/errors.hpp"
 #include "validation/compare/prediction.hpp"
 #include "validation/compare/space_prediction.hpp"
-#include "validation/output/number.hpp"
 #include "validation/plan/cost_table.hpp"
 #include "validation/plan/tolerance_search.hpp"
 #include "validation/record/names.hpp"
@@ -282,35 +279,5 @@ class Planner {
 }  // namespace
 
 Plan make_plan(const Scene& scene, const PlanTarget& target) { return Planner(scene, target).make(); }
-
-namespace {
-
-/// A file name as a shell takes it.
-std::string quoted(const std::string& name) {
-  const char* const plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./+,@%";
-  if (!name.empty() && name.find_first_not_of(plain) == std::string::npos) return name;
-  std::string text = "'";
-  for (const char c : name) {
-    if (c == '\'') text += "'\\''";
-    else text += c;
-  }
-  return text + "'";
-}
-
-}  // namespace
-
-std::string command_line(const Plan& plan) {
-  const Scene& scene = plan.scene;
-  std::string line =
-      fmt::format("clatter {} {}", is_continuous(plan.choice.rung) ? "simulate" : "compare", quoted(scene.path));
-  if (!is_continuous(plan.choice.rung)) return line;
-  line += fmt::format(" --method {} --tolerance {}", method_name(plan.choice.method), shortest(plan.choice.tolerance));
-  if (plan.choice.rung == Rung::planar && !scene.options.planar) line += " --planar";
-  for (const WeighedPart& part : plan.parts) {
-    if (part.left_out && part.part == Part::friction) line += " --static-friction 0 --sliding-friction 0";
-    if (part.left_out && part.part == Part::damping) line += " --damping 0";
-  }
-  return line;
-}
 
 }  // namespace clatter::validation

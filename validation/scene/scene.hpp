@@ -106,7 +106,6 @@ struct Scene {
   [[nodiscard]] std::string drop_words() const;
   /// The scene for a reader: a few lines.
   [[nodiscard]] std::vector<std::string> summary(Model model = Model::continuous) const;
-
 };
 
 /// The values of a scene file, of a case that comes with the program (by its name, "phone-damped"), or of neither ("":

@@ -21,9 +21,9 @@ from clatter.angles import Angles, angles
 from clatter.arrays import numpy_for
 from clatter.discrete import check_run, explain, regimes, sequence
 from clatter.errors import BadInput, ClatterWarning, Error, NotComputed, OutsideModel
+from clatter.findings import Explanation, Plan, Rows, Tradeoff
 from clatter.records import History, Impact, Record
-from clatter.results import (Comparison, ComparisonSweep, Explanation, Plan, Result, Rows, Run, Sequence, Simulation, Sweep,
-                             Tradeoff, Verification)
+from clatter.results import Comparison, ComparisonSweep, Result, Run, Sequence, Simulation, Sweep, Verification
 from clatter.scenes import Scene, Value, called, case, cases, scene_text, texts_of
 from clatter.studies import plan, sweep, tradeoff
 

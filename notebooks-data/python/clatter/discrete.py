@@ -5,7 +5,8 @@ from numbers import Real
 
 from clatter import _clatter
 from clatter.errors import BadInput, ClatterWarning, NotComputed
-from clatter.results import Explanation, Rows, Run, Sequence
+from clatter.findings import Explanation, Rows
+from clatter.results import Run, Sequence
 from clatter.scenes import Scene, SceneText, Value, called, scene_text, texts_of
 
 # Outcomes after which rows are missing because a number could not be computed.

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 
 from clatter import _clatter
 from clatter.errors import ClatterWarning, NotComputed
-from clatter.results import Plan, Rows, Tradeoff
+from clatter.findings import Plan, Rows, Tradeoff
 from clatter.scenes import Scene, Value, called, scene_text, text_of, texts_of
 
 

@@ -1,0 +1,101 @@
+"""What explanations, plans, studies of cost, sweeps and regimes return."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from clatter._clatter import Report
+from clatter.arrays import Array
+from clatter.records import Record, as_array
+from clatter.results import Result
+
+
+class Explanation(Result):
+    """How an impact came about; `steps` holds records with title, text and equations, each of these a record with name,
+    symbolic, numeric, value, error and unit."""
+
+    def __init__(self, report: Report) -> None:
+        super().__init__(report)
+        self.steps = [Record({**step, "equations": [Record(e) for e in step["equations"]]}) for step in self._data["steps"]]
+
+    @property
+    def impact(self) -> int:
+        """Its number, from 1."""
+        return int(self._data["impact"])
+
+    def __len__(self) -> int:
+        return len(self.steps)
+
+    def __getitem__(self, title: str) -> dict[str, float | None]:
+        """The values of the step of this title by their names."""
+        for step in self.steps:
+            if step["title"] == title:
+                return {e["name"]: e["value"] for e in step["equations"]}
+        raise KeyError(title)
+
+
+class Plan(Result):
+    """The models that could run a scene: `rungs` holds a record for each with its error and cost, `choice` the chosen
+    one with its command."""
+
+    def __init__(self, report: Report) -> None:
+        super().__init__(report)
+        self.rungs = [Record(rung) for rung in self._data["rungs"]]
+        self.choice = Record(self._data["choice"])
+
+    def __len__(self) -> int:
+        return len(self.rungs)
+
+    def __getitem__(self, model: str) -> Record:
+        """The rung of a model: plan["discrete"]."""
+        for rung in self.rungs:
+            if rung["model"] == model:
+                return rung
+        raise KeyError(model)
+
+
+class Tradeoff(Result):
+    """What accuracy costs: `points` holds a record for each model and setting with seconds, evaluations and error."""
+
+    def __init__(self, report: Report) -> None:
+        super().__init__(report)
+        self.points = [Record(point) for point in self._data["points"]]
+
+    @property
+    def front(self) -> list[Record]:
+        """The points that nothing beats in both cost and error."""
+        return [point for point in self.points if point["front"]]
+
+    def column(self, name: str) -> Array:
+        """One value of each point; NaN where there is none."""
+        return as_array([point[name] for point in self._data["points"]])
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+
+class Rows(Result):
+    """Rows of a sweep or of regimes; `rows` holds a record for each."""
+
+    def __init__(self, report: Report) -> None:
+        super().__init__(report)
+        self.rows = [Record(row) for row in self._data["rows"]]
+
+    @property
+    def scene(self) -> dict[str, Any]:
+        """Everything that the first scene was computed with.  @raise AttributeError: regimes are of no scene."""
+        if "scene" not in self._data:
+            raise AttributeError("the rod's regimes have no scene; to_dict()['parameters'] tells them")
+        return dict(self._data["scene"])
+
+    def column(self, name: str) -> Array:
+        """One value of each row, vectors as rows; NaN where there is none."""
+        return as_array([row[name] for row in self._data["rows"]])
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __iter__(self) -> Iterator[Record]:
+        return iter(self.rows)
+
+    def __getitem__(self, index: int) -> Record:
+        return self.rows[index]

@@ -1,0 +1,38 @@
+// The command that runs a plan's choice.
+#include <fmt/format.h>
+
+#include "validation/output/number.hpp"
+#include "validation/plan/plan.hpp"
+
+namespace clatter::validation {
+namespace {
+
+/// A file name as a shell takes it.
+std::string quoted(const std::string& name) {
+  const char* const plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./+,@%";
+  if (!name.empty() && name.find_first_not_of(plain) == std::string::npos) return name;
+  std::string text = "'";
+  for (const char c : name) {
+    if (c == '\'') text += "'\\''";
+    else text += c;
+  }
+  return text + "'";
+}
+
+}  // namespace
+
+std::string command_line(const Plan& plan) {
+  const Scene& scene = plan.scene;
+  std::string line =
+      fmt::format("clatter {} {}", is_continuous(plan.choice.rung) ? "simulate" : "compare", quoted(scene.path));
+  if (!is_continuous(plan.choice.rung)) return line;
+  line += fmt::format(" --method {} --tolerance {}", method_name(plan.choice.method), shortest(plan.choice.tolerance));
+  if (plan.choice.rung == Rung::planar && !scene.options.planar) line += " --planar";
+  for (const WeighedPart& part : plan.parts) {
+    if (part.left_out && part.part == Part::friction) line += " --static-friction 0 --sliding-friction 0";
+    if (part.left_out && part.part == Part::damping) line += " --damping 0";
+  }
+  return line;
+}
+
+}  // namespace clatter::validation
