@@ -102,6 +102,7 @@ class Measured(Folder):
         self.refused("--body round: neither", "measured", "fit", self.path("a.csv"), "--body", "round")
         self.refused("no column toss", "measured", "fit", self.path("a.csv"), "--body", "cube-tosses")
         self.refused("no drop is called 2", "measured", "fit", SQUARES, "--fit-on", "1,2")
+        self.refused("point impacts among the drops to fit on", "measured", "fit", SQUARES, "--fit-on", "1,31,81", status=3)
         self.refused("excludes", "measured", "fit", SQUARES, "--fit-on", "1,11,21", "--seed", "3")
         self.refused("--share", "measured", "fit", SQUARES, "--share", "1.5")
         self.refused("--drop x", "measured", "score", SQUARES, "--drop", "x", "--plot", self.path("p.svg"))

@@ -125,7 +125,7 @@ int run_measured(const MeasuredInput& input) {
 
 Command measured_command() {
   auto input = std::make_shared<MeasuredInput>();
-  Command command{.name = "measured", .help = "impact laws fitted to tracked drops, and scored on others"};
+  Command command{.name = "measured", .help = "impact laws against tracked drops"};
   command.add({.name = "ACTION",
                .target = &input->action,
                .type = "fit|predict|score",

@@ -9,7 +9,8 @@ namespace {
 
 constexpr double deviation_of_median = 1.4826;
 constexpr double least_ground_error = 1e-6;  // [m]
-constexpr std::size_t enough = 3;            // resting poses, or impacts, to calibrate on
+constexpr std::size_t enough = 3;            // resting poses to calibrate on
+constexpr Eigen::Index enough_points = 5;    // impacts, likewise
 
 Matrix3 cross_matrix(const Vector3& v) {
   Matrix3 m;
@@ -98,7 +99,6 @@ class TurningLosses {
         impacts_(impacts_of(file, part, TrackedBody(description_, calibration_), result.ground_spread, 1)),
         gyration_(std::sqrt(TrackedBody(description_, {}).gyration_square())) {}
 
-  [[nodiscard]] std::size_t count() const { return impacts_.size(); }
   [[nodiscard]] double half_side() const { return description_.size.minCoeff() / 2; }
   /// (1) of each impact for a body of other inertia and rounding.
   [[nodiscard]] Eigen::VectorXd misses(double inertia_factor, double rounding) const {
@@ -144,7 +144,7 @@ double middle_of_points(const Eigen::VectorXd& misses) {
 /// Inertia alone, then rounding, too: each is kept if it lowers the loss clearly.
 void calibrate_inertia(const MeasuredFile& file, const TrackPart& part, CalibrationResult& result) {
   const TurningLosses turning(file, part, result);
-  if (turning.count() < enough) return;
+  if ((turning.losses(1, 0).array() < 1).count() < enough_points) return;
   const double half = turning.half_side();
   Eigen::VectorXd best = turning.losses(1, 0);
   result.lever_before = middle_of_points(turning.misses(1, 0));

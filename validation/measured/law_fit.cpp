@@ -15,6 +15,7 @@ using analytic::space::State;
 constexpr double quadratic_below = 0.05;  // relative error
 constexpr int floor_iterations = 2000;
 constexpr double settled = 1e-12;
+constexpr std::size_t least_points = 5;
 
 Matrix3 world_inverse_inertia(const TrackedBody& body, const Quaternion& attitude) {
   const Matrix3 axes = attitude.toRotationMatrix();
@@ -78,6 +79,11 @@ LawFit fit_law(const TrackedBody& body, const std::vector<PartImpact>& impacts, 
   std::vector<const TrackImpact*> points;
   for (const PartImpact& item : impacts) {
     if (item.impact.is_point) points.push_back(&item.impact);
+  }
+  if (points.size() < least_points) {
+    throw analytic::NumericalError("only " + std::to_string(points.size()) +
+                                   " point impacts among the drops to fit on: restitution and friction need " +
+                                   std::to_string(least_points));
   }
   LawFit result{.law = {.law = law}, .fit = {}, .slope = slope, .impacts = points.size()};
   const auto law_of = [&](const Eigen::VectorXd& p) { return FittedLaw{law, p[0], slope ? p[2] : 0, p[1]}; };

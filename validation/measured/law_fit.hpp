@@ -49,6 +49,7 @@ struct LawFit {
 
 /// Fits e and μ (and e₁) to the point impacts among these by least pseudo-Huber loss of relative_error(), quadratic
 /// below 5 %.
+/// @throws NumericalError if there are fewer than 5 point impacts.
 [[nodiscard]] LawFit fit_law(const TrackedBody& body, const std::vector<PartImpact>& impacts,
                              analytic::RestitutionLaw law, bool slope);
 
