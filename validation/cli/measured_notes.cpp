@@ -9,7 +9,7 @@ namespace {
 
 std::string mm(double metres) { return significant(1e3 * metres, 3); }
 
-std::vector<std::string> head_of(const MeasuredRun& run) {
+std::vector<std::string> tracks_head(const MeasuredRun& run) {
   const TrackDescription& d = run.file.file.description;
   std::vector<std::string> head{
       fmt::format("{}: {} drops, {} frames at {} Hz, motion in {}", run.file.file.path, run.file.file.tracks.size(),
@@ -85,7 +85,7 @@ std::string calibration_note(const MeasuredRun& run) {
 
 Report begun(const MeasuredRun& run, const std::string& action, const std::string& what) {
   Report report = begun_report("measured " + action, what);
-  report.head = head_of(run);
+  report.head = tracks_head(run);
   report.fields["model"] = "measured";
   const TrackDescription& d = run.file.file.description;
   const TrackCounts counts = count_tracks(run.file);

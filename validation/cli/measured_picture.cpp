@@ -11,7 +11,6 @@
 namespace clatter::validation {
 namespace {
 
-constexpr double degree = 0.017453292519943295;
 constexpr int points_of_a_flight = 40;
 constexpr double predicted = 1, measured = 0;
 
@@ -24,7 +23,7 @@ const ScoredDrop& chosen_drop(const Scores& scores, const std::string& name) {
                               : fmt::format("--drop {}: not among those scored", name));
 }
 
-PicturePanel height_panel(const MeasuredRun& run, const ScoredDrop& drop) {
+PicturePanel track_panel(const MeasuredRun& run, const ScoredDrop& drop) {
   const ForecastModel model = forecast_model(run.file, run.fit);
   PicturePanel panel{
       .columns = {{"time", "s", "since impact 1"},
@@ -74,7 +73,7 @@ PicturePanel residual_panel(const Scores& scores) {
                                           .style = FigureCurve::Style::points,
                                           .where = {{"point", 0.0}}}}}};
   for (const ScoredDrop& drop : scores.drops)
-    panel.rows.push_back({drop.measured.angle / degree, 100 * drop.error, drop.measured.is_point ? 1.0 : 0.0});
+    panel.rows.push_back({drop.measured.angle_degrees(), 100 * drop.error, drop.measured.is_point ? 1.0 : 0.0});
   return panel;
 }
 
@@ -105,10 +104,9 @@ PicturePanel coverage_panel(const MeasuredRun& run, const Scores& scores) {
 }  // namespace
 
 Picture measured_picture(const MeasuredRun& run, const Scores& scores, const std::string& drop) {
-  return {
-      .what = "Predictions held against measured drops",
-      .scene = {run.file.file.description.source, run.split_words},
-      .panels = {height_panel(run, chosen_drop(scores, drop)), residual_panel(scores), coverage_panel(run, scores)}};
+  return {.what = "Predictions held against measured drops",
+          .scene = {run.file.file.description.source, run.split_words},
+          .panels = {track_panel(run, chosen_drop(scores, drop)), residual_panel(scores), coverage_panel(run, scores)}};
 }
 
 std::vector<std::string> measured_words(const MeasuredRun& run) {

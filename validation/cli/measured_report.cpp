@@ -10,8 +10,6 @@
 namespace clatter::validation {
 namespace {
 
-constexpr double degree = 0.017453292519943295;
-
 /// "+-+": the signs of a corner's coordinates in the body's axes.
 std::string corner_name(const TrackedBody& body, int corner) {
   std::string name;
@@ -144,7 +142,7 @@ Report measured_predict_report(const MeasuredRun& run, const Scores& scores) {
             Cell(corner_name(body, p.corner)),
             Cell(corner_name(body, drop.measured.momentum_corner)),
             Cell(100 * p.certainty, 3),
-            Cell(drop.measured.angle / degree, 3)};
+            Cell(drop.measured.angle_degrees(), 3)};
     const MotionParts predicted = motion_parts(body, p.after), measured = motion_parts(body, drop.measured.after.state);
     for (int part = 0; part < 6; ++part) {
       for (const double number : {predicted[part], p.half_width[part], measured[part]}) row.emplace_back(number);

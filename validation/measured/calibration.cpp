@@ -7,16 +7,9 @@
 namespace clatter::validation {
 namespace {
 
-constexpr double deviation_of_median = 1.4826;
 constexpr double least_ground_error = 1e-6;  // [m]
 constexpr std::size_t enough = 3;            // resting poses to calibrate on
 constexpr Eigen::Index enough_points = 5;    // impacts, likewise
-
-Matrix3 cross_matrix(const Vector3& v) {
-  Matrix3 m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
 
 /// The body's true axes: a small turn δ for which each resting face's normal n looks straight down,
 ///     δ × n = d − n,   d the downward vertical in the tracked axes,

@@ -20,12 +20,6 @@ constexpr double settled = 1e-11;  // change of the rotation [rad]
 /// Weight of a residual that is `size` expected ones long.
 double weight_of(double size) { return size > huber ? huber / size : 1; }
 
-Matrix3d cross_matrix(const Vector3& v) {
-  Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 /// Left Jacobian of the rotation exp(v): exp(v + δ) = exp(J δ) exp(v) to first order.
 Matrix3d left_jacobian(const Vector3& v) {
   const double angle = v.norm();

@@ -14,7 +14,6 @@ constexpr std::size_t gravity_frames = 8, noise_frames = 16;
 constexpr std::size_t gravity_flights = 5;
 constexpr std::size_t most_torn = 2;  // in a row
 constexpr double unknown_gravity = 0.05, least_spread = 1e-3;
-constexpr double deviation_of_median = 1.4826;
 
 /// Grows flights through the frames of a track up to `end`.
 class FlightSearch {

@@ -14,18 +14,12 @@ using analytic::space::State;
 
 constexpr double quadratic_below = 0.05;  // relative error
 constexpr int floor_iterations = 2000;
-constexpr double settled = 1e-12;
+constexpr double floor_settled = 1e-12;
 constexpr std::size_t least_points = 5;
 
 Matrix3 world_inverse_inertia(const TrackedBody& body, const Quaternion& attitude) {
   const Matrix3 axes = attitude.toRotationMatrix();
   return axes * body.core().inertia.inverse() * axes.transpose();
-}
-
-Matrix3 cross_matrix(const Vector3& v) {
-  Matrix3 m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
 }
 
 double outside(double value, double low, double high) { return std::max({0.0, low - value, value - high}); }
@@ -124,7 +118,7 @@ double floor_error(const TrackedBody& body, const TrackImpact& impact, double fr
       next.head<2>() *= friction * normal / tangential;
       next.z() = normal;
     }
-    const bool done = (next - p).norm() < settled;
+    const bool done = (next - p).norm() < floor_settled;
     p = next;
     if (done) break;
   }

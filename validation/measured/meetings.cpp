@@ -89,16 +89,16 @@ void settle_border(const Track& track, const FlightModel& model, FlightFrames& e
 /// Standard deviation of Meeting::low: from the earlier flight's pose, and from the time of the meeting, which both
 /// flights' poses settle by least squares.
 double low_error(const Meeting& meeting, const TrackedBody& body, const PoseNoise& noise) {
-  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  using PoseVector = Eigen::Matrix<double, 6, 1>;
   const MeasuredState before = meeting.before.at(meeting.time), after = meeting.after.at(meeting.time);
   const Vector3 arm = body.arm(before.state.attitude, body.lowest(before.state.attitude));
-  Vector6 parting, weight;
+  PoseVector parting, weight;
   parting << after.state.velocity - before.state.velocity, after.state.angular_velocity - before.state.angular_velocity;
   weight << Vector3::Constant(1 / std::pow(noise.position, 2)), Vector3::Constant(1 / std::pow(noise.rotation, 2));
-  const Vector6 weighted = weight.cwiseProduct(parting);
+  const PoseVector weighted = weight.cwiseProduct(parting);
   const double fall = (before.state.velocity + before.state.angular_velocity.cross(arm)).z();
-  const Vector6 by_time = fall / weighted.dot(parting) * weighted;
-  Vector6 by_before = by_time;
+  const PoseVector by_time = fall / weighted.dot(parting) * weighted;
+  PoseVector by_before = by_time;
   by_before.head<3>() += Vector3::UnitZ();
   by_before.tail<3>() += arm.cross(Vector3::UnitZ());
   const double variance = by_before.dot(before.covariance.topLeftCorner<6, 6>() * by_before) +

@@ -29,7 +29,7 @@ void add_intervals(const MeasuredFile& file, const std::vector<PartImpact>& impa
   each([&](const PartImpact& item, const Forecast&, double off, int) {
     parts.push_back(std::fabs(off) / motion_size(model.body, item.impact.before.state));
   });
-  fit.law_scatter = model.law_scatter = 1.4826 * median(parts);
+  fit.law_scatter = model.law_scatter = deviation_of_median * median(parts);
   model.width_factor = 1;
   std::vector<double> standard;
   each([&](const PartImpact&, const Forecast& made, double off, int part) {

@@ -9,7 +9,6 @@ namespace {
 using analytic::space::State;
 
 constexpr double sure = 0.95;  // share of the samples that agree where the start leaves no doubt
-constexpr double degree = 0.017453292519943295;
 
 /// Forecasts beside measurements, drop by drop.
 class Scorer {
@@ -195,7 +194,7 @@ void add_bins(Scores& scores) {
     double (*value)(const ScoredDrop&);
   };
   const std::vector<Axis> axes{
-      {"angle", "°", {0, 10, 20, 25, 30, 35, 40, 60}, [](const ScoredDrop& d) { return d.measured.angle / degree; }},
+      {"angle", "°", {0, 10, 20, 25, 30, 35, 40, 60}, [](const ScoredDrop& d) { return d.measured.angle_degrees(); }},
       {"approach", "m/s", {0, 1, 1.5, 2, 2.5, 3, 4}, [](const ScoredDrop& d) { return d.measured.approach; }},
       {"slip", "m/s", {0, 0.25, 0.5, 1, 1.5, 2, 4}, [](const ScoredDrop& d) { return d.measured.slip; }}};
   for (const Axis& axis : axes) {

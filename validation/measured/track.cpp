@@ -17,7 +17,6 @@ constexpr double least_noise = 1e-7;     // [m], [rad]
 constexpr double least_motion = 0.1;     // in three frames, over the body's size
 constexpr double worst_length = 0.05;    // of a quaternion, off 1
 constexpr double third_difference = 20;  // variance of (1, −3, 3, −1) of independent noise
-constexpr double deviation_of_median = 1.4826;
 
 TableRequest request_for(const TrackDescription& d) {
   TableRequest request;
@@ -109,6 +108,12 @@ Quaternion rotation_of(const Vector3& vector) {
   q.w() = std::cos(angle / 2);
   q.vec() = std::sin(angle / 2) / angle * vector;
   return q;
+}
+
+Matrix3 cross_matrix(const Vector3& v) {
+  Matrix3 m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
 }
 
 double quantile(std::vector<double> values, double share) {

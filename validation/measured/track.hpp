@@ -53,6 +53,10 @@ struct PoseNoise {
 [[nodiscard]] Vector3 rotation_vector(const Quaternion& rotation);
 /// Unit quaternion of a rotation vector.
 [[nodiscard]] Quaternion rotation_of(const Vector3& vector);
+/// [v]×, so that [v]× w = v × w.
+[[nodiscard]] Matrix3 cross_matrix(const Vector3& v);
+/// Standard deviation of a normal distribution over the median of its magnitude.
+inline constexpr double deviation_of_median = 1.4826;
 /// The middle of a list; NaN of none.
 [[nodiscard]] double median(std::vector<double> values);
 /// The value below which a share of a list lies, between neighbours in proportion; NaN of none.

@@ -16,12 +16,6 @@ using analytic::space::State;
 
 constexpr double bar = 3;  // standard deviations
 
-Matrix3 cross_matrix(const Vector3& v) {
-  Matrix3 m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 Matrix3 gyration(const TrackedBody& body, const Quaternion& attitude) {
   const Matrix3 axes = attitude.toRotationMatrix();
   return axes * (body.core().inertia / body.core().mass) * axes.transpose();

@@ -31,6 +31,8 @@ struct TrackImpact {
   double impulse_ratio_error = 0;
   bool slips_throughout = false;  ///< the slip keeps its direction within 60°: then impulse_ratio is μ
   double angle = 0;               ///< between the arm and the downward vertical [rad]
+
+  [[nodiscard]] double angle_degrees() const { return angle * 57.29577951308232; }
 };
 
 /// Momentum about the touching point that an impulse there leaves unexplained, over |ΔV| times the corner's distance R:
