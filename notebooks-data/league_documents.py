@@ -23,7 +23,7 @@ DATA = Path(__file__).resolve().parent
 ENGINES = DATA.parent / "validation" / "benchmark" / "engines"
 README = DATA.parent / "README.md"
 README_BLOCK = re.compile(r"(?<=<!-- league -->\n).*?(?=<!-- end -->)", re.DOTALL)
-README_ROWS = 8
+README_ROWS = 5
 COMMAND = "validation/benchmark/engines/run"
 PICTURES = {"league_steps.svg": against_step, "league_costs.svg": against_cost}
 

@@ -211,8 +211,9 @@ Reference reference_of(const Problem& problem) {
                       .tolerances = problem.tolerances,
                       .until = problem.until,
                       .sequences = {}};
-  if (problem.scene.attitude.empty()) set_planar(reference, impact_drop(problem.scene));
-  else set_space(reference, problem.scene, impact_space_drop(problem.scene));
+  const DiscreteDrop drop = chosen_drop(problem.scene);
+  if (const auto* planar = std::get_if<analytic::Drop>(&drop)) set_planar(reference, *planar);
+  else set_space(reference, problem.scene, std::get<space::Drop>(drop));
   touch_down(reference);
   for (const std::string& law : truth_laws(problem)) {
     ReferenceSequence sequence{
@@ -233,16 +234,17 @@ Reference reference_of(const Scene& scene) {
   const bool has_ground = scene.ground.stiffness > 0;
   const int impacts = scene.options.impacts;
   ReferenceSequence sequence;
-  if (has_ground ? is_planar(scene, scene.make_body()) : is_planar(scene)) {
-    const analytic::Drop drop = has_ground ? discrete_drop(scene, scene.make_body()) : impact_drop(scene);
-    set_planar(reference, drop);
+  const DiscreteDrop chosen = has_ground ? chosen_drop(scene, scene.make_body()) : chosen_drop(scene);
+  if (const auto* drop = std::get_if<analytic::Drop>(&chosen)) {
+    set_planar(reference, *drop);
     touch_down(reference);
-    sequence = {.law = {.name = "any", .law = {.law = drop.law}}, .truth = planar_truth(drop, impacts), .after = {}};
+    sequence = {.law = {.name = "any", .law = {.law = drop->law}}, .truth = planar_truth(*drop, impacts), .after = {}};
   } else {
-    const space::Drop drop = has_ground ? space_drop(scene, scene.make_body()) : impact_space_drop(scene);
-    set_space(reference, scene, drop);
+    const space::Drop& in_space = std::get<space::Drop>(chosen);
+    set_space(reference, scene, in_space);
     touch_down(reference);
-    sequence = {.law = {.name = "any", .law = drop.law}, .truth = space_truth(reference, drop, impacts), .after = {}};
+    sequence = {
+        .law = {.name = "any", .law = in_space.law}, .truth = space_truth(reference, in_space, impacts), .after = {}};
   }
   const std::size_t known = sequence.truth.size();
   if (known > 0 && known < static_cast<std::size_t>(impacts)) {

@@ -70,8 +70,8 @@ std::vector<TruthRow> planar_rows(const Problem& problem, const std::string& law
   return rows;
 }
 
-std::vector<TruthRow> space_rows(const Problem& problem, const std::string& law, int impacts) {
-  analytic::space::Drop drop = impact_space_drop(problem.scene);
+std::vector<TruthRow> rows_in_space(const Problem& problem, const std::string& law, int impacts) {
+  auto drop = std::get<analytic::space::Drop>(chosen_drop(problem.scene));
   drop.law.law = with_law(drop.law.law, law);
   std::vector<TruthRow> rows;
   for (const analytic::space::ImpactRow& row : impact_sequence(drop, {.impacts = impacts}).rows) {
@@ -120,7 +120,7 @@ BOOST_AUTO_TEST_CASE(the_discrete_model_confirms_the_truth_of_every_rigid_proble
       }
       const int count = static_cast<int>(sequence.truth.size());
       const std::vector<TruthRow> rows = reference.is_planar ? planar_rows(problem, sequence.law.name, count)
-                                                             : space_rows(problem, sequence.law.name, count);
+                                                             : rows_in_space(problem, sequence.law.name, count);
       BOOST_TEST_REQUIRE(rows.size() == sequence.truth.size());
       for (std::size_t i = 0; i < rows.size(); ++i, ++compared) {
         check_row(problem.id + " " + sequence.law.name, sequence.truth[i], rows[i], sizes_of(sequence.truth));
