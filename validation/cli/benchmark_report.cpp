@@ -8,6 +8,7 @@
 
 #include "validation/benchmark/reference.hpp"
 #include "validation/benchmark/score.hpp"
+#include "validation/cli/score_report.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/scene_value.hpp"
 
@@ -75,8 +76,6 @@ Value digits_value(const Problem& problem, const std::string& law) {
   }
   return list;
 }
-
-std::vector<double> parts(const numeric::Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
 /// Where a run begins for each gap.
 Value starts_value(const Problem& problem) {

@@ -11,8 +11,6 @@
 namespace clatter::validation {
 namespace {
 
-std::vector<double> parts(const analytic::space::Vector3& v) { return {v.x(), v.y(), v.z()}; }
-
 Value impact_value(const ImpactScore& one, int n) {
   Value value;
   value["n"] = n;
@@ -108,6 +106,8 @@ std::string group_words(const SubmissionGroup& group) {
 }
 
 }  // namespace
+
+std::vector<double> parts(const analytic::space::Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
 std::vector<Column> score_columns() {
   return {

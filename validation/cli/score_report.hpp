@@ -11,6 +11,9 @@ namespace clatter::validation {
 /// One row per file; groups with their worst phase and order in words and JSON.
 [[nodiscard]] Report score_report(const std::string& command, const std::vector<Submission>& submissions);
 
+/// A vector as a list of its parts.
+[[nodiscard]] std::vector<double> parts(const analytic::space::Vector3& v);
+
 /// What is asked of each file: a class, "good", or a largest error, "1e-3".
 struct Requirement {
   std::optional<Verdict> verdict;

@@ -102,9 +102,9 @@ analytic::space::Sequence sequence_of(const ForecastModel& model, const TrackImp
   return analytic::space::impact_sequence(drop, {.impacts = most_impacts, .digits = 3, .amplification = false});
 }
 
-SequenceEnd sequence_end(const ForecastModel& model, const TrackImpact& start) {
+ForecastEnd sequence_end(const ForecastModel& model, const TrackImpact& start) {
   const analytic::space::Sequence sequence = sequence_of(model, start);
-  SequenceEnd end{.impacts = 1, .face = 0, .outcome = outcome_name(sequence.outcome)};
+  ForecastEnd end{.impacts = 1, .face = 0, .outcome = outcome_name(sequence.outcome)};
   for (std::size_t i = 1; i < sequence.rows.size(); ++i) {
     if ((sequence.rows[i].start - sequence.rows[i - 1].start) * model.rate >= frames_of_a_flight) ++end.impacts;
   }

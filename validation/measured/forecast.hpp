@@ -24,7 +24,7 @@ struct NextImpact {
 };
 
 /// The whole sequence, with the sharp body.
-struct SequenceEnd {
+struct ForecastEnd {
   int impacts = 0;       ///< that flights of three frames or more follow
   std::size_t face = 0;  ///< that lies down at the end
   std::string outcome;   ///< "at-rest", "sustained-contact", …
@@ -36,7 +36,7 @@ struct Forecast {
   analytic::space::State after;
   MotionParts half_width = MotionParts::Zero();  ///< of the 90 % intervals [m/s]
   std::optional<NextImpact> next;
-  std::optional<SequenceEnd> end;
+  std::optional<ForecastEnd> end;
 };
 
 /// What a forecast is made with.

@@ -16,7 +16,7 @@ using numeric::Method;
 constexpr double least_error = 1e-14;  // below it an error is rounding
 
 /// One row of the table, as far as it is used.
-struct Entry {
+struct CostEntry {
   std::string scene, model;
   Method method = Method::rkck;
   double tolerance = 0, evaluations = 0, error = 0;
@@ -46,7 +46,7 @@ bool read_method(const std::string& name, Method& method) {
 }
 
 /// The rows of adaptive methods on each scene's own mesh that have an error.
-std::vector<Entry> read_entries(const std::string& csv) {
+std::vector<CostEntry> read_entries(const std::string& csv) {
   std::istringstream stream(csv);
   std::string line;
   while (std::getline(stream, line) && line.starts_with("#")) continue;
@@ -54,11 +54,11 @@ std::vector<Entry> read_entries(const std::string& csv) {
   const std::size_t scene = column(names, "scene"), model = column(names, "model"), method = column(names, "method"),
                     tolerance = column(names, "tolerance"), mesh = column(names, "mesh"),
                     evaluations = column(names, "force_evaluations"), error = column(names, "error");
-  std::vector<Entry> entries;
+  std::vector<CostEntry> entries;
   while (std::getline(stream, line)) {
     const std::vector<std::string> cells = split(line);
     if (line.starts_with("#") || cells.size() <= error) continue;
-    Entry entry{.scene = cells[scene], .model = cells[model]};
+    CostEntry entry{.scene = cells[scene], .model = cells[model]};
     if (!read_method(cells[method], entry.method) || !cells[mesh].empty() || cells[error].empty()) continue;
     entry.tolerance = std::stod(cells[tolerance]);
     entry.evaluations = std::stod(cells[evaluations]);
@@ -73,13 +73,13 @@ struct Base {
   double evaluations = 0, loose = 0, pilot = 0;
 };
 
-bool at_tolerance(const Entry& entry, double tolerance) {
+bool at_tolerance(const CostEntry& entry, double tolerance) {
   return std::fabs(std::log(entry.tolerance / tolerance)) < 0.01;
 }
 
-std::map<std::string, Base> bases_of(const std::vector<Entry>& entries) {
+std::map<std::string, Base> bases_of(const std::vector<CostEntry>& entries) {
   std::map<std::string, Base> bases;
-  for (const Entry& entry : entries) {
+  for (const CostEntry& entry : entries) {
     if (entry.method != Method::rkck) continue;
     Base& base = bases[entry.scene + entry.model];
     if (at_tolerance(entry, CostTable::loose_tolerance)) base.loose = entry.error;
@@ -105,10 +105,10 @@ double CostTable::error_constant(double error_at_loose, double error_at_pilot) {
 }
 
 CostTable::CostTable(const std::string& csv) {
-  const std::vector<Entry> entries = read_entries(csv);
+  const std::vector<CostEntry> entries = read_entries(csv);
   const std::map<std::string, Base> bases = bases_of(entries);
   std::map<Method, std::map<double, std::vector<double>>> evaluations, errors;
-  for (const Entry& entry : entries) {
+  for (const CostEntry& entry : entries) {
     const auto found = bases.find(entry.scene + entry.model);
     if (found == bases.end() || !(found->second.pilot > 0 && found->second.loose > 0)) continue;
     const Base& base = found->second;
