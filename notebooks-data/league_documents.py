@@ -123,7 +123,7 @@ def documents():
     pictures = {DATA / "figures" / name: svg(draw(league)) for name, draw in PICTURES.items()}
     drawn = {f"figures/{path.name}": text for path, text in pictures.items()}
     readme = README.read_text(encoding="utf-8")
-    return pictures | {README: README_BLOCK.sub(lambda _: first_lines(league), readme), DATA / "league.md": as_markdown(page), DATA / "league.html": as_html(page, drawn)}
+    return pictures | {README: README_BLOCK.sub(lambda _: first_lines(league), readme, count=1), DATA / "league.md": as_markdown(page), DATA / "league.html": as_html(page, drawn)}
 
 
 def main():

@@ -157,7 +157,8 @@ Measured sweep_against_eq9(Laboratory& laboratory) {
   for (const auto& [value, comparison] : laboratory.swept_comparison("rod-sweep")) {
     const ComparedImpact& impact = comparison.impacts.at(0);
     if (!impact.continuous) continue;
-    rim = std::max(rim, std::fabs((*impact.continuous)[2] - (*impact.discrete)[2]) / 2);
+    rim = std::max(
+        rim, std::fabs((*impact.continuous)[normal_impulse_place] - (*impact.discrete)[normal_impulse_place]) / 2);
   }
   return {worst, energy, holds_if(worst < 0.05),
           fmt::format("of the range, worst at {}°; impulse against the rim's {}; energy lost {}", number(at, 3),
