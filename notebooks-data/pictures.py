@@ -255,6 +255,8 @@ def corner_sequence(data):
                       f"{table['impulse_normal'][i]:.3g} N·s", (140 * i, -8), ha="center", va="top")
     axes.set(aspect="equal", xlim=(-75, 140 * i + 75), ylim=(-32, 90), xlabel="along the page, one drop beside the other [mm]",
              ylabel="height on the page [mm]")
+    axes.plot([], [], color=RED, marker="o", markersize=4, label="corner that strikes, and its normal impulse Pₙ")
+    panel_legend(axes)
     axes.grid(False)
     return figure
 

@@ -13,6 +13,7 @@ import unittest
 from pathlib import Path
 
 import numpy as np
+from matplotlib.patches import Polygon
 
 ROOT = Path(os.environ["CLATTER_ROOT"])
 PROGRAM = os.environ["CLATTER_PROGRAM"]
@@ -100,7 +101,7 @@ class Drawn(unittest.TestCase):
         self.assertEqual([name for name in self.all if isinstance(name, int)],
                          [7, 8, 9, 10, 11, 12, 14, 15, 16, 17, 19, 20, 21, 22, 23, 24])
         self.assertEqual([name for name in self.all if isinstance(name, str)],
-                         ["contact_angles", "regimes", "fold", "error_against_cost", "extremes_map"])
+                         ["contact_angles", "regimes", "corner_sequence", "fold", "error_against_cost", "extremes_map"])
 
     def test_every_axis_of_every_panel_has_a_name_and_a_unit(self):
         """Unless it takes its numbers, and so its name, from the panel beside or below."""
@@ -239,6 +240,16 @@ class ExtraPictures(unittest.TestCase):
             for name, fold in (("θ₂: end b grazes", FOLD), ("θ₃: no third impact above", THIRD_FOLD)):
                 delta = 1e-9 if at else 0.03  # the map over gravity begins at G = 0.001
                 self.assertAlmostEqual(line_named(axes, name).get_ydata()[at], fold, delta=delta)
+
+    def test_the_phone_stands_on_the_corner_that_strikes(self):
+        """No corner of the box as drawn lies below the ground, and the one that strikes lies on it."""
+        axes = figures.draw("corner_sequence").axes[0]
+        ends = np.concatenate([patch.get_xy() for patch in axes.patches if isinstance(patch, Polygon)])
+        struck = np.array([line.get_xydata()[0] for line in axes.lines if line.get_marker() == "o" and len(line.get_xydata())])
+        self.assertEqual(len(struck), 3)
+        self.assertGreater(ends[:, 1].min(), -1e-9)
+        for point in struck:
+            self.assertLess(np.hypot(*(ends - point).T).min(), 1e-9)
 
     def test_the_roots_of_the_fold_are_the_contact_angles(self):
         left, right = figures.draw("fold").axes

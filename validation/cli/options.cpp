@@ -12,7 +12,7 @@ namespace clatter::validation {
 
 void add_output_options(Command& command, OutputTexts& t) {
   command.add_text("--format", t.format, "table|csv|json|markdown|latex", "form of the output (table)", "Output");
-  command.add_text("--output", t.output, "FILE", "write there, whole or not at all; -: standard output", "Output");
+  command.add_text("--output", t.output, "FILE", "write there, whole or not at all; -: stdout", "Output");
   command.add_flag("--ascii", t.ascii, "plain ASCII in tables", "Output");
   command.add_flag("--bare", t.bare, "CSV without comments", "Output");
 }

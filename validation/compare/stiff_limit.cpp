@@ -26,7 +26,7 @@ constexpr double safety = 2;
 constexpr double strong_damping = 1, doubt_of_damping = 4;  // of c_G v/k_G; in space, where numbers go like T ln T
 constexpr double no_limit = 1e-3;                 // a relative error bar above it: the runs are not near any limit yet
 constexpr double settled_change = 1e-6;           // from one triple of runs to the next; what is left is far below it
-constexpr long evaluations_in_plane = 200'000;     // contacts that are short take some thousand each
+constexpr long evaluations_in_plane = 200'000;    // contacts that are short take some thousand each
 constexpr long evaluations_in_space = 2'000'000;  // slip that is let go, or turns, close to zero takes very short steps
 
 /// Powers of T in which the numbers approach their limit; the third is that of the error left.

@@ -84,7 +84,9 @@ std::string in_brackets(const std::vector<double>& numbers) {
 }
 
 std::vector<std::string> discrete_summary(const Scene& scene) {
-  std::string motion = fmt::format("drop: {}° at {} m/s", shortest(scene.angle_deg), shortest(scene.speed));
+  const std::string speed =
+      scene.height ? significant(scene.speed, 6) : shortest(scene.speed);  // of the fall: computed
+  std::string motion = fmt::format("drop: {}° at {} m/s", shortest(scene.angle_deg), speed);
   if (scene.height) motion += fmt::format(" (from {} m)", shortest(*scene.height));
   motion +=
       fmt::format(", tangential {} m/s, spin {} rad/s", shortest(scene.tangential_velocity), shortest(scene.spin));

@@ -60,8 +60,8 @@ constexpr std::uint64_t random_family = 1;
 constexpr int random_impacts = 2;
 
 Measured random_scenes(Laboratory& laboratory, int count) {
-  const RandomScenesResult result =
-      run_random_scenes({.seed = random_family, .count = count, .impacts = random_impacts, .goes_on = laboratory.goes_on});
+  const RandomScenesResult result = run_random_scenes(
+      {.seed = random_family, .count = count, .impacts = random_impacts, .goes_on = laboratory.goes_on});
   if (!result.complete) throw Laboratory::Interrupted{};
   return {100 * result.covered, result.farthest,
           result.covered >= 0.95 && result.median_bar <= 10 ? Answer::holds : Answer::refuted,

@@ -29,7 +29,7 @@ def source_of(scene: Scene | float | None, angle: float | None) -> tuple[SceneTe
     if isinstance(scene, (int, float)) or isinstance(scene, Real):
         if angle is not None:
             raise BadInput(f"angle {angle!r}: given twice")
-        return SceneText("", None), float(scene)
+        return SceneText("", None), scene if isinstance(scene, int) else float(scene)
     return scene_text(scene), angle
 
 
