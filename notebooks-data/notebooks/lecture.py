@@ -8,9 +8,6 @@ A picture with axes that have no name, or with nothing that tells its curves apa
 import json
 import shutil
 import subprocess
-import json
-import shutil
-import subprocess
 import sys
 from pathlib import Path
 
@@ -44,26 +41,18 @@ def check_pictures():
 get_ipython().events.callbacks["post_execute"].insert(0, check_pictures)
 
 
-def measured(action, name, *arguments):
-    """What `clatter measured` says in JSON of the tracked drops that come with the program."""
+def says(*arguments):
+    """What the program says to this command in JSON."""
     root = Path(__file__).resolve().parent.parent.parent
     built = root / "build" / "dev" / "validation" / "clatter"
     program = str(built) if built.exists() else shutil.which("clatter")
-    file = Path("validation") / "measured" / f"{name}.csv"
-    done = subprocess.run([program, "measured", action, str(file), *arguments, "--format", "json"], capture_output=True, text=True,
-                          check=True, cwd=root)
+    done = subprocess.run([program, *map(str, arguments), "--format", "json"], capture_output=True, text=True, check=True, cwd=root)
     return json.loads(done.stdout)
 
 
 def measured(action, name, *arguments):
-    """What `clatter measured` says in JSON of the tracked drops that come with the program."""
-    root = Path(__file__).resolve().parent.parent.parent
-    built = root / "build" / "dev" / "validation" / "clatter"
-    program = str(built) if built.exists() else shutil.which("clatter")
-    file = Path("validation") / "measured" / f"{name}.csv"
-    done = subprocess.run([program, "measured", action, str(file), *arguments, "--format", "json"], capture_output=True, text=True,
-                          check=True, cwd=root)
-    return json.loads(done.stdout)
+    """What `clatter measured` says of the tracked drops that come with the program."""
+    return says("measured", action, f"validation/measured/{name}.csv", *arguments)
 
 
 def answer(exercise, value, digits=6, unit=""):

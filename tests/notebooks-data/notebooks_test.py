@@ -13,7 +13,7 @@ import nbformat
 from oracles import ORACLES
 
 FOLDER = Path(os.environ["CLATTER_ROOT"]) / "notebooks-data" / "notebooks"
-LECTURES = sorted(FOLDER.glob("[0-9]*.ipynb"))
+LECTURES = sorted(FOLDER.glob("[0-9]*.ipynb"), key=lambda path: int(path.name.split("_")[0]))
 SOLUTIONS = FOLDER / "solutions.ipynb"
 LARGEST = 400_000  # bytes of a notebook
 NUMBER = re.compile(r"\*\*(-?[0-9][^*]*)\*\*")
@@ -37,23 +37,23 @@ def solutions():
     """Exercise to (numbers in bold, numbers printed), as texts with units."""
     found = {}
     for cell in nbformat.read(SOLUTIONS, as_version=4).cells:
-        heading = re.match(r"## (\d\.\d)", cell.source)
+        heading = re.match(r"## (\d+\.\d)", cell.source)
         if cell.cell_type == "markdown" and heading:
             found[heading[1]] = (NUMBER.findall(cell.source), [])
         if cell.cell_type == "code":
-            for exercise, number in re.findall(r"(?m)^(\d\.\d): (.*)$", printed(cell)):
+            for exercise, number in re.findall(r"(?m)^(\d+\.\d): (.*)$", printed(cell)):
                 found[exercise][1].append(number)
     return found
 
 
 class Lectures(unittest.TestCase):
-    def test_there_are_nine_and_each_has_its_parts(self):
-        self.assertEqual([path.name[0] for path in LECTURES], list("123456789"))
+    def test_there_are_ten_and_each_has_its_parts(self):
+        self.assertEqual([path.name.split("_")[0] for path in LECTURES], [str(number) for number in range(1, 11)])
         for path in LECTURES:
             with self.subTest(notebook=path.name):
                 found = headings(path)
                 self.assertEqual(found[0][0], 1)
-                self.assertTrue(found[0][1].startswith(path.name[0] + ". "))
+                self.assertTrue(found[0][1].startswith(path.name.split("_")[0] + ". "))
                 sections = [text for level, text in found if level == 2]
                 self.assertEqual(sections[0], "Predict first")
                 self.assertEqual(sections[-2:], ["What we have seen", "Exercises"])
@@ -84,7 +84,7 @@ class Lectures(unittest.TestCase):
 class Solutions(unittest.TestCase):
     def test_every_exercise_has_a_solution_and_an_oracle(self):
         exercises = {number for path in LECTURES for cell in cells(path, "markdown")
-                     for number in re.findall(r"\*\*(\d\.\d)", cell.source)}
+                     for number in re.findall(r"\*\*(\d+\.\d)\*\*", cell.source)}
         self.assertEqual(len(exercises), 3 * len(LECTURES))
         self.assertEqual(set(solutions()), exercises)
         self.assertEqual(set(ORACLES), exercises)

@@ -3,8 +3,8 @@
 ORACLES: exercise to (function that gives the expected numbers, relative tolerance).
 """
 
-from . import notebook_1, notebook_2, notebook_3, notebook_4, notebook_5, notebook_6, notebook_7, notebook_8, notebook_9
+from . import notebook_1, notebook_2, notebook_3, notebook_4, notebook_5, notebook_6, notebook_7, notebook_8, notebook_9, notebook_10
 
 ORACLES = {}
-for _notebook in (notebook_1, notebook_2, notebook_3, notebook_4, notebook_5, notebook_6, notebook_7, notebook_8, notebook_9):
+for _notebook in (notebook_1, notebook_2, notebook_3, notebook_4, notebook_5, notebook_6, notebook_7, notebook_8, notebook_9, notebook_10):
     ORACLES.update(_notebook.ORACLES)
