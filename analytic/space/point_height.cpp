@@ -75,6 +75,14 @@ Vector3 touching_place(const Body& body, const Quaternion& attitude, int point) 
   return size > 0 ? Vector3(c - radius / size * v) : c;
 }
 
+bool lies_level(const Body& body, const Quaternion& attitude, int point) {
+  constexpr double rounding = 64 * epsilon;  // of an attitude
+  const auto index = static_cast<std::size_t>(point);
+  if (index < body.vertices.size()) return false;
+  return (attitude.conjugate() * Vector3::UnitZ()).cross(body.rims[index - body.vertices.size()].axis).norm() <=
+         rounding;
+}
+
 double PointHeights::depth(int point) const {
   return is_rim(point) ? reach_ : flight_.rotation().depth(body_.vertices[static_cast<std::size_t>(point)]);
 }

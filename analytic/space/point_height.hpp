@@ -50,6 +50,9 @@ struct Piece {
 /// Where a point touches the ground or is nearest to it, body frame: a vertex, or the lowest point of a rim [m].
 [[nodiscard]] Vector3 touching_place(const Body& body, const Quaternion& attitude, int point);
 
+/// Whether the point is a rim that lies level to rounding: all of the rim touches, no point of it more than another.
+[[nodiscard]] bool lies_level(const Body& body, const Quaternion& attitude, int point);
+
 /// The heights of a body's vertices and rims.
 class PointHeights {
  public:

@@ -144,7 +144,13 @@ class Run {
     row.flight = flown;
     row.amplification = missing;
     row.error = RowErrors::unknown();
-    for (const int point : arriving) row.corners.push_back({point, touching_place(body_, state_.attitude, point)});
+    for (const int point : arriving) {
+      if (lies_level(body_, state_.attitude, point)) {
+        throw OutsideModelError(
+            "a round end lands level, which is a face without corners: tilt it, or give it corners");
+      }
+      row.corners.push_back({point, touching_place(body_, state_.attitude, point)});
+    }
     strike(row);
     state_.velocity = row.impact.velocity_after;
     state_.angular_velocity = row.impact.angular_velocity_after;
