@@ -24,8 +24,8 @@ test_packages=(libboost-test-dev python3)
 full_packages=(clang-format libgmsh-dev libbenchmark-dev zsh fish groff-base chromium chromium-driver libopenmpi-dev openmpi-bin
                pybind11-dev python3-dev python3-numpy python3-matplotlib python3-mpmath jupyter-nbconvert python3-ipykernel mypy
                python3-venv doxygen pkg-config dpkg-dev lintian mmdebstrap)
-# Engines of others that `tests/run --full` puts through the league, the smallest two; validation/benchmark/engines/run installs
-# the rest.
+# Engines of others that the tests put through the league, the smallest two; validation/benchmark/engines/run installs the
+# rest.
 # shellcheck disable=SC2034
 engine_packages=(chipmunk-dev libbox2d-dev)
 
