@@ -40,7 +40,7 @@ Workspace& workspace() {
 }
 
 /// What GSL calls: evaluates, counts and remembers the last sample.
-struct Probe {
+struct Evaluated {
   FunctionView f;
   int evaluations = 0;
   double at = 0;
@@ -54,10 +54,10 @@ struct Probe {
     }
     return last;
   }
-  static double value(double x, void* probe) { return static_cast<Probe*>(probe)->sample(x).value; }
-  static double slope(double x, void* probe) { return static_cast<Probe*>(probe)->sample(x).slope; }
-  static void both(double x, void* probe, double* value, double* slope) {
-    const Sample& sample = static_cast<Probe*>(probe)->sample(x);
+  static double value(double x, void* evaluated) { return static_cast<Evaluated*>(evaluated)->sample(x).value; }
+  static double slope(double x, void* evaluated) { return static_cast<Evaluated*>(evaluated)->sample(x).slope; }
+  static void both(double x, void* evaluated, double* value, double* slope) {
+    const Sample& sample = static_cast<Evaluated*>(evaluated)->sample(x);
     *value = sample.value;
     *slope = sample.slope;
   }
@@ -77,34 +77,34 @@ double middle(const Bracket& bracket) {
 
 bool inside(const Bracket& bracket, double x) { return x > bracket.low && x < bracket.high; }
 
-void narrow(Bracket& bracket, const Probe& probe, bool rising) {
-  const bool below = (probe.last.value < 0) == rising;
-  (below ? bracket.low : bracket.high) = probe.at;
+void narrow(Bracket& bracket, const Evaluated& evaluated, bool rising) {
+  const bool below = (evaluated.last.value < 0) == rising;
+  (below ? bracket.low : bracket.high) = evaluated.at;
 }
 
 }  // namespace
 
 Root bracketed_root(FunctionView f, Bracket bracket, double guess, bool rising) {
-  Probe probe{f};
-  gsl_function_fdf function{&Probe::value, &Probe::slope, &Probe::both, &probe};
+  Evaluated evaluated{f};
+  gsl_function_fdf function{&Evaluated::value, &Evaluated::slope, &Evaluated::both, &evaluated};
   gsl_root_fdfsolver* const solver = workspace().newton.get();
   double x = inside(bracket, guess) ? guess : middle(bracket);
   int status = gsl_root_fdfsolver_set(solver, &function, x);
   double previous_step = 0;
-  for (int i = 0; status == GSL_SUCCESS && i < budget && std::isfinite(probe.last.value); ++i) {
-    const double step = -probe.last.value / probe.last.slope;
-    if (probe.last.value == 0 || std::fabs(probe.last.value) <= probe.last.noise) {
-      return {x, probe.evaluations};
+  for (int i = 0; status == GSL_SUCCESS && i < budget && std::isfinite(evaluated.last.value); ++i) {
+    const double step = -evaluated.last.value / evaluated.last.slope;
+    if (evaluated.last.value == 0 || std::fabs(evaluated.last.value) <= evaluated.last.noise) {
+      return {x, evaluated.evaluations};
     }
-    narrow(bracket, probe, rising);
+    narrow(bracket, evaluated, rising);
     const double next = x + step;
     const bool stays = inside(bracket, next);
     // Convergence is quadratic: the step after this one is about step³/previous².
     const double ratio = previous_step == 0 ? 1 : step / previous_step;
     const double predicted = std::fabs(step) * ratio * ratio;
-    if (stays && predicted <= 0.25 * epsilon * std::fabs(next)) return {next, probe.evaluations};
+    if (stays && predicted <= 0.25 * epsilon * std::fabs(next)) return {next, evaluated.evaluations};
     if (next == x || bracket.high - bracket.low <= epsilon * std::fabs(x)) {
-      return {x, probe.evaluations};
+      return {x, evaluated.evaluations};
     }
     if (stays) {
       status = gsl_root_fdfsolver_iterate(solver);

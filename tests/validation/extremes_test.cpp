@@ -8,11 +8,11 @@
 #include <stdexcept>
 
 #include "numeric/motion/free_rotation.hpp"
-#include "validation/cli/extremes_report.hpp"
 #include "validation/extremes/exact_rod.hpp"
 #include "validation/extremes/extremes.hpp"
 #include "validation/extremes/retrace.hpp"
 #include "validation/extremes/spin.hpp"
+#include "validation/reports/extremes_report.hpp"
 
 namespace {
 
@@ -35,8 +35,8 @@ const ExtremesMap& whole_map() {
   return map;
 }
 
-Probe probe(std::function<CellMeasure(const CellClock&)> work) {
-  return {"angle", 1, "1", Rung::discrete, std::move(work)};
+ExtremeCase extreme(std::function<CellMeasure(const CellClock&)> work) {
+  return {"angle", 1, "1", ModelLevel::discrete, std::move(work)};
 }
 
 CellMeasure measured(double error, double bound) {
@@ -72,8 +72,8 @@ BOOST_AUTO_TEST_CASE(every_cell_ends_with_a_number_and_its_error_or_a_typed_refu
 
 BOOST_AUTO_TEST_CASE(every_axis_has_cells_of_both_continuous_models_and_of_the_discrete_one_where_it_has_the_quantity) {
   for (const MapAxis& axis : map_axes()) {
-    for (const Rung model : {Rung::discrete, Rung::planar, Rung::spatial}) {
-      if (axis.name == "ratio" && model != Rung::discrete) continue;
+    for (const ModelLevel model : {ModelLevel::discrete, ModelLevel::planar, ModelLevel::spatial}) {
+      if (axis.name == "ratio" && model != ModelLevel::discrete) continue;
       const auto& cells = whole_map().cells;
       const auto here = std::count_if(cells.begin(), cells.end(), [&](const ExtremeCell& cell) {
         return cell.axis == axis.name && cell.model == model;
@@ -97,15 +97,15 @@ BOOST_AUTO_TEST_CASE(regions_cover_all_cells_once_and_join_what_is_alike) {
 
 BOOST_AUTO_TEST_CASE(a_broken_cell_makes_status_1) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  BOOST_TEST(status_of(fill_cell(probe([](const CellClock&) { return measured(1e-16, 1e-15); }), 1)) == 0);
-  BOOST_TEST(status_of(fill_cell(probe([](const CellClock&) { return measured(1e-14, 1e-15); }), 1)) == 1);
-  BOOST_TEST(status_of(fill_cell(probe([=](const CellClock&) { return measured(nan, 1); }), 1)) == 1);
-  BOOST_TEST(status_of(fill_cell(probe([=](const CellClock&) { return measured(0, nan); }), 1)) == 1);
+  BOOST_TEST(status_of(fill_cell(extreme([](const CellClock&) { return measured(1e-16, 1e-15); }), 1)) == 0);
+  BOOST_TEST(status_of(fill_cell(extreme([](const CellClock&) { return measured(1e-14, 1e-15); }), 1)) == 1);
+  BOOST_TEST(status_of(fill_cell(extreme([=](const CellClock&) { return measured(nan, 1); }), 1)) == 1);
+  BOOST_TEST(status_of(fill_cell(extreme([=](const CellClock&) { return measured(0, nan); }), 1)) == 1);
   const auto throws = [](const CellClock&) -> CellMeasure { throw std::runtime_error("of no type"); };
-  BOOST_TEST(status_of(fill_cell(probe(throws), 1)) == 1);
+  BOOST_TEST(status_of(fill_cell(extreme(throws), 1)) == 1);
   const auto refuses = [](const CellClock&) -> CellMeasure { throw std::domain_error("angle = 91"); };
-  BOOST_TEST(status_of(fill_cell(probe(refuses), 1)) == 0);
-  ExtremeCell slow = fill_cell(probe([](const CellClock&) { return measured(0, 1); }), 1);
+  BOOST_TEST(status_of(fill_cell(extreme(refuses), 1)) == 0);
+  ExtremeCell slow = fill_cell(extreme([](const CellClock&) { return measured(0, 1); }), 1);
   slow.seconds = 1.5;
   BOOST_TEST(status_of(slow) == 1);
 }

@@ -9,7 +9,7 @@
 #include "analytic/errors.hpp"
 #include "numeric/errors.hpp"
 #include "validation/cli/program.hpp"
-#include "validation/scene/bad_input.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/scene/failure.hpp"
 
 using namespace clatter;

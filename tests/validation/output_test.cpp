@@ -4,11 +4,11 @@
 #include <cstring>
 #include <random>
 
+#include "validation/output/bad_input.hpp"
 #include "validation/output/estimated.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/report.hpp"
-#include "validation/scene/bad_input.hpp"
 
 using namespace clatter::validation;
 

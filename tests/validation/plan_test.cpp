@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "tests/validation/planned_scene.hpp"
-#include "validation/cli/plan_report.hpp"
 #include "validation/plan/cost_table.hpp"
 #include "validation/plan/planned_run.hpp"
+#include "validation/reports/plan_report.hpp"
 
 using namespace clatter;
 using namespace clatter::validation;
@@ -45,7 +45,7 @@ Scene planar_case(const char* name, int impacts) {
 }
 
 double true_error(const Scene& scene, const numeric::Simulation& run) {
-  const Truth truth = true_values(Ladder(scene));
+  const Truth truth = true_values(ModelHierarchy(scene));
   return distance(motion_rows(run), truth.rows, truth.sizes);
 }
 
@@ -72,14 +72,14 @@ BOOST_AUTO_TEST_CASE(true_error_falls_with_the_tolerance_over_six_decades) {
   using numeric::Method;
   for (const char* name : {"rod-damped", "phone-damped"}) {
     const Scene scene = planar_case(name, 3);
-    const Ladder ladder(scene);
-    const Truth truth = true_values(ladder);
+    const ModelHierarchy hierarchy(scene);
+    const Truth truth = true_values(hierarchy);
     for (const Method method : {Method::rkf45, Method::rkck, Method::rk8pd}) {
       std::vector<double> asked, achieved;
       for (double decade = -5; decade >= -11; decade -= 0.5) {
-        const RungSetting setting{.rung = Rung::planar, .method = method, .tolerance = std::pow(10, decade)};
+        const LevelSetting setting{.level = ModelLevel::planar, .method = method, .tolerance = std::pow(10, decade)};
         asked.push_back(decade);
-        achieved.push_back(std::log10(distance(ladder.run(setting, 3).rows, truth.rows, truth.sizes)));
+        achieved.push_back(std::log10(distance(hierarchy.run(setting, 3).rows, truth.rows, truth.sizes)));
       }
       const double found = slope(asked, achieved);
       fmt::print("{}, {}: slope of true error over tolerance {:.3f}\n", name, method_name(method), found);
@@ -112,11 +112,11 @@ BOOST_AUTO_TEST_CASE(true_error_of_a_planned_run_falls_with_the_digits_asked_ove
 
 BOOST_AUTO_TEST_CASE(plan_takes_the_discrete_model_on_a_stiff_ground_and_leaves_it_for_more_digits) {
   const Scene scene = case_scene("rod-45", {{"ground.stiffness", "--stiffness", "1e15"}});
-  BOOST_TEST((make_plan(scene, {.digits = 2}).choice.rung == Rung::discrete));
-  BOOST_TEST((make_plan(scene, {.digits = 6}).choice.rung == Rung::planar));
+  BOOST_TEST((make_plan(scene, {.digits = 2}).choice.level == ModelLevel::discrete));
+  BOOST_TEST((make_plan(scene, {.digits = 6}).choice.level == ModelLevel::planar));
   const Scene thin =
       case_scene("rod-45", {{"ground.stiffness", "--stiffness", "1e18"}, {"body.radius", "--radius", "1e-4"}});
-  BOOST_TEST((make_plan(thin, {.digits = 2}).choice.rung == Rung::closed_form));
+  BOOST_TEST((make_plan(thin, {.digits = 2}).choice.level == ModelLevel::closed_form));
 }
 
 BOOST_AUTO_TEST_CASE(plan_leaves_out_what_changes_less_than_asked) {
@@ -126,7 +126,7 @@ BOOST_AUTO_TEST_CASE(plan_leaves_out_what_changes_less_than_asked) {
   BOOST_TEST(!plan.scene.ground.has_friction());
   BOOST_TEST(plan.scene.ground.damping == 0);
   BOOST_TEST(plan.serves);
-  BOOST_TEST(true_error(scene, Ladder(plan.scene).simulate(plan.choice, 1)) <= 1e-5);
+  BOOST_TEST(true_error(scene, ModelHierarchy(plan.scene).simulate(plan.choice, 1)) <= 1e-5);
   const Plan strict = make_plan(scene, {.digits = 10});
   BOOST_TEST(strict.scene.ground.has_friction());
 }
@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(plan_within_a_time_takes_the_most_accurate_that_fits) {
   const Plan hasty = make_plan(scene, {.digits = 6, .within_ms = 0.1, .most_accurate = true});
   BOOST_TEST(ample.error < 1e-9);
   BOOST_TEST(1e3 * hasty.seconds <= 0.1);
-  BOOST_TEST((hasty.choice.rung == Rung::discrete));
+  BOOST_TEST((hasty.choice.level == ModelLevel::discrete));
   BOOST_TEST(plan_shortfall(hasty).empty());
 }
 
@@ -185,11 +185,11 @@ BOOST_AUTO_TEST_CASE(discrete_models_own_account_of_its_error_is_not_far_off) {
     scene.options.impacts = 2;
     scene.options.evaluation_limit = 100'000;
     const Plan plan = make_plan(scene, {.digits = 3});
-    for (const WeighedRung& rung : plan.rungs) {
-      if (rung.rung != Rung::discrete || !std::isfinite(rung.assumption_error) || !(rung.error > 0)) continue;
+    for (const WeighedLevel& level : plan.levels) {
+      if (level.level != ModelLevel::discrete || !std::isfinite(level.assumption_error) || !(level.error > 0)) continue;
       ++there;
-      covered += rung.error <= 3 * rung.assumption_error ? 1 : 0;
-      ratios.push_back(rung.assumption_error / rung.error);
+      covered += level.error <= 3 * level.assumption_error ? 1 : 0;
+      ratios.push_back(level.assumption_error / level.error);
     }
   }
   std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2), ratios.end());

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""clatter plan and tradeoff of drops in space: the discrete model in space is a rung between the plane and the contacts."""
+"""clatter plan and tradeoff of drops in space: the discrete model in space stands between the plane and the contacts."""
 
 import json
 import unittest

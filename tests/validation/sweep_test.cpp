@@ -16,7 +16,7 @@
 #include <sstream>
 #include <utility>
 
-#include "validation/scene/bad_input.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/sweep/counter_random.hpp"
 #include "validation/sweep/grid.hpp"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <set>
 
-#include "validation/cli/verify_report.hpp"
 #include "validation/figures/figure.hpp"
+#include "validation/reports/verify_report.hpp"
 #include "validation/verify/verification.hpp"
 
 namespace {
@@ -18,8 +18,8 @@ const Check& check(const std::string& id) {
 }
 
 CheckResult judged(const Check& one) {
-  Laboratory laboratory;
-  return verify({&one}, laboratory, [](std::size_t, std::size_t, const std::string&) { return true; }).at(0);
+  CaseRuns case_runs;
+  return verify({&one}, case_runs, [](std::size_t, std::size_t, const std::string&) { return true; }).at(0);
 }
 
 }  // namespace
@@ -81,8 +81,8 @@ BOOST_AUTO_TEST_CASE(the_exit_status_tells_passed_failed_and_interrupted_apart) 
 BOOST_AUTO_TEST_CASE(an_interrupt_leaves_the_rest_not_run) {
   std::vector<const Check*> checks;
   for (const char* id : {"C1", "C2", "C3", "C6", "C7", "X3", "X5", "X6"}) checks.push_back(&check(id));
-  Laboratory laboratory;
-  const auto results = verify(checks, laboratory, [](std::size_t, std::size_t, const std::string&) { return false; });
+  CaseRuns case_runs;
+  const auto results = verify(checks, case_runs, [](std::size_t, std::size_t, const std::string&) { return false; });
   const auto done = std::count_if(results.begin(), results.end(), [](const CheckResult& one) { return one.done; });
   BOOST_TEST(done >= 1);
   BOOST_TEST(done < 8);

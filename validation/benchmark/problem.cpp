@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "validation/embedded/embedded.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/scene/bad_input.hpp"
 #include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/tables/numeric_table.hpp"

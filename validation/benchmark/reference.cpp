@@ -7,8 +7,8 @@
 
 #include "analytic/sequence.hpp"
 #include "analytic/space/sequence.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/scene/bad_input.hpp"
 #include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/space_scene.hpp"
 

@@ -8,8 +8,8 @@
 #include <sstream>
 #include <tuple>
 
+#include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/scene/bad_input.hpp"
 #include "validation/tables/csv_line.hpp"
 
 namespace clatter::validation {

@@ -5,8 +5,6 @@
 #include <memory>
 #include <vector>
 
-#include "validation/cli/angles_picture.hpp"
-#include "validation/cli/angles_report.hpp"
 #include "validation/cli/commands.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/plot_options.hpp"
@@ -14,6 +12,8 @@
 #include "validation/output/interrupt.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/sink.hpp"
+#include "validation/reports/angles_picture.hpp"
+#include "validation/reports/angles_report.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "validation/scene/bad_input.hpp"
+#include "validation/output/bad_input.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -3,11 +3,11 @@
 
 #include <memory>
 
-#include "validation/cli/benchmark_report.hpp"
 #include "validation/cli/commands.hpp"
 #include "validation/cli/options.hpp"
-#include "validation/cli/score_report.hpp"
-#include "validation/scene/bad_input.hpp"
+#include "validation/output/bad_input.hpp"
+#include "validation/reports/benchmark_report.hpp"
+#include "validation/reports/score_report.hpp"
 #include "validation/scene/option_values.hpp"
 
 namespace clatter::validation {

@@ -4,21 +4,21 @@
 #include <memory>
 
 #include "validation/cli/commands.hpp"
-#include "validation/cli/comparison_picture.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/plot_options.hpp"
 #include "validation/cli/progress.hpp"
 #include "validation/cli/scene_flags.hpp"
-#include "validation/cli/score_report.hpp"
-#include "validation/cli/swept_comparison_report.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/message.hpp"
 #include "validation/output/number.hpp"
-#include "validation/plan/shortfall.hpp"
-#include "validation/scene/bad_input.hpp"
+#include "validation/reports/comparison_picture.hpp"
+#include "validation/reports/score_report.hpp"
+#include "validation/reports/swept_comparison_report.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/failure.hpp"
 #include "validation/scene/scene_value.hpp"
+#include "validation/scene/shortfall.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -1,6 +1,6 @@
 // `clatter demo` of a build that could not make the page.
 #include "validation/cli/commands.hpp"
-#include "validation/scene/bad_input.hpp"
+#include "validation/output/bad_input.hpp"
 
 namespace clatter::validation {
 

@@ -13,9 +13,9 @@
 #include "validation/demo/page.hpp"
 #include "validation/demo/page_address.hpp"
 #include "validation/demo/server.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/sink.hpp"
-#include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -1,10 +1,10 @@
 #include <memory>
 
 #include "validation/cli/commands.hpp"
-#include "validation/cli/explanation_report.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/scene_flags.hpp"
 #include "validation/output/message.hpp"
+#include "validation/reports/explanation_report.hpp"
 
 namespace clatter::validation {
 namespace {

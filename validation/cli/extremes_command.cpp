@@ -3,12 +3,12 @@
 #include <memory>
 
 #include "validation/cli/commands.hpp"
-#include "validation/cli/extremes_report.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/progress.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/sink.hpp"
-#include "validation/scene/bad_input.hpp"
+#include "validation/reports/extremes_report.hpp"
 
 namespace clatter::validation {
 namespace {

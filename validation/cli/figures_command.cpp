@@ -8,7 +8,7 @@
 #include "validation/cli/progress.hpp"
 #include "validation/figures/figure.hpp"
 #include "validation/figures/figure_file.hpp"
-#include "validation/scene/bad_input.hpp"
+#include "validation/output/bad_input.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -50,12 +50,12 @@ int run_figures(const FiguresInput& input) {
   const FigureFiles files{*input.folder, read_output(form).style};
   make_folder(*input.folder, "--output");
   check_figure_files(numbers, files);
-  Laboratory laboratory;
+  CaseRuns case_runs;
   Progress progress;
   std::size_t done = 0;
   for (const int number : numbers) {
     progress.show(progress_bar(done++, numbers.size()));
-    write_figure(make_figure(number, laboratory), files);
+    write_figure(make_figure(number, case_runs), files);
   }
   return 0;
 }

@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "validation/cli/commands.hpp"
-#include "validation/cli/measured_report.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/plot_options.hpp"
-#include "validation/scene/bad_input.hpp"
+#include "validation/output/bad_input.hpp"
+#include "validation/reports/measured_report.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/sink.hpp"
-#include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "validation/cli/arguments.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/output/version.hpp"
-#include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {
 namespace {

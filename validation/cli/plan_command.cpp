@@ -2,9 +2,9 @@
 
 #include "validation/cli/commands.hpp"
 #include "validation/cli/options.hpp"
-#include "validation/cli/plan_report.hpp"
 #include "validation/cli/scene_flags.hpp"
 #include "validation/output/message.hpp"
+#include "validation/reports/plan_report.hpp"
 #include "validation/scene/failure.hpp"
 
 namespace clatter::validation {

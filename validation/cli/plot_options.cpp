@@ -6,8 +6,8 @@
 
 #include "validation/cli/options.hpp"
 #include "validation/figures/gnuplot.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/output/message.hpp"
-#include "validation/scene/bad_input.hpp"
 #include "validation/scene/scene_value.hpp"
 
 namespace clatter::validation {

@@ -9,12 +9,12 @@
 #include "validation/cli/commands.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/plot_options.hpp"
-#include "validation/cli/regimes_picture.hpp"
-#include "validation/cli/regimes_report.hpp"
 #include "validation/cli/rod_options.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/output/estimated.hpp"
 #include "validation/output/number.hpp"
-#include "validation/scene/bad_input.hpp"
+#include "validation/reports/regimes_picture.hpp"
+#include "validation/reports/regimes_report.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "validation/cli/options.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {
 

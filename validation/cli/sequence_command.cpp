@@ -6,11 +6,11 @@
 #include "validation/cli/options.hpp"
 #include "validation/cli/plot_options.hpp"
 #include "validation/cli/scene_flags.hpp"
-#include "validation/cli/sequence_picture.hpp"
-#include "validation/cli/sequence_report.hpp"
 #include "validation/output/message.hpp"
 #include "validation/plan/sequence_method.hpp"
-#include "validation/plan/shortfall.hpp"
+#include "validation/reports/sequence_picture.hpp"
+#include "validation/reports/sequence_report.hpp"
+#include "validation/scene/shortfall.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -5,23 +5,23 @@
 #include <optional>
 
 #include "validation/cli/commands.hpp"
-#include "validation/cli/history_file.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/plot_options.hpp"
 #include "validation/cli/progress.hpp"
 #include "validation/cli/scene_flags.hpp"
-#include "validation/cli/simulation_picture.hpp"
-#include "validation/cli/simulation_report.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/message.hpp"
 #include "validation/output/number.hpp"
 #include "validation/plan/planned_run.hpp"
-#include "validation/plan/shortfall.hpp"
-#include "validation/scene/bad_input.hpp"
+#include "validation/record/history_file.hpp"
+#include "validation/reports/simulation_picture.hpp"
+#include "validation/reports/simulation_report.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/failure.hpp"
 #include "validation/scene/scene_value.hpp"
+#include "validation/scene/shortfall.hpp"
 
 namespace clatter::validation {
 namespace {

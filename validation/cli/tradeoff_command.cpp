@@ -7,10 +7,10 @@
 #include "validation/cli/plot_options.hpp"
 #include "validation/cli/progress.hpp"
 #include "validation/cli/scene_flags.hpp"
-#include "validation/cli/tradeoff_report.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/message.hpp"
-#include "validation/scene/bad_input.hpp"
+#include "validation/reports/tradeoff_report.hpp"
 #include "validation/scene/failure.hpp"
 
 namespace clatter::validation {

@@ -5,12 +5,12 @@
 #include "validation/cli/commands.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/progress.hpp"
-#include "validation/cli/verify_report.hpp"
 #include "validation/figures/gnuplot.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/sink.hpp"
-#include "validation/scene/bad_input.hpp"
-#include "validation/verify/page.hpp"
+#include "validation/reports/verification_page.hpp"
+#include "validation/reports/verify_report.hpp"
 #include "validation/verify/selection.hpp"
 
 namespace clatter::validation {
@@ -33,19 +33,19 @@ int run_verify(const VerifyInput& input) {
     page.emplace(*input.html, "--html");
   }
   const CooperativeInterrupt interrupt;
-  Laboratory laboratory;
-  laboratory.goes_on = [&] { return !interrupt.requested(); };
+  CaseRuns case_runs;
+  case_runs.goes_on = [&] { return !interrupt.requested(); };
   std::vector<CheckResult> results;
   {
     Progress progress;
-    results = verify(selection.checks, laboratory, [&](std::size_t done, std::size_t of, const std::string& id) {
+    results = verify(selection.checks, case_runs, [&](std::size_t done, std::size_t of, const std::string& id) {
       progress.show(fmt::format("{} {}", progress_bar(done, of), id));
       return !interrupt.requested();
     });
   }
   write_report(choice, verify_report(results, selection.words));
   if (page && !interrupt.requested()) {
-    page->write(verify_page(results, selection.words, laboratory));
+    page->write(verify_page(results, selection.words, case_runs));
     page->commit();
   }
   return verify_status(summary_of(results));

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "validation/output/number.hpp"
-#include "validation/plan/shortfall.hpp"
 #include "validation/record/names.hpp"
+#include "validation/scene/shortfall.hpp"
 
 namespace clatter::validation {
 namespace {

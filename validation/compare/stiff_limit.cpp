@@ -16,8 +16,8 @@ namespace {
 using numeric::ImpactRecord;
 using numeric::Simulation;
 
-constexpr double stiffening = 16;  // halves the contact time of a corner, F ∝ δ³, the slowest to converge
-constexpr int rungs = 5;           // three triples of runs
+constexpr double stiffening = 16;   // halves the contact time of a corner, F ∝ δ³, the slowest to converge
+constexpr int runs_of_a_limit = 5;  // three triples of runs
 constexpr int most_runs = 24;
 constexpr double least_indentation = 1e-8;  // of the body: the depth that doubles still resolve to 12 digits
 constexpr double run_error = 3e-12;         // of a planar run of 12 digits, relative, per impact
@@ -98,9 +98,9 @@ struct Extrapolation {
 };
 
 LimitRow extrapolate(const std::vector<Simulation>& ladder, std::size_t row, Extrapolation& at) {
-  Eigen::Matrix<double, rungs, 1> x;
-  Eigen::Matrix<double, static_cast<int>(motion_number_count), rungs> y;
-  for (int j = 0; j < rungs; ++j) {
+  Eigen::Matrix<double, runs_of_a_limit, 1> x;
+  Eigen::Matrix<double, static_cast<int>(motion_number_count), runs_of_a_limit> y;
+  for (int j = 0; j < runs_of_a_limit; ++j) {
     const Simulation& run = ladder[static_cast<std::size_t>(j)];
     x[j] = run.impacts[0].value.duration;
     const MotionNumbers numbers = motion_numbers(run.impacts[row]);
@@ -116,7 +116,7 @@ LimitRow extrapolate(const std::vector<Simulation>& ladder, std::size_t row, Ext
   const ImpactRecord& stiffest = ladder.back().impacts[row];
   LimitRow limit{.end = stiffest.end, .place = stiffest.place, .mode = stiffest.mode};
   for (std::size_t q = 0; q < motion_number_count; ++q) {
-    const Eigen::Matrix<double, 1, rungs> values = y.row(static_cast<int>(q));
+    const Eigen::Matrix<double, 1, runs_of_a_limit> values = y.row(static_cast<int>(q));
     double triples[3];
     for (int t = 0; t < 3; ++t) triples[t] = values.segment<3>(t).dot(weights[t]);
     const double last = triples[2] - triples[1];
@@ -131,7 +131,8 @@ LimitRow extrapolate(const std::vector<Simulation>& ladder, std::size_t row, Ext
 /// Takes the rows of the ladder into the limit.  @returns whether all impacts are there and settled.
 bool take_limit(const std::vector<Simulation>& ladder, const ContactSizes& sizes, const LimitRequest& request,
                 StiffLimit& limit) {
-  const double ratio = ladder[rungs - 2].impacts[0].value.duration / ladder[rungs - 1].impacts[0].value.duration;
+  const double ratio =
+      ladder[runs_of_a_limit - 2].impacts[0].value.duration / ladder[runs_of_a_limit - 1].impacts[0].value.duration;
   limit.power = std::log(ratio) / std::log(stiffening);
   const CommonRows rows = common_rows(ladder, sizes);
   const double damping = sizes.damping_per_stiffness * ladder.back().impacts[0].value.approach_speed;
@@ -181,7 +182,7 @@ StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, const Limi
   };
   double stiffness = scene.ground.stiffness;
   std::vector<Simulation> ladder;
-  // The rungs must all be short enough, and the limit must have settled: climb until they are and it has.
+  // The runs' contacts must all be short enough, and the limit must have settled: climb until they are and it has.
   while (limit.runs < most_runs) {
     ladder.push_back(run_at(stiffness));
     limit.stiffness = stiffness;
@@ -192,13 +193,13 @@ StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, const Limi
       ladder.clear();  // a soft ground may hold a body that a stiffer one throws back
       continue;
     }
-    if (ladder.size() > rungs) ladder.erase(ladder.begin());
-    if (ladder.size() < rungs) continue;
+    if (ladder.size() > runs_of_a_limit) ladder.erase(ladder.begin());
+    if (ladder.size() < runs_of_a_limit) continue;
     const bool settled = take_limit(ladder, sizes, request, limit);
     const numeric::ImpactNumbers& first = ladder.back().impacts.front().value;
     if (settled || first.duration * first.approach_speed < least_indentation * body.radius()) break;
   }
-  if (request.planar || ladder.size() < rungs) return limit;
+  if (request.planar || ladder.size() < runs_of_a_limit) return limit;
   // Slip that turns costs the runs digits: how many, the stiffest estimates.
   options.error_estimates = true;
   ladder.back() = run_at(limit.stiffness);

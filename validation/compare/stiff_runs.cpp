@@ -17,7 +17,7 @@ using numeric::ImpactRecord;
 using numeric::Simulation;
 using numeric::Vector3;
 
-constexpr double small = 0.02;  // what turning, gravity and indentation may be at the first rung
+constexpr double small = 0.02;  // what turning, gravity and indentation may be at the first stiffness
 
 double feature_of(const Scene& scene, const numeric::Body& body) {
   switch (scene.body.shape) {

@@ -8,16 +8,16 @@
 #include <optional>
 #include <string_view>
 
-#include "validation/cli/angles_report.hpp"
-#include "validation/cli/comparison_report.hpp"
-#include "validation/cli/derivation.hpp"
-#include "validation/cli/history_file.hpp"
-#include "validation/cli/sequence_report.hpp"
-#include "validation/cli/simulation_report.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/plan/planned_run.hpp"
 #include "validation/plan/sequence_method.hpp"
-#include "validation/scene/bad_input.hpp"
+#include "validation/record/history_file.hpp"
+#include "validation/reports/angles_report.hpp"
+#include "validation/reports/comparison_report.hpp"
+#include "validation/reports/derivation.hpp"
+#include "validation/reports/sequence_report.hpp"
+#include "validation/reports/simulation_report.hpp"
 #include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/failure.hpp"
 #include "validation/scene/keys.hpp"

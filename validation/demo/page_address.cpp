@@ -1,8 +1,8 @@
 #include "validation/demo/page_address.hpp"
 
 #include "analytic/restitution_map.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {
 namespace {

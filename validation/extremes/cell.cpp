@@ -19,9 +19,9 @@ void refuse(ExtremeCell& cell, CellVerdict verdict, const std::string& reason) {
   std::replace(cell.reason.begin(), cell.reason.end(), '\n', ' ');
 }
 
-void run(const Probe& probe, const CellClock& clock, ExtremeCell& cell) {
+void run(const ExtremeCase& extreme, const CellClock& clock, ExtremeCell& cell) {
   try {
-    cell.measure = probe.work(clock);
+    cell.measure = extreme.work(clock);
     cell.verdict = CellVerdict::number;
     if (!std::isfinite(cell.measure.error)) refuse(cell, CellVerdict::broken, "a number that is none");
   } catch (const EndedEarly& ended) {
@@ -65,16 +65,16 @@ double ExtremeCell::digits() const {
   return measure.error > 0 ? std::fmax(0.0, std::fmin(-std::log10(measure.error), most)) + 0.0 : most;
 }
 
-ExtremeCell fill_cell(const Probe& probe, double seconds) {
-  ExtremeCell cell{.axis = probe.axis,
-                   .value = probe.value,
-                   .label = probe.label,
-                   .model = probe.model,
+ExtremeCell fill_cell(const ExtremeCase& extreme, double seconds) {
+  ExtremeCell cell{.axis = extreme.axis,
+                   .value = extreme.value,
+                   .label = extreme.label,
+                   .model = extreme.model,
                    .measure = {},
                    .reason = {},
-                   .long_run = probe.long_run};
+                   .long_run = extreme.long_run};
   const CellClock clock(seconds);
-  run(probe, clock, cell);
+  run(extreme, clock, cell);
   cell.seconds = clock.elapsed();
   return cell;
 }

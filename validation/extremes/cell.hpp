@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "validation/plan/ladder.hpp"
+#include "validation/plan/model_hierarchy.hpp"
 
 namespace clatter::validation {
 
@@ -40,7 +40,7 @@ struct ExtremeCell {
   std::string axis;
   double value = 0;
   std::string label;  ///< the value for a reader
-  Rung model = Rung::discrete;
+  ModelLevel model = ModelLevel::discrete;
   CellVerdict verdict = CellVerdict::broken;
   CellMeasure measure;    ///< if there is a number; the outcome also if the run ended early
   std::string reason;     ///< of a refusal, one line
@@ -78,17 +78,17 @@ class EndedEarly : public std::runtime_error {
 };
 
 /// What a cell does.  `work` returns a number or throws: the models' own errors, or EndedEarly.
-struct Probe {
+struct ExtremeCase {
   std::string axis;
   double value = 0;
   std::string label;
-  Rung model = Rung::discrete;
+  ModelLevel model = ModelLevel::discrete;
   std::function<CellMeasure(const CellClock&)> work;
   bool long_run = false;
 };
 
-/// Runs a probe and puts whatever comes of it into a cell; throws nothing that `work` throws.
-[[nodiscard]] ExtremeCell fill_cell(const Probe& probe, double seconds);
+/// Runs an extreme case and puts whatever comes of it into a cell; throws nothing that `work` throws.
+[[nodiscard]] ExtremeCell fill_cell(const ExtremeCase& extreme, double seconds);
 
 /// Why a cell does not hold what the map promises: no number and no typed refusal, an error beyond its bound (or NaN),
 /// more than `seconds`.  Empty: it holds.

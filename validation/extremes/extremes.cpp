@@ -17,13 +17,13 @@ bool chosen(const ExtremesOptions& options, const std::string& axis) {
   return std::find(options.axes.begin(), options.axes.end(), axis) != options.axes.end();
 }
 
-std::vector<Probe> probes_of(const MapAxis& axis, const ExtremesOptions& options,
-                             const std::function<bool()>& goes_on) {
-  if (axis.name == "long") return long_probes(options.runs, goes_on);
-  if (axis.name == "turns") return turn_probes(axis);
-  std::vector<Probe> probes = discrete_probes(axis);
-  for (Probe& probe : continuous_probes(axis)) probes.push_back(std::move(probe));
-  return probes;
+std::vector<ExtremeCase> cases_of(const MapAxis& axis, const ExtremesOptions& options,
+                                  const std::function<bool()>& goes_on) {
+  if (axis.name == "long") return long_cases(options.runs, goes_on);
+  if (axis.name == "turns") return turn_cases(axis);
+  std::vector<ExtremeCase> cases = discrete_cases(axis);
+  for (ExtremeCase& extreme : continuous_cases(axis)) cases.push_back(std::move(extreme));
+  return cases;
 }
 
 /// A reason without its numbers, which differ from cell to cell.
@@ -61,18 +61,18 @@ std::vector<MapRegion> regions_of(const std::vector<ExtremeCell>& cells) {
 
 ExtremesMap measure_extremes(const ExtremesOptions& options) {
   ExtremesMap map{.cells = {}, .regions = {}, .cell_seconds = options.cell_seconds, .seed = options.runs.seed};
-  std::vector<Probe> probes;
-  const auto goes_on = [&] { return !options.progress || options.progress(map.cells.size(), probes.size()); };
+  std::vector<ExtremeCase> cases;
+  const auto goes_on = [&] { return !options.progress || options.progress(map.cells.size(), cases.size()); };
   for (const MapAxis& axis : map_axes()) {
     if (!chosen(options, axis.name)) continue;
-    for (Probe& probe : probes_of(axis, options, goes_on)) probes.push_back(std::move(probe));
+    for (ExtremeCase& extreme : cases_of(axis, options, goes_on)) cases.push_back(std::move(extreme));
   }
-  for (const Probe& probe : probes) {
+  for (const ExtremeCase& extreme : cases) {
     if (!goes_on()) {
       map.complete = false;
       break;
     }
-    map.cells.push_back(fill_cell(probe, options.cell_seconds));
+    map.cells.push_back(fill_cell(extreme, options.cell_seconds));
   }
   map.complete = map.complete && goes_on();
   map.regions = regions_of(map.cells);
@@ -84,7 +84,7 @@ std::vector<std::string> map_failures(const ExtremesMap& map) {
   for (const ExtremeCell& cell : map.cells) {
     const std::string why = cell_failure(cell, map.cell_seconds);
     if (!why.empty())
-      failures.push_back(fmt::format("{} {}, {}: {}", cell.axis, cell.label, rung_name(cell.model), why));
+      failures.push_back(fmt::format("{} {}, {}: {}", cell.axis, cell.label, level_name(cell.model), why));
   }
   return failures;
 }

@@ -7,7 +7,7 @@
 
 #include "validation/extremes/axes.hpp"
 #include "validation/extremes/cell.hpp"
-#include "validation/extremes/probes.hpp"
+#include "validation/extremes/extreme_cases.hpp"
 
 namespace clatter::validation {
 

@@ -25,7 +25,7 @@ const std::vector<int>& figure_numbers() {
   return numbers;
 }
 
-Figure make_figure(int number, Laboratory& laboratory) {
+Figure make_figure(int number, CaseRuns& case_runs) {
   switch (number) {
     case 7: return figure_second_angle();
     case 8: return figure_rod_positions();
@@ -33,16 +33,16 @@ Figure make_figure(int number, Laboratory& laboratory) {
     case 10: return figure_both_angles();
     case 11: return figure_angles_with_gravity();
     case 12: return figure_impulses_with_gravity();
-    case 14: return figure_rod_over_angle(laboratory);
-    case 15: return figure_rod_over_friction(laboratory);
-    case 16: return figure_rod_contact(laboratory);
-    case 17: return figure_rod_sequence(laboratory);
-    case 19: return figure_phone_history(laboratory, false);
-    case 20: return figure_phone_impacts(laboratory, false);
-    case 21: return figure_phone_history(laboratory, true);
-    case 22: return figure_phone_impacts(laboratory, true);
-    case 23: return figure_phone_energies(laboratory);
-    case 24: return figure_phone_over_angle(laboratory);
+    case 14: return figure_rod_over_angle(case_runs);
+    case 15: return figure_rod_over_friction(case_runs);
+    case 16: return figure_rod_contact(case_runs);
+    case 17: return figure_rod_sequence(case_runs);
+    case 19: return figure_phone_history(case_runs, false);
+    case 20: return figure_phone_impacts(case_runs, false);
+    case 21: return figure_phone_history(case_runs, true);
+    case 22: return figure_phone_impacts(case_runs, true);
+    case 23: return figure_phone_energies(case_runs);
+    case 24: return figure_phone_over_angle(case_runs);
     default: throw std::out_of_range(fmt::format("no figure {}", number));
   }
 }

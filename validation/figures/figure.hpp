@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "validation/compare/case_runs.hpp"
 #include "validation/output/report.hpp"
-#include "validation/verify/laboratory.hpp"
 
 namespace clatter::validation {
 
@@ -73,7 +73,7 @@ struct Figure {
 /// 7 to 12, 14 to 17, 19 to 24.
 [[nodiscard]] const std::vector<int>& figure_numbers();
 /// @throws std::out_of_range for a number that is not among them.
-[[nodiscard]] Figure make_figure(int number, Laboratory& laboratory);
+[[nodiscard]] Figure make_figure(int number, CaseRuns& case_runs);
 
 /// Its title, scene and command, and its rows; CSV explains each column.
 [[nodiscard]] Report figure_report(const Figure& figure);

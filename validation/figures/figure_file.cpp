@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <set>
 
+#include "validation/output/bad_input.hpp"
 #include "validation/output/sink.hpp"
-#include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {
 

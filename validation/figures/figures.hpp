@@ -17,15 +17,15 @@ namespace clatter::validation {
 
 /// The rod over the angle (Fig. 14) and over friction (Fig. 15), the course of its first contact (Fig. 16), several
 /// impacts (Fig. 17).
-[[nodiscard]] Figure figure_rod_over_angle(Laboratory& laboratory);
-[[nodiscard]] Figure figure_rod_over_friction(Laboratory& laboratory);
-[[nodiscard]] Figure figure_rod_contact(Laboratory& laboratory);
-[[nodiscard]] Figure figure_rod_sequence(Laboratory& laboratory);
+[[nodiscard]] Figure figure_rod_over_angle(CaseRuns& case_runs);
+[[nodiscard]] Figure figure_rod_over_friction(CaseRuns& case_runs);
+[[nodiscard]] Figure figure_rod_contact(CaseRuns& case_runs);
+[[nodiscard]] Figure figure_rod_sequence(CaseRuns& case_runs);
 
 /// The elastic phone (Figs. 19, 20), the damped one (Figs. 21 to 23), the damped one over the angle (Fig. 24).
-[[nodiscard]] Figure figure_phone_history(Laboratory& laboratory, bool damped);
-[[nodiscard]] Figure figure_phone_impacts(Laboratory& laboratory, bool damped);
-[[nodiscard]] Figure figure_phone_energies(Laboratory& laboratory);
-[[nodiscard]] Figure figure_phone_over_angle(Laboratory& laboratory);
+[[nodiscard]] Figure figure_phone_history(CaseRuns& case_runs, bool damped);
+[[nodiscard]] Figure figure_phone_impacts(CaseRuns& case_runs, bool damped);
+[[nodiscard]] Figure figure_phone_energies(CaseRuns& case_runs);
+[[nodiscard]] Figure figure_phone_over_angle(CaseRuns& case_runs);
 
 }  // namespace clatter::validation

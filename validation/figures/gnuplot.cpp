@@ -12,8 +12,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
-#include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {
 namespace {

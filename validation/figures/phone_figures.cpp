@@ -44,7 +44,7 @@ Range2 first_two(const numeric::Simulation& run) {
 
 }  // namespace
 
-Figure figure_phone_history(Laboratory& laboratory, bool damped) {
+Figure figure_phone_history(CaseRuns& case_runs, bool damped) {
   const PhoneCase phone = phone_case(damped);
   Figure figure{.number = damped ? 21 : 19,
                 .title = fmt::format("impacts of the {} phone over time", damped ? "damped" : "elastic"),
@@ -53,14 +53,14 @@ Figure figure_phone_history(Laboratory& laboratory, bool damped) {
                 .rows = {},
                 .plots = {}};
   add_history_columns(figure);
-  const RecordedRun& recorded = laboratory.history(phone.name, phone.options);
+  const RecordedRun& recorded = case_runs.history(phone.name, phone.options);
   for (const numeric::HistorySample& s : recorded.samples) add_history_row(figure, {}, s);
   add_history_panels(figure, over_time("all impacts", {}));
   add_history_panels(figure, over_time("first two impacts", first_two(recorded.run)));
   return figure;
 }
 
-Figure figure_phone_impacts(Laboratory& laboratory, bool damped) {
+Figure figure_phone_impacts(CaseRuns& case_runs, bool damped) {
   const PhoneCase phone = phone_case(damped);
   Figure figure{
       .number = damped ? 22 : 20,
@@ -74,7 +74,7 @@ Figure figure_phone_impacts(Laboratory& laboratory, bool damped) {
                   {"amplification", "1", "growth of a relative error of the start"}},
       .rows = {},
       .plots = {}};
-  const numeric::Simulation& run = laboratory.history(phone.name, phone.options).run;
+  const numeric::Simulation& run = case_runs.history(phone.name, phone.options).run;
   for (std::size_t i = 0; i < run.impacts.size(); ++i) {
     const numeric::ImpactNumbers& n = run.impacts[i].value;
     const double interval = i == 0 ? no_number : n.start - run.impacts[i - 1].value.start;
@@ -97,7 +97,7 @@ Figure figure_phone_impacts(Laboratory& laboratory, bool damped) {
   return figure;
 }
 
-Figure figure_phone_energies(Laboratory& laboratory) {
+Figure figure_phone_energies(CaseRuns& case_runs) {
   Figure figure{.number = 23,
                 .title = "energies of the damped phone in its first two impacts",
                 .scene = "validation/cases/phone-damped.toml",
@@ -108,7 +108,7 @@ Figure figure_phone_energies(Laboratory& laboratory) {
                             {"E_potential", "J", "potential energy"}},
                 .rows = {},
                 .plots = {}};
-  const RecordedRun& recorded = laboratory.history("phone-damped", phone_case(true).options);
+  const RecordedRun& recorded = case_runs.history("phone-damped", phone_case(true).options);
   const Range2 times = first_two(recorded.run);
   for (const numeric::HistorySample& s : recorded.samples) {
     if (s.time < 0 || s.time > times.high) continue;
@@ -120,7 +120,7 @@ Figure figure_phone_energies(Laboratory& laboratory) {
   return figure;
 }
 
-Figure figure_phone_over_angle(Laboratory& laboratory) {
+Figure figure_phone_over_angle(CaseRuns& case_runs) {
   const std::string name = "phone-sweep";
   Figure figure{.number = 24,
                 .title = "first impact of the damped phone over the contact angle",
@@ -135,9 +135,9 @@ Figure figure_phone_over_angle(Laboratory& laboratory) {
                             {"Omega_discrete", "rad/s", "angular velocity, discrete model of the corner"}},
                 .rows = {},
                 .plots = {}};
-  const Scene scene = laboratory_scene(name, {});
+  const Scene scene = scene_of_case(name, {});
   const numeric::Body body = scene.make_body();
-  for (const SweptSimulation& swept : laboratory.sweep(name)) {
+  for (const SweptSimulation& swept : case_runs.sweep(name)) {
     const numeric::ImpactRecord& first = swept.run.impacts.at(0);
     const numeric::ImpactNumbers& n = first.value;
     const auto discrete =

@@ -90,7 +90,7 @@ const std::vector<double> contact_frictions{0.1, 0.3, 0.5, 0.7};
 
 }  // namespace
 
-Figure figure_rod_over_angle(Laboratory& laboratory) {
+Figure figure_rod_over_angle(CaseRuns& case_runs) {
   const std::string name = "rod-sweep";
   Figure figure{.number = 14,
                 .title = "first impact of the rod over the contact angle, no friction",
@@ -106,9 +106,9 @@ Figure figure_rod_over_angle(Laboratory& laboratory) {
        {"continuous", "continuous model", "continuous", Style::points}},
       {.title = "", .x_label = "impact contact angle θ [°]", .y_label = "", .curves = {}, .x = {0, 90}, .y = {}});
   figure.plots.back().y = {-0.05, 0.05};  // the losses are zero to nine digits
-  const Scene scene = laboratory_scene(name, {});
+  const Scene scene = scene_of_case(name, {});
   const numeric::Body body = scene.make_body();
-  for (const SweptSimulation& swept : laboratory.sweep(name)) {
+  for (const SweptSimulation& swept : case_runs.sweep(name)) {
     add_row(figure, swept.value, numbers,
             {thin_rod(swept.value, {}), of(discrete_drop(scene.at(swept.value), body)), of(swept.run)});
     // The limit of small angles, beside the flat landing: the jump is one of the models, not of the drawing.
@@ -118,7 +118,7 @@ Figure figure_rod_over_angle(Laboratory& laboratory) {
   return figure;
 }
 
-Figure figure_rod_over_friction(Laboratory& laboratory) {
+Figure figure_rod_over_friction(CaseRuns& case_runs) {
   const std::string name = "rod-friction-sweep";
   Figure figure{.number = 15,
                 .title = "first impact of the rod at 45 degrees over friction",
@@ -138,9 +138,9 @@ Figure figure_rod_over_friction(Laboratory& laboratory) {
               .x = {0, 0.8},
               .y = {}});
   figure.columns.push_back({"ratio_continuous", "1", "impulse ratio that came out of the continuous model"});
-  const Scene scene = laboratory_scene(name, {});
+  const Scene scene = scene_of_case(name, {});
   const numeric::Body body = scene.make_body();
-  for (const SweptSimulation& swept : laboratory.sweep(name)) {
+  for (const SweptSimulation& swept : case_runs.sweep(name)) {
     const analytic::ImpactLaw as_given{.friction = analytic::FrictionKind::impulse_ratio,
                                        .friction_value = swept.value};
     add_row(figure, swept.value, numbers,
@@ -151,7 +151,7 @@ Figure figure_rod_over_friction(Laboratory& laboratory) {
   return figure;
 }
 
-Figure figure_rod_contact(Laboratory& laboratory) {
+Figure figure_rod_contact(CaseRuns& case_runs) {
   Figure figure{.number = 16,
                 .title = "course of the rod's first contact at 45 degrees for four frictions",
                 .scene = "validation/cases/rod-friction-01.toml, -03, -05, -07",
@@ -164,7 +164,7 @@ Figure figure_rod_contact(Laboratory& laboratory) {
                 .rows = {},
                 .plots = {}};
   for (const double mu : contact_frictions) {
-    const auto& samples = laboratory.history(fmt::format("rod-friction-0{}", std::lround(10 * mu)), smooth).samples;
+    const auto& samples = case_runs.history(fmt::format("rod-friction-0{}", std::lround(10 * mu)), smooth).samples;
     for (const numeric::HistorySample& s : samples) {
       if (!s.in_contact) continue;
       figure.rows.push_back({mu, s.time, s.point_velocity.z(), s.point_velocity.x(), s.force.z(), s.force.x()});
@@ -184,7 +184,7 @@ Figure figure_rod_contact(Laboratory& laboratory) {
   return figure;
 }
 
-Figure figure_rod_sequence(Laboratory& laboratory) {
+Figure figure_rod_sequence(CaseRuns& case_runs) {
   Figure figure{.number = 17,
                 .title = "several impacts of the damped rod with friction, by the text and by the caption",
                 .scene = "validation/cases/rod-at-1ms.toml (text, v_n = -1), rod-from-2m.toml (caption, z_c = 2)",
@@ -196,7 +196,7 @@ Figure figure_rod_sequence(Laboratory& laboratory) {
                                                           {"rod-from-2m", "from 2 m (caption)"}};
   double variant = 1;
   for (const auto& [name, words] : variants) {
-    for (const numeric::HistorySample& s : laboratory.history(name, smooth).samples) {
+    for (const numeric::HistorySample& s : case_runs.history(name, smooth).samples) {
       add_history_row(figure, {variant}, s);
     }
     add_history_panels(figure, {.title = words, .x_label = "time [s]", .y_label = "", .curves = {}},

@@ -5,8 +5,8 @@
 #include <set>
 #include <sstream>
 
+#include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/scene/bad_input.hpp"
 #include "validation/sweep/counter_random.hpp"
 
 namespace clatter::validation {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/scene/bad_input.hpp"
 #include "validation/tables/numeric_table.hpp"
 
 namespace clatter::validation {

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "validation/embedded/embedded.hpp"
-#include "validation/scene/bad_input.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/scene/scene_values.hpp"
 
 namespace clatter::validation {

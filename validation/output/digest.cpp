@@ -3,7 +3,7 @@
 #include <fstream>
 #include <vector>
 
-#include "validation/scene/bad_input.hpp"
+#include "validation/output/bad_input.hpp"
 
 namespace clatter::validation {
 

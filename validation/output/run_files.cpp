@@ -12,8 +12,8 @@
 #include <filesystem>
 #include <limits>
 
+#include "validation/output/bad_input.hpp"
 #include "validation/output/sink.hpp"
-#include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -10,8 +10,8 @@
 #include <cstring>
 #include <filesystem>
 
+#include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
-#include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {
 

@@ -24,10 +24,10 @@ std::string quoted(const std::string& name) {
 std::string command_line(const Plan& plan) {
   const Scene& scene = plan.scene;
   std::string line =
-      fmt::format("clatter {} {}", is_continuous(plan.choice.rung) ? "simulate" : "compare", quoted(scene.path));
-  if (!is_continuous(plan.choice.rung)) return line;
+      fmt::format("clatter {} {}", is_continuous(plan.choice.level) ? "simulate" : "compare", quoted(scene.path));
+  if (!is_continuous(plan.choice.level)) return line;
   line += fmt::format(" --method {} --tolerance {}", method_name(plan.choice.method), shortest(plan.choice.tolerance));
-  if (plan.choice.rung == Rung::planar && !scene.options.planar) line += " --planar";
+  if (plan.choice.level == ModelLevel::planar && !scene.options.planar) line += " --planar";
   for (const WeighedPart& part : plan.parts) {
     if (part.left_out && part.part == Part::friction) line += " --static-friction 0 --sliding-friction 0";
     if (part.left_out && part.part == Part::damping) line += " --damping 0";

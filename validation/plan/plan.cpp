@@ -60,13 +60,13 @@ class Planner {
   void run_pilots() {
     const int wanted = ladder_.scene().options.impacts;
     Simulation finest;
-    RungSetting setting{.rung = full_, .method = Method::rkck, .tolerance = finest_pilot_tolerance};
+    LevelSetting setting{.level = full_, .method = Method::rkck, .tolerance = finest_pilot_tolerance};
     const auto run_finest = [&] { finest = ladder_.simulate(setting, wanted); };
     double seconds = least_seconds_of(timings, run_finest);
     // A switch between slip and stick may be met in a step that cannot be made small enough; another method meets it
     // at another place.
     if (finest.outcome == numeric::Outcome::step_too_small) {
-      setting = {.rung = full_, .method = Method::rk8pd, .tolerance = finest_pilot_tolerance / 10};
+      setting = {.level = full_, .method = Method::rk8pd, .tolerance = finest_pilot_tolerance / 10};
       seconds = least_seconds_of(timings, run_finest);
     }
     plan_.planning_evaluations = timings * finest.force_evaluations;
@@ -78,7 +78,7 @@ class Planner {
     plan_.impacts = impacts();
     sizes_ = motion_sizes(finest, finest.impacts.size(), ladder_.body());
     for (const numeric::ImpactRecord& row : finest.impacts) contact_times_.push_back(row.value.duration);
-    const RungResult loose = pilot(CostTable::loose_tolerance), middle = pilot(CostTable::pilot_tolerance);
+    const LevelResult loose = pilot(CostTable::loose_tolerance), middle = pilot(CostTable::pilot_tolerance);
     pilot_base_ = static_cast<double>(middle.evaluations);
     const double error = distance(middle.rows, truth_, sizes_), loose_error = distance(loose.rows, truth_, sizes_);
     plan_.error_constant =
@@ -86,16 +86,16 @@ class Planner {
     watch_the_plane();
   }
 
-  RungResult pilot(double tolerance) {
-    const RungResult result = ladder_.run({.rung = full_, .method = Method::rkck, .tolerance = tolerance}, impacts());
+  LevelResult pilot(double tolerance) {
+    const LevelResult result = ladder_.run({.level = full_, .method = Method::rkck, .tolerance = tolerance}, impacts());
     plan_.planning_evaluations += result.evaluations;
     return result;
   }
 
-  /// How long the planar rung's motion is that of a body in space.
+  /// How long the planar level's motion is that of a body in space.
   void watch_the_plane() {
     plan_.predictable_impacts = impacts();
-    if (full_ != Rung::planar || plan_.scene.options.planar) return;
+    if (full_ != ModelLevel::planar || plan_.scene.options.planar) return;
     numeric::Options options = ladder_.scene().options;
     options.method = Method::rkck;
     options.tolerance = CostTable::pilot_tolerance;
@@ -124,9 +124,9 @@ class Planner {
       if (part == Part::unmerged_faces) {
         weighed.left_out = true;
       } else {
-        const Ladder reduced(without(ladder_.scene(), part));
-        const RungResult result =
-            reduced.run({.rung = full_, .method = Method::rkck, .tolerance = finest_pilot_tolerance}, impacts());
+        const ModelHierarchy reduced(without(ladder_.scene(), part));
+        const LevelResult result =
+            reduced.run({.level = full_, .method = Method::rkck, .tolerance = finest_pilot_tolerance}, impacts());
         plan_.planning_evaluations += result.evaluations;
         weighed.error = distance(result.rows, truth_, sizes_);
         const double known_to = weighed.error + plan_.error_constant * finest_pilot_tolerance;
@@ -137,11 +137,11 @@ class Planner {
       plan_.parts.push_back(weighed);
     }
     budget_ = plan_.asked - spent;
-    ladder_ = Ladder(limited(plan_.scene));
+    ladder_ = ModelHierarchy(limited(plan_.scene));
   }
 
   void weigh_continuous() {
-    WeighedRung weighed{.rung = full_};
+    WeighedLevel weighed{.level = full_};
     ToleranceSearch search(ladder_, full_, impacts(), sizes_, plan_.error_constant, pilot_base_);
     const FoundSetting found = search.cheapest(budget_ / margin);
     plan_.planning_evaluations += search.evaluations_spent();
@@ -162,25 +162,25 @@ class Planner {
   }
 
   void weigh_the_rest() {
-    for (const Rung rung : all_rungs) {
-      WeighedRung weighed{.rung = rung};
-      weighed.against = ladder_.against(rung);
-      weighed.setting = {.rung = rung};
-      if (rung == full_) weighed = continuous_;
+    for (const ModelLevel level : all_levels) {
+      WeighedLevel weighed{.level = level};
+      weighed.against = ladder_.against(level);
+      weighed.setting = {.level = level};
+      if (level == full_) weighed = continuous_;
       else if (weighed.against.empty()) run_rung(weighed);
       if (weighed.against.empty()) weigh_assumption(weighed);
-      plan_.rungs.push_back(weighed);
+      plan_.levels.push_back(weighed);
     }
   }
 
-  void run_rung(WeighedRung& weighed) {
-    if (is_continuous(weighed.rung)) {
+  void run_rung(WeighedLevel& weighed) {
+    if (is_continuous(weighed.level)) {
       weighed.setting = continuous_.setting;
-      weighed.setting.rung = weighed.rung;
+      weighed.setting.level = weighed.level;
     }
-    RungResult result;
+    LevelResult result;
     try {
-      weighed.seconds = least_seconds_of(is_continuous(weighed.rung) ? timings : timings_of_a_formula,
+      weighed.seconds = least_seconds_of(is_continuous(weighed.level) ? timings : timings_of_a_formula,
                                          [&] { result = ladder_.run(weighed.setting, impacts()); });
     } catch (const analytic::OutsideModelError& error) {  // from the first impact on
       weighed.against = error.what();
@@ -191,25 +191,26 @@ class Planner {
     }
     weighed.error = distance(result.rows, truth_, sizes_);
     weighed.serves = margin * weighed.error <= budget_;
-    if (weighed.rung == Rung::closed_form) closed_form_rows_ = result.rows;
-    if (!is_continuous(weighed.rung)) return;
+    if (weighed.level == ModelLevel::closed_form) closed_form_rows_ = result.rows;
+    if (!is_continuous(weighed.level)) return;
     weighed.evaluations = static_cast<double>(result.evaluations);
     plan_.planning_evaluations += timings * result.evaluations;
   }
 
-  void weigh_assumption(WeighedRung& weighed) const {
-    weighed.assumption_words = rung_assumption(weighed.rung);
-    if (weighed.rung == Rung::closed_form) weighed.assumption_error = thinness();
-    if (weighed.rung == Rung::discrete) weighed.assumption_error = contact_effects(*ladder_.drop());
-    if (weighed.rung == Rung::discrete_in_space) weighed.assumption_error = contact_effects(*ladder_.space_drop());
-    if (weighed.rung == Rung::planar) {
+  void weigh_assumption(WeighedLevel& weighed) const {
+    weighed.assumption_words = level_assumption(weighed.level);
+    if (weighed.level == ModelLevel::closed_form) weighed.assumption_error = thinness();
+    if (weighed.level == ModelLevel::discrete) weighed.assumption_error = contact_effects(*ladder_.drop());
+    if (weighed.level == ModelLevel::discrete_in_space)
+      weighed.assumption_error = contact_effects(*ladder_.space_drop());
+    if (weighed.level == ModelLevel::planar) {
       weighed.assumption_error = plan_.growth_out_of_plane * std::numeric_limits<double>::epsilon();
     }
   }
 
-  /// What the rod's radius changes: closed form against the discrete rung at the rod's real corners.
+  /// What the rod's radius changes: closed form against the discrete model at the rod's real corners.
   [[nodiscard]] double thinness() const {
-    return distance(closed_form_rows_, ladder_.run({.rung = Rung::discrete}, impacts()).rows, sizes_);
+    return distance(closed_form_rows_, ladder_.run({.level = ModelLevel::discrete}, impacts()).rows, sizes_);
   }
 
   /// What gravity, turning, indentation and delay of the contacts change, carried on by the discrete model.
@@ -228,7 +229,7 @@ class Planner {
     return !plan_.target.within_ms || 1e3 * seconds <= *plan_.target.within_ms;
   }
 
-  void take(const WeighedRung& weighed) {
+  void take(const WeighedLevel& weighed) {
     plan_.choice = weighed.setting;
     plan_.error = weighed.error;
     plan_.evaluations = weighed.evaluations;
@@ -237,7 +238,7 @@ class Planner {
   }
 
   void choose() {
-    for (const WeighedRung& weighed : plan_.rungs) {
+    for (const WeighedLevel& weighed : plan_.levels) {
       if (!plan_.target.most_accurate && weighed.serves && fits(weighed.seconds)) return take(weighed);
     }
     if (plan_.target.within_ms) choose_most_accurate();
@@ -246,16 +247,16 @@ class Planner {
 
   /// Of all that fits into the time, by the table.
   void choose_most_accurate() {
-    WeighedRung best;
-    for (const WeighedRung& weighed : plan_.rungs) {
+    WeighedLevel best;
+    for (const WeighedLevel& weighed : plan_.levels) {
       const bool better = std::isnan(best.error) || weighed.error < best.error;
       if (weighed.against.empty() && fits(weighed.seconds) && better) best = weighed;
     }
     const CostTable& table = CostTable::measured();
     for (const Method method : {Method::rkck, Method::rk8pd}) {
       for (int i = 0; i < tolerance_steps; ++i) {
-        WeighedRung weighed{.rung = full_};
-        weighed.setting = {.rung = full_, .method = method, .tolerance = half_decade(i)};
+        WeighedLevel weighed{.level = full_};
+        weighed.setting = {.level = full_, .method = method, .tolerance = half_decade(i)};
         weighed.error = plan_.error_constant * half_decade(i) * table.error(method, half_decade(i));
         weighed.evaluations = pilot_base_ * table.evaluations(method, half_decade(i));
         weighed.seconds = weighed.evaluations * seconds_per_evaluation_;
@@ -266,14 +267,14 @@ class Planner {
     take(best);
   }
 
-  Ladder ladder_;
-  Rung full_;
+  ModelHierarchy ladder_;
+  ModelLevel full_;
   Plan plan_;
   Rows truth_, closed_form_rows_;
   MotionNumbers sizes_{};
   std::vector<double> contact_times_;
   double pilot_base_ = 0, seconds_per_evaluation_ = 0, budget_ = 0;
-  WeighedRung continuous_;
+  WeighedLevel continuous_;
 };
 
 }  // namespace

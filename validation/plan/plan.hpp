@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/plan/ladder.hpp"
+#include "validation/plan/model_hierarchy.hpp"
 
 namespace clatter::validation {
 
@@ -20,15 +20,15 @@ struct PlanTarget {
   bool most_accurate = false;  ///< choose that in any case; needs within_ms
 };
 
-/// One rung as it was weighed: how it would be run, what that costs and delivers.
-struct WeighedRung {
-  Rung rung = Rung::spatial;
+/// One level as it was weighed: how it would be run, what that costs and delivers.
+struct WeighedLevel {
+  ModelLevel level = ModelLevel::spatial;
   std::string against = {};  ///< why it does not apply; empty: it does
-  RungSetting setting = {};
+  LevelSetting setting = {};
   double error = std::numeric_limits<double>::quiet_NaN();  ///< relative; NaN: not known
   double evaluations = 0;                                   ///< of the contact force
   double seconds = 0;
-  /// What the rung's assumption brings, by the model's own account, relative; NaN: no account.
+  /// What the level's assumption brings, by the model's own account, relative; NaN: no account.
   double assumption_error = std::numeric_limits<double>::quiet_NaN();
   std::string assumption_words = {};
   bool serves = false;
@@ -45,17 +45,17 @@ struct Plan {
   PlanTarget target;
   double asked = 0;  ///< relative error
   Scene scene;       ///< without what is left out
-  RungSetting choice;
+  LevelSetting choice;
   bool serves = false;                                      ///< whether the choice is expected to meet what was asked
   double error = std::numeric_limits<double>::quiet_NaN();  ///< predicted, relative; NaN: nothing could be planned
   double evaluations = 0;
   double seconds = 0;
   int impacts = 0;              ///< that happen, at most as many as the scene asks for
-  int known_impacts = 0;        ///< the first impacts, which can be had to what was asked by the full rung
+  int known_impacts = 0;        ///< the first impacts, which can be had to what was asked by the full level
   int predictable_impacts = 0;  ///< those before which errors out of the plane have not outgrown what was asked
   double growth_out_of_plane = std::numeric_limits<double>::quiet_NaN();  ///< of a small error, until the last impact
   double error_constant = 0;  ///< error over tolerance of rkck, from the pilot runs
-  std::vector<WeighedRung> rungs;
+  std::vector<WeighedLevel> levels;
   std::vector<WeighedPart> parts;
   long planning_evaluations = 0;  ///< of all runs of the planning
   std::string pilot_ending;       ///< how the finest pilot run ended
@@ -64,10 +64,10 @@ struct Plan {
 
 /// Plans the scene.
 ///
-/// Pilot runs of the full rung with rkck at tolerances 1e-4, 1e-6 and 1e-8 give the impacts, the evaluations that they
+/// Pilot runs of the full level with rkck at tolerances 1e-4, 1e-6 and 1e-8 give the impacts, the evaluations that they
 /// take and the scene's error constant C (error over tolerance); with the measured table (CostTable) these give error
-/// and evaluations of every method and tolerance.  The rungs without contact times are run, which is cheap, and
-/// compared with the pilot.  The setting of the continuous rung is then checked against a finer run and moved by half
+/// and evaluations of every method and tolerance.  The levels without contact times are run, which is cheap, and
+/// compared with the pilot.  The setting of the continuous level is then checked against a finer run and moved by half
 /// decades of the tolerance until its error lies just below what is asked.
 /// Only counts decide, never times, unless `within_ms` is given: the plan is the same on every machine.
 [[nodiscard]] Plan make_plan(const Scene& scene, const PlanTarget& target);

@@ -1,7 +1,7 @@
 #include "validation/plan/sequence_method.hpp"
 
+#include "validation/output/bad_input.hpp"
 #include "validation/plan/closed_form.hpp"
-#include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {
 

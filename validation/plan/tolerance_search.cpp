@@ -38,27 +38,27 @@ PredictedSetting cheapest_by_table(double error_constant, double asked) {
   return high.evaluations < low.evaluations ? high : low;
 }
 
-ToleranceSearch::ToleranceSearch(const Ladder& ladder, Rung rung, int impacts, const MotionNumbers& sizes,
-                                 double error_constant, double pilot_evaluations)
-    : ladder_(ladder), rung_(rung), impacts_(impacts), sizes_(sizes), error_constant_(error_constant),
+ToleranceSearch::ToleranceSearch(const ModelHierarchy& hierarchy, ModelLevel level, int impacts,
+                                 const MotionNumbers& sizes, double error_constant, double pilot_evaluations)
+    : hierarchy_(hierarchy), level_(level), impacts_(impacts), sizes_(sizes), error_constant_(error_constant),
       pilot_evaluations_(pilot_evaluations) {}
 
 /// The finer run; at least as fine as any trial.
 void ToleranceSearch::find_reference(double asked, int index) {
   const int finest = tolerance_steps - 1;
   const PredictedSetting start = predicted_setting(Method::rk8pd, error_constant_, asked / 100);
-  const RungSetting setting{.rung = rung_,
-                            .method = Method::rk8pd,
-                            .tolerance = half_decade(std::min(finest, std::max(start.index, index + finer_steps)))};
-  const RungResult result = ladder_.run(setting, impacts_);
+  const LevelSetting setting{.level = level_,
+                             .method = Method::rk8pd,
+                             .tolerance = half_decade(std::min(finest, std::max(start.index, index + finer_steps)))};
+  const LevelResult result = hierarchy_.run(setting, impacts_);
   spent_ += result.evaluations;
   reference_ = result.rows;
   reference_errors_.assign(reference_.size(), 0);
   if (setting.tolerance > half_decade(finest)) return;
   // There is none two decades finer than the finest trial, so the reference's own error counts too.
-  RungSetting coarser = setting;
+  LevelSetting coarser = setting;
   coarser.tolerance *= std::pow(10.0, decades_apart);
-  const RungResult other = ladder_.run(coarser, impacts_);
+  const LevelResult other = hierarchy_.run(coarser, impacts_);
   spent_ += other.evaluations;
   for (std::size_t i = 0; i < reference_.size(); ++i) {
     const bool is_there = i < other.rows.size();
@@ -70,7 +70,7 @@ void ToleranceSearch::find_reference(double asked, int index) {
 ToleranceSearch::Trial& ToleranceSearch::trial(Method method, int index) {
   Trial& trial = trials_[index_of(method)][index];
   if (trial.known) return trial;
-  trial.result = ladder_.run({.rung = rung_, .method = method, .tolerance = half_decade(index)}, impacts_);
+  trial.result = hierarchy_.run({.level = level_, .method = method, .tolerance = half_decade(index)}, impacts_);
   const std::vector<MotionNumbers>& rows = trial.result.rows;
   trial.error = reference_.size() < static_cast<std::size_t>(impacts_) ? infinity : 0;  // the reference ended early
   for (std::size_t i = 0; i < reference_.size(); ++i) {
@@ -89,7 +89,7 @@ void ToleranceSearch::take(Method method, int index, double asked, FoundSetting&
   const bool better = serves ? !best.serves || found.result.evaluations < best.evaluations
                              : !best.serves && (best.evaluations == 0 || found.error < best.error);
   if (!better) return;
-  best.setting = {.rung = rung_, .method = method, .tolerance = half_decade(index)};
+  best.setting = {.level = level_, .method = method, .tolerance = half_decade(index)};
   best.error = found.error;
   best.evaluations = found.result.evaluations;
   best.serves = serves;

@@ -1,9 +1,9 @@
-// The loosest tolerance of a continuous rung that keeps to an error.
+// The loosest tolerance of a continuous level that keeps to an error.
 #pragma once
 
 #include <vector>
 
-#include "validation/plan/ladder.hpp"
+#include "validation/plan/model_hierarchy.hpp"
 
 namespace clatter::validation {
 
@@ -25,7 +25,7 @@ struct PredictedSetting {
 [[nodiscard]] PredictedSetting cheapest_by_table(double error_constant, double asked);
 
 struct FoundSetting {
-  RungSetting setting;
+  LevelSetting setting;
   double error = 0;  ///< against the reference, relative
   long evaluations = 0;
   bool serves = false;                   ///< error <= what was asked
@@ -38,8 +38,8 @@ class ToleranceSearch {
  public:
   /// @param error_constant error over tolerance of rkck
   /// @param pilot_evaluations of rkck at CostTable::pilot_tolerance
-  ToleranceSearch(const Ladder& ladder, Rung rung, int impacts, const MotionNumbers& sizes, double error_constant,
-                  double pilot_evaluations);
+  ToleranceSearch(const ModelHierarchy& hierarchy, ModelLevel level, int impacts, const MotionNumbers& sizes,
+                  double error_constant, double pilot_evaluations);
 
   /// The cheapest setting with error <= asked.
   [[nodiscard]] FoundSetting cheapest(double asked);
@@ -47,7 +47,7 @@ class ToleranceSearch {
 
  private:
   struct Trial {
-    RungResult result;
+    LevelResult result;
     double error = 0;
     std::vector<double> errors;
     bool known = false;
@@ -57,8 +57,8 @@ class ToleranceSearch {
   void descend(const PredictedSetting& start, double asked, FoundSetting& best);
   void take(numeric::Method method, int index, double asked, FoundSetting& best);
 
-  const Ladder& ladder_;
-  Rung rung_;
+  const ModelHierarchy& hierarchy_;
+  ModelLevel level_;
   int impacts_;
   MotionNumbers sizes_;
   double error_constant_, pilot_evaluations_;

@@ -9,8 +9,8 @@
 
 #include "numeric/mesh/generators.hpp"
 #include "numeric/mesh/import.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/scene/bad_input.hpp"
 #include "validation/scene/hull.hpp"
 #include "validation/scene/keys.hpp"
 

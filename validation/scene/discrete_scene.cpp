@@ -9,7 +9,7 @@
 
 #include "analytic/body_motion.hpp"
 #include "analytic/errors.hpp"
-#include "validation/scene/bad_input.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/scene/space_scene.hpp"

@@ -5,7 +5,7 @@
 
 #include "analytic/errors.hpp"
 #include "numeric/errors.hpp"
-#include "validation/scene/bad_input.hpp"
+#include "validation/output/bad_input.hpp"
 
 namespace clatter::validation {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/scene/bad_input.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/scene/option_values.hpp"
 #include "validation/scene/scene.hpp"
 

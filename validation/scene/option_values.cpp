@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/scene/bad_input.hpp"
 
 namespace clatter::validation {
 

@@ -8,9 +8,9 @@
 
 #include "numeric/motion/free_flight.hpp"
 #include "numeric/touch_point.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/record/names.hpp"
-#include "validation/scene/bad_input.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/scene.hpp"
 

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <sstream>
 
+#include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/scene/bad_input.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/scene/option_values.hpp"
 

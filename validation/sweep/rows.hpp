@@ -8,8 +8,8 @@
 #include "analytic/space/sequence.hpp"
 #include "numeric/simulate.hpp"
 #include "validation/output/report.hpp"
-#include "validation/plan/shortfall.hpp"
 #include "validation/record/impact_quantities.hpp"
+#include "validation/scene/shortfall.hpp"
 #include "validation/sweep/sweep_plan.hpp"
 
 namespace clatter::validation {

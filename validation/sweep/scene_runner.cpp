@@ -4,8 +4,8 @@
 #include <new>
 
 #include "validation/plan/planned_run.hpp"
-#include "validation/plan/shortfall.hpp"
 #include "validation/scene/failure.hpp"
+#include "validation/scene/shortfall.hpp"
 
 namespace clatter::validation {
 namespace {

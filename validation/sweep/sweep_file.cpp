@@ -13,7 +13,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "validation/scene/bad_input.hpp"
+#include "validation/output/bad_input.hpp"
 
 namespace clatter::validation {
 namespace {

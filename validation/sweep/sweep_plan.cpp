@@ -6,9 +6,9 @@
 #include <array>
 #include <limits>
 
+#include "validation/output/bad_input.hpp"
 #include "validation/output/digest.hpp"
 #include "validation/output/number.hpp"
-#include "validation/scene/bad_input.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/scene_value.hpp"

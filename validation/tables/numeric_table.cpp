@@ -12,8 +12,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/scene/bad_input.hpp"
 #include "validation/tables/csv_line.hpp"
 
 namespace clatter::validation {

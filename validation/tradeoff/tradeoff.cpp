@@ -61,12 +61,12 @@ class Bench {
     result_.impacts = impacts();
     result_.reference_error = truth_.error;
     result_.shortfall = shortfall_of(truth_, scene);
-    result_.reference = fmt::format("{} model, {} at tolerance {}", rung_name(truth_.setting.rung),
+    result_.reference = fmt::format("{} model, {} at tolerance {}", level_name(truth_.setting.level),
                                     method_name(truth_.setting.method), truth_.setting.tolerance);
   }
 
   Tradeoff run() {
-    for (const Rung rung : all_rungs) add_rung(rung);
+    for (const ModelLevel level : all_levels) add_rung(level);
     add_meshes();
     mark_front();
     return std::move(result_);
@@ -77,9 +77,9 @@ class Bench {
 
   [[nodiscard]] std::size_t points_in_all() const {
     std::size_t count = std::size(mesh_factors);
-    for (const Rung rung : all_rungs) count += is_continuous(rung) ? 0 : 1;
-    for (const Rung rung : {Rung::planar, Rung::spatial}) {
-      if (ladder_.against(rung).empty()) count += std::size(adaptive) * tolerance_count + step_halvings;
+    for (const ModelLevel level : all_levels) count += is_continuous(level) ? 0 : 1;
+    for (const ModelLevel level : {ModelLevel::planar, ModelLevel::spatial}) {
+      if (ladder_.against(level).empty()) count += std::size(adaptive) * tolerance_count + step_halvings;
     }
     return count;
   }
@@ -90,36 +90,36 @@ class Bench {
     return !ended_;
   }
 
-  void add_rung(Rung rung) {
-    if (!is_continuous(rung) || !ladder_.against(rung).empty()) return add(ladder_, {.rung = rung}, "");
+  void add_rung(ModelLevel level) {
+    if (!is_continuous(level) || !ladder_.against(level).empty()) return add(ladder_, {.level = level}, "");
     for (const Method method : adaptive) {
       for (int i = 0; i < tolerance_count; ++i) {
-        add(ladder_, {.rung = rung, .method = method, .tolerance = trade_tolerance(i)}, "");
+        add(ladder_, {.level = level, .method = method, .tolerance = trade_tolerance(i)}, "");
       }
     }
     for (int i = 0; i < step_halvings; ++i) {
       const double step = truth_.contact_time / (first_steps_per_contact << i);
-      add(ladder_, {.rung = rung, .method = Method::tvd_rk3, .step = step}, "");
+      add(ladder_, {.level = level, .method = Method::tvd_rk3, .step = step}, "");
     }
   }
 
-  void add(const Ladder& ladder, const RungSetting& setting, const std::string& mesh) {
+  void add(const ModelHierarchy& hierarchy, const LevelSetting& setting, const std::string& mesh) {
     if (!goes_on()) return;
-    TradePoint point{.rung = setting.rung,
-                     .method = is_continuous(setting.rung) ? method_name(setting.method) : "",
+    TradePoint point{.level = setting.level,
+                     .method = is_continuous(setting.level) ? method_name(setting.method) : "",
                      .tolerance = setting.tolerance,
                      .step = setting.step,
                      .mesh = mesh,
                      .error = std::numeric_limits<double>::quiet_NaN(),
-                     .failure = ladder.against(setting.rung)};
-    if (point.failure.empty()) measure(ladder, setting, point);
+                     .failure = hierarchy.against(setting.level)};
+    if (point.failure.empty()) measure(hierarchy, setting, point);
     result_.points.push_back(point);
   }
 
-  void measure(const Ladder& ladder, const RungSetting& setting, TradePoint& point) {
+  void measure(const ModelHierarchy& hierarchy, const LevelSetting& setting, TradePoint& point) {
     try {
-      RungResult result;
-      time_it(options_, point, [&] { result = ladder.run(setting, impacts()); });
+      LevelResult result;
+      time_it(options_, point, [&] { result = hierarchy.run(setting, impacts()); });
       point.evaluations = result.evaluations;
       const double error = distance(result.rows, truth_.rows, truth_.sizes);
       if (std::isfinite(error)) point.error = error;
@@ -144,7 +144,8 @@ class Bench {
       } else {
         return;
       }
-      add(Ladder(scene), {.rung = ladder_.full(), .method = Method::rk8pd, .tolerance = tolerance_of_meshes}, mesh);
+      add(ModelHierarchy(scene), {.level = ladder_.full(), .method = Method::rk8pd, .tolerance = tolerance_of_meshes},
+          mesh);
     }
   }
 
@@ -158,7 +159,7 @@ class Bench {
     }
   }
 
-  Ladder ladder_;
+  ModelHierarchy ladder_;
   const TradeoffOptions& options_;
   Truth truth_;
   Tradeoff result_;

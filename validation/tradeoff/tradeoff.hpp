@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "validation/plan/ladder.hpp"
+#include "validation/plan/model_hierarchy.hpp"
 
 namespace clatter::validation {
 
 /// One model with one setting on the scene.
 struct TradePoint {
-  Rung rung = Rung::spatial;
+  ModelLevel level = ModelLevel::spatial;
   std::string method;    ///< of the continuous models; empty otherwise
   double tolerance = 0;  ///< relative, per step, of an adaptive method; 0: fixed step or no method
   double step = 0;       ///< of tvd-rk3 [s]; 0: none
@@ -43,7 +43,7 @@ struct TradeoffOptions {
 inline constexpr int tolerance_count = 13;
 [[nodiscard]] double trade_tolerance(int index);  ///< 10^(−1 − index), at least the smallest that is allowed
 
-/// The scene through every rung; the continuous ones with four adaptive methods over thirteen tolerances and the
+/// The scene through every level; the continuous ones with four adaptive methods over thirteen tolerances and the
 /// paper's over eleven steps, and over mesh densities.  True values: see true_values().
 /// Methods that fail are points with their reason.
 /// @throws numeric::NumericalError if the scene has no impact with a reference that can be trusted.

@@ -59,10 +59,10 @@ numeric::Simulation truth_of(const Scene& scene, const numeric::Body& body) {
   return numeric::simulate(body, scene.ground, scene.start(body), options);
 }
 
-Measured bars_of_the_simulator(Laboratory& laboratory) {
+Measured bars_of_the_simulator(CaseRuns& case_runs) {
   BarSample sample;
   for (int index = 0; index < scene_count; ++index) {
-    if (!laboratory.goes_on()) throw Laboratory::Interrupted{};
+    if (!case_runs.goes_on()) throw CaseRuns::Interrupted{};
     Scene scene = random_scene(family, index);
     scene.options.digits = 9;
     scene.options.impacts = 2;
@@ -85,10 +85,10 @@ Measured bars_of_the_simulator(Laboratory& laboratory) {
   return sample.measured(fmt::format("{} random scenes", scene_count));
 }
 
-Measured bars_of_the_discrete_model(Laboratory& laboratory) {
+Measured bars_of_the_discrete_model(CaseRuns& case_runs) {
   BarCoverage coverage;
   for (int index = 0; index < scene_count; ++index) {
-    if (!laboratory.goes_on()) throw Laboratory::Interrupted{};
+    if (!case_runs.goes_on()) throw CaseRuns::Interrupted{};
     judge_bars(random_bar_scene(family, index), discrete_impacts, coverage);
     judge_bars(random_damped_bar_scene(family, index), discrete_impacts, coverage);
   }

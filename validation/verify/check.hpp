@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/verify/laboratory.hpp"
+#include "validation/compare/case_runs.hpp"
 
 namespace clatter::validation {
 
@@ -48,7 +48,7 @@ struct Measured {
   std::string found;  ///< in words, with further numbers
 };
 
-using Measure = Measured (*)(Laboratory&);
+using Measure = Measured (*)(CaseRuns&);
 using Measures = std::map<std::string, Measure>;
 
 /// The measurement of each check, by its id.

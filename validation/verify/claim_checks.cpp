@@ -40,11 +40,11 @@ struct Converged {
   double value = 0, error = 0;
 };
 template <class Number>
-Converged converged(Laboratory& laboratory, const std::string& name, const Number& of, RunOptions options = {}) {
-  const double value = of(laboratory.run(name, options));
+Converged converged(CaseRuns& case_runs, const std::string& name, const Number& of, RunOptions options = {}) {
+  const double value = of(case_runs.run(name, options));
   options.digits = 10;
   options.method = numeric::Method::rkck;
-  return {value, std::fabs(of(laboratory.run(name, options)) - value)};
+  return {value, std::fabs(of(case_runs.run(name, options)) - value)};
 }
 
 double peak(const Simulation& run, std::size_t impact) { return run.impacts.at(impact).value.peak_force; }
@@ -54,7 +54,7 @@ const RunOptions two_impacts{.impacts = 2};
 /// The rod of Fig. 16 by growing friction, μ = 0.1, 0.3, 0.5, 0.7.
 constexpr const char* friction_cases[] = {"rod-friction-01", "rod-friction-03", "rod-friction-05", "rod-friction-07"};
 
-Measured second_is_twice(Laboratory&) {
+Measured second_is_twice(CaseRuns&) {
   const ContactAngles at = elastic(1e-6);
   const double ratio = at.impulse[1] / at.impulse[0];
   const double ten = elastic(10).impulse[1] / elastic(10).impulse[0];
@@ -62,7 +62,7 @@ Measured second_is_twice(Laboratory&) {
           fmt::format("at 1e-6°; at 10° still {}", number(ten))};
 }
 
-Measured equal_impulses(Laboratory&) {
+Measured equal_impulses(CaseRuns&) {
   double low = 50, high = 58;
   const auto excess = [](double degrees) {
     const ContactAngles at = elastic(degrees);
@@ -76,7 +76,7 @@ Measured equal_impulses(Laboratory&) {
   return {low, std::fabs(low - exact) / exact, rounds_to(low, 54.74, 0.01), "P₁ = P₂ = 1 there"};
 }
 
-Measured second_angle(Laboratory&) {
+Measured second_angle(CaseRuns&) {
   const double small = 1e-6, equal = std::acos(1 / std::sqrt(3.0)) * degrees_per_radian;
   const double ratio = elastic(small).beta.angle * degrees_per_radian / small;
   const double there = elastic(equal).beta.angle * degrees_per_radian / equal;
@@ -84,20 +84,20 @@ Measured second_angle(Laboratory&) {
           fmt::format("β/θ at 1e-6°; at 54.7356° it is {}", number(there, 12))};
 }
 
-Measured last_second_impact(Laboratory&) {
+Measured last_second_impact(CaseRuns&) {
   const double boundary = regime_boundary(analytic::ImpactNumber::second, {}).theta * degrees_per_radian;
   const double exact = second_impact_fold() * degrees_per_radian;
   return {boundary, std::fabs(boundary - exact) / exact, rounds_to(boundary, 58, 1), "a grazing fold, 58° rounded"};
 }
 
-Measured last_third_impact(Laboratory&) {
+Measured last_third_impact(CaseRuns&) {
   const double boundary = regime_boundary(analytic::ImpactNumber::third, {}).theta * degrees_per_radian;
   constexpr double known = 27.577809606636;  // from an independent computation in 60 digits
   return {boundary, std::fabs(boundary - known) / known, rounds_to(boundary, 27, 1),
           "a grazing fold; rounded it is 28°"};
 }
 
-Measured two_one_two(Laboratory&) {
+Measured two_one_two(CaseRuns&) {
   const double theta = 1e-6;
   const ContactAngles at = elastic(theta);
   const double beta = at.beta.angle * degrees_per_radian / theta, gamma = at.gamma.angle * degrees_per_radian / theta;
@@ -105,7 +105,7 @@ Measured two_one_two(Laboratory&) {
           fmt::format("θ:β:γ = 2:{}:{} at 1e-6°", number(2 * beta, 10), number(2 * gamma, 10))};
 }
 
-Measured sum_of_three(Laboratory&) {
+Measured sum_of_three(CaseRuns&) {
   const auto sum = [](const ContactAngles& at) { return at.impulse[0] + at.impulse[1] + at.impulse[2]; };
   const double small = sum(elastic(1e-6));
   return {sum(elastic(10)), std::fabs(small - 2), holds_if(std::fabs(small - 2) < 1e-9),
@@ -113,7 +113,7 @@ Measured sum_of_three(Laboratory&) {
 }
 
 /// The paper does not give the G of Fig. 11; v_n = −1 and g = 9.81 of its text make it 9.81.
-Measured gravity_changes_little(Laboratory&) {
+Measured gravity_changes_little(CaseRuns&) {
   const double free = elastic(20).beta.angle, text = elastic(20, 9.81).beta.angle;
   double error = 0, tenth = 0;
   for (const ReferenceRow& row : reference_table(ReferenceTable::gravity)) {
@@ -128,9 +128,9 @@ Measured gravity_changes_little(Laboratory&) {
                       number(free * degrees_per_radian), number(tenth), number(text * degrees_per_radian))};
 }
 
-Measured jump_at_zero(Laboratory& laboratory) {
+Measured jump_at_zero(CaseRuns& case_runs) {
   const ContactAngles at = elastic(1e-6);
-  const auto& sweep = laboratory.sweep("rod-sweep");
+  const auto& sweep = case_runs.sweep("rod-sweep");
   const double flat = sweep.at(0).run.impacts.at(0).value.impulse.z();
   const double degree = sweep.at(1).run.impacts.at(0).value.impulse.z();
   const double error = std::max({std::fabs(at.velocity[0] + 0.5), std::fabs(at.angular[0] - 3) / 3,
@@ -141,9 +141,9 @@ Measured jump_at_zero(Laboratory& laboratory) {
 }
 
 /// Deviation of the continuous model from Eq. 9 over the sweep, over the range that each number covers (6 for Ω).
-Measured sweep_against_eq9(Laboratory& laboratory) {
+Measured sweep_against_eq9(CaseRuns& case_runs) {
   double worst = 0, at = 0, energy = 0, rim = 0;
-  for (const SweptSimulation& swept : laboratory.sweep("rod-sweep")) {
+  for (const SweptSimulation& swept : case_runs.sweep("rod-sweep")) {
     const ImpactNumbers& n = swept.run.impacts.at(0).value;
     energy = std::max(energy, std::fabs(n.energy_loss) / swept.run.energy_start);
     if (swept.value == 0) continue;
@@ -154,7 +154,7 @@ Measured sweep_against_eq9(Laboratory& laboratory) {
     if (off > worst) at = swept.value;
     worst = std::max(worst, off);
   }
-  for (const auto& [value, comparison] : laboratory.swept_comparison("rod-sweep")) {
+  for (const auto& [value, comparison] : case_runs.swept_comparison("rod-sweep")) {
     const ComparedImpact& impact = comparison.impacts.at(0);
     if (!impact.continuous) continue;
     rim = std::max(
@@ -165,14 +165,14 @@ Measured sweep_against_eq9(Laboratory& laboratory) {
                       number(rim, 2), number(energy, 2))};
 }
 
-Measured friction_plateau(Laboratory& laboratory) {
+Measured friction_plateau(CaseRuns& case_runs) {
   double plateau = 0, spread = 0, below = 0, ratio_at_seven = 0;
-  for (const SweptSimulation& swept : laboratory.sweep("rod-friction-sweep")) {
+  for (const SweptSimulation& swept : case_runs.sweep("rod-friction-sweep")) {
     const numeric::Vector3& p = swept.run.impacts.at(0).value.impulse;
     if (swept.value == 0.8) plateau = p.z();
     if (swept.value == 0.7) ratio_at_seven = p.x() / p.z();
   }
-  for (const SweptSimulation& swept : laboratory.sweep("rod-friction-sweep")) {
+  for (const SweptSimulation& swept : case_runs.sweep("rod-friction-sweep")) {
     const double p = swept.run.impacts.at(0).value.impulse.z();
     const double eq9 = 2 / (2.5 - 1.5 * swept.value);  // at 45°
     if (swept.value < 0.58) below = std::max(below, std::fabs(p / eq9 - 1));
@@ -188,10 +188,10 @@ Measured friction_plateau(Laboratory& laboratory) {
                       number(below, 2), number(loss, 4))};
 }
 
-Measured contact_point_course(Laboratory& laboratory) {
+Measured contact_point_course(CaseRuns& case_runs) {
   double end = 0, slide = 0, error = 0;
   for (const char* name : friction_cases) {
-    const RecordedRun& recorded = laboratory.history(name);
+    const RecordedRun& recorded = case_runs.history(name);
     double last = 0, largest = 0;
     for (const numeric::HistorySample& s : recorded.samples) {
       if (!s.in_contact) continue;
@@ -209,16 +209,16 @@ Measured contact_point_course(Laboratory& laboratory) {
                       number(slide, 2))};
 }
 
-Measured friction_and_force(Laboratory& laboratory) {
+Measured friction_and_force(CaseRuns& case_runs) {
   std::vector<double> normal, tangential;
   for (const char* name : friction_cases) {
     double largest = 0;
-    for (const numeric::HistorySample& s : laboratory.history(name).samples)
+    for (const numeric::HistorySample& s : case_runs.history(name).samples)
       largest = std::max(largest, std::fabs(s.force.x()));
     tangential.push_back(largest);
-    normal.push_back(peak(laboratory.run(name), 0));
+    normal.push_back(peak(case_runs.run(name), 0));
   }
-  const Converged last = converged(laboratory, "rod-friction-07", [](const Simulation& run) { return peak(run, 0); });
+  const Converged last = converged(case_runs, "rod-friction-07", [](const Simulation& run) { return peak(run, 0); });
   const bool grow =
       std::is_sorted(normal.begin(), normal.end()) && std::is_sorted(tangential.begin(), tangential.end());
   return {normal.back() / normal.front(), last.error / last.value, holds_if(grow),
@@ -238,10 +238,10 @@ SequenceShape shape_of(const Simulation& run) {
   return shape;
 }
 
-Measured several_impacts(Laboratory& laboratory) {
-  const SequenceShape text = shape_of(laboratory.run("rod-at-1ms")), caption = shape_of(laboratory.run("rod-from-2m"));
+Measured several_impacts(CaseRuns& case_runs) {
+  const SequenceShape text = shape_of(case_runs.run("rod-at-1ms")), caption = shape_of(case_runs.run("rod-from-2m"));
   double in_flight = 0;
-  const auto& samples = laboratory.history("rod-from-2m").samples;
+  const auto& samples = case_runs.history("rod-from-2m").samples;
   const auto total = [](const numeric::HistorySample& s) {
     return s.energy_translation + s.energy_rotation + s.energy_potential;
   };
@@ -261,10 +261,10 @@ Measured several_impacts(Laboratory& laboratory) {
 
 double peak_ratio(const Simulation& run) { return peak(run, 1) / peak(run, 0); }
 
-Measured phone_peaks(Laboratory& laboratory) {
-  const Converged ratio = converged(laboratory, "phone-elastic", peak_ratio, two_impacts);
+Measured phone_peaks(CaseRuns& case_runs) {
+  const Converged ratio = converged(case_runs, "phone-elastic", peak_ratio, two_impacts);
   double loss = 0;
-  const Simulation& run = laboratory.run("phone-elastic", two_impacts);
+  const Simulation& run = case_runs.run("phone-elastic", two_impacts);
   for (const auto& impact : run.impacts) loss = std::max(loss, std::fabs(impact.value.energy_loss) / run.energy_start);
   return {ratio.value, ratio.error, holds_if(std::lround(ratio.value) == 2 && loss < 1e-8),
           fmt::format("2 to the digit printed; energy lost {}", number(loss, 1))};
@@ -274,12 +274,12 @@ double lost_in_two(const Simulation& run) {
   return (run.impacts.at(0).value.energy_loss + run.impacts.at(1).value.energy_loss) / run.energy_start;
 }
 
-Measured phone_losses(Laboratory& laboratory) {
-  const Converged lost = converged(laboratory, "phone-damped", lost_in_two, two_impacts);
+Measured phone_losses(CaseRuns& case_runs) {
+  const Converged lost = converged(case_runs, "phone-damped", lost_in_two, two_impacts);
   const double projected =
-      lost_in_two(laboratory.run("phone-damped", {.impacts = 2, .area = numeric::AreaMeasure::projected}));
-  const Simulation &damped = laboratory.run("phone-damped"),
-                   &elastic_run = laboratory.run("phone-elastic", {.planar = true});
+      lost_in_two(case_runs.run("phone-damped", {.impacts = 2, .area = numeric::AreaMeasure::projected}));
+  const Simulation &damped = case_runs.run("phone-damped"),
+                   &elastic_run = case_runs.run("phone-elastic", {.planar = true});
   const double later =
       std::max(peak(damped, 2), peak(damped, 3)) / std::max(peak(elastic_run, 2), peak(elastic_run, 3));
   return {lost.value, lost.error, holds_if(lost.value > 0.55 && lost.value < 0.6 && later < 0.5),
@@ -287,11 +287,11 @@ Measured phone_losses(Laboratory& laboratory) {
                       number(projected, 4), number(later, 2))};
 }
 
-Measured phone_interval(Laboratory& laboratory) {
+Measured phone_interval(CaseRuns& case_runs) {
   const Converged interval = converged(
-      laboratory, "phone-damped", [](const Simulation& run) { return run.impacts.at(1).value.start; }, two_impacts);
+      case_runs, "phone-damped", [](const Simulation& run) { return run.impacts.at(1).value.start; }, two_impacts);
   double before = 0, between = 0, after = 0;
-  const RecordedRun& recorded = laboratory.history("phone-damped");
+  const RecordedRun& recorded = case_runs.history("phone-damped");
   const ImpactNumbers &first = recorded.run.impacts.at(0).value, &second = recorded.run.impacts.at(1).value;
   for (const numeric::HistorySample& s : recorded.samples) {
     const double share = s.energy_rotation / (s.energy_rotation + s.energy_translation);
@@ -323,11 +323,11 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 /// From the angle on at which the phone's first two impacts are apart.
-Measured phone_over_angle(Laboratory& laboratory) {
+Measured phone_over_angle(CaseRuns& case_runs) {
   std::vector<double> phone, rod, phone_turning, rod_turning;
-  const auto& rods = laboratory.sweep("rod-sweep");
+  const auto& rods = case_runs.sweep("rod-sweep");
   double gap = 0;
-  for (const SweptSimulation& swept : laboratory.sweep("phone-sweep")) {
+  for (const SweptSimulation& swept : case_runs.sweep("phone-sweep")) {
     gap = std::max(gap, std::fabs(swept.run.impacts.at(0).ledger_gap));
     if (swept.run.impacts.at(0).touches > 1) continue;
     const ImpactNumbers& n = swept.run.impacts[0].value;
@@ -344,19 +344,19 @@ Measured phone_over_angle(Laboratory& laboratory) {
               number(correlation(phone_turning, rod_turning), 3))};
 }
 
-Measured more_than_twice(Laboratory& laboratory) {
-  const Converged damped = converged(laboratory, "phone-damped", peak_ratio, two_impacts);
+Measured more_than_twice(CaseRuns& case_runs) {
+  const Converged damped = converged(case_runs, "phone-damped", peak_ratio, two_impacts);
   return {damped.value, damped.error, holds_if(damped.value > 2),
           fmt::format("damped phone at 10°; elastic {}",
-                      number(peak_ratio(laboratory.run("phone-elastic", two_impacts)), 4))};
+                      number(peak_ratio(case_runs.run("phone-elastic", two_impacts)), 4))};
 }
 
-Measured damping_and_peaks(Laboratory& laboratory) {
-  const Simulation& free = laboratory.run("phone-elastic", two_impacts);
+Measured damping_and_peaks(CaseRuns& case_runs) {
+  const Simulation& free = case_runs.run("phone-elastic", two_impacts);
   const auto first = [](const Simulation& run) { return peak(run, 0); };
-  const Converged damped = converged(laboratory, "phone-damped", first, two_impacts);
+  const Converged damped = converged(case_runs, "phone-damped", first, two_impacts);
   const double one = damped.value / peak(free, 0);
-  const double two = peak(laboratory.run("phone-damped", two_impacts), 1) / peak(free, 1);
+  const double two = peak(case_runs.run("phone-damped", two_impacts), 1) / peak(free, 1);
   return {one, damped.error / damped.value, one < 1 && two < 1 ? Answer::ambiguous : Answer::refuted,
           fmt::format(
               "damped over elastic, first peak; second {}: smaller, by a tenth, which \"slightly\" may or may not mean",

@@ -24,7 +24,7 @@ using numeric::Vector3;
 ContactAngles elastic_angles(double degrees) { return contact_angles(Angle::from_degrees(degrees), {}); }
 
 /// Fourth line of Eq. 8, V_n − Ω d_t = −e v_n, for θ = 30°, v_n = −1, μ_i = 0.2, end a.
-Measured sign_of_omega(Laboratory&) {
+Measured sign_of_omega(CaseRuns&) {
   const double c = std::cos(analytic::pi / 6), s = 0.5, mu = 0.2, v = -1;
   const double denominator = 1 + 3 * c * c - 3 * mu * s * c;
   const double normal = -(1 - 3 * c * c + 3 * mu * s * c) / denominator * v;
@@ -52,7 +52,7 @@ double marched_second_angle() {
   return static_cast<double>((omega * low - theta) * static_cast<long double>(degrees_per_radian));
 }
 
-Measured gravity_term(Laboratory&) {
+Measured gravity_term(CaseRuns&) {
   const double g = 9.81, marched = marched_second_angle();
   const Angle theta = Angle::from_degrees(20);
   const double beta = contact_angles(theta, {.gravity_number = g}).beta.angle * degrees_per_radian;
@@ -65,7 +65,7 @@ Measured gravity_term(Laboratory&) {
 }
 
 /// V_b after impact 2 for v_n = −2: the end leaves as fast as it came.
-Measured factor_v(Laboratory&) {
+Measured factor_v(CaseRuns&) {
   const double v = -2;
   const ContactAngles at = elastic_angles(20);
   const double c = std::cos(at.beta.angle), speed = std::fabs(v);
@@ -76,7 +76,7 @@ Measured factor_v(Laboratory&) {
           "speed of end b after impact 2 over that before, as printed for v_n = −2; right 1"};
 }
 
-Measured relative_velocity(Laboratory&) {
+Measured relative_velocity(CaseRuns&) {
   const double v = -1;
   const ContactAngles at = elastic_angles(20);
   const double c = std::cos(Angle::from_degrees(20).radians), d = 1 + 3 * c * c;
@@ -88,7 +88,7 @@ Measured relative_velocity(Laboratory&) {
                       significant(-heavy.beta.time, 3))};
 }
 
-Measured second_fold(Laboratory&) {
+Measured second_fold(CaseRuns&) {
   const analytic::RegimeBoundary fold = regime_boundary(analytic::ImpactNumber::second, {});
   const double exact = second_impact_fold_beta();
   return {fold.beta * degrees_per_radian, std::fabs(fold.beta - exact) / exact, Answer::holds,
@@ -96,7 +96,7 @@ Measured second_fold(Laboratory&) {
                       significant(fold.theta * degrees_per_radian, 14))};
 }
 
-Measured third_fold(Laboratory&) {
+Measured third_fold(CaseRuns&) {
   const analytic::RegimeBoundary fold = regime_boundary(analytic::ImpactNumber::third, {});
   constexpr double theta = 27.577809606636;  // from an independent computation in 60 digits
   return {fold.theta * degrees_per_radian, std::fabs(fold.theta * degrees_per_radian / theta - 1), Answer::holds,
@@ -104,7 +104,7 @@ Measured third_fold(Laboratory&) {
                       significant(fold.beta * degrees_per_radian, 9), significant(fold.gamma * degrees_per_radian, 9))};
 }
 
-Measured centre_after_first(Laboratory&) {
+Measured centre_after_first(CaseRuns&) {
   const double at_45 = elastic_angles(45).velocity[0];
   return {at_45, std::fabs(at_45 + 0.2), Answer::holds,
           fmt::format("V₁ at 45°, downward; {} at 54.7356°, {} at 58°",
@@ -122,7 +122,7 @@ struct General {
   numeric::WorldWrench wrench{.force = {1, 2, -12}, .moment = {0.3, -0.2, 0.1}};
 };
 
-Measured singular_mass_matrix(Laboratory&) {
+Measured singular_mass_matrix(CaseRuns&) {
   const General general;
   const numeric::LagrangeSystem system = lagrange_system(general.body, general.state, general.wrench);
   const Eigen::SelfAdjointEigenSolver<numeric::Matrix7> eigen(system.mass_matrix);
@@ -137,7 +137,7 @@ Measured singular_mass_matrix(Laboratory&) {
 }
 
 /// ½ q̇ᵀ M q̇ with both rows of the block column, and with the printed one alone.
-Measured block_column(Laboratory&) {
+Measured block_column(CaseRuns&) {
   const General general;
   const numeric::LagrangeSystem system = lagrange_system(general.body, general.state, general.wrench);
   numeric::Vector7 rate;
@@ -152,7 +152,7 @@ Measured block_column(Laboratory&) {
 }
 
 /// Acceleration of a point of a body that turns uniformly, against the path itself, differentiated.
-Measured centripetal_term(Laboratory&) {
+Measured centripetal_term(CaseRuns&) {
   const Vector3 omega(2, -3, 1.5), u(0.3, 0.1, -0.2);
   numeric::Matrix3 cross;
   cross << 0, -omega.z(), omega.y(), omega.z(), 0, -omega.x(), -omega.y(), omega.x(), 0;
@@ -164,9 +164,9 @@ Measured centripetal_term(Laboratory&) {
           "ω̃ω̃ᵀu over the acceleration of uniform turning; ω̃ω̃u gives 1"};
 }
 
-Measured two_versions_of_figure_17(Laboratory& laboratory) {
-  const auto& text = laboratory.run("rod-at-1ms").impacts;
-  const auto& caption = laboratory.run("rod-from-2m").impacts;
+Measured two_versions_of_figure_17(CaseRuns& case_runs) {
+  const auto& text = case_runs.run("rod-at-1ms").impacts;
+  const auto& caption = case_runs.run("rod-from-2m").impacts;
   // The lowest vertex of the rod lies L/2 sin θ + r cos θ below the centre at 45°.
   const double fall = 2 - (0.5 + 0.01) * std::sqrt(0.5), speed = std::sqrt(2 * 9.81 * fall);
   const double came = caption.at(0).value.approach_speed;

@@ -63,17 +63,17 @@ Measured against_table(ReferenceTable table) {
   return {static_cast<double>(count), worst.error, Answer::holds, "worst: " + worst.where};
 }
 
-Measured table_without_gravity(Laboratory&) { return against_table(ReferenceTable::no_gravity); }
-Measured table_with_gravity(Laboratory&) { return against_table(ReferenceTable::gravity); }
+Measured table_without_gravity(CaseRuns&) { return against_table(ReferenceTable::no_gravity); }
+Measured table_with_gravity(CaseRuns&) { return against_table(ReferenceTable::gravity); }
 
-Measured small_angle_coefficient(Laboratory&) {
+Measured small_angle_coefficient(CaseRuns&) {
   const double theta = 1e-3;
   const double beta = contact_angles(Angle::from_radians(theta), {}).beta.angle;
   const double coefficient = (beta / theta - 0.5) / (theta * theta);
   return {coefficient, std::fabs(coefficient - 17.0 / 64), Answer::holds, "17/64 = 0.265625, at θ = 1e-3"};
 }
 
-Measured largest_second_impulse(Laboratory&) {
+Measured largest_second_impulse(CaseRuns&) {
   const auto impulse = [](double degrees) { return contact_angles(Angle::from_degrees(degrees), {}).impulse[1]; };
   double low = 40, high = 54;
   while (high - low > 1e-6) {  // P₂ is unimodal there
@@ -86,7 +86,7 @@ Measured largest_second_impulse(Laboratory&) {
   return {largest, std::fabs(largest - 1.04540), Answer::holds, fmt::format("at θ = {}°", significant(low, 5))};
 }
 
-Measured bouncing_end(Laboratory&) {
+Measured bouncing_end(CaseRuns&) {
   const double e = 0.5, g = 9.81, v = 2;
   const analytic::Sequence sequence = analytic::impact_sequence({.body = analytic::make_box({}),
                                                                  .inclination = Angle::from_degrees(0),
@@ -98,7 +98,7 @@ Measured bouncing_end(Laboratory&) {
   return {end, relative(end, 2 * e * v / (g * (1 - e))), Answer::holds, "flat box, e = 0.5, 2 m/s"};
 }
 
-Measured restitution_map(Laboratory&) {
+Measured restitution_map(CaseRuns&) {
   const double at_tenth = analytic::restitution_of_damping(0.1), at_one = analytic::restitution_of_damping(1);
   const auto residual = [](double s, double e) { return std::fabs(std::log1p(s) - std::log1p(-s * e) - s * (1 + e)); };
   return {at_tenth, std::max({relative(at_tenth, 0.937475579949905), residual(0.1, at_tenth), residual(1, at_one)}),
@@ -125,7 +125,7 @@ Landing flat_landing(double damping) {
   return landing;
 }
 
-Measured half_sine(Laboratory&) {
+Measured half_sine(CaseRuns&) {
   const Landing landing = flat_landing(0);
   const double frequency = std::sqrt(landing.stiffness * landing.area / landing.mass);
   const double force = landing.speed * std::sqrt(landing.stiffness * landing.area * landing.mass);
@@ -135,7 +135,7 @@ Measured half_sine(Laboratory&) {
           fmt::format("contact time {} s", significant(landing.numbers.duration, 9))};
 }
 
-Measured damped_landing(Laboratory&) {
+Measured damped_landing(CaseRuns&) {
   double worst = 0, at_one = 0;
   for (const double s : {0.01, 0.1, 1.0, 5.0}) {
     const Landing landing = flat_landing(s * 1e8 / 3);
@@ -148,10 +148,10 @@ Measured damped_landing(Laboratory&) {
   return {at_one, worst, Answer::holds, "worst of s = 0.01, 0.1, 1, 5"};
 }
 
-Measured elastic_energy(Laboratory& laboratory) {
+Measured elastic_energy(CaseRuns& case_runs) {
   double worst = 0;
   for (const char* name : {"rod-45", "phone-elastic"}) {
-    const numeric::Simulation& run = laboratory.run(name, {.planar = true});
+    const numeric::Simulation& run = case_runs.run(name, {.planar = true});
     for (const auto& impact : run.impacts) {
       worst = std::max(worst, std::fabs(impact.value.energy_loss) / run.energy_start);
     }
@@ -159,17 +159,17 @@ Measured elastic_energy(Laboratory& laboratory) {
   return {worst, worst, Answer::holds, "largest loss of one impact over the energy; digits 6"};
 }
 
-Measured energy_ledger(Laboratory& laboratory) {
+Measured energy_ledger(CaseRuns& case_runs) {
   double worst = 0;
   for (const char* name : {"phone-damped", "rod-at-1ms", "rod-from-2m", "rod-friction-03"}) {
-    for (const auto& impact : laboratory.run(name).impacts) worst = std::max(worst, std::fabs(impact.ledger_gap));
+    for (const auto& impact : case_runs.run(name).impacts) worst = std::max(worst, std::fabs(impact.ledger_gap));
   }
   return {worst, worst, Answer::holds, "loss − dampers − friction − released, over the energy"};
 }
 
 /// Change of the end state from step to step of the paper's method.
-Measured runge_kutta_order(Laboratory&) {
-  Scene scene = laboratory_scene("phone-damped", {.impacts = 1});
+Measured runge_kutta_order(CaseRuns&) {
+  Scene scene = scene_of_case("phone-damped", {.impacts = 1});
   scene.options.method = numeric::Method::tvd_rk3;
   const numeric::Body body = scene.make_body();
   const auto velocity = [&](double step) {
@@ -185,7 +185,7 @@ Measured runge_kutta_order(Laboratory&) {
   return {order, std::fabs(order - 3), Answer::holds, "damped phone, V_n after impact 1, steps of 20, 10 and 5 µs"};
 }
 
-Measured free_rotation(Laboratory&) {
+Measured free_rotation(CaseRuns&) {
   const numeric::Matrix3 inertia = numeric::Vector3(1, 2, 2.5).asDiagonal();
   const numeric::Rotation start{Eigen::Quaterniond::Identity(), {0.3, 5, -0.2}};
   const numeric::FreeRotation rotation(inertia, start);
@@ -201,7 +201,7 @@ Measured free_rotation(Laboratory&) {
 }
 
 /// A box standing on its edge, sunk by d: the submerged wedge has the volume W d²/(2 sin θ cos θ).
-Measured hydrostatic_force(Laboratory&) {
+Measured hydrostatic_force(CaseRuns&) {
   const double k = 1e7, depth = 1e-3, width = 0.2, theta = 0.5;
   const numeric::Vector3 size(0.3, width, 0.1);
   const numeric::Body body(numeric::box_mesh({.size = size, .mass = 1}));
@@ -215,7 +215,7 @@ Measured hydrostatic_force(Laboratory&) {
   return {force, relative(force, k * volume), Answer::holds, "wedge 1 mm deep at 0.5 rad"};
 }
 
-Measured contact_time_powers(Laboratory&) {
+Measured contact_time_powers(CaseRuns&) {
   double worst = 0;
   std::string found;
   const auto power = [&](const Scene& scene, double exact, const char* what) {
@@ -224,11 +224,11 @@ Measured contact_time_powers(Laboratory&) {
     found += fmt::format("{}{} {}", found.empty() ? "" : ", ", what, significant(measured, 5));
     return measured;
   };
-  Scene flat = laboratory_scene("phone-elastic", {.impacts = 1});
+  Scene flat = scene_of_case("phone-elastic", {.impacts = 1});
   flat.angle_deg = 0;
   power(flat, 1.0 / 2, "face");
-  power(laboratory_scene("phone-elastic", {.impacts = 1}), 1.0 / 3, "edge");
-  const double corner = power(laboratory_scene("rod-45", {.impacts = 1}), 1.0 / 4, "corner");
+  power(scene_of_case("phone-elastic", {.impacts = 1}), 1.0 / 3, "edge");
+  const double corner = power(scene_of_case("rod-45", {.impacts = 1}), 1.0 / 4, "corner");
   return {corner, worst, Answer::holds, found};
 }
 

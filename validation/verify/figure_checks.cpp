@@ -20,8 +20,8 @@ std::string number(double value, int digits = 4) { return significant(value, dig
 
 /// Worst distance of the points of the continuous model from the lines of the discrete one, over the largest value of
 /// each column; infinite where one model has an impact and the other has not.
-Measured points_on_lines(int figure_number, Laboratory& laboratory) {
-  const Figure figure = make_figure(figure_number, laboratory);
+Measured points_on_lines(int figure_number, CaseRuns& case_runs) {
+  const Figure figure = make_figure(figure_number, case_runs);
   double worst = 0;
   int points = 0;
   for (std::size_t column = 1; column + 1 < figure.columns.size(); column += 2) {
@@ -39,16 +39,16 @@ Measured points_on_lines(int figure_number, Laboratory& laboratory) {
           fmt::format("points on lines; worst {} of the range off", number(worst, 2))};
 }
 
-Measured figure_7(Laboratory& laboratory) { return points_on_lines(7, laboratory); }
-Measured figure_9(Laboratory& laboratory) { return points_on_lines(9, laboratory); }
-Measured figure_10(Laboratory& laboratory) { return points_on_lines(10, laboratory); }
-Measured figure_11(Laboratory& laboratory) { return points_on_lines(11, laboratory); }
-Measured figure_12(Laboratory& laboratory) { return points_on_lines(12, laboratory); }
+Measured figure_7(CaseRuns& case_runs) { return points_on_lines(7, case_runs); }
+Measured figure_9(CaseRuns& case_runs) { return points_on_lines(9, case_runs); }
+Measured figure_10(CaseRuns& case_runs) { return points_on_lines(10, case_runs); }
+Measured figure_11(CaseRuns& case_runs) { return points_on_lines(11, case_runs); }
+Measured figure_12(CaseRuns& case_runs) { return points_on_lines(12, case_runs); }
 
 /// V² + Ω²/12 is 1 at every instant, before and after the second impact; at that impact end b is on the ground, and at
 /// all instants both ends are on it or above.
-Measured figure_8(Laboratory& laboratory) {
-  const Figure figure = make_figure(8, laboratory);
+Measured figure_8(CaseRuns& case_runs) {
+  const Figure figure = make_figure(8, case_runs);
   const auto value = [&](const std::vector<double>& row, const char* name) {
     return row[column_index(figure.columns, name)];
   };
@@ -66,11 +66,11 @@ Measured figure_8(Laboratory& laboratory) {
 }
 
 /// ½mV² + ½IΩ² after the impact is ½mv² before it: from the velocities alone.
-Measured figure_14(Laboratory& laboratory) {
-  const Scene scene = laboratory_scene("rod-sweep", {});
+Measured figure_14(CaseRuns& case_runs) {
+  const Scene scene = scene_of_case("rod-sweep", {});
   const numeric::Body body = scene.make_body();
   double worst = 0, least = 1;
-  for (const SweptSimulation& swept : laboratory.sweep("rod-sweep")) {
+  for (const SweptSimulation& swept : case_runs.sweep("rod-sweep")) {
     const ImpactNumbers& n = swept.run.impacts.at(0).value;
     const double omega = n.angular_velocity_after.y();
     const double after = body.mass() * n.velocity_after.squaredNorm() + body.inertia()(1, 1) * omega * omega;
@@ -81,11 +81,11 @@ Measured figure_14(Laboratory& laboratory) {
 }
 
 /// What friction dissipates is what the velocities lack.
-Measured figure_15(Laboratory& laboratory) {
-  const Scene scene = laboratory_scene("rod-friction-sweep", {});
+Measured figure_15(CaseRuns& case_runs) {
+  const Scene scene = scene_of_case("rod-friction-sweep", {});
   const numeric::Body body = scene.make_body();
   double worst = 0, most = 0;
-  for (const SweptSimulation& swept : laboratory.sweep("rod-friction-sweep")) {
+  for (const SweptSimulation& swept : case_runs.sweep("rod-friction-sweep")) {
     const ImpactNumbers& n = swept.run.impacts.at(0).value;
     const double omega = n.angular_velocity_after.y();
     const double after = (body.mass() * n.velocity_after.squaredNorm() + body.inertia()(1, 1) * omega * omega) / 2;
@@ -97,11 +97,11 @@ Measured figure_15(Laboratory& laboratory) {
 }
 
 /// |F_t| = μ F_n while the point slides: μ = 0.1, 0.3, 0.5.
-Measured figure_16(Laboratory& laboratory) {
+Measured figure_16(CaseRuns& case_runs) {
   double worst = 0, peak = 0;
   for (const auto& [name, mu] :
        {std::pair{"rod-friction-01", 0.1}, {"rod-friction-03", 0.3}, {"rod-friction-05", 0.5}}) {
-    for (const HistorySample& s : laboratory.history(name).samples) {
+    for (const HistorySample& s : case_runs.history(name).samples) {
       if (!s.in_contact || !(s.force.z() > 0)) continue;
       worst = std::max(worst, std::fabs(std::fabs(s.force.x()) / (mu * s.force.z()) - 1));
       peak = std::max(peak, s.force.z());
@@ -122,14 +122,14 @@ Measured energy_over_history(const RecordedRun& recorded) {
                       recorded.run.impacts.size())};
 }
 
-Measured figure_17(Laboratory& laboratory) { return energy_over_history(laboratory.history("rod-from-2m")); }
-Measured figure_23(Laboratory& laboratory) {
-  return energy_over_history(laboratory.history("phone-damped", {.impacts = 2}));
+Measured figure_17(CaseRuns& case_runs) { return energy_over_history(case_runs.history("rod-from-2m")); }
+Measured figure_23(CaseRuns& case_runs) {
+  return energy_over_history(case_runs.history("phone-damped", {.impacts = 2}));
 }
 
 /// The total energy of every sample is that of the first.
-Measured figure_19(Laboratory& laboratory) {
-  const auto& samples = laboratory.history("phone-elastic", {.planar = true}).samples;
+Measured figure_19(CaseRuns& case_runs) {
+  const auto& samples = case_runs.history("phone-elastic", {.planar = true}).samples;
   double worst = 0;
   for (const HistorySample& s : samples) {
     worst = std::max(worst, std::fabs(s.energy_total() / samples.front().energy_total() - 1));
@@ -149,18 +149,18 @@ Measured momentum_balance(const Scene& scene, const Simulation& run) {
           fmt::format("sum of the normal impulses of {} impacts", run.impacts.size())};
 }
 
-Measured figure_20(Laboratory& laboratory) {
+Measured figure_20(CaseRuns& case_runs) {
   const RunOptions planar{.planar = true};
-  return momentum_balance(laboratory_scene("phone-elastic", planar), laboratory.run("phone-elastic", planar));
+  return momentum_balance(scene_of_case("phone-elastic", planar), case_runs.run("phone-elastic", planar));
 }
-Measured figure_21(Laboratory& laboratory) {
-  return momentum_balance(laboratory_scene("phone-damped", {}), laboratory.run("phone-damped"));
+Measured figure_21(CaseRuns& case_runs) {
+  return momentum_balance(scene_of_case("phone-damped", {}), case_runs.run("phone-damped"));
 }
 
 /// Peaks of all impacts by another method at a tolerance 10⁴ times finer.
-Measured figure_22(Laboratory& laboratory) {
-  const Simulation& run = laboratory.run("phone-damped");
-  const Simulation& fine = laboratory.run("phone-damped", {.digits = 10, .method = numeric::Method::rkck});
+Measured figure_22(CaseRuns& case_runs) {
+  const Simulation& run = case_runs.run("phone-damped");
+  const Simulation& fine = case_runs.run("phone-damped", {.digits = 10, .method = numeric::Method::rkck});
   double worst = 0;
   for (std::size_t i = 0; i < std::min<std::size_t>(3, fine.impacts.size()); ++i) {
     worst = std::max(worst, std::fabs(run.impacts.at(i).value.peak_force / fine.impacts[i].value.peak_force - 1));
@@ -169,10 +169,10 @@ Measured figure_22(Laboratory& laboratory) {
           "largest force of all; peaks of the first three impacts"};
 }
 
-Measured figure_24(Laboratory& laboratory) {
-  Scene scene = laboratory_scene("phone-sweep", {});
+Measured figure_24(CaseRuns& case_runs) {
+  Scene scene = scene_of_case("phone-sweep", {});
   double worst = 0, most = 0;
-  for (const SweptSimulation& swept : laboratory.sweep("phone-sweep")) {
+  for (const SweptSimulation& swept : case_runs.sweep("phone-sweep")) {
     worst = std::max(worst, momentum_balance(scene.at(swept.value), swept.run).error);
     most = std::max(most, swept.run.impacts.at(0).value.energy_loss);
   }

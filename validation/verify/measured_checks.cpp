@@ -36,11 +36,11 @@ Measured velocities(const std::string& name) {
                       significant(100 * middle_of(scores, "floor: any impulse there"), 2))};
 }
 
-Measured squares(Laboratory&) { return velocities("square-drops"); }
-Measured cubes(Laboratory&) { return velocities("cube-tosses"); }
+Measured squares(CaseRuns&) { return velocities("square-drops"); }
+Measured cubes(CaseRuns&) { return velocities("cube-tosses"); }
 
 /// Impacts that no impulse at one corner explains are two or more impacts of the sequence.
-Measured clattering(Laboratory&) {
+Measured clattering(CaseRuns&) {
   const Scores scores = scores_of("square-drops");
   const double one = middle_of(scores, "no point impact: one impact"),
                sequence = middle_of(scores, "no point impact: the sequence");

@@ -44,25 +44,25 @@ struct Landing {
   }
 };
 
-Measured of_case(Laboratory& laboratory, const char* name) {
+Measured of_case(CaseRuns& case_runs, const char* name) {
   Landing landing;
-  landing.take(laboratory.comparison(name, 0));
+  landing.take(case_runs.comparison(name, 0));
   return landing.measured();
 }
 
-Measured of_sweep(Laboratory& laboratory, const char* name) {
+Measured of_sweep(CaseRuns& case_runs, const char* name) {
   Landing landing;
-  for (const auto& [value, comparison] : laboratory.swept_comparison(name)) landing.take(comparison);
+  for (const auto& [value, comparison] : case_runs.swept_comparison(name)) landing.take(comparison);
   return landing.measured();
 }
 
 constexpr std::uint64_t random_family = 1;
 constexpr int random_impacts = 2;
 
-Measured random_scenes(Laboratory& laboratory, int count) {
+Measured random_scenes(CaseRuns& case_runs, int count) {
   const RandomScenesResult result = run_random_scenes(
-      {.seed = random_family, .count = count, .impacts = random_impacts, .goes_on = laboratory.goes_on});
-  if (!result.complete) throw Laboratory::Interrupted{};
+      {.seed = random_family, .count = count, .impacts = random_impacts, .goes_on = case_runs.goes_on});
+  if (!result.complete) throw CaseRuns::Interrupted{};
   return {100 * result.covered, result.farthest,
           result.covered >= 0.95 && result.median_bar <= 10 ? Answer::holds : Answer::refuted,
           fmt::format("% of {} numbers of {} scenes lie within their bars; bars are {} times the gap in the median",
@@ -71,10 +71,10 @@ Measured random_scenes(Laboratory& laboratory, int count) {
 
 constexpr int random_impacts_in_space = 4;
 
-Measured random_scenes_in_space(Laboratory& laboratory, int count) {
+Measured random_scenes_in_space(CaseRuns& case_runs, int count) {
   const RandomSpaceResult result = run_random_space_scenes(
-      {.seed = random_family, .count = count, .impacts = random_impacts_in_space, .goes_on = laboratory.goes_on});
-  if (!result.complete) throw Laboratory::Interrupted{};
+      {.seed = random_family, .count = count, .impacts = random_impacts_in_space, .goes_on = case_runs.goes_on});
+  if (!result.complete) throw CaseRuns::Interrupted{};
   const bool explained = std::ranges::none_of(result.unsettled, &std::string::empty, &UnsettledImpact::explanation);
   return {100 * result.share(), 1 - result.share(),
           result.share() >= 0.95 && explained && result.median_bar <= 50 ? Answer::holds : Answer::refuted,
@@ -87,27 +87,27 @@ Measured random_scenes_in_space(Laboratory& laboratory, int count) {
 }  // namespace
 
 void add_model_measures(Measures& measures) {
-  measures["M1"] = [](Laboratory& laboratory) { return of_case(laboratory, "rod-45"); };
-  measures["M2"] = [](Laboratory& laboratory) { return of_sweep(laboratory, "rod-sweep"); };
-  measures["M3"] = [](Laboratory& laboratory) { return of_sweep(laboratory, "rod-friction-sweep"); };
-  measures["M4"] = [](Laboratory& laboratory) { return of_case(laboratory, "rod-friction-01"); };
-  measures["M5"] = [](Laboratory& laboratory) { return of_case(laboratory, "rod-friction-03"); };
-  measures["M6"] = [](Laboratory& laboratory) { return of_case(laboratory, "rod-friction-05"); };
-  measures["M7"] = [](Laboratory& laboratory) { return of_case(laboratory, "rod-friction-07"); };
-  measures["M8"] = [](Laboratory& laboratory) { return of_case(laboratory, "rod-at-1ms"); };
-  measures["M9"] = [](Laboratory& laboratory) { return of_case(laboratory, "rod-from-2m"); };
-  measures["M10"] = [](Laboratory& laboratory) { return of_case(laboratory, "phone-elastic"); };
-  measures["M11"] = [](Laboratory& laboratory) { return of_case(laboratory, "phone-damped"); };
-  measures["M12"] = [](Laboratory& laboratory) { return of_sweep(laboratory, "phone-sweep"); };
-  measures["M13"] = [](Laboratory& laboratory) { return of_case(laboratory, "every-key"); };
-  measures["M14"] = [](Laboratory& laboratory) { return of_case(laboratory, "rod-10"); };
-  measures["M15"] = [](Laboratory& laboratory) { return of_case(laboratory, "rod-damped"); };
-  measures["M16"] = [](Laboratory& laboratory) { return of_case(laboratory, "box-flat"); };
-  measures["S7"] = [](Laboratory& laboratory) { return of_case(laboratory, "phone-corner"); };
-  measures["S8"] = [](Laboratory& laboratory) { return random_scenes_in_space(laboratory, 20); };
-  measures["S9"] = [](Laboratory& laboratory) { return random_scenes_in_space(laboratory, 200); };
-  measures["R1"] = [](Laboratory& laboratory) { return random_scenes(laboratory, 20); };
-  measures["R2"] = [](Laboratory& laboratory) { return random_scenes(laboratory, 200); };
+  measures["M1"] = [](CaseRuns& case_runs) { return of_case(case_runs, "rod-45"); };
+  measures["M2"] = [](CaseRuns& case_runs) { return of_sweep(case_runs, "rod-sweep"); };
+  measures["M3"] = [](CaseRuns& case_runs) { return of_sweep(case_runs, "rod-friction-sweep"); };
+  measures["M4"] = [](CaseRuns& case_runs) { return of_case(case_runs, "rod-friction-01"); };
+  measures["M5"] = [](CaseRuns& case_runs) { return of_case(case_runs, "rod-friction-03"); };
+  measures["M6"] = [](CaseRuns& case_runs) { return of_case(case_runs, "rod-friction-05"); };
+  measures["M7"] = [](CaseRuns& case_runs) { return of_case(case_runs, "rod-friction-07"); };
+  measures["M8"] = [](CaseRuns& case_runs) { return of_case(case_runs, "rod-at-1ms"); };
+  measures["M9"] = [](CaseRuns& case_runs) { return of_case(case_runs, "rod-from-2m"); };
+  measures["M10"] = [](CaseRuns& case_runs) { return of_case(case_runs, "phone-elastic"); };
+  measures["M11"] = [](CaseRuns& case_runs) { return of_case(case_runs, "phone-damped"); };
+  measures["M12"] = [](CaseRuns& case_runs) { return of_sweep(case_runs, "phone-sweep"); };
+  measures["M13"] = [](CaseRuns& case_runs) { return of_case(case_runs, "every-key"); };
+  measures["M14"] = [](CaseRuns& case_runs) { return of_case(case_runs, "rod-10"); };
+  measures["M15"] = [](CaseRuns& case_runs) { return of_case(case_runs, "rod-damped"); };
+  measures["M16"] = [](CaseRuns& case_runs) { return of_case(case_runs, "box-flat"); };
+  measures["S7"] = [](CaseRuns& case_runs) { return of_case(case_runs, "phone-corner"); };
+  measures["S8"] = [](CaseRuns& case_runs) { return random_scenes_in_space(case_runs, 20); };
+  measures["S9"] = [](CaseRuns& case_runs) { return random_scenes_in_space(case_runs, 200); };
+  measures["R1"] = [](CaseRuns& case_runs) { return random_scenes(case_runs, 20); };
+  measures["R2"] = [](CaseRuns& case_runs) { return random_scenes(case_runs, 200); };
 }
 
 }  // namespace clatter::validation

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "validation/scene/bad_input.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/scene/option_values.hpp"
 
 namespace clatter::validation {

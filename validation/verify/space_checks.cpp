@@ -47,7 +47,7 @@ double scene_error(const SpaceReference& scene) {
   return worst;
 }
 
-Measured against_scenes(Laboratory&) {
+Measured against_scenes(CaseRuns&) {
   double worst = 0;
   std::size_t impacts = 0;
   std::string where;
@@ -63,7 +63,7 @@ Measured against_scenes(Laboratory&) {
 }
 
 /// A solid block of width tan α and height 1 that rocks from one edge of its foot to the other without rebound.
-Measured rocking_block(Laboratory&) {
+Measured rocking_block(CaseRuns&) {
   double worst = 0, part = 0;
   for (const double slenderness : {0.05, 0.2, 0.4, 0.6}) {
     const Body block = box(2.5, {.size = {slenderness, 0.3, 1}});
@@ -109,7 +109,7 @@ Drop random_drop(int index) {
 constexpr int drops = 200, impacts_of_drop = 3;
 
 /// Angular momentum about the corner that strikes, and work against energy.
-Measured kept_by_an_impact(Laboratory&) {
+Measured kept_by_an_impact(CaseRuns&) {
   double worst = 0;
   int impacts = 0;
   for (int index = 0; index < drops; ++index) {
@@ -175,7 +175,7 @@ double asymmetry(const Drop& drop, const Symmetry& symmetry) {
   return worst;
 }
 
-Measured symmetries(Laboratory&) {
+Measured symmetries(CaseRuns&) {
   double worst = 0;
   const Symmetry turn{.of_vectors = Eigen::AngleAxisd(2.1, Vector3::UnitZ()).toRotationMatrix()};
   const Symmetry mirror{.of_vectors = Vector3(1, -1, 1).asDiagonal(), .mirrors = true};
@@ -210,7 +210,7 @@ SteppedPath stepped(const Matrix3& inverse_inertia, const Vector3& start, double
   return {y.head<3>(), y.tail<2>()};
 }
 
-Measured path_of_friction(Laboratory&) {
+Measured path_of_friction(CaseRuns&) {
   double worst = 0;
   int paths = 0;
   for (int index = 0; index < 20 * drops; ++index) {
@@ -262,7 +262,7 @@ PlanarPair planar_pair(int index) {
   return pair;
 }
 
-Measured planar_model(Laboratory&) {
+Measured planar_model(CaseRuns&) {
   double worst = 0;
   std::size_t impacts = 0;
   for (int index = 0; index < drops; ++index) {

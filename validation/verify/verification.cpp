@@ -30,13 +30,13 @@ std::string judge(const Check& check, const Measured& measured) {
   return "";
 }
 
-CheckResult run(const Check& check, Laboratory& laboratory) {
+CheckResult run(const Check& check, CaseRuns& case_runs) {
   CheckResult result{.check = &check, .measured = {}, .failure = {}, .done = true};
   const double begin = thread_seconds();
   try {
-    result.measured = all_measures().at(check.id)(laboratory);
+    result.measured = all_measures().at(check.id)(case_runs);
     result.failure = judge(check, result.measured);
-  } catch (const Laboratory::Interrupted&) {
+  } catch (const CaseRuns::Interrupted&) {
     result.done = false;
   } catch (const std::exception& error) {
     result.failure = error.what();
@@ -47,7 +47,7 @@ CheckResult run(const Check& check, Laboratory& laboratory) {
 
 }  // namespace
 
-std::vector<CheckResult> verify(const std::vector<const Check*>& checks, Laboratory& laboratory,
+std::vector<CheckResult> verify(const std::vector<const Check*>& checks, CaseRuns& case_runs,
                                 const std::function<bool(std::size_t, std::size_t, const std::string&)>& progress) {
   std::vector<CheckResult> results(checks.size());
   for (std::size_t i = 0; i < checks.size(); ++i) results[i].check = checks[i];
@@ -59,7 +59,7 @@ std::vector<CheckResult> verify(const std::vector<const Check*>& checks, Laborat
     for (std::size_t i; go_on && (i = next++) < checks.size();) {
       // The last in the table take longest, so they come first.
       const std::size_t place = checks.size() - 1 - i;
-      CheckResult result = run(*checks[place], laboratory);
+      CheckResult result = run(*checks[place], case_runs);
       const std::lock_guard lock(mutex);
       results[place] = std::move(result);
       if (!progress(++done, checks.size(), checks[place]->id)) go_on = false;

@@ -21,7 +21,7 @@ struct CheckResult {
 /// A check passes if its error is within the tolerance and the answer is the one that the table expects.
 /// @param progress called with (done, of, id), from any thread but never at once; return false to end early.
 [[nodiscard]] std::vector<CheckResult> verify(
-    const std::vector<const Check*>& checks, Laboratory& laboratory,
+    const std::vector<const Check*>& checks, CaseRuns& case_runs,
     const std::function<bool(std::size_t, std::size_t, const std::string&)>& progress);
 
 }  // namespace clatter::validation

@@ -5,7 +5,7 @@
 #include "interruptible.hpp"
 #include "report.hpp"
 #include "runs.hpp"
-#include "validation/cli/verify_report.hpp"
+#include "validation/reports/verify_report.hpp"
 #include "validation/verify/selection.hpp"
 
 namespace clatter::python {
@@ -18,9 +18,9 @@ using validation::CheckResult;
 Report verify(bool quick, const std::vector<std::string>& only) {
   const validation::CheckSelection selection = validation::select_checks(quick, only);
   auto results = run_interruptible([&](const std::function<bool()>& goes_on) {
-    validation::Laboratory laboratory;
-    laboratory.goes_on = goes_on;
-    return validation::verify(selection.checks, laboratory,
+    validation::CaseRuns case_runs;
+    case_runs.goes_on = goes_on;
+    return validation::verify(selection.checks, case_runs,
                               [&](std::size_t, std::size_t, const std::string&) { return goes_on(); });
   });
   const auto run = std::make_shared<const std::vector<CheckResult>>(std::move(results));

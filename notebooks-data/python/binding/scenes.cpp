@@ -8,10 +8,10 @@
 #include "report.hpp"
 #include "runs.hpp"
 #include "scene_source.hpp"
-#include "validation/cli/history_file.hpp"
-#include "validation/cli/simulation_report.hpp"
-#include "validation/cli/swept_comparison_report.hpp"
 #include "validation/plan/planned_run.hpp"
+#include "validation/record/history_file.hpp"
+#include "validation/reports/simulation_report.hpp"
+#include "validation/reports/swept_comparison_report.hpp"
 #include "validation/scene/named_texts.hpp"
 
 namespace clatter::python {

@@ -46,7 +46,7 @@ class Plan(Result):
         return len(self.rungs)
 
     def __getitem__(self, model: str) -> Record:
-        """The rung of a model: plan["discrete"]."""
+        """The entry of a model: plan["discrete"]."""
         for rung in self.rungs:
             if rung["model"] == model:
                 return rung

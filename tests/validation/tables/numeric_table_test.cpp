@@ -7,7 +7,7 @@
 #include <fstream>
 #include <random>
 
-#include "validation/scene/bad_input.hpp"
+#include "validation/output/bad_input.hpp"
 
 namespace {
 

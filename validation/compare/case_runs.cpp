@@ -1,0 +1,105 @@
+#include "validation/compare/case_runs.hpp"
+
+#include <fmt/format.h>
+
+#include "validation/record/history_file.hpp"
+
+namespace clatter::validation {
+namespace {
+
+class SampleList : public numeric::HistoryRecorder {
+ public:
+  explicit SampleList(std::vector<numeric::HistorySample>& samples) : samples_(samples) {}
+  void record(const numeric::HistorySample& sample) override { samples_.push_back(sample); }
+
+ private:
+  std::vector<numeric::HistorySample>& samples_;
+};
+
+constexpr int fall_points = 20;
+
+}  // namespace
+
+std::string RunOptions::key() const {
+  return fmt::format("{}/{}/{}/{}/{}", digits, impacts, planar, static_cast<int>(method), static_cast<int>(area));
+}
+
+Scene scene_of_case(const std::string& name, const RunOptions& options) {
+  Scene scene = case_scene(name);
+  if (options.digits > 0) scene.options.digits = options.digits;
+  if (options.impacts > 0) scene.options.impacts = options.impacts;
+  if (options.planar) scene.options.planar = true;
+  if (options.method != numeric::Method::automatic) scene.options.method = options.method;
+  if (options.area != numeric::AreaMeasure::surface) scene.ground.area = options.area;
+  scene.options.error_estimates = false;
+  return scene;
+}
+
+template <class Result>
+const Result& CaseRuns::once(Made<Result>& made, const std::string& key, const std::function<Result()>& make) {
+  std::shared_ptr<typename Made<Result>::Entry> entry;
+  {
+    const std::lock_guard lock(mutex_);
+    auto& place = made.entries[key];
+    if (!place) place = std::make_shared<typename Made<Result>::Entry>();
+    entry = place;
+  }
+  std::call_once(entry->made, [&] { entry->result = make(); });
+  return entry->result;
+}
+
+const numeric::Simulation& CaseRuns::run(const std::string& name, const RunOptions& options) {
+  return once<numeric::Simulation>(runs_, name + options.key(), [&] {
+    const Scene scene = scene_of_case(name, options);
+    const numeric::Body body = scene.make_body();
+    return numeric::simulate(body, scene.ground, scene.start(body), scene.options);
+  });
+}
+
+const RecordedRun& CaseRuns::history(const std::string& name, const RunOptions& options) {
+  return once<RecordedRun>(histories_, name + options.key(), [&] {
+    Scene scene = scene_of_case(name, options);
+    const numeric::Body body = scene.make_body();
+    RecordedRun recorded;
+    SampleList list(recorded.samples);
+    const numeric::MotionState start = scene.start(body);
+    if (scene.height) record_fall(list, start, body.mass(), scene.options.gravity, fall_points);
+    scene.options.history = &list;
+    recorded.run = numeric::simulate(body, scene.ground, start, scene.options);
+    return recorded;
+  });
+}
+
+const std::vector<SweptSimulation>& CaseRuns::sweep(const std::string& name, const RunOptions& options) {
+  return once<std::vector<SweptSimulation>>(sweeps_, name + options.key(), [&] {
+    Scene scene = scene_of_case(name, options);
+    scene.options.amplification = false;
+    const numeric::Body body = scene.make_body();
+    std::vector<SweptSimulation> swept;
+    for (const double value : scene.sweep->values()) {
+      const Scene one = scene.at(value);
+      swept.push_back({value, numeric::simulate(body, one.ground, one.start(body), one.options)});
+    }
+    return swept;
+  });
+}
+
+const Comparison& CaseRuns::comparison(const std::string& name, int impacts) {
+  return once<Comparison>(comparisons_, fmt::format("{}/{}", name, impacts), [&] {
+    Scene scene = scene_of_case(name, {});
+    if (impacts > 0) scene.options.impacts = impacts;
+    return compare_models(scene, scene.make_body());
+  });
+}
+
+const std::vector<CaseRuns::SweptComparison>& CaseRuns::swept_comparison(const std::string& name) {
+  return once<std::vector<SweptComparison>>(swept_comparisons_, name, [&] {
+    const Scene scene = scene_of_case(name, {});
+    const numeric::Body body = scene.make_body();
+    std::vector<SweptComparison> swept;
+    for (const double value : scene.sweep->values()) swept.push_back({value, compare_models(scene.at(value), body)});
+    return swept;
+  });
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,237 @@
+#include "validation/reports/angles_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "validation/cli/options.hpp"
+#include "validation/cli/rod_options.hpp"
+#include "validation/output/number.hpp"
+
+namespace clatter::validation {
+namespace {
+
+using analytic::degrees_per_radian;
+using analytic::NextImpact;
+
+constexpr std::size_t plain_columns = 17, impacts_column = 16, deficit_column = 15;
+constexpr double neighbour_shift = 0x1p-30;  // between rounding and the curvature of the results
+
+/// What may be given.
+struct AnglesTexts {
+  SweepTexts range;
+  RodTexts rod;
+  std::optional<std::string> digits, as_printed;
+};
+
+double angle_or_missing(const analytic::ContactAngle& angle) {
+  return angle.next == NextImpact::other_end ? angle.angle * degrees_per_radian : NAN;
+}
+
+std::size_t column_count(const AnglesRequest& request) {
+  return request.as_printed ? std::tuple_size_v<AnglesRow> : plain_columns;
+}
+
+/// θ is as given and the number of impacts is counted.
+bool has_error(std::size_t column) { return column != 0 && column != impacts_column; }
+
+std::vector<std::string> notes_of(const AnglesRequest& request) {
+  if (!request.as_printed)
+    return {"An empty cell: that impact does not happen, comes with β, γ > 90°, or after another one."};
+  return {
+      "β: with the gravity term − (g/vₙ²)(…)²(θ+β)²; printed: with the paper's + (g/2vₙ²)(…)²(θ+β)²,"
+      " whose sign and factor are wrong, for g of either sign. An empty cell: no such impact."};
+}
+
+}  // namespace
+
+AnglesRequest angles_request(const NamedTexts& given) {
+  AnglesTexts texts;
+  const std::map<std::string, std::optional<std::string>*> places{{"from", &texts.range.from},
+                                                                  {"to", &texts.range.to},
+                                                                  {"step", &texts.range.step},
+                                                                  {"count", &texts.range.count},
+                                                                  {"gravity_number", &texts.rod.gravity_number},
+                                                                  {"gravity", &texts.rod.gravity},
+                                                                  {"length", &texts.rod.length},
+                                                                  {"speed", &texts.rod.speed},
+                                                                  {"restitution", &texts.rod.restitution},
+                                                                  {"impulse_ratio", &texts.rod.impulse_ratio},
+                                                                  {"digits", &texts.digits},
+                                                                  {"as_printed", &texts.as_printed}};
+  for (const auto& [name, text] : given) *named(places, name) = text;
+  const Sweep sweep = read_sweep(texts.range, {0, 90, 5}, {0, 90, false, "from 0 to 90 degrees"});
+  return {.theta = [sweep](long long i) { return sweep.value(i); },
+          .count = sweep.count,
+          .rod = read_rod(texts.rod),
+          .as_printed = read_name_option("--as-printed", texts.as_printed.value_or("false"), {"false", "true"}) == 1,
+          .digits = texts.digits ? read_integer_option("--digits", *texts.digits, 1, 17) : 6};
+}
+
+std::vector<Column> angles_columns(const AnglesRequest& request) {
+  const bool p = request.as_printed;
+  std::vector<Column> columns{
+      {"theta_deg", "θ", "°", "contact angle of impact 1"},
+      {"beta_deg", "β", "°", "contact angle of impact 2"},
+      {"gamma_deg", "γ", "°", "contact angle of impact 3", !p},
+      {"P1", "P₁", "", "impulse 1 in units of m |v_n|", !p},
+      {"P2", "P₂", "", "impulse 2 likewise", !p},
+      {"P3", "P₃", "", "impulse 3 likewise", !p},
+      {"V1", "V₁", "", "normal velocity after impact 1 in units of |v_n|", false},
+      {"Omega1", "Ω₁", "", "angular velocity after impact 1 in units of |v_n|/L", false},
+      {"V2", "V₂", "", "normal velocity after impact 2", false},
+      {"Omega2", "Ω₂", "", "angular velocity after impact 2", false},
+      {"V3", "V₃", "", "normal velocity after impact 3", false},
+      {"Omega3", "Ω₃", "", "angular velocity after impact 3", false},
+      {"T1", "T₁", "", "from impact 1 to 2 in units of L/|v_n|", false},
+      {"T2", "T₂", "", "from impact 2 to 3 likewise", false},
+      {"gamma_minus_theta_deg", "γ − θ", "°", "γ − θ", false},
+      {"impulse_deficit", "2 − ΣP", "", "2 less the sum of the impulses", !p},
+      {"impacts", "impacts", "", "how many impacts there are"},
+      {"beta_printed_deg", "β printed, g > 0", "°", "β by the printed gravity term", p},
+      {"beta_printed_negative_g_deg", "β printed, g < 0", "°", "the same for g of the other sign", p}};
+  columns.resize(column_count(request));
+  return columns;
+}
+
+namespace {
+
+/// The row of one rod at one angle [°].
+AnglesRow row_of(double theta, const analytic::RodParameters& rod, bool as_printed) {
+  const analytic::Angle angle = analytic::Angle::from_degrees(theta);
+  const analytic::ContactAngles a = analytic::contact_angles(angle, rod);
+  const double beta = angle_or_missing(a.beta);
+  const double gamma = angle_or_missing(a.gamma);
+  AnglesRow row{theta,
+                beta,
+                gamma,
+                a.impulse[0],
+                a.impulse[1],
+                a.impulse[2],
+                a.velocity[0],
+                a.angular[0],
+                a.velocity[1],
+                a.angular[1],
+                a.velocity[2],
+                a.angular[2],
+                std::isnan(beta) ? NAN : a.beta.time,
+                std::isnan(gamma) ? NAN : a.gamma.time,
+                a.gamma_minus_theta * degrees_per_radian,
+                a.impulse_deficit,
+                static_cast<double>(a.impacts()),
+                NAN,
+                NAN};
+  if (!as_printed) return row;
+  const double g = rod.gravity_number;
+  row[plain_columns] = angle_or_missing(analytic::contact_angle_as_printed(angle, g));
+  row[plain_columns + 1] = angle_or_missing(analytic::contact_angle_as_printed(angle, -g));
+  return row;
+}
+
+/// Adds |Δvalue| over the relative change of one parameter, for each value; infinite where only one of the rods has it.
+void add_sensitivity(const AnglesRow& row, const AnglesRow& neighbour, AnglesRow& sum) {
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    if (std::isnan(row[k])) continue;
+    sum[k] += std::isnan(neighbour[k]) ? INFINITY : std::fabs(neighbour[k] - row[k]) / neighbour_shift;
+  }
+}
+
+/// Bounds on the errors of a row's numbers, after contact_angles(): 12 (2 + 2κ) ulp at most, κ from neighbouring rods
+/// whose angle, G, e and μ_i differ; the sum of impulses cancels in the deficit unless the rod is elastic.
+AnglesRow errors_of(const AnglesRow& row, const AnglesRequest& request) {
+  const double theta = row[0];
+  const auto neighbour = [&](double angle, double analytic::RodParameters::*changed) {
+    analytic::RodParameters rod = request.rod;
+    if (changed) rod.*changed *= 1 - neighbour_shift;
+    return row_of(angle, rod, request.as_printed);
+  };
+  using Rod = analytic::RodParameters;
+  AnglesRow sensitivity{};
+  if (theta > 0) add_sensitivity(row, neighbour(theta * (1 - neighbour_shift), nullptr), sensitivity);
+  for (double Rod::*const parameter : {&Rod::gravity_number, &Rod::restitution, &Rod::impulse_ratio}) {
+    const double neutral = parameter == &Rod::restitution ? 1 : 0;
+    if (request.rod.*parameter != neutral) add_sensitivity(row, neighbour(theta, parameter), sensitivity);
+  }
+  const bool elastic =
+      request.rod.restitution == 1 && request.rod.impulse_ratio == 0 && request.rod.gravity_number == 0;
+  AnglesRow errors{};
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    const double size = k == deficit_column && !elastic ? 2 : std::fabs(row[k]);
+    errors[k] = 24 * std::numeric_limits<double>::epsilon() * (size + sensitivity[k]);
+  }
+  return errors;
+}
+
+}  // namespace
+
+AnglesRow angles_row(const AnglesRequest& request, long long i) {
+  return row_of(request.theta(i), request.rod, request.as_printed);
+}
+
+namespace {
+
+struct KnownRow {
+  AnglesRow value, error;
+};
+
+KnownRow known_row(const AnglesRequest& request, long long i) {
+  const AnglesRow row = angles_row(request, i);
+  return {row, errors_of(row, request)};
+}
+
+}  // namespace
+
+Report angles_frame(const AnglesRequest& request) {
+  const std::string range = request.count == 0 ? "no θ"
+                                               : fmt::format("θ from {}° to {}°, {} values", shortest(request.theta(0)),
+                                                             shortest(request.theta(request.count - 1)), request.count);
+  Report report = begun_report("angles", "contact angles of the first three impacts");
+  report.head = {rod_summary(request.rod) + "; " + range};
+  report.notes = notes_of(request);
+  report.grid.columns = angles_columns(request);
+  for (std::size_t k = 0; k < column_count(request); ++k) {
+    if (has_error(k)) report.grid.columns.push_back(error_column(report.grid.columns[k]));
+  }
+  report.fields["model"] = "discrete";
+  report.fields["parameters"] = rod_fields(request.rod);
+  return report;
+}
+
+namespace {
+
+void add_rows(const AnglesRequest& request, long long begin, long long end, Grid& grid) {
+  for (long long i = begin; i < end; ++i) {
+    const auto [row, errors] = known_row(request, i);
+    Row& cells = grid.rows.emplace_back();
+    for (std::size_t k = 0; k < column_count(request); ++k) {
+      const bool is_exact = !has_error(k);
+      cells.emplace_back(row[k], is_exact ? 17 : std::min(request.digits, known_digits(row[k], errors[k])));
+      if (is_exact || std::isnan(row[k])) cells[k].shown = cells[k].value.text();
+    }
+    for (std::size_t k = 0; k < column_count(request); ++k) {
+      if (has_error(k)) cells.emplace_back(errors[k]);
+    }
+  }
+}
+
+}  // namespace
+
+Report angles_report(const AnglesRequest& request) {
+  Report report = angles_frame(request);
+  add_rows(request, 0, request.count, report.grid);
+  report.fields["rows"] = row_objects(report.grid);
+  return report;
+}
+
+std::string angles_csv_rows(const AnglesRequest& request, long long begin, long long end) {
+  Grid grid;
+  add_rows(request, begin, end, grid);
+  return csv_rows(grid.rows);
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,16 @@
+// What `clatter explain` says.
+#pragma once
+
+#include <string>
+
+#include "validation/output/report.hpp"
+#include "validation/reports/derivation.hpp"
+
+namespace clatter::validation {
+
+/// A row for each equation.
+[[nodiscard]] Report explanation_report(const Explanation& explanation);
+/// In any format: tables, Markdown and LaTeX have the steps as text with equations.
+[[nodiscard]] std::string explanation_text(const Explanation& explanation, const TextStyle& style);
+
+}  // namespace clatter::validation

@@ -1,0 +1,210 @@
+#include "validation/reports/plan_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "validation/output/bad_input.hpp"
+#include "validation/output/number.hpp"
+#include "validation/scene/body_properties.hpp"
+#include "validation/scene/option_values.hpp"
+#include "validation/scene/scene_value.hpp"
+
+namespace clatter::validation {
+namespace {
+
+std::string error_words(double error) { return std::isfinite(error) ? significant(error, 2) : "too large to tell"; }
+
+std::string summary_of(const Plan& plan) {
+  if (plan.target.most_accurate) {
+    return fmt::format("the most accurate model within {} ms", shortest(*plan.target.within_ms));
+  }
+  const std::string within =
+      plan.target.within_ms ? fmt::format(" within {} ms", shortest(*plan.target.within_ms)) : "";
+  return fmt::format("the smallest model that gives {} digits{}", plan.target.digits, within);
+}
+
+std::string setting_words(const LevelSetting& setting) {
+  if (!is_continuous(setting.level)) return "";
+  return fmt::format("{} {}", method_name(setting.method), significant(setting.tolerance, 1));
+}
+
+bool is_choice(const WeighedLevel& level, const Plan& plan) { return level.level == plan.choice.level; }
+
+std::string verdict(const WeighedLevel& level, const Plan& plan) {
+  if (!level.against.empty()) return "does not apply";
+  if (is_choice(level, plan)) return level.serves ? "chosen" : "the best there is";
+  return level.serves ? "serves" : "not accurate enough";
+}
+
+std::string choice_words(const Plan& plan) {
+  const std::string setting = setting_words(plan.choice);
+  return fmt::format("Choice: {}{}{}, error {}, {} ms", level_name(plan.choice.level), setting.empty() ? "" : ", ",
+                     setting, error_words(plan.error), significant(1e3 * plan.seconds, 2));
+}
+
+std::string part_words(const WeighedPart& part) {
+  if (part.part == Part::unmerged_faces) return "elements of flat faces (they change nothing)";
+  return fmt::format("{} ({})", part_name(part.part), error_words(part.error));
+}
+
+/// "left out: …" or "kept: …" with what each part is worth; empty if there is none.
+std::string parts_words(const Plan& plan, bool left_out) {
+  std::string words;
+  for (const WeighedPart& part : plan.parts) {
+    if (part.left_out == left_out) words += (words.empty() ? "" : ", ") + part_words(part);
+  }
+  if (words.empty()) return "";
+  return fmt::format("{}, with the error that this brings: {}", left_out ? "Left out" : "Not left out", words);
+}
+
+std::string plane_words(const Plan& plan) {
+  if (!(plan.growth_out_of_plane > 10)) return "";
+  const std::string growth =
+      fmt::format("out of the plane an error of the start grows {:.0e} times", plan.growth_out_of_plane);
+  if (plan.predictable_impacts >= plan.impacts) return "Planar: " + growth;
+  return fmt::format(
+      "Planar: {}; in space rounding leaves only {} of {} impacts known to what is asked, and the planar "
+      "numbers hold for a body that is kept in its plane",
+      growth, plan.predictable_impacts, plan.impacts);
+}
+
+Row level_row(const WeighedLevel& level, const Plan& plan) {
+  const bool applies = level.against.empty();
+  const bool continuous = is_continuous(level.level) && applies;
+  const Value none;
+  return {Cell(level_name(level.level)),
+          Cell(continuous ? Value(method_name(level.setting.method)) : none),
+          continuous ? Cell(level.setting.tolerance, 1) : Cell(),
+          Cell(level.error, 2),
+          applies ? Cell(level.evaluations, continuous ? fmt::format("{:.0f}", level.evaluations) : "") : Cell(),
+          applies ? Cell(level.seconds, 2) : Cell(),
+          Cell(level_assumption(level.level)),
+          Cell(Value(level.assumption_error)),
+          Cell(level.serves),
+          Cell(verdict(level, plan)),
+          Cell(text_or_nothing(level.against))};
+}
+
+Value choice_fields(const Plan& plan) {
+  const bool continuous = is_continuous(plan.choice.level);
+  return Value::Fields{{"model", level_name(plan.choice.level)},
+                       {"method", continuous ? Value(method_name(plan.choice.method)) : Value()},
+                       {"tolerance", continuous ? Value(plan.choice.tolerance) : Value()},
+                       {"error", plan.error},
+                       {"force_evaluations", plan.evaluations},
+                       {"seconds", plan.seconds},
+                       {"serves", plan.serves},
+                       {"command", command_line(plan)}};
+}
+
+/// What the plan takes for granted where it uses a level, or why a level does not apply.
+std::string level_words(const WeighedLevel& level, const Plan& plan) {
+  const std::string name = level_name(level.level);
+  if (!level.against.empty()) return name + " does not apply: " + level.against;
+  if (!std::isfinite(level.assumption_error)) return "";
+  if (level.level == ModelLevel::planar) return plane_words(plan);
+  return fmt::format("{} takes for granted: {}; by its own account an error of {}", name, level.assumption_words,
+                     error_words(level.assumption_error));
+}
+
+std::vector<std::string> notes_of(const Plan& plan) {
+  const std::string shortfall = plan_shortfall(plan);
+  const bool has_choice = !std::isnan(plan.error);
+  std::vector<std::string> notes{has_choice ? choice_words(plan) : "",
+                                 shortfall.empty() ? "" : "Not as asked: " + shortfall,
+                                 has_choice ? "Run it: " + command_line(plan) : ""};
+  for (const WeighedLevel& level : plan.levels) notes.push_back(level_words(level, plan));
+  notes.insert(notes.end(),
+               {parts_words(plan, true), parts_words(plan, false),
+                fmt::format("Errors: the largest over {} and all times, angles, impulses and velocities, relative to "
+                            "the sequence's sizes",
+                            plan.impacts == 1 ? "one impact" : fmt::format("{} impacts", plan.impacts)),
+                fmt::format("Planning took {} force evaluations", plan.planning_evaluations)});
+  std::erase(notes, "");
+  return notes;
+}
+
+void add_results(const Plan& plan, Value& fields) {
+  fields["parts"] = Value::List{};
+  for (const WeighedPart& part : plan.parts) {
+    fields["parts"].push_back(
+        Value::Fields{{"part", part_name(part.part)}, {"error", part.error}, {"left_out", part.left_out}});
+  }
+  fields["impacts"] = plan.impacts;
+  fields["known_impacts"] = plan.known_impacts;
+  fields["predictable_impacts"] = plan.predictable_impacts;
+  fields["growth_out_of_plane"] = plan.growth_out_of_plane;
+  fields["error_constant"] = plan.error_constant;
+  fields["planning_evaluations"] = plan.planning_evaluations;
+  const std::string shortfall = plan_shortfall(plan);
+  fields["shortfall"] = text_or_nothing(shortfall);
+  fields["message"] = shortfall.empty() ? choice_words(plan) : shortfall;
+}
+
+}  // namespace
+
+std::string plan_shortfall(const Plan& plan) {
+  if (std::isnan(plan.error)) return "no impact could be computed: " + plan.pilot_ending;
+  if (plan.cut_short) {
+    return fmt::format("{} of {} impacts could be computed: {}", plan.impacts, plan.scene.options.impacts,
+                       plan.pilot_ending);
+  }
+  if (plan.serves || plan.target.most_accurate) return "";
+  const std::string best =
+      fmt::format("the best is {} with an error of {}", level_name(plan.choice.level), error_words(plan.error));
+  if (plan.known_impacts < plan.impacts) {
+    return fmt::format("{} digits can be had of the first {} impacts only; over all {}", plan.target.digits,
+                       plan.known_impacts, best);
+  }
+  const std::string within =
+      plan.target.within_ms ? fmt::format(" within {} ms", shortest(*plan.target.within_ms)) : "";
+  return fmt::format("{} digits cannot be had{}; {}", plan.target.digits, within, best);
+}
+
+PlanTarget plan_target(const Scene& scene, const PlanRequest& request) {
+  PlanTarget target{.digits = scene.options.digits};
+  if (request.within) {
+    target.within_ms = read_number_option("--within", *request.within, {0, 1e9, true, "greater than 0"});
+    target.most_accurate = !request.is_given("digits");
+  }
+  for (const char* name : {"method", "tolerance", "step"}) {
+    if (request.is_given(name)) throw BadInput(fmt::format("--{}: left out here: the plan chooses it", name));
+  }
+  if (request.is_given("history")) throw BadInput("--history: plan writes none; clatter simulate does");
+  if (!scene.sweep) return target;
+  throw BadInput(fmt::format("{}: a sweep has no plan; give --angle or leave out [sweep]", scene.path));
+}
+
+std::vector<Column> plan_columns() {
+  return {word_column("model", "model", "a model of the hierarchy"),
+          word_column("method", "method", "of integration"),
+          {"tolerance", "tol.", "", "of the method, per step"},
+          {"error", "error", "", "largest over all impacts and numbers, relative to the sequence's sizes"},
+          {"force_evaluations", "evals", "", "that a run takes"},
+          {"seconds", "cost", "s", "that a run takes, predicted"},
+          {"assumption", "", "", "what the model takes for granted", false},
+          {"assumption_error", "", "", "the error that this brings, by the model's own account", false},
+          {"serves", "", "", "whether the error is small enough", false},
+          word_column("verdict", "verdict", "whether it serves or is chosen"),
+          {"reason", "", "", "why it does not apply", false}};
+}
+
+Report plan_report(const Scene& scene, const Plan& plan) {
+  Report report = begun_report("plan", summary_of(plan));
+  report.head = scene_head(scene);
+  report.grid.columns = plan_columns();
+  for (const WeighedLevel& level : plan.levels) report.grid.rows.push_back(level_row(level, plan));
+  report.notes = notes_of(plan);
+  report.fields["model"] = "plan";
+  report.fields["scene"] = scene_value(scene);
+  report.fields["body"] = body_value(scene);
+  report.fields["asked"] = plan.asked;
+  report.fields["within_ms"] = plan.target.within_ms ? Value(*plan.target.within_ms) : Value();
+  report.fields["choice"] = std::isnan(plan.error) ? Value() : choice_fields(plan);
+  report.fields["rungs"] = row_objects(report.grid);
+  add_results(plan, report.fields);
+  return report;
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,227 @@
+#include "validation/reports/sequence_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "validation/output/number.hpp"
+#include "validation/scene/discrete_scene.hpp"
+
+namespace clatter::validation {
+namespace {
+
+using analytic::ImpactRow;
+using analytic::PlanarBody;
+using analytic::PlanarVelocity;
+using analytic::Sequence;
+using Style = FigureCurve::Style;
+
+/// Lowest point of each half of the body [m].
+struct EndHeights {
+  double a = std::numeric_limits<double>::infinity();
+  double b = std::numeric_limits<double>::infinity();
+  [[nodiscard]] double lowest() const { return std::min(a, b); }
+};
+
+/// The body in free flight through the place of an impact, before (times below 0) or after it:
+///     z_j = z + V t − g t²/2 + x_j sin α + z_j′ cos α,   α = α₀ − Ω t.
+struct Flight {
+  const PlanarBody& body;
+  const ImpactRow& row;
+  PlanarVelocity velocity;
+  double gravity;
+
+  [[nodiscard]] EndHeights at(double t) const {
+    const double centre = row.centre_height + t * (velocity.normal - gravity / 2 * t);
+    const double angle = row.inclination - velocity.angular * t;
+    EndHeights heights;
+    for (int j = 0; j < body.vertex_count; ++j) {
+      double& end = body.vertices[static_cast<std::size_t>(j)].x < 0 ? heights.a : heights.b;
+      end = std::min(end, centre + body.contact_point(j, std::sin(angle), std::cos(angle)).normal);
+    }
+    return heights;
+  }
+  /// Time in (0, t] or [t, 0) at which the ground is reached again, where it lies above at t_above and below at t.
+  [[nodiscard]] double ground_between(double t_above, double t_below) const {
+    for (int i = 0; i < 60; ++i) {
+      const double middle = (t_above + t_below) / 2;
+      (at(middle).lowest() < 0 ? t_below : t_above) = middle;
+    }
+    return t_above;
+  }
+};
+
+class HeightCurve {
+ public:
+  HeightCurve(const Scene& scene, const Sequence& sequence)
+      : body_(nominal_body(scene)), gravity_(scene.options.gravity), rows_(sequence.rows),
+        whole_(whole_time(sequence)) {
+    add_part(flight(rows_.front(), rows_.front().before), -approach());
+    std::reverse(samples_.begin(), samples_.end());
+    for (std::size_t i = 0; i + 1 < rows_.size(); ++i) {
+      add_whole(flight(rows_[i], rows_[i].impact.after), rows_[i + 1].start - rows_[i].start);
+    }
+    add_part(flight(rows_.back(), rows_.back().impact.after), 0.2 * whole_);
+  }
+  /// Rows of time, height of end a, height of end b.
+  [[nodiscard]] const std::vector<std::vector<double>>& samples() const { return samples_; }
+
+ private:
+  [[nodiscard]] Flight flight(const ImpactRow& row, const PlanarVelocity& velocity) const {
+    return {body_, row, velocity, gravity_};
+  }
+
+  /// From the first impact to the last; of a single one the time in which the body moves by its own size.
+  [[nodiscard]] double whole_time(const Sequence& sequence) const {
+    const double last = sequence.tail ? sequence.tail->end_time : rows_.back().start;
+    if (last > 0) return last;
+    const ImpactRow& row = rows_.front();
+    const double reach = body_.reach();
+    return 5 * reach /
+           std::max({std::fabs(row.before.normal), std::fabs(row.impact.after.normal),
+                     reach * std::fabs(row.impact.after.angular)});
+  }
+
+  /// What is shown of the fall to the first impact: at most from its release on.
+  [[nodiscard]] double approach() const {
+    const double speed = -rows_.front().before.normal;
+    return gravity_ > 0 && speed > 0 ? std::min(0.1 * whole_, speed / gravity_) : 0.1 * whole_;
+  }
+
+  /// Points for the share of the picture's width, more for a body that spins.
+  [[nodiscard]] int parts(const Flight& flight, double duration) const {
+    const double share = std::fabs(duration) / whole_, turns = std::fabs(flight.velocity.angular * duration) / 6;
+    return static_cast<int>(std::clamp(1000 * share, 6.0, 60.0) + std::min(24 * turns, 3000.0));
+  }
+
+  void add(const Flight& flight, double t) {
+    const EndHeights heights = flight.at(t);
+    samples_.push_back({flight.row.start + t, heights.a, heights.b});
+  }
+
+  void add_whole(const Flight& flight, double duration) {
+    const int count = parts(flight, duration);
+    for (int i = 0; i <= count; ++i) add(flight, duration * i / count);
+  }
+
+  /// As far as the body stays above the ground.
+  void add_part(const Flight& flight, double duration) {
+    const int count = parts(flight, duration);
+    const double depth = 1e-9 * body_.reach();  // of what is still rounding
+    add(flight, 0);
+    for (int i = 1; i <= count; ++i) {
+      const double t = duration * i / count;
+      if (flight.at(t).lowest() < -depth) {
+        if (i > 1) add(flight, flight.ground_between(duration * (i - 1) / count, t));
+        return;
+      }
+      add(flight, t);
+    }
+  }
+
+  PlanarBody body_;
+  double gravity_;
+  const std::vector<ImpactRow>& rows_;
+  double whole_;
+  std::vector<std::vector<double>> samples_;
+};
+
+PicturePanel height_panel(const Scene& scene, const Sequence& sequence) {
+  PicturePanel panel{.columns = {{"time", "s", "time since the first impact"},
+                                 {"a", "m", "height of the lowest point of end a"},
+                                 {"b", "m", "height of the lowest point of end b"},
+                                 {"end", "m", "time at which the impacts end"}},
+                     .rows = HeightCurve(scene, sequence).samples(),
+                     .plot = {.title = "",
+                              .x_label = "",
+                              .y_label = "lowest point [m]",
+                              .curves = {{.x = "time", .y = "a", .legend = "end a", .where = {}},
+                                         {.x = "time", .y = "b", .legend = "end b", .where = {}}},
+                              .x = {},
+                              .y = {0, no_number}}};
+  if (!sequence.tail) return panel;
+  double highest = 0;
+  for (const auto& row : panel.rows) highest = std::max({highest, row[1], row[2]});
+  for (const double height : {0.0, highest})
+    panel.rows.push_back({sequence.tail->end_time, no_number, no_number, height});
+  panel.plot.curves.push_back(
+      {.x = "time", .y = "end", .legend = "the impacts end", .style = Style::thin_line, .where = {}});
+  return panel;
+}
+
+/// Column of the impulse: 1 for end a, 2 for end b, 3 for both.
+std::size_t side_of(const PlanarBody& body, const ImpactRow& row) {
+  std::size_t side = 0;
+  for (int j = 0; j < body.vertex_count; ++j) {
+    if (row.vertices >> j & 1) side |= body.vertices[static_cast<std::size_t>(j)].x < 0 ? 1u : 2u;
+  }
+  return side;
+}
+
+PicturePanel impulse_panel(const Scene& scene, const Sequence& sequence) {
+  PicturePanel panel{.columns = {{"time", "s", "time since the first impact"},
+                                 {"a", "N·s", "normal impulse at end a"},
+                                 {"b", "N·s", "normal impulse at end b"},
+                                 {"both", "N·s", "normal impulse at both ends"},
+                                 {"rest", "N·s", "sum of the normal impulses of all further impacts"}},
+                     .rows = {},
+                     .plot = {.title = "",
+                              .x_label = "time since the first impact [s]",
+                              .y_label = "normal impulse [N·s]",
+                              .curves = {},
+                              .x = {},
+                              .y = {0, no_number}}};
+  const PlanarBody body = nominal_body(scene);
+  bool is_used[5] = {};
+  for (const ImpactRow& row : sequence.rows) {
+    auto& numbers = panel.rows.emplace_back(std::vector<double>{row.start, no_number, no_number, no_number, no_number});
+    numbers[side_of(body, row)] = row.impact.normal_impulse;
+    is_used[side_of(body, row)] = true;
+  }
+  if (sequence.tail) {
+    panel.rows.push_back({sequence.tail->end_time, no_number, no_number, no_number, sequence.tail->normal_impulse});
+    is_used[4] = true;
+  }
+  const char* const legends[] = {"", "at end a", "at end b", "at both ends", "all further impacts"};
+  for (std::size_t i = 1; i < 5; ++i) {
+    if (!is_used[i] && i > 2) continue;  // a and b keep their colours
+    panel.plot.curves.push_back(
+        {.x = "time", .y = panel.columns[i].name, .legend = legends[i], .style = Style::sticks, .where = {}});
+  }
+  return panel;
+}
+
+/// Body, drop and impact, without what is zero.
+std::vector<std::string> words_of(const Scene& scene) {
+  std::string drop = fmt::format("{}° at {} m/s", shortest(scene.angle_deg), shortest(scene.speed));
+  if (scene.tangential_velocity != 0) drop += fmt::format(", tangential {} m/s", shortest(scene.tangential_velocity));
+  if (scene.spin != 0) drop += fmt::format(", spin {} rad/s", shortest(scene.spin));
+  if (scene.has_vectors()) drop = scene.drop_words();
+  drop += fmt::format(", gravity {} m/s²", shortest(scene.options.gravity));
+  const analytic::ImpactLaw law = impact_law(scene);
+  std::string impact = fmt::format("e = {} ({})", shortest(law.restitution), law_name(law.law));
+  if (law.friction == analytic::FrictionKind::coulomb) impact += ", Coulomb friction μ = ";
+  if (law.friction == analytic::FrictionKind::impulse_ratio) impact += ", impulse ratio μᵢ = ";
+  if (law.friction != analytic::FrictionKind::none) impact += shortest(law.friction_value);
+  return {scene.summary(Model::discrete).front(), drop, impact};
+}
+
+}  // namespace
+
+Picture sequence_picture(const Scene& scene, const Sequence& sequence) {
+  Picture picture{.what = "Impact sequence, discrete model",
+                  .scene = words_of(scene),
+                  .panels = {height_panel(scene, sequence), impulse_panel(scene, sequence)}};
+  const auto& samples = picture.panels[0].rows;
+  const auto [first, last] = std::minmax_element(samples.begin(), samples.end(),
+                                                 [](const auto& one, const auto& other) { return one[0] < other[0]; });
+  // The last impact, or the end of infinitely many, is not on the frame.
+  const double end = sequence.tail ? sequence.tail->end_time : sequence.rows.back().start;
+  const double room = 0.02 * ((*last)[0] - (*first)[0]);
+  for (PicturePanel& panel : picture.panels) panel.plot.x = {(*first)[0], std::max((*last)[0], end + room)};
+  return picture;
+}
+
+}  // namespace clatter::validation

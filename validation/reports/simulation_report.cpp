@@ -1,0 +1,234 @@
+#include "validation/reports/simulation_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/output/number.hpp"
+#include "validation/record/impact_rows.hpp"
+#include "validation/record/names.hpp"
+#include "validation/record/totals.hpp"
+#include "validation/reports/swept_column.hpp"
+#include "validation/scene/body_properties.hpp"
+#include "validation/scene/scene_value.hpp"
+#include "validation/scene/shortfall.hpp"
+
+namespace clatter::validation {
+namespace {
+
+using numeric::ImpactRecord;
+using numeric::Simulation;
+
+/// Whether rounding or the method's error has outgrown the row by itself; what follows such a row is no better.
+bool doubtful(const Scene& scene, const ImpactRecord& row) {
+  const double gap_of_method = std::max(1e-6, std::pow(10.0, -scene.options.digits));
+  if (!row.predictable || !(std::fabs(row.ledger_gap) <= gap_of_method)) return true;
+  if (!scene.options.error_estimates) return false;
+  return !(row.error.impulse.norm() <= 0.05 * row.value.impulse.norm());
+}
+
+/// The number of impacts before the first doubtful one.
+std::size_t trusted_impacts(const Scene& scene, const Simulation& run) {
+  const auto first = std::find_if(run.impacts.begin(), run.impacts.end(),
+                                  [&](const ImpactRecord& row) { return doubtful(scene, row); });
+  return static_cast<std::size_t>(first - run.impacts.begin());
+}
+
+/// What tables show of the numbers of a run; `trusted`: of an impact that is to be trusted.
+ImpactDigits digits_of(const Scene& scene, const PlannedRun& planned, bool trusted) {
+  const MotionNumbers& sizes = planned.sizes;
+  return {.digits = scene.options.digits,
+          .trusted = trusted,
+          .estimated = scene.options.error_estimates,
+          .scales = {0, sizes[0], sizes[1], sizes[4], sizes[7], sizes[9], planned.run.energy_start, 1}};
+}
+
+/// The sum of the normal impulses as far as it is known.
+std::string total_words(const Scene& scene, const PlannedRun& planned) {
+  const Estimated total = totals(planned.run).normal_impulse;
+  const bool trusted = trusted_impacts(scene, planned.run) == planned.run.impacts.size();
+  ImpactDigits digits = digits_of(scene, planned, trusted);
+  return shown_text(digits.cell(total.value, total.error, Scale::none));
+}
+
+std::string method_words(const Simulation& run) {
+  const std::string how = run.tolerance > 0 ? fmt::format("tolerance {} per step", significant(run.tolerance, 2))
+                                            : fmt::format("steps of {} s", significant(run.step, 4));
+  return fmt::format("{}, {}; {} force evaluations, with those for plan and error estimates", method_name(run.method),
+                     how, run.force_evaluations);
+}
+
+std::string trust_words(const Scene& scene, const Simulation& run) {
+  const std::size_t last_trusted = trusted_impacts(scene, run);
+  if (last_trusted == run.impacts.size()) return "";
+  const auto first = run.impacts.begin() + static_cast<std::ptrdiff_t>(last_trusted);
+  const std::string growth = first->predictable ? "after it a second run goes another way"
+                                                : fmt::format("an error of the start has grown {} times by then",
+                                                              significant(first->amplification, 2));
+  return last_trusted == 0 ? fmt::format("?: not to be trusted: {}", growth)
+                           : fmt::format("?: trust ends with impact {}: {}", last_trusted, growth);
+}
+
+/// What was asked against what came out, by the estimates.
+std::string accuracy_words(const Scene& scene, const PlannedRun& planned) {
+  if (std::isnan(planned.achieved)) return "";
+  const int known = planned.known_impacts, impacts = static_cast<int>(planned.run.impacts.size());
+  const std::string of = known < impacts ? fmt::format(" of the first {} impacts", known) : "";
+  if (!std::isfinite(planned.achieved)) {
+    return fmt::format("asked {} digits{}: a second run goes another way", scene.options.digits, of);
+  }
+  return fmt::format("asked {} digits, achieved {:.1f}{}: largest estimated error {} of the sequence's sizes",
+                     scene.options.digits, std::max(-std::log10(planned.achieved), 0.0), of,
+                     significant(planned.achieved, 1));
+}
+
+/// What the scene's law of friction leaves out, if that exceeds the digits asked.
+std::string local_slip_words(const Scene& scene, const Simulation& run) {
+  double largest = 0;
+  std::size_t worst = 0;
+  for (std::size_t i = 0; i < run.impacts.size(); ++i) {
+    largest = std::max(largest, run.impacts[i].value.impulse.norm());
+    if (run.impacts[i].local_slip > run.impacts[worst].local_slip) worst = i;
+  }
+  if (run.impacts.empty() || !(run.impacts[worst].local_slip > std::pow(10.0, -scene.options.digits) * largest))
+    return "";
+  return fmt::format(
+      "coulomb takes the patch as flat: with each place's own slip (friction_law = \"local\") the tangential "
+      "impulse of impact {} would change by about {} N·s, and what follows with it",
+      worst + 1, significant(run.impacts[worst].local_slip, 1));
+}
+
+std::vector<std::string> notes_of(const Scene& scene, const PlannedRun& planned) {
+  const Simulation& run = planned.run;
+  std::vector<std::string> notes{trust_words(scene, run)};
+  for (const std::string& warning : planned.warnings) notes.push_back("!: warning: " + warning);
+  double gap = 0;
+  for (const ImpactRecord& row : run.impacts) gap = std::max(gap, std::fabs(row.ledger_gap));
+  if (!run.impacts.empty()) {
+    notes.push_back(fmt::format("Sum of normal impulses: {} N·s; the ledger of energy closes to {}",
+                                total_words(scene, planned), significant(gap, 1)));
+  }
+  for (const std::string& words : {local_slip_words(scene, run), method_words(run), accuracy_words(scene, planned),
+                                   fmt::format("{}: {}", outcome_name(run.outcome), run.message)}) {
+    notes.push_back(words);
+  }
+  std::erase(notes, "");
+  return notes;
+}
+
+std::vector<Column> columns_of(const Scene& scene) {
+  const bool friction = scene.ground.has_friction();
+  std::vector<std::string> shown{"n",
+                                 "end",
+                                 "start",
+                                 "contact_angle_deg",
+                                 "impulse_normal",
+                                 "peak_force",
+                                 "velocity_after_z",
+                                 "angular_velocity_after_y"};
+  shown.emplace_back(friction ? "impulse_tangential" : "duration");
+  if (friction || scene.ground.damping > 0) shown.emplace_back("energy_loss");
+  return impact_columns<ContinuousRow>(shown);
+}
+
+std::vector<Row> rows_of(const Scene& scene, const PlannedRun& planned) {
+  std::vector<Row> rows;
+  const std::size_t trust = trusted_impacts(scene, planned.run);
+  for (const ImpactRecord& record : planned.run.impacts) {
+    const int n = static_cast<int>(rows.size()) + 1;
+    const bool trusted = rows.size() < trust;
+    rows.push_back(impact_row(ContinuousRow{record, n}, digits_of(scene, planned, trusted)));
+    rows.back()[0].shown = fmt::format("{}{}{}", n, trusted ? "" : "?", record.submerged ? "!" : "");
+  }
+  return rows;
+}
+
+Value shortfall_value(const Scene& scene, const PlannedRun& planned) {
+  return text_or_nothing(shortfall(scene, planned));
+}
+
+void add_results(const Scene& scene, const PlannedRun& planned, Value& fields) {
+  const Simulation& run = planned.run;
+  fields["outcome"] = outcome_name(run.outcome);
+  fields["warnings"] = planned.warnings;
+  fields["message"] = run.message + "; restitution is null where an impact has several touches";
+  const std::string local_slip = local_slip_words(scene, run);
+  fields["notes"] = local_slip.empty() ? Value::List{} : Value::List{local_slip};
+  fields["method"] = method_name(run.method);
+  fields["tolerance"] = run.tolerance > 0 ? Value(run.tolerance) : Value();
+  fields["step"] = run.step > 0 ? Value(run.step) : Value();
+  fields["accuracy"] = Value::Fields{{"asked", planned.asked},
+                                     {"achieved", planned.achieved},
+                                     {"known_impacts", planned.known_impacts},
+                                     {"planned", planned.planned}};
+  add_totals(totals(run), fields);
+  fields["shortfall"] = shortfall_value(scene, planned);
+  fields["energy_start"] = run.energy_start;
+  fields["cost"] =
+      Value::Fields{{"force_evaluations", run.force_evaluations}, {"root_evaluations", run.root_evaluations}};
+}
+
+/// Adds the impacts of a run to the report of a sweep.
+void add_run(const SweptRun& swept, const Scene& scene, Report& report) {
+  const Simulation& run = swept.planned.run;
+  Grid impacts{impact_columns<ContinuousRow>({}), rows_of(swept.scene, swept.planned)};
+  report.fields["runs"].push_back(Value::Fields{{scene.sweep->name(), swept.value},
+                                                {"outcome", outcome_name(run.outcome)},
+                                                {"message", run.message},
+                                                {"shortfall", shortfall_value(swept.scene, swept.planned)},
+                                                {"impacts", row_objects(impacts)}});
+  for (Row& row : impacts.rows) {
+    row.insert(row.begin(), Cell(swept.value, 6));
+    if (&row == &impacts.rows.front()) report.digest->rows.push_back(row);
+    report.grid.rows.push_back(std::move(row));
+  }
+  if (run.impacts.empty())
+    report.digest->rows.push_back({Cell(swept.value, 6), Cell(), Cell(), Cell(outcome_name(run.outcome))});
+  if (run.impacts.empty() || is_cut_short(run.outcome)) {
+    report.remarks.push_back(fmt::format("{}: {}: {}", shortest(swept.value), outcome_name(run.outcome), run.message));
+  }
+}
+
+}  // namespace
+
+std::vector<Column> simulation_columns() { return impact_columns<ContinuousRow>({}); }
+
+Report simulation_report(const Scene& scene, const PlannedRun& planned) {
+  Report report = begun_report("simulate", "impact sequence, continuous contact");
+  report.head = scene_head(scene);
+  report.notes = notes_of(scene, planned);
+  report.remarks = {totals_line(totals(planned.run))};
+  report.grid = {columns_of(scene), rows_of(scene, planned)};
+  report.fields["model"] = "continuous";
+  report.fields["scene"] = scene_value(scene);
+  report.fields["body"] = body_value(scene);
+  report.fields["impacts"] = row_objects(report.grid);
+  add_results(scene, planned, report.fields);
+  fit_columns(report, scene.options.digits, {2});
+  return report;
+}
+
+Report sweep_report(const Scene& scene, const std::vector<SweptRun>& runs) {
+  Report report = begun_report("simulate", "first impacts, continuous contact");
+  report.head = scene_head(scene);
+  report.grid.columns =
+      impact_columns<ContinuousRow>({"touches", "impulse_normal", "impulse_ratio", "velocity_after_x",
+                                     "velocity_after_z", "angular_velocity_after_y", "peak_force", "energy_loss"});
+  report.grid.columns.insert(report.grid.columns.begin(), swept_column(*scene.sweep));
+  report.digest = Grid{report.grid.columns, {}};
+  report.fields["model"] = "continuous";
+  report.fields["scene"] = scene_value(scene);
+  report.fields["body"] = body_value(scene);
+  report.fields["runs"] = Value::List{};
+  for (const SweptRun& swept : runs) add_run(swept, scene, report);
+  const std::size_t values = scene.sweep->values().size();
+  report.fields["outcome"] = runs.size() < values ? "interrupted" : "complete";
+  report.fields["message"] = fmt::format("{} of {} values", runs.size(), values);
+  if (!runs.empty()) report.notes.push_back(method_words(runs.back().planned.run) + " (the last row's)");
+  add_interruption(*scene.sweep, runs.size(), report);
+  fit_columns(report, scene.options.digits, {2});
+  return report;
+}
+
+}  // namespace clatter::validation
