@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "validation/cli/command.hpp"
-#include "validation/output/report.hpp"
 
 namespace clatter::validation {
 
@@ -28,10 +27,6 @@ namespace clatter::validation {
 [[nodiscard]] Command init_command();
 [[nodiscard]] Command completion_command();
 [[nodiscard]] Command man_command();
-
-/// Columns of the commands whose reports are made with them.
-[[nodiscard]] std::vector<Column> explain_columns();
-[[nodiscard]] std::vector<Column> regimes_columns();
 
 /// All of them, in the order of the help.
 [[nodiscard]] const std::vector<Command>& all_commands();

@@ -1,257 +1,46 @@
-#include <fmt/format.h>
-
-#include <cmath>
-#include <map>
 #include <memory>
-#include <vector>
 
-#include "analytic/contact_angles.hpp"
 #include "validation/cli/commands.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/plot_options.hpp"
 #include "validation/cli/rod_options.hpp"
-#include "validation/output/bad_input.hpp"
-#include "validation/output/estimated.hpp"
-#include "validation/output/number.hpp"
-#include "validation/reports/regimes_picture.hpp"
 #include "validation/reports/regimes_report.hpp"
 
 namespace clatter::validation {
 namespace {
 
-using analytic::BoundaryKind;
-using analytic::degrees_per_radian;
-using analytic::ImpactNumber;
-using analytic::RegimeBoundary;
-using analytic::RodParameters;
-
-const char* const regimes_summary = "how many impacts, and where that changes";
-
 struct RegimesInput {
-  std::optional<std::string> over, digits;
-  SweepTexts sweep;
-  bool logarithmic = false;
-  RodTexts rod;
+  RegimesTexts texts;
   OutputTexts output;
   PlotTexts plot;
 };
 
-/// A quantity to vary.
-struct Quantity {
-  const char* name;
-  const char* heading;
-  const char* words;  ///< for an axis of a picture
-  double RodParameters::*member;
-  std::vector<double> values;  ///< without a range given
-  Range range;
-};
-
-const std::vector<Quantity>& all_quantities() {
-  static const std::vector<Quantity> all{{"gravity-number",
-                                          "G",
-                                          "gravity number G = g L/vₙ²",
-                                          &RodParameters::gravity_number,
-                                          {0, 0.001, 0.01, 0.1, 1, 10},
-                                          {0, 1e300, false, "at least 0"}},
-                                         {"restitution",
-                                          "e",
-                                          "coefficient of restitution e",
-                                          &RodParameters::restitution,
-                                          {0.25, 0.5, 0.75, 0.9, 1},
-                                          {0, 1, false, "from 0 to 1"}},
-                                         {"impulse-ratio",
-                                          "μᵢ",
-                                          "impulse ratio μᵢ",
-                                          &RodParameters::impulse_ratio,
-                                          {-0.2, -0.1, 0, 0.1, 0.2, 0.3},
-                                          {-1e300, 1e300, false, "a finite number"}}};
-  return all;
-}
-
-std::vector<double> values_of(const RegimesInput& input, const Quantity& quantity) {
-  const SweepTexts& texts = input.sweep;
-  if (!texts.from && !texts.to && !texts.step && !texts.count) return quantity.values;
-  if (!texts.from || !texts.to || (!texts.step && !texts.count)) {
-    throw BadInput("--from, --to and --step or --count: a range needs all three");
-  }
-  Sweep sweep = read_sweep(texts, {0, 0, 1}, quantity.range);
-  sweep.logarithmic = input.logarithmic;
-  if (input.logarithmic && (!(sweep.from > 0) || sweep.step > 0)) {
-    throw BadInput("--log: needs --from greater than 0 and --count");
-  }
-  std::vector<double> values;
-  for (long long i = 0; i < sweep.count; ++i) values.push_back(sweep.value(i));
-  return values;
-}
-
-const char* kind_name(BoundaryKind kind) {
-  switch (kind) {
-    case BoundaryKind::fold: return "fold";
-    case BoundaryKind::upright: return "upright";
-    case BoundaryKind::order: return "order";
-    case BoundaryKind::always: return "always";
-    case BoundaryKind::never: return "never";
-  }
-  return "";
-}
-
-Cell angle_cell(double radians, int digits) {
-  return std::isnan(radians) ? Cell() : Cell(radians * degrees_per_radian, digits);
-}
-
-/// Columns of a boundary: `number` is "2" or "3", the other impact's angle there is not shown.
-void add_boundary_columns(const std::string& number, const std::string& object, std::vector<Column>& columns) {
-  const bool second = number == "2";
-  const std::string at = "at the boundary of " + object + " impacts";
-  columns.insert(
-      columns.end(),
-      {{"theta_" + number + "_deg", second ? "θ₂" : "θ₃", "°", "angle below which there is a " + object + " impact",
-        true, false, object, "theta_deg"},
-       {"kind_" + number, "kind", "", "why the " + object + " impact ends there", true, false, object, "kind"},
-       {second ? "beta_deg" : "beta_3_deg", "β there", "°", "β " + at, second, false, object, "beta_deg"},
-       {second ? "gamma_2_deg" : "gamma_deg", "γ there", "°", "γ " + at, !second, false, object, "gamma_deg"},
-       {"theta_" + number + "_deg_error", "", "°", "error of theta_" + number + "_deg", false, false, object,
-        "uncertainty_deg"}});
-}
-
-std::vector<Column> columns_of(const Quantity& quantity) {
-  std::vector<Column> columns{{quantity.name, quantity.heading, "", quantity.words}};
-  add_boundary_columns("2", "second", columns);
-  add_boundary_columns("3", "third", columns);
-  return columns;
-}
-
-void add_boundary(const RegimeBoundary& b, int digits, Row& row) {
-  const bool exists = b.kind != BoundaryKind::never;
-  const Estimated angle = Estimated{b.theta, b.uncertainty} * degrees_per_radian;
-  row.insert(row.end(),
-             {exists ? known_cell(angle, {digits, 90}) : Cell(), Cell(kind_name(b.kind)), angle_cell(b.beta, digits),
-              angle_cell(b.gamma, digits), Cell(exists ? Value(angle.error) : Value())});
-}
-
-Report report_of(const std::vector<Regimes>& all, const Quantity& quantity, const RodParameters& rod, int digits) {
-  Report report = begun_report("regimes", regimes_summary);
-  report.grid.columns = columns_of(quantity);
-  report.notes = {"Three impacts below θ₃, two from θ₃ to θ₂, one above (β, γ ≤ 90°).",
-                  "fold: the end grazes the ground; upright: it arrives at 90°; order: another contact comes first."};
-  for (const auto& [value, second, third] : all) {
-    Row& row = report.grid.rows.emplace_back();
-    row.emplace_back(value, 6);
-    add_boundary(second, digits, row);
-    add_boundary(third, digits, row);
-  }
-  report.fields["model"] = "discrete";
-  report.fields["over"] = quantity.name;
-  report.fields["parameters"] = rod_fields(rod);
-  report.fields["rows"] = row_objects(report.grid);
-  return report;
-}
-
-/// Two decades or more between positive values: on a linear axis most of them would lie on one another.
-bool spans_decades(const std::vector<double>& values) {
-  double least = INFINITY, greatest = 0;
-  for (const double value : values) {
-    if (value > 0) least = std::fmin(least, value);
-    greatest = std::fmax(greatest, value);
-  }
-  return greatest >= 100 * least;
-}
-
-/// The parameters that all rows share.
-std::string rod_words(const RegimesInput& input, const Quantity& quantity) {
-  RodParameters rod = read_rod(input.rod);
-  std::string words = "thin rod, m = L = |vₙ| = 1";
-  for (const Quantity& other : all_quantities()) {
-    if (&other != &quantity) words += fmt::format(", {} = {}", other.heading, shortest(rod.*other.member));
-  }
-  return words;
-}
-
-std::vector<std::string> script_head(const RegimesInput& input, const Quantity& quantity,
-                                     const std::vector<double>& values) {
-  return {headline("regimes", regimes_summary),
-          fmt::format("{}; {} from {} to {}, {} values", rod_words(input, quantity), quantity.heading,
-                      shortest(values.front()), shortest(values.back()), values.size())};
-}
-
-/// The regimes over the values of a quantity.
-struct FoundRegimes {
-  const Quantity& quantity;
-  std::vector<double> values;
-  std::vector<Regimes> all;
-  Report report;
-};
-
-FoundRegimes find_regimes(const RegimesInput& input) {
-  const auto& quantities = all_quantities();
-  std::vector<std::string> names;
-  for (const Quantity& quantity : quantities) names.emplace_back(quantity.name);
-  const Quantity& quantity = quantities[input.over ? read_name_option("--over", *input.over, names) : 0];
-  RodParameters rod = read_rod(input.rod);
-  const int digits = input.digits ? read_integer_option("--digits", *input.digits, 1, 17) : 8;
-  FoundRegimes found{quantity, values_of(input, quantity), {}, {}};
-  for (const double value : found.values) {
-    rod.*quantity.member = value;
-    found.all.push_back({value, analytic::regime_boundary(ImpactNumber::second, rod),
-                         analytic::regime_boundary(ImpactNumber::third, rod)});
-  }
-  found.report = report_of(found.all, quantity, read_rod(input.rod), digits);
-  found.report.head = {rod_summary(read_rod(input.rod)) + ", but for the first column"};
-  return found;
-}
-
 int run_regimes(const RegimesInput& input) {
   const OutputChoice choice = read_output(input.output);
-  const FoundRegimes found = find_regimes(input);
-  const Quantity& quantity = found.quantity;
+  const FoundRegimes found = find_regimes(input.texts);
   check_files(choice, plot_files(input.plot));
   PlotFile plot(input.plot);
   write_report(choice, found.report);
   if (plot.is_wanted()) {
-    const bool logarithmic =
-        input.logarithmic || (quantity.member == &RodParameters::gravity_number && spans_decades(found.values));
-    plot.write(regimes_picture(found.all, {quantity.name, quantity.words, logarithmic}, rod_words(input, quantity)),
-               script_head(input, quantity, found.values));
+    plot.write(regimes_picture(found.all, {found.name, found.words, found.logarithmic}, found.rod_words),
+               found.script_head);
   }
   return 0;
 }
 
 }  // namespace
 
-Report regimes_report(const NamedTexts& given) {
-  RegimesInput input;
-  std::optional<std::string> logarithmic;
-  const std::map<std::string, std::optional<std::string>*> places{{"over", &input.over},
-                                                                  {"from", &input.sweep.from},
-                                                                  {"to", &input.sweep.to},
-                                                                  {"step", &input.sweep.step},
-                                                                  {"count", &input.sweep.count},
-                                                                  {"log", &logarithmic},
-                                                                  {"gravity_number", &input.rod.gravity_number},
-                                                                  {"gravity", &input.rod.gravity},
-                                                                  {"length", &input.rod.length},
-                                                                  {"speed", &input.rod.speed},
-                                                                  {"restitution", &input.rod.restitution},
-                                                                  {"impulse_ratio", &input.rod.impulse_ratio},
-                                                                  {"digits", &input.digits}};
-  for (const auto& [name, text] : given) *named(places, name) = text;
-  input.logarithmic = read_name_option("--log", logarithmic.value_or("false"), {"false", "true"}) == 1;
-  return find_regimes(input).report;
-}
-
-std::vector<Column> regimes_columns() { return columns_of(all_quantities().front()); }
-
 Command regimes_command() {
   auto input = std::make_shared<RegimesInput>();
   Command command{.name = "regimes", .help = "number of impacts and fold angles"};
-  command.add_text("--over", input->over, "gravity-number|restitution|impulse-ratio", "what to vary (gravity-number)",
-                   "Range");
-  add_sweep_options(command, input->sweep, "value");
-  command.add_flag("--log", input->logarithmic, "values in geometric progression", "Range");
-  add_rod_options(command, input->rod);
+  command.add_text("--over", input->texts.over, "gravity-number|restitution|impulse-ratio",
+                   "what to vary (gravity-number)", "Range");
+  add_sweep_options(command, input->texts.sweep, "value");
+  command.add_flag("--log", input->texts.logarithmic, "values in geometric progression", "Range");
+  add_rod_options(command, input->texts.rod);
   add_output_options(command, input->output);
   add_plot_options(command, input->plot);
-  command.add_text("--digits", input->digits, "N", "significant digits in tables (8)", "Output");
+  command.add_text("--digits", input->texts.digits, "N", "significant digits in tables (8)", "Output");
   command.footer =
       "Example: clatter regimes --over restitution --from 0.2 --to 1 --step 0.1\n"
       "Of the thin rod in its plane, whose regimes end at folds of one angle. In space an attitude has three angles, "

@@ -1,5 +1,7 @@
 #include "validation/plan/planned_run.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +10,8 @@
 #include "validation/plan/symmetry.hpp"
 #include "validation/plan/tolerance_search.hpp"
 #include "validation/record/motion_numbers.hpp"
+#include "validation/record/names.hpp"
+#include "validation/scene/shortfall.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -157,6 +161,18 @@ PlannedRun run_to_digits(const numeric::Body& body, const numeric::Ground& groun
   const std::string sunk = submersion_warning(planned.run);
   if (!sunk.empty()) planned.warnings.push_back(sunk);
   return planned;
+}
+
+std::string shortfall(const Scene& scene, const PlannedRun& planned) {
+  const numeric::Simulation& run = planned.run;
+  if (is_cut_short(run.outcome)) return fmt::format("{}: {}", outcome_name(run.outcome), run.message);
+  if (!scene.require_digits || run.impacts.empty()) return "";
+  if (!scene.options.error_estimates) return "run.require_digits: without run.errors no digit is known";
+  const int impacts = static_cast<int>(run.impacts.size());
+  if (planned.known_impacts < impacts)
+    return fmt::format("asked {} digits, achieved of the first {} of {} impacts only", scene.options.digits,
+                       planned.known_impacts, impacts);
+  return digits_shortfall(scene.options.digits, planned.achieved);
 }
 
 }  // namespace clatter::validation

@@ -35,4 +35,7 @@ struct PlannedRun {
 [[nodiscard]] PlannedRun run_to_digits(const numeric::Body& body, const numeric::Ground& ground,
                                        const numeric::MotionState& start, const numeric::Options& options);
 
+/// As shortfall() of a sequence.
+[[nodiscard]] std::string shortfall(const Scene& scene, const PlannedRun& planned);
+
 }  // namespace clatter::validation

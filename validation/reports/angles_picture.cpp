@@ -6,7 +6,7 @@
 #include <bitset>
 #include <cmath>
 
-#include "validation/cli/rod_options.hpp"
+#include "validation/scene/rod_parameters.hpp"
 
 namespace clatter::validation {
 namespace {

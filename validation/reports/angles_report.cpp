@@ -9,9 +9,9 @@
 #include <map>
 #include <optional>
 
-#include "validation/cli/options.hpp"
-#include "validation/cli/rod_options.hpp"
 #include "validation/output/number.hpp"
+#include "validation/scene/rod_parameters.hpp"
+#include "validation/scene/swept_range.hpp"
 
 namespace clatter::validation {
 namespace {

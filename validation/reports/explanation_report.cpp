@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "validation/cli/commands.hpp"
 #include "validation/output/symbols.hpp"
 #include "validation/reports/explanation_latex.hpp"
 #include "validation/scene/body_properties.hpp"

@@ -8,6 +8,7 @@
 
 namespace clatter::validation {
 
+[[nodiscard]] std::vector<Column> explain_columns();
 /// A row for each equation.
 [[nodiscard]] Report explanation_report(const Explanation& explanation);
 /// In any format: tables, Markdown and LaTeX have the steps as text with equations.

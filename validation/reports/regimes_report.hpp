@@ -1,10 +1,41 @@
 // What `clatter regimes` says.
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "validation/output/report.hpp"
+#include "validation/reports/regimes_picture.hpp"
 #include "validation/scene/named_texts.hpp"
+#include "validation/scene/rod_parameters.hpp"
+#include "validation/scene/swept_range.hpp"
 
 namespace clatter::validation {
+
+/// What is asked for, as texts.
+struct RegimesTexts {
+  std::optional<std::string> over, digits;
+  SweepTexts sweep;
+  bool logarithmic = false;
+  RodTexts rod;
+};
+
+/// The regimes over the values of a quantity.
+struct FoundRegimes {
+  const char* name = "";     ///< of the quantity
+  const char* words = "";    ///< for an axis of a picture
+  bool logarithmic = false;  ///< that axis
+  std::vector<double> values;
+  std::vector<Regimes> all;
+  std::string rod_words;                 ///< the parameters that all rows share
+  std::vector<std::string> script_head;  ///< of a picture's script
+  Report report;
+};
+/// @throws BadInput as the command.
+[[nodiscard]] FoundRegimes find_regimes(const RegimesTexts& texts);
+
+[[nodiscard]] std::vector<Column> regimes_columns();
 
 /// From the flags of `clatter regimes` by name: over, from, to, step, count, log, gravity_number, …, digits.
 /// @throws BadInput as the command.

@@ -83,16 +83,4 @@ int shortfall_status(analytic::Outcome outcome) {
   return exit_status(outside ? FailureKind::outside_model : FailureKind::not_computed);
 }
 
-std::string shortfall(const Scene& scene, const PlannedRun& planned) {
-  const numeric::Simulation& run = planned.run;
-  if (is_cut_short(run.outcome)) return fmt::format("{}: {}", outcome_name(run.outcome), run.message);
-  if (!scene.require_digits || run.impacts.empty()) return "";
-  if (!scene.options.error_estimates) return "run.require_digits: without run.errors no digit is known";
-  const int impacts = static_cast<int>(run.impacts.size());
-  if (planned.known_impacts < impacts)
-    return fmt::format("asked {} digits, achieved of the first {} of {} impacts only", scene.options.digits,
-                       planned.known_impacts, impacts);
-  return digits_shortfall(scene.options.digits, planned.achieved);
-}
-
 }  // namespace clatter::validation

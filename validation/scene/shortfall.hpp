@@ -5,8 +5,7 @@
 
 #include "analytic/sequence.hpp"
 #include "analytic/space/sequence.hpp"
-#include "validation/plan/planned_run.hpp"
-#include "validation/scene/option_values.hpp"
+#include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
 
@@ -18,7 +17,6 @@ namespace clatter::validation {
 /// reason, or, with run.require_digits, that fewer digits are known than asked for; empty: neither.
 [[nodiscard]] std::string shortfall(const Scene& scene, const analytic::Sequence& sequence);
 [[nodiscard]] std::string shortfall(const Scene& scene, const analytic::space::Sequence& sequence);
-[[nodiscard]] std::string shortfall(const Scene& scene, const PlannedRun& planned);
 /// "asked 6 digits, achieved 4.2"; empty where the relative error gives the digits.
 [[nodiscard]] std::string digits_shortfall(int asked, double achieved);
 
