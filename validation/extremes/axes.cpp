@@ -100,6 +100,11 @@ std::vector<int> range(int from, int to, int step) {
   return out;
 }
 
+/// Lower ends of the ranges of residual_bins().
+std::vector<AxisValue> arm_angles() {
+  return {{0, "0-10"}, {10, "10-20"}, {20, "20-25"}, {25, "25-30"}, {30, "30-35"}, {35, "35-40"}, {40, "40-60"}};
+}
+
 std::vector<MapAxis> make_axes() {
   return {
       {"angle", "θ", "inclination at the first impact [°]; F2, F3: the folds at 58.488442288312° and 27.577809606636°",
@@ -128,6 +133,8 @@ std::vector<MapAxis> make_axes() {
       {"turns", "turns", "turns of the body during one flight", decades(range(0, 18, 1))},
       {"impacts", "n", "impacts of an elastic body in one run",
        plain({1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000})},
+      {"squares", "square", "tracked squares by the angle between arm and vertical at impact 1 [°]", arm_angles()},
+      {"cubes", "cube", "tracked cubes by the angle between arm and vertical at impact 1 [°]", arm_angles()},
       {"long",
        "long",
        "runs of more than a second: very many impacts (hits), random scenes over the widest ranges (sc)",

@@ -28,6 +28,9 @@ namespace clatter::validation {
 /// All models' cells on the axis "turns".
 [[nodiscard]] std::vector<ExtremeCase> turn_cases(const MapAxis& axis);
 
+/// The axes "squares" and "cubes": predictions held against the tracked drops that the program carries.
+[[nodiscard]] std::vector<ExtremeCase> measured_cases(const MapAxis& axis);
+
 /// Runs longer than a second, one cell each.
 struct LongRuns {
   int impacts = 10'000;           ///< of the elastic phone, planar and spatial

@@ -21,6 +21,7 @@ std::vector<ExtremeCase> cases_of(const MapAxis& axis, const ExtremesOptions& op
                                   const std::function<bool()>& goes_on) {
   if (axis.name == "long") return long_cases(options.runs, goes_on);
   if (axis.name == "turns") return turn_cases(axis);
+  if (axis.name == "squares" || axis.name == "cubes") return measured_cases(axis);
   std::vector<ExtremeCase> cases = discrete_cases(axis);
   for (ExtremeCase& extreme : continuous_cases(axis)) cases.push_back(std::move(extreme));
   return cases;

@@ -90,7 +90,12 @@ struct Scores {
   std::vector<double> time_errors;   ///< of the second impact, over the flight's measured duration
   std::vector<double> ratio_errors;  ///< of P₂/P₁, relative
   std::vector<ResidualBin> bins;
+
+  /// Middle error of a row by its name; NaN: there is none.
+  [[nodiscard]] double middle_of(const std::string& row) const;
 };
+/// By angle, approach and slip; ranges without a drop are left out.
+[[nodiscard]] std::vector<ResidualBin> residual_bins(const std::vector<ScoredDrop>& drops);
 /// @param sequences  follow each drop to its rest
 [[nodiscard]] Scores score_measured(const MeasuredFile& file, const MeasuredFit& fit, const TrackPart& part,
                                     bool sequences);

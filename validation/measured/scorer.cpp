@@ -167,11 +167,11 @@ class Scorer {
   Scores scores_;
 };
 
-ResidualBin bin_of(const Scores& scores, const std::string& quantity, const std::string& unit, double low, double high,
-                   double (*value)(const ScoredDrop&)) {
+ResidualBin bin_of(const std::vector<ScoredDrop>& drops, const std::string& quantity, const std::string& unit,
+                   double low, double high, double (*value)(const ScoredDrop&)) {
   ResidualBin bin{.quantity = quantity, .unit = unit, .low = low, .high = high};
   std::vector<double> errors, levers, restitutions;
-  for (const ScoredDrop& drop : scores.drops) {
+  for (const ScoredDrop& drop : drops) {
     const double v = value(drop);
     if (!(v >= low && v < high)) continue;
     ++bin.impacts;
@@ -187,7 +187,10 @@ ResidualBin bin_of(const Scores& scores, const std::string& quantity, const std:
   return bin;
 }
 
-void add_bins(Scores& scores) {
+}  // namespace
+
+std::vector<ResidualBin> residual_bins(const std::vector<ScoredDrop>& drops) {
+  std::vector<ResidualBin> bins;
   struct Axis {
     const char *name, *unit;
     std::vector<double> edges;
@@ -199,21 +202,25 @@ void add_bins(Scores& scores) {
       {"slip", "m/s", {0, 0.25, 0.5, 1, 1.5, 2, 4}, [](const ScoredDrop& d) { return d.measured.slip; }}};
   for (const Axis& axis : axes) {
     for (std::size_t i = 1; i < axis.edges.size(); ++i) {
-      const ResidualBin bin = bin_of(scores, axis.name, axis.unit, axis.edges[i - 1], axis.edges[i], axis.value);
-      if (bin.impacts > 0) scores.bins.push_back(bin);
+      const ResidualBin bin = bin_of(drops, axis.name, axis.unit, axis.edges[i - 1], axis.edges[i], axis.value);
+      if (bin.impacts > 0) bins.push_back(bin);
     }
   }
+  return bins;
 }
 
-}  // namespace
-
 double Share::value() const { return of == 0 ? std::nan("") : static_cast<double>(right) / of; }
+
+double Scores::middle_of(const std::string& row) const {
+  const auto found = std::find_if(rows.begin(), rows.end(), [&](const ErrorRow& one) { return one.name == row; });
+  return found == rows.end() ? std::nan("") : median(found->errors);
+}
 
 Scores score_measured(const MeasuredFile& file, const MeasuredFit& fit, const TrackPart& part, bool sequences) {
   Scorer scorer(file, fit, sequences);
   for (const std::size_t index : part) scorer.take(index);
   Scores scores = scorer.finish();
-  add_bins(scores);
+  scores.bins = residual_bins(scores.drops);
   return scores;
 }
 

@@ -133,8 +133,7 @@ std::string extremes_picture(const ExtremesMap& map) {
     if (axis.name == "long") continue;
     std::vector<const ExtremeCell*> last;
     const double begin = y;
-    for (const ModelLevel model :
-         {ModelLevel::closed_form, ModelLevel::discrete, ModelLevel::planar, ModelLevel::spatial}) {
+    for (const ModelLevel model : all_levels) {
       const auto cells = cells_of(map, axis.name, model);
       if (cells.empty()) continue;
       body += text(left - 6, y + 10.5, "text-anchor=\"end\" font-size=\"11\"", level_name(model));

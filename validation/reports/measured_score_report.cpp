@@ -13,7 +13,7 @@ std::pair<double, double> share_interval(const Share& share) {
   constexpr double z = 1.96;
   const double n = share.of, p = share.value(), middle = (p + z * z / (2 * n)) / (1 + z * z / n);
   const double half = z / (1 + z * z / n) * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
-  return {middle - half, middle + half};
+  return {std::fmax(middle - half, 0), std::fmin(middle + half, 1)};  // rounding must not leave what a share can be
 }
 
 Row error_row(const std::string& group, const std::string& name, const std::vector<double>& errors) {
