@@ -1,22 +1,4 @@
-// Errors of the simulator.  A broken contract is std::domain_error or std::invalid_argument, a run that
-// ends early is an outcome beside its rows (simulate.hpp); the two below are what is left.
+// Errors of the simulator.
 #pragma once
 
-#include <stdexcept>
-
-namespace clatter::numeric {
-
-/// A mesh or surface that cannot be the body of a simulation: inverted, degenerate, open, non-manifold,
-/// unreadable.  The message names the element, face or line (exit status 2 of the program).
-class MeshError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-/// A number could not be computed (exit status 3 of the program).
-class NumericalError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-}  // namespace clatter::numeric
+#include "numeric/base/errors.hpp"

@@ -5,10 +5,10 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "numeric/detail/require.hpp"
-#include "numeric/drop_run.hpp"
-#include "numeric/error_estimates.hpp"
-#include "numeric/errors.hpp"
+#include "numeric/base/errors.hpp"
+#include "numeric/base/require.hpp"
+#include "numeric/drop/drop_run.hpp"
+#include "numeric/drop/error_estimates.hpp"
 #include "numeric/motion/free_flight.hpp"
 
 namespace clatter::numeric {
@@ -17,34 +17,34 @@ namespace {
 bool is_adaptive(Method method) { return method != Method::tvd_rk3; }
 
 /// The cheapest that serves: a fifth-order method for few digits, one of eighth order for more.
-Method chosen_method(const Options& options) {
-  if (options.step > 0) return Method::tvd_rk3;
-  return options.digits <= 4 ? Method::rkck : Method::rk8pd;
+Method chosen_method(const Accuracy& accuracy) {
+  if (accuracy.step > 0) return Method::tvd_rk3;
+  return accuracy.digits <= 4 ? Method::rkck : Method::rk8pd;
 }
 
 /// The local error that gives `digits` digits of velocities and energies after tens of steps.
-Accuracy accuracy_for(const Options& options) {
-  Accuracy accuracy;
-  accuracy.method = options.method;
-  if (options.method == Method::automatic) accuracy.method = chosen_method(options);
-  accuracy.step = options.step;
-  accuracy.tolerance =
-      options.tolerance > 0 ? options.tolerance : std::max(std::pow(10.0, -options.digits - 4), least_tolerance);
-  accuracy.steps_per_contact = 10 * std::pow(10.0, std::min(options.digits, 9) / 3.0);
-  return accuracy;
+Integration integration_for(const Accuracy& accuracy) {
+  Integration integration;
+  integration.method = accuracy.method == Method::automatic ? chosen_method(accuracy) : accuracy.method;
+  integration.steps.step = accuracy.step;
+  integration.steps.tolerance =
+      accuracy.tolerance > 0 ? accuracy.tolerance : std::max(std::pow(10.0, -accuracy.digits - 4), least_tolerance);
+  integration.steps.steps_per_contact = 10 * std::pow(10.0, std::min(accuracy.digits, 9) / 3.0);
+  integration.evaluation_limit = accuracy.evaluation_limit;
+  return integration;
 }
 
-std::string words_for(const Simulation& run, const Options& options, double time) {
+std::string words_for(const Simulation& run, const Request& request, const Accuracy& accuracy, double time) {
   std::ostringstream text;
   switch (run.outcome) {
     case Outcome::no_further_impact: text << "nothing reaches the ground any more"; break;
-    case Outcome::impact_limit: text << "stopped after the " << options.impacts << " impacts asked for"; break;
+    case Outcome::impact_limit: text << "stopped after the " << request.impacts << " impacts asked for"; break;
     case Outcome::at_rest: text << "the body lies still on the ground from " << time << " s"; break;
     case Outcome::sustained_contact:
       text << "from " << time << " s the body slides or spins on the ground steadily, and no friction stops it";
       break;
     case Outcome::evaluation_limit:
-      text << "the contact after " << time << " s had not ended after " << options.evaluation_limit
+      text << "the contact after " << time << " s had not ended after " << accuracy.evaluation_limit
            << " force evaluations";
       break;
     case Outcome::step_too_small:
@@ -60,13 +60,21 @@ std::string words_for(const Simulation& run, const Options& options, double time
 }
 
 /// The input has been checked: a value that leaves the domain of a formula during the run is no fault of the input.
-DropRun run_checked(const Body& body, const Ground& ground, const MotionState& start, const Options& options,
-                    const Accuracy& accuracy, const RunExtras& extras) {
+DropRun run_checked(const Body& body, const World& world, const MotionState& start, const Request& request,
+                    const Integration& integration, const Observer& observer) {
   try {
-    return run_drop(body, ground, start, options, accuracy, extras);
+    return run_drop(body, world, start, request, integration, observer);
   } catch (const std::domain_error& error) {
     throw NumericalError(std::string("the drop cannot be computed in double precision: ") + error.what());
   }
+}
+
+void check_start(const Body& body, const MotionState& start) {
+  const bool finite = start.centre.allFinite() && start.attitude.coeffs().allFinite() && start.velocity.allFinite() &&
+                      start.angular_velocity.allFinite();
+  if (!finite) throw std::domain_error("the start: every number of the state must be finite");
+  const double low = lowest_height(body, start);
+  detail::require(low >= -1e-12 * body.radius(), "height of the lowest point", low, "at least 0");
 }
 
 }  // namespace
@@ -96,38 +104,31 @@ MotionState touching_state(const Body& body, const Drop& drop) {
   return on_ground(body, state);
 }
 
-Simulation simulate(const Body& body, const Ground& ground, const MotionState& start, const Options& options) {
-  options.validate();
-  ground.validate();
-  const bool finite = start.centre.allFinite() && start.attitude.coeffs().allFinite() && start.velocity.allFinite() &&
-                      start.angular_velocity.allFinite();
-  if (!finite) throw std::domain_error("the start: every number of the state must be finite");
-  const double low = lowest_height(body, start);
-  detail::require(low >= -1e-12 * body.radius(), "height of the lowest point", low, "at least 0");
-  const Accuracy accuracy = accuracy_for(options);
-  DropRun main = run_checked(
-      body, ground, start, options, accuracy,
-      {.amplification = options.amplification,
-       .local_slip = options.error_estimates && ground.has_friction() && ground.friction == FrictionLaw::coulomb,
-       .history = options.history,
-       .progress = options.progress ? &options.progress : nullptr});
+Simulation simulate(const Body& body, const World& world, const MotionState& start, const Request& request,
+                    const Accuracy& accuracy, const Observer& observer) {
+  accuracy.validate();
+  request.validate();
+  world.validate();
+  check_start(body, start);
+  const Integration integration = integration_for(accuracy);
+  DropRun main = run_checked(body, world, start, request, integration, observer);
   Simulation simulation;
   simulation.outcome = main.outcome;
-  simulation.method = accuracy.method;
-  simulation.tolerance = is_adaptive(accuracy.method) ? accuracy.tolerance : 0;
+  simulation.method = integration.method;
+  simulation.tolerance = is_adaptive(integration.method) ? integration.steps.tolerance : 0;
   simulation.step = main.step;
   simulation.force_evaluations = main.force_evaluations;
   simulation.root_evaluations = main.root_evaluations;
   simulation.energy_start = main.energy_start;
   simulation.final_state = main.final_state;
   simulation.impacts = std::move(main.impacts);
-  simulation.message = words_for(simulation, options, main.end_time);
-  const bool wants_estimates = options.error_estimates && simulation.outcome != Outcome::interrupted;
+  simulation.message = words_for(simulation, request, accuracy, main.end_time);
+  const bool wants_estimates = request.error_estimates && simulation.outcome != Outcome::interrupted;
   if (wants_estimates && !simulation.impacts.empty()) {
-    Options fewer = options;
-    fewer.impacts = static_cast<int>(simulation.impacts.size());
-    const SecondRun second = second_run(accuracy, main.step);
-    const DropRun other = run_checked(body, ground, start, fewer, second.accuracy, {});
+    const Request same_impacts{
+        .impacts = static_cast<int>(simulation.impacts.size()), .error_estimates = false, .amplification = false};
+    const SecondRun second = second_run(integration, main.step);
+    const DropRun other = run_checked(body, world, start, same_impacts, second.integration, {});
     simulation.force_evaluations += other.force_evaluations;
     simulation.root_evaluations += other.root_evaluations;
     estimate_errors(body, second.error_per_distance, simulation.impacts, other.impacts);

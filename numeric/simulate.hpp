@@ -4,11 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "numeric/body.hpp"
-#include "numeric/contact/ground.hpp"
-#include "numeric/impact_record.hpp"
+#include "numeric/body/body.hpp"
+#include "numeric/drop/impact_record.hpp"
+#include "numeric/drop/settings.hpp"
 #include "numeric/motion/motion_state.hpp"
-#include "numeric/options.hpp"
 
 namespace clatter::numeric {
 
@@ -44,8 +43,9 @@ struct Drop {
 [[nodiscard]] MotionState touching_state(const Body& body, const Drop& drop);
 
 /// Runs the drop from the state `start`, whose lowest vertex lies at or above the ground.
-/// @throws std::domain_error if options or ground are not valid or the start lies below the ground.
-[[nodiscard]] Simulation simulate(const Body& body, const Ground& ground, const MotionState& start,
-                                  const Options& options);
+/// @throws std::domain_error if world, request or accuracy are not valid or the start lies below the ground.
+[[nodiscard]] Simulation simulate(const Body& body, const World& world, const MotionState& start,
+                                  const Request& request = {}, const Accuracy& accuracy = {},
+                                  const Observer& observer = {});
 
 }  // namespace clatter::numeric

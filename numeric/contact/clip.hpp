@@ -1,7 +1,7 @@
 // Clipping of surface polygons: the contact polygons of Figs. 3 and 4 of Shan et al. (2005).
 #pragma once
 
-#include "numeric/linear_algebra.hpp"
+#include "numeric/base/linear_algebra.hpp"
 
 namespace clatter::numeric {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "numeric/body.hpp"
+#include "numeric/body/body.hpp"
 #include "numeric/contact/ground.hpp"
 #include "numeric/contact/patch_integrals.hpp"
 
@@ -59,7 +59,8 @@ struct SlipRange {
   [[nodiscard]] double width() const;
 };
 
-/// The load, per unit of k_G and c_G as the law f_n = (k_G + c_G δ̇) δ combines them.
+/// The normal part of Eq. 4 of Shan et al. (2005), F_n = ∫f_n with f_n = (k_G + c_G δ̇) δ, and of Eq. 7, ∫f_n u; with
+/// what friction, events and the ledger of energy need.
 struct ContactLoad {
   double force = 0;                        ///< F_n [N]
   Vector3 first_moment = Vector3::Zero();  ///< ∫f_n u, body frame [N·m]

@@ -1,4 +1,4 @@
-// The state of a contact that is stepped: a vector with named blocks.
+// The state of a contact that is stepped, U of Eq. 3 of Shan et al. (2005): a vector with named blocks.
 #pragma once
 
 #include <Eigen/Core>
@@ -36,5 +36,8 @@ template <class State>
 auto works(State& y) {
   return y.template tail<3>();
 }
+[[nodiscard]] inline double damping_work(const ContactState& y) { return works(y)[0]; }
+[[nodiscard]] inline double released_work(const ContactState& y) { return works(y)[1]; }
+[[nodiscard]] inline double friction_work(const ContactState& y) { return works(y)[2]; }
 
 }  // namespace clatter::numeric

@@ -25,7 +25,8 @@ AlongGround slip_at(const GroundView& view, const Vector3& u) {
 double AlongGround::norm() const { return std::hypot(east, north); }
 
 ContactSystem::ContactSystem(const Body& body, const Ground& ground, double gravity, bool planar)
-    : body_(body), ground_(ground), gravity_(gravity), planar_(planar), loader_(body, ground) {}
+    : body_(body), ground_(ground), gravity_(gravity), planar_(planar), equations_(body.mass(), body.inertia()),
+      loader_(body, ground) {}
 
 void ContactSystem::begin(const MotionState& touch) {
   touch_ = touch;
@@ -66,13 +67,12 @@ GroundView ContactSystem::view(const ContactState& y) const {
 }
 
 Vector3 ContactSystem::angular_acceleration(const Vector3& moment, const Vector3& omega) const {
-  return response(planar_ ? moment : Vector3(moment - omega.cross(body_.inertia() * omega)));
+  return planar_ ? response(moment) : equations_.angular(omega, moment);
 }
 
 /// Angular acceleration that a moment causes by itself.
 Vector3 ContactSystem::response(const Vector3& moment) const {
-  if (planar_) return north_ * (north_.dot(moment) / north_.dot(body_.inertia() * north_));
-  return body_.inverse_inertia() * moment;
+  return planar_ ? equations_.response_about(north_, moment) : equations_.response(moment);
 }
 
 void ContactSystem::derivative(const ContactState& y, ContactState& rate) { evaluate(y, rate, nullptr, nullptr); }
@@ -105,7 +105,7 @@ void ContactSystem::evaluate(const ContactState& y, ContactState& rate, ContactD
              view.normal(),
              presses ? load.pressure_centre() : Vector3::Zero(),
              Vector3::Zero(),
-             load.force / body_.mass() - gravity_,
+             equations_.linear({0, 0, load.force}).z() - gravity_,
              {}};
   at.moment = load.first_moment.cross(at.normal);
   at.slip = slip_at(view, at.centre);
@@ -119,7 +119,7 @@ void ContactSystem::evaluate(const ContactState& y, ContactState& rate, ContactD
   displacement(rate) = velocity(y);
   euler_parameters(rate)[0] = -0.5 * e.dot(omega);
   euler_parameters(rate).tail<3>() = 0.5 * (b * omega + e.cross(omega));
-  velocity(rate) << friction.force.east / body_.mass(), friction.force.north / body_.mass(), at.rise;
+  velocity(rate) = equations_.linear({friction.force.east, friction.force.north, load.force}) - Vector3(0, 0, gravity_);
   angular_velocity(rate) = alpha;
   works(rate) << load.damping_power, load.release_power, friction.power;
   if (!diagnosis) return;
@@ -179,10 +179,7 @@ double ContactSystem::vertical_spin(const ContactState& y) const {
 
 AlongGround ContactSystem::sticking_ratio(const Vector3& u) const {
   const auto acceleration = [&](const Vector3& force) {
-    const Vector3 alpha = planar_
-                              ? Vector3(north_ * (north_.dot(u.cross(force)) / north_.dot(body_.inertia() * north_)))
-                              : Vector3(body_.inverse_inertia() * u.cross(force));
-    return Vector3(force / body_.mass() + alpha.cross(u));
+    return Vector3(equations_.linear(force) + response(u.cross(force)).cross(u));
   };
   const Vector3 free = acceleration(plane_.normal), by_east = acceleration(east_), by_north = acceleration(north_);
   if (planar_) return {-east_.dot(free) / east_.dot(by_east), 0};

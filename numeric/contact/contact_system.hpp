@@ -1,9 +1,10 @@
-// The equations of motion of a body in contact with the ground, Newton–Euler with Euler parameters.
+// The equations of motion of a body in contact with the ground: the right side of Eq. 3 of Shan et al. (2005).
 #pragma once
 
 #include "numeric/contact/contact_load.hpp"
 #include "numeric/contact/contact_state.hpp"
 #include "numeric/motion/motion_state.hpp"
+#include "numeric/motion/newton_euler.hpp"
 
 namespace clatter::numeric {
 
@@ -50,13 +51,14 @@ struct LocalFriction {
   double range = 0;                  ///< of slip velocities over the patch [m/s]
 };
 
-///     m V̇ = F_c − m g e_z,   I ω̇′ + ω′ × I ω′ = M′,   β̇ = ½ β ω′,
-///     F_c = F_n e_z + F_t,   M′ = ∫f_n u × n′ + (friction)
-/// Slip: F_t = −μ_k F_n d at the pressure centre c, d the direction of the slip velocity there; if the body spins
-/// about the vertical, −μ_k ∫f_n v/|v| over the patch taken as flat, with its moment about the vertical.  (The slip of
-/// its points differs by the turning about the horizontal times their depth too: FrictionLaw::local.)
-/// Local slip: −μ_k ∫f_n v/|v|, v the velocity of each point, with its moment.
-/// Stick: F_t at c such that
+/// U̇ = R(U), Eq. 3 of Shan et al. (2005), with their Eqs. 1 and 2 in the form of Newton and Euler (NewtonEuler):
+///     ṙ = V,   β̇ = ½ β ω′,   m V̇ = F_c − m g e_z,   I ω̇′ + ω′ × I ω′ = M′,
+///     F_c = ∫f_c = F_n e_z + F_t                                      (Eq. 4)
+///     M′  = ∫u × f_c = ∫f_n u × n′ + (friction's)                      (Eq. 7)
+/// Slip, Eq. 6: F_t = −μ_k F_n d at the pressure centre c, d the direction of the slip velocity there; if the body
+/// spins about the vertical, −μ_k ∫f_n v/|v| over the patch taken as flat, with its moment about the vertical.  (The
+/// slip of its points differs by the turning about the horizontal times their depth too: FrictionLaw::local.) Local
+/// slip: −μ_k ∫f_n v/|v|, v the velocity of each point, with its moment. Stick, Eq. 5: F_t at c such that
 ///     d/dt v_t(c) = [V̇ + ω̇ × c + ω × (ω × c) + ω × ċ]_t = 0,
 /// ċ being the pressure centre's motion over the body, so that c stays at rest although it moves
 /// (or comes to rest, like exp(−fading × time), if it was caught with a little slip left).  |F_t| <= μ_s F_n: stick
@@ -67,6 +69,7 @@ class ContactSystem {
 
   /// Sets the pose and velocity at touch-down.
   void begin(const MotionState& touch);
+  [[nodiscard]] const MotionState& touch_down() const { return touch_; }
   [[nodiscard]] ContactState initial() const;
   [[nodiscard]] MotionState motion(const ContactState& y) const;
 
@@ -126,6 +129,7 @@ class ContactSystem {
   const Ground& ground_;
   double gravity_;
   bool planar_;
+  NewtonEuler equations_;
   ContactLoader loader_;
   MotionState touch_;
   GroundPlane plane_;

@@ -1,6 +1,6 @@
 #include "numeric/contact/ground.hpp"
 
-#include "numeric/detail/require.hpp"
+#include "numeric/base/require.hpp"
 
 namespace clatter::numeric {
 

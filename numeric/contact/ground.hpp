@@ -27,7 +27,7 @@ enum class FrictionLaw {
   /// presumed sticking location", as in `coulomb`.)  While the patch turns about the horizontal its points slip at
   /// different speeds, over a range of about |ω| times the depth, and at most a line of them rests: friction changes
   /// continuously from −μ_k F_n to μ_k F_n while the slip of the pressure centre crosses that range, and nothing
-  /// sticks.  Where the range is below what the tolerance resolves (slip_resolution, local_slip.cpp) the patch
+  /// sticks.  Where the range is below what the tolerance resolves (slip_resolution, friction_phases.cpp) the patch
   /// counts as a point, as in `coulomb`: that is the law's limit, with the resultant that keeps the point at rest, at
   /// most μ_k F_n.  The equations are stiff there, and since the slip forgets its start at the rate μ_k F_n over
   /// mass times range, the error is of second order.  A facet that lies flat slips as one while others do not: there
@@ -35,8 +35,8 @@ enum class FrictionLaw {
   local,
 };
 
-/// f_n = (k_G + c_G δ̇) δ per unit area where the surface lies δ > 0 below z = 0, clamped at zero: the ground
-/// never pulls.
+/// The load of Eq. 4 of Shan et al. (2005): f_n = (k_G + c_G δ̇) δ per unit area where the surface lies δ > 0 below z =
+/// 0, clamped at zero: the ground never pulls.
 struct Ground {
   double stiffness = 1e9;       ///< k_G [N/m³], > 0
   double damping = 0;           ///< c_G [N·s/m⁴], >= 0

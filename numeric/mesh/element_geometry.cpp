@@ -4,7 +4,7 @@
 #include <limits>
 #include <sstream>
 
-#include "numeric/errors.hpp"
+#include "numeric/base/errors.hpp"
 
 namespace clatter::numeric {
 namespace {

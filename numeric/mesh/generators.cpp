@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "numeric/detail/require.hpp"
+#include "numeric/base/require.hpp"
 
 namespace clatter::numeric {
 namespace {

@@ -1,7 +1,7 @@
 // Euler parameters of an attitude, in the paper's matrices.
 #pragma once
 
-#include "numeric/linear_algebra.hpp"
+#include "numeric/base/linear_algebra.hpp"
 
 namespace clatter::numeric {
 

@@ -1,7 +1,7 @@
 // Free flight in closed form, and the next touch-down.
 #pragma once
 
-#include "numeric/body.hpp"
+#include "numeric/body/body.hpp"
 #include "numeric/motion/free_rotation.hpp"
 #include "numeric/motion/motion_state.hpp"
 

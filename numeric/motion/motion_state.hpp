@@ -1,7 +1,7 @@
 // Position, attitude and velocity of a rigid body.
 #pragma once
 
-#include "numeric/linear_algebra.hpp"
+#include "numeric/base/linear_algebra.hpp"
 
 namespace clatter::numeric {
 

@@ -1,7 +1,7 @@
 // Principal moments and axes of an inertia tensor.
 #pragma once
 
-#include "numeric/linear_algebra.hpp"
+#include "numeric/base/linear_algebra.hpp"
 
 namespace clatter::numeric {
 

@@ -1,7 +1,7 @@
 // Attitude and angular velocity of a rigid body.
 #pragma once
 
-#include "numeric/linear_algebra.hpp"
+#include "numeric/base/linear_algebra.hpp"
 
 namespace clatter::numeric {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "numeric/contact/contact_system.hpp"
-#include "numeric/impact_record.hpp"
 #include "numeric/stepping/contact_scales.hpp"
+#include "numeric/stepping/friction_mode.hpp"
 
 namespace clatter::numeric {
 

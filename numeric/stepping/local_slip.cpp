@@ -4,17 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "numeric/stepping/contact_run.hpp"
-
 namespace clatter::numeric {
 namespace {
 
-using Kind = FrictionPhase::Kind;
-
-constexpr double slip_resolution = 100;       ///< times tolerance and the contact's speed: a range of slip that counts
-constexpr double least_resolution = 1e-9;     ///< of that speed
-constexpr double turning_resolution = 1e-13;  ///< of that speed: a range above it comes from turning, not rounding
-constexpr double steps_of_range = 4;          ///< of a fixed length within which friction may cross the range
 constexpr double enough = 1e-9;  ///< of the bound of friction: a difference of the laws that needs no solving
 constexpr double parts_per_range = 4, most_parts = 32;  ///< of a step
 constexpr int sweeps = 2, most_trials = 12;
@@ -106,41 +98,6 @@ void LocalSlipEstimate::part_of_step(ContactSystem& system, const ContactState& 
   slip_ = slip;
   impulse_.east += needed.east;
   impulse_.north += needed.north;
-}
-
-/// Of the local law: between a patch that counts as a point, which can stick, and one whose points slip each for
-/// itself.
-void ContactRun::watch_local_slip() {
-  const Ground& ground = system_.ground();
-  if (ground.friction != FrictionLaw::local || !ground.has_friction()) return;
-  FrictionPhase phase = system_.phase();
-  const double range = system_.slip_range(now_.state).width();
-  double resolved = std::max(slip_resolution * control_->tolerance, least_resolution);
-  // Within fewer steps of fixed length friction would overshoot from one end of the range to the other.
-  if (stepper_.error_order() == 0) resolved += steps_of_range * ground.sliding_friction * result_.step / scales_.time;
-  resolved *= scales_.speed;
-  phase.turns = range > turning_resolution * scales_.speed;
-  phase.floor = resolved;
-  if (phase.kind != Kind::local && range > resolved) {
-    change_kind(phase, Kind::local, phase.direction);
-  } else if (phase.kind == Kind::local && range < resolved / 2) {
-    const AlongGround& slip = now_.diagnosis.slip;
-    const double speed = slip.norm();
-    if (speed > range) change_kind(phase, Kind::slip, slip * (1 / speed));
-    else change_kind(phase, Kind::stick, {});
-  } else {
-    system_.set_phase(phase);
-  }
-}
-
-void ContactRun::change_kind(const FrictionPhase& from, FrictionPhase::Kind kind, const AlongGround& direction) {
-  log_.close(system_.phase(), sums());
-  start_phase(kind, direction);
-  FrictionPhase phase = system_.phase();
-  phase.turns = from.turns;
-  phase.floor = from.floor;
-  system_.set_phase(phase);
-  now_.diagnosis = system_.diagnose(now_.state, now_.rate);
 }
 
 }  // namespace clatter::numeric

@@ -1,4 +1,4 @@
-// One step of a Runge–Kutta method.
+// One step of a Runge–Kutta method for Eq. 3 of Shan et al. (2005), U̇ = R(U).
 #pragma once
 
 #include <memory>

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "numeric/body.hpp"
+#include "numeric/body/body.hpp"
 
 namespace clatter::numeric {
 

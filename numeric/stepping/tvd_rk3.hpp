@@ -5,7 +5,8 @@
 
 namespace clatter::numeric {
 
-/// Third-order total-variation-diminishing Runge–Kutta method of Shu and Osher (1988):
+/// Integrates Eq. 3 of Shan et al. (2005) as they did: third-order total-variation-diminishing Runge–Kutta method of
+/// Shu and Osher (1988):
 ///     y₁ = y + h f(y),   y₂ = ¾ y + ¼ (y₁ + h f(y₁)),   y(t+h) = ⅓ y + ⅔ (y₂ + h f(y₂)).
 class TvdRk3 final : public Stepper {
  public:

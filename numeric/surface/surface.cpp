@@ -7,7 +7,7 @@
 #include <string>
 #include <tuple>
 
-#include "numeric/errors.hpp"
+#include "numeric/base/errors.hpp"
 #include "numeric/mesh/element_geometry.hpp"
 #include "numeric/surface/edges.hpp"
 

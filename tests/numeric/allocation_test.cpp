@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <new>
 
+#include "numeric/motion/touch_point.hpp"
 #include "numeric/stepping/contact_run.hpp"
-#include "numeric/touch_point.hpp"
 #include "tests/numeric/bodies.hpp"
 
 namespace {

@@ -25,18 +25,21 @@ inline Body phone(int nx = 1, int ny = 1, int nz = 1, bool merge = true) {
 /// The paper's rod.
 inline Body rod() { return Body(rod_mesh({})); }
 
-/// Without estimates, so that the work is one run's.
-inline Options plain_options() {
-  Options options;
-  options.gravity = 0;
-  options.impacts = 1;
-  options.error_estimates = false;
-  options.amplification = false;
-  return options;
+/// One impact without estimates, so that the work is one run's.
+inline constexpr Request plain{.impacts = 1, .error_estimates = false, .amplification = false};
+/// The same with more impacts.
+inline Request plain_impacts(int impacts) {
+  return {.impacts = impacts, .error_estimates = false, .amplification = false};
 }
 
-inline Simulation drop(const Body& body, const Ground& ground, double angle, double speed, const Options& options) {
-  return simulate(body, ground, touching_state(body, {.inclination = angle, .velocity = {0, 0, -speed}}), options);
+inline World weightless(const Ground& ground, bool planar = false) {
+  return {.ground = ground, .gravity = 0, .planar = planar};
+}
+
+inline Simulation drop(const Body& body, const World& world, double angle, double speed, const Accuracy& accuracy = {},
+                       const Observer& observer = {}) {
+  return simulate(body, world, touching_state(body, {.inclination = angle, .velocity = {0, 0, -speed}}), plain,
+                  accuracy, observer);
 }
 
 }  // namespace clatter::numeric::test

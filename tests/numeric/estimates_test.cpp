@@ -6,20 +6,13 @@
 #include <random>
 #include <vector>
 
-#include "numeric/error_estimates.hpp"
+#include "numeric/drop/error_estimates.hpp"
 #include "tests/numeric/bodies.hpp"
 
 namespace {
 
 using namespace clatter::numeric;
 using namespace clatter::numeric::test;
-
-Options options_for(int digits, int impacts) {
-  Options options;
-  options.digits = digits;
-  options.impacts = impacts;
-  return options;
-}
 
 MotionState dropped(const Body& body, double angle, double tilt = 0) {
   return touching_state(body,
@@ -39,16 +32,18 @@ struct RandomDrop {
       return std::uniform_real_distribution<double>(low, high)(random);
     };
     const double friction = i % 3 == 0 ? 0 : between(0, 0.8);
-    ground = {.stiffness = std::pow(10, between(7, 11)),
-              .damping = i % 4 == 0 ? 0 : std::pow(10, between(5, 8)),
-              .static_friction = friction,
-              .sliding_friction = friction};
+    world.ground = {.stiffness = std::pow(10, between(7, 11)),
+                    .damping = i % 4 == 0 ? 0 : std::pow(10, between(5, 8)),
+                    .static_friction = friction,
+                    .sliding_friction = friction};
     start = dropped(body, between(1, 80), i % 5 == 0 ? between(0, 20) : 0);
   }
-  [[nodiscard]] Simulation run(const Options& options) const { return simulate(body, ground, start, options); }
+  [[nodiscard]] Simulation run(const Request& request, const Accuracy& accuracy) const {
+    return simulate(body, world, start, request, accuracy);
+  }
 
   const Body& body;
-  Ground ground;
+  World world;
   MotionState start;
 };
 
@@ -103,18 +98,15 @@ void check_coverage(Coverage& coverage) {
 }
 
 /// Truth is a run of the same drop with rk8pd at a tolerance of 1e-13.
-void check_bars(const std::vector<Options>& settings) {
+void check_bars(int impacts, const std::vector<Accuracy>& settings) {
   std::mt19937_64 random(11);
   const Body bodies[] = {phone(), rod()};
   Coverage coverage;
   for (int i = 0; i < random_drops; ++i) {
     const RandomDrop drop(bodies[i % 2], random, i);
-    Options fine = settings[0];
-    fine.method = Method::rk8pd;
-    fine.tolerance = 1e-13;
-    fine.step = 0;
-    fine.error_estimates = fine.amplification = false;
-    coverage.take(drop.run(settings[static_cast<std::size_t>(i) % settings.size()]).impacts, drop.run(fine).impacts);
+    const Accuracy& accuracy = settings[static_cast<std::size_t>(i) % settings.size()];
+    const Simulation truth = drop.run(plain_impacts(impacts), {.method = Method::rk8pd, .tolerance = 1e-13});
+    coverage.take(drop.run({.impacts = impacts}, accuracy).impacts, truth.impacts);
   }
   check_coverage(coverage);
 }
@@ -122,16 +114,13 @@ void check_bars(const std::vector<Options>& settings) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(error_bars_cover_95_of_100_errors_and_are_at_most_ten_times_them_in_the_median) {
-  std::vector<Options> settings;
+  std::vector<Accuracy> settings;
   for (const Method method : {Method::rkck, Method::rk8pd}) {
     for (const double tolerance : {1e-6, 1e-8, 1e-10, 3e-12}) {
-      Options options = options_for(6, 2);
-      options.method = method;
-      options.tolerance = tolerance;
-      settings.push_back(options);
+      settings.push_back({.method = method, .tolerance = tolerance});
     }
   }
-  check_bars(settings);
+  check_bars(2, settings);
 }
 
 /// Components out of the plane of motion, 0 in both runs, stay known.
@@ -163,24 +152,19 @@ BOOST_AUTO_TEST_CASE(a_number_in_which_two_runs_agree_by_chance_is_not_taken_for
 /// Steps are then as long as they may be, whatever the tolerance: a second run at a tenth of it alone would be the same
 /// run.
 BOOST_AUTO_TEST_CASE(error_bars_cover_where_the_tolerance_is_too_loose_to_shorten_a_step) {
-  std::vector<Options> settings;
+  std::vector<Accuracy> settings;
   for (const Method method : {Method::rkck, Method::rk8pd}) {
     for (const double tolerance : {1e-3, 1e-2, 1e-1}) {
-      settings.push_back(options_for(6, 1));
-      settings.back().method = method;
-      settings.back().tolerance = tolerance;
+      settings.push_back({.method = method, .tolerance = tolerance});
     }
   }
-  check_bars(settings);
+  check_bars(1, settings);
 }
 
 BOOST_AUTO_TEST_CASE(error_bars_of_the_fixed_step_method_do_so_too) {
-  std::vector<Options> settings;
-  for (const int digits : {3, 4, 5}) {
-    settings.push_back(options_for(digits, 2));
-    settings.back().method = Method::tvd_rk3;
-  }
-  check_bars(settings);
+  std::vector<Accuracy> settings;
+  for (const int digits : {3, 4, 5}) settings.push_back({.method = Method::tvd_rk3, .digits = digits});
+  check_bars(2, settings);
 }
 
 BOOST_AUTO_TEST_CASE(where_no_finer_run_is_to_be_had_a_coarser_one_gives_bars_that_cover) {
@@ -189,10 +173,9 @@ BOOST_AUTO_TEST_CASE(where_no_finer_run_is_to_be_had_a_coarser_one_gives_bars_th
   Coverage coverage;
   for (int i = 0; i < random_drops; ++i) {
     const RandomDrop drop(bodies[i % 2], random, i);
-    Options options = options_for(12, 2), other = options;
-    options.tolerance = 4e-13;
-    other.tolerance = least_tolerance;
-    coverage.take(drop.run(options).impacts, drop.run(other).impacts);
+    const Request request{.impacts = 2};
+    coverage.take(drop.run(request, {.digits = 12, .tolerance = 4e-13}).impacts,
+                  drop.run(request, {.digits = 12, .tolerance = least_tolerance}).impacts);
   }
   BOOST_TEST(coverage.covered() >= 0.95);
 }
@@ -201,14 +184,14 @@ BOOST_AUTO_TEST_CASE(where_no_finer_run_is_to_be_had_a_coarser_one_gives_bars_th
 /// λ = ω √((I₃ − I₂)(I₂ − I₁)/(I₁ I₃)); a nudge out of the plane of 1e-6 is far out of it at impact 3.
 BOOST_AUTO_TEST_CASE(the_amplification_is_that_of_a_neighbouring_drop) {
   const Body body = phone();
-  const Ground ground{.stiffness = 1e8, .damping = 1e7};
-  Options options = options_for(10, 2);
+  const World world{.ground = {.stiffness = 1e8, .damping = 1e7}};
   const MotionState start = dropped(body, 10);
-  const Simulation drop = simulate(body, ground, start, options);
+  const auto run = [&](const MotionState& from) { return simulate(body, world, from, {.impacts = 2}, {.digits = 10}); };
+  const Simulation drop = run(start);
   MotionState nudged = start;
   const double nudge = 1e-7;
   nudged.angular_velocity.y() += nudge * 4 / body.radius();
-  const Simulation other = simulate(body, ground, nudged, options);
+  const Simulation other = run(nudged);
   BOOST_REQUIRE(drop.impacts.size() == 2 && other.impacts.size() == 2);
   const double growth =
       (other.impacts[1].value.angular_velocity_after - drop.impacts[1].value.angular_velocity_after).norm() *
@@ -219,13 +202,13 @@ BOOST_AUTO_TEST_CASE(the_amplification_is_that_of_a_neighbouring_drop) {
 
 BOOST_AUTO_TEST_CASE(in_space_the_elastic_phone_is_unpredictable_after_impact_2_and_in_its_plane_it_is_not) {
   const Body body = phone();
-  Options options = options_for(6, 4);
-  const Simulation space = simulate(body, {.stiffness = 1e8}, dropped(body, 10), options);
+  World world{.ground = {.stiffness = 1e8}};
+  const Simulation space = simulate(body, world, dropped(body, 10), {.impacts = 4});
   BOOST_REQUIRE(space.impacts.size() == 4);
   BOOST_TEST(space.impacts[1].predictable);
   BOOST_TEST(!space.impacts[2].predictable);
-  options.planar = true;
-  const Simulation plane = simulate(body, {.stiffness = 1e8}, dropped(body, 10), options);
+  world.planar = true;
+  const Simulation plane = simulate(body, world, dropped(body, 10), {.impacts = 4});
   for (const ImpactRecord& row : plane.impacts) {
     BOOST_TEST(row.predictable);
     BOOST_TEST(row.value.angular_velocity_after.x() == 0);
@@ -235,13 +218,12 @@ BOOST_AUTO_TEST_CASE(in_space_the_elastic_phone_is_unpredictable_after_impact_2_
 
 BOOST_AUTO_TEST_CASE(the_method_is_chosen_from_step_and_digits) {
   const Body body = phone();
-  Options options = options_for(6, 1);
-  const auto method = [&] { return simulate(body, {.stiffness = 1e8}, dropped(body, 10), options).method; };
-  BOOST_TEST((method() == Method::rk8pd));
-  options.digits = 3;
-  BOOST_TEST((method() == Method::rkck));
-  options.step = 1e-5;
-  BOOST_TEST((method() == Method::tvd_rk3));
+  const auto method = [&](const Accuracy& accuracy) {
+    return simulate(body, {.ground = {.stiffness = 1e8}}, dropped(body, 10), {.impacts = 1}, accuracy).method;
+  };
+  BOOST_TEST((method({.digits = 6}) == Method::rk8pd));
+  BOOST_TEST((method({.digits = 3}) == Method::rkck));
+  BOOST_TEST((method({.digits = 3, .step = 1e-5}) == Method::tvd_rk3));
 }
 
 /// A numbering of nodes and elements is a matter of the mesh, not of the body.
@@ -260,9 +242,8 @@ BOOST_AUTO_TEST_CASE(the_numbering_of_nodes_and_elements_changes_nothing_beyond_
   for (const bool merge : {true, false}) {
     const auto impulse = [&](const Mesh& m) {
       const Body body(m, merge);
-      return simulate(body, {.stiffness = 1e8, .damping = 1e6}, dropped(body, 10, 5), options_for(12, 1))
-          .impacts.at(0)
-          .value.impulse;
+      const World world{.ground = {.stiffness = 1e8, .damping = 1e6}};
+      return simulate(body, world, dropped(body, 10, 5), {.impacts = 1}, {.digits = 12}).impacts.at(0).value.impulse;
     };
     const Vector3 a = impulse(mesh), b = impulse(shuffled);
     BOOST_TEST((a - b).norm() <= 1e-12 * a.norm());  // 1e-13 of the load, over the steps
@@ -273,10 +254,10 @@ BOOST_AUTO_TEST_CASE(the_numbering_of_nodes_and_elements_changes_nothing_beyond_
 /// of the contact, and no energy is lost.
 BOOST_AUTO_TEST_CASE(an_elastic_body_bounces_flat_for_ever) {
   const Body body = box_body({0.3, 0.2, 0.1}, 1);
-  Options options = options_for(8, 5);
   const double speed = 1;
   const MotionState start = touching_state(body, {.velocity = {0, 0, -speed}});
-  const Simulation run = simulate(body, {.stiffness = 1e8, .area = AreaMeasure::projected}, start, options);
+  const Simulation run = simulate(body, {.ground = {.stiffness = 1e8, .area = AreaMeasure::projected}}, start,
+                                  {.impacts = 5}, {.digits = 8});
   BOOST_REQUIRE(run.impacts.size() == 5);
   for (std::size_t i = 1; i < run.impacts.size(); ++i) {
     const ImpactNumbers &before = run.impacts[i - 1].value, &n = run.impacts[i].value;
@@ -287,11 +268,10 @@ BOOST_AUTO_TEST_CASE(an_elastic_body_bounces_flat_for_ever) {
 
 BOOST_AUTO_TEST_CASE(a_damped_body_comes_to_rest_where_the_ground_bears_its_weight) {
   const Body body = box_body({0.3, 0.2, 0.1}, 1);
-  Options options = options_for(6, 100);
-  options.amplification = options.error_estimates = false;
   const double k = 1e6, area = 0.06;
   const Ground ground{.stiffness = k, .damping = 1e7, .area = AreaMeasure::projected};
-  const Simulation run = simulate(body, ground, touching_state(body, {.velocity = {0, 0, -0.5}}), options);
+  const Simulation run =
+      simulate(body, {.ground = ground}, touching_state(body, {.velocity = {0, 0, -0.5}}), plain_impacts(100));
   BOOST_REQUIRE((run.outcome == Outcome::at_rest));
   BOOST_TEST(0.05 - run.final_state.centre.z() == 9.81 / (k * area), boost::test_tools::tolerance(1e-4));
   BOOST_TEST(run.impacts.back().energy_stored > 0);

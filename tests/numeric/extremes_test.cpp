@@ -22,11 +22,9 @@ bool all_finite(const ImpactRecord& row) {
 
 /// Finite rows that close their ledger, or none and an outcome other than the good ones; and within the work allowed.
 void check(const Body& body, const Ground& ground, const MotionState& start, double gravity, const std::string& name) {
-  Options options;
-  options.gravity = gravity;
-  options.impacts = 2;
-  options.evaluation_limit = 20'000;
-  const Simulation run = simulate(body, ground, start, options);
+  constexpr long limit = 20'000;
+  const Simulation run =
+      simulate(body, {.ground = ground, .gravity = gravity}, start, {.impacts = 2}, {.evaluation_limit = limit});
   BOOST_TEST_CONTEXT(name << ": " << run.message) {
     BOOST_TEST(!run.message.empty());
     const bool refused = run.outcome != Outcome::no_further_impact && run.outcome != Outcome::impact_limit &&
@@ -36,7 +34,7 @@ void check(const Body& body, const Ground& ground, const MotionState& start, dou
       BOOST_TEST(all_finite(row));
       BOOST_TEST(std::fabs(row.ledger_gap) <= 1e-6);
     }
-    BOOST_TEST(run.force_evaluations <= 10 * options.evaluation_limit);
+    BOOST_TEST(run.force_evaluations <= 10 * limit);
   }
 }
 
@@ -108,11 +106,8 @@ BOOST_AUTO_TEST_CASE(a_body_that_goes_right_through_the_ground_ends_in_numbers_o
 /// was once booked nowhere.
 BOOST_AUTO_TEST_CASE(a_shot_into_a_soft_damped_ground_keeps_its_ledger) {
   const Body body = box_body({0.043, 0.159, 0.035}, 6.5);
-  Options options;
-  options.gravity = 0;
-  options.impacts = 1;
   const MotionState start = touching_state(body, {.velocity = {0, 0, -168}, .out_of_plane_tilt = -1});
-  const Simulation run = simulate(body, {.stiffness = 8.9, .damping = 672}, start, options);
+  const Simulation run = simulate(body, weightless({.stiffness = 8.9, .damping = 672}), start, {.impacts = 1});
   BOOST_REQUIRE(run.impacts.size() == 1);
   BOOST_TEST(std::fabs(run.impacts[0].ledger_gap) <= 1e-9);
 }
@@ -121,11 +116,9 @@ BOOST_AUTO_TEST_CASE(a_shot_into_a_soft_damped_ground_keeps_its_ledger) {
 /// springs held from there on, up to a tenth of all, was given to the body.
 BOOST_AUTO_TEST_CASE(a_contact_shallower_than_its_touch_down_is_uncertain_is_refused) {
   const Body body = box_body({0.0230256, 0.000282138, 0.00308472}, 0.000324789);
-  Options options = plain_options();
-  options.gravity = 1.69094e-16;
-  options.impacts = 3;
   const MotionState start = touching_state(body, {.velocity = {0, 0, -3.64552e-05}});
-  const Simulation run = simulate(body, {.stiffness = 2.24028e10}, start, options);
+  const Simulation run =
+      simulate(body, {.ground = {.stiffness = 2.24028e10}, .gravity = 1.69094e-16}, start, plain_impacts(3));
   BOOST_TEST((run.outcome == Outcome::not_representable));
   for (const ImpactRecord& row : run.impacts) BOOST_TEST(std::fabs(row.ledger_gap) <= 1e-6);
 }
@@ -137,24 +130,32 @@ BOOST_AUTO_TEST_CASE(every_size_ends_in_numbers_or_a_reason) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(bad_options_are_refused_by_name) {
+BOOST_AUTO_TEST_CASE(a_bad_world_request_or_accuracy_is_refused_by_the_name_of_what_is_wrong) {
   const Body body = phone();
   const MotionState start = dropped(body, 10, 1);
-  const auto refused = [&](const Ground& ground, const Options& options, const std::string& word) {
+  const auto refused = [&](const World& world, const Request& request, const Accuracy& accuracy,
+                           const std::string& word) {
     BOOST_CHECK_EXCEPTION(
-        static_cast<void>(simulate(body, ground, start, options)), std::domain_error,
+        static_cast<void>(simulate(body, world, start, request, accuracy)), std::domain_error,
         [&](const std::domain_error& error) { return std::string(error.what()).find(word) != std::string::npos; });
   };
   const double nan = std::nan("");
-  refused({.stiffness = 0}, {}, "ground.stiffness");
-  refused({.stiffness = nan}, {}, "ground.stiffness");
-  refused({.damping = -1}, {}, "ground.damping");
-  refused({.static_friction = 0.1, .sliding_friction = 0.2}, {}, "ground.static_friction");
-  refused({}, {.digits = 1}, "run.digits");
-  refused({}, {.impacts = 0}, "run.impacts");
-  refused({}, {.gravity = nan}, "world.gravity");
-  refused({}, {.method = Method::rk8pd, .step = 1e-6}, "run.step");
+  refused({.ground = {.stiffness = 0}}, {}, {}, "ground.stiffness");
+  refused({.ground = {.stiffness = nan}}, {}, {}, "ground.stiffness");
+  refused({.ground = {.damping = -1}}, {}, {}, "ground.damping");
+  refused({.ground = {.static_friction = 0.1, .sliding_friction = 0.2}}, {}, {}, "ground.static_friction");
+  refused({.gravity = nan}, {}, {}, "world.gravity");
+  refused({.gravity = -1}, {}, {}, "world.gravity");
+  refused({}, {.impacts = 0}, {}, "run.impacts");
+  refused({}, {}, {.digits = 1}, "run.digits");
+  refused({}, {}, {.digits = 13}, "run.digits");
+  refused({}, {}, {.step = -1}, "run.step");
+  refused({}, {}, {.method = Method::rk8pd, .step = 1e-6}, "run.step");
+  refused({}, {}, {.tolerance = 1e-14}, "run.tolerance");
+  refused({}, {}, {.step = 1e-6, .tolerance = 1e-8}, "run.tolerance");
+  refused({}, {}, {.method = Method::tvd_rk3, .tolerance = 1e-8}, "run.tolerance");
+  refused({}, {}, {.evaluation_limit = 0}, "run.evaluation_limit");
   MotionState low = start;
   low.centre.z() -= 0.01;
-  BOOST_CHECK_THROW(static_cast<void>(simulate(body, {}, low, {})), std::domain_error);
+  BOOST_CHECK_THROW(static_cast<void>(simulate(body, {}, low)), std::domain_error);
 }

@@ -14,12 +14,8 @@ using namespace clatter::numeric::test;
 
 Simulation rod_at_45(double mu, double stiffness = 1e11, bool planar = false, HistoryRecorder* history = nullptr) {
   static const Body body = rod();
-  Options options = plain_options();
-  options.planar = planar;
-  options.history = history;
-  options.digits = 8;
   const Ground ground{.stiffness = stiffness, .static_friction = mu, .sliding_friction = mu};
-  return drop(body, ground, 45 * degree, 1, options);
+  return drop(body, weightless(ground, planar), 45 * degree, 1, {.digits = 8}, {.history = history});
 }
 
 double ratio(const ImpactNumbers& n) { return n.impulse.x() / n.impulse.z(); }
@@ -53,7 +49,7 @@ BOOST_AUTO_TEST_CASE(slip_in_one_direction_has_the_impulse_ratio_mu) {
 BOOST_AUTO_TEST_CASE(a_body_that_slides_feels_the_sliding_friction_alone) {
   const double sliding = 0.3;
   const Ground tilted{.stiffness = 1e11, .static_friction = 0.5, .sliding_friction = sliding};  // 0.586 would stick
-  const Simulation rod_run = drop(rod(), tilted, 45 * degree, 1, plain_options());
+  const Simulation rod_run = drop(rod(), weightless(tilted), 45 * degree, 1);
   BOOST_TEST((rod_run.impacts[0].mode == FrictionMode::slip));
   BOOST_TEST(std::fabs(ratio(rod_run.impacts[0].value)) == sliding, boost::test_tools::tolerance(1e-9));
   // A plate that slides at 10 m/s, by a law over its whole patch: (v_r/v)²/2 below the coefficient.
@@ -61,7 +57,7 @@ BOOST_AUTO_TEST_CASE(a_body_that_slides_feels_the_sliding_friction_alone) {
       .stiffness = 1e8, .static_friction = 0.5, .sliding_friction = sliding, .friction = FrictionLaw::regularised};
   const Body plate = phone();
   const MotionState start = touching_state(plate, {.velocity = {10, 0, -1}});
-  const Simulation plate_run = simulate(plate, local, start, plain_options());
+  const Simulation plate_run = simulate(plate, weightless(local), start, plain);
   BOOST_TEST(ratio(plate_run.impacts[0].value) == -sliding, boost::test_tools::tolerance(1e-7));
 }
 
@@ -107,7 +103,7 @@ BOOST_AUTO_TEST_CASE(slip_that_ends_sticks_or_turns_as_the_friction_allows) {
   const Body body = rod();
   const auto thrown = [&](double speed, double mu) {
     const MotionState start = touching_state(body, {.inclination = 45 * degree, .velocity = {speed, 0, -1}});
-    return simulate(body, {.stiffness = 1e11, .static_friction = mu, .sliding_friction = mu}, start, plain_options());
+    return simulate(body, weightless({.stiffness = 1e11, .static_friction = mu, .sliding_friction = mu}), start, plain);
   };
   BOOST_TEST((thrown(0.3, 0.7).impacts[0].mode == FrictionMode::slip_stick));
   BOOST_TEST((thrown(0.3, 0.2).impacts[0].mode == FrictionMode::reverse_slip));
@@ -119,7 +115,7 @@ BOOST_AUTO_TEST_CASE(slip_that_ends_sticks_if_the_static_friction_allows) {
   const Body body = rod();
   const MotionState start = touching_state(body, {.inclination = 45 * degree, .velocity = {0.3, 0, -1}});
   const Ground ground{.stiffness = 1e11, .static_friction = 0.7, .sliding_friction = 0.5};
-  BOOST_TEST((simulate(body, ground, start, plain_options()).impacts[0].mode == FrictionMode::slip_stick));
+  BOOST_TEST((simulate(body, weightless(ground), start, plain).impacts[0].mode == FrictionMode::slip_stick));
 }
 
 BOOST_AUTO_TEST_CASE(a_planar_drop_on_its_plane_and_in_space_are_the_same) {
@@ -138,11 +134,11 @@ BOOST_AUTO_TEST_CASE(friction_knows_no_direction_of_the_ground) {
   const Ground ground{.stiffness = 1e8, .damping = 1e6, .static_friction = 0.3, .sliding_friction = 0.2};
   MotionState start =
       touching_state(body, {.inclination = 0.4, .velocity = {1, 0.5, -2}, .spin = 3, .out_of_plane_tilt = 0.2});
-  const ImpactNumbers straight = simulate(body, ground, start, plain_options()).impacts[0].value;
+  const ImpactNumbers straight = simulate(body, weightless(ground), start, plain).impacts[0].value;
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.7, Vector3::UnitZ()));
   start.attitude = turn * start.attitude;
   start.velocity = turn * start.velocity;
-  const ImpactNumbers turned = simulate(body, ground, start, plain_options()).impacts[0].value;
+  const ImpactNumbers turned = simulate(body, weightless(ground), start, plain).impacts[0].value;
   BOOST_TEST((turned.impulse - turn * straight.impulse).norm() <= 1e-8 * straight.impulse.norm());
   BOOST_TEST((turned.angular_velocity_after - turn * straight.angular_velocity_after).norm() <=
              1e-7 * straight.angular_velocity_after.norm());
@@ -152,7 +148,7 @@ BOOST_AUTO_TEST_CASE(friction_knows_no_direction_of_the_ground) {
 BOOST_AUTO_TEST_CASE(the_regularised_law_tends_to_coulombs) {
   const Body body = rod();
   const auto impulse = [&](const Ground& ground) {
-    return drop(body, ground, 45 * degree, 1, plain_options()).impacts[0].value.impulse;
+    return drop(body, weightless(ground), 45 * degree, 1).impacts[0].value.impulse;
   };
   const Vector3 coulomb = impulse({.stiffness = 1e11, .static_friction = 0.3, .sliding_friction = 0.3});
   double previous = 1;
@@ -176,7 +172,7 @@ BOOST_AUTO_TEST_CASE(the_regularised_law_slows_a_spinning_plate) {
   start.angular_velocity = Vector3(0, 0, 10);
   const Ground ground{
       .stiffness = 1e8, .static_friction = 0.3, .sliding_friction = 0.3, .friction = FrictionLaw::regularised};
-  const Simulation run = simulate(body, ground, start, plain_options());
+  const Simulation run = simulate(body, weightless(ground), start, plain);
   const double spin = run.impacts[0].value.angular_velocity_after.z();
   BOOST_TEST(spin < 9.9);
   BOOST_TEST(spin > -10 * eps);  // it may come to rest, to rounding, and does not turn back

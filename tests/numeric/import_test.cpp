@@ -1,4 +1,4 @@
-#include "numeric/mesh/import.hpp"
+#include "numeric/files/import.hpp"
 
 #include <unistd.h>
 

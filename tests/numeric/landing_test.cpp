@@ -45,7 +45,7 @@ double restitution(double speed_number) {
 BOOST_AUTO_TEST_CASE(a_flat_landing_is_half_a_sine) {
   const double stiffness = 1e8, speed = 3;
   const Ground ground{.stiffness = stiffness, .area = AreaMeasure::projected};
-  const Simulation run = drop(box_body({0.3, 0.2, 0.1}, 2), ground, 0, speed, plain_options());
+  const Simulation run = drop(box_body({0.3, 0.2, 0.1}, 2), weightless(ground), 0, speed);
   check_half_sine(run, 2, 0.06, stiffness, speed);
   BOOST_TEST((run.impacts[0].end == ContactEnd::both));
 }
@@ -54,10 +54,8 @@ BOOST_AUTO_TEST_CASE(a_flat_landing_is_half_a_sine) {
 /// is mg + √((mg)² + m k_G A v²).  A soft ground, so that gravity matters.
 BOOST_AUTO_TEST_CASE(a_flat_landing_under_gravity_has_its_closed_form) {
   const double stiffness = 1e5, speed = 0.3, mass = 2, area = 0.06, g = 9.81;
-  Options options = plain_options();
-  options.gravity = g;
-  const Simulation run = drop(box_body({0.3, 0.2, 0.1}, mass), {.stiffness = stiffness, .area = AreaMeasure::projected},
-                              0, speed, options);
+  const World world{.ground = {.stiffness = stiffness, .area = AreaMeasure::projected}, .gravity = g};
+  const Simulation run = drop(box_body({0.3, 0.2, 0.1}, mass), world, 0, speed);
   BOOST_REQUIRE(run.impacts.size() == 1);
   const ImpactNumbers& n = run.impacts[0].value;
   const double frequency = std::sqrt(stiffness * area / mass);
@@ -72,7 +70,7 @@ BOOST_AUTO_TEST_CASE(a_flat_landing_under_gravity_has_its_closed_form) {
 BOOST_AUTO_TEST_CASE(an_upright_landing_is_half_a_sine) {
   const double stiffness = 1e10, r = 0.01;
   const Ground ground{.stiffness = stiffness, .area = AreaMeasure::projected};
-  const Simulation run = drop(rod(), ground, 90 * degree, 1, plain_options());
+  const Simulation run = drop(rod(), weightless(ground), 90 * degree, 1);
   check_half_sine(run, 1, 8 * r * r * std::sin(std::numbers::pi / 8), stiffness, 1);
   BOOST_TEST((run.impacts[0].end == ContactEnd::a));
 }
@@ -82,7 +80,7 @@ BOOST_AUTO_TEST_CASE(a_clockwise_spin_lifts_the_lower_end) {
   const double angle = 45 * degree, spin = 0.8;
   const Body body = rod();
   const MotionState start = touching_state(body, {.inclination = angle, .velocity = {0, 0, -1}, .spin = spin});
-  const Simulation run = simulate(body, {.stiffness = 1e11}, start, plain_options());
+  const Simulation run = simulate(body, weightless({.stiffness = 1e11}), start, plain);
   const double lift = spin * (0.5 * std::cos(angle) - 0.01 * std::sin(angle));
   BOOST_TEST(run.impacts[0].value.approach_speed == 1 - lift, boost::test_tools::tolerance(1e-13));  // rounding
 }
@@ -100,7 +98,7 @@ BOOST_AUTO_TEST_CASE(a_damped_flat_landing_has_the_restitution_of_lamberts_funct
   const double stiffness = 1e8, speed = 2;
   for (const double s : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.3, 1.0, 3.0, 10.0}) {
     const Ground ground{.stiffness = stiffness, .damping = s * stiffness / speed, .area = AreaMeasure::projected};
-    const Simulation run = drop(body, ground, 0, speed, plain_options());
+    const Simulation run = drop(body, weightless(ground), 0, speed);
     BOOST_REQUIRE(run.impacts.size() == 1);
     BOOST_TEST(run.impacts[0].value.restitution == restitution(s), boost::test_tools::tolerance(promised));
   }
@@ -110,7 +108,7 @@ BOOST_AUTO_TEST_CASE(a_damped_flat_landing_has_the_restitution_of_lamberts_funct
 BOOST_AUTO_TEST_CASE(a_flat_drop_of_any_mesh_starts_no_spin) {
   for (const bool merge : {true, false}) {
     for (const Body& body : {phone(1, 1, 1, merge), phone(7, 5, 3, merge), Body(rod_mesh({.sectors = 12}), merge)}) {
-      const Simulation run = drop(body, {.stiffness = 1e8, .damping = 1e6}, 0, 4, plain_options());
+      const Simulation run = drop(body, weightless({.stiffness = 1e8, .damping = 1e6}), 0, 4);
       BOOST_REQUIRE(run.impacts.size() == 1);
       BOOST_TEST(run.impacts[0].value.angular_velocity_after.norm() <= 1e-12 * 4 / body.radius());
     }
@@ -132,13 +130,12 @@ BOOST_AUTO_TEST_CASE(elastic_frictionless_impacts_lose_no_energy) {
   for (const auto& [digits, bound] : {std::pair{6, 1e-9}, {12, 1e-12}}) {
     for (const AreaMeasure area : {AreaMeasure::surface, AreaMeasure::projected}) {
       for (const Case& c : cases) {
-        Options options = plain_options();
-        options.digits = digits;
         const MotionState start = touching_state(c.body, {.inclination = c.angle * degree,
                                                           .velocity = {0.3, 0, -1},
                                                           .spin = 0.5,
                                                           .out_of_plane_tilt = c.tilt * degree});
-        const Simulation run = simulate(c.body, {.stiffness = c.stiffness, .area = area}, start, options);
+        const Simulation run =
+            simulate(c.body, weightless({.stiffness = c.stiffness, .area = area}), start, plain, {.digits = digits});
         BOOST_REQUIRE(run.impacts.size() == 1);
         BOOST_TEST(std::fabs(run.impacts[0].value.energy_loss) <= bound * run.energy_start);
       }
@@ -152,7 +149,7 @@ BOOST_AUTO_TEST_CASE(a_frictionless_contact_keeps_the_vertical_angular_momentum)
     MotionState start =
         touching_state(body, {.inclination = 0.5, .velocity = {0.4, -0.2, -3}, .out_of_plane_tilt = 0.3});
     start.angular_velocity = Vector3(20, -30, 40);
-    const Simulation run = simulate(body, {.stiffness = 1e8, .damping = 1e6}, start, plain_options());
+    const Simulation run = simulate(body, weightless({.stiffness = 1e8, .damping = 1e6}), start, plain);
     BOOST_REQUIRE(run.impacts.size() == 1);
     const auto vertical = [&](const MotionState& state) {
       return (state.attitude * (body.inertia() * state.angular_velocity)).z();
@@ -170,9 +167,6 @@ BOOST_AUTO_TEST_CASE(the_ledger_of_energy_closes) {
     for (const AreaMeasure area : {AreaMeasure::surface, AreaMeasure::projected}) {
       for (const double damping : {0.0, 1e6, 1e7, 1e8}) {
         for (const double friction : {0.0, 0.1, 0.9}) {
-          Options options = plain_options();
-          options.gravity = 9.81;
-          options.impacts = 4;
           const Body body = phone();
           const Ground ground{.stiffness = 1e8,
                               .damping = damping,
@@ -182,7 +176,7 @@ BOOST_AUTO_TEST_CASE(the_ledger_of_energy_closes) {
                               .friction = law};
           const MotionState start = touching_state(
               body, {.inclination = 0.3, .velocity = {0.5, 0.1, -3}, .spin = -20, .out_of_plane_tilt = 0.1});
-          const Simulation run = simulate(body, ground, start, options);
+          const Simulation run = simulate(body, {.ground = ground}, start, plain_impacts(4));
           BOOST_REQUIRE(!run.impacts.empty());
           for (const ImpactRecord& row : run.impacts) {
             BOOST_TEST(std::fabs(row.ledger_gap) <= promised);

@@ -33,8 +33,9 @@ constexpr Method methods[] = {Method::automatic, Method::tvd_rk3, Method::rk4,
 struct Scene {
   explicit Scene(unsigned number);
   Body body = phone();
-  Ground ground;
-  Options options;
+  World world;
+  Request request;
+  Accuracy accuracy;
   MotionState start;
 
  private:
@@ -51,22 +52,23 @@ Scene::Scene(unsigned number) : random_(number) {
   body = one_in(3) ? Body(rod_mesh({.length = 2 * length, .radius = thickness / 4, .mass = mass}))
                    : box_body({length, over(0.02, 0.3), thickness}, mass);
   const double angles[] = {0, 90, over(1e-3, 5), between(0, 90)}, tilts[] = {0, 90, between(0, 90)};
-  options.planar = one_in(2);
+  world.planar = one_in(2);
   const double speed = over(0.3, 5);
   start = touching_state(body, {.inclination = angles[of(4)] * degree,
                                 .velocity = {one_in(2) ? 0 : between(-2, 2), 0, -speed},
                                 .spin = one_in(2) ? 0 : between(-5, 5),
-                                .out_of_plane_tilt = options.planar ? 0 : tilts[of(3)] * degree});
+                                .out_of_plane_tilt = world.planar ? 0 : tilts[of(3)] * degree});
+  Ground& ground = world.ground;
   ground.stiffness = over(1e7, 1e11);
   ground.damping = one_in(2) ? 0 : over(0.003, 0.3) * ground.stiffness / speed;
   ground.sliding_friction = one_in(8) ? 0 : between(0, 2);
   ground.static_friction = one_in(2) ? ground.sliding_friction : between(ground.sliding_friction, 2);
   ground.area = one_in(2) ? AreaMeasure::surface : AreaMeasure::projected;
   ground.friction = one_in(8) ? FrictionLaw::regularised : FrictionLaw::coulomb;
-  options.method = methods[of(6)];
-  options.digits = 4 + of(2);
-  options.impacts = 1 + of(3);
-  options.gravity = one_in(2) ? 0 : 9.81;
+  accuracy.method = methods[of(6)];
+  accuracy.digits = 4 + of(2);
+  request.impacts = 1 + of(3);
+  world.gravity = one_in(2) ? 0 : 9.81;
 }
 
 bool is_number(const ImpactRecord& row) {
@@ -98,13 +100,10 @@ BOOST_AUTO_TEST_CASE(a_flat_or_upright_landing_with_friction_is_the_plain_reboun
       for (const double mu : {0.3, 1.0}) {
         for (const Method method : methods) {
           for (const bool planar : {true, false}) {
-            Options options = plain_options();
-            options.method = method;
-            options.planar = planar;
             Finite history;
-            options.history = &history;
-            const Simulation run = drop(body, {.stiffness = 1e9, .static_friction = mu, .sliding_friction = mu},
-                                        angle * degree, 2, options);
+            const Ground ground{.stiffness = 1e9, .static_friction = mu, .sliding_friction = mu};
+            const Simulation run =
+                drop(body, weightless(ground, planar), angle * degree, 2, {.method = method}, {.history = &history});
             BOOST_TEST_CONTEXT("angle " << angle << " mu " << mu << " method " << static_cast<int>(method)) {
               BOOST_REQUIRE(run.impacts.size() == 1);
               const ImpactNumbers& n = run.impacts[0].value;
@@ -130,8 +129,8 @@ BOOST_AUTO_TEST_CASE(random_scenes_with_friction_end_in_numbers) {
   for (unsigned number = 1; number <= count; ++number) {
     Scene scene(number);
     Finite history;
-    scene.options.history = &history;
-    const Simulation run = simulate(scene.body, scene.ground, scene.start, scene.options);
+    const Simulation run =
+        simulate(scene.body, scene.world, scene.start, scene.request, scene.accuracy, {.history = &history});
     BOOST_TEST_CONTEXT("scene " << number << ": " << run.message) {
       BOOST_TEST((run.outcome == Outcome::no_further_impact || run.outcome == Outcome::impact_limit ||
                   run.outcome == Outcome::at_rest || run.outcome == Outcome::sustained_contact));
@@ -163,10 +162,8 @@ BOOST_AUTO_TEST_CASE(sticking_never_takes_more_than_the_static_friction_gives_an
       for (const Body& body : {rod(), phone()}) {
         Bound bound;
         bound.mu = mu;
-        Options options = plain_options();
-        options.history = &bound;
         const Ground ground{.stiffness = 1e9, .static_friction = mu, .sliding_friction = mu / 2};
-        static_cast<void>(drop(body, ground, angle * degree, 1, options));
+        static_cast<void>(drop(body, weightless(ground), angle * degree, 1, {}, {.history = &bound}));
         BOOST_TEST(bound.beyond == 0);
         BOOST_TEST(bound.held_at_the_bound == 0);
       }
@@ -186,8 +183,8 @@ BOOST_AUTO_TEST_CASE(stick_under_a_fading_force_is_bounded_and_knows_that_it_can
     system.set_phase({.kind = FrictionPhase::Kind::stick, .direction = {}});
     for (const double depth : {1e-8, 1e-12, 1e-16, 1e-24, 1e-60}) {
       ContactState state = system.initial(), rate;
-      state[2] = -depth;
-      state[11] = 1;  // ω_y
+      displacement(state).z() = -depth;
+      angular_velocity(state).y() = 1;
       const ContactDiagnosis at = system.diagnose(state, rate);
       BOOST_TEST(at.load.force > 0);
       BOOST_TEST(at.friction.norm() <= mu * at.load.force * (1 + 1e-12));
@@ -207,12 +204,9 @@ BOOST_AUTO_TEST_CASE(a_late_release_does_not_depend_on_the_steps) {
   for (const Case& c : {Case{rod(), 60, 0, 0.6}, {phone(), 75, 0, 0.4}, {phone(), 75, 0.3, 0.7}}) {
     const Ground ground{.stiffness = 1e9, .static_friction = c.mu, .sliding_friction = 0};
     const auto impulse = [&](Method method, int digits) {
-      Options options = plain_options();
-      options.planar = true;
-      options.method = method;
-      options.digits = digits;
+      const Accuracy accuracy{.method = method, .digits = digits};
       const MotionState start = touching_state(c.body, {.inclination = c.angle * degree, .velocity = {c.slip, 0, -1}});
-      return Vector3(simulate(c.body, ground, start, options).impacts.at(0).value.impulse);
+      return Vector3(simulate(c.body, weightless(ground, true), start, plain, accuracy).impacts.at(0).value.impulse);
     };
     const Vector3 fine = impulse(Method::rk8pd, 10);
     for (const Method method : {Method::rkf45, Method::rkck, Method::rk8pd}) {
@@ -232,9 +226,6 @@ BOOST_AUTO_TEST_CASE(friction_over_faces_that_look_up_from_below_the_ground_neve
     for (const double stiffness : grounds) {
       for (const double tilt : {0.0, 20.0}) {
         const Body body = box_body({0.2, 0.1, 0.02}, 0.5);
-        Options options = plain_options();
-        options.impacts = 3;
-        options.gravity = 9.81;
         MotionState start = touching_state(
             body, {.inclination = 30 * degree, .velocity = {1, 0, -3}, .spin = -8, .out_of_plane_tilt = tilt * degree});
         const Ground ground{.stiffness = stiffness,
@@ -243,7 +234,7 @@ BOOST_AUTO_TEST_CASE(friction_over_faces_that_look_up_from_below_the_ground_neve
                             .sliding_friction = 1,
                             .area = AreaMeasure::projected,
                             .friction = law};
-        const Simulation run = simulate(body, ground, start, options);
+        const Simulation run = simulate(body, {.ground = ground}, start, plain_impacts(3));
         BOOST_TEST_CONTEXT("law " << static_cast<int>(law) << " k " << stiffness << ": " << run.message) {
           BOOST_TEST(!run.impacts.empty());
           for (const ImpactRecord& row : run.impacts) {
@@ -263,7 +254,7 @@ BOOST_AUTO_TEST_CASE(a_body_that_sinks_wholly_is_flagged_and_no_other) {
   const double speed = thickness * std::sqrt(stiffness * area / mass);
   for (const double part : {0.5, 0.98, 1.02, 3.0}) {
     const Simulation run =
-        drop(body, {.stiffness = stiffness, .area = AreaMeasure::projected}, 0, part * speed, plain_options());
+        drop(body, weightless({.stiffness = stiffness, .area = AreaMeasure::projected}), 0, part * speed);
     BOOST_REQUIRE(run.impacts.size() == 1);
     BOOST_TEST(run.impacts[0].submerged == (part > 1));
   }
@@ -271,7 +262,7 @@ BOOST_AUTO_TEST_CASE(a_body_that_sinks_wholly_is_flagged_and_no_other) {
 
 BOOST_AUTO_TEST_CASE(two_feet_that_land_at_once_are_two_touches_and_a_face_is_one) {
   const auto touches = [](const Body& body) {
-    const Simulation run = drop(body, {.stiffness = 1e9}, 0, 1, plain_options());
+    const Simulation run = drop(body, weightless({.stiffness = 1e9}), 0, 1);
     return run.impacts.empty() ? 0 : run.impacts[0].touches;
   };
   BOOST_TEST(touches(two_feet()) == 2);
@@ -316,12 +307,11 @@ BOOST_AUTO_TEST_CASE(an_impact_has_the_name_of_its_phases_of_friction) {
 /// A bounce 5·10¹⁰ m high: over the ground its lowest vertices are told apart to 10⁻⁵ m.
 BOOST_AUTO_TEST_CASE(the_history_of_a_high_flight_holds_numbers) {
   for (const double speed : {1e4, 1e6, 1e8}) {
-    Options options = plain_options();
-    options.gravity = 9.81;
-    options.impacts = 2;
     Finite history;
-    options.history = &history;
-    static_cast<void>(drop(phone(), {.stiffness = 1e8 * speed * speed}, 30 * degree, speed, options));
+    const Body body = phone();
+    const MotionState start = touching_state(body, {.inclination = 30 * degree, .velocity = {0, 0, -speed}});
+    const World world{.ground = {.stiffness = 1e8 * speed * speed}};
+    static_cast<void>(simulate(body, world, start, plain_impacts(2), {}, {.history = &history}));
     BOOST_TEST(history.rows > 20);
     BOOST_TEST(history.all);
   }
@@ -330,12 +320,10 @@ BOOST_AUTO_TEST_CASE(the_history_of_a_high_flight_holds_numbers) {
 /// k_G ∝ m v²/L⁴ keeps the motion similar; the determinant of the inertia, ∝ L⁶, once overflowed from 10⁵² m on.
 BOOST_AUTO_TEST_CASE(a_body_of_any_size_moves_like_one_of_a_metre) {
   const auto turning = [](double size) {
-    Options options = plain_options();
-    options.digits = 9;
     const Ground ground{.stiffness = 1e6 / (size * size) / (size * size)};
     const Body body = box_body(size * Vector3(1, 0.4, 0.2), 1);
     const MotionState start = touching_state(body, {.inclination = 10 * degree, .out_of_plane_tilt = 17 * degree});
-    const Simulation run = simulate(body, ground, start, options);
+    const Simulation run = simulate(body, weightless(ground), start, plain, {.digits = 9});
     BOOST_REQUIRE(run.impacts.size() == 1);
     BOOST_TEST(std::fabs(run.impacts[0].value.energy_loss) <= 1e-9 * run.energy_start);
     return Vector3(size * run.impacts[0].value.angular_velocity_after);
@@ -348,12 +336,10 @@ BOOST_AUTO_TEST_CASE(a_body_of_any_size_moves_like_one_of_a_metre) {
 
 /// The contact of a body that slides without friction never ends.
 BOOST_AUTO_TEST_CASE(a_body_that_nothing_stops_slides_on_and_the_run_ends_with_that) {
-  Options options = plain_options();
-  options.impacts = 100;
-  options.gravity = 9.81;
   const Body body = box_body({0.3, 0.2, 0.1}, 1);
   const Ground ground{.stiffness = 1e6, .damping = 1e7, .area = AreaMeasure::projected};
-  const Simulation run = simulate(body, ground, touching_state(body, {.velocity = {0.7, 0, -0.5}}), options);
+  const Simulation run =
+      simulate(body, {.ground = ground}, touching_state(body, {.velocity = {0.7, 0, -0.5}}), plain_impacts(100));
   BOOST_TEST((run.outcome == Outcome::sustained_contact));
   BOOST_TEST(run.final_state.velocity.x() == 0.7, boost::test_tools::tolerance(1e-9));
   BOOST_TEST(0.05 - run.final_state.centre.z() == 9.81 / (1e6 * 0.06), boost::test_tools::tolerance(1e-4));

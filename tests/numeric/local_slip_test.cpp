@@ -39,14 +39,7 @@ RandomScene random_scene(std::mt19937& random, bool planar) {
   return scene;
 }
 
-Options one_impact(bool planar, int digits) {
-  Options options;
-  options.planar = planar;
-  options.impacts = 1;
-  options.digits = digits;
-  options.amplification = false;
-  return options;
-}
+constexpr Request one_impact{.impacts = 1, .amplification = false};
 
 /// A box in its plane on the projected bed: each face cut into short pieces, each with its own pressure and slip; the
 /// classical Runge–Kutta method with short steps.
@@ -133,9 +126,9 @@ BOOST_AUTO_TEST_CASE(numbers_do_not_depend_on_how_a_face_is_meshed_whatever_the_
         RandomScene scene = random_scene(random, planar);
         scene.ground.friction = law;
         const Body whole = box_body(scene.size, 0.1), meshed = box_body(scene.size, 0.1, 8, 4, 4, false);
-        const Options options = one_impact(planar, 6);
-        const Simulation one = simulate(whole, scene.ground, touching_state(whole, scene.drop), options);
-        const Simulation other = simulate(meshed, scene.ground, touching_state(meshed, scene.drop), options);
+        const World world{.ground = scene.ground, .planar = planar};
+        const Simulation one = simulate(whole, world, touching_state(whole, scene.drop), one_impact);
+        const Simulation other = simulate(meshed, world, touching_state(meshed, scene.drop), one_impact);
         BOOST_TEST_REQUIRE(one.impacts.size() == other.impacts.size());
         if (one.impacts.empty()) continue;
         const ImpactNumbers &a = one.impacts[0].value, &b = other.impacts[0].value;
@@ -154,10 +147,13 @@ BOOST_AUTO_TEST_CASE(numbers_do_not_depend_on_how_a_face_is_meshed_whatever_the_
   BOOST_TEST(within >= 0.99 * compared, within << " of " << compared << " within their bars");
 }
 
-void check_mesh_independence(const Body& whole, const Body& meshed, const Ground& ground, const MotionState& start,
-                             const Options& options) {
-  const Simulation one = simulate(whole, ground, start, options), other = simulate(meshed, ground, start, options);
-  BOOST_TEST_REQUIRE(one.impacts.size() == static_cast<std::size_t>(options.impacts));
+/// Two impacts, to nine digits.
+void check_mesh_independence(const Body& whole, const Body& meshed, const World& world, const MotionState& start) {
+  const Request request{.impacts = 2};
+  const Accuracy accuracy{.digits = 9};
+  const Simulation one = simulate(whole, world, start, request, accuracy);
+  const Simulation other = simulate(meshed, world, start, request, accuracy);
+  BOOST_TEST_REQUIRE(one.impacts.size() == static_cast<std::size_t>(request.impacts));
   BOOST_TEST_REQUIRE(other.impacts.size() == one.impacts.size());
   const Comparison rows = compare_rows(one, other, true);
   BOOST_TEST(rows.unknown == 0);
@@ -170,31 +166,25 @@ void check_mesh_independence(const Body& whole, const Body& meshed, const Ground
 BOOST_AUTO_TEST_CASE(a_box_that_spins_on_its_corner_at_54_6_degrees_does_not_depend_on_its_mesh) {
   const Vector3 size(0.1, 0.05, 0.04);
   const Body whole = box_body(size, 0.1), meshed = box_body(size, 0.1, 16, 12, 8, false);
-  Ground ground{.stiffness = 1e8, .damping = 1e6, .static_friction = 0.6, .sliding_friction = 0.6};
-  Options options;
-  options.digits = 9;
-  options.impacts = 2;
+  const World world{.ground = {.stiffness = 1e8, .damping = 1e6, .static_friction = 0.6, .sliding_friction = 0.6}};
   for (const double tilt : {0.0, 25.0}) {
     MotionState start = touching_state(whole, {.inclination = 54.6 * degree, .out_of_plane_tilt = tilt * degree});
     start.angular_velocity = start.attitude.conjugate() * Vector3(0, 3, 40);
-    check_mesh_independence(whole, meshed, ground, start, options);
+    check_mesh_independence(whole, meshed, world, start);
   }
 }
 
 BOOST_AUTO_TEST_CASE(the_damped_phone_at_2_degrees_with_regularised_friction_does_not_depend_on_its_mesh) {
   const Body whole = phone(), meshed = phone(24, 10, 4, false);
-  const Ground ground{.stiffness = 1e8,
-                      .damping = 1e7,
-                      .static_friction = 0.075,
-                      .sliding_friction = 0.075,
-                      .friction = FrictionLaw::regularised};
-  Options options;
-  options.digits = 9;
-  options.impacts = 2;
-  options.planar = true;
+  const World world{.ground = {.stiffness = 1e8,
+                               .damping = 1e7,
+                               .static_friction = 0.075,
+                               .sliding_friction = 0.075,
+                               .friction = FrictionLaw::regularised},
+                    .planar = true};
   MotionState start = touching_state(whole, {.inclination = 2 * degree});
-  start.velocity = {0, 0, -std::sqrt(2 * options.gravity * (1 - start.centre.z()))};  // from 1 m
-  check_mesh_independence(whole, meshed, ground, start, options);
+  start.velocity = {0, 0, -std::sqrt(2 * world.gravity * (1 - start.centre.z()))};  // from 1 m
+  check_mesh_independence(whole, meshed, world, start);
 }
 
 /// The brute force sums some thousand pieces, whose friction jumps: 1e-3 of it at most; the flat patch is further off.
@@ -207,11 +197,11 @@ BOOST_AUTO_TEST_CASE(local_friction_is_that_of_each_place_by_its_own_slip) {
     scene.ground.area = AreaMeasure::projected;
     scene.ground.stiffness = 3e7;
     scene.ground.friction = FrictionLaw::local;
-    Options options = one_impact(true, 6);
-    options.gravity = 0;
     const Body body = box_body(scene.size, 0.1);
     const auto impulse = [&] {
-      return simulate(body, scene.ground, touching_state(body, scene.drop), options).impacts.at(0).value;
+      return simulate(body, weightless(scene.ground, true), touching_state(body, scene.drop), one_impact)
+          .impacts.at(0)
+          .value;
     };
     const ImpactNumbers local = impulse();
     const std::array<double, 2> brute = PlanarBox(scene, 0.1).run(local.duration / 1000);
@@ -235,10 +225,10 @@ BOOST_AUTO_TEST_CASE(what_a_flat_patch_leaves_out_is_estimated_to_a_factor_of_th
       RandomScene scene = random_scene(random, planar);
       const Body body = box_body(scene.size, 0.1);
       const MotionState start = touching_state(body, scene.drop);
-      const Options options = one_impact(planar, 6);
-      const Simulation flat = simulate(body, scene.ground, start, options);
-      scene.ground.friction = FrictionLaw::local;
-      const Simulation local = simulate(body, scene.ground, start, options);
+      World world{.ground = scene.ground, .planar = planar};
+      const Simulation flat = simulate(body, world, start, one_impact);
+      world.ground.friction = FrictionLaw::local;
+      const Simulation local = simulate(body, world, start, one_impact);
       if (flat.impacts.empty() || local.impacts.empty() || flat.impacts[0].touches > 1) continue;
       const Vector3 change = local.impacts[0].value.impulse - flat.impacts[0].value.impulse;
       const double actual = std::hypot(change.x(), change.y()), estimate = flat.impacts[0].local_slip;

@@ -26,14 +26,16 @@ struct Limits {
   double seconds = 180;  ///< of one fine run; beyond it, half the parts
 };
 
+constexpr int impacts = 3;
+
 struct Scene {
   bool is_rod = false;
   Vector3 size = Vector3::Zero();  ///< of a box [m]; a rod has length and radius in x and y
   int sectors = 16;                ///< of a rod
-  Ground ground;
+  World world;
+  Accuracy accuracy;
   Drop drop;
   Vector3 more_spin = Vector3::Zero();  ///< body frame [rad/s]
-  Options options;
   int law = 0;
 
   [[nodiscard]] Body body(int parts) const {
@@ -68,7 +70,7 @@ Scene random_scene(unsigned number) {
   } else {
     for (int i = 0; i < 3; ++i) scene.size[i] = decades(-2, -0.7);
   }
-  Ground& ground = scene.ground;
+  Ground& ground = scene.world.ground;
   ground.stiffness = decades(7, 10);
   ground.damping = chance(0.3) ? 0 : ground.stiffness * draw(0, 0.15);
   ground.sliding_friction = draw(0.05, 1);
@@ -81,10 +83,9 @@ Scene random_scene(unsigned number) {
                 .spin = chance(0.3) ? 0 : draw(-40, 40),
                 .out_of_plane_tilt = planar ? 0 : draw(-45, 45) * degree};
   if (!planar && chance(0.7)) scene.more_spin = {draw(-20, 20), 0, draw(-40, 40)};
-  scene.options.planar = planar;
-  scene.options.impacts = 3;
-  scene.options.digits = chance(0.5) ? 6 : 9;
-  scene.options.gravity = chance(0.2) ? 0 : 9.81;
+  scene.world.planar = planar;
+  scene.accuracy.digits = chance(0.5) ? 6 : 9;
+  scene.world.gravity = chance(0.2) ? 0 : 9.81;
   return scene;
 }
 
@@ -97,16 +98,15 @@ struct Fine {
 Fine fine_run(const Scene& scene, const Limits& limits, bool with_estimates) {
   using Clock = std::chrono::steady_clock;
   Fine fine;
-  Options options = scene.options;
-  options.error_estimates = options.amplification = with_estimates;
+  const Request request{.impacts = impacts, .error_estimates = with_estimates, .amplification = with_estimates};
   for (fine.parts = limits.parts;; fine.parts /= 2) {
     const Body body = scene.body(fine.parts);
     const Clock::time_point begin = Clock::now();
     const auto spent = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
-    if (fine.parts > 8 && !with_estimates) options.progress = [&](int, long) { return spent() < limits.seconds; };
-    fine.run = simulate(body, scene.ground, scene.start(body), options);
+    Observer observer;
+    if (fine.parts > 8 && !with_estimates) observer.progress = [&](int, long) { return spent() < limits.seconds; };
+    fine.run = simulate(body, scene.world, scene.start(body), request, scene.accuracy, observer);
     fine.seconds = spent();
-    options.progress = nullptr;
     if (fine.run.outcome != Outcome::interrupted) return fine;
   }
 }
@@ -120,7 +120,7 @@ struct Totals {
 void run_scene(unsigned number, const Limits& limits, Totals& totals) {
   const Scene scene = random_scene(number);
   const Body whole = scene.body(1);
-  const Simulation one = simulate(whole, scene.ground, scene.start(whole), scene.options);
+  const Simulation one = simulate(whole, scene.world, scene.start(whole), {.impacts = impacts}, scene.accuracy);
   Fine fine = fine_run(scene, limits, false);
   Comparison result = compare_rows(one, fine.run, false);
   const bool one_bar = result.alike && result.within == result.numbers;
@@ -144,8 +144,8 @@ void run_scene(unsigned number, const Limits& limits, Totals& totals) {
   totals.numbers_within += result.within;
   totals.unknown += result.unknown;
   fmt::print("{:3} {} {} {} digits {} parts {} rows {} {:.0f} s: {}/{} within{}, worst {:.2g} ({}){}\n", number,
-             law_names[scene.law], scene.options.planar ? "planar" : "space", scene.is_rod ? "rod" : "box",
-             scene.options.digits, fine.parts, one.impacts.size(), fine.seconds, result.within, result.numbers,
+             law_names[scene.law], scene.world.planar ? "planar" : "space", scene.is_rod ? "rod" : "box",
+             scene.accuracy.digits, fine.parts, one.impacts.size(), fine.seconds, result.within, result.numbers,
              one_bar ? "" : " both bars", result.worst, result.worst_number, result.note);
   std::fflush(stdout);
 }

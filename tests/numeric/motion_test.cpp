@@ -4,9 +4,11 @@
 #include <random>
 #include <stdexcept>
 
+#include "numeric/contact/contact_system.hpp"
 #include "numeric/motion/euler_parameters.hpp"
 #include "numeric/motion/lagrange_system.hpp"
 #include "numeric/motion/newton_euler.hpp"
+#include "tests/numeric/bodies.hpp"
 
 namespace {
 
@@ -102,6 +104,33 @@ BOOST_AUTO_TEST_CASE(the_paper_s_equations_are_those_of_newton_and_euler) {
         euler_parameter_rates(beta, newton.angular) - state.angular_velocity.squaredNorm() / 4 * beta;
     BOOST_REQUIRE((lagrange.coordinates.tail<4>() - second).norm() <=
                   tolerance * std::fmax(1.0, condition / 100) * second.norm());
+  }
+}
+
+/// A frictionless box that turns while its corner is pressed: force and moment come from the load, Eqs. 1 and 2 from
+/// their printed form.
+BOOST_AUTO_TEST_CASE(a_body_in_contact_is_accelerated_as_the_paper_s_equations_say) {
+  constexpr double tolerance = 1e-12, gravity = 9.81;
+  const Body body = test::box_body({0.3, 0.2, 0.1}, 2);
+  const Ground ground{.stiffness = 1e7, .damping = 1e5};
+  ContactSystem system(body, ground, gravity, false);
+  system.begin(touching_state(body, {.inclination = 0.5, .out_of_plane_tilt = 0.3}));
+  Random random;
+  for (int i = 0; i < 100; ++i) {
+    ContactState state = system.initial(), rate;
+    displacement(state) = Vector3(0, 0, -2e-3);
+    velocity(state) = random.vector();
+    angular_velocity(state) = 10 * random.vector();
+    const ContactDiagnosis at = system.diagnose(state, rate);
+    const MotionState motion = system.motion(state);
+    const Vector3 up = motion.attitude.conjugate() * Vector3::UnitZ();
+    const WorldWrench wrench{.force = {0, 0, at.load.force - body.mass() * gravity},
+                             .moment = motion.attitude * at.load.first_moment.cross(up)};
+    BOOST_REQUIRE(at.load.force > 0);
+    const LagrangeAcceleration paper = solve(lagrange_system({body.mass(), body.inertia()}, motion, wrench));
+    BOOST_TEST((velocity(rate) - paper.coordinates.head<3>()).norm() <=
+               tolerance * gravity + tolerance * velocity(rate).norm());
+    BOOST_TEST((angular_velocity(rate) - paper.angular).norm() <= tolerance * paper.angular.norm());
   }
 }
 

@@ -22,9 +22,10 @@ using namespace clatter::numeric::test;
 
 struct Drop1 {
   Body body;
-  Ground ground;
+  World world;
   MotionState start;
-  Options options;
+  Request request = plain;
+  Accuracy accuracy = {};
 };
 
 MotionState dropped_from(const Body& body, double angle, double height) {
@@ -35,7 +36,7 @@ MotionState dropped_from(const Body& body, double angle, double height) {
 
 /// One impact of the paper's rod at 45° and k_G = 1e11.
 Drop1 rod_drop() {
-  Drop1 drop{rod(), {.stiffness = 1e11}, {}, plain_options()};
+  Drop1 drop{rod(), weightless({.stiffness = 1e11}), {}};
   drop.start = touching_state(drop.body, {.inclination = 45 * degree});
   return drop;
 }
@@ -43,16 +44,14 @@ Drop1 rod_drop() {
 /// Two impacts of the damped phone with friction; n hexahedra along its three edges.
 Drop1 phone_drop(int nx, int ny, int nz) {
   Drop1 drop{phone(nx, ny, nz),
-             {.stiffness = 1e8, .damping = 1e7, .static_friction = 0.075, .sliding_friction = 0.075},
+             {.ground = {.stiffness = 1e8, .damping = 1e7, .static_friction = 0.075, .sliding_friction = 0.075}},
              {},
-             plain_options()};
-  drop.options.impacts = 2;
-  drop.options.gravity = 9.81;
+             plain_impacts(2)};
   drop.start = dropped_from(drop.body, 10, 1);
   return drop;
 }
 
-Simulation run(const Drop1& drop) { return simulate(drop.body, drop.ground, drop.start, drop.options); }
+Simulation run(const Drop1& drop) { return simulate(drop.body, drop.world, drop.start, drop.request, drop.accuracy); }
 
 void time_drop(benchmark::State& state, const Drop1& drop) {
   long evaluations = 0;
@@ -68,7 +67,7 @@ void rod_impact(benchmark::State& state) { time_drop(state, rod_drop()); }
 
 void rod_impact_with_estimates(benchmark::State& state) {
   Drop1 drop = rod_drop();
-  drop.options.error_estimates = drop.options.amplification = true;
+  drop.request.error_estimates = drop.request.amplification = true;
   time_drop(state, drop);
 }
 
@@ -76,7 +75,7 @@ void damped_phone_two_impacts(benchmark::State& state) { time_drop(state, phone_
 
 void damped_phone_two_impacts_with_estimates(benchmark::State& state) {
   Drop1 drop = phone_drop(1, 1, 1);
-  drop.options.error_estimates = drop.options.amplification = true;
+  drop.request.error_estimates = drop.request.amplification = true;
   time_drop(state, drop);
 }
 
@@ -117,7 +116,7 @@ const Drop1& million_phone() {
     }
     const MassProperties properties = mass_properties(box_mesh({.size = size, .mass = phone_mass}));
     Drop1 small = phone_drop(1, 1, 1);
-    return std::make_unique<Drop1>(Drop1{Body(properties, surface), small.ground, small.start, small.options});
+    return std::make_unique<Drop1>(Drop1{Body(properties, surface), small.world, small.start, small.request});
   }();
   return *drop;
 }
@@ -195,7 +194,7 @@ double worst_error(const Simulation& run, const Simulation& reference) {
 
 /// Cost against error of every method.
 void print_trade(const char* name, Drop1 drop) {
-  drop.options.digits = 12;
+  drop.accuracy.digits = 12;
   const Simulation reference = run(drop);
   fmt::print("\n{}\n{:>9} {:>7} {:>12} {:>12} {:>10}\n", name, "method", "digits", "evaluations", "error", "time [us]");
   for (const auto& [method, title] : {std::pair{Method::tvd_rk3, "tvd-rk3"},
@@ -205,8 +204,8 @@ void print_trade(const char* name, Drop1 drop) {
                                       {Method::rk8pd, "rk8pd"}}) {
     for (const int digits : {2, 3, 4, 6, 8, 10}) {
       if (method == Method::tvd_rk3 && digits > 8) continue;
-      drop.options.method = method;
-      drop.options.digits = digits;
+      drop.accuracy.method = method;
+      drop.accuracy.digits = digits;
       Simulation result;
       const double time = seconds([&] { result = run(drop); });
       fmt::print("{:>9} {:>7} {:>12} {:>12.1e} {:>10.0f}\n", title, digits, result.force_evaluations,

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "numeric/motion/touch_point.hpp"
 #include "numeric/stepping/contact_run.hpp"
-#include "numeric/touch_point.hpp"
 #include "tests/numeric/bodies.hpp"
 
 namespace {
@@ -61,12 +61,12 @@ double distance(const Scene& s, const ContactResult& a, const ContactResult& b) 
 /// The reference is the eighth-order method at its finest; its own error is below 1e-14.
 BOOST_AUTO_TEST_CASE(tvd_rk3_has_order_three_whatever_the_phase_of_its_first_step) {
   for (const Scene& s : scenes()) {
-    const ContactResult reference = run(s, Method::rk8pd, {.tolerance = 3e-15});
+    const ContactResult reference = run(s, Method::rk8pd, {.steps = {.tolerance = 3e-15}});
     for (const double phase : phases) {
       double previous = 0;
       for (int halving = 0; halving <= halvings; ++halving) {
         const double step = reference.duration / 40 / std::pow(2.0, halving);
-        const ContactResult result = run(s, Method::tvd_rk3, {.step = step, .first_step = phase * step});
+        const ContactResult result = run(s, Method::tvd_rk3, {.steps = {.step = step, .first_step = phase * step}});
         const double error = distance(s, result, reference);
         if (halving > 0) BOOST_TEST(std::fabs(std::log2(previous / error) - 3) <= 0.1);
         previous = error;
@@ -77,15 +77,15 @@ BOOST_AUTO_TEST_CASE(tvd_rk3_has_order_three_whatever_the_phase_of_its_first_ste
 
 BOOST_AUTO_TEST_CASE(the_error_of_adaptive_methods_follows_the_tolerance_over_six_decades) {
   for (const Scene& s : scenes()) {
-    const ContactResult reference = run(s, Method::rk8pd, {.tolerance = 3e-15});
+    const ContactResult reference = run(s, Method::rk8pd, {.steps = {.tolerance = 3e-15}});
     for (const Method method : {Method::rk8pd, Method::rkf45, Method::rkck, Method::rk4}) {
       const double finest = 1e-11;
       for (double tolerance = 1e-5; tolerance >= finest; tolerance /= 10) {
-        const ContactResult result = run(s, method, {.tolerance = tolerance});
+        const ContactResult result = run(s, method, {.steps = {.tolerance = tolerance}});
         BOOST_TEST(distance(s, result, reference) <= 100 * tolerance);
       }
-      const double coarse = distance(s, run(s, method, {.tolerance = 1e-5}), reference);
-      const double fine = distance(s, run(s, method, {.tolerance = finest}), reference);
+      const double coarse = distance(s, run(s, method, {.steps = {.tolerance = 1e-5}}), reference);
+      const double fine = distance(s, run(s, method, {.steps = {.tolerance = finest}}), reference);
       BOOST_TEST(fine <= 1e-3 * coarse + 1e-12);
     }
   }
@@ -102,7 +102,7 @@ BOOST_AUTO_TEST_CASE(the_euler_parameters_stay_of_unit_norm_over_a_million_steps
   long steps = 0;
   double worst = 0;
   ContactControl control;
-  control.step = 1e-3;
+  control.steps.step = 1e-3;
   control.evaluation_limit = 100'000'000;
   control.observe = [&](const ContactInstant& at) {
     worst = std::max(worst, std::fabs(euler_parameters(at.state).norm() - 1));
@@ -116,8 +116,8 @@ BOOST_AUTO_TEST_CASE(the_euler_parameters_stay_of_unit_norm_over_a_million_steps
 
 BOOST_AUTO_TEST_CASE(peak_force_and_duration_converge_with_the_state) {
   for (const Scene& s : scenes()) {
-    const ContactResult reference = run(s, Method::rk8pd, {.tolerance = 3e-15});
-    const ContactResult result = run(s, Method::rk8pd, {.tolerance = 1e-11});
+    const ContactResult reference = run(s, Method::rk8pd, {.steps = {.tolerance = 3e-15}});
+    const ContactResult result = run(s, Method::rk8pd, {.steps = {.tolerance = 1e-11}});
     BOOST_TEST(result.peak_force == reference.peak_force, boost::test_tools::tolerance(1e-8));
     BOOST_TEST(result.duration == reference.duration, boost::test_tools::tolerance(1e-9));
   }

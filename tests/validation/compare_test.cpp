@@ -23,7 +23,7 @@ constexpr int random_scene_count = 200;
 Scene box_scene(double angle_deg) {
   Scene scene = case_scene("phone-elastic");
   scene.angle_deg = angle_deg;
-  scene.options.error_estimates = false;
+  scene.request.error_estimates = false;
   return scene;
 }
 
@@ -114,8 +114,8 @@ BOOST_AUTO_TEST_CASE(deviations_have_the_predicted_size_and_fall_with_the_contac
   double before = 0;
   for (const double stiffness : {1e12, 8e12, 64e12}) {
     Scene scene = box_scene(20);
-    scene.options.impacts = 1;
-    scene.ground.stiffness = stiffness;
+    scene.request.impacts = 1;
+    scene.world.ground.stiffness = stiffness;
     const ComparedImpact impact = compared(scene).impacts.at(0);
     BOOST_TEST(impact.reason.empty());
     const MotionNumbers predicted = impact.predicted.total();
@@ -132,14 +132,14 @@ BOOST_AUTO_TEST_CASE(deviations_have_the_predicted_size_and_fall_with_the_contac
 
 BOOST_AUTO_TEST_CASE(gravity_alone_adds_its_momentum_to_a_flat_landing) {
   Scene scene = box_scene(0);
-  scene.options.impacts = 1;
-  scene.options.digits = 10;
+  scene.request.impacts = 1;
+  scene.accuracy.digits = 10;
   const Comparison comparison = compared(scene);
   const ComparedImpact& impact = comparison.impacts.at(0);
   BOOST_TEST(impact.discrete_end == "both");
   // Flat and elastic the body leaves as it came, so P − 2 m v = m g T exactly.
   const double excess = (*impact.continuous)[normal_impulse_place] - (*impact.discrete)[normal_impulse_place];
-  const double weight = scene.body.mass * scene.options.gravity * impact.contact_time;
+  const double weight = scene.body.mass * scene.world.gravity * impact.contact_time;
   BOOST_TEST(excess == weight, boost::test_tools::tolerance(1e-6));
   BOOST_TEST(impact.predicted.gravity[normal_impulse_place] == 2 * weight, boost::test_tools::tolerance(1e-9));
   BOOST_TEST(impact.predicted.turning[normal_impulse_place] == 0);
@@ -147,7 +147,7 @@ BOOST_AUTO_TEST_CASE(gravity_alone_adds_its_momentum_to_a_flat_landing) {
 
 BOOST_AUTO_TEST_CASE(a_second_touch_before_the_first_has_ended_is_said_and_agrees_on_stiffer_ground) {
   Scene scene = box_scene(3);
-  scene.options.impacts = 2;
+  scene.request.impacts = 2;
   const Comparison comparison = compared(scene);
   BOOST_TEST(mentions(comparison.impacts.at(0).reason, "another place touches"));
   BOOST_TEST(mentions(comparison.impacts.at(1).reason, "follows"));
@@ -158,8 +158,8 @@ BOOST_AUTO_TEST_CASE(a_second_touch_before_the_first_has_ended_is_said_and_agree
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_predicted_in_space_is_said) {
   Scene scene = box_scene(10);
-  scene.ground.stiffness = 1e9;
-  scene.options.impacts = 4;
+  scene.world.ground.stiffness = 1e9;
+  scene.request.impacts = 4;
   const Comparison comparison = compared(scene);
   BOOST_TEST(comparison.impacts.at(2).reason.empty());
   BOOST_TEST(mentions(comparison.impacts.at(3).reason, "beyond the predictable"));
@@ -168,15 +168,15 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_predicted_in_space_is_said) {
 BOOST_AUTO_TEST_CASE(friction_beyond_the_limit_of_painleve_is_named) {
   Scene scene = case_scene("rod-45");
   scene.angle_deg = 63.4;  // tan θ = 2, where a thin rod jams from 4/3 on
-  scene.ground.static_friction = scene.ground.sliding_friction = 1.5;
-  scene.options.error_estimates = false;
+  scene.world.ground.static_friction = scene.world.ground.sliding_friction = 1.5;
+  scene.request.error_estimates = false;
   BOOST_TEST(mentions(compared(scene).impacts.at(0).reason, "jamming"));
 }
 
 /// A deliberate disagreement: the continuous model on damped ground against an elastic discrete one.
 BOOST_AUTO_TEST_CASE(a_limit_that_misses_the_discrete_value_is_found) {
   Scene scene = case_scene("phone-damped");
-  scene.options.impacts = 1;
+  scene.request.impacts = 1;
   Comparison comparison = compared(scene);
   BOOST_TEST(comparison.agrees());
   (*comparison.impacts.at(0).discrete)[normal_impulse_place] *= 1 + 1e-6;

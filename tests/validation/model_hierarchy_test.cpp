@@ -20,7 +20,7 @@ constexpr LevelSetting fine(ModelLevel level) {
 /// How far two levels are apart on a scene.
 double apart(const Scene& scene, ModelLevel level, ModelLevel other) {
   const ModelHierarchy hierarchy(scene);
-  const int impacts = scene.options.impacts;
+  const int impacts = scene.request.impacts;
   const numeric::Simulation run = hierarchy.simulate(fine(ModelLevel::planar), impacts);
   const MotionNumbers sizes = motion_sizes(run, run.impacts.size(), hierarchy.body());
   return distance(hierarchy.run(fine(level), impacts).rows, hierarchy.run(fine(other), impacts).rows, sizes);
@@ -32,9 +32,9 @@ double order(double first, double second, double factor) { return std::log(first
 /// What a scene's run changes by without a part.
 double change_without(const Scene& scene, Part part) {
   const ModelHierarchy with(scene), reduced(without(scene, part));
-  const numeric::Simulation run = with.simulate(fine(ModelLevel::planar), scene.options.impacts);
+  const numeric::Simulation run = with.simulate(fine(ModelLevel::planar), scene.request.impacts);
   const MotionNumbers sizes = motion_sizes(run, run.impacts.size(), with.body());
-  return distance(reduced.run(fine(ModelLevel::planar), scene.options.impacts).rows, motion_rows(run), sizes);
+  return distance(reduced.run(fine(ModelLevel::planar), scene.request.impacts).rows, motion_rows(run), sizes);
 }
 
 bool is_mirrored(const Scene& scene) {

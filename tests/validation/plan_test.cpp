@@ -39,8 +39,8 @@ double slope(const std::vector<double>& x, const std::vector<double>& y) {
 /// The scene's plane and its first impacts.
 Scene planar_case(const char* name, int impacts) {
   Scene scene = case_scene(name);
-  scene.options.impacts = impacts;
-  scene.options.planar = true;
+  scene.request.impacts = impacts;
+  scene.world.planar = true;
   return scene;
 }
 
@@ -92,11 +92,11 @@ BOOST_AUTO_TEST_CASE(true_error_falls_with_the_tolerance_over_six_decades) {
 BOOST_AUTO_TEST_CASE(true_error_of_a_planned_run_falls_with_the_digits_asked_over_six_decades) {
   std::vector<double> asked, achieved;
   for (const char* name : {"rod-10", "rod-damped", "rod-friction-03", "phone-damped"}) {
-    Scene scene = planar_case(name, std::min(case_scene(name).options.impacts, 3));
+    Scene scene = planar_case(name, std::min(case_scene(name).request.impacts, 3));
     const numeric::Body body = scene.make_body();
     for (int digits = 3; digits <= 9; ++digits) {
-      scene.options.digits = digits;
-      const PlannedRun planned = run_to_digits(body, scene.ground, scene.start(body), scene.options);
+      scene.accuracy.digits = digits;
+      const PlannedRun planned = run_to_digits(body, scene.world, scene.start(body), scene.request, scene.accuracy);
       const double error = true_error(scene, planned.run);
       BOOST_TEST(error <= planned.asked, name << ", " << digits << " digits: " << error);
       BOOST_TEST(error <= planned.achieved);
@@ -123,12 +123,12 @@ BOOST_AUTO_TEST_CASE(plan_leaves_out_what_changes_less_than_asked) {
   const Scene scene = case_scene(
       "rod-45", {{"ground.sliding_friction", "--sliding-friction", "1e-9"}, {"ground.damping", "--damping", "1"}});
   const Plan plan = make_plan(scene, {.digits = 5});
-  BOOST_TEST(!plan.scene.ground.has_friction());
-  BOOST_TEST(plan.scene.ground.damping == 0);
+  BOOST_TEST(!plan.scene.world.ground.has_friction());
+  BOOST_TEST(plan.scene.world.ground.damping == 0);
   BOOST_TEST(plan.serves);
   BOOST_TEST(true_error(scene, ModelHierarchy(plan.scene).simulate(plan.choice, 1)) <= 1e-5);
   const Plan strict = make_plan(scene, {.digits = 10});
-  BOOST_TEST(strict.scene.ground.has_friction());
+  BOOST_TEST(strict.scene.world.ground.has_friction());
 }
 
 BOOST_AUTO_TEST_CASE(plan_within_a_time_takes_the_most_accurate_that_fits) {
@@ -154,7 +154,7 @@ BOOST_AUTO_TEST_CASE(plan_says_what_cannot_be_had) {
 BOOST_AUTO_TEST_CASE(plan_says_so_if_its_runs_end_early) {
   for (const char* limit : {"20", "300", "1000", "2500", "4000"}) {
     Scene scene = case_scene("phone-damped");
-    scene.options.evaluation_limit = std::atol(limit);
+    scene.accuracy.evaluation_limit = std::atol(limit);
     const Plan plan = make_plan(scene, {.digits = 6});
     BOOST_TEST(plan.serves == plan_shortfall(plan).empty());
     BOOST_TEST(!plan.serves);
@@ -165,14 +165,14 @@ BOOST_AUTO_TEST_CASE(plan_says_so_if_its_runs_end_early) {
 // three tolerances of four; the plan once said that nothing could be computed.
 BOOST_AUTO_TEST_CASE(plan_and_run_get_past_a_step_that_gets_too_small) {
   Scene scene = random_scene(71, 9);
-  scene.options.impacts = 3;
+  scene.request.impacts = 3;
   const numeric::Body body = scene.make_body();
   const Plan plan = make_plan(scene, {.digits = 3});
   BOOST_TEST(plan.serves);
   BOOST_TEST(plan.impacts == 3);
   for (int digits = 2; digits <= 8; ++digits) {
-    scene.options.digits = digits;
-    const PlannedRun planned = run_to_digits(body, scene.ground, scene.start(body), scene.options);
+    scene.accuracy.digits = digits;
+    const PlannedRun planned = run_to_digits(body, scene.world, scene.start(body), scene.request, scene.accuracy);
     BOOST_TEST(planned.run.impacts.size() == 3u, digits << " digits: " << planned.run.message);
   }
 }
@@ -182,8 +182,8 @@ BOOST_AUTO_TEST_CASE(discrete_models_own_account_of_its_error_is_not_far_off) {
   std::vector<double> ratios;
   for (int i = 0; i < random_scenes; ++i) {
     Scene scene = random_scene(19, i);
-    scene.options.impacts = 2;
-    scene.options.evaluation_limit = 100'000;
+    scene.request.impacts = 2;
+    scene.accuracy.evaluation_limit = 100'000;
     const Plan plan = make_plan(scene, {.digits = 3});
     for (const WeighedLevel& level : plan.levels) {
       if (level.level != ModelLevel::discrete || !std::isfinite(level.assumption_error) || !(level.error > 0)) continue;
@@ -233,17 +233,17 @@ BOOST_AUTO_TEST_CASE(run_is_repeated_until_its_own_estimates_keep_to_the_digits)
   Scene scene = planar_case("phone-damped", 4);
   const numeric::Body body = scene.make_body();
   for (int digits = 3; digits <= 6; ++digits) {  // errors grow a hundredfold; the first guess misses some of these
-    scene.options.digits = digits;
-    const PlannedRun planned = run_to_digits(body, scene.ground, scene.start(body), scene.options);
+    scene.accuracy.digits = digits;
+    const PlannedRun planned = run_to_digits(body, scene.world, scene.start(body), scene.request, scene.accuracy);
     BOOST_TEST(planned.achieved <= planned.asked, digits << " digits: " << planned.achieved);
   }
 }
 
 BOOST_AUTO_TEST_CASE(run_with_a_method_given_is_left_alone) {
   Scene scene = case_scene("rod-45");
-  scene.options.method = numeric::Method::rkf45;
+  scene.accuracy.method = numeric::Method::rkf45;
   const numeric::Body body = scene.make_body();
-  const PlannedRun planned = run_to_digits(body, scene.ground, scene.start(body), scene.options);
+  const PlannedRun planned = run_to_digits(body, scene.world, scene.start(body), scene.request, scene.accuracy);
   BOOST_TEST(!planned.planned);
   BOOST_TEST((planned.run.method == numeric::Method::rkf45));
   BOOST_TEST(planned.run.tolerance == 1e-10);

@@ -52,8 +52,8 @@ inline double cheapest_that_serves(const ModelHierarchy& hierarchy, const Truth&
 /// Scene `index` of family `seed`, 2 to 9 digits of its first three impacts asked for.
 inline PlannedScene plan_and_judge(std::uint64_t seed, int index) {
   Scene scene = random_scene(seed, index);
-  scene.options.impacts = 3;
-  scene.options.evaluation_limit = 300'000;
+  scene.request.impacts = 3;
+  scene.accuracy.evaluation_limit = 300'000;
   PlannedScene result;
   result.digits = 2 + index % 8;
   const Plan plan = make_plan(scene, {.digits = result.digits});

@@ -22,7 +22,7 @@ constexpr int random_scene_count = 48;
 /// A phone on a corner, without the error estimates of the single runs.
 Scene corner_scene() {
   Scene scene = case_scene("phone-corner");
-  scene.options.error_estimates = false;
+  scene.request.error_estimates = false;
   return scene;
 }
 
@@ -34,7 +34,7 @@ bool mentions(const std::string& text, const std::string& part) { return text.fi
 
 BOOST_AUTO_TEST_CASE(a_phone_on_its_corner_agrees_impact_by_impact_in_space_with_friction_and_damping) {
   Scene scene = corner_scene();
-  scene.options.impacts = 8;
+  scene.request.impacts = 8;
   const Comparison comparison = compared(scene);
   BOOST_REQUIRE_GE(comparison.impacts.size(), 8u);
   BOOST_TEST(comparison.agrees());
@@ -71,11 +71,11 @@ BOOST_AUTO_TEST_CASE(the_stiff_limit_holds_95_of_100_impacts_of_random_drops_in_
 /// On the scene's own ground no contact ends at 12 digits; the limit does not depend on that.
 BOOST_AUTO_TEST_CASE(a_ground_too_soft_for_a_run_of_12_digits_has_its_limit_in_space_too) {
   SpaceScene drop = random_space_scene(5, 62);
-  drop.scene.options.impacts = 1;
-  drop.scene.options.error_estimates = false;
-  drop.scene.options.evaluation_limit = 100'000;
-  drop.scene.ground.stiffness *= 16;
-  drop.scene.ground.damping *= 16;
+  drop.scene.request.impacts = 1;
+  drop.scene.request.error_estimates = false;
+  drop.scene.accuracy.evaluation_limit = 100'000;
+  drop.scene.world.ground.stiffness *= 16;
+  drop.scene.world.ground.damping *= 16;
   const Comparison comparison = compare_models(drop.scene, drop.body);
   BOOST_REQUIRE(!comparison.impacts.empty());
   BOOST_REQUIRE(comparison.impacts[0].has_landing());
@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(random_drops_in_space_are_boxes_off_centre_boxes_tetrahedra
 /// A deliberate disagreement: the limit is that of another coefficient of friction.
 BOOST_AUTO_TEST_CASE(a_limit_in_space_that_misses_the_discrete_value_is_found_and_said) {
   Scene scene = corner_scene();
-  scene.options.impacts = 1;
+  scene.request.impacts = 1;
   Comparison comparison = compared(scene);
   BOOST_TEST(comparison.agrees());
   ComparedImpact& impact = comparison.impacts.at(0);
@@ -120,20 +120,21 @@ BOOST_AUTO_TEST_CASE(a_limit_in_space_that_misses_the_discrete_value_is_found_an
 BOOST_AUTO_TEST_CASE(a_patch_taken_as_a_point_changes_the_numbers_by_less_and_less_on_stiffer_ground) {
   Scene scene = corner_scene();
   scene.angular_velocity = {3, -2, 25};  // spin that a patch feels
-  scene.ground.static_friction = scene.ground.sliding_friction = 0.4;
-  numeric::Options options = scene.options;
-  options.impacts = 1;
-  options.digits = 12;
-  options.amplification = false;
+  scene.world.ground.static_friction = scene.world.ground.sliding_friction = 0.4;
+  scene.request.impacts = 1;
+  scene.request.amplification = false;
+  scene.accuracy.digits = 12;
   const numeric::Body body = scene.make_body();
   double before = 0;
   for (const double stiffer : {1e6, 1.6e7, 2.56e8}) {
-    numeric::Ground ground = scene.ground;
-    ground.stiffness *= stiffer;
-    ground.damping *= stiffer;
+    numeric::World world = scene.world;
+    world.ground.stiffness *= stiffer;
+    world.ground.damping *= stiffer;
     const auto impulse = [&](bool point) {
-      options.point_friction = point;
-      return numeric::simulate(body, ground, scene.start(body), options).impacts.at(0).value.impulse;
+      world.point_friction = point;
+      return numeric::simulate(body, world, scene.start(body), scene.request, scene.accuracy)
+          .impacts.at(0)
+          .value.impulse;
     };
     const numeric::Vector3 point = impulse(true);
     const double change = (impulse(false) - point).norm() / point.norm();
@@ -164,7 +165,7 @@ BOOST_AUTO_TEST_CASE(an_edge_that_lands_level_agrees_in_space) {
   scene.height.reset();
   scene.angle_deg = 0;
   scene.tilt_deg = 30;
-  scene.options.impacts = 1;
+  scene.request.impacts = 1;
   const ComparedImpact impact = compared(scene).impacts.at(0);
   BOOST_TEST(impact.discrete_end == "-x-y-z +x-y-z");
   BOOST_REQUIRE(impact.has_landing());
@@ -175,10 +176,10 @@ BOOST_AUTO_TEST_CASE(deviations_in_space_have_the_predicted_size_and_fall_with_t
   double before = 0;
   for (const double stiffer : {1e6, 1.6e7, 2.56e8}) {
     Scene scene = corner_scene();
-    scene.options.impacts = 1;
-    scene.options.digits = 10;
-    scene.ground.stiffness *= stiffer;
-    scene.ground.damping *= stiffer;
+    scene.request.impacts = 1;
+    scene.accuracy.digits = 10;
+    scene.world.ground.stiffness *= stiffer;
+    scene.world.ground.damping *= stiffer;
     const ComparedImpact impact = compared(scene).impacts.at(0);
     BOOST_TEST(impact.reason == "");
     const MotionNumbers predicted = impact.predicted.total();
@@ -212,7 +213,7 @@ BOOST_AUTO_TEST_CASE(a_drop_in_space_that_begins_with_a_row_goes_on_like_the_seq
 
 BOOST_AUTO_TEST_CASE(what_ends_the_limit_of_a_drop_in_space_is_said_for_each_impact_after_it) {
   Scene scene = corner_scene();
-  scene.options.impacts = 40;
+  scene.request.impacts = 40;
   const Comparison comparison = compared(scene);
   bool lands = true;
   int explained = 0;

@@ -231,8 +231,8 @@ Reference reference_of(const Scene& scene) {
                       .start = {},
                       .until = {},
                       .sequences = {}};
-  const bool has_ground = scene.ground.stiffness > 0;
-  const int impacts = scene.options.impacts;
+  const bool has_ground = scene.world.ground.stiffness > 0;
+  const int impacts = scene.request.impacts;
   ReferenceSequence sequence;
   const DiscreteDrop chosen = has_ground ? chosen_drop(scene, scene.make_body()) : chosen_drop(scene);
   if (const auto* drop = std::get_if<analytic::Drop>(&chosen)) {

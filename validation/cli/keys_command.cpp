@@ -17,8 +17,8 @@ namespace {
 Scene begun_scene(BodyScene::Shape shape) {
   Scene scene;
   scene.angle_deg = 10;
-  scene.options.gravity = 9.81;
-  scene.ground.stiffness = 1e9;
+  scene.world.gravity = 9.81;
+  scene.world.ground.stiffness = 1e9;
   scene.body.shape = shape;
   return scene;
 }

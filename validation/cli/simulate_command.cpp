@@ -39,15 +39,14 @@ constexpr long evaluations_before_progress = 200'000;
 
 PlannedRun run_scene(const Scene& scene, const numeric::Body& body, const CooperativeInterrupt& interrupt,
                      const std::function<void(int, long)>& show, numeric::HistoryRecorder* history) {
-  numeric::Options options = scene.options;
-  options.history = history;
-  options.progress = [&](int impacts, long evaluations) {
+  numeric::Observer observer{.history = history};
+  observer.progress = [&](int impacts, long evaluations) {
     if (evaluations >= evaluations_before_progress) show(impacts, evaluations);
     return !interrupt.requested();
   };
   const numeric::MotionState start = scene.start(body);
-  if (history && scene.height) record_fall(*history, start, body.mass(), options.gravity, 20);
-  return run_to_digits(body, scene.ground, start, options);
+  if (history && scene.height) record_fall(*history, start, body.mass(), scene.world.gravity, 20);
+  return run_to_digits(body, scene.world, start, scene.request, scene.accuracy, observer);
 }
 
 void warn(const std::vector<std::string>& warnings) {
@@ -93,7 +92,7 @@ int run_single(const Scene& scene, const numeric::Body& body, const OutputChoice
     const auto show = [&](int impacts, long evaluations) {
       progress.show(fmt::format(
           "{} force evaluations, {}", evaluations,
-          progress_bar(static_cast<std::size_t>(impacts), static_cast<std::size_t>(scene.options.impacts))));
+          progress_bar(static_cast<std::size_t>(impacts), static_cast<std::size_t>(scene.request.impacts))));
     };
     planned = run_scene(scene, body, interrupt, show, recorders.is_empty() ? nullptr : &recorders);
   }

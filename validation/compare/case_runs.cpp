@@ -26,12 +26,12 @@ std::string RunOptions::key() const {
 
 Scene scene_of_case(const std::string& name, const RunOptions& options) {
   Scene scene = case_scene(name);
-  if (options.digits > 0) scene.options.digits = options.digits;
-  if (options.impacts > 0) scene.options.impacts = options.impacts;
-  if (options.planar) scene.options.planar = true;
-  if (options.method != numeric::Method::automatic) scene.options.method = options.method;
-  if (options.area != numeric::AreaMeasure::surface) scene.ground.area = options.area;
-  scene.options.error_estimates = false;
+  if (options.digits > 0) scene.accuracy.digits = options.digits;
+  if (options.impacts > 0) scene.request.impacts = options.impacts;
+  if (options.planar) scene.world.planar = true;
+  if (options.method != numeric::Method::automatic) scene.accuracy.method = options.method;
+  if (options.area != numeric::AreaMeasure::surface) scene.world.ground.area = options.area;
+  scene.request.error_estimates = false;
   return scene;
 }
 
@@ -52,7 +52,7 @@ const numeric::Simulation& CaseRuns::run(const std::string& name, const RunOptio
   return once<numeric::Simulation>(runs_, name + options.key(), [&] {
     const Scene scene = scene_of_case(name, options);
     const numeric::Body body = scene.make_body();
-    return numeric::simulate(body, scene.ground, scene.start(body), scene.options);
+    return numeric::simulate(body, scene.world, scene.start(body), scene.request, scene.accuracy);
   });
 }
 
@@ -63,9 +63,8 @@ const RecordedRun& CaseRuns::history(const std::string& name, const RunOptions& 
     RecordedRun recorded;
     SampleList list(recorded.samples);
     const numeric::MotionState start = scene.start(body);
-    if (scene.height) record_fall(list, start, body.mass(), scene.options.gravity, fall_points);
-    scene.options.history = &list;
-    recorded.run = numeric::simulate(body, scene.ground, start, scene.options);
+    if (scene.height) record_fall(list, start, body.mass(), scene.world.gravity, fall_points);
+    recorded.run = numeric::simulate(body, scene.world, start, scene.request, scene.accuracy, {.history = &list});
     return recorded;
   });
 }
@@ -73,12 +72,12 @@ const RecordedRun& CaseRuns::history(const std::string& name, const RunOptions& 
 const std::vector<SweptSimulation>& CaseRuns::sweep(const std::string& name, const RunOptions& options) {
   return once<std::vector<SweptSimulation>>(sweeps_, name + options.key(), [&] {
     Scene scene = scene_of_case(name, options);
-    scene.options.amplification = false;
+    scene.request.amplification = false;
     const numeric::Body body = scene.make_body();
     std::vector<SweptSimulation> swept;
     for (const double value : scene.sweep->values()) {
       const Scene one = scene.at(value);
-      swept.push_back({value, numeric::simulate(body, one.ground, one.start(body), one.options)});
+      swept.push_back({value, numeric::simulate(body, one.world, one.start(body), one.request, one.accuracy)});
     }
     return swept;
   });
@@ -87,7 +86,7 @@ const std::vector<SweptSimulation>& CaseRuns::sweep(const std::string& name, con
 const Comparison& CaseRuns::comparison(const std::string& name, int impacts) {
   return once<Comparison>(comparisons_, fmt::format("{}/{}", name, impacts), [&] {
     Scene scene = scene_of_case(name, {});
-    if (impacts > 0) scene.options.impacts = impacts;
+    if (impacts > 0) scene.request.impacts = impacts;
     return compare_models(scene, scene.make_body());
   });
 }

@@ -88,7 +88,7 @@ std::string reason_against(const Comparison& comparison, const Scene& scene, dou
   if (!same_contact(impact, record.end, record.place, radius)) {
     return contacts_differ(side, impact.end, comparison.impacts[i].continuous_end);
   }
-  if (sticks_in_one_model(scene.ground, impact, record.mode)) {
+  if (sticks_in_one_model(scene.world.ground, impact, record.mode)) {
     return "static and sliding friction differ; the discrete model has one coefficient";
   }
   const MotionNumbers size = comparison.impacts[i].predicted.total();
@@ -148,7 +148,7 @@ void drop_unlike_limits(Comparison& comparison, const Scene& scene) {
     ComparedImpact& impact = comparison.impacts[i];
     const SequenceImpact* const discrete =
         i < comparison.discrete.impacts.size() ? &comparison.discrete.impacts[i] : nullptr;
-    if (impact.limit && sticks_in_one_model(scene.ground, *discrete, impact.limit->mode)) alike = false;
+    if (impact.limit && sticks_in_one_model(scene.world.ground, *discrete, impact.limit->mode)) alike = false;
     if (comparison.discrete.in_space && !impact.limit) alike = false;
     if (impact.limit && impact.bars_off() > 1 && stops_in_one_model(*discrete, impact.limit->mode)) alike = false;
     if (!alike) impact.limit.reset();
@@ -181,7 +181,7 @@ std::string explanation_of(const Comparison& comparison, const Scene& scene, dou
     return contacts_differ(side, discrete.end, contact_name(side, limits[i].end, limits[i].place, radius)) +
            ", however stiff the ground";
   }
-  if (sticks_in_one_model(scene.ground, discrete, limits[i].mode)) {
+  if (sticks_in_one_model(scene.world.ground, discrete, limits[i].mode)) {
     return "static and sliding friction differ; the discrete model has one coefficient";
   }
   if (stops_in_one_model(discrete, limits[i].mode)) {
@@ -193,7 +193,7 @@ std::string explanation_of(const Comparison& comparison, const Scene& scene, dou
 /// Impacts of which a limit can be held against the discrete model: all in the plane, in space those before the first
 /// that is open or cannot be predicted, and one at least.
 LimitRequest limit_request(const DiscreteSide& side, const Scene& scene) {
-  if (!side.in_space) return {.impacts = scene.options.impacts, .planar = true};
+  if (!side.in_space) return {.impacts = scene.request.impacts, .planar = true};
   LimitRequest request{.impacts = 0, .planar = false};
   for (const SequenceImpact& impact : side.impacts) {
     if (!reason_in_principle(impact).empty() || !impact.predictable) break;
@@ -224,7 +224,7 @@ std::string shortfall_of(const Comparison& comparison, const Scene& scene) {
   };
   if (is_cut_short(comparison.discrete.outcome)) return words("discrete", comparison.discrete);
   if (is_cut_short(comparison.run.outcome)) return words("continuous", comparison.run);
-  return scene.require_digits ? digits_shortfall(scene.options.digits, largest_error(comparison)) : "";
+  return scene.require_digits ? digits_shortfall(scene.accuracy.digits, largest_error(comparison)) : "";
 }
 
 }  // namespace
@@ -261,11 +261,11 @@ Comparison compare_models(const Scene& scene, const numeric::Body& body) {
   Comparison comparison;
   comparison.discrete = discrete_side(scene, body);
   const DiscreteSide& side = comparison.discrete;
-  numeric::Options options = scene.options;
-  options.amplification = true;
-  options.history = nullptr;
-  options.evaluation_limit = std::min(options.evaluation_limit, evaluations_per_run);
-  comparison.run = numeric::simulate(body, scene.ground, scene.start(body), options);
+  numeric::Request request = scene.request;
+  request.amplification = true;
+  numeric::Accuracy accuracy = scene.accuracy;
+  accuracy.evaluation_limit = std::min(accuracy.evaluation_limit, evaluations_per_run);
+  comparison.run = numeric::simulate(body, scene.world, scene.start(body), request, accuracy);
   comparison.limit = stiff_limit(scene, body, limit_request(side, scene));
 
   std::vector<double> contact_times;

@@ -69,7 +69,7 @@ SequenceImpact planar_impact(const analytic::Drop& drop, const ImpactRow& row) {
 
 DiscreteSide planar_side(const Scene& scene, const numeric::Body& body) {
   const analytic::Drop drop = discrete_drop(scene, body);
-  const analytic::Sequence sequence = impact_sequence(drop, {.impacts = scene.options.impacts});
+  const analytic::Sequence sequence = impact_sequence(drop, {.impacts = scene.request.impacts});
   DiscreteSide side{.in_space = false,
                     .corners = {},
                     .quantities = plane_quantities,

@@ -61,13 +61,14 @@ Scene random_scene(std::uint64_t seed, int index) {
   scene.speed = random.logarithmic(0.3, 10);
   scene.tangential_velocity = random.one_in(2) ? 0 : random(-1, 1) * scene.speed;
   scene.spin = random.one_in(2) ? 0 : random(-0.5, 0.5) * scene.speed / size;
-  scene.options.gravity = random.one_in(3) ? 0 : random(1, 20);
-  scene.ground.stiffness = random.logarithmic(1e6, 1e12);
+  scene.world.gravity = random.one_in(3) ? 0 : random(1, 20);
+  scene.world.ground.stiffness = random.logarithmic(1e6, 1e12);
   const double restitution = random.one_in(3) ? 1 : random(0.3, 1);
-  scene.ground.damping = scene.ground.stiffness * analytic::damping_of_restitution(restitution) / scene.speed;
+  scene.world.ground.damping =
+      scene.world.ground.stiffness * analytic::damping_of_restitution(restitution) / scene.speed;
   const double friction = random.one_in(3) ? 0 : random(0, 0.8);
-  scene.ground.static_friction = scene.ground.sliding_friction = friction;
-  scene.ground.area = random.one_in(2) ? numeric::AreaMeasure::surface : numeric::AreaMeasure::projected;
+  scene.world.ground.static_friction = scene.world.ground.sliding_friction = friction;
+  scene.world.ground.area = random.one_in(2) ? numeric::AreaMeasure::surface : numeric::AreaMeasure::projected;
   return scene;
 }
 
@@ -77,9 +78,9 @@ RandomScenesResult run_random_scenes(const RandomScenes& scenes) {
     result.complete = scenes.goes_on();
     if (!result.complete) break;
     Scene scene = random_scene(scenes.seed, index);
-    scene.options.impacts = scenes.impacts;
-    scene.options.error_estimates = false;
-    scene.options.evaluation_limit = 100'000;  // soft grounds may hold a body for thousands of oscillations
+    scene.request.impacts = scenes.impacts;
+    scene.request.error_estimates = false;
+    scene.accuracy.evaluation_limit = 100'000;  // soft grounds may hold a body for thousands of oscillations
     const Comparison comparison = compare_models(scene, scene.make_body());
     bool any = false;
     for (const ComparedImpact& impact : comparison.impacts) {

@@ -101,15 +101,16 @@ void choose_drop(Uniform& random, double size, Scene& scene) {
   scene.attitude = {upright * std::cos(turn), upright * std::sin(turn), over * std::cos(roll), over * std::sin(roll)};
   scene.velocity = {across * random(-1, 1), across * random(-1, 1), -scene.speed};
   scene.angular_velocity = list_of(spin * in_cube(random));
-  scene.options.gravity = random.one_in(3) ? 0 : random(1, 20);
+  scene.world.gravity = random.one_in(3) ? 0 : random(1, 20);
 }
 
 void choose_ground(Uniform& random, Scene& scene) {
-  scene.ground.stiffness = random.logarithmic(1e6, 1e12);
+  scene.world.ground.stiffness = random.logarithmic(1e6, 1e12);
   const double restitution = random.one_in(3) ? 1 : random(0.3, 1);
-  scene.ground.damping = scene.ground.stiffness * analytic::damping_of_restitution(restitution) / scene.speed;
-  scene.ground.static_friction = scene.ground.sliding_friction = random.one_in(3) ? 0 : random(0, 1);
-  scene.ground.area = random.one_in(2) ? numeric::AreaMeasure::surface : numeric::AreaMeasure::projected;
+  scene.world.ground.damping =
+      scene.world.ground.stiffness * analytic::damping_of_restitution(restitution) / scene.speed;
+  scene.world.ground.static_friction = scene.world.ground.sliding_friction = random.one_in(3) ? 0 : random(0, 1);
+  scene.world.ground.area = random.one_in(2) ? numeric::AreaMeasure::surface : numeric::AreaMeasure::projected;
 }
 
 /// Bars over gaps of the impact's numbers.
@@ -156,9 +157,9 @@ RandomSpaceResult run_random_space_scenes(const RandomSpaceScenes& scenes) {
     result.complete = scenes.goes_on();
     if (!result.complete) break;
     SpaceScene drop = random_space_scene(scenes.seed, index);
-    drop.scene.options.impacts = scenes.impacts;
-    drop.scene.options.error_estimates = false;
-    drop.scene.options.evaluation_limit = 100'000;  // soft grounds may hold a body for thousands of oscillations
+    drop.scene.request.impacts = scenes.impacts;
+    drop.scene.request.error_estimates = false;
+    drop.scene.accuracy.evaluation_limit = 100'000;  // soft grounds may hold a body for thousands of oscillations
     judge(compare_models(drop.scene, drop.body), index, result, ratios);
   }
   if (ratios.empty()) return result;

@@ -91,7 +91,7 @@ SequenceImpact space_impact(const Scene& scene, const space::Drop& drop, const s
 
 DiscreteSide space_side(const Scene& scene, const numeric::Body& body) {
   const space::Drop drop = space_drop(scene, body);
-  const space::Sequence sequence = impact_sequence(drop, {.impacts = scene.options.impacts});
+  const space::Sequence sequence = impact_sequence(drop, {.impacts = scene.request.impacts});
   DiscreteSide side{.in_space = true,
                     .corners = {},
                     .quantities = space_quantities,

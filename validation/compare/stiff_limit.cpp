@@ -157,30 +157,28 @@ bool take_limit(const std::vector<Simulation>& ladder, const ContactSizes& sizes
 }  // namespace
 
 StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, const LimitRequest& request) {
-  numeric::Options options = scene.options;
-  options.method = numeric::Method::automatic;
-  options.step = 0;
-  options.digits = 12;
-  options.impacts = request.impacts;
-  options.planar = request.planar;
-  options.error_estimates = options.amplification = false;
-  options.history = nullptr;
-  options.point_friction = !request.planar;
-  options.evaluation_limit =
-      request.planar ? std::min(options.evaluation_limit, evaluations_in_plane) : evaluations_in_space;
+  numeric::World world = scene.world;
+  world.planar = request.planar;
+  world.point_friction = !request.planar;
+  numeric::Request wanted{.impacts = request.impacts, .error_estimates = false, .amplification = false};
+  numeric::Accuracy accuracy = scene.accuracy;
+  accuracy.method = numeric::Method::automatic;
+  accuracy.step = 0;
+  accuracy.digits = 12;
+  accuracy.evaluation_limit =
+      request.planar ? std::min(accuracy.evaluation_limit, evaluations_in_plane) : evaluations_in_space;
   const ContactSizes sizes = ContactSizes::of(scene, body, request.planar);
-  const double damping_per_stiffness = scene.ground.damping / scene.ground.stiffness;
+  const double damping_per_stiffness = scene.world.ground.damping / scene.world.ground.stiffness;
   const numeric::MotionState start = scene.start(body);
 
   StiffLimit limit{.rows = {}, .ended = "the runs end before a limit shows"};
   const auto run_at = [&](double stiffness) {
-    numeric::Ground ground = scene.ground;
-    ground.stiffness = stiffness;
-    ground.damping = damping_per_stiffness * stiffness;
+    world.ground.stiffness = stiffness;
+    world.ground.damping = damping_per_stiffness * stiffness;
     ++limit.runs;
-    return numeric::simulate(body, ground, start, options);
+    return numeric::simulate(body, world, start, wanted, accuracy);
   };
-  double stiffness = scene.ground.stiffness;
+  double stiffness = scene.world.ground.stiffness;
   std::vector<Simulation> ladder;
   // The runs' contacts must all be short enough, and the limit must have settled: climb until they are and it has.
   while (limit.runs < most_runs) {
@@ -201,7 +199,7 @@ StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, const Limi
   }
   if (request.planar || ladder.size() < runs_of_a_limit) return limit;
   // Slip that turns costs the runs digits: how many, the stiffest estimates.
-  options.error_estimates = true;
+  wanted.error_estimates = true;
   ladder.back() = run_at(limit.stiffness);
   static_cast<void>(take_limit(ladder, sizes, request, limit));
   return limit;

@@ -46,7 +46,7 @@ struct LimitRequest {
 /// go) gives the value at T = 0, and the changes from one triple of runs to the next its error.  Impacts whose relative
 /// error bar stays above 1e-3 have no limit here, nor do those after them.
 ///
-/// In space friction acts at the pressure centre alone (numeric::Options::point_friction): what a patch's spin does to
+/// In space friction acts at the pressure centre alone (numeric::World::point_friction): what a patch's spin does to
 /// it vanishes with the patch, so that the limit is the same, and the bars hold the stiffest run's own error estimates.
 /// Where c_G v/k_G > 1 numbers go like T ln T over many runs, and the bars are four times as wide.
 [[nodiscard]] StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, const LimitRequest& request);

@@ -104,9 +104,9 @@ std::string difference(const ImpactRecord& one, const ImpactRecord& other, const
 ContactSizes ContactSizes::of(const Scene& scene, const numeric::Body& body, bool planar) {
   return {.body = body,
           .feature = feature_of(scene, body),
-          .gravity = scene.options.gravity,
+          .gravity = scene.world.gravity,
           .planar = planar,
-          .damping_per_stiffness = scene.ground.damping / scene.ground.stiffness};
+          .damping_per_stiffness = scene.world.ground.damping / scene.world.ground.stiffness};
 }
 
 CommonRows common_rows(const std::vector<Simulation>& ladder, const ContactSizes& sizes) {

@@ -77,7 +77,7 @@ Scene shown(Scene scene) {
   if (scene.body.shape == BodyScene::Shape::mesh)
     throw BadInput("body 'mesh': must be rod or box; a page can name no file");
   if (scene.sweep) throw BadInput("case: sweeps a quantity; give another");
-  limit("impacts", scene.options.impacts, most_impacts);
+  limit("impacts", scene.request.impacts, most_impacts);
   return scene;
 }
 
@@ -108,7 +108,7 @@ Scene continuous_scene(NamedTexts texts) {
   const std::optional<SceneValues> given = case_values(texts);
   Scene scene = shown(
       read_scene(given ? *given : SceneValues("scene", "", scene_keys()), scene_overrides(texts), Model::continuous));
-  scene.options.evaluation_limit = std::min<long>(scene.options.evaluation_limit, most_evaluations);
+  scene.accuracy.evaluation_limit = std::min<long>(scene.accuracy.evaluation_limit, most_evaluations);
   return scene;
 }
 
@@ -135,10 +135,9 @@ Value simulate(NamedTexts texts) {
   const numeric::Body body = scene.make_body();
   const numeric::MotionState start = scene.start(body);
   HistoryColumns history;
-  numeric::Options options = scene.options;
-  if (with_history) options.history = &history;
-  if (with_history && scene.height) record_fall(history, start, body.mass(), options.gravity, 20);
-  const PlannedRun planned = run_to_digits(body, scene.ground, start, options);
+  if (with_history && scene.height) record_fall(history, start, body.mass(), scene.world.gravity, 20);
+  const PlannedRun planned = run_to_digits(body, scene.world, start, scene.request, scene.accuracy,
+                                           {.history = with_history ? &history : nullptr});
   Value fields = simulation_report(scene, planned).fields;
   if (with_history) fields["history"] = history.fields();
   return fields;

@@ -17,14 +17,14 @@ void require_shown(const Scene& scene) {
   require_shown(scene.tilt_deg == 0, "drop.tilt_deg", "the page shows drops in the plane");
   require_shown(scene.tangential_velocity == 0, "drop.tangential_velocity", "the page has no control for it");
   require_shown(scene.spin == 0, "drop.spin", "the page has no control for it");
-  require_shown(!scene.ground.has_friction() || scene.ground.friction == numeric::FrictionLaw::coulomb,
+  require_shown(!scene.world.ground.has_friction() || scene.world.ground.friction == numeric::FrictionLaw::coulomb,
                 "ground.friction_law", "the page has Coulomb's law alone");
 }
 
 /// Coefficient of restitution of the discrete model: by the ground's damping where there is a ground.
 double restitution(const Scene& scene) {
-  if (!(scene.ground.stiffness > 0)) return scene.impact.restitution;
-  return analytic::restitution_of_damping(scene.ground.damping / scene.ground.stiffness * scene.speed);
+  if (!(scene.world.ground.stiffness > 0)) return scene.impact.restitution;
+  return analytic::restitution_of_damping(scene.world.ground.damping / scene.world.ground.stiffness * scene.speed);
 }
 
 }  // namespace
@@ -45,13 +45,14 @@ std::string page_query(const Scene& scene) {
   add("angle", shortest(scene.angle_deg));
   if (scene.height) add("height", shortest(*scene.height));
   else add("speed", shortest(scene.speed));
-  add("gravity", shortest(scene.options.gravity));
+  add("gravity", shortest(scene.world.gravity));
   add("e", shortest(restitution(scene)));
-  const bool has_ground = scene.ground.stiffness > 0;
-  add("friction", shortest(has_ground ? scene.ground.sliding_friction : scene.impact.friction.value_or(0)));
-  if (has_ground) add("stiffness", shortest(scene.ground.stiffness)), add("damping", shortest(scene.ground.damping));
-  add("impacts", std::to_string(scene.options.impacts));
-  if (has_ground && !scene.options.planar) add("planar", "0");
+  const bool has_ground = scene.world.ground.stiffness > 0;
+  add("friction", shortest(has_ground ? scene.world.ground.sliding_friction : scene.impact.friction.value_or(0)));
+  if (has_ground)
+    add("stiffness", shortest(scene.world.ground.stiffness)), add("damping", shortest(scene.world.ground.damping));
+  add("impacts", std::to_string(scene.request.impacts));
+  if (has_ground && !scene.world.planar) add("planar", "0");
   return query;
 }
 

@@ -86,18 +86,13 @@ bool has_ended_well(Outcome outcome) {
 
 Simulation run_case(const ContinuousCase& scene, const ContinuousRun& how, const GoesOn& goes_on) {
   const numeric::Body body(numeric::box_mesh({.size = scene.size, .mass = scene.mass}));
-  numeric::Options options;
-  options.method = how.method;
-  options.digits = how.digits;
-  options.planar = how.planar;
-  options.impacts = scene.impacts;
-  options.gravity = scene.gravity;
-  options.evaluation_limit = scene.evaluation_limit;
-  options.error_estimates = how.estimates;
-  options.amplification = false;
-  options.progress = [&](int, long) { return goes_on(); };
+  const numeric::World world{.ground = scene.ground, .gravity = scene.gravity, .planar = how.planar};
+  const numeric::Request request{.impacts = scene.impacts, .error_estimates = how.estimates, .amplification = false};
+  const numeric::Accuracy accuracy{
+      .method = how.method, .digits = how.digits, .evaluation_limit = scene.evaluation_limit};
+  const numeric::Observer observer{.progress = [&](int, long) { return goes_on(); }};
   const numeric::Drop drop{.inclination = scene.angle_deg * degree, .velocity = scene.velocity};
-  return simulate(body, scene.ground, touching_state(body, drop), options);
+  return simulate(body, world, touching_state(body, drop), request, accuracy, observer);
 }
 
 Simulation require_case(const ContinuousCase& scene, const ContinuousRun& how, const GoesOn& goes_on,

@@ -44,13 +44,14 @@ FirstImpacts continuous(double theta_deg, double gravity) {
   scene.angle_deg = theta_deg;
   scene.body.radius = 1e-4;
   scene.body.layers = 1;
-  scene.ground.stiffness = 1e30;
-  scene.options.gravity = gravity;
-  scene.options.impacts = 3;
-  scene.options.planar = true;
-  scene.options.error_estimates = scene.options.amplification = false;
+  scene.world.ground.stiffness = 1e30;
+  scene.world.gravity = gravity;
+  scene.request.impacts = 3;
+  scene.world.planar = true;
+  scene.request.error_estimates = scene.request.amplification = false;
   const numeric::Body body = scene.make_body();
-  const numeric::Simulation run = numeric::simulate(body, scene.ground, scene.start(body), scene.options);
+  const numeric::Simulation run =
+      numeric::simulate(body, scene.world, scene.start(body), scene.request, scene.accuracy);
   FirstImpacts first;
   for (std::size_t i = 0; i < run.impacts.size(); ++i) {
     const numeric::ImpactRecord& impact = run.impacts[i];

@@ -27,7 +27,7 @@ std::string command_line(const Plan& plan) {
       fmt::format("clatter {} {}", is_continuous(plan.choice.level) ? "simulate" : "compare", quoted(scene.path));
   if (!is_continuous(plan.choice.level)) return line;
   line += fmt::format(" --method {} --tolerance {}", method_name(plan.choice.method), shortest(plan.choice.tolerance));
-  if (plan.choice.level == ModelLevel::planar && !scene.options.planar) line += " --planar";
+  if (plan.choice.level == ModelLevel::planar && !scene.world.planar) line += " --planar";
   for (const WeighedPart& part : plan.parts) {
     if (part.left_out && part.part == Part::friction) line += " --static-friction 0 --sliding-friction 0";
     if (part.left_out && part.part == Part::damping) line += " --damping 0";

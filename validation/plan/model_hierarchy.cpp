@@ -55,9 +55,9 @@ const char* part_name(Part part) {
 
 bool has_part(const Scene& scene, Part part) {
   switch (part) {
-    case Part::friction: return scene.ground.has_friction();
-    case Part::damping: return scene.ground.damping > 0;
-    case Part::gravity_in_contact: return scene.options.gravity > 0 && scene.options.gravity_in_contact;
+    case Part::friction: return scene.world.ground.has_friction();
+    case Part::damping: return scene.world.ground.damping > 0;
+    case Part::gravity_in_contact: return scene.world.gravity > 0 && scene.world.gravity_in_contact;
     case Part::unmerged_faces: return !scene.body.merge;
   }
   return false;
@@ -65,9 +65,9 @@ bool has_part(const Scene& scene, Part part) {
 
 Scene without(Scene scene, Part part) {
   switch (part) {
-    case Part::friction: scene.ground.static_friction = scene.ground.sliding_friction = 0; break;
-    case Part::damping: scene.ground.damping = 0; break;
-    case Part::gravity_in_contact: scene.options.gravity_in_contact = false; break;
+    case Part::friction: scene.world.ground.static_friction = scene.world.ground.sliding_friction = 0; break;
+    case Part::damping: scene.world.ground.damping = 0; break;
+    case Part::gravity_in_contact: scene.world.gravity_in_contact = false; break;
     case Part::unmerged_faces: scene.body.merge = true; break;
   }
   return scene;
@@ -75,12 +75,12 @@ Scene without(Scene scene, Part part) {
 
 Scene limited(Scene scene) {
   constexpr long evaluations_per_run = 2'000'000;
-  scene.options.evaluation_limit = std::min(scene.options.evaluation_limit, evaluations_per_run);
+  scene.accuracy.evaluation_limit = std::min(scene.accuracy.evaluation_limit, evaluations_per_run);
   return scene;
 }
 
-ModelHierarchy::ModelHierarchy(Scene scene)
-    : scene_(std::move(scene)), body_(scene_.make_body()), start_(scene_.start(body_)) {
+ModelHierarchy::ModelHierarchy(Scene scene, numeric::Observer observer)
+    : scene_(std::move(scene)), observer_(std::move(observer)), body_(scene_.make_body()), start_(scene_.start(body_)) {
   find_discrete();
   against_[index(ModelLevel::closed_form)] = find_closed_form();
   against_[index(ModelLevel::planar)] = reason_against_planar();
@@ -108,30 +108,29 @@ std::string ModelHierarchy::find_closed_form() {
   if (scene_.body.shape != BodyScene::Shape::rod) return "it is for a thin rod";
   if (!drop_) return against(ModelLevel::discrete);
   if (!scene_.body.centre.empty() || !scene_.body.inertia.empty()) return "it is for a uniform rod";
-  if (scene_.ground.has_friction()) return "it has no friction";
+  if (scene_.world.ground.has_friction()) return "it has no friction";
   analytic::Drop thin = *drop_;
   thin.body = analytic::make_rod({.mass = scene_.body.mass, .length = scene_.body.length, .radius = 0});
-  if (scene_.ground.damping == 0) thin.law = {};
+  if (scene_.world.ground.damping == 0) thin.law = {};
   const std::string reason = reason_against_closed_form(thin);
   if (reason.empty()) thin_rod_ = thin;
   return reason;
 }
 
 std::string ModelHierarchy::reason_against_planar() const {
-  if (scene_.options.planar || is_mirror_image(body_, start_)) return "";
+  if (scene_.world.planar || is_mirror_image(body_, start_)) return "";
   return "the body is not its own mirror image in the plane of its motion";
 }
 
 Simulation ModelHierarchy::simulate(const LevelSetting& setting, int impacts) const {
-  numeric::Options options = scene_.options;
-  options.method = setting.method;
-  options.tolerance = setting.step > 0 ? 0 : setting.tolerance;
-  options.step = setting.step;
-  options.impacts = impacts;
-  options.planar = setting.level == ModelLevel::planar;
-  options.error_estimates = options.amplification = false;
-  options.history = nullptr;
-  return numeric::simulate(body_, scene_.ground, start_, options);
+  numeric::World world = scene_.world;
+  world.planar = setting.level == ModelLevel::planar;
+  numeric::Accuracy accuracy = scene_.accuracy;
+  accuracy.method = setting.method;
+  accuracy.tolerance = setting.step > 0 ? 0 : setting.tolerance;
+  accuracy.step = setting.step;
+  const numeric::Request request{.impacts = impacts, .error_estimates = false, .amplification = false};
+  return numeric::simulate(body_, world, start_, request, accuracy, observer_);
 }
 
 LevelResult ModelHierarchy::run(const LevelSetting& setting, int impacts) const {
@@ -155,7 +154,7 @@ LevelResult ModelHierarchy::run(const LevelSetting& setting, int impacts) const 
 Truth true_values(const ModelHierarchy& hierarchy, double trusted) {
   Truth truth;
   truth.setting = {.level = hierarchy.full(), .method = Method::rk8pd, .tolerance = numeric::least_tolerance};
-  const int impacts = hierarchy.scene().options.impacts;
+  const int impacts = hierarchy.scene().request.impacts;
   const Simulation run = hierarchy.simulate(truth.setting, impacts);
   if (is_cut_short(run.outcome)) truth.cut_short = fmt::format("{}: {}", outcome_name(run.outcome), run.message);
   if (run.impacts.empty()) return truth;

@@ -65,10 +65,11 @@ struct LevelResult {
 /// A scene with what its levels share.
 class ModelHierarchy {
  public:
-  /// @throws as Scene::make_body and start.
-  explicit ModelHierarchy(Scene scene);
+  /// `observer` of the continuous levels' runs.  @throws as Scene::make_body and start.
+  explicit ModelHierarchy(Scene scene, numeric::Observer observer = {});
 
   [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] const numeric::Observer& observer() const { return observer_; }
   [[nodiscard]] const numeric::Body& body() const { return body_; }
   /// As the discrete model has it, if it applies.
   [[nodiscard]] const std::optional<analytic::Drop>& drop() const { return drop_; }
@@ -93,6 +94,7 @@ class ModelHierarchy {
   [[nodiscard]] std::string reason_against_planar() const;
 
   Scene scene_;
+  numeric::Observer observer_;
   numeric::Body body_;
   numeric::MotionState start_;
   std::optional<analytic::Drop> drop_, thin_rod_;

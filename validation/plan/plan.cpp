@@ -37,8 +37,8 @@ double least_seconds_of(int repeats, const std::function<void()>& work) {
 /// One plan in the making.
 class Planner {
  public:
-  Planner(const Scene& scene, const PlanTarget& target)
-      : ladder_(limited(without(scene, Part::unmerged_faces))), full_(ladder_.full()) {
+  Planner(const Scene& scene, const PlanTarget& target, const numeric::Observer& observer)
+      : ladder_(limited(without(scene, Part::unmerged_faces)), observer), full_(ladder_.full()) {
     plan_.target = target;
     plan_.asked = std::pow(10.0, -target.digits);
     plan_.scene = scene;
@@ -58,7 +58,7 @@ class Planner {
   [[nodiscard]] int impacts() const { return static_cast<int>(truth_.size()); }
 
   void run_pilots() {
-    const int wanted = ladder_.scene().options.impacts;
+    const int wanted = ladder_.scene().request.impacts;
     Simulation finest;
     LevelSetting setting{.level = full_, .method = Method::rkck, .tolerance = finest_pilot_tolerance};
     const auto run_finest = [&] { finest = ladder_.simulate(setting, wanted); };
@@ -95,17 +95,15 @@ class Planner {
   /// How long the planar level's motion is that of a body in space.
   void watch_the_plane() {
     plan_.predictable_impacts = impacts();
-    if (full_ != ModelLevel::planar || plan_.scene.options.planar) return;
-    numeric::Options options = ladder_.scene().options;
-    options.method = Method::rkck;
-    options.tolerance = CostTable::pilot_tolerance;
-    options.step = 0;
-    options.impacts = impacts();
-    options.error_estimates = false;
-    options.amplification = true;
-    options.history = nullptr;
-    const Simulation run =
-        numeric::simulate(ladder_.body(), ladder_.scene().ground, ladder_.scene().start(ladder_.body()), options);
+    if (full_ != ModelLevel::planar || plan_.scene.world.planar) return;
+    const Scene& scene = ladder_.scene();
+    const numeric::Request request{.impacts = impacts(), .error_estimates = false, .amplification = true};
+    numeric::Accuracy accuracy = scene.accuracy;
+    accuracy.method = Method::rkck;
+    accuracy.tolerance = CostTable::pilot_tolerance;
+    accuracy.step = 0;
+    const Simulation run = numeric::simulate(ladder_.body(), scene.world, scene.start(ladder_.body()), request,
+                                             accuracy, ladder_.observer());
     plan_.planning_evaluations += run.force_evaluations;
     plan_.predictable_impacts = 0;
     for (const numeric::ImpactRecord& row : run.impacts) {
@@ -124,7 +122,7 @@ class Planner {
       if (part == Part::unmerged_faces) {
         weighed.left_out = true;
       } else {
-        const ModelHierarchy reduced(without(ladder_.scene(), part));
+        const ModelHierarchy reduced(without(ladder_.scene(), part), ladder_.observer());
         const LevelResult result =
             reduced.run({.level = full_, .method = Method::rkck, .tolerance = finest_pilot_tolerance}, impacts());
         plan_.planning_evaluations += result.evaluations;
@@ -137,7 +135,7 @@ class Planner {
       plan_.parts.push_back(weighed);
     }
     budget_ = plan_.asked - spent;
-    ladder_ = ModelHierarchy(limited(plan_.scene));
+    ladder_ = ModelHierarchy(limited(plan_.scene), ladder_.observer());
   }
 
   void weigh_continuous() {
@@ -279,6 +277,8 @@ class Planner {
 
 }  // namespace
 
-Plan make_plan(const Scene& scene, const PlanTarget& target) { return Planner(scene, target).make(); }
+Plan make_plan(const Scene& scene, const PlanTarget& target, const numeric::Observer& observer) {
+  return Planner(scene, target, observer).make();
+}
 
 }  // namespace clatter::validation

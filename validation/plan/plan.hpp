@@ -70,7 +70,8 @@ struct Plan {
 /// compared with the pilot.  The setting of the continuous level is then checked against a finer run and moved by half
 /// decades of the tolerance until its error lies just below what is asked.
 /// Only counts decide, never times, unless `within_ms` is given: the plan is the same on every machine.
-[[nodiscard]] Plan make_plan(const Scene& scene, const PlanTarget& target);
+/// `observer` looks on the runs of the continuous model.
+[[nodiscard]] Plan make_plan(const Scene& scene, const PlanTarget& target, const numeric::Observer& observer = {});
 
 /// The command line that runs the plan's choice.
 [[nodiscard]] std::string command_line(const Plan& plan);

@@ -16,8 +16,8 @@
 namespace clatter::validation {
 namespace {
 
+using numeric::Accuracy;
 using numeric::Method;
-using numeric::Options;
 using numeric::Outcome;
 using numeric::Simulation;
 
@@ -49,51 +49,48 @@ void judge(const numeric::Body& body, PlannedRun& planned) {
 /// One run after another of the same drop.
 class Runner {
  public:
-  Runner(const numeric::Body& body, const numeric::Ground& ground, const numeric::MotionState& start,
-         const Options& options)
-      : body_(body), ground_(ground), start_(start), options_(options) {}
+  Runner(const numeric::Body& body, const numeric::World& world, const numeric::MotionState& start,
+         const numeric::Request& request, const Accuracy& accuracy, const numeric::Observer& observer)
+      : body_(body), world_(world), start_(start), request_(request), accuracy_(accuracy), observer_(observer) {}
 
   PlannedRun run() {
-    Options options = options_;
-    options.history = nullptr;
-    take_cheapest(options);
-    PlannedRun planned{.run = {}, .planned = true, .asked = std::pow(10.0, -options.digits), .warnings = {}};
+    Accuracy accuracy = accuracy_;
+    take_cheapest(accuracy);
+    PlannedRun planned{.run = {}, .planned = true, .asked = std::pow(10.0, -accuracy.digits), .warnings = {}};
     for (int repeat = 0;; ++repeat) {
-      planned.run = simulate(options);
+      planned.run = simulate(request_, accuracy);
       judge(body_, planned);
       if (planned.run.outcome == Outcome::step_too_small && repeat < most_repeats) {  // as in Planner::run_pilots
-        options.method = Method::rk8pd;
-        options.tolerance = std::max(0.01 * options.tolerance, numeric::least_tolerance);
+        accuracy.method = Method::rk8pd;
+        accuracy.tolerance = std::max(0.01 * accuracy.tolerance, numeric::least_tolerance);
         continue;
       }
       const bool serves = std::isnan(planned.achieved) || planned.achieved <= planned.asked;
-      if (serves || repeat == most_repeats || options.tolerance == numeric::least_tolerance) break;
+      if (serves || repeat == most_repeats || accuracy.tolerance == numeric::least_tolerance) break;
       const double part = std::clamp(0.5 * planned.asked / planned.achieved, 1e-3, 0.3);
-      options.tolerance = std::max(part * options.tolerance, numeric::least_tolerance);
+      accuracy.tolerance = std::max(part * accuracy.tolerance, numeric::least_tolerance);
     }
-    if (options_.history && planned.run.outcome != Outcome::interrupted) {
-      options.history = options_.history;  // the same run again; what recording costs does not count
-      planned.run = numeric::simulate(body_, ground_, start_, options);
+    if (observer_.history && planned.run.outcome != Outcome::interrupted) {
+      // The same run again: what recording costs does not count.
+      planned.run = numeric::simulate(body_, world_, start_, request_, accuracy, observer_);
     }
     planned.run.force_evaluations = evaluations_;
     return planned;
   }
 
  private:
-  Simulation simulate(const Options& options) {
-    Simulation run = numeric::simulate(body_, ground_, start_, options);
+  Simulation simulate(const numeric::Request& request, const Accuracy& accuracy) {
+    Simulation run = numeric::simulate(body_, world_, start_, request, accuracy, {.progress = observer_.progress});
     evaluations_ += run.force_evaluations;
     return run;
   }
 
   Simulation pilot(double tolerance) {
-    Options options = options_;
-    options.history = nullptr;
-    options.error_estimates = options.amplification = false;
-    options.method = Method::rkck;
-    options.tolerance = tolerance;
-    options.evaluation_limit = std::min(options.evaluation_limit, evaluations_of_a_pilot);
-    return simulate(options);
+    Accuracy accuracy = accuracy_;
+    accuracy.method = Method::rkck;
+    accuracy.tolerance = tolerance;
+    accuracy.evaluation_limit = std::min(accuracy.evaluation_limit, evaluations_of_a_pilot);
+    return simulate({.impacts = request_.impacts, .error_estimates = false, .amplification = false}, accuracy);
   }
 
   /// Over the impacts before the runs go different ways.
@@ -108,22 +105,24 @@ class Runner {
     return worst;
   }
 
-  void take_cheapest(Options& options) {
+  void take_cheapest(Accuracy& accuracy) {
     const Simulation loose = pilot(CostTable::loose_tolerance), finer = pilot(CostTable::pilot_tolerance);
     double constant = usual_error_constant;
     if (!finer.impacts.empty()) {
       const double error = common_distance(loose, finer);
       if (error > 0) constant = error / CostTable::loose_tolerance;
     }
-    const PredictedSetting setting = cheapest_by_table(constant, std::pow(10.0, -options.digits) / estimate_margin);
-    options.method = setting.method;
-    options.tolerance = half_decade(setting.index);
+    const PredictedSetting setting = cheapest_by_table(constant, std::pow(10.0, -accuracy.digits) / estimate_margin);
+    accuracy.method = setting.method;
+    accuracy.tolerance = half_decade(setting.index);
   }
 
   const numeric::Body& body_;
-  const numeric::Ground& ground_;
+  const numeric::World& world_;
   const numeric::MotionState& start_;
-  const Options& options_;
+  const numeric::Request& request_;
+  const Accuracy& accuracy_;
+  const numeric::Observer& observer_;
   long evaluations_ = 0;
 };
 
@@ -139,24 +138,24 @@ std::string submersion_warning(const Simulation& run) {
 
 }  // namespace
 
-std::string planar_warning(const numeric::Body& body, const numeric::MotionState& start, const Options& options) {
-  if (!options.planar || is_mirror_image(body, start)) return "";
+std::string planar_warning(const numeric::Body& body, const numeric::World& world, const numeric::MotionState& start) {
+  if (!world.planar || is_mirror_image(body, start)) return "";
   return "kept in its plane, although the body as it lies or moves is not its own mirror image there: velocities, "
          "forces and moments out of the plane are left out";
 }
 
-PlannedRun run_to_digits(const numeric::Body& body, const numeric::Ground& ground, const numeric::MotionState& start,
-                         const Options& options) {
-  const bool plans = options.method == Method::automatic && options.step == 0 && options.tolerance == 0;
+PlannedRun run_to_digits(const numeric::Body& body, const numeric::World& world, const numeric::MotionState& start,
+                         const numeric::Request& request, const Accuracy& accuracy, const numeric::Observer& observer) {
+  const bool plans = accuracy.method == Method::automatic && accuracy.step == 0 && accuracy.tolerance == 0;
   PlannedRun planned;
   if (plans) {
-    planned = Runner(body, ground, start, options).run();
+    planned = Runner(body, world, start, request, accuracy, observer).run();
   } else {
-    planned.run = numeric::simulate(body, ground, start, options);
-    planned.asked = std::pow(10.0, -options.digits);
+    planned.run = numeric::simulate(body, world, start, request, accuracy, observer);
+    planned.asked = std::pow(10.0, -accuracy.digits);
     judge(body, planned);
   }
-  const std::string out_of_plane = planar_warning(body, start, options);
+  const std::string out_of_plane = planar_warning(body, world, start);
   if (!out_of_plane.empty()) planned.warnings.push_back(out_of_plane);
   const std::string sunk = submersion_warning(planned.run);
   if (!sunk.empty()) planned.warnings.push_back(sunk);
@@ -167,12 +166,12 @@ std::string shortfall(const Scene& scene, const PlannedRun& planned) {
   const numeric::Simulation& run = planned.run;
   if (is_cut_short(run.outcome)) return fmt::format("{}: {}", outcome_name(run.outcome), run.message);
   if (!scene.require_digits || run.impacts.empty()) return "";
-  if (!scene.options.error_estimates) return "run.require_digits: without run.errors no digit is known";
+  if (!scene.request.error_estimates) return "run.require_digits: without run.errors no digit is known";
   const int impacts = static_cast<int>(run.impacts.size());
   if (planned.known_impacts < impacts)
-    return fmt::format("asked {} digits, achieved of the first {} of {} impacts only", scene.options.digits,
+    return fmt::format("asked {} digits, achieved of the first {} of {} impacts only", scene.accuracy.digits,
                        planned.known_impacts, impacts);
-  return digits_shortfall(scene.options.digits, planned.achieved);
+  return digits_shortfall(scene.accuracy.digits, planned.achieved);
 }
 
 }  // namespace clatter::validation

@@ -23,17 +23,18 @@ struct PlannedRun {
 };
 
 /// A warning if the motion is kept in its plane although nothing but that keeps it there; empty: none.
-[[nodiscard]] std::string planar_warning(const numeric::Body& body, const numeric::MotionState& start,
-                                         const numeric::Options& options);
+[[nodiscard]] std::string planar_warning(const numeric::Body& body, const numeric::World& world,
+                                         const numeric::MotionState& start);
 
 /// Runs the scene.  With `run.method = "auto"`, no step and no tolerance, two pilot runs with rkck (at 1e-4 and 1e-6)
 /// give the scene's error constant, the measured table (CostTable) the cheapest method and tolerance for the digits;
 /// if the estimated errors are then larger than asked, the run is repeated with a tighter tolerance, at most thrice.
-/// The count of evaluations includes all of these.  Otherwise as numeric::simulate with the scene's options.
-/// `options.history` takes the last run only, by a repetition that does not count.
+/// The count of evaluations includes all of these.  Otherwise as numeric::simulate.
+/// `observer.history` takes the last run only, by a repetition that does not count.
 /// @throws as numeric::simulate.
-[[nodiscard]] PlannedRun run_to_digits(const numeric::Body& body, const numeric::Ground& ground,
-                                       const numeric::MotionState& start, const numeric::Options& options);
+[[nodiscard]] PlannedRun run_to_digits(const numeric::Body& body, const numeric::World& world,
+                                       const numeric::MotionState& start, const numeric::Request& request,
+                                       const numeric::Accuracy& accuracy, const numeric::Observer& observer = {});
 
 /// As shortfall() of a sequence.
 [[nodiscard]] std::string shortfall(const Scene& scene, const PlannedRun& planned);

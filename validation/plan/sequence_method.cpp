@@ -15,11 +15,11 @@ namespace {
 // grow and takes any body; only Eq. 9 by itself is cheaper.
 analytic::Sequence planar_sequence(const Scene& scene, const analytic::Drop& drop, SequenceMethod method) {
   if (method != SequenceMethod::closed_form) {
-    return impact_sequence(drop, {.impacts = scene.options.impacts, .digits = scene.options.digits});
+    return impact_sequence(drop, {.impacts = scene.request.impacts, .digits = scene.accuracy.digits});
   }
   const std::string reason = reason_against_closed_form(drop);
   if (!reason.empty()) throw BadInput("--method closed-form: does not apply: " + reason);
-  return closed_form_sequence(drop, scene.options.impacts, true);
+  return closed_form_sequence(drop, scene.request.impacts, true);
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ DiscreteRun run_discrete(const Scene& scene, SequenceMethod method) {
   }
   if (method == SequenceMethod::closed_form) throw BadInput("--method closed-form: the body moves in space");
   analytic::space::Sequence sequence = impact_sequence(
-      std::get<analytic::space::Drop>(drop), {.impacts = scene.options.impacts, .digits = scene.options.digits});
+      std::get<analytic::space::Drop>(drop), {.impacts = scene.request.impacts, .digits = scene.accuracy.digits});
   return {std::move(drop), std::move(sequence)};
 }
 

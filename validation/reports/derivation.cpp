@@ -43,7 +43,8 @@ class Derivation {
 
  private:
   [[nodiscard]] std::string num(double value) const {
-    const std::string text = known_text({value, error_.relative * std::fabs(value)}, {.digits = scene_.options.digits});
+    const std::string text =
+        known_text({value, error_.relative * std::fabs(value)}, {.digits = scene_.accuracy.digits});
     return value < 0 ? "(" + text + ")" : text;
   }
 
@@ -232,9 +233,9 @@ std::vector<Step> derive_impact(const Scene& scene, const analytic::Drop& drop, 
 }
 
 Explanation explain_impact(Scene scene, int n) {
-  scene.options.impacts = std::max(scene.options.impacts, n);
+  scene.request.impacts = std::max(scene.request.impacts, n);
   const auto explained = [&](const auto& drop) -> Explanation {
-    const auto sequence = impact_sequence(drop, {.impacts = n, .digits = scene.options.digits});
+    const auto sequence = impact_sequence(drop, {.impacts = n, .digits = scene.accuracy.digits});
     const std::size_t have = sequence.rows.size();
     const bool has_impact = static_cast<std::size_t>(n) <= have;
     const bool falls_short = scene.require_digits || !has_impact;

@@ -79,7 +79,7 @@ Report explanation_report(const Explanation& explanation) {
 
 std::string explanation_text(const Explanation& explanation, const TextStyle& style) {
   const Report report = explanation_report(explanation);
-  const int digits = explanation.scene.options.digits;
+  const int digits = explanation.scene.accuracy.digits;
   std::vector<std::string> head{report.title};
   head.insert(head.end(), report.head.begin(), report.head.end());
   switch (style.format) {

@@ -147,7 +147,7 @@ void add_results(const Plan& plan, Value& fields) {
 std::string plan_shortfall(const Plan& plan) {
   if (std::isnan(plan.error)) return "no impact could be computed: " + plan.pilot_ending;
   if (plan.cut_short) {
-    return fmt::format("{} of {} impacts could be computed: {}", plan.impacts, plan.scene.options.impacts,
+    return fmt::format("{} of {} impacts could be computed: {}", plan.impacts, plan.scene.request.impacts,
                        plan.pilot_ending);
   }
   if (plan.serves || plan.target.most_accurate) return "";
@@ -163,7 +163,7 @@ std::string plan_shortfall(const Plan& plan) {
 }
 
 PlanTarget plan_target(const Scene& scene, const PlanRequest& request) {
-  PlanTarget target{.digits = scene.options.digits};
+  PlanTarget target{.digits = scene.accuracy.digits};
   if (request.within) {
     target.within_ms = read_number_option("--within", *request.within, {0, 1e9, true, "greater than 0"});
     target.most_accurate = !request.is_given("digits");

@@ -36,7 +36,7 @@ template <class Sequence>
 std::vector<std::string> closing_words(const Scene& scene, const Sequence& sequence) {
   const auto is_lost = [](const auto& row) { return !row.error.predictable; };
   const auto lost = std::find_if(sequence.rows.begin(), sequence.rows.end(), is_lost);
-  const int digits = scene.options.digits;
+  const int digits = scene.accuracy.digits;
   std::vector<std::string> words{
       trust_words(static_cast<std::size_t>(lost - sequence.rows.begin()), sequence.rows.size()),
       fmt::format("Sum of normal impulses: {} N·s", known_text(totals(sequence).normal_impulse, {.digits = digits})),
@@ -61,7 +61,7 @@ void add_results(const Scene& scene, const Sequence& sequence, const Value& tail
         Value::Fields{{"clearance", miss.clearance}, {"margin", miss.margin}, {"within_margin", miss.within_margin()}};
   }
   fields["accuracy"] =
-      Value::Fields{{"asked", std::pow(10.0, -scene.options.digits)}, {"achieved", largest_error(sequence)}};
+      Value::Fields{{"asked", std::pow(10.0, -scene.accuracy.digits)}, {"achieved", largest_error(sequence)}};
   add_totals(totals(sequence), fields);
   fields["shortfall"] = text_or_nothing(shortfall(scene, sequence));
   fields["cost"] = Value::Fields{{"force_evaluations", 0}, {"root_evaluations", evaluations}};

@@ -56,8 +56,7 @@ struct Flight {
 class HeightCurve {
  public:
   HeightCurve(const Scene& scene, const Sequence& sequence)
-      : body_(nominal_body(scene)), gravity_(scene.options.gravity), rows_(sequence.rows),
-        whole_(whole_time(sequence)) {
+      : body_(nominal_body(scene)), gravity_(scene.world.gravity), rows_(sequence.rows), whole_(whole_time(sequence)) {
     add_part(flight(rows_.front(), rows_.front().before), -approach());
     std::reverse(samples_.begin(), samples_.end());
     for (std::size_t i = 0; i + 1 < rows_.size(); ++i) {
@@ -199,7 +198,7 @@ std::vector<std::string> words_of(const Scene& scene) {
   if (scene.tangential_velocity != 0) drop += fmt::format(", tangential {} m/s", shortest(scene.tangential_velocity));
   if (scene.spin != 0) drop += fmt::format(", spin {} rad/s", shortest(scene.spin));
   if (scene.has_vectors()) drop = scene.drop_words();
-  drop += fmt::format(", gravity {} m/s²", shortest(scene.options.gravity));
+  drop += fmt::format(", gravity {} m/s²", shortest(scene.world.gravity));
   const analytic::ImpactLaw law = impact_law(scene);
   std::string impact = fmt::format("e = {} ({})", shortest(law.restitution), law_name(law.law));
   if (law.friction == analytic::FrictionKind::coulomb) impact += ", Coulomb friction μ = ";

@@ -53,7 +53,7 @@ bool loses_energy(const Sequence& sequence) {
 std::string tail_words(const Scene& scene, const analytic::Tail& tail) {
   const Estimated end{tail.end_time, tail.end_time_error};
   return fmt::format("…: the last row sums up all further impacts; they end at {} s, {}",
-                     with_error(end, {.digits = scene.options.digits + 3}),
+                     with_error(end, {.digits = scene.accuracy.digits + 3}),
                      tail.closed_form ? "in closed form" : "by extrapolation");
 }
 
@@ -63,7 +63,7 @@ std::string near_miss_words(const Scene& scene, const Sequence& sequence) {
   const analytic::RowErrors& last = sequence.rows.back().error;
   const Estimated clearance{miss.clearance, last.predictable ? miss.margin : last.start};
   return fmt::format("closest approach after the last impact: {} m above the ground",
-                     known_text(clearance, {.digits = std::min(scene.options.digits, 6)}));
+                     known_text(clearance, {.digits = std::min(scene.accuracy.digits, 6)}));
 }
 
 std::vector<std::string> closing_notes(const Scene& scene, const Sequence& sequence) {
@@ -88,7 +88,7 @@ Report sequence_report(const Scene& scene, const Sequence& sequence) {
   Report report = begun_sequence_report(scene, "impact sequence, discrete model", totals(sequence));
   report.notes = closing_notes(scene, sequence);
   report.grid.columns = sequence_columns(with_friction(scene), loses_energy(sequence));
-  const ImpactDigits digits{.digits = scene.options.digits, .scales = scales_of(sequence)};
+  const ImpactDigits digits{.digits = scene.accuracy.digits, .scales = scales_of(sequence)};
   int n = 0;
   for (const ImpactRow& row : sequence.rows) add_impact_row(report, DiscreteRow{row, ++n, scene.angle_deg}, digits);
   report.fields["impacts"] = row_objects(report.grid);
@@ -97,7 +97,7 @@ Report sequence_report(const Scene& scene, const Sequence& sequence) {
     report.grid.rows.push_back(tail_row(*sequence.tail, digits));
     report.grid.rows.back()[0].shown = "…";
   }
-  fit_columns(report, scene.options.digits, {5, 2});
+  fit_columns(report, scene.accuracy.digits, {5, 2});
   return report;
 }
 

@@ -22,9 +22,9 @@ using numeric::Simulation;
 
 /// Whether rounding or the method's error has outgrown the row by itself; what follows such a row is no better.
 bool doubtful(const Scene& scene, const ImpactRecord& row) {
-  const double gap_of_method = std::max(1e-6, std::pow(10.0, -scene.options.digits));
+  const double gap_of_method = std::max(1e-6, std::pow(10.0, -scene.accuracy.digits));
   if (!row.predictable || !(std::fabs(row.ledger_gap) <= gap_of_method)) return true;
-  if (!scene.options.error_estimates) return false;
+  if (!scene.request.error_estimates) return false;
   return !(row.error.impulse.norm() <= 0.05 * row.value.impulse.norm());
 }
 
@@ -38,9 +38,9 @@ std::size_t trusted_impacts(const Scene& scene, const Simulation& run) {
 /// What tables show of the numbers of a run; `trusted`: of an impact that is to be trusted.
 ImpactDigits digits_of(const Scene& scene, const PlannedRun& planned, bool trusted) {
   const MotionNumbers& sizes = planned.sizes;
-  return {.digits = scene.options.digits,
+  return {.digits = scene.accuracy.digits,
           .trusted = trusted,
-          .estimated = scene.options.error_estimates,
+          .estimated = scene.request.error_estimates,
           .scales = {0, sizes[0], sizes[1], sizes[4], sizes[7], sizes[9], planned.run.energy_start, 1}};
 }
 
@@ -76,10 +76,10 @@ std::string accuracy_words(const Scene& scene, const PlannedRun& planned) {
   const int known = planned.known_impacts, impacts = static_cast<int>(planned.run.impacts.size());
   const std::string of = known < impacts ? fmt::format(" of the first {} impacts", known) : "";
   if (!std::isfinite(planned.achieved)) {
-    return fmt::format("asked {} digits{}: a second run goes another way", scene.options.digits, of);
+    return fmt::format("asked {} digits{}: a second run goes another way", scene.accuracy.digits, of);
   }
   return fmt::format("asked {} digits, achieved {:.1f}{}: largest estimated error {} of the sequence's sizes",
-                     scene.options.digits, std::max(-std::log10(planned.achieved), 0.0), of,
+                     scene.accuracy.digits, std::max(-std::log10(planned.achieved), 0.0), of,
                      significant(planned.achieved, 1));
 }
 
@@ -91,7 +91,7 @@ std::string local_slip_words(const Scene& scene, const Simulation& run) {
     largest = std::max(largest, run.impacts[i].value.impulse.norm());
     if (run.impacts[i].local_slip > run.impacts[worst].local_slip) worst = i;
   }
-  if (run.impacts.empty() || !(run.impacts[worst].local_slip > std::pow(10.0, -scene.options.digits) * largest))
+  if (run.impacts.empty() || !(run.impacts[worst].local_slip > std::pow(10.0, -scene.accuracy.digits) * largest))
     return "";
   return fmt::format(
       "coulomb takes the patch as flat: with each place's own slip (friction_law = \"local\") the tangential "
@@ -118,7 +118,7 @@ std::vector<std::string> notes_of(const Scene& scene, const PlannedRun& planned)
 }
 
 std::vector<Column> columns_of(const Scene& scene) {
-  const bool friction = scene.ground.has_friction();
+  const bool friction = scene.world.ground.has_friction();
   std::vector<std::string> shown{"n",
                                  "end",
                                  "start",
@@ -128,7 +128,7 @@ std::vector<Column> columns_of(const Scene& scene) {
                                  "velocity_after_z",
                                  "angular_velocity_after_y"};
   shown.emplace_back(friction ? "impulse_tangential" : "duration");
-  if (friction || scene.ground.damping > 0) shown.emplace_back("energy_loss");
+  if (friction || scene.world.ground.damping > 0) shown.emplace_back("energy_loss");
   return impact_columns<ContinuousRow>(shown);
 }
 
@@ -205,7 +205,7 @@ Report simulation_report(const Scene& scene, const PlannedRun& planned) {
   report.fields["body"] = body_value(scene);
   report.fields["impacts"] = row_objects(report.grid);
   add_results(scene, planned, report.fields);
-  fit_columns(report, scene.options.digits, {2});
+  fit_columns(report, scene.accuracy.digits, {2});
   return report;
 }
 
@@ -227,7 +227,7 @@ Report sweep_report(const Scene& scene, const std::vector<SweptRun>& runs) {
   report.fields["message"] = fmt::format("{} of {} values", runs.size(), values);
   if (!runs.empty()) report.notes.push_back(method_words(runs.back().planned.run) + " (the last row's)");
   add_interruption(*scene.sweep, runs.size(), report);
-  fit_columns(report, scene.options.digits, {2});
+  fit_columns(report, scene.accuracy.digits, {2});
   return report;
 }
 

@@ -197,7 +197,7 @@ double ImpactInSpace::relative_error() const {
 
 std::vector<Step> derive_impact(const Scene& scene, const space::Drop& drop, const space::Sequence& sequence, int n) {
   const ImpactInSpace impact{scene, drop, sequence, n};
-  StepWriter writer(scene.options.digits, impact.relative_error());
+  StepWriter writer(scene.accuracy.digits, impact.relative_error());
   if (n == 1) write_first_touch(impact, writer);
   else write_flight(impact, writer);
   if (impact.row().group) write_group_impact(impact, writer);

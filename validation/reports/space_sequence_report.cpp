@@ -30,9 +30,9 @@ Scales scales_of(const Sequence& sequence) {
 
 std::string tail_words(const Scene& scene, const analytic::space::Tail& tail) {
   return fmt::format("…: infinitely many further impacts end at {} s, {}; the sum of their normal impulses is {} N·s",
-                     with_error({tail.end_time, tail.end_time_error}, {.digits = scene.options.digits + 3}),
+                     with_error({tail.end_time, tail.end_time_error}, {.digits = scene.accuracy.digits + 3}),
                      tail.closed_form ? "in closed form" : "by extrapolation",
-                     with_error({tail.normal_impulse, tail.normal_impulse_error}, {.digits = scene.options.digits}));
+                     with_error({tail.normal_impulse, tail.normal_impulse_error}, {.digits = scene.accuracy.digits}));
 }
 
 std::string order_words(const analytic::space::GroupImpact& group) {
@@ -98,12 +98,12 @@ Report sequence_report(const Scene& scene, const analytic::space::Drop& drop, co
                                  "angular_velocity_after_z"};
   if (impact_law(scene).friction != analytic::FrictionKind::none) shown.emplace_back("mode");
   report.grid.columns = impact_columns<SpaceRow>(shown);
-  const ImpactDigits digits{.digits = scene.options.digits, .scales = scales_of(sequence)};
+  const ImpactDigits digits{.digits = scene.accuracy.digits, .scales = scales_of(sequence)};
   const numeric::Vector3 centre = body_properties(scene, Model::discrete).centre;
   for (const SpaceRow& row : space_rows(scene, sequence, centre)) add_impact_row(report, row, digits);
   report.fields["impacts"] = row_objects(report.grid);
   add_results(scene, sequence, tail_fields(sequence.tail), sequence.evaluations, report.fields);
-  fit_columns(report, scene.options.digits, {3, 2});
+  fit_columns(report, scene.accuracy.digits, {3, 2});
   return report;
 }
 

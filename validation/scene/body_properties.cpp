@@ -7,8 +7,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "numeric/files/import.hpp"
 #include "numeric/mesh/generators.hpp"
-#include "numeric/mesh/import.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/hull.hpp"

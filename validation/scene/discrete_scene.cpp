@@ -137,7 +137,7 @@ analytic::PlanarBody planar_body(const numeric::Body& body) {
 
 analytic::Drop discrete_drop(const Scene& scene, const numeric::Body& body) {
   require_plane(scene);
-  const numeric::Ground& ground = scene.ground;
+  const numeric::Ground& ground = scene.world.ground;
   if (ground.has_friction() && ground.friction == numeric::FrictionLaw::regularised) {
     outside("and has Coulomb's law; regularised friction creeps instead of sticking");
   }
@@ -153,7 +153,7 @@ analytic::Drop discrete_drop(const Scene& scene, const numeric::Body& body) {
           .velocity = {.normal = start.velocity.z(),
                        .tangential = start.velocity.x(),
                        .angular = scene.touch_angular_velocity().y()},
-          .gravity = scene.options.gravity,
+          .gravity = scene.world.gravity,
           .law = law};
 }
 
@@ -192,7 +192,7 @@ analytic::ImpactLaw impact_law(const Scene& scene) {
 analytic::Drop impact_drop(const Scene& scene, const analytic::PlanarBody& body) {
   require_plane(scene);
   const analytic::Angle inclination = analytic::Angle::from_degrees(scene.angle_deg);
-  const double gravity = scene.options.gravity;
+  const double gravity = scene.world.gravity;
   const Vector3 velocity = scene.touch_velocity();
   const auto touch = [&] { return analytic::BodyMotion(body, inclination, {}, 0).centre_height(); };
   const double normal = scene.height ? -scene.fallen_speed(touch()) : velocity.z();

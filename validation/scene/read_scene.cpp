@@ -75,13 +75,13 @@ void check_ground(const SceneValues& values, numeric::Ground& ground, Model mode
   }
 }
 
-void check_options(const SceneValues& values, const numeric::Options& options) {
+void check_accuracy(const SceneValues& values, const numeric::Accuracy& accuracy) {
   using numeric::Method;
-  const bool takes_step = options.method == Method::automatic || options.method == Method::tvd_rk3;
+  const bool takes_step = accuracy.method == Method::automatic || accuracy.method == Method::tvd_rk3;
   if (values.has("run.step") && !takes_step) {
-    values.refuse("run.step", fmt::format("left out: {} chooses its own", method_name(options.method)));
+    values.refuse("run.step", fmt::format("left out: {} chooses its own", method_name(accuracy.method)));
   }
-  if (values.has("run.tolerance") && (options.step > 0 || options.method == Method::tvd_rk3)) {
+  if (values.has("run.tolerance") && (accuracy.step > 0 || accuracy.method == Method::tvd_rk3)) {
     values.refuse("run.tolerance", "left out: a fixed step has none");
   }
 }
@@ -132,7 +132,7 @@ void check_drop(const SceneValues& values, Scene& scene) {
   } else if (!swept) {
     values.require("drop.angle_deg", "the inclination at the first impact");
   }
-  if (scene.height && !(scene.options.gravity > 0)) values.refuse("drop.height", "left out where world.gravity is 0");
+  if (scene.height && !(scene.world.gravity > 0)) values.refuse("drop.height", "left out where world.gravity is 0");
 }
 
 /// Flags alone begin with the paper's thin rod without gravity, scene files with a body that can be dropped on the
@@ -140,8 +140,8 @@ void check_drop(const SceneValues& values, Scene& scene) {
 Scene default_scene(const std::string& path, Model model) {
   Scene scene;
   scene.path = path;
-  scene.ground.stiffness = 0;  // none, until it is given
-  scene.options.gravity = path.empty() ? 0 : 9.81;
+  scene.world.ground.stiffness = 0;  // none, until it is given
+  scene.world.gravity = path.empty() ? 0 : 9.81;
   if (path.empty() && model == Model::discrete) scene.body.radius = 0;
   return scene;
 }
@@ -168,10 +168,10 @@ Scene read_values(SceneValues values, const std::vector<SceneOverride>& override
   put_values(values, scene, model);
   check_sweep(values, scene);
   check_drop(values, scene);
-  check_options(values, scene.options);
+  check_accuracy(values, scene.accuracy);
   values.exclude("impact.impulse_ratio", "impact.friction");
   check_body(values, scene.body, model);
-  check_ground(values, scene.ground, model);
+  check_ground(values, scene.world.ground, model);
   return scene;
 }
 

@@ -91,11 +91,11 @@ std::vector<std::string> discrete_summary(const Scene& scene) {
   motion +=
       fmt::format(", tangential {} m/s, spin {} rad/s", shortest(scene.tangential_velocity), shortest(scene.spin));
   if (scene.has_vectors()) motion = "drop: " + scene.drop_words();
-  motion += fmt::format(", gravity {} m/s²", shortest(scene.options.gravity));
+  motion += fmt::format(", gravity {} m/s²", shortest(scene.world.gravity));
   return {discrete_body_words(scene.body), motion,
           fmt::format("impact: e = {} ({}), {}; at most {} impacts, {} digits", shortest(scene.impact.restitution),
-                      law_name(scene.impact.law), discrete_friction_words(scene.impact), scene.options.impacts,
-                      scene.options.digits)};
+                      law_name(scene.impact.law), discrete_friction_words(scene.impact), scene.request.impacts,
+                      scene.accuracy.digits)};
 }
 
 }  // namespace
@@ -118,7 +118,7 @@ const std::string& SceneSweep::name() const { return sweep_names()[static_cast<s
 Scene Scene::at(double value) const {
   Scene one = *this;
   if (sweep->quantity == SceneSweep::Quantity::angle_deg) one.angle_deg = value;
-  else one.ground.static_friction = one.ground.sliding_friction = value;
+  else one.world.ground.static_friction = one.world.ground.sliding_friction = value;
   one.sweep.reset();
   return one;
 }
@@ -153,7 +153,8 @@ std::vector<std::string> Scene::summary(Model model) const {
   if (model == Model::discrete) return discrete_summary(*this);
   const bool sweeps_friction = sweep && sweep->quantity == SceneSweep::Quantity::friction;
   std::string drop = "drop: " + drop_words();
-  drop += fmt::format(", gravity {} m/s²{}", shortest(options.gravity), options.planar ? ", kept in its plane" : "");
+  drop += fmt::format(", gravity {} m/s²{}", shortest(world.gravity), world.planar ? ", kept in its plane" : "");
+  const numeric::Ground& ground = world.ground;
   return {body_words(body), drop,
           fmt::format("ground: k = {} N/m³, c = {} N·s/m⁴ over the {} area, {}", in_powers(ground.stiffness),
                       in_powers(ground.damping), area_names()[static_cast<std::size_t>(ground.area)],

@@ -75,8 +75,9 @@ struct Scene {
   std::vector<double> angular_velocity;  ///< at the first touch, world components [rad/s]; empty: (0, spin, 0)
   DiscreteImpact impact;
   BodyScene body;
-  numeric::Ground ground;  ///< stiffness 0: none given, for the discrete model
-  numeric::Options options;
+  numeric::World world;  ///< a ground of stiffness 0: none given, for the discrete model
+  numeric::Request request;
+  numeric::Accuracy accuracy;
   bool require_digits = false;  ///< fewer known digits are exit status 3
   std::string history;          ///< file for the time history; empty: none
   std::optional<SceneSweep> sweep;

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "numeric/motion/free_flight.hpp"
-#include "numeric/touch_point.hpp"
+#include "numeric/motion/touch_point.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/record/names.hpp"
@@ -72,7 +72,7 @@ double Scene::fallen_speed(double touch) const {
         "{}drop.height = {}: must be greater than {} m, the height of the centre of mass at the first touch",
         path.empty() ? "" : path + ": ", shortest(*height), significant(touch, 6)));
   }
-  return std::sqrt(2 * options.gravity * (*height - touch));
+  return std::sqrt(2 * world.gravity * (*height - touch));
 }
 
 }  // namespace clatter::validation

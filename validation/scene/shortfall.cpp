@@ -56,7 +56,7 @@ namespace {
 template <class Sequence>
 std::string shortfall_of(const Scene& scene, const Sequence& sequence) {
   if (is_cut_short(sequence.outcome)) return fmt::format("{}: {}", outcome_name(sequence.outcome), sequence.message);
-  return scene.require_digits ? digits_shortfall(scene.options.digits, largest_error(sequence)) : "";
+  return scene.require_digits ? digits_shortfall(scene.accuracy.digits, largest_error(sequence)) : "";
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ space::Body space_body(const numeric::Body& body) {
 }
 
 space::Drop space_drop(const Scene& scene, const numeric::Body& body) {
-  const numeric::Ground& ground = scene.ground;
+  const numeric::Ground& ground = scene.world.ground;
   if (ground.has_friction() && ground.friction == numeric::FrictionLaw::regularised) {
     throw analytic::OutsideModelError(
         "the discrete model has Coulomb's law; regularised friction creeps instead of sticking");
@@ -90,7 +90,7 @@ space::Drop space_drop(const Scene& scene, const numeric::Body& body) {
                    .attitude = start.attitude,
                    .velocity = start.velocity,
                    .angular_velocity = scene.touch_angular_velocity(),
-                   .gravity = scene.options.gravity,
+                   .gravity = scene.world.gravity,
                    .law = {}};
   drop.law.law = {.law = analytic::RestitutionLaw::viscoelastic,
                   .damping_per_stiffness = ground.damping / ground.stiffness};
@@ -106,7 +106,7 @@ space::Drop impact_space_drop(const Scene& scene, space::Body body) {
                    .attitude = scene.touch_attitude(),
                    .velocity = scene.touch_velocity(),
                    .angular_velocity = scene.touch_angular_velocity(),
-                   .gravity = scene.options.gravity,
+                   .gravity = scene.world.gravity,
                    .law = {}};
   drop.law.law = impact_law(scene);
   if (scene.height) drop.velocity.z() = -scene.fallen_speed(touch_height(drop.body, drop.attitude));

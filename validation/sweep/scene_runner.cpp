@@ -26,9 +26,7 @@ SweepBody make_sweep_body(const SweepPlan& plan, const Scene& scene) {
 }
 
 SceneRunner::SceneRunner(const SweepPlan& plan, const SweepBody& body, std::function<bool()> stop)
-    : plan_(plan), stop_(std::move(stop)), scene_(plan.scene), body_(body) {
-  scene_.options.progress = [this](int, long) { return !stop_(); };
-}
+    : plan_(plan), stop_(std::move(stop)), scene_(plan.scene), body_(body) {}
 
 RangeRows SceneRunner::operator()(const SceneRange& range) {
   RangeRows rows;
@@ -48,7 +46,7 @@ void SceneRunner::renew_body() {
 /// In the plane or in space.
 void SceneRunner::append_sequence(RowForm& form) {
   const analytic::SequenceOptions options{
-      .impacts = scene_.options.impacts, .digits = scene_.options.digits, .amplification = form.errors};
+      .impacts = scene_.request.impacts, .digits = scene_.accuracy.digits, .amplification = form.errors};
   const DiscreteDrop drop = body_.discrete->drop(scene_);
   if (const auto* const planar = std::get_if<analytic::Drop>(&drop)) {
     const analytic::Sequence sequence = impact_sequence(*planar, options);
@@ -66,7 +64,8 @@ bool SceneRunner::append_result(RowForm& form) {
     append_sequence(form);
     return true;
   }
-  const PlannedRun planned = run_to_digits(*body_.solid, scene_.ground, scene_.start(*body_.solid), scene_.options);
+  const PlannedRun planned = run_to_digits(*body_.solid, scene_.world, scene_.start(*body_.solid), scene_.request,
+                                           scene_.accuracy, {.progress = [this](int, long) { return !stop_(); }});
   if (planned.run.outcome == numeric::Outcome::interrupted) return false;
   form.reason = shortfall(scene_, planned);
   append_rows(form, planned.run);
@@ -74,14 +73,14 @@ bool SceneRunner::append_result(RowForm& form) {
 }
 
 RowForm SceneRunner::form_of(const std::string& prefix, std::string& out) const {
-  const numeric::Options& options = scene_.options;
-  const bool both = options.error_estimates && options.amplification;
+  const numeric::Request& request = scene_.request;
+  const bool both = request.error_estimates && request.amplification;
   return {.out = out,
           .prefix = prefix,
           .rows = plan_.rows,
           .in_space = plan_.in_space,
-          .errors = plan_.model == Model::discrete ? both : options.error_estimates,
-          .predictions = plan_.model == Model::discrete ? both : options.amplification,
+          .errors = plan_.model == Model::discrete ? both : request.error_estimates,
+          .predictions = plan_.model == Model::discrete ? both : request.amplification,
           .reason = {}};
 }
 
@@ -114,7 +113,7 @@ MakeCompute runners_of(const SweepPlan& plan, const SweepBody& body) {
 
 long long range_size(const SweepPlan& plan) {
   if (plan.model == Model::continuous) return 1;
-  return std::clamp(4096 / plan.scene.options.impacts, 1, 512);
+  return std::clamp(4096 / plan.scene.request.impacts, 1, 512);
 }
 
 }  // namespace clatter::validation

@@ -146,7 +146,7 @@ void make_room(SceneValues& values, const std::vector<Setting>& settings) {
 }
 
 void put_both_frictions(Scene& scene, double value) {
-  scene.ground.static_friction = scene.ground.sliding_friction = value;
+  scene.world.ground.static_friction = scene.world.ground.sliding_friction = value;
 }
 
 bool is_both_frictions(const Setting& setting, const SceneValues& values, const std::vector<Setting>& settings) {
@@ -173,7 +173,7 @@ void read_scene(const SweepRequest& request, const std::vector<Setting>& setting
         fmt::format("{}: sweep: must be left out here; give --set drop.angle_deg=FROM:TO:STEP", request.file));
   }
   if (!plan.scene.history.empty()) values.refuse("run.history", "left out in a sweep");
-  if (plan.scene.require_digits && !plan.scene.options.error_estimates) {
+  if (plan.scene.require_digits && !plan.scene.request.error_estimates) {
     throw BadInput("run.require_digits: needs run.errors, without which no digit is known");
   }
 }

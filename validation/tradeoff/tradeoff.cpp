@@ -44,11 +44,11 @@ std::string without_truth(const Truth& truth) {
 
 std::string shortfall_of(const Truth& truth, const Scene& scene) {
   if (!truth.cut_short.empty()) {
-    return fmt::format("{} of {} impacts have a reference: {}", truth.rows.size(), scene.options.impacts,
+    return fmt::format("{} of {} impacts have a reference: {}", truth.rows.size(), scene.request.impacts,
                        truth.cut_short);
   }
-  if (!scene.require_digits || truth.error <= std::pow(10.0, -scene.options.digits)) return "";
-  return fmt::format("asked {} digits, the reference is known to {:.1f}", scene.options.digits,
+  if (!scene.require_digits || truth.error <= std::pow(10.0, -scene.accuracy.digits)) return "";
+  return fmt::format("asked {} digits, the reference is known to {:.1f}", scene.accuracy.digits,
                      -std::log10(truth.error));
 }
 

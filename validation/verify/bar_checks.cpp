@@ -52,11 +52,11 @@ class BarSample {
 
 /// The same drop by another method, at a tolerance that is as good as none.
 numeric::Simulation truth_of(const Scene& scene, const numeric::Body& body) {
-  numeric::Options options = scene.options;
-  options.method = numeric::Method::rkf45;
-  options.tolerance = 2e-13;
-  options.error_estimates = options.amplification = false;
-  return numeric::simulate(body, scene.ground, scene.start(body), options);
+  numeric::Accuracy accuracy = scene.accuracy;
+  accuracy.method = numeric::Method::rkf45;
+  accuracy.tolerance = 2e-13;
+  const numeric::Request request{.impacts = scene.request.impacts, .error_estimates = false, .amplification = false};
+  return numeric::simulate(body, scene.world, scene.start(body), request, accuracy);
 }
 
 Measured bars_of_the_simulator(CaseRuns& case_runs) {
@@ -64,11 +64,12 @@ Measured bars_of_the_simulator(CaseRuns& case_runs) {
   for (int index = 0; index < scene_count; ++index) {
     if (!case_runs.goes_on()) throw CaseRuns::Interrupted{};
     Scene scene = random_scene(family, index);
-    scene.options.digits = 9;
-    scene.options.impacts = 2;
-    scene.options.evaluation_limit = 300'000;  // soft grounds may hold a body for thousands of oscillations
+    scene.accuracy.digits = 9;
+    scene.request.impacts = 2;
+    scene.accuracy.evaluation_limit = 300'000;  // soft grounds may hold a body for thousands of oscillations
     const numeric::Body body = scene.make_body();
-    const numeric::Simulation run = run_to_digits(body, scene.ground, scene.start(body), scene.options).run;
+    const numeric::Simulation run =
+        run_to_digits(body, scene.world, scene.start(body), scene.request, scene.accuracy).run;
     const numeric::Simulation truth = truth_of(scene, body);
     if (run.impacts.empty()) continue;
     const MotionNumbers sizes = motion_sizes(run, run.impacts.size(), body);

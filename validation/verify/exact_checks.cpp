@@ -113,15 +113,12 @@ struct Landing {
 Landing flat_landing(double damping) {
   Landing landing;
   const numeric::Body body(numeric::box_mesh({.size = {0.3, 0.2, 0.1}, .mass = landing.mass}));
-  const numeric::Ground ground{
-      .stiffness = landing.stiffness, .damping = damping, .area = numeric::AreaMeasure::projected};
-  numeric::Options options;
-  options.gravity = 0;
-  options.impacts = 1;
-  options.digits = 10;
-  options.error_estimates = options.amplification = false;
+  const numeric::World world{
+      .ground = {.stiffness = landing.stiffness, .damping = damping, .area = numeric::AreaMeasure::projected},
+      .gravity = 0};
+  const numeric::Request one_impact{.impacts = 1, .error_estimates = false, .amplification = false};
   const auto start = numeric::touching_state(body, {.inclination = 0, .velocity = {0, 0, -landing.speed}});
-  landing.numbers = numeric::simulate(body, ground, start, options).impacts.at(0).value;
+  landing.numbers = numeric::simulate(body, world, start, one_impact, {.digits = 10}).impacts.at(0).value;
   return landing;
 }
 
@@ -170,12 +167,12 @@ Measured energy_ledger(CaseRuns& case_runs) {
 /// Change of the end state from step to step of the paper's method.
 Measured runge_kutta_order(CaseRuns&) {
   Scene scene = scene_of_case("phone-damped", {.impacts = 1});
-  scene.options.method = numeric::Method::tvd_rk3;
+  scene.accuracy.method = numeric::Method::tvd_rk3;
   const numeric::Body body = scene.make_body();
   const auto velocity = [&](double step) {
-    scene.options.step = step;
-    scene.options.amplification = false;
-    return numeric::simulate(body, scene.ground, scene.start(body), scene.options)
+    scene.accuracy.step = step;
+    scene.request.amplification = false;
+    return numeric::simulate(body, scene.world, scene.start(body), scene.request, scene.accuracy)
         .impacts.at(0)
         .value.velocity_after.z();
   };

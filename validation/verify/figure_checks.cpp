@@ -144,7 +144,7 @@ Measured momentum_balance(const Scene& scene, const Simulation& run) {
   const ImpactNumbers& last = run.impacts.back().value;
   const double before = scene.start(body).velocity.z();
   const double gained = body.mass() * (last.velocity_after.z() - before);
-  const double given = run.total_normal_impulse() - body.mass() * scene.options.gravity * (last.start + last.duration);
+  const double given = run.total_normal_impulse() - body.mass() * scene.world.gravity * (last.start + last.duration);
   return {run.total_normal_impulse(), std::fabs(gained - given) / run.total_normal_impulse(), Answer::holds,
           fmt::format("sum of the normal impulses of {} impacts", run.impacts.size())};
 }

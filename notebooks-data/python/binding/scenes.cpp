@@ -28,12 +28,10 @@ Scene read_scene(const SceneSource& source, const NamedTexts& given) {
 
 PlannedRun run_scene(const Scene& scene, const std::function<bool()>& goes_on, numeric::HistoryRecorder* history) {
   const numeric::Body body = scene.make_body();
-  numeric::Options options = scene.options;
-  options.history = history;
-  options.progress = [&](int, long) { return goes_on(); };
+  const numeric::Observer observer{.history = history, .progress = [&](int, long) { return goes_on(); }};
   const numeric::MotionState start = scene.start(body);
-  if (history && scene.height) validation::record_fall(*history, start, body.mass(), options.gravity, 20);
-  return validation::run_to_digits(body, scene.ground, start, options);
+  if (history && scene.height) validation::record_fall(*history, start, body.mass(), scene.world.gravity, 20);
+  return validation::run_to_digits(body, scene.world, start, scene.request, scene.accuracy, observer);
 }
 
 struct ContinuousRun {

@@ -39,10 +39,7 @@ py::tuple plan(const std::string& name, const std::optional<std::string>& text, 
   const auto is_given = [&](const char* argument) { return changes.contains(argument); };
   const validation::PlanTarget target = validation::plan_target(scene, {within, is_given});
   const auto planned = run_interruptible([&](const GoesOn& goes_on) {
-    Scene watched = scene;
-    watched.options.progress = [&](int, long) { return goes_on(); };
-    validation::Plan made = make_plan(watched, target);
-    made.scene.options.progress = nullptr;
+    validation::Plan made = make_plan(scene, target, {.progress = [&](int, long) { return goes_on(); }});
     return std::make_shared<const PlannedScene>(PlannedScene{scene, std::move(made)});
   });
   return py::make_tuple(Report{[planned] { return plan_report(planned->scene, planned->plan); }},

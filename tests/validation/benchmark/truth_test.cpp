@@ -145,14 +145,15 @@ BOOST_AUTO_TEST_CASE(no_impact_comes_before_the_time_until_which_a_problem_says_
 BOOST_AUTO_TEST_CASE(the_simulator_confirms_the_truth_of_the_damped_phone_to_1e_12) {
   const Problem& problem = problem_named("test", "phone-damped");
   Scene scene = problem.scene;
-  scene.options.planar = true;
-  scene.options.digits = 12;
+  scene.world.planar = true;
+  scene.accuracy.digits = 12;
   const std::vector<TruthRow> truth = truth_of(problem, "any");
   const Sizes sizes = sizes_of(truth);
   const numeric::Body body = scene.make_body();
-  const numeric::Simulation run = numeric::simulate(body, scene.ground, scene.start(body), scene.options);
+  const numeric::Simulation run =
+      numeric::simulate(body, scene.world, scene.start(body), scene.request, scene.accuracy);
   BOOST_TEST_REQUIRE(run.impacts.size() == truth.size());
-  const double g = scene.options.gravity;
+  const double g = scene.world.gravity;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const numeric::ImpactNumbers& impact = run.impacts[i].value;
     check_close("duration", std::fabs(impact.duration - truth[i].duration), truth[i].duration);

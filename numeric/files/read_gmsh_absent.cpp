@@ -1,6 +1,6 @@
 // Stands in for read_gmsh.cpp where Gmsh's library was not found or not wanted.
-#include "numeric/errors.hpp"
-#include "numeric/mesh/import.hpp"
+#include "numeric/base/errors.hpp"
+#include "numeric/files/import.hpp"
 
 namespace clatter::numeric {
 

@@ -1,4 +1,4 @@
-#include "numeric/detail/require.hpp"
+#include "numeric/base/require.hpp"
 
 #include <cmath>
 #include <sstream>

@@ -1,9 +1,10 @@
-#include "numeric/error_growth.hpp"
+#include "numeric/drop/error_growth.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "numeric/touch_point.hpp"
+#include "numeric/motion/newton_euler.hpp"
+#include "numeric/motion/touch_point.hpp"
 
 namespace clatter::numeric {
 namespace {
@@ -20,24 +21,43 @@ struct Turning {
 };
 
 /// Euler's equations and their linearisation: δθ̇ = δω − ω × δθ, I δω̇ = −δω × Iω − ω × Iδω.
-Turning rate_of(const Body& body, const Turning& at) {
+Turning rate_of(const Body& body, const NewtonEuler& equations, const Turning& at) {
   const Vector3 momentum = body.inertia() * at.omega, momentum_change = body.inertia() * at.omega_change;
-  return {body.inverse_inertia() * momentum.cross(at.omega),
-          body.inverse_inertia() * (momentum.cross(at.omega_change) + momentum_change.cross(at.omega)),
+  return {equations.angular(at.omega, Vector3::Zero()),
+          equations.response(momentum.cross(at.omega_change) + momentum_change.cross(at.omega)),
           at.omega_change - at.omega.cross(at.turn)};
 }
 
 Turning integrate(const Body& body, Turning at, double time) {
+  const NewtonEuler equations(body.mass(), body.inertia());
   const double steps = std::clamp(std::ceil(at.omega.norm() * time / radians_per_step), 4.0, most_steps);
   const double h = time / steps;
   for (int i = 0; i < static_cast<int>(steps); ++i) {
-    const Turning k1 = rate_of(body, at);
-    const Turning k2 = rate_of(body, at.plus(k1, h / 2));
-    const Turning k3 = rate_of(body, at.plus(k2, h / 2));
-    const Turning k4 = rate_of(body, at.plus(k3, h));
+    const Turning k1 = rate_of(body, equations, at);
+    const Turning k2 = rate_of(body, equations, at.plus(k1, h / 2));
+    const Turning k3 = rate_of(body, equations, at.plus(k2, h / 2));
+    const Turning k4 = rate_of(body, equations, at.plus(k3, h));
     at = at.plus(k1, h / 6).plus(k2, h / 3).plus(k3, h / 3).plus(k4, h / 6);
   }
   return at;
+}
+
+// Blocks of a deviation.
+template <class Deviation>
+auto shift(Deviation& d) {
+  return d.template head<3>();
+}
+template <class Deviation>
+auto turn(Deviation& d) {
+  return d.template segment<3>(3);
+}
+template <class Deviation>
+auto velocity_change(Deviation& d) {
+  return d.template segment<3>(6);
+}
+template <class Deviation>
+auto angular_velocity_change(Deviation& d) {
+  return d.template tail<3>();
 }
 
 }  // namespace
@@ -49,9 +69,9 @@ ErrorGrowth::ErrorGrowth(const Body& body, const MotionState& start, double grav
   deviation_ << 1, 1, -1, 1, -1, 1, 1, -1, -1, 1, 1, -1;
   if (planar) {
     const Vector3 north = start.attitude.conjugate() * Vector3::UnitY();
-    deviation_[1] = deviation_[7] = 0;
-    deviation_.segment<3>(3) = -north;
-    deviation_.segment<3>(9) = north;
+    shift(deviation_).y() = velocity_change(deviation_).y() = 0;
+    turn(deviation_) = -north;
+    angular_velocity_change(deviation_) = north;
   }
   deviation_.normalize();
 }
@@ -59,21 +79,23 @@ ErrorGrowth::ErrorGrowth(const Body& body, const MotionState& start, double grav
 MotionState ErrorGrowth::moved(const MotionState& state, double size) const {
   const double radius = body_.radius();
   MotionState other = state;
-  other.centre += size * radius * deviation_.head<3>();
-  const Vector3 half_turn = size / 2 * deviation_.segment<3>(3);
+  other.centre += size * radius * shift(deviation_);
+  const Vector3 half_turn = size / 2 * turn(deviation_);
   other.attitude = (state.attitude * Eigen::Quaterniond(1, half_turn.x(), half_turn.y(), half_turn.z())).normalized();
-  other.velocity += size * speed_ * deviation_.segment<3>(6);
-  other.angular_velocity += size * speed_ / radius * deviation_.tail<3>();
+  other.velocity += size * speed_ * velocity_change(deviation_);
+  other.angular_velocity += size * speed_ / radius * angular_velocity_change(deviation_);
   return other;
 }
 
 ErrorGrowth::Deviation ErrorGrowth::between(const MotionState& from, const MotionState& to) const {
   const double radius = body_.radius();
+  Eigen::Quaterniond back_and_forth = from.attitude.conjugate() * to.attitude;
+  if (back_and_forth.w() < 0) back_and_forth.coeffs() = -back_and_forth.coeffs();
   Deviation deviation;
-  Eigen::Quaterniond turn = from.attitude.conjugate() * to.attitude;
-  if (turn.w() < 0) turn.coeffs() = -turn.coeffs();
-  deviation << (to.centre - from.centre) / radius, 2 * turn.vec(), (to.velocity - from.velocity) / speed_,
-      (to.angular_velocity - from.angular_velocity) * (radius / speed_);
+  shift(deviation) = (to.centre - from.centre) / radius;
+  turn(deviation) = 2 * back_and_forth.vec();
+  velocity_change(deviation) = (to.velocity - from.velocity) / speed_;
+  angular_velocity_change(deviation) = (to.angular_velocity - from.angular_velocity) * (radius / speed_);
   return deviation;
 }
 
@@ -89,14 +111,14 @@ void ErrorGrowth::fly(const MotionState& start, double time) {
   if (!(time > 0)) return;
   const double radius = body_.radius();
   Deviation moved = deviation_;
-  moved.head<3>() += time * speed_ / radius * moved.segment<3>(6);
+  shift(moved) += time * speed_ / radius * velocity_change(moved);
   if (planar_) {
-    moved.segment<3>(3) += time * speed_ / radius * moved.tail<3>();
+    turn(moved) += time * speed_ / radius * angular_velocity_change(moved);
   } else {
     const Turning end =
-        integrate(body_, {start.angular_velocity, speed_ / radius * moved.tail<3>(), moved.segment<3>(3)}, time);
-    moved.segment<3>(3) = end.turn;
-    moved.tail<3>() = radius / speed_ * end.omega_change;
+        integrate(body_, {start.angular_velocity, speed_ / radius * angular_velocity_change(moved), turn(moved)}, time);
+    turn(moved) = end.turn;
+    angular_velocity_change(moved) = radius / speed_ * end.omega_change;
   }
   take(moved);
 }
@@ -117,7 +139,7 @@ void ErrorGrowth::touch(ContactRun& run, const ContactControl& control, const Mo
   if (down.kind != TouchDown::Kind::touch) return;
   const MotionState start = approach_flight.at(down.time);
   ContactControl rough = control;
-  rough.tolerance = std::max(control.tolerance, 0.02 * size);
+  rough.steps.tolerance = std::max(control.steps.tolerance, 0.02 * size);
   const ContactResult result = run.run(start, touch_point(body_, start), rough);
   if (result.ending != ContactEnding::lift_off) return;
   const double other_end = down.time - back + result.duration;

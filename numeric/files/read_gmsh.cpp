@@ -8,10 +8,10 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "numeric/detail/require.hpp"
-#include "numeric/errors.hpp"
+#include "numeric/base/errors.hpp"
+#include "numeric/base/require.hpp"
+#include "numeric/files/import.hpp"
 #include "numeric/mesh/element_geometry.hpp"
-#include "numeric/mesh/import.hpp"
 
 namespace clatter::numeric {
 namespace {

@@ -1,17 +1,23 @@
-#include "numeric/options.hpp"
+#include "numeric/drop/settings.hpp"
 
-#include "numeric/detail/require.hpp"
+#include "numeric/base/require.hpp"
 
 namespace clatter::numeric {
 
-void Options::validate() const {
-  using detail::require;
+using detail::require;
+
+void World::validate() const {
+  require(gravity >= 0, "world.gravity", gravity, "finite and at least 0");
+  ground.validate();
+}
+
+void Request::validate() const { require(impacts >= 1, "run.impacts", impacts, "at least 1"); }
+
+void Accuracy::validate() const {
   require(step >= 0, "run.step", step, "finite and at least 0");
   require(digits >= 2 && digits <= 12, "run.digits", digits, "from 2 to 12");
   require(tolerance == 0 || (tolerance >= least_tolerance && tolerance <= 0.1), "run.tolerance", tolerance,
           "0 or from 5e-14 to 0.1");
-  require(impacts >= 1, "run.impacts", impacts, "at least 1");
-  require(gravity >= 0, "world.gravity", gravity, "finite and at least 0");
   require(evaluation_limit >= 1, "run.evaluation_limit", static_cast<double>(evaluation_limit), "at least 1");
   if (method == Method::tvd_rk3) require(tolerance == 0, "run.tolerance", tolerance, "left out for a fixed step");
   if (step > 0) {

@@ -1,14 +1,15 @@
-#include "numeric/drop_run.hpp"
+#include "numeric/drop/drop_run.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 
-#include "numeric/error_growth.hpp"
-#include "numeric/history_writer.hpp"
+#include "numeric/drop/error_growth.hpp"
+#include "numeric/drop/history_writer.hpp"
 #include "numeric/motion/free_flight.hpp"
-#include "numeric/touch_point.hpp"
+#include "numeric/motion/touch_point.hpp"
+#include "numeric/stepping/contact_run.hpp"
 
 namespace clatter::numeric {
 namespace {
@@ -52,21 +53,19 @@ MotionState in_plane(const MotionState& state) {
 
 class Run {
  public:
-  Run(const Body& body, const Ground& ground, const MotionState& start, const Options& options,
-      const Accuracy& accuracy, const RunExtras& extras)
-      : body_(body), options_(options), extras_(extras),
-        contact_gravity_(options.gravity_in_contact ? options.gravity : 0),
-        system_(body, ground, contact_gravity_, options.planar), stepper_(make_stepper(accuracy.method)),
-        contact_(system_, *stepper_), state_(options.planar ? in_plane(start) : start),
-        growth_(body, start, options.gravity, options.planar), history_(body, options.gravity, extras.history) {
-    control_.tolerance = accuracy.tolerance;
-    control_.step_cap = accuracy.step_cap;
-    control_.step = accuracy.step;
-    control_.steps_per_contact = accuracy.steps_per_contact;
-    control_.evaluation_limit = options.evaluation_limit;
-    control_.estimate_local_slip = extras.local_slip;
-    control_.point_friction = options.point_friction;
-    if (extras.history || extras.progress) {
+  Run(const Body& body, const World& world, const MotionState& start, const Request& request,
+      const Integration& integration, const Observer& observer)
+      : body_(body), world_(world), request_(request), observer_(observer),
+        contact_gravity_(world.gravity_in_contact ? world.gravity : 0),
+        system_(body, world.ground, contact_gravity_, world.planar), stepper_(make_stepper(integration.method)),
+        contact_(system_, *stepper_), state_(world.planar ? in_plane(start) : start),
+        growth_(body, start, world.gravity, world.planar), history_(body, world.gravity, observer.history) {
+    control_.steps = integration.steps;
+    control_.evaluation_limit = integration.evaluation_limit;
+    control_.estimate_local_slip =
+        request.error_estimates && world.ground.has_friction() && world.ground.friction == FrictionLaw::coulomb;
+    control_.point_friction = world.point_friction;
+    if (observer.history || observer.progress) {
       control_.observe = [this](const ContactInstant& at) { return observe(at); };
     }
   }
@@ -87,22 +86,22 @@ class Run {
 
   /// The flight to the next touch-down; false if there is none.
   bool fall() {
-    const FreeFlight flight(body_, state_, options_.gravity, options_.planar);
+    const FreeFlight flight(body_, state_, world_.gravity, world_.planar);
     const TouchDown down = next_touch_down(body_, flight);
     result_.root_evaluations += down.evaluations;
     if (down.kind == TouchDown::Kind::undecided) return end(Outcome::flight_undecided);
     if (down.kind == TouchDown::Kind::never) return end(Outcome::no_further_impact);
-    if (static_cast<int>(result_.impacts.size()) == options_.impacts) return end(Outcome::impact_limit);
+    if (static_cast<int>(result_.impacts.size()) == request_.impacts) return end(Outcome::impact_limit);
     const bool first = result_.impacts.empty();
     if (!first) {
       history_.flight(flight, time_, down.time);
-      if (extras_.amplification) growth_.fly(state_, down.time);
+      if (request_.amplification) growth_.fly(state_, down.time);
       time_ += down.time;
     }
-    const double fallen = std::fabs(state_.velocity.z()) * down.time + options_.gravity / 2 * down.time * down.time;
+    const double fallen = std::fabs(state_.velocity.z()) * down.time + world_.gravity / 2 * down.time * down.time;
     placement_ = first ? 0 : std::numeric_limits<double>::epsilon() * fallen;
     state_ = flight.at(down.time);
-    if (first) result_.energy_start = mechanical_energy(body_, state_, options_.gravity);
+    if (first) result_.energy_start = mechanical_energy(body_, state_, world_.gravity);
     return true;
   }
 
@@ -117,14 +116,14 @@ class Run {
     }
     if (!(contact.scales.depth > least_depth * placement_)) return end(Outcome::not_representable);
     result_.impacts.push_back(record(contact, point));
-    if (extras_.amplification) note_growth(contact);
-    state_ = options_.planar ? in_plane(contact.after) : contact.after;
+    if (request_.amplification) note_growth(contact);
+    state_ = world_.planar ? in_plane(contact.after) : contact.after;
     time_ += contact.duration;
     return lifts || end(outcome_of(contact.ending));
   }
 
   [[nodiscard]] ImpactRecord record(const ContactResult& contact, const Vector3& point) const {
-    const double g = options_.gravity;
+    const double g = world_.gravity;
     const MotionState& after = contact.after;
     ImpactRecord row;
     ImpactNumbers& n = row.value;
@@ -161,11 +160,12 @@ class Run {
 
   void note_growth(const ContactResult& contact) {
     const std::function<bool(const ContactInstant&)> observe = std::move(control_.observe);
+    const bool estimates_local_slip = control_.estimate_local_slip;
     control_.observe = nullptr;
     control_.estimate_local_slip = false;
     growth_.touch(contact_, control_, state_, contact);
     control_.observe = observe;
-    control_.estimate_local_slip = extras_.local_slip;
+    control_.estimate_local_slip = estimates_local_slip;
     ImpactRecord& row = result_.impacts.back();
     row.amplification = growth_.factor();
     row.predictable = row.amplification < predictable_growth;
@@ -173,13 +173,14 @@ class Run {
 
   bool observe(const ContactInstant& at) {
     history_.contact(system_, at, time_);
-    if (!extras_.progress || ++observed_ % 64 != 0) return true;
-    return (*extras_.progress)(static_cast<int>(result_.impacts.size()), system_.evaluations());
+    if (!observer_.progress || ++observed_ % 64 != 0) return true;
+    return observer_.progress(static_cast<int>(result_.impacts.size()), system_.evaluations());
   }
 
   const Body& body_;
-  const Options& options_;
-  const RunExtras& extras_;
+  const World& world_;
+  const Request& request_;
+  const Observer& observer_;
   double contact_gravity_;
   ContactSystem system_;
   std::unique_ptr<Stepper> stepper_;
@@ -202,9 +203,9 @@ double mechanical_energy(const Body& body, const MotionState& state, double grav
          body.mass() * gravity * state.centre.z();
 }
 
-DropRun run_drop(const Body& body, const Ground& ground, const MotionState& start, const Options& options,
-                 const Accuracy& accuracy, const RunExtras& extras) {
-  return Run(body, ground, start, options, accuracy, extras).run();
+DropRun run_drop(const Body& body, const World& world, const MotionState& start, const Request& request,
+                 const Integration& integration, const Observer& observer) {
+  return Run(body, world, start, request, integration, observer).run();
 }
 
 }  // namespace clatter::numeric

@@ -1,4 +1,4 @@
-#include "numeric/touch_point.hpp"
+#include "numeric/motion/touch_point.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,9 +1,9 @@
-#include "numeric/history_writer.hpp"
+#include "numeric/drop/history_writer.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "numeric/touch_point.hpp"
+#include "numeric/motion/touch_point.hpp"
 
 namespace clatter::numeric {
 

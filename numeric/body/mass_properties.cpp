@@ -1,10 +1,10 @@
-#include "numeric/mass_properties.hpp"
+#include "numeric/body/mass_properties.hpp"
 
 #include <cmath>
 #include <sstream>
 
-#include "numeric/detail/require.hpp"
-#include "numeric/errors.hpp"
+#include "numeric/base/errors.hpp"
+#include "numeric/base/require.hpp"
 #include "numeric/mesh/element_geometry.hpp"
 
 namespace clatter::numeric {

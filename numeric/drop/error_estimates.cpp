@@ -1,4 +1,4 @@
-#include "numeric/error_estimates.hpp"
+#include "numeric/drop/error_estimates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -97,14 +97,15 @@ void add_rounding(const Body& body, const ImpactRecord& row, ImpactNumbers& erro
 
 }  // namespace
 
-SecondRun second_run(const Accuracy& main, double used_step) {
-  SecondRun second{.accuracy = main, .error_per_distance = error_per_distance_of_steps};
-  second.accuracy.steps_per_contact /= step_part;
-  if (main.step > 0) second.accuracy.step = used_step * step_part;
+SecondRun second_run(const Integration& main, double used_step) {
+  SecondRun second{.integration = main, .error_per_distance = error_per_distance_of_steps};
+  StepSettings& steps = second.integration.steps;
+  steps.steps_per_contact /= step_part;
+  if (main.steps.step > 0) steps.step = used_step * step_part;
   if (main.method == Method::tvd_rk3) return second;
-  second.accuracy.step_cap *= shorter_steps;
-  const bool can_be_finer = finer * main.tolerance >= least_tolerance;
-  second.accuracy.tolerance *= can_be_finer ? finer : coarser;
+  steps.step_cap *= shorter_steps;
+  const bool can_be_finer = finer * main.steps.tolerance >= least_tolerance;
+  steps.tolerance *= can_be_finer ? finer : coarser;
   second.error_per_distance = can_be_finer ? error_per_distance_of_finer : error_per_distance_of_coarser;
   return second;
 }

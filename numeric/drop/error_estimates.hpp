@@ -3,13 +3,13 @@
 
 #include <vector>
 
-#include "numeric/drop_run.hpp"
+#include "numeric/drop/drop_run.hpp"
 
 namespace clatter::numeric {
 
 /// How the second run is computed, and how many times its distance from the main run the error of that run may be.
 struct SecondRun {
-  Accuracy accuracy;
+  Integration integration;
   double error_per_distance = 0;
 };
 
@@ -18,7 +18,7 @@ struct SecondRun {
 /// errors fall (0.9), or 1/8 for order three.  Where a tenth of the tolerance is below least_tolerance, the second run
 /// is ten times coarser.
 /// @param used_step  of the main run, fixed [s]
-[[nodiscard]] SecondRun second_run(const Accuracy& main, double used_step);
+[[nodiscard]] SecondRun second_run(const Integration& main, double used_step);
 
 /// Fills in `error` of each row: error_per_distance × |row − second's row|, and what rounding leaves, grown by the
 /// row's amplification: 4 ε (1 + amplification) × the size of what the number is computed from; of a time, also the

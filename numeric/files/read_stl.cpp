@@ -9,9 +9,9 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "numeric/detail/require.hpp"
-#include "numeric/errors.hpp"
-#include "numeric/mesh/import.hpp"
+#include "numeric/base/errors.hpp"
+#include "numeric/base/require.hpp"
+#include "numeric/files/import.hpp"
 
 namespace clatter::numeric {
 namespace {

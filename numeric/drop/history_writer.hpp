@@ -1,7 +1,7 @@
 // Turns instants of contacts and flights into history samples.
 #pragma once
 
-#include "numeric/history.hpp"
+#include "numeric/drop/history.hpp"
 #include "numeric/motion/free_flight.hpp"
 #include "numeric/stepping/contact_run.hpp"
 

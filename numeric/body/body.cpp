@@ -1,24 +1,14 @@
-#include "numeric/body.hpp"
+#include "numeric/body/body.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
-#include "numeric/detail/require.hpp"
-#include "numeric/errors.hpp"
+#include "numeric/base/errors.hpp"
+#include "numeric/base/require.hpp"
+#include "numeric/body/inertia.hpp"
 
 namespace clatter::numeric {
 namespace {
-
-/// Principal moments of a real body are positive and none exceeds the sum of the others.
-void check_inertia(const Matrix3& inertia) {
-  using detail::require;
-  require(inertia.allFinite(), "inertia", inertia.sum(), "finite");
-  const Vector3 moments = Eigen::SelfAdjointEigenSolver<Matrix3>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
-  require(moments[0] > 0, "smallest principal moment of inertia", moments[0], "greater than 0");
-  require(moments[2] <= (moments[0] + moments[1]) * (1 + 1e-9), "largest principal moment of inertia", moments[2],
-          "at most the sum of the other two");
-}
 
 /// Products of lengths that leave the range of doubles give no normals.
 void check_surface(const Facets& facets, double radius) {
@@ -39,12 +29,7 @@ void Body::set_up(const MassProperties& properties, const Surface& surface, bool
   check_inertia(properties.inertia);
   mass_ = properties.mass;
   inertia_ = properties.inertia;
-  // By a power of two, which rounds nothing: the determinant of a large body's inertia overflows.
-  const int exponent = std::ilogb(inertia_.trace());
-  const auto scaled = [](const Matrix3& m, int power) {
-    return Matrix3(m.unaryExpr([&](double x) { return std::scalbn(x, power); }));
-  };
-  inverse_inertia_ = scaled(scaled(inertia_, -exponent).inverse(), -exponent);
+  inverse_inertia_ = numeric::inverse_inertia(inertia_);
   facets_ = planar_facets(surface, merge);
   for (Vector3& vertex : facets_.vertices) {
     vertex -= properties.centre;

@@ -1,8 +1,8 @@
 // Where a body touches the ground.
 #pragma once
 
-#include "numeric/body.hpp"
-#include "numeric/impact_record.hpp"
+#include "numeric/body/body.hpp"
+#include "numeric/body/contact_end.hpp"
 #include "numeric/motion/motion_state.hpp"
 
 namespace clatter::numeric {

@@ -1,0 +1,51 @@
+// A rigid body ready to be dropped: inertia and contact surface in its body frame.
+#pragma once
+
+#include <vector>
+
+#include "numeric/body/mass_properties.hpp"
+#include "numeric/surface/facets.hpp"
+#include "numeric/surface/hierarchy.hpp"
+
+namespace clatter::numeric {
+
+/// Body frame: axes of the mesh, origin at the centre of mass.
+class Body {
+ public:
+  /// `surface` in the frame of `properties.centre`.
+  /// @throws std::domain_error unless mass and inertia are finite and positive definite.
+  Body(const MassProperties& properties, const Surface& surface, bool merge = true);
+  /// Mass, centre, inertia and surface of a mesh.  @throws MeshError (see mass_properties, boundary_surface).
+  explicit Body(const Mesh& mesh, bool merge = true);
+
+  [[nodiscard]] double mass() const { return mass_; }
+  [[nodiscard]] const Matrix3& inertia() const { return inertia_; }
+  [[nodiscard]] const Matrix3& inverse_inertia() const { return inverse_inertia_; }
+  [[nodiscard]] const Facets& facets() const { return facets_; }
+  [[nodiscard]] const Hierarchy& hierarchy() const { return hierarchy_; }
+  /// The facets as they are with coplanar neighbours merged: the body's shape, however its faces are meshed.
+  [[nodiscard]] const Facets& outline() const { return outline_of_.empty() ? facets_ : outline_; }
+  /// The outline's vertex of a vertex of the facets; −1 within a face or a straight edge.
+  [[nodiscard]] int outline_vertex(int vertex) const {
+    return outline_of_.empty() ? vertex : outline_of_[static_cast<std::size_t>(vertex)];
+  }
+  /// Largest distance of a vertex from the centre of mass [m].
+  [[nodiscard]] double radius() const { return radius_; }
+  /// Half the extent along the body's x axis [m].
+  [[nodiscard]] double half_length() const { return half_length_; }
+
+ private:
+  void set_up(const MassProperties& properties, const Surface& surface, bool merge);
+  void find_outline(const MassProperties& properties, const Surface& surface);
+
+  double mass_ = 0;
+  double radius_ = 0;
+  double half_length_ = 0;
+  Matrix3 inertia_, inverse_inertia_;
+  Facets facets_;
+  Facets outline_;               ///< empty where the facets are merged
+  std::vector<int> outline_of_;  ///< see outline_vertex; empty where the facets are merged
+  Hierarchy hierarchy_;
+};
+
+}  // namespace clatter::numeric

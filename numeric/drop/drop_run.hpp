@@ -1,0 +1,39 @@
+// One run of a drop: flights and contacts in turn, without error estimates.
+#pragma once
+
+#include <vector>
+
+#include "numeric/body/body.hpp"
+#include "numeric/drop/impact_record.hpp"
+#include "numeric/drop/settings.hpp"
+#include "numeric/stepping/step_control.hpp"
+
+namespace clatter::numeric {
+
+/// How finely a run is computed: an Accuracy put in figures.
+struct Integration {
+  Method method = Method::rk8pd;
+  StepSettings steps;
+  long evaluation_limit = 3'000'000;  ///< of the contact forces, at which the run ends
+};
+
+struct DropRun {
+  std::vector<ImpactRecord> impacts;  ///< without errors
+  Outcome outcome = Outcome::impact_limit;
+  double end_time = 0;  ///< of what is listed or was reached [s]
+  double step = 0;      ///< fixed step used [s]
+  long force_evaluations = 0;
+  long root_evaluations = 0;
+  double energy_start = 0;  ///< [J]
+  MotionState final_state;
+};
+
+/// Of `request` the number of impacts and the amplification; with error estimates also ImpactRecord::local_slip, which
+/// is a part of them.
+[[nodiscard]] DropRun run_drop(const Body& body, const World& world, const MotionState& start, const Request& request,
+                               const Integration& integration, const Observer& observer);
+
+/// Translational + rotational + potential (m g z) energy [J].
+[[nodiscard]] double mechanical_energy(const Body& body, const MotionState& state, double gravity);
+
+}  // namespace clatter::numeric

@@ -1,0 +1,62 @@
+// What a simulation is given besides a body and its start: the world, the request, the accuracy and an observer.
+#pragma once
+
+#include <functional>
+
+#include "numeric/contact/ground.hpp"
+#include "numeric/drop/history.hpp"
+#include "numeric/stepping/method.hpp"
+
+namespace clatter::numeric {
+
+/// What is simulated: the laws that hold around the body.
+struct World {
+  Ground ground = {};     ///< with its law of friction
+  double gravity = 9.81;  ///< [m/s²], >= 0
+  /// Whether gravity acts during contacts too.  Without it a contact of time T is wrong by g T in speed, and the ledger
+  /// by m g times the rise of the centre of mass.
+  bool gravity_in_contact = true;
+  bool planar = false;  ///< keep the motion in its x–z plane: no force or moment out of it acts
+  /// Friction of a slipping contact in space acts at its pressure centre alone (FrictionLaw::coulomb), as if the patch
+  /// were a point.  Otherwise slip varies over the patch with its spin about the vertical; what that changes vanishes
+  /// with the patch as the ground becomes stiff, but a spinning patch that hardly slips takes very short steps.
+  bool point_friction = false;
+
+  /// @throws std::domain_error naming field, value and what is allowed.
+  void validate() const;
+};
+
+/// What is asked for.
+struct Request {
+  int impacts = 6;              ///< most impacts to report, >= 1
+  bool error_estimates = true;  ///< by a second run, at another tolerance or half the step
+  bool amplification = true;    ///< growth of a small error of the start, by a neighbouring run
+
+  /// @throws std::domain_error naming field, value and what is allowed.
+  void validate() const;
+};
+
+/// Below it the rounding of a contact's state is as large as the local error.
+inline constexpr double least_tolerance = 5e-14;
+
+/// How well the numbers are to be computed, and with how much work at most.
+struct Accuracy {
+  Method method = Method::automatic;
+  int digits = 6;   ///< significant digits wanted, 2 to 12
+  double step = 0;  ///< of tvd_rk3 [s]; 0: chosen from `digits` and the estimated contact time
+  /// Of an adaptive method: local error <= tolerance × size, per step, from 5e-14 to 0.1; 0: 10^(−digits − 4).
+  double tolerance = 0;
+  long evaluation_limit = 3'000'000;  ///< of the contact forces, in the main run; then the run ends
+
+  /// @throws std::domain_error naming field, value and what is allowed.
+  void validate() const;
+};
+
+/// Who looks on, and may end the run.  Of the main run only.
+struct Observer {
+  HistoryRecorder* history = nullptr;  ///< takes the time history, if any
+  /// Called now and then with (impacts so far, contact force evaluations so far); return false to end the run.
+  std::function<bool(int, long)> progress = nullptr;
+};
+
+}  // namespace clatter::numeric

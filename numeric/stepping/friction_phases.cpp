@@ -1,0 +1,172 @@
+#include "numeric/stepping/friction_phases.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clatter::numeric {
+namespace {
+
+using Kind = FrictionPhase::Kind;
+
+/// Slip slower than this part, times √tolerance, of the contact's speed keeps its direction: across it friction is a
+/// damper that stiffens like 1/|v|, which explicit steps could not follow.
+constexpr double slow_part = 0.1;
+constexpr double least_spin = 1;               ///< times tolerance and the contact's speed: slip from spin that counts
+constexpr double fading_per_contact = 50;      ///< rate at which stick ends a remaining slip, times the contact time
+constexpr double faint_part = 1e-9;            ///< of the contact's mean force: below it friction switches no more
+constexpr double stopped_part_of_spin = 1e-4;  ///< of the fastest slip from spin: a slower patch counts as stopped
+constexpr double slip_resolution = 100;        ///< times tolerance and the contact's speed: a range of slip that counts
+constexpr double least_resolution = 1e-9;      ///< of that speed
+constexpr double turning_resolution = 1e-13;   ///< of that speed: a range above it comes from turning, not rounding
+constexpr double steps_of_range = 4;           ///< of a fixed length within which friction may cross the range
+
+}  // namespace
+
+void FrictionPhases::begin(const MotionState& touch, const Vector3& point, const ContactScales& scales,
+                           const Settings& settings, const ContactInstant& now) {
+  settings_ = settings;
+  scales_ = scales;
+  log_.begin(scales, system_.body().mass());
+  const Ground& ground = system_.ground();
+  const AlongGround none;
+  if (!ground.has_friction()) return start(Kind::none, none, now);
+  if (ground.friction == FrictionLaw::regularised) return start(Kind::regularised, none, now);
+  const Vector3 moving = touch.velocity + touch.attitude * touch.angular_velocity.cross(point);
+  const AlongGround slip{moving.x(), system_.planar() ? 0.0 : moving.y()};
+  const double speed = slip.norm();
+  if (speed > 1e-12 * std::max(scales_.speed, touch.velocity.norm())) {
+    return start(Kind::slip, slip * (1 / speed), now);
+  }
+  const AlongGround ratio = system_.sticking_ratio(point);
+  if (ratio.norm() <= ground.static_friction) return start(Kind::stick, none, now);
+  start(Kind::slip, ratio * (-1 / ratio.norm()), now);
+}
+
+void FrictionPhases::start(Kind kind, const AlongGround& direction, const ContactInstant& now) {
+  log_.open(sums(now));
+  stopping_speed_ = 0;
+  FrictionPhase phase{.kind = kind,
+                      .direction = direction,
+                      .slow = slow_part * std::sqrt(settings_.tolerance) * scales_.speed,
+                      .fading = fading_per_contact / scales_.time};
+  if (kind == Kind::slip && !system_.planar()) note_variation(phase, now);
+  system_.set_phase(phase);
+}
+
+/// Whether the patch spins noticeably; returns how fast its farthest point might.
+double FrictionPhases::note_variation(FrictionPhase& phase, const ContactInstant& now) const {
+  if (settings_.point_friction) return 0;
+  const double spin_speed = std::fabs(system_.vertical_spin(now.state)) * system_.body().radius();
+  phase.varies = spin_speed > least_spin * settings_.tolerance * scales_.speed;
+  return spin_speed;
+}
+
+FrictionLog::Sums FrictionPhases::sums(const ContactInstant& now) const {
+  const double fall = velocity(now.state).z() - system_.touch_down().velocity.z() + system_.gravity() * now.time;
+  return {now.time, friction_work(now.state), system_.body().mass() * fall};
+}
+
+bool FrictionPhases::can_end() const {
+  const Kind kind = system_.phase().kind;
+  return kind == Kind::slip || kind == Kind::stick;
+}
+
+double FrictionPhases::slip_forward(const ContactInstant& at) const {
+  if (!(at.diagnosis.load.force > 0)) return scales_.speed;
+  return at.diagnosis.slip.dot(system_.phase().direction) - stopping_speed_;
+}
+
+double FrictionPhases::stick_reserve(const ContactInstant& at) const {
+  const double force = at.diagnosis.load.force;
+  return force > 0 ? system_.stick_coefficient() * force - at.diagnosis.hold.norm() : 0;
+}
+
+double FrictionPhases::reserve(const ContactInstant& at) const {
+  return system_.phase().kind == Kind::slip ? slip_forward(at) : stick_reserve(at);
+}
+
+double FrictionPhases::force_to_judge(const ContactInstant& at) const {
+  return at.diagnosis.load.force - faint_part * scales_.energy / scales_.depth;
+}
+
+bool FrictionPhases::is_over(const ContactInstant& at) const {
+  return system_.phase().kind == Kind::slip ? !(slip_forward(at) > 0) : stick_reserve(at) < 0;
+}
+
+void FrictionPhases::change(const ContactInstant& at, ContactInstant& now) {
+  const Kind kind = system_.phase().kind;
+  log_.close(system_.phase(), sums(now));
+  const AlongGround hold = kind == Kind::stick ? at.diagnosis.hold : system_.sticking_force(at.state);
+  const double normal = at.diagnosis.load.force;
+  const bool can_hold = kind == Kind::slip && hold.norm() <= system_.stick_coefficient() * normal;
+  if (can_hold) {
+    start(Kind::stick, {}, now);
+  } else {
+    const double size = hold.norm();
+    start(Kind::slip, size > 0 ? hold * (-1 / size) : system_.phase().direction, now);
+  }
+  now.diagnosis = system_.diagnose(now.state, now.rate);
+}
+
+void FrictionPhases::follow(const ContactInstant& now) {
+  FrictionPhase phase = system_.phase();
+  if (phase.kind != Kind::slip || system_.planar()) return;
+  const AlongGround& slip = now.diagnosis.slip;
+  const double speed = slip.norm();
+  // Slip that has hardly begun keeps the direction in which it was let go.
+  const AlongGround leaning{slip.east + phase.slow * phase.direction.east,
+                            slip.north + phase.slow * phase.direction.north};
+  const double size = leaning.norm();
+  if (now.diagnosis.load.force > 0 && size > 0) phase.direction = leaning * (1 / size);
+  const double spin_speed = note_variation(phase, now);
+  // Spin keeps the friction of a slow patch from stopping it in a finite time: it counts as stopped before.
+  const double stopped = stopped_part_of_spin * spin_speed;
+  stopping_speed_ = phase.varies && speed > 2 * stopped ? stopped : 0;
+  system_.set_phase(phase);
+}
+
+void FrictionPhases::choose_local_slip(ContactInstant& now) {
+  const Ground& ground = system_.ground();
+  if (ground.friction != FrictionLaw::local || !ground.has_friction()) return;
+  FrictionPhase phase = system_.phase();
+  const double range = system_.slip_range(now.state).width();
+  double resolved = std::max(slip_resolution * settings_.tolerance, least_resolution);
+  // Within fewer steps of fixed length friction would overshoot from one end of the range to the other.
+  if (settings_.fixed_step > 0) {
+    resolved += steps_of_range * ground.sliding_friction * settings_.fixed_step / scales_.time;
+  }
+  resolved *= scales_.speed;
+  phase.turns = range > turning_resolution * scales_.speed;
+  phase.floor = resolved;
+  if (phase.kind != Kind::local && range > resolved) {
+    change_kind(phase, Kind::local, phase.direction, now);
+  } else if (phase.kind == Kind::local && range < resolved / 2) {
+    const AlongGround& slip = now.diagnosis.slip;
+    const double speed = slip.norm();
+    if (speed > range) change_kind(phase, Kind::slip, slip * (1 / speed), now);
+    else change_kind(phase, Kind::stick, {}, now);
+  } else {
+    system_.set_phase(phase);
+  }
+}
+
+void FrictionPhases::change_kind(const FrictionPhase& from, Kind kind, const AlongGround& direction,
+                                 ContactInstant& now) {
+  log_.close(system_.phase(), sums(now));
+  start(kind, direction, now);
+  FrictionPhase phase = system_.phase();
+  phase.turns = from.turns;
+  phase.floor = from.floor;
+  system_.set_phase(phase);
+  now.diagnosis = system_.diagnose(now.state, now.rate);
+}
+
+FrictionMode FrictionPhases::end(const ContactInstant& now) {
+  log_.close(system_.phase(), sums(now));
+  const Ground& ground = system_.ground();
+  if (!ground.has_friction()) return FrictionMode::frictionless;
+  if (ground.friction == FrictionLaw::regularised) return FrictionMode::regularised;
+  return ground.friction == FrictionLaw::local ? FrictionMode::local : log_.mode();
+}
+
+}  // namespace clatter::numeric

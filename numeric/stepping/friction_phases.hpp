@@ -1,0 +1,66 @@
+// The phases of friction along a contact: stick and slip, Eqs. 5 and 6 of Shan et al. (2005).
+#pragma once
+
+#include "numeric/stepping/contact_step.hpp"
+#include "numeric/stepping/friction_log.hpp"
+
+namespace clatter::numeric {
+
+/// With Coulomb's law one of two laws holds for the resultant F_t at the pressure centre, whose slip is v:
+///     stick   |F_t| <= μ_s F_n,   F_t such that v = 0                    (Eq. 5)
+///     slip    F_t = −μ_k F_n d,   d the direction of v                   (Eq. 6)
+/// A phase is over where its reserve falls to 0: μ_s F_n − |F_t| in stick, v·d less a stopping speed in slip.  Stick
+/// that gives way slips against the force that would have held; slip that ends sticks if Eq. 5 then holds, and else
+/// slips against that force too.  Without friction, or with the regularised law, one phase lasts throughout.
+class FrictionPhases {
+ public:
+  struct Settings {
+    double tolerance = 1e-10;     ///< of the steps
+    double fixed_step = 0;        ///< their length if that is fixed, else 0 [s]
+    bool point_friction = false;  ///< see World
+  };
+
+  explicit FrictionPhases(ContactSystem& system) : system_(system) {}
+
+  /// The phase in which a contact begins at `now`: slip in the direction of the touching point `point` (body frame);
+  /// where that has none, what the light first load would do.
+  void begin(const MotionState& touch, const Vector3& point, const ContactScales& scales, const Settings& settings,
+             const ContactInstant& now);
+
+  /// Whether an event can end the phase.
+  [[nodiscard]] bool can_end() const;
+  /// What is left of the phase at an instant: [m/s] in slip, [N] in stick.
+  [[nodiscard]] double reserve(const ContactInstant& at) const;
+  [[nodiscard]] bool is_over(const ContactInstant& at) const;
+  /// F_n over the force below which friction is not judged [N]: where the contact begins and ends, the forces that
+  /// decide between slip and stick are rounding.
+  [[nodiscard]] double force_to_judge(const ContactInstant& at) const;
+  [[nodiscard]] bool is_faint(const ContactInstant& at) const { return !(force_to_judge(at) > 0); }
+
+  /// Ends the phase at `now`, by the forces at `at`, and begins the next.
+  void change(const ContactInstant& at, ContactInstant& now);
+  /// Lets slip's direction follow the slip, after a step accepted to `now`.
+  void follow(const ContactInstant& now);
+  /// FrictionLaw::local: goes over between a patch that counts as a point, which can stick, and one whose points slip
+  /// each for itself.
+  void choose_local_slip(ContactInstant& now);
+  /// Ends the last phase and names what there was.
+  [[nodiscard]] FrictionMode end(const ContactInstant& now);
+
+ private:
+  [[nodiscard]] double slip_forward(const ContactInstant& at) const;
+  [[nodiscard]] double stick_reserve(const ContactInstant& at) const;
+  void start(FrictionPhase::Kind kind, const AlongGround& direction, const ContactInstant& now);
+  void change_kind(const FrictionPhase& from, FrictionPhase::Kind kind, const AlongGround& direction,
+                   ContactInstant& now);
+  double note_variation(FrictionPhase& phase, const ContactInstant& now) const;
+  [[nodiscard]] FrictionLog::Sums sums(const ContactInstant& now) const;
+
+  ContactSystem& system_;
+  Settings settings_;
+  ContactScales scales_;
+  FrictionLog log_;
+  double stopping_speed_ = 0;  ///< slip at which the slip phase ends [m/s]
+};
+
+}  // namespace clatter::numeric
