@@ -9,8 +9,8 @@
 #include <numeric>
 #include <string>
 
+#include "analytic/detail/errors.hpp"
 #include "analytic/detail/limits.hpp"
-#include "analytic/errors.hpp"
 
 namespace clatter::analytic::detail {
 namespace {
