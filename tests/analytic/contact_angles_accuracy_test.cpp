@@ -25,8 +25,8 @@
 #include <vector>
 
 #include "analytic/contact_angles.hpp"
-#include "tests/analytic/oracle/reference_table.hpp"
 #include "tests/analytic/oracle/rod_oracle.hpp"
+#include "validation/oracles/reference_table.hpp"
 
 namespace analytic = clatter::analytic;
 namespace oracle = clatter::oracle;

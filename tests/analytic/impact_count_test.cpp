@@ -1,4 +1,4 @@
-// Number and order of impacts of impact_sequence() against a brute-force march, at 100 000 random
+// Number and order of impacts of impact_sequence() against a brute-force simulation, at 100 000 random
 // drops.
 
 #include <boost/test/unit_test.hpp>
@@ -15,12 +15,14 @@
 #include <vector>
 
 #include "analytic/sequence.hpp"
-#include "tests/analytic/oracle/march_oracle.hpp"
+#include "validation/oracles/event_oracle.hpp"
 
 namespace analytic = clatter::analytic;
 namespace oracle = clatter::oracle;
 
 namespace {
+
+using Exact = oracle::EventSequence<long double>;
 
 constexpr std::size_t drops = 100'000;
 constexpr int impacts = 4;
@@ -81,10 +83,10 @@ analytic::Sequence computed(const RandomDrop& drop) {
 }
 
 /// Uniform solids: k² = (3r² + L²)/12 for the cylinder, (L² + T²)/12 for the box.
-oracle::MarchBody march_body(const RandomDrop& drop) {
+oracle::EventBody<long double> simulated_body(const RandomDrop& drop) {
   const long double h = drop.half_thickness;
   const long double thickness_part = drop.shape == Shape::box ? 4 * h * h : 3 * h * h;
-  oracle::MarchBody body{std::sqrt((1 + thickness_part) / 12), {{-0.5L, -h}, {0.5L, -h}}};
+  oracle::EventBody<long double> body{1, (1 + thickness_part) / 12, {{-0.5L, -h}, {0.5L, -h}}};
   if (drop.shape != Shape::thin_rod) {
     body.vertices.push_back({-0.5L, h});
     body.vertices.push_back({0.5L, h});
@@ -92,21 +94,23 @@ oracle::MarchBody march_body(const RandomDrop& drop) {
   return body;
 }
 
-oracle::MarchSequence marched(const RandomDrop& drop, long double theta) {
-  return oracle::march_sequence(march_body(drop), {theta, -1, 0, 0}, 0,
-                                {drop.restitution, drop.impulse_ratio, drop.gravity}, impacts);
+Exact simulated(const RandomDrop& drop, long double theta) {
+  const oracle::EventLaw<long double> law{.restitution = drop.restitution,
+                                          .friction = oracle::EventFriction::ratio,
+                                          .friction_value = drop.impulse_ratio,
+                                          .gravity = drop.gravity};
+  return oracle::EventSimulation<long double>(simulated_body(drop), {theta, -1, 0, 0}, law).run(impacts, 0);
 }
 
-bool same_order(const oracle::MarchSequence& x, const oracle::MarchSequence& y) {
+bool same_order(const Exact& x, const Exact& y) {
   return std::equal(x.impacts.begin(), x.impacts.end(), y.impacts.begin(), y.impacts.end(),
                     [](const auto& p, const auto& q) { return p.vertex == q.vertex; });
 }
 
 analytic::VertexSet only(std::size_t vertex) { return static_cast<analytic::VertexSet>(1U << vertex); }
 
-/// Why the rows are not those of the march; empty if they are.
-std::string disagreement(const analytic::Sequence& sequence, const oracle::MarchSequence& exact,
-                         const oracle::MarchSequence& neighbour) {
+/// Why the rows are not those of the simulation; empty if they are.
+std::string disagreement(const analytic::Sequence& sequence, const Exact& exact, const Exact& neighbour) {
   const bool accumulates =
       sequence.outcome == analytic::Outcome::at_rest || sequence.outcome == analytic::Outcome::sustained_contact;
   const std::size_t rows = sequence.rows.size();
@@ -138,7 +142,7 @@ struct Verdict {
   }
 };
 
-std::string describe(const RandomDrop& drop, const analytic::Sequence& sequence, const oracle::MarchSequence& exact,
+std::string describe(const RandomDrop& drop, const analytic::Sequence& sequence, const Exact& exact,
                      const std::string& reason) {
   std::ostringstream out;
   out.precision(17);
@@ -147,7 +151,7 @@ std::string describe(const RandomDrop& drop, const analytic::Sequence& sequence,
       << "\n  rows:";
   for (const auto& row : sequence.rows)
     out << ' ' << analytic::PlanarBody::vertex_set_name(row.vertices) << " at " << row.start;
-  out << " (" << sequence.message << ")\n  march:";
+  out << " (" << sequence.message << ")\n  simulated:";
   for (const auto& impact : exact.impacts)
     out << ' ' << analytic::PlanarBody::vertex_set_name(only(impact.vertex)) << " at "
         << static_cast<double>(impact.time);
@@ -155,8 +159,8 @@ std::string describe(const RandomDrop& drop, const analytic::Sequence& sequence,
 }
 
 void judge(const RandomDrop& drop, Verdict& verdict) {
-  const auto exact = marched(drop, drop.theta);
-  const auto neighbour = marched(drop, drop.theta * (1 + perturbation));
+  const auto exact = simulated(drop, drop.theta);
+  const auto neighbour = simulated(drop, drop.theta * (1 + perturbation));
   ++verdict.by_count[exact.impacts.size()];
   if (exact.close_call || neighbour.close_call || !same_order(exact, neighbour)) {
     ++verdict.too_close;
@@ -191,7 +195,7 @@ Verdict judge_all(const std::vector<RandomDrop>& all) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(number_and_order_of_impacts_agree_with_a_brute_force_march) {
+BOOST_AUTO_TEST_CASE(number_and_order_of_impacts_agree_with_a_brute_force_simulation) {
   const Verdict verdict = judge_all(random_drops());
   BOOST_TEST_MESSAGE(verdict.compared << " drops compared, " << verdict.too_close
                                       << " too close to call; with 1, 2, 3, 4 impacts: " << verdict.by_count[1] << ' '

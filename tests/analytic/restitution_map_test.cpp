@@ -1,27 +1,18 @@
 #include "analytic/restitution_map.hpp"
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "validation/oracles/digits.hpp"
+#include "validation/oracles/impulse_path.hpp"
+
 namespace {
 
 using namespace clatter::analytic;
-using Exact = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<120>>;
-
-/// e(s) by bisection of ln[(1+s)/(1−s e)] = s (1+e) in 120 digits.
-Exact exact_restitution(const Exact& s) {
-  Exact low = 0, high = s > 1 ? Exact(1 / s) : Exact(1);
-  for (int i = 0; i < 380; ++i) {
-    const Exact e = (low + high) / 2;
-    const Exact x = 1 - s * e;
-    const bool above = x <= 0 || log((1 + s) / x) > s * (1 + e);
-    (above ? high : low) = e;
-  }
-  return (low + high) / 2;
-}
+using Exact = clatter::oracle::Decimal<120>;
+using clatter::oracle::exact_restitution;
 
 double ulps(double value, const Exact& exact) {
   const double nearest = static_cast<double>(exact);

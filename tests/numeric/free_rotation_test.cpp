@@ -9,13 +9,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "tests/numeric/oracle/taylor_rotation.hpp"
+#include "validation/oracles/free_top.hpp"
 
 namespace {
 
 using namespace clatter::numeric;
-using clatter::oracle::RotationState;
-using clatter::oracle::taylor_step;
+using clatter::oracle::Top;
 using Exact = boost::multiprecision::cpp_bin_float_50;
 
 constexpr double eps = 2.2e-16;
@@ -33,18 +32,18 @@ FreeRotation free_rotation(const Body& body) { return {diagonal(body.moments), {
 
 /// Largest difference of a component, velocities in units of |ω|.
 template <typename Real>
-double distance(const Rotation& rotation, const RotationState<Real>& exact, double speed) {
+double distance(const Rotation& rotation, const Top<Real>& exact, double speed) {
   const auto& q = rotation.attitude;
   const double computed[4] = {q.w(), q.x(), q.y(), q.z()};
   Real dot = 0;
-  for (int i = 0; i < 4; ++i) dot += computed[i] * exact.attitude[i];
+  for (int i = 0; i < 4; ++i) dot += computed[i] * exact.q[i];
   double result = 0;
   for (int i = 0; i < 4; ++i) {
-    const Real difference = computed[i] - (dot < 0 ? Real(-exact.attitude[i]) : exact.attitude[i]);
+    const Real difference = computed[i] - (dot < 0 ? Real(-exact.q[i]) : exact.q[i]);
     result = std::fmax(result, std::fabs(static_cast<double>(difference)));
   }
   for (int i = 0; i < 3; ++i) {
-    const Real difference = rotation.angular_velocity[i] - exact.omega[i];
+    const Real difference = rotation.angular_velocity[i] - exact.w[i];
     result = std::fmax(result, std::fabs(static_cast<double>(difference)) / speed);
   }
   return result;
@@ -57,16 +56,16 @@ double worst_distance(const Body& body, double turns) {
   const FreeRotation rotation = free_rotation(body);
   const double speed = body.omega.norm();
   const double step = std::exp2(std::floor(std::log2(0.5 / rotation.largest_speed())));
-  RotationState<Real> state;
-  std::array<Real, 3> moments;
+  clatter::oracle::TopSeries<Real> series(order);
+  Top<Real> top;
   for (int i = 0; i < 3; ++i) {
-    moments[i] = body.moments[i];
-    state.omega[i] = body.omega[i];
+    top.moments[i] = body.moments[i];
+    top.w[i] = body.omega[i];
   }
   double worst = 0;
   for (int k = 1; k * step * speed <= turns * turn; ++k) {
-    state = taylor_step<Real, order>(moments, state, Real(step));
-    worst = std::fmax(worst, distance(rotation.at(k * step), state, speed));
+    series.step(top, Real(step));
+    worst = std::fmax(worst, distance(rotation.at(k * step), top, speed));
   }
   return worst;
 }

@@ -12,7 +12,7 @@
 #include <iostream>
 #include <random>
 
-#include "validation/verify/impulse_path.hpp"
+#include "validation/oracles/impulse_path.hpp"
 
 namespace {
 

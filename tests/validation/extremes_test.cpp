@@ -154,6 +154,11 @@ BOOST_AUTO_TEST_CASE(the_exact_rod_notices_an_angle_off_by_1e_12_and_an_impact_t
   BOOST_TEST(rod_error(start, impacts).error >= 5e-13);
   impacts.count = 2;
   BOOST_TEST(!rod_error(start, impacts).ends_rightly);
+  // Upright the rod does not turn, whatever the digits of π leave of its cosine.
+  const RodError upright =
+      rod_error({.angle_deg = 90, .parameters = {}}, rod_impacts(contact_angles(Angle::from_degrees(90), {})));
+  BOOST_TEST(upright.error <= 1e-15);
+  BOOST_TEST(upright.ends_rightly);
   // 40° lies between the folds: two impacts.
   const RodImpacts two = rod_impacts(contact_angles(Angle::from_degrees(40), {}));
   BOOST_TEST(two.count == 2);

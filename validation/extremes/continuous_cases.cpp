@@ -7,8 +7,8 @@
 
 #include "analytic/restitution_map.hpp"
 #include "validation/extremes/continuous.hpp"
+#include "validation/extremes/exact_rod.hpp"
 #include "validation/extremes/extreme_cases.hpp"
-#include "validation/extremes/retrace.hpp"
 
 namespace clatter::validation {
 namespace {

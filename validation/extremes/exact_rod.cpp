@@ -2,168 +2,130 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "validation/oracles/digits.hpp"
+#include "validation/oracles/impulse_path.hpp"
+#include "validation/oracles/rod.hpp"
 
 namespace clatter::validation {
 namespace {
 
-using Real = long double;
-constexpr Real real_pi = std::numbers::pi_v<Real>;
+using oracle::End;
+using oracle::Parameter;
+using Real = oracle::Digits50;
+using D = oracle::Dual<Real>;
 
-struct Parameters {
-  Real sine, cosine, angle, gravity, restitution, ratio;
-};
-
-Parameters exact(const RodStart& start) {
-  const Real rest = 90 - Real(start.angle_deg), radian = real_pi / 180;
-  return {.sine = std::sin(start.angle_deg * radian),
-          .cosine = std::sin(rest * radian),  // the cosine near 90° by its complement
-          .angle = start.angle_deg * radian,
-          .gravity = start.parameters.gravity_number,
+oracle::RodCase<Real> exact(const RodStart& start) {
+  return {.theta = oracle::radians(Real(start.angle_deg)),
+          .gravity_number = start.parameters.gravity_number,
           .restitution = start.parameters.restitution,
-          .ratio = start.parameters.impulse_ratio};
-}
-
-/// The rod between impacts.  `side` is the half-length with the sign of the end that touches: −1/2 for a.
-struct RodState {
-  Real height, angle, normal, angular;
-};
-
-struct RealImpacts {
-  int count = 1;
-  RodState end = {};  ///< after the last impact
-  Real side = 0;      ///< of the end that struck last
-  Real angle[3] = {}, time[3] = {}, impulse[3] = {}, velocity[3] = {}, angular[3] = {};
-  Real turning[3] = {};  ///< sum of the magnitudes of the terms of `angular`, where friction and reaction cancel
-};
-
-/// d = (side cos α, side sin α); P (A − μ B) = −(1+e) u with A = 1 + 12 d_t², B = 12 d_t d_n.
-Real strike(RodState& rod, Real side, Real sine, Real cosine, const Parameters& p) {
-  const Real along = side * cosine, across = side * sine;
-  const Real approach = rod.normal - rod.angular * along;
-  const Real impulse = -(1 + p.restitution) * approach / (1 + 12 * along * along - 12 * p.ratio * along * across);
-  rod.normal += impulse;
-  rod.angular += 12 * impulse * (p.ratio * across - along);
-  return impulse;
-}
-
-struct Height {
-  Real value, rate, curvature;
-};
-Height height(const RodState& rod, Real side, Real gravity, Real t) {
-  const Real angle = rod.angle - rod.angular * t;
-  return {rod.height + rod.normal * t - gravity * t * t / 2 + side * std::sin(angle),
-          rod.normal - gravity * t - side * rod.angular * std::cos(angle),
-          -gravity - side * rod.angular * rod.angular * std::sin(angle)};
+          .impulse_ratio = start.parameters.impulse_ratio};
 }
 
 /// The root next to `t` on the falling side: by bisection up to the turning point where it lies close (a graze), by
 /// Newton's method elsewhere.
-Real arrival(const RodState& rod, Real side, Real gravity, Real t) {
+Real arrival(const oracle::RodFlight<Real>& rod, End end, Real t) {
+  const auto bend = [&](const Real& at) {
+    return Real(-rod.gravity - Real(0.5) * static_cast<int>(end) * rod.angular * rod.angular *
+                                   sin(rod.inclination - rod.angular * at));
+  };
   Real low_point = t;
-  for (int i = 0; i < 60; ++i) {
-    const Height h = height(rod, side, gravity, low_point);
-    if (!(h.curvature > 0)) break;
-    low_point -= h.rate / h.curvature;
-  }
+  for (int i = 0; i < 60 && bend(low_point) > 0; ++i) low_point -= end_velocity(rod, end, low_point) / bend(low_point);
   Real before = t * (1 - Real(1e-4));
-  if (std::fabs(low_point - t) < Real(1e-3) * t && height(rod, side, gravity, before).value > 0 &&
-      height(rod, side, gravity, low_point).value <= 0) {
+  if (abs(low_point - t) < Real(1e-3) * t && end_height(rod, end, before) > 0 && end_height(rod, end, low_point) <= 0) {
     Real after = low_point;
-    for (int i = 0; i < 80; ++i) {
+    for (int i = 0; i < 160; ++i) {
       const Real middle = (before + after) / 2;
-      (height(rod, side, gravity, middle).value > 0 ? before : after) = middle;
+      (end_height(rod, end, middle) > 0 ? before : after) = middle;
     }
     return after;
   }
-  for (int i = 0; i < 60; ++i) {
-    const Height h = height(rod, side, gravity, t);
-    const Real step = h.value / h.rate;
-    if (!(std::fabs(step) > Real(1e-19) * t)) break;
+  Real step = t;
+  for (int i = 0; i < 60 && abs(step) > Real(1e-48) * t; ++i) {
+    step = end_height(rod, end, t) / end_velocity(rod, end, t);
     t -= step;
   }
   return t;
 }
 
+/// The impacts with their derivatives with respect to one parameter.
+struct TrueImpacts {
+  int count = 0;
+  D angle[3], time[3], impulse[3], velocity[3], angular[3];
+  Real turning[3]{};  ///< sum of the magnitudes of the terms of `angular`, where friction and reaction cancel
+  oracle::RodFlight<Real> last{};
+};
+
 /// @param found gives the number of impacts and where to look for them
-RealImpacts solve(const Parameters& p, const RodImpacts& found) {
-  RealImpacts out{.count = found.count};
-  Real side = Real(-0.5);
-  RodState rod{p.sine / 2, p.angle, -1, 0};
-  out.angle[0] = p.angle;
-  out.impulse[0] = strike(rod, side, p.sine, p.cosine, p);
-  out.turning[0] = 6 * out.impulse[0] * (p.cosine + std::fabs(p.ratio) * p.sine);
-  for (int i = 0;; ++i) {
-    out.velocity[i] = rod.normal;
-    out.angular[i] = rod.angular;
-    out.end = rod;
-    out.side = side;
-    if (i + 1 >= found.count) return out;
-    side = -side;
-    const Real t = arrival(rod, side, p.gravity, found.time[i + 1]);
-    rod.height += rod.normal * t - p.gravity * t * t / 2;
-    rod.normal -= p.gravity * t;
-    rod.angle -= rod.angular * t;
-    out.time[i + 1] = t;
-    out.angle[i + 1] = std::fabs(rod.angle);
-    const Real sine = std::sin(rod.angle), cosine = std::cos(rod.angle);
-    out.impulse[i + 1] = strike(rod, side, sine, cosine, p);
-    out.turning[i + 1] = out.turning[i] + 6 * out.impulse[i + 1] * (cosine + std::fabs(p.ratio * sine));
+TrueImpacts solve(const oracle::RodCase<Real>& rod, const RodImpacts& found, Parameter parameter) {
+  TrueImpacts out;
+  out.count = found.count;
+  oracle::RodMotion<Real> motion(rod, parameter);
+  End end = End::a;
+  Real turning = 0;
+  for (int i = 0; i < found.count; ++i) {
+    if (i > 0) {
+      end = other(end);
+      out.time[i] = motion.fly(end, arrival(motion.values(), end, found.time[i]));
+    }
+    const D inclination = motion.flight().inclination;
+    out.angle[i] = inclination.value < 0 ? -inclination : inclination;
+    out.impulse[i] = motion.strike(end);
+    out.velocity[i] = motion.flight().normal;
+    out.angular[i] = motion.flight().angular;
+    turning += 6 * out.impulse[i].value * (cos(inclination.value) + abs(rod.impulse_ratio * sin(inclination.value)));
+    out.turning[i] = std::max(turning, Real(1e-30));  // at 90° the digits of π leave 1e-50 of a cosine that is 0
   }
+  out.last = motion.values();
+  return out;
 }
 
-/// The other end is lowest where its normal velocity vanishes, cos α = V/(side Ω).
-bool misses(const RealImpacts& truth) {
-  constexpr Real rounding = 64 * 0x1p-52L;
-  const RodState& rod = truth.end;
-  const Real side = -truth.side, turning = std::cos(rod.angle) > 0 ? rod.normal / (side * rod.angular) : Real(1);
-  if (!(std::fabs(turning) < 1)) return true;
-  // The end at +1/2 is below the centre of mass at negative angles.
-  const Real lowest = side > 0 ? -std::acos(turning) : std::acos(turning);
-  const Real t = (rod.angle - lowest) / rod.angular;
-  if (!(t > 0)) return true;  // it turns the other way, its end up
-  return height(rod, side, 0, t).value > -rounding * (rod.height + std::fabs(rod.normal * t));
-}
-
-template <class Other>
-Real distance(const Other& impacts, const RealImpacts& truth) {
-  Real worst = 0;
-  const auto add = [&](Real value, Real true_value, Real size) {
-    const Real off = value == true_value ? 0 : std::fabs(value - true_value) / size;
-    if (!(off <= worst)) worst = off;
-  };
-  const Real speed = std::fmax(Real(1), std::fabs(truth.velocity[0]));
+/// visit(number found, the true one, the size that its error is relative to)
+template <class Visit>
+void for_each_number(const RodImpacts& found, const TrueImpacts& truth, const Visit& visit) {
+  const Real speed = std::max(Real(1), Real(abs(truth.velocity[0].value)));
   for (int i = 0; i < truth.count; ++i) {
     if (i > 0) {
-      add(impacts.angle[i], truth.angle[i], truth.angle[i]);
-      add(impacts.time[i], truth.time[i], truth.time[i]);
+      visit(found.angle[i], truth.angle[i], truth.angle[i].value);
+      visit(found.time[i], truth.time[i], truth.time[i].value);
     }
-    add(impacts.impulse[i], truth.impulse[i], std::fabs(truth.impulse[i]));
-    add(impacts.velocity[i], truth.velocity[i], speed);
-    add(impacts.angular[i], truth.angular[i], truth.turning[i]);
+    visit(found.impulse[i], truth.impulse[i], Real(abs(truth.impulse[i].value)));
+    visit(found.velocity[i], truth.velocity[i], speed);
+    visit(found.angular[i], truth.angular[i], truth.turning[i]);
   }
+}
+
+double error(const RodImpacts& found, const TrueImpacts& truth) {
+  double worst = 0;
+  for_each_number(found, truth, [&](double value, const D& true_value, const Real& size) {
+    const double off = static_cast<double>(abs(value - true_value.value) / size);
+    if (!(off <= worst)) worst = off;
+  });
   return worst;
 }
 
-/// Sum over the parameters of the secants for a change far below a double's rounding, so that a fold one ulp away
-/// does not come in between.
-double condition(const RodStart& start, const RodImpacts& impacts, const RealImpacts& truth) {
-  constexpr Real change = 0x1p-55L;
-  const Parameters p = exact(start);
-  Real sum = 0;
-  Parameters flatter = p;
-  flatter.angle *= 1 - change;
-  flatter.sine -= p.cosine * p.angle * change;  // the change of both is below the curvature's
-  flatter.cosine += p.sine * p.angle * change;
-  flatter.sine = p.angle < Real(1e-9) ? p.sine * (1 - change) : flatter.sine;
-  sum += distance(solve(flatter, impacts), truth) / change;
-  for (Real Parameters::*member : {&Parameters::gravity, &Parameters::restitution, &Parameters::ratio}) {
-    if (p.*member == 0) continue;
-    Parameters other = p;
-    other.*member *= 1 - change;
-    sum += distance(solve(other, impacts), truth) / change;
+double condition(const oracle::RodCase<Real>& rod, const RodImpacts& found) {
+  double sum = 0;
+  for (const Parameter parameter :
+       {Parameter::theta, Parameter::gravity_number, Parameter::restitution, Parameter::impulse_ratio}) {
+    const Real value = value_of(rod, parameter);
+    if (value == 0) continue;
+    double worst = 0;
+    for_each_number(found, solve(rod, found, parameter), [&](double, const D& true_value, const Real& size) {
+      worst = std::max(worst, static_cast<double>(abs(value * true_value.slope) / size));
+    });
+    sum += worst;
   }
-  return static_cast<double>(sum);
+  return sum;
+}
+
+/// Whether the other end stays above the ground at its first turning point.
+bool misses(const TrueImpacts& truth) {
+  const Real rounding = 64 * 0x1p-52;
+  const oracle::RodFlight<Real>& rod = truth.last;
+  const Real lowest = turning_heights(rod, truth.count == 2 ? End::b : End::a).far;
+  const Real size = rod.centre + abs(rod.normal / rod.angular);
+  return lowest > -rounding * size;
 }
 
 }  // namespace
@@ -199,12 +161,17 @@ RodImpacts rod_impacts(const analytic::Sequence& sequence) {
 }
 
 RodError rod_error(const RodStart& start, const RodImpacts& impacts) {
-  const RealImpacts truth = solve(exact(start), impacts);
+  const oracle::RodCase<Real> rod = exact(start);
+  const TrueImpacts truth = solve(rod, impacts, Parameter::theta);
   const analytic::RodParameters& p = start.parameters;
   const bool elastic = p.gravity_number == 0 && p.restitution == 1 && p.impulse_ratio == 0;
-  return {.error = static_cast<double>(distance(impacts, truth)),
-          .condition = condition(start, impacts, truth),
+  return {.error = error(impacts, truth),
+          .condition = condition(rod, impacts),
           .ends_rightly = !elastic || impacts.count == 3 || misses(truth)};
+}
+
+long double exact_restitution(long double damping_number) {
+  return static_cast<long double>(oracle::exact_restitution(Real(damping_number)));
 }
 
 }  // namespace clatter::validation

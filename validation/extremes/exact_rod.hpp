@@ -1,4 +1,4 @@
-// The thin rod's first three impacts, solved again in extended precision.
+// The thin rod's first three impacts, solved again in 50 digits.
 #pragma once
 
 #include "analytic/contact_angles.hpp"
@@ -7,7 +7,7 @@
 namespace clatter::validation {
 
 /// What is held against the truth, and what it is called in the map.
-inline constexpr const char* exact_rod_oracle = "momentum balances and flight at 64 bits";
+inline constexpr const char* exact_rod_oracle = "momentum balances and flight in 50 digits";
 
 /// The rod of contact_angles.hpp: m = L = 1, v_n = −1, ω = 0.
 struct RodStart {
@@ -35,8 +35,10 @@ struct RodError {
   bool ends_rightly = true;
 };
 
-/// Impulses from the balances of momentum with Newton's restitution, flights from the height of the arriving end, all
-/// in long double (64 bits on x86), started from the impacts given.  Nothing of the models' code is used.
+/// Impulses and flights of oracles/rod.hpp, started from the impacts given.  Nothing of the models' code is used.
 [[nodiscard]] RodError rod_error(const RodStart& start, const RodImpacts& impacts);
+
+/// e of the flat landing on a viscoelastic ground, s = c_G v/k_G >= 0 (oracles/impulse_path.hpp).
+[[nodiscard]] long double exact_restitution(long double damping_number);
 
 }  // namespace clatter::validation

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <boost/math/special_functions/log1p.hpp>
 #include <cmath>
 #include <limits>
 
@@ -174,19 +173,5 @@ class Walk {
 }  // namespace
 
 Retrace retrace(const analytic::Drop& drop, const analytic::Sequence& sequence) { return Walk(drop, sequence).run(); }
-
-long double exact_restitution(long double damping_number) {
-  using boost::math::log1pmx;
-  const Real s = damping_number;
-  if (s < 1e-15L) return 1 - 2 * s / 3;
-  const Real aim = log1pmx(s);
-  Real low = 0, high = std::fmin(s, Real(1));
-  for (int i = 0; i < 100; ++i) {
-    const Real middle = (low + high) / 2;
-    // log1pmx falls on both sides of 0; at x = 1 it is −∞.
-    (middle < 1 && log1pmx(-middle) > aim ? low : high) = middle;
-  }
-  return (low + high) / 2 / s;
-}
 
 }  // namespace clatter::validation

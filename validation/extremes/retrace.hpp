@@ -25,9 +25,4 @@ struct Retrace {
 /// Numbers that are not finite give residuals that are infinite.
 [[nodiscard]] Retrace retrace(const analytic::Drop& drop, const analytic::Sequence& sequence);
 
-/// e of the flat landing on a viscoelastic ground, s = c_G v/k_G >= 0: the root x = s e of
-///     ln(1+s) − s = ln(1−x) + x
-/// by bisection in extended precision.
-[[nodiscard]] long double exact_restitution(long double damping_number);
-
 }  // namespace clatter::validation

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "numeric/motion/rotation.hpp"
+#include "validation/oracles/free_top.hpp"
 
 namespace clatter::validation {
 
@@ -22,19 +23,13 @@ class PeriodicSpin {
   [[nodiscard]] double error(const numeric::Rotation& rotation, double time) const;
 
  private:
-  using Vector = std::array<long double, 3>;
-  struct State {
-    Vector omega{};
-    std::array<long double, 4> attitude{1, 0, 0, 0};  ///< w, x, y, z
-  };
-  [[nodiscard]] State step(const State& state, long double h) const;
-  [[nodiscard]] State advance(State state, long double time) const;
+  using Top = oracle::Top<long double>;
+  [[nodiscard]] Top advance(Top top, long double time) const;
   void find_period();
   void find_angle();
 
-  Vector moments_;
-  State start_;
-  Vector axis_{};  ///< of the momentum, world
+  Top start_;
+  std::array<long double, 3> axis_{};  ///< of the momentum, world
   long double longest_step_ = 0, period_ = 0, angle_ = 0;
 };
 

@@ -1,7 +1,5 @@
 #include "validation/verify/discrete_bars.hpp"
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -9,7 +7,8 @@
 #include <stdexcept>
 
 #include "analytic/errors.hpp"
-#include "validation/verify/event_oracle.hpp"
+#include "validation/oracles/digits.hpp"
+#include "validation/oracles/event_oracle.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -22,13 +21,10 @@ using analytic::RowErrors;
 using analytic::Sequence;
 using analytic::Tail;
 
-template <unsigned digits>
-using Digits =
-    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<digits>, boost::multiprecision::et_off>;
 /// Bounces that have shrunk to 1e-26 leave 28 of these digits to heights.
-using Real = Digits<80>;
+using Real = oracle::Decimal<80>;
 /// Where gravity has no time to act between bounces, heights shrink much faster than speeds.
-using LongReal = Digits<240>;
+using LongReal = oracle::Decimal<240>;
 
 /// Uniform solids: k² = (3r² + L²)/12 for the cylinder, (L² + T²)/12 for the box.
 template <class R>
@@ -57,7 +53,7 @@ oracle::EventSequence<Real> simulated(const BarScene& scene, std::size_t impacts
                                 scene.gravity,
                                 scene.law.damping_per_stiffness};
   const oracle::EventBody<R> body = simulated_body<R>(scene);
-  const R angle = R(scene.degrees) * boost::math::constants::pi<R>() / 180;
+  const R angle = oracle::radians(R(scene.degrees));
   const analytic::PlanarVelocity& v = scene.velocity;
   oracle::EventSimulation<R> simulation(body, {angle, v.normal, v.tangential, v.angular}, law);
   const oracle::EventSequence<R> found = simulation.run(impacts, R(1e-18));

@@ -5,16 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "validation/oracles/reference_table.hpp"
+
 namespace clatter::validation {
 
 /// One row: column name → value rounded to double; columns with a gap are absent (this impact does not happen with a
 /// contact angle up to 90°).
 using ReferenceRow = std::map<std::string, double>;
 
-/// One row of any table: column name → the cell's text.
-using ReferenceWords = std::map<std::string, std::string>;
 /// The rows of tests/analytic/reference/NAME, if the program carries that.
-[[nodiscard]] std::vector<ReferenceWords> reference_words(const std::string& name);
+[[nodiscard]] std::vector<oracle::ReferenceRow> reference_words(const std::string& name);
 
 enum class ReferenceTable { no_gravity, gravity };
 

@@ -7,8 +7,9 @@
 
 #include "analytic/space/shapes.hpp"
 #include "validation/compare/uniform.hpp"
+#include "validation/oracles/reference_scene.hpp"
 #include "validation/verify/check.hpp"
-#include "validation/verify/space_reference.hpp"
+#include "validation/verify/reference.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -23,11 +24,11 @@ double angle_between(const Quaternion& p, const Quaternion& q) {
 }
 
 /// Largest error of a scene's numbers, relative to the sequence's sizes; infinite for another corner.
-double scene_error(const SpaceReference& scene) {
+double scene_error(const oracle::ReferenceScene& scene) {
   const Sequence sequence = impact_sequence(scene.drop, {.impacts = static_cast<int>(scene.impacts.size())});
   if (sequence.rows.size() != scene.impacts.size()) return INFINITY;
   double time = 0, impulse = 0, speed = scene.drop.velocity.norm(), rate = scene.drop.angular_velocity.norm();
-  for (const SpaceReferenceImpact& row : scene.impacts) {
+  for (const oracle::ReferenceRowOfScene& row : scene.impacts) {
     time = std::max(time, row.time);
     impulse = std::max(impulse, row.impulse.norm());
     speed = std::max(speed, row.velocity.norm());
@@ -36,7 +37,7 @@ double scene_error(const SpaceReference& scene) {
   double worst = 0;
   for (std::size_t i = 0; i < scene.impacts.size(); ++i) {
     const ImpactRow& row = sequence.rows[i];
-    const SpaceReferenceImpact& exact = scene.impacts[i];
+    const oracle::ReferenceRowOfScene& exact = scene.impacts[i];
     if (row.corners.size() != 1 || row.corners.front().index != exact.corner) return INFINITY;
     const double apart = time > 0 ? std::fabs(row.start - exact.time) / time : 0;
     worst = std::max({worst, apart, angle_between(row.before.attitude, exact.attitude),
@@ -48,10 +49,12 @@ double scene_error(const SpaceReference& scene) {
 }
 
 Measured against_scenes(CaseRuns&) {
+  const auto scenes =
+      oracle::reference_scenes(reference_words("space_scenes.csv"), reference_words("space_sequences.csv"));
   double worst = 0;
   std::size_t impacts = 0;
   std::string where;
-  for (const SpaceReference& scene : space_references()) {
+  for (const oracle::ReferenceScene& scene : scenes) {
     const double error = scene_error(scene) / scene.tolerance;
     impacts += scene.impacts.size();
     if (error <= worst) continue;
@@ -59,7 +62,7 @@ Measured against_scenes(CaseRuns&) {
     where = scene.name;
   }
   return {static_cast<double>(impacts), worst, Answer::holds,
-          fmt::format("of {} scenes, each corner right; worst: {}", space_references().size(), where)};
+          fmt::format("of {} scenes, each corner right; worst: {}", scenes.size(), where)};
 }
 
 /// A solid block of width tan α and height 1 that rocks from one edge of its foot to the other without rebound.

@@ -1,6 +1,5 @@
-// The first three impacts of the thin rod, from the physics alone and at any precision: Eq. 8
-// solved as the linear system that it is, then free flight, then the first zero of each end's
-// height.
+// The first three impacts of the thin rod, from the physics alone and at any precision: momentum balances, then free
+// flight (rod.hpp), then the first zero of each end's height.
 //
 // The unit rod (m = L = 1) strikes the ground at θ with its left end, v_n = −1, ω = 0.  The first
 // zero is isolated by exclusion: an interval is dropped when the bound |h″| <= g + Ω²/2 proves h >
@@ -14,46 +13,14 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
-#include <utility>
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
-
-#include "tests/analytic/oracle/dual.hpp"
+#include "validation/oracles/digits.hpp"
+#include "validation/oracles/rod.hpp"
 
 namespace clatter::oracle {
 
-template <unsigned Digits>
-using Decimal =
-    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<Digits>, boost::multiprecision::et_off>;
-using Digits50 = Decimal<50>;
 /// For angles so small that differences such as γ − θ ~ θ³ and 2 − ΣP ~ θ⁴ use up 50 digits.
 using Digits150 = Decimal<150>;
-
-template <class Real>
-struct RodCase {
-  Real theta = 0;  ///< [rad]
-  Real gravity_number = 0;
-  Real restitution = 1;
-  Real impulse_ratio = 0;  ///< P_t = μ_i P_n in the world frame
-};
-
-/// What derivatives are taken with respect to.
-enum class Parameter { theta, gravity_number, restitution, impulse_ratio };
-
-template <class Real>
-Real value_of(const RodCase<Real>& rod, Parameter parameter) {
-  switch (parameter) {
-    case Parameter::theta: return rod.theta;
-    case Parameter::gravity_number: return rod.gravity_number;
-    case Parameter::restitution: return rod.restitution;
-    case Parameter::impulse_ratio: break;
-  }
-  return rod.impulse_ratio;
-}
-
-enum class End : int { a = -1, b = 1 };
-
-inline End other(End end) { return end == End::a ? End::b : End::a; }
 
 /// The earliest contact after an impact.
 enum class Contact {
@@ -113,91 +80,6 @@ struct RodSolution {
     return abs(parameter * quantities[q]->slope / quantities[q]->value);
   }
 };
-
-/// The rod from an impact on; α > 0 means that end a is lower, dα/dt = −Ω.
-template <class Number>
-struct RodFlight {
-  Number inclination;
-  Number normal;      ///< V_n
-  Number tangential;  ///< V_t
-  Number angular;     ///< Ω
-  Number gravity;
-  Number centre;  ///< height of the centre of mass at t = 0
-};
-
-template <class Number>
-Number end_height(const RodFlight<Number>& flight, End end, const Number& t) {
-  using std::sin;
-  const Number half(0.5);
-  const Number sign(static_cast<int>(end));
-  return flight.centre + flight.normal * t - half * flight.gravity * t * t +
-         sign * half * sin(flight.inclination - flight.angular * t);
-}
-
-template <class Number>
-Number end_velocity(const RodFlight<Number>& flight, End end, const Number& t) {
-  using std::cos;
-  const Number half(0.5);
-  const Number sign(static_cast<int>(end));
-  return flight.normal - flight.gravity * t -
-         sign * half * flight.angular * cos(flight.inclination - flight.angular * t);
-}
-
-template <class Number>
-struct RodImpulse {
-  Number normal_impulse;
-  RodFlight<Number> after;
-};
-
-/// Gaussian elimination with partial pivoting on the values.
-template <class Real>
-std::array<Dual<Real>, 4> solve_linear(std::array<std::array<Dual<Real>, 5>, 4> rows) {
-  using std::abs;
-  for (std::size_t k = 0; k < 4; ++k) {
-    std::size_t pivot = k;
-    for (std::size_t i = k + 1; i < 4; ++i)
-      if (abs(rows[i][k].value) > abs(rows[pivot][k].value)) pivot = i;
-    std::swap(rows[k], rows[pivot]);
-    for (std::size_t i = k + 1; i < 4; ++i) {
-      const Dual<Real> factor = rows[i][k] / rows[k][k];
-      for (std::size_t j = k; j < 5; ++j) rows[i][j] = rows[i][j] - factor * rows[k][j];
-    }
-  }
-  std::array<Dual<Real>, 4> x;
-  for (std::size_t k = 4; k-- > 0;) {
-    Dual<Real> sum = rows[k][4];
-    for (std::size_t j = k + 1; j < 4; ++j) sum = sum - rows[k][j] * x[j];
-    x[k] = sum / rows[k][k];
-  }
-  return x;
-}
-
-template <class Number>
-struct RodLaw {
-  Number restitution;
-  Number impulse_ratio;
-};
-
-/// Eq. 8 in the unknowns V_n, V_t, Ω, P_n, for the velocities in `before` (its time is the impact).
-template <class Real>
-RodImpulse<Dual<Real>> strike(const RodFlight<Dual<Real>>& before, End end, const RodLaw<Dual<Real>>& law) {
-  using D = Dual<Real>;
-  const D half(Real(0.5)), zero(Real(0)), one(Real(1));
-  const D sign(Real(static_cast<int>(end)));
-  const D dt = sign * half * cos(before.inclination);
-  const D dn = sign * half * sin(before.inclination);
-  const D mu = law.impulse_ratio;
-  const D e = law.restitution;
-  const D inertia(Real(1) / 12);
-  const D approach = before.normal - before.angular * dt;
-  const auto x = solve_linear<Real>({{
-      {one, zero, zero, -one, before.normal},
-      {zero, one, zero, -mu, before.tangential},
-      {zero, zero, inertia, dt - mu * dn, inertia * before.angular},
-      {one, zero, -dt, zero, -(e * approach)},
-  }});
-  return {x[3], {before.inclination, x[0], x[1], x[2], before.gravity, -dn}};
-}
 
 /// An interval that holds exactly one zero of an end's height.
 template <class Real>
@@ -306,11 +188,6 @@ RodFlight<To> convert(const RodFlight<From>& f) {
           static_cast<To>(f.angular),     static_cast<To>(f.gravity), static_cast<To>(f.centre)};
 }
 
-template <class Real>
-RodFlight<Real> values(const RodFlight<Dual<Real>>& f) {
-  return {f.inclination.value, f.normal.value, f.tangential.value, f.angular.value, f.gravity.value, f.centre.value};
-}
-
 /// Plain bisection of an end's height, down to neighbouring numbers.
 template <class Real>
 Real bisect(const RodFlight<Real>& flight, End end, Bracket<Real> bracket) {
@@ -391,51 +268,31 @@ Arrival<Real> next_contact(const RodFlight<Real>& flight, End struck) {
   return {upright_passed ? Contact::beyond_upright : Contact::other_end, other(struck), *far};
 }
 
-/// Without gravity: least height at a turning point of an end, infinite if there is none.  The
-/// first turning point is the lowest if the centre of mass does not fall.
-template <class Real>
-Real lowest_turning_height(const RodFlight<Real>& flight, End struck) {
-  using std::abs;
-  using std::acos;
-  const Real pi = boost::math::constants::pi<Real>();
-  const Real speed = abs(flight.angular);
-  const Real ratio = 2 * flight.normal / speed;
-  if (!(abs(ratio) < 1)) return std::numeric_limits<Real>::infinity();
-  // Angles turned until h′ = 0 with h″ > 0, from the inclination that the struck end has.
-  const Real start = abs(flight.inclination);
-  const bool towards_flat = (flight.angular > 0) == (struck == End::a);
-  const Real far_turn = towards_flat ? start + acos(ratio) : 2 * pi - start - acos(-ratio);
-  const Real same_turn = far_turn + pi;
-  const Real far = end_height(flight, other(struck), Real(far_turn / speed));
-  const Real same = end_height(flight, struck, Real(same_turn / speed));
-  return std::min(far, same);
-}
-
 /// Solves the first impacts step by step.
 template <class Real>
 class RodSolver {
  public:
-  RodSolver(const RodCase<Real>& rod, Parameter parameter) : rod_(rod), parameter_(parameter) {}
+  RodSolver(const RodCase<Real>& rod, Parameter parameter) : motion_(rod, parameter) {
+    solution_.parameter = value_of(rod, parameter);
+  }
 
   /// @param impacts after which to stop, 1 to 3
   [[nodiscard]] RodSolution<Real> solve(int impacts) {
-    solution_.parameter = value_of(rod_, parameter_);
-    const D theta = seeded(Parameter::theta);
-    law_ = {seeded(Parameter::restitution), seeded(Parameter::impulse_ratio)};
-    flight_ = {theta, D(Real(-1)), D(Real(0)), D(Real(0)), seeded(Parameter::gravity_number), D(Real(0))};
+    const D theta = motion_.flight().inclination;
     impact(End::a, impulse_1, velocity_1, angular_1);
     if (impacts == 1) return solution_;
 
     solution_.second = fly(End::a, time_1);
     if (solution_.second != Contact::other_end) return solution_;
-    set(beta, -flight_.inclination);
+    set(beta, -motion_.flight().inclination);
     impact(End::b, impulse_2, velocity_2, angular_2);
     if (impacts == 2) return solution_;
 
     solution_.third = fly(End::b, time_2);
     if (*solution_.third != Contact::other_end) return solution_;
-    set(gamma, flight_.inclination);
-    set(gamma_minus_theta, flight_.inclination - theta);
+    const D third = motion_.flight().inclination;
+    set(gamma, third);
+    set(gamma_minus_theta, third - theta);
     impact(End::a, impulse_3, velocity_3, angular_3);
     set(impulse_deficit, D(Real(2)) - get(impulse_1) - get(impulse_2) - get(impulse_3));
     return solution_;
@@ -444,41 +301,29 @@ class RodSolver {
  private:
   using D = Dual<Real>;
 
-  [[nodiscard]] D seeded(Parameter parameter) const {
-    return D(value_of(rod_, parameter), Real(parameter == parameter_ ? 1 : 0));
-  }
   void set(Quantity q, const D& value) { solution_.quantities[q] = value; }
   [[nodiscard]] const D& get(Quantity q) const { return *solution_.quantities[q]; }
 
   void impact(End end, Quantity impulse, Quantity velocity, Quantity angular) {
-    const auto result = strike<Real>(flight_, end, law_);
-    flight_ = result.after;
-    set(impulse, result.normal_impulse);
-    set(velocity, flight_.normal);
-    set(angular, flight_.angular);
+    set(impulse, motion_.strike(end));
+    set(velocity, motion_.flight().normal);
+    set(angular, motion_.flight().angular);
   }
 
-  /// Flies to the next contact; the derivative of its time follows from h(T(p), p) = 0.
+  /// Flies to the next contact.
   [[nodiscard]] Contact fly(End struck, Quantity time) {
-    const auto plain = values<Real>(flight_);
+    const auto plain = motion_.values();
     const auto arrival = next_contact<Real>(plain, struck);
     if (arrival.contact == Contact::none) {
-      solution_.clearance = lowest_turning_height<Real>(plain, struck);
+      const TurningHeights<Real> heights = turning_heights(plain, struck);
+      solution_.clearance = std::min(heights.far, heights.same);
       return Contact::none;
     }
-    const D moment(arrival.time);
-    const D height = end_height<D>(flight_, arrival.end, moment);
-    const D t(arrival.time, -height.slope / end_velocity<Real>(plain, arrival.end, arrival.time));
-    set(time, t);
-    flight_.inclination = flight_.inclination - flight_.angular * t;
-    flight_.normal = flight_.normal - flight_.gravity * t;
+    set(time, motion_.fly(arrival.end, arrival.time));
     return arrival.contact;
   }
 
-  RodCase<Real> rod_;
-  Parameter parameter_;
-  RodLaw<D> law_;
-  RodFlight<D> flight_;
+  RodMotion<Real> motion_;
   RodSolution<Real> solution_;
 };
 
@@ -552,11 +397,6 @@ Real fold_angle(RodCase<Real> rod, Fold fold, Bracket<Real> bracket) {
     if (!(rod.theta > bracket.low && rod.theta < bracket.high)) return rod.theta;
     (grazing_height(rod, fold) < 0 ? bracket.low : bracket.high) = rod.theta;
   }
-}
-
-template <class Real>
-Real radians(const Real& degrees) {
-  return degrees * boost::math::constants::pi<Real>() / 180;
 }
 
 /// The folds of the elastic rod without gravity or friction, to the last digit of Real but a few.

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "analytic/space/shapes.hpp"
-#include "tests/analytic/oracle/top_oracle.hpp"
+#include "validation/oracles/free_top.hpp"
 
 namespace {
 
@@ -92,7 +92,7 @@ class March {
     Found found;
     while (time_ < end) {
       series_.expand(top_);
-      oracle::Top<double> next = top_;
+      clatter::oracle::Top<double> next = top_;
       series_.evaluate(next, step);
       for (std::size_t i = 0; i < places_.size(); ++i) inspect(i, step, next, found);
       if (found.vertex >= 0) return found;
@@ -116,12 +116,12 @@ class March {
   }
 
   [[nodiscard]] Height at(std::size_t i, double h) {
-    oracle::Top<double> top = top_;
+    clatter::oracle::Top<double> top = top_;
     series_.evaluate(top, h);
     return of(i, h, top);
   }
 
-  [[nodiscard]] Height of(std::size_t i, double h, const oracle::Top<double>& top) const {
+  [[nodiscard]] Height of(std::size_t i, double h, const clatter::oracle::Top<double>& top) const {
     const Quaternion q(top.q[0], top.q[1], top.q[2], top.q[3]);
     const double t = time_ + h;
     const Vector3 w(top.w[0], top.w[1], top.w[2]);
@@ -130,7 +130,7 @@ class March {
   }
 
   /// Whether vertex i reaches the ground in the step, and before `found`.
-  void inspect(std::size_t i, double step, const oracle::Top<double>& next, Found& found) {
+  void inspect(std::size_t i, double step, const clatter::oracle::Top<double>& next, Found& found) {
     double low = 0, high = step;
     const bool leaves = time_ == 0 && static_cast<int>(i) == scene_.touching;
     Height start = leaves ? at(i, 1e-7 * step) : of(i, 0, top_), end = of(i, step, next);
@@ -160,8 +160,8 @@ class March {
   }
 
   const Scene& scene_;
-  oracle::TopSeries<double> series_;
-  oracle::Top<double> top_;
+  clatter::oracle::TopSeries<double> series_;
+  clatter::oracle::Top<double> top_;
   std::vector<Vector3> places_;
   double time_ = 0;
 };

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "tests/analytic/oracle/top_oracle.hpp"
+#include "validation/oracles/free_top.hpp"
 
 namespace {
 
@@ -20,8 +20,8 @@ struct Case {
 /// (1, 2, 2, 4)/5 is unit but for rounding.
 const Quaternion start(0.2, 0.4, 0.4, 0.8);
 
-oracle::Top<Quad> top_of(const Case& c) {
-  oracle::Top<Quad> top;
+clatter::oracle::Top<Quad> top_of(const Case& c) {
+  clatter::oracle::Top<Quad> top;
   const Quaternion& q = start;
   const double parts[4] = {q.w(), q.x(), q.y(), q.z()};
   Quad square = 0;
@@ -47,8 +47,8 @@ double difference(const Quaternion& p, const Quaternion& q) {
 }
 
 double error_after(const Case& c, double turns, double step_angle, int order) {
-  oracle::Top<Quad> top = top_of(c);
-  oracle::TopSeries<Quad> series(order);
+  clatter::oracle::Top<Quad> top = top_of(c);
+  clatter::oracle::TopSeries<Quad> series(order);
   const double time = turns * 2 * std::numbers::pi / c.velocity.norm();
   const auto steps = static_cast<int>(std::ceil(turns * 2 * std::numbers::pi / step_angle));
   const Quad h = Quad(time) / steps;

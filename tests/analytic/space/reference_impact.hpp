@@ -3,13 +3,11 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "analytic/space/impulse_path.hpp"
-#include "tests/analytic/oracle/reference_table.hpp"
+#include "validation/oracles/reference_scene.hpp"
 
 namespace clatter::oracle {
 
@@ -24,34 +22,6 @@ struct ReferenceImpact {
   analytic::space::Vector3 impulse, contact_after, velocity_after, angular_velocity_after;
   double compression = 0, slip_stop = 0;
 };
-
-class ReferenceFields {
- public:
-  explicit ReferenceFields(const ReferenceRow& row) : row_(row) {}
-  [[nodiscard]] const std::string& text(const std::string& name) const { return row_.at(name); }
-  [[nodiscard]] double number(const std::string& name) const {
-    return row_.contains(name) ? std::stod(row_.at(name)) : std::numeric_limits<double>::quiet_NaN();
-  }
-  [[nodiscard]] analytic::space::Vector3 vector(const std::string& name) const {
-    return {number(name + "x"), number(name + "y"), number(name + "z")};
-  }
-  [[nodiscard]] analytic::space::Matrix3 symmetric(const std::string& name) const {
-    analytic::space::Matrix3 m;
-    m << number(name + "xx"), number(name + "xy"), number(name + "xz"), number(name + "xy"), number(name + "yy"),
-        number(name + "yz"), number(name + "xz"), number(name + "yz"), number(name + "zz");
-    return m;
-  }
-
- private:
-  const ReferenceRow& row_;
-};
-
-inline analytic::RestitutionLaw law_named(const std::string& name) {
-  using analytic::RestitutionLaw;
-  return std::map<std::string, RestitutionLaw>{
-      {"newton", RestitutionLaw::newton}, {"poisson", RestitutionLaw::poisson}, {"stronge", RestitutionLaw::stronge}}
-      .at(name);
-}
 
 inline ReferenceImpact reference_impact(const ReferenceRow& row) {
   const ReferenceFields fields(row);

@@ -6,7 +6,7 @@
 
 #include "analytic/errors.hpp"
 #include "analytic/space/shapes.hpp"
-#include "tests/analytic/space/reference_scene.hpp"
+#include "validation/oracles/reference_scene.hpp"
 
 namespace {
 
@@ -15,7 +15,12 @@ using clatter::analytic::Outcome;
 using clatter::oracle::ReferenceRowOfScene;
 using clatter::oracle::ReferenceScene;
 
-std::vector<ReferenceScene> scenes() { return clatter::oracle::reference_scenes(CLATTER_TEST_DATA_DIR); }
+std::vector<ReferenceScene> scenes() {
+  using clatter::oracle::read_reference_table;
+  const std::string folder = CLATTER_TEST_DATA_DIR;
+  return clatter::oracle::reference_scenes(read_reference_table(folder + "/space_scenes.csv"),
+                                           read_reference_table(folder + "/space_sequences.csv"));
+}
 
 Sequence run(const ReferenceScene& scene) {
   return impact_sequence(scene.drop, {.impacts = static_cast<int>(scene.impacts.size())});

@@ -3,9 +3,9 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "tests/analytic/oracle/reference_table.hpp"
 #include "tests/analytic/space/random_contact.hpp"
 #include "tests/analytic/space/reference_impact.hpp"
+#include "validation/oracles/reference_table.hpp"
 
 namespace {
 

@@ -1,14 +1,45 @@
 // The drops of tests/analytic/reference/space_scenes.csv with the impacts of space_sequences.csv.
 #pragma once
 
+#include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "analytic/space/sequence.hpp"
 #include "analytic/space/shapes.hpp"
-#include "tests/analytic/space/reference_impact.hpp"
+#include "validation/oracles/reference_table.hpp"
 
 namespace clatter::oracle {
+
+/// Cells of a row as what they mean.
+class ReferenceFields {
+ public:
+  explicit ReferenceFields(const ReferenceRow& row) : row_(row) {}
+  [[nodiscard]] const std::string& text(const std::string& name) const { return row_.at(name); }
+  [[nodiscard]] double number(const std::string& name) const {
+    return row_.contains(name) ? std::stod(row_.at(name)) : std::numeric_limits<double>::quiet_NaN();
+  }
+  [[nodiscard]] analytic::space::Vector3 vector(const std::string& name) const {
+    return {number(name + "x"), number(name + "y"), number(name + "z")};
+  }
+  [[nodiscard]] analytic::space::Matrix3 symmetric(const std::string& name) const {
+    analytic::space::Matrix3 m;
+    m << number(name + "xx"), number(name + "xy"), number(name + "xz"), number(name + "xy"), number(name + "yy"),
+        number(name + "yz"), number(name + "xz"), number(name + "yz"), number(name + "zz");
+    return m;
+  }
+
+ private:
+  const ReferenceRow& row_;
+};
+
+inline analytic::RestitutionLaw law_named(const std::string& name) {
+  using analytic::RestitutionLaw;
+  return std::map<std::string, RestitutionLaw>{
+      {"newton", RestitutionLaw::newton}, {"poisson", RestitutionLaw::poisson}, {"stronge", RestitutionLaw::stronge}}
+      .at(name);
+}
 
 struct ReferenceRowOfScene {
   double time = 0, approach = 0, energy_before = 0, energy_after = 0;
@@ -30,10 +61,12 @@ inline analytic::space::Quaternion quaternion(const ReferenceFields& f) {
   return {f.number("q0"), f.number("q1"), f.number("q2"), f.number("q3")};
 }
 
-inline std::vector<ReferenceScene> reference_scenes(const std::string& directory) {
+/// @param scenes_table rows of space_scenes.csv  @param impacts_table rows of space_sequences.csv
+inline std::vector<ReferenceScene> reference_scenes(const std::vector<ReferenceRow>& scenes_table,
+                                                    const std::vector<ReferenceRow>& impacts_table) {
   using namespace analytic;
   std::vector<ReferenceScene> scenes;
-  for (const ReferenceRow& row : read_reference_table(directory + "/space_scenes.csv")) {
+  for (const ReferenceRow& row : scenes_table) {
     const ReferenceFields f(row);
     ReferenceScene& scene = scenes.emplace_back();
     scene.name = f.text("scene");
@@ -52,7 +85,7 @@ inline std::vector<ReferenceScene> reference_scenes(const std::string& directory
     drop.law.law.friction_value = f.number("friction");
     drop.law.law.friction = drop.law.law.friction_value > 0 ? FrictionKind::coulomb : FrictionKind::none;
   }
-  for (const ReferenceRow& row : read_reference_table(directory + "/space_sequences.csv")) {
+  for (const ReferenceRow& row : impacts_table) {
     const ReferenceFields f(row);
     for (ReferenceScene& scene : scenes) {
       if (scene.name != f.text("scene")) continue;

@@ -2,6 +2,7 @@
 // (event_oracle.hpp).
 #pragma once
 
+#include <cmath>
 #include <stdexcept>
 
 namespace clatter::oracle {
@@ -31,6 +32,15 @@ struct DampedGround {
     }
   }
 };
+
+/// e of the flat landing on a ground that pushes with K (1 − τu), s = τ v >= 0: the ground gives back all it stored,
+/// G(e v) = G(−v).  Below s = 1e-15 the first two terms of its series serve, to s².
+template <class Real>
+Real exact_restitution(const Real& s) {
+  if (s < Real(1e-15)) return 1 - 2 * s / 3;
+  const DampedGround<Real> ground{1};
+  return ground.speed_at(ground.G(-s)) / s;
+}
 
 /// (u, s) after the impulses so far: du = (A − B r) dP, ds = (C r − B) dP, r the ratio that
 /// friction allows.

@@ -22,13 +22,10 @@ inline std::vector<std::string> split_at_commas(const std::string& line) {
   return fields;
 }
 
-/// @throws std::runtime_error if the file cannot be read.
-inline std::vector<ReferenceRow> read_reference_table(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error("cannot read " + path);
+inline std::vector<ReferenceRow> reference_rows(std::istream& text) {
   std::vector<ReferenceRow> rows;
   std::vector<std::string> names;
-  for (std::string line; std::getline(file, line);) {
+  for (std::string line; std::getline(text, line);) {
     if (line.empty() || line.front() == '#') continue;
     const auto fields = split_at_commas(line);
     if (names.empty()) {
@@ -40,6 +37,13 @@ inline std::vector<ReferenceRow> read_reference_table(const std::string& path) {
       if (!fields[i].empty()) row[names.at(i)] = fields[i];
   }
   return rows;
+}
+
+/// @throws std::runtime_error if the file cannot be read.
+inline std::vector<ReferenceRow> read_reference_table(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error("cannot read " + path);
+  return reference_rows(file);
 }
 
 }  // namespace clatter::oracle

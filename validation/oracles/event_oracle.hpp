@@ -5,30 +5,20 @@
 // cancels is left to the digits of Real.
 //   Impact.  Per unit mass, an impulse dP along the normal with r dP along the ground changes the
 //   velocity (u, s) of the contact point by du = (A − B r) dP, ds = (C r − B) dP, A = 1 + (d_t/k)²,
-//   B = d_t d_n/k², C = 1 + (d_n/k)². Flight.  With |h″| <= M = g + Ω²ρ, a vertex at height h with
-//   velocity h′ cannot reach the ground before the positive zero of h + h′Δ − MΔ²/2.
+//   B = d_t d_n/k², C = 1 + (d_n/k)².
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
 #include <vector>
 
-#include "validation/verify/impulse_path.hpp"
+#include "validation/oracles/event_flight.hpp"
+#include "validation/oracles/impulse_path.hpp"
 
 namespace clatter::oracle {
-
-template <class Real>
-struct EventVertex {
-  Real x, z;  ///< in the body frame, from the centre of mass [m]
-};
-
-template <class Real>
-struct EventBody {
-  Real mass, gyration_square;
-  std::vector<EventVertex<Real>> vertices;
-};
 
 enum class EventRestitution { newton, poisson, stronge, viscoelastic };
 enum class EventFriction { none, ratio, coulomb };
@@ -41,11 +31,6 @@ struct EventLaw {
   Real friction_value = 0;
   Real gravity = 0;
   Real damping = 0;  ///< c_G/k_G of a viscoelastic ground [s/m]
-};
-
-template <class Real>
-struct EventState {
-  Real inclination, normal, tangential, angular;  ///< α with dα/dt = −Ω; V_n, V_t, Ω
 };
 
 template <class Real>
@@ -64,22 +49,24 @@ template <class Real>
 struct EventSequence {
   std::vector<EventImpact<Real>> impacts;
   EventEnd end = EventEnd::limit;
+  bool close_call = false;  ///< in any of the flights
 };
 
 template <class Real>
 class EventSimulation {
  public:
   EventSimulation(const EventBody<Real>& body, const EventState<Real>& start, const EventLaw<Real>& law)
-      : body_(body), state_(start), law_(law) {
-    for (const auto& v : body.vertices) {
-      using std::sqrt;
-      reaches_.push_back(sqrt(v.x * v.x + v.z * v.z));
-      if (reaches_.back() > reach_) reach_ = reaches_.back();
-    }
-  }
+      : body_(body), state_(start), law_(law) {}
 
   /// @param smallest share of the first approach speed below which an accumulation counts as ended.
   EventSequence<Real> run(std::size_t most, const Real& smallest) {
+    EventSequence<Real> sequence = follow(most, smallest);
+    sequence.close_call = close_call_;
+    return sequence;
+  }
+
+ private:
+  EventSequence<Real> follow(std::size_t most, const Real& smallest) {
     EventSequence<Real> sequence;
     std::size_t vertex = lowest();
     std::size_t small = 0;
@@ -107,20 +94,11 @@ class EventSimulation {
     }
   }
 
- private:
   static constexpr std::size_t settled = 12;
-  static constexpr long most_steps = 20'000'000;
 
-  struct Offset {
-    Real tangential, normal;
-  };
-  [[nodiscard]] Offset offset(std::size_t i, const Real& s, const Real& c) const {
-    const auto& v = body_.vertices[i];
-    return {v.x * c - v.z * s, v.x * s + v.z * c};
-  }
-  [[nodiscard]] Offset offset(std::size_t i) const {
+  [[nodiscard]] EventOffset<Real> offset(std::size_t i) const {
     using std::cos, std::sin;
-    return offset(i, sin(state_.inclination), cos(state_.inclination));
+    return body_.vertices[i].offset(sin(state_.inclination), cos(state_.inclination));
   }
 
   [[nodiscard]] std::size_t lowest() const {
@@ -145,13 +123,13 @@ class EventSimulation {
     const Real shrinks = n < 3 ? law_.restitution : Real(bounce / (impacts[n - 2].time - impacts[n - 3].time));
     if (!(shrinks < 1)) return EventEnd::limit;
     const Real left = bounce * shrinks / (1 - shrinks);
-    const Offset from = offset(last.vertex);
+    const EventOffset<Real> from = offset(last.vertex);
     for (std::size_t i = 0; i < body_.vertices.size(); ++i) {
       if (i == last.vertex) continue;
-      const Offset d = offset(i);
-      const Real bend = law_.gravity + state_.angular * state_.angular * reaches_[i];
+      const EventOffset<Real> d = offset(i);
+      const Real bend = law_.gravity + state_.angular * state_.angular * body_.vertices[i].reach();
       const Real velocity = state_.normal - state_.angular * d.tangential;
-      if (safe_step(d.normal - from.normal, velocity, bend) < 10 * left) return EventEnd::limit;
+      if (sure_flight(d.normal - from.normal, velocity, bend) < 10 * left) return EventEnd::limit;
     }
     return EventEnd::one_vertex_rests;
   }
@@ -173,7 +151,7 @@ class EventSimulation {
     return ground.speed_at(ground.G(-fast));
   }
 
-  void follow(Path& path) const {
+  void go_along(Path& path) const {
     const Real& e = law_.restitution;
     const Real fast = -path.u;
     if (law_.friction != EventFriction::coulomb) {
@@ -194,7 +172,7 @@ class EventSimulation {
 
   /// Nothing if the vertex recedes: errors have grown beyond the digits of Real.
   std::optional<EventImpact<Real>> strike(std::size_t vertex) {
-    const Offset d = offset(vertex);
+    const EventOffset<Real> d = offset(vertex);
     const Real& k2 = body_.gyration_square;
     EventImpact<Real> impact;
     impact.vertex = vertex;
@@ -209,7 +187,7 @@ class EventSimulation {
               state_.tangential + state_.angular * d.normal};
     if (!(path.u < 0)) return std::nullopt;
     impact.approach = -path.u;
-    follow(path);
+    go_along(path);
     impact.separation = path.u;
     state_.normal += path.normal;
     state_.tangential += path.tangential;
@@ -221,58 +199,23 @@ class EventSimulation {
     return impact;
   }
 
-  // ---- flight ----
-
-  static Real safe_step(const Real& h, const Real& velocity, const Real& bend) {
-    using std::sqrt;
-    const Real root = sqrt(velocity * velocity + 2 * bend * h);
-    return velocity < 0 ? 2 * h / (root - velocity) : (velocity + root) / bend;
-  }
-
   /// The vertex that arrives first; the state is then that of its touch.
   std::optional<std::size_t> fly(std::size_t from) {
-    using std::cos, std::sin, std::sqrt;
-    const Real start = -offset(from).normal, V = state_.normal, g = law_.gravity, spin = state_.angular;
-    Real t = 0;
-    for (long step = 0; step < most_steps; ++step) {
-      const Real centre = start + t * (V - g * t / 2), speed = V - g * t;
-      if (centre > reach_) {
-        if (g == 0 && speed >= 0) return std::nullopt;
-        const Real back =
-            g == 0 ? t + (centre - reach_) / -speed : t + (speed + sqrt(speed * speed + 2 * g * (centre - reach_))) / g;
-        if (back > t * (1 + Real(1e-30))) {
-          t = back;
-          continue;
-        }
-      }
-      const Real angle = state_.inclination - spin * t, s = sin(angle), c = cos(angle);
-      Real stride = -1;
-      std::size_t nearest = 0;
-      for (std::size_t i = 0; i < body_.vertices.size(); ++i) {
-        const Offset d = offset(i, s, c);
-        const Real bend = g + spin * spin * reaches_[i], h = centre + d.normal, velocity = speed - spin * d.tangential;
-        Real own;
-        if (t == 0 && i == from) own = velocity / bend;  // it rises; until twice this time for certain
-        else own = h > 0 ? safe_step(h, velocity, bend) : Real(0);
-        if (stride < 0 || own < stride) stride = own, nearest = i;
-      }
-      if (stride <= Real(1e-32) * t) {
-        time_ += t;
-        state_.inclination = angle;
-        state_.normal = speed;
-        return nearest;
-      }
-      t += stride;
-    }
-    throw std::runtime_error("the flight does not end");
+    EventFlight<Real> flight(body_, state_, law_.gravity);
+    const auto arrival = flight.run(from);
+    close_call_ = close_call_ || flight.close_call();
+    if (!arrival) return std::nullopt;
+    time_ += arrival->time;
+    state_.inclination -= state_.angular * arrival->time;
+    state_.normal -= law_.gravity * arrival->time;
+    return arrival->vertex;
   }
 
   EventBody<Real> body_;
   EventState<Real> state_;
   EventLaw<Real> law_;
-  std::vector<Real> reaches_;
-  Real reach_ = 0;
   Real time_ = 0;
+  bool close_call_ = false;
 };
 
 }  // namespace clatter::oracle
