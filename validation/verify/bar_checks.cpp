@@ -40,7 +40,7 @@ class BarSample {
     std::nth_element(ratios_.begin(), middle, ratios_.end());
     const double outside = 1 - static_cast<double>(covered_) / static_cast<double>(count_);
     const bool holds = outside <= 1 - least_covered && *middle <= widest_median;
-    return {100 * (1 - outside), outside, holds ? Answer::holds : Answer::refuted,
+    return {100 * (1 - outside), outside, holds_if(holds),
             fmt::format("% of {} numbers of {} lie within their bars; bars are {} times the error in the median",
                         count_, scenes, significant(*middle, 2))};
   }
@@ -97,7 +97,7 @@ Measured bars_of_the_discrete_model(CaseRuns& case_runs) {
   const bool holds = inside >= least_covered_discrete && coverage.median_ratio() <= widest_discrete_median &&
                      coverage.certain_ends_right == coverage.certain_ends;
   return {
-      100 * inside, 1 - inside, holds ? Answer::holds : Answer::refuted,
+      100 * inside, 1 - inside, holds_if(holds),
       fmt::format("% of {} predictable impacts of {} random scenes lie within their bars with all numbers; bars are {} "
                   "times the error in the median; {} of {} ends that are certain are right",
                   coverage.predictable, coverage.scenes, significant(coverage.median_ratio(), 2),

@@ -86,6 +86,7 @@ const Measures& all_measures() {
   static const Measures measures = [] {
     Measures all;
     add_exact_measures(all);
+    add_angle_claim_measures(all);
     add_claim_measures(all);
     add_erratum_measures(all);
     add_figure_measures(all);

@@ -1,12 +1,14 @@
 // Checks: what is claimed, who judges it, and how far the two may be apart.
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "validation/compare/case_runs.hpp"
+#include "validation/output/number.hpp"
 
 namespace clatter::validation {
 
@@ -17,6 +19,14 @@ enum class Answer {
   ambiguous,  ///< the text leaves open what it means; the number says what each reading gives
 };
 [[nodiscard]] const char* answer_name(Answer answer);
+/// Of a claim in words: whether the inequality that it states does hold.
+[[nodiscard]] inline Answer holds_if(bool claim) { return claim ? Answer::holds : Answer::refuted; }
+/// Of a claim that prints a number: whether `value` rounds to `printed`, given with `unit` of its last digit.
+[[nodiscard]] inline Answer rounds_to(double value, double printed, double unit) {
+  return holds_if(std::fabs(value - printed) <= unit / 2);
+}
+/// A number of what was found.
+[[nodiscard]] inline std::string number(double value, int digits = 5) { return significant(value, digits); }
 
 /// One row of validation/verify/checks.toml.
 struct Check {
@@ -56,6 +66,7 @@ using Measures = std::map<std::string, Measure>;
 
 /// Each group adds its own.
 void add_exact_measures(Measures& measures);
+void add_angle_claim_measures(Measures& measures);
 void add_claim_measures(Measures& measures);
 void add_erratum_measures(Measures& measures);
 void add_figure_measures(Measures& measures);

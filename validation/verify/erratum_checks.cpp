@@ -4,13 +4,13 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "analytic/contact_angles.hpp"
 #include "analytic/impact_law.hpp"
 #include "numeric/motion/euler_parameters.hpp"
 #include "numeric/motion/lagrange_system.hpp"
 #include "numeric/motion/newton_euler.hpp"
 #include "validation/output/number.hpp"
 #include "validation/verify/check.hpp"
+#include "validation/verify/elastic_rod.hpp"
 #include "validation/verify/fold.hpp"
 
 namespace clatter::validation {
@@ -20,8 +20,6 @@ using analytic::Angle;
 using analytic::ContactAngles;
 using analytic::degrees_per_radian;
 using numeric::Vector3;
-
-ContactAngles elastic_angles(double degrees) { return contact_angles(Angle::from_degrees(degrees), {}); }
 
 /// Fourth line of Eq. 8, V_n − Ω d_t = −e v_n, for θ = 30°, v_n = −1, μ_i = 0.2, end a.
 Measured sign_of_omega(CaseRuns&) {
@@ -82,7 +80,7 @@ Measured relative_velocity(CaseRuns&) {
   const double c = std::cos(Angle::from_degrees(20).radians), d = 1 + 3 * c * c;
   const double printed = (1 - 3 * c * c) / d * v - std::cos(at.beta.angle) * 6 * c / d * v;
   const double actual = at.velocity[0] - at.angular[0] * std::cos(at.beta.angle) / 2;
-  const ContactAngles heavy = contact_angles(Angle::from_degrees(20), {.gravity_number = 1});
+  const ContactAngles heavy = elastic_angles(20, 1);
   return {printed / actual, std::fabs(printed / actual + 1), Answer::holds,
           fmt::format("v_rn over the normal velocity of the contact point; with G = 1 also − gT = {}",
                       significant(-heavy.beta.time, 3))};

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "validation/figures/figure.hpp"
-#include "validation/output/number.hpp"
 #include "validation/verify/check.hpp"
 
 namespace clatter::validation {
@@ -15,8 +14,6 @@ namespace {
 using numeric::HistorySample;
 using numeric::ImpactNumbers;
 using numeric::Simulation;
-
-std::string number(double value, int digits = 4) { return significant(value, digits); }
 
 /// Worst distance of the points of the continuous model from the lines of the discrete one, over the largest value of
 /// each column; infinite where one model has an impact and the other has not.
@@ -62,7 +59,7 @@ Measured figure_8(CaseRuns& case_runs) {
     if (value(row, "panel") == 2 && value(row, "impacts") == 1) most = velocity;
   }
   return {most, worst, Answer::holds,
-          fmt::format("the centre moves up after impact 1 at 56.5°, with {} |vₙ| down at 45°", number(-least))};
+          fmt::format("the centre moves up after impact 1 at 56.5°, with {} |vₙ| down at 45°", number(-least, 4))};
 }
 
 /// ½mV² + ½IΩ² after the impact is ½mv² before it: from the velocities alone.

@@ -25,7 +25,7 @@ Measured clattering(CaseRuns&) {
   const Scores scores = kept_scores("square-drops");
   const double one = scores.middle_of("no point impact: one impact"),
                sequence = scores.middle_of("no point impact: the sequence");
-  return {100 * sequence, sequence, sequence < one ? Answer::holds : Answer::refuted,
+  return {100 * sequence, sequence, holds_if(sequence < one),
           fmt::format("with one impact alone {} %", significant(100 * one, 3))};
 }
 

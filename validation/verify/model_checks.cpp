@@ -38,7 +38,7 @@ struct Landing {
   }
 
   [[nodiscard]] Measured measured() const {
-    return {static_cast<double>(landed), miss, all_land ? Answer::holds : Answer::refuted,
+    return {static_cast<double>(landed), miss, holds_if(all_land),
             fmt::format("of {} impacts have their limit; at the scene's stiffness those compared are within {}",
                         impacts, significant(deviation, 2))};
   }
@@ -63,8 +63,7 @@ Measured random_scenes(CaseRuns& case_runs, int count) {
   const RandomScenesResult result = run_random_scenes(
       {.seed = random_family, .count = count, .impacts = random_impacts, .goes_on = case_runs.goes_on});
   if (!result.complete) throw CaseRuns::Interrupted{};
-  return {100 * result.covered, result.farthest,
-          result.covered >= 0.95 && result.median_bar <= 10 ? Answer::holds : Answer::refuted,
+  return {100 * result.covered, result.farthest, holds_if(result.covered >= 0.95 && result.median_bar <= 10),
           fmt::format("% of {} numbers of {} scenes lie within their bars; bars are {} times the gap in the median",
                       result.samples.size(), result.with_limit, significant(result.median_bar, 2))};
 }
@@ -77,7 +76,7 @@ Measured random_scenes_in_space(CaseRuns& case_runs, int count) {
   if (!result.complete) throw CaseRuns::Interrupted{};
   const bool explained = std::ranges::none_of(result.unsettled, &std::string::empty, &UnsettledImpact::explanation);
   return {100 * result.share(), 1 - result.share(),
-          result.share() >= 0.95 && explained && result.median_bar <= 50 ? Answer::holds : Answer::refuted,
+          holds_if(result.share() >= 0.95 && explained && result.median_bar <= 50),
           fmt::format("% of {} impacts of {} scenes lie within their bars with all numbers, {} are explained; bars are "
                       "{} times the gap in the median, the farthest limit is {} bars off",
                       result.impacts, count, result.unsettled.size(), significant(result.median_bar, 2),

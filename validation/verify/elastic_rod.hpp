@@ -1,0 +1,13 @@
+// Contact angles of the elastic rod, of which many claims and errata speak.
+#pragma once
+
+#include "analytic/contact_angles.hpp"
+
+namespace clatter::validation {
+
+/// For θ in degrees; G = g L/v_n².
+[[nodiscard]] inline analytic::ContactAngles elastic_angles(double degrees, double gravity_number = 0) {
+  return contact_angles(analytic::Angle::from_degrees(degrees), {.gravity_number = gravity_number});
+}
+
+}  // namespace clatter::validation
