@@ -6,7 +6,8 @@
     figures.py PROGRAM --only 7 regimes  these alone
 
 In a notebook: `%matplotlib inline`, then figures.draw(10) or figures.draw("regimes"); figures.names() lists them.
-The data of the paper's figures, figures/figure_NN.csv, are those of `clatter figures`; documents.py renews them.
+Data and specification of the paper's figures, figures/figure_NN.csv, are those of `clatter figures`; documents.py renews
+them.
 """
 
 import argparse
@@ -14,7 +15,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from paper_figures import PANELS, draw_panels, draw_positions
+from paper_figures import draw_panels
 from pictures import PICTURES
 from plotting import Table, svg, with_look
 
@@ -24,7 +25,7 @@ FIGURES = DATA / "figures"
 
 def names():
     """Numbers of the paper's figures and names of the extra pictures."""
-    return sorted([8, *PANELS]) + list(PICTURES)
+    return sorted(int(file.stem[-2:]) for file in FIGURES.glob("figure_??.csv")) + list(PICTURES)
 
 
 def table(number):
@@ -39,7 +40,7 @@ def draw(name):
         return PICTURES[name].draw(DATA)
     if name not in names():
         raise ValueError(f"no picture {name!r}; there are {', '.join(map(str, names()))}")
-    return draw_positions(table(name)) if name == 8 else draw_panels(name, table(name))
+    return draw_panels(name, table(name))
 
 
 def path(name):

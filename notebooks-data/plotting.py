@@ -2,12 +2,13 @@
 
 import csv
 import io
+import json
 import re
-from dataclasses import dataclass
 
 import matplotlib
 import numpy as np
 from matplotlib.backends.backend_svg import FigureCanvasSVG
+from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
@@ -23,7 +24,6 @@ LOOK = {
     # Text stays text; ids do not depend on the run; points that a reader could not tell apart are left out.
     "svg.fonttype": "none", "svg.hashsalt": "clatter", "path.simplify": True, "path.simplify_threshold": 0.3,
 }
-UNITS = {"deg": "°", "1": "–", "N s": "N·s", "m |v_n|": "m |vₙ|", "|v_n|": "|vₙ|", "|v_n|/L": "|vₙ|/L", "L/|v_n|": "L/|vₙ|"}
 STYLES = {
     "line": {},
     "dashed": {"linestyle": (0, (4, 2)), "linewidth": 1.2},
@@ -35,29 +35,25 @@ STYLES = {
 
 
 class Table:
-    """A CSV file of the program: columns by name, as numbers (NaN: no value) where they all are, and their units."""
+    """A CSV file of the program: columns by name, as numbers (NaN: no value) where they all are, and what its head says
+    of each plot: axes, curves, legend."""
 
-    def __init__(self, columns, units):
-        self.columns, self.units = columns, units
+    def __init__(self, columns, plots=()):
+        self.columns, self.plots = columns, plots
 
     @classmethod
     def read(cls, path):
         lines = path.read_text(encoding="utf-8").splitlines()
-        # A head line of a column reads "# name [unit]: quantity".
-        heads = (re.match(r"# (\w+) \[([^]]+)\]: ", line) for line in lines)
-        units = {head[1]: UNITS.get(head[2], head[2]) for head in heads if head}
+        plots = [json.loads(line.removeprefix("# plot: ")) for line in lines if line.startswith("# plot: ")]
         rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
-        return cls({name: as_column([row[name] for row in rows]) for name in rows[0]}, units)
+        return cls({name: as_column([row[name] for row in rows]) for name in rows[0]}, plots)
 
     def __getitem__(self, name):
         return self.columns[name]
 
-    def unit(self, name):
-        return self.units[name]
-
     def where(self, chosen):
         """The rows that an array of truth values chooses."""
-        return Table({name: column[chosen] for name, column in self.columns.items()}, self.units)
+        return Table({name: column[chosen] for name, column in self.columns.items()})
 
 
 def as_column(cells):
@@ -67,32 +63,6 @@ def as_column(cells):
         return np.array(cells)
 
 
-@dataclass(frozen=True)
-class Curve:
-    """One column over another.  `where` = (column, value): only those rows."""
-    y: str
-    legend: str = ""
-    style: str = "line"  # of STYLES, or "bars"
-    colour: str = BLUE
-    where: tuple = ()
-    every: int = 1  # a mark for each that many values; lines are whole
-
-
-@dataclass(frozen=True)
-class Panel:
-    """Axes with the paper's letter.  The units come from the columns of the first curve."""
-    letter: str
-    x: str
-    x_label: str
-    y_label: str
-    curves: tuple
-    x_range: tuple = (None, None)
-    y_range: tuple = (None, None)
-    x_unit: tuple = ()  # (1e3, "ms"): the column times 1e3, in ms
-    zoom: tuple = ()  # place (x, y, width, height in parts of the panel) and range of x of an inset
-    legend: dict = None  # where it stands instead of above the panel
-
-
 def new_figure(width, height):
     """A figure of this many inches that keeps its labels apart."""
     figure = Figure(figsize=(width, height), layout="constrained")
@@ -100,44 +70,62 @@ def new_figure(width, height):
     return figure
 
 
-def points_of(table, panel, curve):
-    """x and y of a curve where both are there.  A line that ends keeps a gap."""
-    rows = table.where(table[curve.where[0]] == curve.where[1]) if curve.where else table
-    x, y = rows[panel.x], rows[curve.y]
-    if curve.style in ("points", "squares", "crosses"):
+def points_of(table, plot, curve):
+    """x and y of a curve, both there where it is drawn as points.  A line that ends keeps a gap."""
+    chosen = np.ones(len(table[curve["x"]]), dtype=bool)
+    for column, value in curve.get("where", {}).items():
+        chosen &= table[column] == value
+    x, y = table[curve["x"]][chosen], table[curve["y"]][chosen]
+    if curve["style"] in ("points", "squares", "crosses"):
         x, y = x[np.isfinite(y)], y[np.isfinite(y)]
-    return (x * panel.x_unit[0] if panel.x_unit else x), y
+    return x * plot["x_factor"], y
 
 
-def draw_curves(axes, table, panel, only=(-np.inf, np.inf)):
-    for curve in panel.curves:
-        x, y = points_of(table, panel, curve)
+def draw_segments(axes, table, curve):
+    """Each row a line from (x, y) to (x_end, y_end), the darker the later."""
+    chosen = np.logical_and.reduce([table[column] == value for column, value in curve["where"].items()])
+    ends = [table[curve[name]][chosen] for name in ("x", "y", "x_end", "y_end")]
+    shades = LinearSegmentedColormap.from_list("later", ["#c6dbef", BLUE, "#08306b"])
+    last = len(ends[0]) - 1
+    for i, (x, y, x_end, y_end) in enumerate(zip(*ends)):
+        axes.plot([x, x_end], [y, y_end], color=shades(i / last), label=curve["legend"] if i == last else None)
+
+
+def draw_curves(axes, table, plot, only=(-np.inf, np.inf)):
+    for curve in plot["curves"]:
+        label = curve.get("legend")
+        if curve["style"] == "segments":
+            draw_segments(axes, table, curve)
+            continue
+        x, y = points_of(table, plot, curve)
         inside = (x >= only[0]) & (x <= only[1])
         x, y = x[inside], y[inside]
-        if curve.style == "bars":
-            bars = axes.bar(x, y, 0.6, color=curve.colour, label=curve.legend)
+        if curve["style"] == "bars":
+            bars = axes.bar(x, y, 0.6, color=curve["colour"], label=label)
             axes.bar_label(bars, fmt="%.3g", fontsize=7, padding=1)
         else:
-            axes.plot(x, y, color=curve.colour, label=curve.legend or None, markevery=curve.every, **STYLES[curve.style])
+            axes.plot(x, y, color=curve["colour"], label=label, markevery=curve.get("every", 1), **STYLES[curve["style"]])
 
 
-def draw_panel(axes, table, panel):
-    draw_curves(axes, table, panel)
-    axes.set(xlim=panel.x_range, ylim=panel.y_range, xlabel=f"{panel.x_label} [{(panel.x_unit or (1, table.unit(panel.x)))[1]}]",
-             ylabel=f"{panel.y_label} [{table.unit(panel.curves[0].y)}]")
-    if panel.zoom:
-        draw_zoom(axes, table, panel)
-    axes.set_title(panel.letter, loc="left")
+def draw_plot(axes, table, plot):
+    """A panel as the program describes it."""
+    draw_curves(axes, table, plot)
+    axes.set(xlim=plot["x"], ylim=plot["y"], xlabel=plot["x_label"], ylabel=plot["y_label"])
+    if plot["equal_scales"]:
+        axes.set_aspect("equal")
+    if "zoom" in plot:
+        draw_zoom(axes, table, plot)
+    axes.set_title(plot["title"], loc="left")
 
 
-def draw_zoom(axes, table, panel):
+def draw_zoom(axes, table, plot):
     """The panel's curves once more, over a part of the x axis, in a window with the panel's units."""
-    place, times = panel.zoom
-    window = axes.inset_axes(place)
-    draw_curves(window, table, panel, times)
-    window.set_xlim(times)
+    zoom = plot["zoom"]
+    window = axes.inset_axes(zoom["place"])
+    draw_curves(window, table, plot, zoom["x"])
+    window.set_xlim(zoom["x"])
     window.tick_params(labelsize=7)
-    window.set_title("first two impacts", fontsize=7, pad=2)
+    window.set_title(zoom["title"], fontsize=7, pad=2)
     window.set_ylim(0, None)
 
 

@@ -166,8 +166,29 @@ class Figures(unittest.TestCase):
             self.assertTrue(head[1].startswith("# scene: "))
             self.assertEqual(head[2], f"# command: clatter figures --only {number} --output DIR")
             self.assertRegex(head[3], r"^# clatter \d+\.\d+\.\d+$")
-            for name, line in zip(names, head[4:], strict=True):
+            for name, line in zip(names, head[-len(names):], strict=True):
                 self.assertRegex(line, rf"^# {re.escape(name)} \[[^\]]+\]: ..")
+            for line in head[4:-len(names)]:
+                self.assertTrue(line.startswith("# plot: {"), line)
+
+    def test_the_head_and_json_say_how_each_panel_is_drawn_curve_by_curve(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertEqual(clatter("figures", "--only", "17", "24", "--output", folder, "--format", "json").returncode, 0)
+            for number, where in ((17, {"variant": {1, 2}}), (24, {"touches": {1, 2}})):
+                head, names, rows = read_figure(self.path(number))
+                plots = [json.loads(line.removeprefix("# plot: ")) for line in head if line.startswith("# plot: ")]
+                self.assertEqual(len(plots), 4)
+                with open(os.path.join(folder, f"figure_{number}.json"), encoding="utf-8") as file:
+                    self.assertEqual(json.load(file)["plots"], plots)
+                for plot in plots:
+                    self.assertRegex(plot["x_label"] + plot["y_label"], r"^\S.* \[\S+\]\S.* \[\S+\]$")
+                    for curve in plot["curves"]:
+                        self.assertLessEqual({curve["x"], curve["y"], *curve.get("where", {})}, set(names))
+                        self.assertRegex(curve["colour"], r"^#[0-9a-f]{6}$")
+                for column, values in where.items():
+                    chosen = {curve["where"][column] for plot in plots for curve in plot["curves"] if "where" in curve}
+                    self.assertEqual(chosen, values)
+                    self.assertEqual({row[names.index(column)] for row in rows}, values)
 
     def test_the_files_in_the_tree_are_what_the_program_writes(self):
         """To a millionth of each column's range: another machine rounds differently, and errors grow over impacts."""

@@ -72,6 +72,7 @@ Command figures_command() {
   command.add_flag("--bare", input->bare, "CSV without comments");
   command.footer =
       "Example: clatter figures --only 7 14 --output figures\n"
+      "Comments \"plot: ...\" and in JSON the list plots say how each panel is drawn.\n"
       "clatter verify --html FILE draws them.";
   command.run = [input] { return run_figures(*input); };
   return command;

@@ -1,5 +1,8 @@
 // Figs. 7 and 9 to 12: the thin rod's first three impacts, with the continuous model of a very thin rod on a very
 // stiff ground as points.
+#include <fmt/format.h>
+
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -12,6 +15,7 @@ namespace {
 using analytic::Angle;
 using analytic::ContactAngles;
 using analytic::degrees_per_radian;
+using Style = FigureCurve::Style;
 
 constexpr double last_angle = 60;
 constexpr double line_step = 0.25, point_step = 5;
@@ -76,30 +80,60 @@ std::string words(double gravity_number) {
   return gravity_number == 0 ? "no gravity" : gravity_number < 1 ? "G = 0.1" : "G = 9.81";
 }
 
-template <class Add>
-void for_each_number(const Wanted& wanted, const Add& add) {
-  if (wanted.beta) add("beta", "deg", "contact angle of the second impact", "β");
-  if (wanted.gamma) add("gamma", "deg", "contact angle of the third impact", "γ");
-  const char* const names[] = {"P1", "P2", "P3"};
-  const char* const signs[] = {"P₁", "P₂", "P₃"};
-  const char* const which[] = {"first", "second", "third"};
-  for (int i = 0; i < wanted.impulses; ++i) {
-    add(names[i], "m |v_n|", std::string("normal impulse of the ") + which[i] + " impact", signs[i]);
+struct ShownNumber {
+  std::string name, unit, quantity, sign;
+  Style style;  ///< of its lines where several gravities are shown
+};
+
+std::vector<ShownNumber> numbers_of(const Wanted& wanted) {
+  const std::string angle = "contact angle of the ", impulse = "normal impulse of the ";
+  std::vector<ShownNumber> numbers;
+  if (wanted.beta) numbers.push_back({"beta", "deg", angle + "second impact", "β", Style::line});
+  if (wanted.gamma) numbers.push_back({"gamma", "deg", angle + "third impact", "γ", Style::dashed});
+  const std::vector<ShownNumber> impulses{{"P1", "m |v_n|", impulse + "first impact", "P₁", Style::dotted},
+                                          {"P2", "m |v_n|", impulse + "second impact", "P₂", Style::line},
+                                          {"P3", "m |v_n|", impulse + "third impact", "P₃", Style::dashed}};
+  numbers.insert(numbers.end(), impulses.begin(), impulses.begin() + wanted.impulses);
+  return numbers;
+}
+
+void add_columns(Figure& figure, const Wanted& wanted, double gravity_number) {
+  for (const ShownNumber& number : numbers_of(wanted)) {
+    const std::string base = number.name + suffix(gravity_number);
+    figure.columns.push_back({base, number.unit, number.quantity + ", discrete model, " + words(gravity_number)});
+    figure.columns.push_back(
+        {base + "_continuous", number.unit,
+         number.quantity + ", continuous model of a rod of radius 1e-4 m, " + words(gravity_number)});
   }
 }
 
-void add_columns(Figure& figure, FigurePlot& plot, const Wanted& wanted, double gravity_number) {
-  for_each_number(
-      wanted, [&](const std::string& name, const std::string& unit, const std::string& what, const std::string& sign) {
-        const std::string base = name + suffix(gravity_number);
-        figure.columns.push_back({base, unit, what + ", discrete model, " + words(gravity_number)});
-        figure.columns.push_back({base + "_continuous", unit,
-                                  what + ", continuous model of a rod of radius 1e-4 m, " + words(gravity_number)});
-        const std::string legend = wanted.gravity_numbers.size() > 1 ? sign + ", " + words(gravity_number) : sign;
-        plot.curves.push_back({.x = "theta", .y = base, .legend = legend, .where = {}});
-        plot.curves.push_back(
-            {.x = "theta", .y = base + "_continuous", .legend = "", .style = FigureCurve::Style::points, .where = {}});
-      });
+/// Lines for the discrete model, points for the continuous one, and one name for all points.
+std::vector<FigureCurve> curves_of(const Wanted& wanted) {
+  std::vector<FigureCurve> curves;
+  const std::size_t gravities = wanted.gravity_numbers.size();
+  for (const ShownNumber& number : numbers_of(wanted)) {
+    const bool is_any_gravity = gravities > 1 && number.name == "P1";  // the first impact knows no gravity
+    for (std::size_t g = 0; g < (is_any_gravity ? 1 : gravities); ++g) {
+      const double gravity_number = wanted.gravity_numbers[g];
+      FigureCurve curve{.x = "theta", .y = number.name + suffix(gravity_number), .legend = number.sign};
+      if (gravities == 1) {
+        curve.legend += ", discrete model";
+        curve.colour = curves.empty() ? blue : red;
+      } else {
+        curve.legend += is_any_gravity ? ", any G" : fmt::format(", G = {}", gravity_number);
+        curve.style = number.style;
+        curve.colour = is_any_gravity ? green : std::array{ink, blue, red}[g];
+      }
+      curves.push_back(curve);
+    }
+  }
+  for (std::size_t i = 0, lines = curves.size(); i < lines; ++i) {
+    FigureCurve points{.x = "theta", .y = curves[i].y + "_continuous", .style = Style::points};
+    if (i + 1 == lines) points.legend = "continuous model";
+    points.colour = curves[i].colour;
+    curves.push_back(points);
+  }
+  return curves;
 }
 
 void add_numbers(std::vector<double>& row, const Wanted& wanted, const FirstImpacts& line, const FirstImpacts& point) {
@@ -123,20 +157,17 @@ std::vector<double> line_angles(const Wanted& wanted) {
   return {angles.begin(), angles.end()};
 }
 
-Figure discrete_figure(int number, const std::string& title, const Wanted& wanted) {
+Figure discrete_figure(int number, const std::string& title, const Wanted& wanted, const FigurePlot& axes) {
   Figure figure{.number = number,
                 .title = title,
                 .scene = "thin rod, m = L = |v_n| = 1, omega = 0, e = 1, no friction; points: continuous model",
-                .columns = {{"theta", "deg", "contact angle of the first impact"}},
-                .rows = {},
-                .plots = {}};
-  FigurePlot plot{.title = "",
-                  .x_label = "initial contact angle θ [°]",
-                  .y_label = wanted.impulses > 0 ? "normal impulse [m |vₙ|]" : "contact angle [°]",
-                  .curves = {},
-                  .x = {0, last_angle},
-                  .y = {0, wanted.impulses > 0 ? no_number : 90}};
-  for (const double gravity_number : wanted.gravity_numbers) add_columns(figure, plot, wanted, gravity_number);
+                .columns = {{"theta", "deg", "contact angle of the first impact"}}};
+  for (const double gravity_number : wanted.gravity_numbers) add_columns(figure, wanted, gravity_number);
+  FigurePlot plot = axes;
+  plot.x_label = figure.label("initial contact angle θ", "theta");
+  plot.y_label = figure.label(axes.y_label, figure.columns[1].name);
+  plot.curves = curves_of(wanted);
+  plot.x = {0, last_angle};
   for (const double theta : line_angles(wanted)) {
     const bool with_point = theta > 0 && std::fmod(theta, point_step) == 0;
     std::vector<double>& row = figure.rows.emplace_back(std::vector<double>{theta});
@@ -152,25 +183,30 @@ Figure discrete_figure(int number, const std::string& title, const Wanted& wante
 }  // namespace
 
 Figure figure_second_angle() {
-  return discrete_figure(7, "contact angle of the second impact over that of the first", {.beta = true});
+  return discrete_figure(7, "contact angle of the second impact over that of the first", {.beta = true},
+                         {.y_label = "contact angle β", .y = {0, 90}, .legend_place = "upper left"});
 }
 
 Figure figure_two_impulses() {
-  return discrete_figure(9, "normal impulses of the first and the second impact", {.impulses = 2});
+  return discrete_figure(9, "normal impulses of the first and the second impact", {.impulses = 2},
+                         {.y_label = "normal impulse P₁, P₂", .y = {0, 1.2}, .legend_place = "lower left"});
 }
 
 Figure figure_both_angles() {
-  return discrete_figure(10, "contact angles of the second and the third impact", {.beta = true, .gamma = true});
+  return discrete_figure(10, "contact angles of the second and the third impact", {.beta = true, .gamma = true},
+                         {.y_label = "contact angle β, γ", .y = {0, 90}, .legend_place = "upper left"});
 }
 
 Figure figure_angles_with_gravity() {
   return discrete_figure(11, "contact angles with and without gravity, G = g L/v_n^2",
-                         {.beta = true, .gamma = true, .gravity_numbers = {0, 0.1, 9.81}});
+                         {.beta = true, .gamma = true, .gravity_numbers = {0, 0.1, 9.81}},
+                         {.y_label = "contact angle β, γ", .y = {0, 90}, .legend_place = "beside"});
 }
 
 Figure figure_impulses_with_gravity() {
   return discrete_figure(12, "normal impulses with and without gravity, G = g L/v_n^2",
-                         {.impulses = 3, .gravity_numbers = {0, 0.1, 9.81}});
+                         {.impulses = 3, .gravity_numbers = {0, 0.1, 9.81}},
+                         {.y_label = "normal impulse P₁, P₂, P₃", .y = {0, no_number}, .legend_place = "beside"});
 }
 
 }  // namespace clatter::validation

@@ -32,9 +32,18 @@ std::string element(const std::string& svg) {
 }  // namespace
 
 std::vector<std::string> draw(const Figure& figure) {
+  std::vector<FigurePlot> plots;
+  for (const FigurePlot& plot : figure.plots) {
+    plots.push_back(plot);
+    if (!plot.zoom) continue;
+    plots.push_back(plot);
+    plots.back().title += (plot.title.empty() ? "" : ", ") + plot.zoom->title;
+    plots.back().x = plot.zoom->x;
+    plots.back().y.high = no_number;
+  }
   std::vector<std::string> pictures;
-  for (std::size_t i = 0; i < figure.plots.size(); ++i) {
-    pictures.push_back(element(run_gnuplot(script(figure, figure.plots[i], i))));
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    pictures.push_back(element(run_gnuplot(script(figure, plots[i], i))));
   }
   return pictures;
 }

@@ -8,7 +8,7 @@
 
 namespace clatter::validation {
 
-/// One SVG element per plot of the figure, ready to stand in an HTML page.
+/// One SVG element per plot of the figure, a zoom after its plot, ready to stand in an HTML page.
 /// @throws as run_gnuplot.
 [[nodiscard]] std::vector<std::string> draw(const Figure& figure);
 

@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <cstring>
+#include <iterator>
 #include <stdexcept>
 
 #include "validation/figures/figures.hpp"
-#include "validation/output/number.hpp"
+#include "validation/output/json.hpp"
 #include "validation/output/version.hpp"
 
 namespace clatter::validation {
@@ -16,6 +17,31 @@ std::size_t column_index(const std::vector<FigureColumn>& columns, const std::st
     if (columns[i].name == name) return i;
   }
   throw std::out_of_range("no column " + name);
+}
+
+std::vector<std::string> curve_colours(const FigurePlot& plot) {
+  static const char* const palette[]{blue, red, green, pink, "#e69f00", "#56b4e9", "#000000", "#8c564b", "#7f7f7f"};
+  std::vector<std::string> colours;
+  std::size_t next = 0;
+  bool is_first = true;
+  for (const FigureCurve& curve : plot.curves) {
+    const bool is_area = curve.style == FigureCurve::Style::area;
+    if (!is_area && !is_first && !curve.legend.empty()) ++next;
+    if (!is_area) is_first = false;
+    // Points without a name lie on the line before them.
+    const bool is_on_line = curve.style == FigureCurve::Style::points && curve.legend.empty();
+    const char* const own = is_area ? "" : is_on_line ? ink : palette[next % std::size(palette)];
+    colours.push_back(curve.colour.empty() ? own : curve.colour);
+  }
+  return colours;
+}
+
+std::string Figure::label(const std::string& words, const std::string& column) const {
+  std::string unit = columns[column_index(columns, column)].unit;
+  for (const auto& [from, to] : {std::pair{"deg", "°"}, {"1", "–"}, {"N s", "N·s"}, {"|v_n|", "|vₙ|"}}) {
+    if (const std::size_t at = unit.find(from); at != std::string::npos) unit.replace(at, std::strlen(from), to);
+  }
+  return fmt::format("{} [{}]", words, unit);
 }
 
 std::string Figure::command() const { return fmt::format("clatter figures --only {} --output DIR", number); }
@@ -47,19 +73,74 @@ Figure make_figure(int number, CaseRuns& case_runs) {
   }
 }
 
+namespace {
+
+Value range_value(const Range2& range) { return Value::List{range.low, range.high}; }
+
+Value curve_fields(const FigureCurve& curve, const std::string& colour) {
+  static const char* const styles[]{"line", "dashed",      "dotted", "points", "squares", "crosses",
+                                    "bars", "line-points", "marks",  "sticks", "area",    "segments"};
+  Value::Fields fields{{"x", curve.x}, {"y", curve.y}, {"style", styles[static_cast<std::size_t>(curve.style)]}};
+  for (const auto& [name, text] : {std::pair<const char*, const std::string&>{"legend", curve.legend},
+                                   {"colour", colour},
+                                   {"y_low", curve.y_low},
+                                   {"x_end", curve.x_end},
+                                   {"y_end", curve.y_end}}) {
+    if (!text.empty()) fields.push_back({name, text});
+  }
+  if (curve.every > 1) fields.push_back({"every", curve.every});
+  Value::Fields where;
+  for (const auto& [column, value] : curve.where) where.push_back({column, value});
+  if (!where.empty()) fields.push_back({"where", where});
+  return fields;
+}
+
+}  // namespace
+
+Value plot_fields(const FigurePlot& plot) {
+  Value::List curves;
+  const std::vector<std::string> colours = curve_colours(plot);
+  for (std::size_t i = 0; i < colours.size(); ++i) curves.push_back(curve_fields(plot.curves[i], colours[i]));
+  Value::Fields fields{{"title", plot.title},
+                       {"x_label", plot.x_label},
+                       {"y_label", plot.y_label},
+                       {"x", range_value(plot.x)},
+                       {"y", range_value(plot.y)},
+                       {"x_factor", plot.x_factor},
+                       {"legend_place", plot.legend_place},
+                       {"equal_scales", plot.equal_scales},
+                       {"curves", curves}};
+  if (plot.zoom) {
+    const FigureZoom& z = *plot.zoom;
+    fields.push_back({"zoom", Value::Fields{{"place", Value::List{z.left, z.bottom, z.width, z.height}},
+                                            {"x", range_value(z.x)},
+                                            {"title", z.title}}});
+  }
+  return fields;
+}
+
 Report figure_report(const Figure& figure) {
   Report report;
   report.title = fmt::format("Figure {}: {}", figure.number, figure.title);
   report.head = {"scene: " + figure.scene, "command: " + figure.command(), std::string("clatter ") + version};
   report.remarks = report.head;
   report.explains_columns = true;
+  Value::List plots;
+  for (const FigurePlot& plot : figure.plots) {
+    plots.push_back(plot_fields(plot));
+    report.remarks.push_back("plot: " + compact_json(plots.back()));
+  }
   for (const FigureColumn& column : figure.columns) {
     report.grid.columns.push_back({column.name, column.name, column.unit == "1" ? "" : column.unit, column.quantity});
   }
   for (const std::vector<double>& row : figure.rows) report.grid.rows.emplace_back(row.begin(), row.end());
-  report.fields =
-      Value::Fields{{"clatter", version},    {"figure", figure.number},     {"title", figure.title},
-                    {"scene", figure.scene}, {"command", figure.command()}, {"rows", row_objects(report.grid)}};
+  report.fields = Value::Fields{{"clatter", version},
+                                {"figure", figure.number},
+                                {"title", figure.title},
+                                {"scene", figure.scene},
+                                {"command", figure.command()},
+                                {"plots", plots},
+                                {"rows", row_objects(report.grid)}};
   return report;
 }
 

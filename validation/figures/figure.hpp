@@ -21,39 +21,58 @@ struct FigureColumn {
   std::string quantity;  ///< what it is, one line
 };
 
-/// Only the rows in which this column has this value; none: all.
-using RowFilter = std::optional<std::pair<std::string, double>>;
+/// Only the rows in which each of these columns has its value; none: all.
+using RowFilter = std::vector<std::pair<std::string, double>>;
+
+/// Colours that colour-blind readers can tell apart, and ink.
+inline constexpr const char *blue = "#0072b2", *red = "#d55e00", *green = "#009e73", *pink = "#cc79a7",
+                            *ink = "#222222";
 
 /// One line or set of points of a plot.
 struct FigureCurve {
   /// marks: large points, each curve with a shape of its own; sticks: from zero up; area: between `y_low` and `y`;
-  /// segments: each row from (x, y) to (x_end, y_end).
-  enum class Style { line, thin_line, points, bars, line_points, marks, sticks, area, segments };
-  std::string x, y;  ///< names of columns
-  std::string legend;
+  /// segments: each row from (x, y) to (x_end, y_end), from light to dark blue.
+  enum class Style { line, dashed, dotted, points, squares, crosses, bars, line_points, marks, sticks, area, segments };
+  std::string x, y;         ///< names of columns
+  std::string legend = {};  ///< empty: not in the legend
   Style style = Style::line;
-  RowFilter where;
+  RowFilter where = {};
   std::string y_low = {};              ///< name of a column; of areas only
   std::string x_end = {}, y_end = {};  ///< names of columns; of segments only
+  std::string colour = {};             ///< empty: the next of the palette; no area has one
+  int every = 1;                       ///< of points: one for each that many rows
 };
 
 struct Range2 {
-  double low = std::numeric_limits<double>::quiet_NaN();  ///< NaN: from the data
-  double high = std::numeric_limits<double>::quiet_NaN();
+  double low = no_number;  ///< NaN: from the data
+  double high = no_number;
+};
+
+/// A window in a panel that shows its curves over a part of the x axis.
+struct FigureZoom {
+  double left, bottom, width, height;  ///< in parts of the panel
+  Range2 x = {};
+  std::string title = {};
 };
 
 /// One panel, with the paper's axes.
 struct FigurePlot {
-  std::string title;
-  std::string x_label, y_label;
-  std::vector<FigureCurve> curves;
+  std::string title = {};
+  std::string x_label = {}, y_label = {};  ///< symbol or words, and unit
+  std::vector<FigureCurve> curves = {};
   Range2 x = {};
   Range2 y = {};
+  double x_factor = 1;            ///< the x axis shows the columns' numbers times this
+  std::string legend_place = {};  ///< "upper left", "lower left" or "beside"; empty: outside the axes
+  std::optional<FigureZoom> zoom = {};
   bool logarithmic_x = false;
   bool logarithmic_y = false;
   bool whole_x = false;       ///< x counts something: no fractions on its axis
   bool equal_scales = false;  ///< a metre is as long on both axes
 };
+
+/// The colour of each curve; "" for areas.
+[[nodiscard]] std::vector<std::string> curve_colours(const FigurePlot& plot);
 
 /// Index of the column of this name.  @throws std::out_of_range if there is none.
 [[nodiscard]] std::size_t column_index(const std::vector<FigureColumn>& columns, const std::string& name);
@@ -63,9 +82,11 @@ struct Figure {
   std::string title;
   std::string scene;  ///< what was dropped how, or the scene file
   std::vector<FigureColumn> columns;
-  std::vector<std::vector<double>> rows;  ///< NaN: no value
-  std::vector<FigurePlot> plots;
+  std::vector<std::vector<double>> rows = {};  ///< NaN: no value
+  std::vector<FigurePlot> plots = {};
 
+  /// "WORDS [UNIT]", the unit that of a column, with its symbol.
+  [[nodiscard]] std::string label(const std::string& words, const std::string& column) const;
   /// "clatter figures --only N --output DIR".
   [[nodiscard]] std::string command() const;
 };
@@ -75,7 +96,12 @@ struct Figure {
 /// @throws std::out_of_range for a number that is not among them.
 [[nodiscard]] Figure make_figure(int number, CaseRuns& case_runs);
 
-/// Its title, scene and command, and its rows; CSV explains each column.
+/// All that a panel shows and how, by the names of FigurePlot's and FigureCurve's members; what is empty or as usual is
+/// left out.
+[[nodiscard]] Value plot_fields(const FigurePlot& plot);
+
+/// Its title, scene and command, and its rows; CSV explains each column, and says in a line "plot: JSON" how each panel
+/// is drawn, as JSON does in the list "plots".
 [[nodiscard]] Report figure_report(const Figure& figure);
 
 }  // namespace clatter::validation

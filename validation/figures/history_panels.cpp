@@ -1,14 +1,12 @@
 #include "validation/figures/history_panels.hpp"
 
-#include <limits>
-
 namespace clatter::validation {
 
 FigurePlot energy_panel(FigurePlot axes, const std::vector<EnergyCurve>& energies, const RowFilter& where) {
   axes.y_label = "energy [J]";
-  axes.y = {0, std::numeric_limits<double>::quiet_NaN()};
-  for (const auto& [column, legend] : energies) {
-    axes.curves.push_back({.x = "time", .y = column, .legend = legend, .where = where});
+  axes.y = {0, no_number};
+  for (const auto& [column, legend, colour] : energies) {
+    axes.curves.push_back({.x = "time", .y = column, .legend = legend, .where = where, .colour = colour});
   }
   return axes;
 }
@@ -27,13 +25,17 @@ void add_history_row(Figure& figure, std::vector<double> front, const numeric::H
   figure.rows.push_back(std::move(front));
 }
 
-void add_history_panels(Figure& figure, const FigurePlot& axes, const RowFilter& where) {
-  FigurePlot force = axes;
-  force.y_label = "normal contact force [N]";
-  force.curves = {{.x = "time", .y = "Fn", .legend = "", .where = where}};
-  figure.plots.push_back(force);
+void add_history_panels(Figure& figure, const std::string& caption, const std::string& force_legend,
+                        const RowFilter& where) {
+  const std::string time = figure.label("time", "time");
+  figure.plots.push_back({.title = "(a)" + caption,
+                          .x_label = time,
+                          .y_label = figure.label("normal contact force Fₙ", "Fn"),
+                          .curves = {{.x = "time", .y = "Fn", .legend = force_legend, .where = where}},
+                          .y = {0, no_number}});
   figure.plots.push_back(
-      energy_panel(axes, {{"E", "total"}, {"E_kinetic", "kinetic"}, {"E_potential", "potential"}}, where));
+      energy_panel({.title = "(b)" + caption, .x_label = time},
+                   {{"E", "total", ink}, {"E_kinetic", "kinetic", blue}, {"E_potential", "potential", red}}, where));
 }
 
 }  // namespace clatter::validation

@@ -9,8 +9,10 @@
 
 namespace clatter::validation {
 
-/// A column and its name in the legend.
-using EnergyCurve = std::pair<const char*, const char*>;
+/// A column, its name in the legend and its colour.
+struct EnergyCurve {
+  const char *column, *legend, *colour;
+};
 
 /// `axes` with these energies of the figure over its column "time", from 0 on.
 [[nodiscard]] FigurePlot energy_panel(FigurePlot axes, const std::vector<EnergyCurve>& energies,
@@ -20,7 +22,10 @@ using EnergyCurve = std::pair<const char*, const char*>;
 void add_history_columns(Figure& figure);
 /// Adds a row: `front`, then the values of those columns.
 void add_history_row(Figure& figure, std::vector<double> front, const numeric::HistorySample& sample);
-/// Adds two panels with the title and the times of `axes`: force and energies.
-void add_history_panels(Figure& figure, const FigurePlot& axes, const RowFilter& where = {});
+/// Adds two panels, force and energies over all the times.
+/// @param caption  behind the titles "(a)" and "(b)"
+/// @param force_legend  name of the force's curve
+void add_history_panels(Figure& figure, const std::string& caption, const std::string& force_legend,
+                        const RowFilter& where = {});
 
 }  // namespace clatter::validation

@@ -1,7 +1,7 @@
 // Figs. 19 to 24: the paper's phone.
 #include <fmt/format.h>
 
-#include <cmath>
+#include <tuple>
 
 #include "analytic/sequence.hpp"
 #include "validation/figures/figures.hpp"
@@ -27,19 +27,46 @@ PhoneCase phone_case(bool damped) {
           {.digits = 9, .planar = true}};
 }
 
-FigurePlot over_time(const std::string& title, Range2 times) {
-  return {.title = title,
-          .x_label = "time since the first touch-down [s]",
-          .y_label = "",
-          .curves = {},
-          .x = times,
-          .y = {}};
+constexpr Range2 first_two{-0.0005, 0.005};  // [s] of the first two impacts
+
+void zoom(FigurePlot& plot, FigureZoom window) {
+  window.x = first_two;
+  window.title = "first two impacts";
+  plot.zoom = window;
 }
 
-/// The end of impact 2 with some room around the first two.
-Range2 first_two(const numeric::Simulation& run) {
-  const numeric::ImpactNumbers& second = run.impacts.at(1).value;
-  return {-1e-3, second.start + second.duration + 1e-3};
+/// Numbers of the first impact; at small angles the second merges into it.
+void add_panels_over_angle(Figure& figure) {
+  struct Panel {
+    const char *title, *column, *discrete, *words;  ///< no discrete column: empty
+    Range2 y;
+  };
+  const Panel panels[] = {{"(a)", "Vn", "Vn_discrete", "post-impact Vₙ", {}},
+                          {"(b)", "Omega", "Omega_discrete", "post-impact Ω", {}},
+                          {"(c)", "peak_force", "", "peak normal force", {0, no_number}},
+                          {"(d)", "loss", "", "energy loss", {0, no_number}}};
+  for (const auto& [title, column, discrete, words, range] : panels) {
+    FigurePlot plot{.title = title,
+                    .x_label = figure.label("impact contact angle θ", "theta"),
+                    .y_label = figure.label(words, column),
+                    .x = {0, 90},
+                    .y = range};
+    if (*discrete) plot.curves = {{.x = "theta", .y = discrete, .legend = "discrete, corner", .colour = blue}};
+    plot.curves.push_back({.x = "theta",
+                           .y = column,
+                           .legend = "continuous",
+                           .style = Style::points,
+                           .where = {{"touches", 1}},
+                           .colour = ink,
+                           .every = 2});
+    plot.curves.push_back({.x = "theta",
+                           .y = column,
+                           .legend = "two impacts in one",
+                           .style = Style::crosses,
+                           .where = {{"touches", 2}},
+                           .colour = red});
+    figure.plots.push_back(plot);
+  }
 }
 
 }  // namespace
@@ -49,14 +76,18 @@ Figure figure_phone_history(CaseRuns& case_runs, bool damped) {
   Figure figure{.number = damped ? 21 : 19,
                 .title = fmt::format("impacts of the {} phone over time", damped ? "damped" : "elastic"),
                 .scene = phone.scene,
-                .columns = {},
-                .rows = {},
-                .plots = {}};
+                .columns = {}};
   add_history_columns(figure);
   const RecordedRun& recorded = case_runs.history(phone.name, phone.options);
   for (const numeric::HistorySample& s : recorded.samples) add_history_row(figure, {}, s);
-  add_history_panels(figure, over_time("all impacts", {}));
-  add_history_panels(figure, over_time("first two impacts", first_two(recorded.run)));
+  add_history_panels(figure, "", "continuous model");
+  if (damped) {
+    zoom(figure.plots[0], {.left = 0.5, .bottom = 0.45, .width = 0.47, .height = 0.47});
+    zoom(figure.plots[1], {.left = 0.52, .bottom = 0.56, .width = 0.46, .height = 0.38});
+  } else {
+    zoom(figure.plots[0], {.left = 0.3, .bottom = 0.6, .width = 0.5, .height = 0.34});
+    figure.plots[0].y.high = 1150;  // room for the window
+  }
   return figure;
 }
 
@@ -71,9 +102,7 @@ Figure figure_phone_impacts(CaseRuns& case_runs, bool damped) {
                   {"start", "s", "time of the touch-down since the first one"},
                   {"interval", "s", "time since the touch-down before"},
                   {"duration", "s", "of the contact"},
-                  {"amplification", "1", "growth of a relative error of the start"}},
-      .rows = {},
-      .plots = {}};
+                  {"amplification", "1", "growth of a relative error of the start"}}};
   const numeric::Simulation& run = case_runs.history(phone.name, phone.options).run;
   for (std::size_t i = 0; i < run.impacts.size(); ++i) {
     const numeric::ImpactNumbers& n = run.impacts[i].value;
@@ -81,19 +110,15 @@ Figure figure_phone_impacts(CaseRuns& case_runs, bool damped) {
     figure.rows.push_back(
         {static_cast<double>(i + 1), n.peak_force, n.start, interval, n.duration, run.impacts[i].amplification});
   }
-  const double last = static_cast<double>(run.impacts.size()) + 0.6;
-  figure.plots = {{.title = "",
-                   .x_label = "impact",
-                   .y_label = "peak normal force [N]",
-                   .curves = {{.x = "impact", .y = "peak_force", .legend = "", .style = Style::bars, .where = {}}},
-                   .x = {0.4, last},
-                   .y = {0, no_number}},
-                  {.title = "",
-                   .x_label = "impact",
-                   .y_label = "elapsed time [s]",
-                   .curves = {{.x = "impact", .y = "start", .legend = "", .style = Style::bars, .where = {}}},
-                   .x = {0.4, last},
-                   .y = {0, no_number}}};
+  for (const auto& [title, column, words] :
+       {std::tuple{"(a)", "peak_force", "peak normal force"}, {"(b)", "start", "elapsed time"}}) {
+    figure.plots.push_back(
+        {.title = title,
+         .x_label = figure.label("number of the impact", "impact"),
+         .y_label = figure.label(words, column),
+         .curves = {{.x = "impact", .y = column, .legend = "continuous model", .style = Style::bars}},
+         .whole_x = true});
+  }
   return figure;
 }
 
@@ -105,18 +130,19 @@ Figure figure_phone_energies(CaseRuns& case_runs) {
                             {"E", "J", "total energy"},
                             {"E_translation", "J", "translational kinetic energy"},
                             {"E_rotation", "J", "rotational kinetic energy"},
-                            {"E_potential", "J", "potential energy"}},
-                .rows = {},
-                .plots = {}};
+                            {"E_potential", "J", "potential energy"}}};
   const RecordedRun& recorded = case_runs.history("phone-damped", phone_case(true).options);
-  const Range2 times = first_two(recorded.run);
+  const numeric::ImpactNumbers& second = recorded.run.impacts.at(1).value;
+  const double last = second.start + second.duration + 1e-3;
   for (const numeric::HistorySample& s : recorded.samples) {
-    if (s.time < 0 || s.time > times.high) continue;
+    if (s.time < 0 || s.time > last) continue;
     figure.rows.push_back({s.time, s.energy_total(), s.energy_translation, s.energy_rotation, s.energy_potential});
   }
-  figure.plots = {energy_panel(
-      over_time("", times),
-      {{"E", "total"}, {"E_translation", "translation"}, {"E_rotation", "rotation"}, {"E_potential", "potential"}})};
+  figure.plots = {energy_panel({.x_label = "time [ms]", .x = {0, no_number}, .x_factor = 1e3},
+                               {{"E", "total", ink},
+                                {"E_translation", "translation", blue},
+                                {"E_rotation", "rotation", green},
+                                {"E_potential", "potential", red}})};
   return figure;
 }
 
@@ -132,9 +158,7 @@ Figure figure_phone_over_angle(CaseRuns& case_runs) {
                             {"loss", "J", "energy lost in the impact"},
                             {"touches", "1", "places that came down in it; 2: the second impact has merged into it"},
                             {"Vn_discrete", "m/s", "normal velocity, discrete model of the corner"},
-                            {"Omega_discrete", "rad/s", "angular velocity, discrete model of the corner"}},
-                .rows = {},
-                .plots = {}};
+                            {"Omega_discrete", "rad/s", "angular velocity, discrete model of the corner"}}};
   const Scene scene = scene_of_case(name, {});
   const numeric::Body body = scene.make_body();
   for (const SweptSimulation& swept : case_runs.sweep(name)) {
@@ -147,22 +171,7 @@ Figure figure_phone_over_angle(CaseRuns& case_runs) {
     figure.rows.push_back({swept.value, n.velocity_after.z(), n.angular_velocity_after.y(), n.peak_force, n.energy_loss,
                            static_cast<double>(first.touches), discrete.after.normal, discrete.after.angular});
   }
-  struct Panel {
-    std::string continuous, discrete, label;  // no discrete column: empty
-  };
-  const Panel panels[] = {{"Vn", "Vn_discrete", "post-impact Vₙ [m/s]"},
-                          {"Omega", "Omega_discrete", "post-impact Ω [rad/s]"},
-                          {"peak_force", "", "peak normal force [N]"},
-                          {"loss", "", "energy loss [J]"}};
-  for (const auto& [continuous, discrete, label] : panels) {
-    FigurePlot plot{
-        .title = "", .x_label = "impact contact angle θ [°]", .y_label = label, .curves = {}, .x = {0, 90}, .y = {}};
-    if (!discrete.empty()) {
-      plot.curves.push_back({.x = "theta", .y = discrete, .legend = "discrete, corner", .where = {}});
-    }
-    plot.curves.push_back({.x = "theta", .y = continuous, .legend = "continuous", .style = Style::points, .where = {}});
-    figure.plots.push_back(plot);
-  }
+  add_panels_over_angle(figure);
   return figure;
 }
 

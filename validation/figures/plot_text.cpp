@@ -15,14 +15,9 @@ namespace {
 
 using Style = FigureCurve::Style;
 
-/// Colours that colour-blind readers can tell apart.
-constexpr std::array<const char*, 9> colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00",
-                                             "#56b4e9", "#000000", "#8c564b", "#7f7f7f"};
-/// The first of them, pale enough for lines on top.
+/// The palette, pale enough for lines on top.
 constexpr std::array<const char*, 3> area_colours{"#bcd9ea", "#f6d3ba", "#c4e5da"};
 constexpr std::array<int, 6> shapes{6, 2, 4, 8, 10, 12};
-
-constexpr const char* point_colour = "#222222";  // of points that lie on a line of their own colour
 
 std::string range(const Range2& range) {
   const auto bound = [](double value) { return std::isfinite(value) ? shortest(value) : std::string("*"); };
@@ -46,8 +41,11 @@ std::vector<CurvePoint> points_of(const PlotData& data, const FigurePlot& plot, 
   const std::size_t y_end = is_segment ? column_index(data.columns, curve.y_end) : 0;
   std::vector<CurvePoint> points;
   for (const std::vector<double>& row : data.rows) {
-    if (curve.where && row[column_index(data.columns, curve.where->first)] != curve.where->second) continue;
-    const double at = number_at(row, x, plot.logarithmic_x);
+    const bool is_chosen = std::all_of(curve.where.begin(), curve.where.end(), [&](const auto& one) {
+      return row[column_index(data.columns, one.first)] == one.second;
+    });
+    if (!is_chosen) continue;
+    const double at = plot.x_factor * number_at(row, x, plot.logarithmic_x);
     if (!std::isfinite(at) || !within(at, plot.x)) continue;
     CurvePoint point{at, number_at(row, y, plot.logarithmic_y)};
     if (is_area) point.low = number_at(row, low, false);
@@ -59,7 +57,8 @@ std::vector<CurvePoint> points_of(const PlotData& data, const FigurePlot& plot, 
 }
 
 bool has_gaps(Style style) {
-  return style == Style::line || style == Style::thin_line || style == Style::line_points || style == Style::area;
+  return style == Style::line || style == Style::dashed || style == Style::dotted || style == Style::line_points ||
+         style == Style::area;
 }
 
 bool has_numbers(const PlotData& data, const FigurePlot& plot, const FigureCurve& curve) {
@@ -93,45 +92,42 @@ std::string data_block(const PlotData& data, const FigurePlot& plot, const Figur
   return text + "END\n";
 }
 
-/// Which colours and shapes the curves before have used.
-struct Palette {
-  std::size_t colour = 0, area = 0, shape = 0;
-  bool is_fresh = true;
+/// How many areas and marks the curves before have used.
+struct Used {
+  std::size_t areas = 0, marks = 0;
 
-  void advance_to(const FigureCurve& curve) {
-    if (curve.style == Style::area) return;
-    if (!is_fresh && !curve.legend.empty()) ++colour;
-    is_fresh = false;
-  }
-  void use(const FigureCurve& curve) {
-    if (curve.style == Style::area) ++area;
-    if (curve.style == Style::marks) ++shape;
+  void add(Style style) {
+    if (style == Style::area) ++areas;
+    if (style == Style::marks) ++marks;
   }
 };
 
-std::string style_text(const FigureCurve& curve, const Palette& palette) {
-  const char* const name = colours[palette.colour % colours.size()];
-  switch (curve.style) {
-    case Style::line: return fmt::format("with lines lw 2 lc rgb '{}'", name);
-    case Style::thin_line: return fmt::format("with lines lw 1.2 dt 2 lc rgb '{}'", name);
-    case Style::points:
-      return fmt::format("with points pt 6 ps 0.6 lc rgb '{}'", curve.legend.empty() ? point_colour : name);
-    case Style::bars: return fmt::format("with boxes fs solid 0.6 lc rgb '{}'", name);
-    case Style::line_points: return fmt::format("with linespoints lw 2 pt 7 ps 0.35 lc rgb '{}'", name);
+std::string style_text(Style style, const std::string& colour, const Used& used) {
+  const auto drawn = [&](const char* how) { return fmt::format("with {} lc rgb '{}'", how, colour); };
+  switch (style) {
+    case Style::line: return drawn("lines lw 2");
+    case Style::dashed: return drawn("lines lw 1.2 dt 2");
+    case Style::dotted: return drawn("lines lw 1.5 dt 3");
+    case Style::points: return drawn("points pt 6 ps 0.6");
+    case Style::squares: return drawn("points pt 4 ps 0.6");
+    case Style::crosses: return drawn("points pt 2 ps 0.7");
+    case Style::bars: return drawn("boxes fs solid 0.6");
+    case Style::line_points: return drawn("linespoints lw 2 pt 7 ps 0.35");
     case Style::marks:
-      return fmt::format("with points pt {} ps {} lw 1.8 lc rgb '{}'", shapes[palette.shape % shapes.size()],
-                         palette.shape == 0 ? 1.5 : 1, name);
-    case Style::sticks: return fmt::format("with impulses lw 2 lc rgb '{}'", name);
-    case Style::segments: return fmt::format("with vectors nohead lw 2 lc rgb '{}'", name);
+      return drawn(
+          fmt::format("points pt {} ps {} lw 1.8", shapes[used.marks % shapes.size()], used.marks == 0 ? 1.5 : 1)
+              .c_str());
+    case Style::sticks: return drawn("impulses lw 2");
+    case Style::segments: return "with vectors nohead lw 2 lc palette";
     case Style::area:
       return fmt::format("with filledcurves fs solid noborder lc rgb '{}'",
-                         area_colours[palette.area % area_colours.size()]);
+                         area_colours[used.areas % area_colours.size()]);
   }
   return "";
 }
 
 const char* columns_text(Style style) {
-  if (style == Style::segments) return "1:2:($3-$1):($4-$2)";
+  if (style == Style::segments) return "1:2:($3-$1):($4-$2):0";
   return style == Style::area ? "1:2:3" : "1:2";
 }
 
@@ -177,6 +173,9 @@ std::string axes_text(const PlotData& data, const FigurePlot& plot) {
   const bool logarithmic = plot.logarithmic_x || plot.logarithmic_y;
   text += fmt::format("set xrange {}\nset yrange {}\nset offsets 0, 0, {}, 0\n", range(x), range(y),
                       logarithmic ? "0" : "graph 0.05");
+  const bool has_segments = std::any_of(plot.curves.begin(), plot.curves.end(),
+                                        [](const FigureCurve& curve) { return curve.style == Style::segments; });
+  if (has_segments) text += "set palette defined (0 '#c6dbef', 1 '#0072b2', 2 '#08306b')\nunset colorbox\n";
   if (plot.equal_scales) text += "set size ratio -1\nset offsets 0, 0, 0, 0\n";
   if (plot.logarithmic_x) text += "set logscale x\nset format x '10^{%T}'\n";
   if (plot.logarithmic_y) text += "set logscale y\nset format y '10^{%T}'\n";
@@ -187,21 +186,21 @@ std::string plot_command(const PlotData& data, const FigurePlot& plot, const std
   if (!has_numbers(data, plot)) {
     return "set label 9 'no number to draw here' at graph 0.5, graph 0.5 center\nplot NaN notitle\nunset label 9\n";
   }
-  std::string command = "plot ";
-  Palette palette;
-  bool is_first = true;
+  std::string command = "plot ", separator;
+  const std::vector<std::string> colours = curve_colours(plot);
+  Used used;
   for (std::size_t i = 0; i < plot.curves.size(); ++i) {
     const FigureCurve& curve = plot.curves[i];
-    palette.advance_to(curve);
     if (!has_numbers(data, plot, curve)) continue;
     const std::string title = curve.legend.empty() ? "notitle" : "title " + gnuplot_quoted(curve.legend);
-    command += fmt::format("{}{}{} using {} {} {}", is_first ? "" : ", \\\n  ", name, i, columns_text(curve.style),
-                           style_text(curve, palette), title);
-    is_first = false;
-    palette.use(curve);
+    const std::string every = curve.every > 1 ? fmt::format("every {} ", curve.every) : "";
+    command += fmt::format("{}{}{} {}using {} {} {}", separator, name, i, every, columns_text(curve.style),
+                           style_text(curve.style, colours[i], used), title);
+    separator = ", \\\n  ";
+    used.add(curve.style);
     if (curve.style == Style::sticks) {
-      command += fmt::format(", \\\n  {}{} using 1:2 with points pt 7 ps 0.5 lc rgb '{}' notitle", name, i,
-                             colours[palette.colour % colours.size()]);
+      command +=
+          fmt::format("{}{}{} using 1:2 with points pt 7 ps 0.5 lc rgb '{}' notitle", separator, name, i, colours[i]);
     }
   }
   return command + "\n";

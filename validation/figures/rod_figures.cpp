@@ -2,7 +2,9 @@
 // the real rim.
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <tuple>
 
 #include "analytic/sequence.hpp"
 #include "validation/figures/figures.hpp"
@@ -46,33 +48,44 @@ struct ShownNumber {
   double FirstImpact::*value;
 };
 constexpr ShownNumber normal_velocity{"Vn", "m/s", "normal velocity of the mass centre after the impact",
-                                      "post-impact Vₙ [m/s]", &FirstImpact::normal_velocity};
+                                      "post-impact Vₙ", &FirstImpact::normal_velocity};
 constexpr ShownNumber tangential_velocity{"Vt", "m/s", "tangential velocity of the mass centre after the impact",
-                                          "post-impact Vₜ [m/s]", &FirstImpact::tangential_velocity};
-constexpr ShownNumber angular_velocity{"Omega", "rad/s", "angular velocity after the impact", "post-impact Ω [rad/s]",
+                                          "post-impact Vₜ", &FirstImpact::tangential_velocity};
+constexpr ShownNumber angular_velocity{"Omega", "rad/s", "angular velocity after the impact", "post-impact Ω",
                                        &FirstImpact::angular_velocity};
-constexpr ShownNumber impulse{"Pn", "N s", "normal impulse", "normal impulse [N·s]", &FirstImpact::impulse};
-constexpr ShownNumber loss{"loss", "J", "energy lost in the impact", "energy loss [J]", &FirstImpact::loss};
+constexpr ShownNumber impulse{"Pn", "N s", "normal impulse", "normal impulse Pₙ", &FirstImpact::impulse};
+constexpr ShownNumber loss{"loss", "J", "energy lost in the impact", "energy loss", &FirstImpact::loss};
 
 /// One kind of result: suffix of the columns and how it is drawn.
 struct Source {
   const char *suffix, *words, *legend;
-  Style style;
 };
 
+/// A panel for each number, two discrete models as lines and the continuous one as points.
+/// @param axes  of all panels
+/// @param every  so many points of the continuous model are drawn as one
 void add_panels(Figure& figure, const std::vector<ShownNumber>& numbers, const std::vector<Source>& sources,
-                const FigurePlot& axes) {
+                const FigurePlot& axes, int every) {
   for (const ShownNumber& number : numbers) {
     FigurePlot plot = axes;
-    plot.y_label = number.label;
-    for (const Source& source : sources) {
-      const std::string name = std::string(number.name) + "_" + source.suffix;
-      figure.columns.push_back({name, number.unit, std::string(number.quantity) + ", " + source.words});
-      plot.curves.push_back(
-          {.x = figure.columns[0].name, .y = name, .legend = source.legend, .style = source.style, .where = {}});
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+      const std::string name = std::string(number.name) + "_" + sources[i].suffix;
+      figure.columns.push_back({name, number.unit, std::string(number.quantity) + ", " + sources[i].words});
+      plot.curves.push_back({.x = figure.columns[0].name,
+                             .y = name,
+                             .legend = sources[i].legend,
+                             .style = std::array{Style::line, Style::dashed, Style::points}[i],
+                             .colour = std::array{blue, red, ink}[i],
+                             .every = i == 2 ? every : 1});
     }
+    plot.y_label = figure.label(number.label, plot.curves[0].y);
     figure.plots.push_back(plot);
   }
+}
+
+/// The panels by the paper's letters.
+void letter(Figure& figure, const std::vector<const char*>& letters) {
+  for (std::size_t i = 0; i < letters.size(); ++i) figure.plots[i].title = letters[i];
 }
 
 void add_row(Figure& figure, double x, const std::vector<ShownNumber>& numbers,
@@ -95,17 +108,18 @@ Figure figure_rod_over_angle(CaseRuns& case_runs) {
   Figure figure{.number = 14,
                 .title = "first impact of the rod over the contact angle, no friction",
                 .scene = "validation/cases/rod-sweep.toml",
-                .columns = {{"theta", "deg", "contact angle"}},
-                .rows = {},
-                .plots = {}};
+                .columns = {{"theta", "deg", "contact angle"}}};
   const std::vector<ShownNumber> numbers{normal_velocity, angular_velocity, impulse, loss};
-  add_panels(
-      figure, numbers,
-      {{"thin", "discrete model of the thin rod, Eqs. 9 to 11", "thin rod, Eq. 9", Style::line},
-       {"rim", "discrete model with the rim as contact point", "rim", Style::thin_line},
-       {"continuous", "continuous model", "continuous", Style::points}},
-      {.title = "", .x_label = "impact contact angle θ [°]", .y_label = "", .curves = {}, .x = {0, 90}, .y = {}});
-  figure.plots.back().y = {-0.05, 0.05};  // the losses are zero to nine digits
+  add_panels(figure, numbers,
+             {{"thin", "discrete model of the thin rod, Eqs. 9 to 11", "thin rod, Eqs. 9–11"},
+              {"rim", "discrete model with the rim as contact point", "rim"},
+              {"continuous", "continuous model", "continuous"}},
+             {.x_label = figure.label("impact contact angle θ", "theta"), .x = {-2, 92}}, 3);
+  letter(figure, {"(a)", "(b)", "(c)", "(d)"});
+  figure.plots[0].y = {-0.7, 1.1};
+  figure.plots[1].y = {-0.2, 4};
+  figure.plots[2].y = {0, 2.1};
+  figure.plots[3].y = {-0.05, 0.05};  // the losses are zero to nine digits
   const Scene scene = scene_of_case(name, {});
   const numeric::Body body = scene.make_body();
   for (const SweptSimulation& swept : case_runs.sweep(name)) {
@@ -123,20 +137,15 @@ Figure figure_rod_over_friction(CaseRuns& case_runs) {
   Figure figure{.number = 15,
                 .title = "first impact of the rod at 45 degrees over friction",
                 .scene = "validation/cases/rod-friction-sweep.toml",
-                .columns = {{"mu", "1", "friction coefficient; impulse ratio of Eq. 9"}},
-                .rows = {},
-                .plots = {}};
+                .columns = {{"mu", "1", "friction coefficient; impulse ratio of Eq. 9"}}};
   const std::vector<ShownNumber> numbers{normal_velocity, tangential_velocity, angular_velocity, impulse, loss};
   add_panels(figure, numbers,
-             {{"eq9", "Eq. 9 with mu as the impulse ratio", "Eq. 9", Style::line},
-              {"coulomb", "discrete model at the rim, Coulomb friction", "rim, Coulomb", Style::thin_line},
-              {"continuous", "continuous model", "continuous", Style::points}},
-             {.title = "",
-              .x_label = "impulse ratio μᵢ, friction coefficient μ",
-              .y_label = "",
-              .curves = {},
-              .x = {0, 0.8},
-              .y = {}});
+             {{"eq9", "Eq. 9 with mu as the impulse ratio", "Eq. 9"},
+              {"coulomb", "discrete model at the rim, Coulomb friction", "rim, Coulomb"},
+              {"continuous", "continuous model", "continuous"}},
+             {.x_label = figure.label("impulse ratio μᵢ, friction coefficient μ", "mu"), .x = {-0.02, 0.82}}, 1);
+  std::swap(figure.plots[1], figure.plots[2]);  // the caption's (b) is Ω, the text's Vₜ
+  letter(figure, {"(a)", "(b) caption", "(b) text", "(c)", "(d)"});
   figure.columns.push_back({"ratio_continuous", "1", "impulse ratio that came out of the continuous model"});
   const Scene scene = scene_of_case(name, {});
   const numeric::Body body = scene.make_body();
@@ -160,9 +169,7 @@ Figure figure_rod_contact(CaseRuns& case_runs) {
                             {"point_vn", "m/s", "normal velocity of the contact point"},
                             {"point_vt", "m/s", "tangential velocity of the contact point"},
                             {"Fn", "N", "normal contact force"},
-                            {"Ft", "N", "tangential contact force"}},
-                .rows = {},
-                .plots = {}};
+                            {"Ft", "N", "tangential contact force"}}};
   for (const double mu : contact_frictions) {
     const auto& samples = case_runs.history(fmt::format("rod-friction-0{}", std::lround(10 * mu)), smooth).samples;
     for (const numeric::HistorySample& s : samples) {
@@ -170,17 +177,17 @@ Figure figure_rod_contact(CaseRuns& case_runs) {
       figure.rows.push_back({mu, s.time, s.point_velocity.z(), s.point_velocity.x(), s.force.z(), s.force.x()});
     }
   }
-  const std::pair<const char*, const char*> panels[] = {{"point_vn", "normal velocity of the contact point [m/s]"},
-                                                        {"point_vt", "tangential velocity of it [m/s]"},
-                                                        {"Fn", "normal contact force [N]"},
-                                                        {"Ft", "tangential contact force [N]"}};
-  for (const auto& [column, label] : panels) {
-    FigurePlot plot{.title = "", .x_label = "time [s]", .y_label = label, .curves = {}, .x = {}, .y = {}};
+  for (const auto& [column, words] : {std::pair{"point_vn", "contact point vₙ"},
+                                      {"point_vt", "contact point vₜ"},
+                                      {"Fn", "normal force Fₙ"},
+                                      {"Ft", "tangential force Fₜ"}}) {
+    FigurePlot plot{.x_label = "time [ms]", .y_label = figure.label(words, column), .x_factor = 1e3};
     for (const double mu : contact_frictions) {
       plot.curves.push_back({.x = "time", .y = column, .legend = fmt::format("μ = {}", mu), .where = {{"mu", mu}}});
     }
     figure.plots.push_back(plot);
   }
+  letter(figure, {"(a)", "(b)", "(c)", "(d)"});
   return figure;
 }
 
@@ -188,19 +195,15 @@ Figure figure_rod_sequence(CaseRuns& case_runs) {
   Figure figure{.number = 17,
                 .title = "several impacts of the damped rod with friction, by the text and by the caption",
                 .scene = "validation/cases/rod-at-1ms.toml (text, v_n = -1), rod-from-2m.toml (caption, z_c = 2)",
-                .columns = {{"variant", "1", "1: the text's 1 m/s; 2: the caption's drop from 2 m"}},
-                .rows = {},
-                .plots = {}};
+                .columns = {{"variant", "1", "1: the text's 1 m/s; 2: the caption's drop from 2 m"}}};
   add_history_columns(figure);
-  const std::pair<const char*, const char*> variants[] = {{"rod-at-1ms", "1 m/s (text)"},
-                                                          {"rod-from-2m", "from 2 m (caption)"}};
   double variant = 1;
-  for (const auto& [name, words] : variants) {
+  for (const auto& [name, caption, legend] :
+       {std::tuple{"rod-at-1ms", " text", "impact at 1 m/s"}, {"rod-from-2m", " caption", "drop from 2 m"}}) {
     for (const numeric::HistorySample& s : case_runs.history(name, smooth).samples) {
       add_history_row(figure, {variant}, s);
     }
-    add_history_panels(figure, {.title = words, .x_label = "time [s]", .y_label = "", .curves = {}},
-                       {{"variant", variant}});
+    add_history_panels(figure, caption, legend, {{"variant", variant}});
     ++variant;
   }
   return figure;

@@ -1,4 +1,6 @@
 // Fig. 8: where the thin rod is between its first two impacts, below, at and above the fold of β.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "analytic/contact_angles.hpp"
@@ -10,22 +12,18 @@ namespace {
 using analytic::Angle;
 using analytic::ContactAngles;
 using analytic::degrees_per_radian;
+using Style = FigureCurve::Style;
 
 constexpr int instants = 9;                                 // in each panel, both ends of the flight included
 constexpr double turned_beyond_upright = analytic::pi / 6;  // at the last instant of a rod that takes off
 
-struct Panel {
-  std::string title;
-  Angle theta;
-};
-
 /// Two cases of the paper's (a): the centre still moves down after impact 1 below 54.7356°, and up above it (E7).
-std::vector<Panel> panels() {
+std::vector<std::pair<std::string, Angle>> panels() {
   const Angle fold = Angle::from_radians(regime_boundary(analytic::ImpactNumber::second, {}).theta);
-  return {{"(a1) 45°: two impacts, the centre moves down in between", Angle::from_degrees(45)},
-          {"(a2) 56.5°: two impacts, the centre moves up in between", Angle::from_degrees(56.5)},
-          {"(b) 58.488°: end b touches with no speed", fold},
-          {"(c) 65°: one impact, the rod takes off", Angle::from_degrees(65)}};
+  return {{"(a1)", Angle::from_degrees(45)},
+          {"(a2)", Angle::from_degrees(56.5)},
+          {"(b)", fold},
+          {"(c)", Angle::from_degrees(65)}};
 }
 
 /// What a row says besides panel and θ.
@@ -58,6 +56,36 @@ void add_rows(Figure& figure, double panel, const Angle& theta) {
           {2, duration, last, theta.sine / 2 + velocity * duration, angles.velocity[1], angles.angular[1]});
 }
 
+std::string signed_text(double value) { return (value < 0 ? "−" : "+") + fmt::format("{:.2f}", std::fabs(value)); }
+
+/// The rods and their ends of the rows of a panel, all but the last after impact 1; the speeds of the centre above it.
+void add_panel(Figure& figure, double number, const std::string& letter) {
+  const auto value = [&](const std::vector<double>& row, const char* name) {
+    return row[column_index(figure.columns, name)];
+  };
+  const std::vector<double>&first = figure.rows[figure.rows.size() - instants], &last = figure.rows.back();
+  FigurePlot plot{
+      .title = fmt::format("{} θ = {:g}°:  V₁ = {} |vₙ|", letter, std::round(1e3 * value(first, "theta")) / 1e3,
+                           signed_text(value(first, "V_centre"))),
+      .x_label = figure.label("x", "x_a"),
+      .y_label = figure.label("z", "z_a"),
+      .x = {-0.8, 0.8},
+      .y = {-0.1, 1.3},
+      .equal_scales = true};
+  if (value(last, "impacts") == 2) plot.title += fmt::format(",  V₂ = {} |vₙ|", signed_text(value(last, "V_centre")));
+  const RowFilter flight{{"panel", number}, {"impacts", 1}};
+  plot.curves = {{.x = "x_a",
+                  .y = "z_a",
+                  .legend = "rod, later darker",
+                  .style = Style::segments,
+                  .where = flight,
+                  .x_end = "x_b",
+                  .y_end = "z_b"},
+                 {.x = "x_a", .y = "z_a", .legend = "end a", .style = Style::points, .where = flight, .colour = ink},
+                 {.x = "x_b", .y = "z_b", .legend = "end b", .style = Style::squares, .where = flight, .colour = red}};
+  figure.plots.push_back(plot);
+}
+
 }  // namespace
 
 Figure figure_rod_positions() {
@@ -78,31 +106,11 @@ Figure figure_rod_positions() {
                             {"V_centre", "|v_n|", "normal velocity of the mass centre"},
                             {"Omega", "|v_n|/L", "angular velocity; positive: clockwise"},
                             {"V_a", "|v_n|", "normal velocity of end a"},
-                            {"V_b", "|v_n|", "normal velocity of end b"}},
-                .rows = {},
-                .plots = {}};
+                            {"V_b", "|v_n|", "normal velocity of end b"}}};
   double number = 1;
-  for (const auto& [title, theta] : panels()) {
+  for (const auto& [letter, theta] : panels()) {
     add_rows(figure, number, theta);
-    FigurePlot plot{
-        .title = title, .x_label = "x [L]", .y_label = "z [L]", .curves = {}, .x = {-0.8, 0.8}, .y = {0, 1.3}};
-    plot.equal_scales = true;
-    const RowFilter panel{{"panel", number}};
-    plot.curves.push_back({.x = "x_a",
-                           .y = "z_a",
-                           .legend = "rod",
-                           .style = FigureCurve::Style::segments,
-                           .where = panel,
-                           .x_end = "x_b",
-                           .y_end = "z_b"});
-    for (const auto& [end, legend] : {std::pair{"a", "end a"}, {"b", "end b"}, {"centre", "centre"}}) {
-      plot.curves.push_back({.x = std::string("x_") + end,
-                             .y = std::string("z_") + end,
-                             .legend = legend,
-                             .style = FigureCurve::Style::points,
-                             .where = panel});
-    }
-    figure.plots.push_back(plot);
+    add_panel(figure, number, letter);
     ++number;
   }
   return figure;

@@ -75,7 +75,7 @@ Picture angles_picture(const AnglesRequest& request) {
   const long long count = request.count;
   const Style style = count > most_with_points ? Style::line : count > 1 ? Style::line_points : Style::marks;
   const auto curve = [&](const char* column, const char* legend) {
-    return FigureCurve{.x = "theta_deg", .y = column, .legend = legend, .style = style, .where = {}};
+    return FigureCurve{.x = "theta_deg", .y = column, .legend = legend, .style = style};
   };
   const std::vector<FigureColumn> columns = figure_columns(request);
   const auto rows = drawn_rows(request);

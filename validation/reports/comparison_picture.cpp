@@ -47,7 +47,7 @@ std::vector<PicturePanel> panels(const XAxis& axis, const std::vector<std::vecto
                                           {"predicted", "1", "its predicted size"},
                                           {"miss", "1", "worst distance of the stiff limit, relative"}};
   const auto marks = [](const char* column, const char* legend) {
-    return FigureCurve{.x = "x", .y = column, .legend = legend, .style = Style::marks, .where = {}};
+    return FigureCurve{.x = "x", .y = column, .legend = legend, .style = Style::marks};
   };
   FigurePlot impulses{.title = "",
                       .x_label = "",

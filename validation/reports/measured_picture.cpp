@@ -81,12 +81,10 @@ PicturePanel coverage_panel(const MeasuredRun& run, const Scores& scores) {
   PicturePanel panel{
       .columns = {{"width", "1", "over that of the 90 % interval"}, {"share", "%", "of the numbers within"}},
       .rows = {},
-      .plot = {
-          .title = "",
-          .x_label = "distance over half the 90 % interval",
-          .y_label = "numbers within [%]",
-          .curves = {
-              {.x = "width", .y = "share", .legend = "velocities after impact 1; 90 % belong at 1", .where = {}}}}};
+      .plot = {.title = "",
+               .x_label = "distance over half the 90 % interval",
+               .y_label = "numbers within [%]",
+               .curves = {{.x = "width", .y = "share", .legend = "velocities after impact 1; 90 % belong at 1"}}}};
   const TrackedBody body(run.file.file.description, run.fit.calibration.calibration);
   std::vector<double> ratios;
   for (const ScoredDrop& drop : scores.drops) {

@@ -24,7 +24,7 @@ std::vector<double> row_of(const Regimes& one) {
 }
 
 FigureCurve area(const RegimesAxis& axis, const char* low, const char* high, const char* legend) {
-  return {.x = axis.name, .y = high, .legend = legend, .style = Style::area, .where = {}, .y_low = low};
+  return {.x = axis.name, .y = high, .legend = legend, .style = Style::area, .y_low = low};
 }
 
 Range2 range_of(const std::vector<Regimes>& all, const RegimesAxis& axis) {
@@ -64,7 +64,7 @@ Picture regimes_picture(const std::vector<Regimes>& all, const RegimesAxis& axis
                          area(axis, "below_2", "upright", "one impact")};
   }
   for (const auto& [column, legend] : {std::pair{"theta_2_deg", "θ₂"}, std::pair{"theta_3_deg", "θ₃"}}) {
-    panel.plot.curves.push_back({.x = axis.name, .y = column, .legend = legend, .style = style, .where = {}});
+    panel.plot.curves.push_back({.x = axis.name, .y = column, .legend = legend, .style = style});
   }
   return {.what = "How many impacts, and where that changes", .scene = {rod}, .panels = {panel}};
 }

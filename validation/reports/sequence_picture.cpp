@@ -128,25 +128,24 @@ class HeightCurve {
 };
 
 PicturePanel height_panel(const Scene& scene, const Sequence& sequence) {
-  PicturePanel panel{.columns = {{"time", "s", "time since the first impact"},
-                                 {"a", "m", "height of the lowest point of end a"},
-                                 {"b", "m", "height of the lowest point of end b"},
-                                 {"end", "m", "time at which the impacts end"}},
-                     .rows = HeightCurve(scene, sequence).samples(),
-                     .plot = {.title = "",
-                              .x_label = "",
-                              .y_label = "lowest point [m]",
-                              .curves = {{.x = "time", .y = "a", .legend = "end a", .where = {}},
-                                         {.x = "time", .y = "b", .legend = "end b", .where = {}}},
-                              .x = {},
-                              .y = {0, no_number}}};
+  PicturePanel panel{
+      .columns = {{"time", "s", "time since the first impact"},
+                  {"a", "m", "height of the lowest point of end a"},
+                  {"b", "m", "height of the lowest point of end b"},
+                  {"end", "m", "time at which the impacts end"}},
+      .rows = HeightCurve(scene, sequence).samples(),
+      .plot = {.title = "",
+               .x_label = "",
+               .y_label = "lowest point [m]",
+               .curves = {{.x = "time", .y = "a", .legend = "end a"}, {.x = "time", .y = "b", .legend = "end b"}},
+               .x = {},
+               .y = {0, no_number}}};
   if (!sequence.tail) return panel;
   double highest = 0;
   for (const auto& row : panel.rows) highest = std::max({highest, row[1], row[2]});
   for (const double height : {0.0, highest})
     panel.rows.push_back({sequence.tail->end_time, no_number, no_number, height});
-  panel.plot.curves.push_back(
-      {.x = "time", .y = "end", .legend = "the impacts end", .style = Style::thin_line, .where = {}});
+  panel.plot.curves.push_back({.x = "time", .y = "end", .legend = "the impacts end", .style = Style::dashed});
   return panel;
 }
 
@@ -187,7 +186,7 @@ PicturePanel impulse_panel(const Scene& scene, const Sequence& sequence) {
   for (std::size_t i = 1; i < 5; ++i) {
     if (!is_used[i] && i > 2) continue;  // a and b keep their colours
     panel.plot.curves.push_back(
-        {.x = "time", .y = panel.columns[i].name, .legend = legends[i], .style = Style::sticks, .where = {}});
+        {.x = "time", .y = panel.columns[i].name, .legend = legends[i], .style = Style::sticks});
   }
   return panel;
 }

@@ -27,9 +27,7 @@ const std::vector<FigureColumn>& history_columns() {
   return columns;
 }
 
-FigureCurve over_time(const char* column, const char* legend) {
-  return {.x = "time", .y = column, .legend = legend, .where = {}};
-}
+FigureCurve over_time(const char* column, const char* legend) { return {.x = "time", .y = column, .legend = legend}; }
 
 /// The first contact is not on the frame.
 PicturePanel history_panel(const PictureHistory& history, const std::string& label, std::vector<FigureCurve> curves) {
@@ -109,7 +107,7 @@ Picture sweep_picture(const Scene& scene, const std::vector<SweptRun>& runs) {
          .plot = {.title = "",
                   .x_label = "",
                   .y_label = label,
-                  .curves = {{.x = "value", .y = column, .legend = legend, .style = Style::line_points, .where = {}}},
+                  .curves = {{.x = "value", .y = column, .legend = legend, .style = Style::line_points}},
                   .x = swept_range(runs.front().value, runs.back().value),
                   .y = {}}});
   }
