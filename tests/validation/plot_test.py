@@ -400,7 +400,7 @@ class Options(unittest.TestCase):
         self.assertRegex(run("completion", "zsh").stdout, r"'--plot\[[^\]]*\]:file:_files'")
         self.assertRegex(run("completion", "fish").stdout, r"-l plot -r -F ")
         page = run("man").stdout
-        self.assertEqual(page.count("\\fB\\-\\-plot\\-script\\fR"), 7)
+        self.assertEqual(page.count("\n.TP\n\\&\\-\\-plot\\-script "), 7)
 
 
 if __name__ == "__main__":

@@ -2,10 +2,12 @@
 """The program as its users meet it: options, errors, formats, files, exit statuses."""
 
 import csv
+import gzip
 import io
 import json
 import math
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -321,6 +323,23 @@ class Manners(unittest.TestCase):
             self.skipTest("no groff here")
         page = subprocess.run(["groff", "-man", "-ww", "-Tascii"], input=run("man").stdout, capture_output=True, text=True)
         self.assertEqual((page.returncode, page.stderr), (0, ""))
+
+    def test_there_is_a_manual_page_for_each_command_and_all_render_without_warnings(self):
+        if not (shutil.which("groff") and shutil.which("help2man")):
+            self.skipTest("no groff or no help2man here")
+        with tempfile.TemporaryDirectory() as folder:
+            pages = os.path.join(folder, "man")
+            script = os.path.join(os.environ["CLATTER_ROOT"], "validation", "cli", "man_pages")
+            subprocess.run(["sh", script, PROGRAM, pages], check=True)
+            commands = re.findall(r"^  (\w+) ", run("--help").stdout.split("Subcommands:")[1].split("\n\n")[0], re.M)
+            self.assertEqual(sorted(os.listdir(pages)),
+                             sorted(["clatter.1.gz"] + [f"clatter-{command}.1.gz" for command in commands]))
+            for name in os.listdir(pages):
+                with gzip.open(os.path.join(pages, name), "rt") as file:
+                    text = file.read()
+                self.assertTrue(re.search(rf'^\.TH {name[:-5].upper()} "1" "\d+-\d+-\d+" ', text, re.M), name)
+                page = subprocess.run(["groff", "-man", "-ww", "-Tascii"], input=text, capture_output=True, text=True)
+                self.assertEqual((page.returncode, page.stderr), (0, ""), name)
 
     def test_a_reader_that_leaves_early_is_no_error(self):
         process = subprocess.Popen([PROGRAM, "angles", "--count", "300000", "--format", "csv"], stdout=subprocess.PIPE, stderr=subprocess.PIPE)

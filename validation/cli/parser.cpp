@@ -45,8 +45,8 @@ std::string help_of(const CLI::App& app) {
 }  // namespace
 
 ParsedLine parse_line(const std::vector<Command>& commands, const std::vector<std::string>& given) {
-  CLI::App app("impact sequences of falling rigid bodies", "clatter");
-  app.footer("Example: clatter sequence --angle 10\nclatter help COMMAND, or clatter COMMAND --help, tells more.");
+  CLI::App app(program_summary, "clatter");
+  app.footer(program_notes);
   app.set_help_flag("--help", "print this help and exit");
   bool show_version = false;
   app.add_flag("--version", show_version, "print the version and exit");

@@ -14,6 +14,24 @@ struct ParsedLine {
   std::string text{};
 };
 
+inline constexpr const char* program_summary = "impact sequences of falling rigid bodies";
+/// What --help says of the program as a whole.
+inline constexpr const char* program_notes = R"(Example: clatter sequence --angle 10
+
+clatter help COMMAND, or clatter COMMAND --help, tells more.
+
+Exit status:
+  0                    done
+  1                    a check failed
+  2                    bad input
+  3                    a number could not be computed
+  4                    outside the model's range, such as jamming
+  70                   a defect of the program
+  130                  interrupted
+
+Environment:
+  NO_COLOR, TERM=dumb  no progress is shown, nor is any off a terminal)";
+
 /// @throws BadInput with one line.
 [[nodiscard]] ParsedLine parse_line(const std::vector<Command>& commands, const std::vector<std::string>& arguments);
 

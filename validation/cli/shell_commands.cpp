@@ -1,4 +1,4 @@
-// Shell completion and the man page, both generated from the parser.
+// Shell completion, made from the descriptions of the commands, and the man page, made from their --help.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "validation/cli/commands.hpp"
+#include "validation/cli/parser.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/output/version.hpp"
 #include "validation/scene/option_values.hpp"
@@ -120,44 +121,25 @@ std::string fish_completion() {
   return out;
 }
 
+/// Text that roff takes as it is, with its breaks of lines.
 std::string roff(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '-') out += "\\-";
-    else if (c == '\\') out += "\\e";
-    else out += c;
-  }
-  return out.starts_with('.') || out.starts_with('\'') ? "\\&" + out : out;
-}
-
-std::string man_option(const Argument& argument) {
-  const std::string value = argument.is_flag() ? "" : " \\fI" + roff(argument.type) + "\\fR";
-  return ".TP\n\\fB" + roff(argument.name) + "\\fR" + value + "\n" + roff(argument.help) + "\n";
-}
-
-std::string man_options(const Command& command) {
-  std::string out = man_option(help_option);
-  for (const Argument& argument : command.arguments) out += man_option(argument);
-  return out;
+  std::string out = "\\&";
+  for (const char c : text) out += c == '-' ? "\\-" : c == '\\' ? "\\e" : c == '\n' ? "\n.br\n\\&" : std::string(1, c);
+  return out + "\n";
 }
 
 std::string man_page() {
-  std::string out = fmt::format(
-      ".TH CLATTER 1 \"\" \"clatter {}\" \"User Commands\"\n.SH NAME\nclatter \\- {}\n.SH SYNOPSIS\n"
-      ".B clatter\n.I command\n[\\fIoptions\\fR]\n.SH DESCRIPTION\n"
-      "Impact sequences of a rod or box that falls on the ground at an angle.  Data go to standard "
-      "output, messages to standard error.\n.SH COMMANDS\n",
-      version, roff("impact sequences of falling rigid bodies"));
+  std::string page =
+      fmt::format(".TH CLATTER 1 \"\" \"clatter {}\" \"User Commands\"\n.SH NAME\nclatter \\- {}\n.SH DESCRIPTION\n{}",
+                  version, program_summary, roff(program_notes));
   for (const Command& command : all_commands()) {
-    out += ".SS " + command.name + "\n" + roff(command.help) + "\n" + man_options(command) + ".PP\n" +
-           roff(command.footer) + "\n";
+    page += ".SH clatter " + command.name + "\n" + roff(command.help);
+    for (const Argument& argument : command.arguments) {
+      page += ".TP\n" + roff(argument.name + " " + argument.type) + roff(argument.help);
+    }
+    page += ".PP\n" + roff(command.footer);
   }
-  return out +
-         ".SH EXIT STATUS\n.TP\n0\ndone\n.TP\n1\na check failed\n.TP\n2\nbad input\n.TP\n3\n"
-         "a number could not be computed\n.TP\n4\noutside the model's range, such as jamming\n.TP\n70\na defect of the "
-         "program\n.TP\n130\n"
-         "interrupted\n.SH ENVIRONMENT\n.TP\nNO_COLOR, TERM\nno progress is shown with NO_COLOR set or "
-         "TERM=dumb, nor off a terminal\n";
+  return page;
 }
 
 int print(const std::string& text) {
