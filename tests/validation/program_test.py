@@ -202,6 +202,21 @@ class Output(unittest.TestCase):
                                  ("third", "theta_deg", 27.577809606636), ("third", "gamma_deg", 63.128123330456)]:
             self.assertAlmostEqual(first[kind][key], angle, delta=1.2e-12)
 
+    def test_the_numbers_in_the_tex_of_an_equation_compute_to_its_value(self):
+        steps = json.loads(run("explain", "2", "--angle", "10", "--gravity", "9.81", "--friction", "0.3", "--format", "json").stdout)["steps"]
+        computed = 0
+        for e in (e for step in steps for e in step["equations"]):
+            self.assertTrue(e["tex"].isascii() and e["tex"].count("&=") >= 1, e["tex"])
+            self.assertEqual(e["tex"].count("{"), e["tex"].count("}"), e["tex"])
+            if not e["numeric"] or e["name"] == "left side":
+                continue
+            numbers = e["tex"].split(" \\\\ &= ")[-2].replace("^2", "**2").replace("\\cdot", "*")
+            while "\\frac" in numbers:
+                numbers = re.sub(r"\\frac\{([^{}]*)\}\{([^{}]*)\}", r"((\1)/(\2))", numbers)
+            self.assertAlmostEqual(eval(numbers), e["value"], delta=2e-5 * max(1, abs(e["value"])), msg=e["tex"])
+            computed += 1
+        self.assertGreaterEqual(computed, 9)
+
     def test_the_root_that_is_explained_solves_equation_12(self):
         steps = json.loads(run("explain", "2", "--angle", "20", "--gravity", "9.81", "--format", "json").stdout)["steps"]
         shown = {e["name"]: e["value"] for step in steps[:1] for e in step["equations"]}

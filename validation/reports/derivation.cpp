@@ -10,6 +10,7 @@
 #include "validation/output/number.hpp"
 #include "validation/output/version.hpp"
 #include "validation/record/names.hpp"
+#include "validation/reports/explanation_latex.hpp"
 #include "validation/reports/space_derivation.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/scene_value.hpp"
@@ -259,6 +260,8 @@ Value explanation_fields(const Explanation& explanation) {
       equations.push_back(Value::Fields{{"name", e.name},
                                         {"symbolic", e.formula},
                                         {"numeric", e.numbers},
+                                        {"tex", equation_tex(e, explanation.scene.options.digits, " \\\\ &= ")},
+                                        {"words", equation_words(e)},
                                         {"value", e.value},
                                         {"error", e.error},
                                         {"unit", e.unit}});

@@ -1,7 +1,9 @@
 #include "validation/reports/explanation_latex.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <regex>
 #include <string_view>
 
 #include "validation/output/estimated.hpp"
@@ -29,11 +31,71 @@ constexpr Replacement signs[]{{"₁₁", "_{11}"},    {"₁₂", "_{12}"},    {"
                               {"₄", "_4"},        {"′", "'"},         {"±", "\\pm "},    {"°", "^\\circ "},
                               {"sin ", "\\sin "}, {"cos ", "\\cos "}, {"sin(", "\\sin("}};
 
-/// LaTeX mathematics for the notation of the equations.
-std::string latex_math(std::string text) {
+/// Where the product ends with which a numerator does.
+std::size_t product_begin(std::string_view text, std::size_t at) {
+  int depth = 0;
+  bool in_bars = false;
+  for (; at > 0; --at) {
+    const char c = text[at - 1];
+    if (depth == 0 && !in_bars) {
+      const std::string_view before = text.substr(0, at);
+      const bool ends = std::ranges::any_of(std::array{" + ", " − ", " = ", ", ", "(", "{"},
+                                            [&](const char* sign) { return before.ends_with(sign); });
+      if (ends) break;
+    }
+    depth += (c == ')' || c == '}') - (c == '(' || c == '{');
+    if (c == '|') in_bars = !in_bars;
+  }
+  return at;
+}
+
+/// Where the factor ends that begins at `at`.
+std::size_t factor_end(std::string_view text, std::size_t at) {
+  int depth = 0;
+  bool in_bars = false;
+  for (; at < text.size(); ++at) {
+    const char c = text[at];
+    const bool ends = std::string_view(" ,/)}").find(c) != std::string_view::npos || text.substr(at).starts_with("·");
+    if (ends && depth == 0 && !in_bars) break;
+    depth += (c == '(' || c == '{') - (c == ')' || c == '}');
+    if (c == '|') in_bars = !in_bars;
+  }
+  return at;
+}
+
+/// Whether the bracket at the beginning closes at the end.
+bool is_group(std::string_view text) {
+  int depth = 0;
+  std::size_t at = 0;
+  do {
+    depth += (text[at] == '(') - (text[at] == ')');
+    ++at;
+  } while (depth > 0 && at < text.size());
+  return text.starts_with('(') && at == text.size();
+}
+
+/// Quotients as fractions: above the line the product before the sign, below it the factor behind it.
+std::string with_fractions(std::string text) {
+  for (std::size_t sign; (sign = text.find('/')) != std::string::npos;) {
+    const std::size_t begin = product_begin(text, sign), end = factor_end(text, sign + 1);
+    std::string below = text.substr(sign + 1, end - sign - 1);
+    // The line makes brackets superfluous.
+    if (is_group(below)) below = below.substr(1, below.size() - 2);
+    text.replace(begin, end - begin, "\\frac{" + text.substr(begin, sign - begin) + "}{" + below + "}");
+  }
+  return text;
+}
+
+std::string latex_symbols(std::string text) {
   for (const Replacement& sign : signs) replace_all(text, sign, "", "");
   for (const Replacement& letter : letters) replace_all(text, letter, "", "");
   return text;
+}
+
+/// LaTeX mathematics for the notation of the equations.
+std::string latex_math(std::string text) {
+  static const std::regex exponent("([0-9.])e\\+?(-?)0*([0-9]+)");
+  return latex_symbols(std::regex_replace(with_fractions(std::move(text)), exponent, "$1·10^{$2$3}"));
 }
 
 /// The same of words in which symbols occur.
@@ -78,16 +140,18 @@ std::string latex_name(const std::string& name) {
   return latex_math(first) + "_{" + latex_words(name.substr(blank + 1)) + "}";
 }
 
-std::string latex_line(const Equation& e, int digits) {
-  const auto& [formula, words] = parts_of(e.formula);
-  std::string line = "  " + latex_name(e.name) + (formula.empty() ? " &" : " &= " + latex_math(formula));
-  if (!e.numbers.empty()) line += " = " + latex_math(e.numbers);
-  line += " = " + known_text({e.value, e.error}, {.digits = digits, .size = e.size});
-  if (!e.unit.empty()) line += "\\ \\mathrm{" + latex_math(e.unit) + "}";
-  return words.empty() ? line : line + " &&" + latex_words(words);
+}  // namespace
+
+std::string equation_tex(const Equation& e, int digits, const std::string& between) {
+  std::string tex = latex_name(e.name) + " &= ";
+  for (const std::string& part : {parts_of(e.formula).formula, e.numbers}) {
+    if (!part.empty()) tex += latex_math(part) + between;
+  }
+  tex += latex_math(known_text({e.value, e.error}, {.digits = digits, .size = e.size}));
+  return e.unit.empty() ? tex : tex + "\\ \\mathrm{" + latex_symbols(e.unit) + "}";
 }
 
-}  // namespace
+std::string equation_words(const Equation& equation) { return parts_of(equation.formula).words; }
 
 std::string explanation_latex(const std::vector<std::string>& head, const std::vector<Step>& steps, int digits) {
   std::string out;
@@ -96,7 +160,8 @@ std::string explanation_latex(const std::vector<std::string>& head, const std::v
     out += "\n\\paragraph{" + step.title + "}\n\\begin{align*}\n";
     std::string separator;
     for (const Equation& e : step.equations) {
-      out += separator + latex_line(e, digits);
+      const std::string words = equation_words(e);
+      out += separator + "  " + equation_tex(e, digits, " = ") + (words.empty() ? "" : " &&" + latex_words(words));
       separator = " \\\\\n";
     }
     out += "\n\\end{align*}\n";

@@ -11,7 +11,7 @@ from clatter.results import Result
 
 class Explanation(Result):
     """How an impact came about; `steps` holds records with title, text and equations, each of these a record with name,
-    symbolic, numeric, value, error and unit."""
+    symbolic, numeric, tex, words, value, error and unit."""
 
     def __init__(self, report: Report) -> None:
         super().__init__(report)

@@ -49,10 +49,8 @@ export interface AnglesAnswer {
 
 export interface Equation {
   name: string;
-  symbolic: string;
-  numeric: string;
-  value: number | null;
-  unit: string;
+  tex: string; // lines of an aligned environment
+  words: string;
 }
 
 export interface ExplainAnswer {
