@@ -13,6 +13,7 @@
 #include "validation/demo/page.hpp"
 #include "validation/demo/page_address.hpp"
 #include "validation/demo/server.hpp"
+#include "validation/demo/story.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/sink.hpp"
@@ -63,7 +64,7 @@ int serve(const DemoInput& input) {
       input.seconds ? read_number_option("--seconds", *input.seconds, {0, 86400, true, "greater than 0, at most 86400"})
                     : usual_seconds;
   const std::string query = query_of(input.scene);
-  DemoServer server(std::string(demo_page()), std::chrono::milliseconds(std::llround(std::ceil(1000 * seconds))));
+  DemoServer server(page_with_story(), std::chrono::milliseconds(std::llround(std::ceil(1000 * seconds))));
   bind(server, input.port);
   {
     Sink address("");

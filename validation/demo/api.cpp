@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "validation/demo/scene_exchange.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/plan/planned_run.hpp"
@@ -143,17 +144,29 @@ Value simulate(NamedTexts texts) {
   return fields;
 }
 
+/// A file's name in messages, which are one line.
+std::string named_file(const std::string& name) {
+  const bool is_plain = std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 127; });
+  return name.empty() || !is_plain ? "scene file" : name;
+}
+
+Value opened(NamedTexts texts) {
+  const std::string name = named_file(taken(texts, "name")), text = taken(texts, "text");
+  const SceneArguments scene = opened_scene(name, text);
+  return Value::Fields{{"arguments", scene.arguments}, {"notes", scene.notes}};
+}
+
+Value file(NamedTexts texts) { return Value::Fields{{"file", scene_file(std::move(texts))}}; }
+
 Value compare(NamedTexts texts) {
   const Scene scene = continuous_scene(std::move(texts));
   return comparison_report(scene, compare_models(scene, scene.make_body())).fields;
 }
 
 using Answer = Value (*)(NamedTexts);
-const std::map<std::string, Answer> answers{{"/api/sequence", sequence},
-                                            {"/api/angles", angles},
-                                            {"/api/explain", explain},
-                                            {"/api/simulate", simulate},
-                                            {"/api/compare", compare}};
+const std::map<std::string, Answer> answers{
+    {"/api/sequence", sequence}, {"/api/angles", angles}, {"/api/explain", explain}, {"/api/simulate", simulate},
+    {"/api/compare", compare},   {"/api/scene", opened},  {"/api/file", file}};
 
 bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
 

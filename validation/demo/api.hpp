@@ -10,9 +10,13 @@ struct ApiAnswer {
   std::string body;  ///< JSON
 };
 
-/// @param path "/api/sequence", "/api/angles", "/api/explain", "/api/simulate", "/api/compare"
-/// @param body a flat JSON object: flags of the command without dashes, "_" for "-"; all but angles also "case", a
-///             scene that comes with the program, simulate "history", explain "impact".  Nothing in it names a file.
+/// @param path "/api/sequence", "/api/angles", "/api/explain", "/api/simulate", "/api/compare"; "/api/scene" reads the
+///             "text" of a scene file called "name" as {"arguments": {…}, "notes": […]}, "/api/file" writes arguments
+///             as
+///             {"file": text}
+/// @param body a flat JSON object: flags of the command without dashes, "_" for "-"; sequence, explain, simulate and
+///             compare also "case", a scene that comes with the program, simulate "history", explain "impact".  Nothing
+///             in it names a file that is read or written.
 /// Thread-safe.  Does not throw: what goes wrong is {"error": one line, "status": the program's exit status}.
 [[nodiscard]] ApiAnswer answer_request(const std::string& path, const std::string& body);
 

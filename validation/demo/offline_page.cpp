@@ -8,6 +8,7 @@
 
 #include "validation/demo/api.hpp"
 #include "validation/demo/page.hpp"
+#include "validation/demo/story.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/version.hpp"
 
@@ -25,9 +26,11 @@ std::string embeddable(const Json& json) {
 
 constexpr int kept_digits = 8;
 
-/// Numbers of a time history that a picture needs: a copy has to be small.
-void round_history(Json& answer) {
+/// What a picture needs of a time history: a copy has to be small.
+void shorten_history(Json& answer) {
   if (!answer.contains("history")) return;
+  for (const char* unread : {"point_vx", "point_vy", "point_vz", "energy_translation", "energy_potential"})
+    answer["history"].erase(unread);
   for (auto& [name, column] : answer["history"].items()) {
     for (Json& number : column) {
       if (number.is_number_float()) number = std::stod(fmt::format("{:.{}g}", number.get<double>(), kept_digits));
@@ -46,7 +49,7 @@ Json answered(const Json& request) {
   const ApiAnswer answer = answer_request("/api/" + request.at("path").get<std::string>(), request.at("body").dump());
   if (answer.status != 200) throw std::logic_error("the page's request for an offline copy: " + answer.body);
   Json json = Json::parse(answer.body);
-  round_history(json);
+  shorten_history(json);
   leave_out_errors(json);
   return json;
 }
@@ -76,7 +79,7 @@ std::string offline_page(const std::vector<std::string>& scenes,
     }
     scene.erase("requests");
   }
-  std::string page(demo_page());
+  std::string page = page_with_story();
   const std::string place = "id=\"precomputed\">{}<";
   const std::size_t at = page.find(place);
   if (at == std::string::npos) throw std::logic_error("the page has no place for precomputed scenes");

@@ -7,9 +7,8 @@
 
 namespace clatter::validation {
 
-/// The query of the page's address: "?body=own-rod&angle=10…".  Numbers are shortest round-trip.
-/// @throws BadInput naming the key where the page has no control for it: a mesh, a tilt, a sweep, a tangential velocity
-///         or spin, or a friction law other than Coulomb's.
+/// The query of the page's address: "?given=1&body=box&angle=10…", the arguments of the scene.  Numbers are shortest
+/// round-trip.  @throws BadInput naming the key where the page cannot show it: a mesh, a sweep.
 [[nodiscard]] std::string page_query(const Scene& scene);
 
 }  // namespace clatter::validation

@@ -14,5 +14,8 @@ trap 'kill -INT "$demo" 2>/dev/null; wait "$demo" || true; rm -rf -- "$scratch"'
 "$program" demo --export "$scratch/copy.html"
 read -r address <&3 || { cat -- "$scratch/complaints" && exit 1; }
 [[ $address =~ http://[0-9.:]+/ ]]
-DEMO_URL=${BASH_REMATCH[0]} DEMO_COPY=$scratch/copy.html DEMO_PAGE=$page CLATTER_PROGRAM=$program \
-  node --test --test-reporter=spec "$here/page_test.mjs"
+export DEMO_URL=${BASH_REMATCH[0]} DEMO_COPY=$scratch/copy.html DEMO_PAGE=$page CLATTER_PROGRAM=$program
+# One after the other: each has a browser of its own.
+for tests in page_test page_scene_test page_space_test page_story_test page_modules_test; do
+  node --test --test-reporter=spec "$here/$tests.mjs"
+done

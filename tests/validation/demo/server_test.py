@@ -4,6 +4,7 @@ CLATTER_PROGRAM is the program.
 """
 
 import json
+import math
 import os
 import re
 import signal
@@ -12,6 +13,7 @@ import subprocess
 import tempfile
 import threading
 import unittest
+import urllib.parse
 from pathlib import Path
 
 from running_demo import JSON, PROGRAM, Demo, WithServer, free_port, printed
@@ -75,6 +77,35 @@ class Answers(WithServer):
             steps = json.loads(self.demo.post("/api/explain", {"case": case, "friction": 0.2, "impact": 1})[2])["steps"]
             self.assertEqual(steps, json.loads(printed("explain", "1", case, "--friction", "0.2"))["steps"])
 
+    def test_a_scene_file_and_its_arguments_are_the_same_scene(self):
+        """Of every case that comes with the program: file, arguments, file, arguments; and of the numbers that they give."""
+        folder = Path(os.environ.get("CLATTER_CASES", Path(__file__).resolve().parents[3] / "validation" / "cases"))
+        count = 0
+        for file in sorted(folder.glob("*.toml")):
+            if "sweep" in file.name:
+                continue
+            with self.subTest(case=file.stem), tempfile.TemporaryDirectory() as scratch:
+                opened = json.loads(self.demo.post("/api/scene", {"name": file.name, "text": file.read_text(encoding="utf-8")})[2])
+                written = json.loads(self.demo.post("/api/file", opened["arguments"])[2])["file"]
+                again = json.loads(self.demo.post("/api/scene", {"name": "again.toml", "text": written})[2])
+                self.assertEqual(again, {"arguments": opened["arguments"], "notes": []})
+                copy = Path(scratch) / "copy.toml"
+                copy.write_text(written, encoding="utf-8")
+                self.assertEqual(json.loads(printed("simulate", str(copy)))["impacts"], json.loads(printed("simulate", str(file)))["impacts"])
+                count += 1
+        self.assertGreater(count, 10)
+
+    def test_a_scene_file_without_impact_keys_gets_those_of_its_ground_and_says_so(self):
+        text = "[drop]\nangle_deg = 90\nheight = 2\n[ground]\nstiffness = 1e9\ndamping = 1e8\nsliding_friction = 0.3\n"
+        opened = json.loads(self.demo.post("/api/scene", {"name": "own.toml", "text": text})[2])
+        self.assertEqual(len(opened["notes"]), 1)
+        # The exact relation of one frictionless contact: ln[(1 + s)/(1 - s e)] = s (1 + e), s = (c/k) v.
+        e, s = opened["arguments"]["restitution"], 1e8 / 1e9 * math.sqrt(2 * 9.81 * (2 - 0.5))
+        self.assertLess(abs(math.log((1 + s) / (1 - s * e)) - s * (1 + e)), 1e-14)
+        self.assertEqual(opened["arguments"]["friction"], 0.3)
+        opened = json.loads(self.demo.post("/api/scene", {"name": "own.toml", "text": text + "[impact]\nrestitution = 1\n"})[2])
+        self.assertEqual((opened["notes"], opened["arguments"]["restitution"], "friction" in opened["arguments"]), ([], 1, False))
+
     def test_two_hundred_at_once_are_all_right(self):
         angles = [5 + 0.25 * i for i in range(200)]
         answers = [None] * len(angles)
@@ -131,7 +162,11 @@ class Refusals(WithServer):
                 ("simulate", {"case": "../cases/rod-45"}, "case '../cases/rod-45'"), ("simulate", {"case": "rod-sweep"}, "sweeps"),
                 ("sequence", {"case": "phone-corer"}, "did you mean phone-corner?"), ("explain", {"case": "rod-friction-sweep", "impact": 1}, "sweeps"),
                 ("sequence", {"case": "../cases/rod-45"}, "case '../cases/rod-45'"),
-                ("compare", {"angle": 10, "stiffness": -1}, "stiffness '-1'")):
+                ("compare", {"angle": 10, "stiffness": -1}, "stiffness '-1'"),
+                ("scene", {}, "scene file: drop.angle_deg: required"), ("scene", {"name": "a\nb", "text": "x"}, "scene file:1:"),
+                ("scene", {"name": "my.toml", "text": "[drop]\nangle_deg = 95\n"}, "my.toml:2:13: drop.angle_deg = 95: must be"),
+                ("scene", {"text": "[drop]\nangle_deg = 1\n[body]\nshape = 'mesh'\nmesh.file = '/etc/passwd'\n"}, "mesh"),
+                ("file", {"angle": 10, "restitution": 2}, "restitution '2'"), ("file", {"angel": 10}, "did you mean angle?")):
             with self.subTest(path=path, arguments=arguments):
                 self.refused(self.demo.post(f"/api/{path}", arguments), 400, words)
         for body in ("", "[1]", "{", "{\"angle\": 10} x", "\xff\xfe", "[" * 30000):
@@ -147,11 +182,22 @@ class Refusals(WithServer):
         with tempfile.TemporaryDirectory() as folder:
             target = Path(folder) / "written.csv"
             for arguments in ({"history": str(target)}, {"body": "mesh", "file": "/etc/passwd"}, {"body": "mesh"}, {"output": str(target)},
-                              {"body.mesh.file": "/etc/passwd"}, {"case": "/etc/passwd"}):
+                              {"body.mesh.file": "/etc/passwd"}, {"case": "/etc/passwd"}, {"text": "[run]\nhistory = 'x'"}):
                 with self.subTest(arguments=arguments):
                     status, _, text = self.demo.post("/api/simulate", {"angle": 10, "stiffness": 1e9, **arguments})
                     self.assertNotIn("root:", text)
                     self.assertEqual(status, 200 if list(arguments) == ["history"] else 400)
+            self.assertEqual(list(Path(folder).iterdir()), [])
+
+    def test_no_scene_file_can_name_a_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            target = Path(folder) / "written.csv"
+            text = f"[drop]\nangle_deg = 10\n[ground]\nstiffness = 1e9\n[run]\nhistory = '{target}'\n"
+            status, _, answer = self.demo.post("/api/scene", {"name": "/etc/passwd", "text": text})
+            self.assertEqual(status, 200, answer)
+            self.assertNotIn(str(target), answer)
+            self.assertIn("run.history is left out", answer)
+            self.assertEqual(self.demo.post("/api/simulate", json.loads(answer)["arguments"])[0], 200)
             self.assertEqual(list(Path(folder).iterdir()), [])
 
     def test_other_paths_are_404(self):
@@ -222,19 +268,23 @@ class Command(unittest.TestCase):
                 self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
                 self.assertEqual(os.listdir(folder), [])
 
-    def test_the_address_printed_shows_the_scene_given(self):
-        for arguments, words in ((["--angle", "20", "--height", "1", "--gravity", "9.81"], "?body=own-rod&mass=1&length=1&"),
-                                 (["phone-damped", "--angle", "25"], "?body=own-box&mass=0.08814&length=0.10566&")):
-            demo = Demo(*arguments)
-            try:
-                self.assertIn(words, demo.line)
-                query = dict(part.split("=") for part in re.search(r"\?(\S+)", demo.line)[1].split("&"))
-                self.assertEqual(query["angle"], arguments[arguments.index("--angle") + 1])
-                self.assertEqual((query.get("height"), query.get("speed")), ("1", None))
-                self.assertEqual("damping" in query, arguments[0] == "phone-damped")
-            finally:
-                demo.stop()
-        for arguments, key in ((["phone-corner"], "drop.tilt_deg"), (["--angle", "10", "--spin", "3"], "drop.spin")):
+    def test_the_address_printed_gives_the_scene_given(self):
+        """Its query holds the arguments that give the scene again."""
+        for arguments in (["--angle", "20", "--height", "1", "--gravity", "9.81"], ["phone-damped", "--angle", "25"], ["phone-corner"],
+                          ["--angle", "10", "--spin", "-1", "--tangential-velocity", "-0.5", "--friction", "0.1"],
+                          ["--orientation", "20", *IN_WORDS, "--velocity", "0.1,0.2,-1", "--restitution", "0.5"]):
+            with self.subTest(arguments=arguments):
+                demo = Demo(*arguments)
+                try:
+                    query = dict(urllib.parse.parse_qsl(re.search(r"\?(\S+)", demo.line)[1]))
+                    self.assertEqual(query.pop("given"), "1")
+                    flags = [part for name, value in query.items() for part in ("--" + name.replace("_", "-"), value)]
+                    model = "simulate" if "stiffness" in query else "sequence"
+                    expected, answer = json.loads(printed(model, *arguments)), json.loads(printed(model, *flags))
+                    self.assertEqual(answer["impacts"], expected["impacts"])
+                finally:
+                    demo.stop()
+        for arguments, key in ((["phone-sweep"], "sweep"), (["--body", "mesh", "--angle", "10"], "mesh")):
             done = subprocess.run([PROGRAM, "demo", *arguments], capture_output=True, text=True, timeout=3000)
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
             self.assertIn(key, done.stderr)

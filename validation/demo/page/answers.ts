@@ -1,24 +1,33 @@
 // What the program answers, as far as the page reads it.
+import type { Inertia } from "./body";
+import type { Rotation, Vector } from "./rotation";
 
 export interface Impact {
   n: number;
   start: number;
   duration: number;
   end: string;
+  /** In space: names of the corners that strike, and the Euler parameters at the touch. */
+  corners?: string;
+  attitude?: Rotation;
+  /** How many places touch one after the other, or corners at once. */
+  touches?: number;
   inclination_deg: number;
   contact_angle_deg: number;
   approach_speed: number;
   restitution: number | null;
   impulse_normal: number;
   impulse_tangential: number;
+  impulse: Vector;
   peak_force: number | null;
-  velocity_after: [number, number, number];
-  angular_velocity_after: [number, number, number];
+  velocity_after: Vector;
+  angular_velocity_after: Vector;
   energy_before: number;
   energy_after: number;
   energy_loss: number;
-  /** Of the continuous model: false if nothing can be said about this impact. */
+  /** False if errors have grown so far that nothing can be said about this impact; by so many times. */
   predictable?: boolean;
+  amplification?: number | null;
 }
 
 /** Columns of the time history that the page reads. */
@@ -27,6 +36,7 @@ export type History = Record<
   | "energy_rotation" | "energy_ground" | "energy_total" | "in_contact", number[]>;
 
 export interface SequenceAnswer {
+  body: { mass: number; centre: Vector; inertia: Inertia };
   impacts: Impact[];
   outcome: string;
   message: string;
@@ -56,4 +66,14 @@ export interface Equation {
 export interface ExplainAnswer {
   impact: number;
   steps: { title: string; text: string; equations: Equation[] }[];
+}
+
+/** A scene file as arguments of the other requests. */
+export interface SceneAnswer {
+  arguments: Record<string, string | number | boolean | number[]>;
+  notes: string[];
+}
+
+export interface FileAnswer {
+  file: string;
 }

@@ -1,6 +1,6 @@
 // Questions to the program that serves the page, or their answers from an offline copy.
 import { keyOf, type Json, type Request } from "./requests";
-import type { Parameters } from "./state";
+import type { Parameters } from "./parameters";
 
 export interface PrecomputedScene {
   name: string;

@@ -1,8 +1,9 @@
-// The falling body: sizes, inertia, and where its ends are. Lengths in m, masses in kg.
+// The falling body: sizes, inertia, and where it touches the ground. Lengths in m, masses in kg.
+import { plus, rotate, rotateBack, type Rotation, type Vector } from "./rotation";
 
 export type BodyName = "rod" | "thick-rod" | "phone" | "own-rod" | "own-box";
 
-export interface Body {
+export interface Size {
   readonly shape: "rod" | "box";
   readonly mass: number;
   readonly length: number;
@@ -13,48 +14,80 @@ export interface Body {
   readonly thickness: number;
 }
 
+/** xx, yy, zz, xy, xz, yz about the centre of mass, axes of the body [kg m²]. */
+export type Inertia = readonly [number, number, number, number, number, number];
+
+export interface Body extends Size {
+  /** Of mass, from the geometric centre, axes of the body. */
+  readonly centre: Vector;
+  readonly inertia: Inertia;
+}
+
+/** A rod without thickness still has to be seen: its radius in a picture, over its length. */
+export const THINNEST = 0.008;
 /** The continuous model needs a body with a volume: the thin rod gets the radius of the paper's mesh. */
 export const CONTINUOUS_RADIUS = 0.01;
 
-export const BODIES: Readonly<Record<BodyName, { title: string; body: Body }>> = {
-  rod: { title: "Thin rod, 1 m", body: { shape: "rod", mass: 1, length: 1, radius: 0, width: 0, thickness: 0 } },
-  "thick-rod": {
-    title: "Thick rod, 1 m",
-    body: { shape: "rod", mass: 1, length: 1, radius: 0.05, width: 0, thickness: 0 },
-  },
+export const BODIES: Readonly<Record<BodyName, { title: string; size: Size }>> = {
+  rod: { title: "Thin rod, 1 m", size: { shape: "rod", mass: 1, length: 1, radius: 0, width: 0, thickness: 0 } },
+  "thick-rod": { title: "Thick rod, 1 m", size: { shape: "rod", mass: 1, length: 1, radius: 0.05, width: 0, thickness: 0 } },
   phone: {
     title: "Phone, 106 mm",
-    body: { shape: "box", mass: 0.08814, length: 0.10566, radius: 0, width: 0.04394, thickness: 0.01905 },
+    size: { shape: "box", mass: 0.08814, length: 0.10566, radius: 0, width: 0.04394, thickness: 0.01905 },
   },
-  "own-rod": {
-    title: "Rod of your own",
-    body: { shape: "rod", mass: 1, length: 1, radius: 0.02, width: 0, thickness: 0 },
-  },
-  "own-box": {
-    title: "Box of your own",
-    body: { shape: "box", mass: 0.2, length: 0.15, radius: 0, width: 0.07, thickness: 0.01 },
-  },
+  "own-rod": { title: "Rod of your own", size: { shape: "rod", mass: 1, length: 1, radius: 0.02, width: 0, thickness: 0 } },
+  "own-box": { title: "Box of your own", size: { shape: "box", mass: 0.2, length: 0.15, radius: 0, width: 0.07, thickness: 0.01 } },
 };
 
-export function halfThickness(body: Body): number {
-  return body.shape === "rod" ? body.radius : body.thickness / 2;
+export function uniformBody(size: Size): Body {
+  const { shape, mass, length, radius, width, thickness } = size;
+  const rod = 3 * radius ** 2 + length ** 2;
+  const [x, y, z] = shape === "rod" ? [6 * radius ** 2, rod, rod]
+    : [width ** 2 + thickness ** 2, length ** 2 + thickness ** 2, length ** 2 + width ** 2];
+  const part = mass / 12;
+  return { ...size, centre: [0, 0, 0], inertia: [part * x, part * y, part * z, 0, 0, 0] };
 }
 
-/** Moment of inertia about the axis across the plane of motion [kg m²]. */
-export function momentOfInertia(body: Body): number {
-  const across = body.shape === "rod" ? 3 * body.radius ** 2 : body.thickness ** 2;
-  return (body.mass * (across + body.length ** 2)) / 12;
+/** Corners of a box, from its geometric centre; their names are the signs of their coordinates, as in "-x+y-z". */
+export function cornersOf(body: Size): { name: string; place: Vector }[] {
+  const sides = [-1, 1];
+  const name = (sign: number, axis: string): string => (sign < 0 ? "-" : "+") + axis;
+  return sides.flatMap((x) => sides.flatMap((y) => sides.map((z) => ({
+    name: name(x, "x") + name(y, "y") + name(z, "z"),
+    place: [(x * body.length) / 2, (y * body.width) / 2, (z * body.thickness) / 2] as Vector,
+  }))));
 }
 
-/** Height of the centre of mass over the lowest point of the body at an inclination [rad] in the plane. */
-export function centreHeight(body: Body, inclination: number): number {
-  return (body.length / 2) * Math.abs(Math.sin(inclination)) + halfThickness(body) * Math.abs(Math.cos(inclination));
+/** Lowest point of a rod's end: of a disc about the axis. */
+function rimPoint(body: Size, end: -1 | 1, rotation: Rotation): Vector {
+  const [, y, z] = rotateBack(rotation, [0, 0, -1]);
+  const across = Math.hypot(y, z);
+  const out = across > 0 ? body.radius / across : 0;
+  return [(end * body.length) / 2, y * out, z * out];
 }
 
-/** Horizontal distance from the centre of mass to the lowest point of an end at an inclination [rad], in the plane. */
-export function contactPoint(body: Body, end: "a" | "b", inclination: number): number {
-  const along = end === "a" ? -body.length / 2 : body.length / 2;
-  const c = Math.cos(inclination);
-  const across = c >= 0 ? -halfThickness(body) : halfThickness(body);
-  return along * c - across * Math.sin(inclination);
+/** Corners of a box, or of a rod the lowest point of each end, that are lowest, from the geometric centre, body axes. */
+export function lowestPoints(body: Size, rotation: Rotation): { name: string; place: Vector }[] {
+  const points = body.shape === "box" ? cornersOf(body)
+    : [{ name: "a", place: rimPoint(body, -1, rotation) }, { name: "b", place: rimPoint(body, 1, rotation) }];
+  const heights = points.map(({ place }) => rotate(rotation, place)[2]);
+  const lowest = Math.min(...heights);
+  return points.filter((_point, i) => (heights[i] ?? 0) <= lowest + 1e-6 * body.length);
+}
+
+/** The middle of the lowest points, from the centre of mass, world axes. */
+export function lowestPlace(body: Body, rotation: Rotation): Vector {
+  const points = lowestPoints(body, rotation);
+  const middle = points.reduce((sum, { place }) => plus(sum, place, 1 / points.length), [0, 0, 0] as Vector);
+  return rotate(rotation, plus(middle, body.centre, -1));
+}
+
+/** Height of the centre of mass over the lowest point of the body. */
+export function centreHeight(body: Body, rotation: Rotation): number {
+  return -lowestPlace(body, rotation)[2];
+}
+
+/** The geometric centre, for a centre of mass and a rotation. */
+export function middleOf(body: Body, centre: Vector, rotation: Rotation): Vector {
+  return plus(centre, rotate(rotation, body.centre), -1);
 }

@@ -1,36 +1,39 @@
 // The continuous model between the samples of its time history: every step of a contact, some 20 of a flight.
 import type { Body } from "./body";
 import type { History, Impact } from "./answers";
-import { coast, leadIn, leadOut, rotate, type Energies, type Motion, type Pose, type Rotation, type Vector } from "./motion";
+import { Flight, leadIn, leadOut, type Energies, type Motion, type Pose } from "./motion";
+import { inclinationOf, slerp, type Rotation, type Vector } from "./rotation";
 
 export class ContinuousMotion implements Motion {
   readonly begin: number;
   readonly end: number;
   private readonly total: number;
-  private readonly touch: number;
   private readonly last: number;
+  private readonly fall: Flight;
+  private readonly after: Flight;
 
   constructor(
     readonly body: Body, readonly impacts: readonly Impact[], readonly history: History, private readonly gravity: number,
   ) {
     const { t } = history;
     // The history of a drop from a height begins with its fall, at a negative time.
-    this.touch = Math.max(0, t.findIndex((time) => time >= 0));
+    const touch = Math.max(0, t.findIndex((time) => time >= 0));
     this.last = t.length - 1;
     this.total = at(history.energy_total, 0);
-    this.begin = -leadIn(impacts, impacts[0]?.approach_speed ?? Math.abs(at(history.vz, this.touch)), gravity, body.length);
+    const falling = this.sample(touch, 0);
+    this.begin = -leadIn(impacts, -falling.velocity[2], gravity, body.length);
+    this.fall = new Flight(body, falling, gravity, this.begin);
     const released = this.sample(this.last, 0);
-    const inPlane = Math.hypot(released.spin[0], released.spin[2]) < 1e-9 * Math.hypot(...released.spin);
-    // Past its history a body that tumbles in space has no simple motion, nor has one that still touches.
-    const canCoast = (inPlane || Math.hypot(...released.spin) === 0) && !released.inContact;
     const stop = at(t, this.last);
-    this.end = canCoast ? leadOut(body, stop, this.begin, (time) => coast(released, gravity, time - stop)) : stop;
+    this.after = new Flight(body, released, gravity, Math.max(0.5 * stop, -this.begin));
+    // A body that still touches has no simple motion past its history.
+    this.end = released.inContact ? stop : leadOut(body, stop, this.begin, (time) => this.after.pose(time - stop));
   }
 
   pose(time: number): Pose {
     const { t } = this.history;
-    if (time < 0) return coast(this.sample(this.touch, 0), this.gravity, time);
-    if (time > at(t, this.last)) return coast(this.sample(this.last, 0), this.gravity, time - at(t, this.last));
+    if (time < 0) return this.fall.pose(time);
+    if (time > at(t, this.last)) return this.after.pose(time - at(t, this.last));
     const row = rowBefore(t, time);
     return this.sample(row, fraction(t, row, time));
   }
@@ -57,10 +60,9 @@ export class ContinuousMotion implements Motion {
       hermite(at(p, row), at(v, row) * dt, at(p, row + 1), at(v, row + 1) * dt, part);
     const value = (column: number[]): number => mix(at(column, row), at(column, row + 1), part);
     const rotation = slerp(rotationAt(h, row), rotationAt(h, row + 1), part);
-    const [ax, , az] = rotate(rotation, [1, 0, 0]);
     return {
       centre: [place(h.x, h.vx), place(h.y, h.vy), place(h.z, h.vz)],
-      rotation, inclination: Math.atan2(az, ax),
+      rotation, inclination: inclinationOf(rotation),
       velocity: [value(h.vx), value(h.vy), value(h.vz)],
       spin: [value(h.wx), value(h.wy), value(h.wz)],
       force: [value(h.fx), value(h.fy), value(h.fz)] as Vector,
@@ -102,14 +104,4 @@ function hermite(p: number, v: number, q: number, w: number, s: number): number 
 
 function rotationAt(h: History, row: number): Rotation {
   return [at(h.beta0, row), at(h.beta1, row), at(h.beta2, row), at(h.beta3, row)];
-}
-
-function slerp(a: Rotation, b: Rotation, part: number): Rotation {
-  const dot = a.reduce((sum, value, i) => sum + value * (b[i] ?? 0), 0);
-  const angle = Math.acos(Math.min(1, Math.abs(dot)));
-  const [p, q] = angle < 1e-6 ? [1 - part, part] : [Math.sin((1 - part) * angle), Math.sin(part * angle)];
-  const sign = dot < 0 ? -1 : 1;
-  const mixed = a.map((value, i) => p * value + sign * q * (b[i] ?? 0)) as Rotation;
-  const norm = Math.hypot(...mixed);
-  return mixed.map((value) => value / norm) as Rotation;
 }

@@ -1,26 +1,37 @@
 // Sliders, number fields and choices of the situation.
 import { isOffline, offlineScenes, type ApiError } from "./api";
+import { AttitudeControls } from "./attitude_controls";
 import { BODIES, type BodyName } from "./body";
 import { byId, make } from "./dom";
 import { SCENES } from "./offline_scenes";
+import { DROPS, QUANTITIES, isInPlane, isUsed, setBody, type Choices, type Parameters, type Quantity } from "./parameters";
 import { SPECS, blamedQuantity, fieldText, fromSlider, sliderRange, toSlider, type QuantitySpec } from "./quantities";
-import { dampingOf } from "./restitution";
-import { QUANTITIES, isUsed, setBody, type Parameters, type Quantity, type State } from "./state";
+import { dampingOf, firstSpeed } from "./restitution";
+import { assignUnlocked, type State } from "./state";
 
 interface Row {
   box: HTMLElement;
-  slider: HTMLInputElement;
+  /** None for a part of a vector. */
+  slider: HTMLInputElement | null;
   field: HTMLInputElement;
   error: HTMLElement;
 }
 
 /** Where each quantity stands; the sizes show only for a body of one's own. */
 const GROUPS: readonly { title: string; quantities: Quantity[] }[] = [
-  { title: "Drop", quantities: ["angle", "speed", "height", "gravity"] },
+  { title: "Drop", quantities: ["angle", "tilt", "orientation", "q0", "speed", "height", "vx", "wx", "gravity"] },
   { title: "Body", quantities: ["mass", "length", "radius", "width", "thickness"] },
   { title: "Contact", quantities: ["e", "friction", "stiffness", "damping"] },
   { title: "Run", quantities: ["impacts"] },
 ];
+
+/** Parts of vectors share a line, which stands where the first of them does. */
+const VECTORS: Readonly<Partial<Record<Quantity, { title: string; parts: readonly Quantity[] }>>> = {
+  q0: { title: "Euler parameters, body to world", parts: ["q0", "q1", "q2", "q3"] },
+  vx: { title: "Velocity x, y, z", parts: ["vx", "vy", "vz"] },
+  wx: { title: "Spin about x, y, z", parts: ["wx", "wy", "wz"] },
+};
+const DROP_NAMES = { speed: "at a speed", height: "from a height", velocity: "at a velocity" } as const;
 
 export class Controls {
   private readonly rows = new Map<Quantity, Row>();
@@ -29,12 +40,19 @@ export class Controls {
   private readonly drop = make("select", { id: "drop" });
   private readonly follow = make("input", { type: "checkbox", id: "follow" });
   private readonly planar = make("input", { type: "checkbox", id: "planar" });
+  private readonly spinning = make("input", { type: "checkbox", id: "spinning" });
+  private readonly attitude: AttitudeControls;
   private readonly errors = new Map<string, ApiError>();
 
   constructor(
     private readonly state: State, private readonly onChange: () => void, private readonly onRelease: () => void,
   ) {
+    this.attitude = new AttitudeControls(state, () => this.change(), onRelease);
     this.buildScenes();
+    byId("extra-forget").addEventListener("click", () => {
+      state.parameters.extra = {};
+      this.change();
+    });
     for (const group of GROUPS) byId("quantities").append(this.buildGroup(group.title, group.quantities));
     this.refresh();
   }
@@ -45,22 +63,30 @@ export class Controls {
     const offline = isOffline;
     for (const [quantity, row] of this.rows) {
       const shown = quantity === "damping" ? dampingOf(parameters) : parameters[quantity];
-      row.slider.value = String(this.sliderPosition(quantity, shown));
-      this.describe(row.slider, quantity, shown);
+      if (row.slider) {
+        row.slider.value = String(this.sliderPosition(quantity, shown));
+        row.slider.setAttribute("aria-valuetext", `${fieldText(shown)} ${SPECS[quantity].unit}`.trim());
+      }
       if (document.activeElement !== row.field) row.field.value = fieldText(shown);
       row.box.hidden = !isUsed(parameters, quantity);
       const followed = quantity === "damping" && parameters.follow;
       const disabled = lock.includes(quantity) || followed || (offline && quantity !== "angle");
-      row.slider.disabled = disabled;
+      if (row.slider) row.slider.disabled = disabled;
       row.field.disabled = disabled || offline;
     }
     this.body.value = parameters.body;
     this.drop.value = parameters.drop;
     this.follow.checked = parameters.follow;
     this.planar.checked = parameters.planar;
+    if (this.planar.parentElement) this.planar.parentElement.hidden = !isInPlane(parameters);
+    this.spinning.checked = parameters.spinning;
+    this.attitude.refresh();
+    const extra = Object.entries(parameters.extra).map(([name, text]) => `${name} = ${text}`);
+    byId("extra").hidden = extra.length === 0;
+    byId("extra-keys").textContent = extra.join("; ");
     this.scene.value = sceneOf(parameters) ?? "";
     this.scene.disabled = lock.includes("scene");
-    for (const choice of [this.body, this.drop, this.follow, this.planar]) {
+    for (const choice of [this.body, this.drop, this.follow, this.planar, this.spinning]) {
       choice.disabled = offline || lock.includes(choice.id);
     }
   }
@@ -91,7 +117,7 @@ export class Controls {
     this.scene.addEventListener("change", () => {
       const scene = scenes.find(({ name }) => name === this.scene.value);
       if (!scene) return;
-      Object.assign(this.state.parameters, scene.parameters);
+      assignUnlocked(this.state, scene.parameters);
       this.change();
       this.onRelease();
     });
@@ -101,8 +127,12 @@ export class Controls {
     const group = make("fieldset", {}, make("legend", {}, title));
     if (title === "Body") group.append(this.buildBody());
     for (const quantity of quantities) {
-      if (quantity === "speed") group.append(this.buildDrop());
-      group.append(this.buildRow(quantity));
+      if (quantity === "angle") group.append(this.attitude.choice);
+      if (quantity === "speed") group.append(this.attitude.turns, this.buildDrop());
+      if (quantity === "wx") group.append(this.check(this.spinning, "Turns at the first touch", "spinning"));
+      const vector = VECTORS[quantity];
+      group.append(vector ? this.buildVector(vector.title, vector.parts) : this.buildRow(quantity));
+      if (quantity === "orientation") group.append(this.attitude.orientation);
       if (quantity === "stiffness") group.append(this.check(this.follow, "Damping follows e", "follow"));
     }
     if (title === "Run") group.append(this.check(this.planar, "Keep the motion in its plane", "planar"));
@@ -120,9 +150,10 @@ export class Controls {
   }
 
   private buildDrop(): HTMLElement {
-    this.drop.append(make("option", { value: "speed" }, "at a speed"), make("option", { value: "height" }, "from a height"));
+    this.drop.append(...DROPS.map((value) => make("option", { value }, DROP_NAMES[value])));
     this.drop.addEventListener("change", () => {
       const { parameters } = this.state;
+      if (this.drop.value === "velocity") Object.assign(parameters, { vx: 0, vy: 0, vz: -firstSpeed(parameters) });
       parameters.drop = this.drop.value as Parameters["drop"];
       // Nothing falls from a height without gravity.
       if (parameters.drop === "height" && parameters.gravity === 0) parameters.gravity = 9.81;
@@ -131,7 +162,7 @@ export class Controls {
     return make("p", { class: "choice" }, make("label", { for: "drop" }, "Dropped"), this.drop);
   }
 
-  private check(box: HTMLInputElement, text: string, key: "follow" | "planar"): HTMLElement {
+  private check(box: HTMLInputElement, text: string, key: keyof Choices & ("follow" | "planar" | "spinning")): HTMLElement {
     box.addEventListener("change", () => {
       const { parameters } = this.state;
       if (key === "follow") parameters.damping = dampingOf(parameters);
@@ -155,12 +186,35 @@ export class Controls {
     if (spec.model) box.title = `Of the ${spec.model} model`;
     slider.addEventListener("input", () => this.set(quantity, this.fromPosition(quantity, spec, Number(slider.value))));
     slider.addEventListener("change", () => this.onRelease());
+    this.listen(field, quantity);
+    this.rows.set(quantity, { box, slider, field, error });
+    return box;
+  }
+
+  /** A field a part, in one line. */
+  private buildVector(title: string, parts: readonly Quantity[]): HTMLElement {
+    const line = make("div", { class: "vector", role: "group", "aria-label": title });
+    const unit = SPECS[parts[0] ?? "vx"].unit;
+    const name = make("span", { class: "name" }, title, ...(unit ? [make("span", { class: "unit" }, ` ${unit}`)] : []));
+    const whole = make("div", { class: "part" }, name, line);
+    parts.forEach((part, i) => {
+      const field = make("input", { type: "number", id: part, step: "any", "aria-label": part, "aria-describedby": `${part}-error` });
+      const error = make("p", { class: "error", id: `${part}-error`, role: "alert", hidden: true });
+      const box = make("span", {}, field);
+      line.append(box);
+      whole.append(error);
+      this.listen(field, part);
+      // Parts are shown together, with their title.
+      this.rows.set(part, { box: i === 0 ? whole : box, slider: null, field, error });
+    });
+    return whole;
+  }
+
+  private listen(field: HTMLInputElement, quantity: Quantity): void {
     field.addEventListener("input", () => {
       if (field.value !== "" && Number.isFinite(field.valueAsNumber)) this.set(quantity, field.valueAsNumber);
     });
     field.addEventListener("blur", () => this.refresh());
-    this.rows.set(quantity, { box, slider, field, error });
-    return box;
   }
 
   private set(quantity: Quantity, value: number): void {
@@ -182,23 +236,20 @@ export class Controls {
     if (!isOffline || quantity !== "angle") return toSlider(SPECS[quantity], value);
     const angles = this.offlineAngles();
     const row = this.rows.get(quantity);
-    if (row) row.slider.max = String(Math.max(0, angles.length - 1));
+    if (row?.slider) row.slider.max = String(Math.max(0, angles.length - 1));
     return Math.max(0, angles.indexOf(value));
   }
 
   private fromPosition(quantity: Quantity, spec: QuantitySpec, position: number): number {
     return isOffline && quantity === "angle" ? (this.offlineAngles()[position] ?? 10) : fromSlider(spec, position);
   }
-
-  private describe(slider: HTMLInputElement, quantity: Quantity, value: number): void {
-    slider.setAttribute("aria-valuetext", `${fieldText(value)} ${SPECS[quantity].unit}`.trim());
-  }
 }
 
 /** The scene that the parameters are, whatever the angle. */
 function sceneOf(parameters: Parameters): string | undefined {
   const scenes = isOffline ? offlineScenes : SCENES;
-  const keys = ["body", "drop", "follow", "planar", ...QUANTITIES.filter((q) => q !== "angle")] as const;
+  if (Object.keys(parameters.extra).length) return undefined;
+  const keys = ["body", "turn", "drop", "spinning", "follow", "planar", ...QUANTITIES.filter((q) => q !== "angle")] as const;
   const differs = (a: Parameters, b: Parameters): boolean =>
     keys.some((key) => a[key] !== b[key] && (key !== "damping" || !a.follow) && (!isQuantity(key) || isUsed(a, key)));
   return scenes.find((scene) => !differs(parameters, scene.parameters))?.name;

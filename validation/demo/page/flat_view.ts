@@ -1,14 +1,20 @@
 // The picture from the side, for browsers that have no graphics card to draw with.
-import { halfThickness, type Body } from "./body";
+import { middleOf, type Body } from "./body";
 import { COLOURS } from "./colours";
-import type { Arrow, Bounds, Frame, ModelName } from "./frame";
-import type { Pose, Vector } from "./motion";
-import type { Projection, View } from "./stage";
+import type { Arrow, Frame, ModelName } from "./frame";
+import type { Pose } from "./motion";
+import { facesOf } from "./outline";
+import type { Projection, View } from "./picture";
+import { plus, type Vector } from "./rotation";
+
+/** Of the eye. */
+const LOOK: Vector = [0, 1, 0];
+const NOTHING = { left: -0.5, right: 0.5, top: 0.5 };
 
 export class FlatView implements View {
   private readonly context: CanvasRenderingContext2D;
   private size = { width: 1, height: 1 };
-  private bounds: Bounds = { left: -0.5, right: 0.5, top: 0.5 };
+  private frame: Frame | null = null;
 
   constructor(private readonly canvas: HTMLCanvasElement) {
     const context = canvas.getContext("2d");
@@ -26,7 +32,7 @@ export class FlatView implements View {
 
   draw(frame: Frame): void {
     const { context } = this;
-    this.bounds = frame.bounds;
+    this.frame = frame;
     context.clearRect(0, 0, this.size.width, this.size.height);
     for (const model of frame.side ? (["discrete", "continuous"] as const) : (["discrete"] as const)) this.ground(model, frame.side);
     for (const { model, body, pose } of frame.figures) this.figure(model, body, pose, frame.side);
@@ -34,7 +40,7 @@ export class FlatView implements View {
   }
 
   project(model: ModelName, [x, , z]: Vector, side: boolean): Projection {
-    const { left, right, top } = this.bounds;
+    const { left, right, top } = this.frame?.bounds[model] ?? NOTHING;
     const width = side ? this.size.width / 2 : this.size.width;
     const scale = Math.min((0.86 * width) / (right - left), (0.72 * this.size.height) / top);
     const offset = side && model === "continuous" ? width : 0;
@@ -54,23 +60,18 @@ export class FlatView implements View {
 
   private figure(model: ModelName, body: Body, pose: Pose, side: boolean): void {
     const { context } = this;
-    const half = Math.max(halfThickness(body), 0.008 * body.length);
-    const c = Math.cos(pose.inclination);
-    const s = Math.sin(pose.inclination);
-    const corners = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([u = 0, v = 0]) => {
-      const along = (u * body.length) / 2;
-      const across = v * half;
-      return this.project(model, [pose.centre[0] + along * c - across * s, 0, pose.centre[2] + along * s + across * c], side);
-    });
-    context.beginPath();
-    for (const { x, y } of corners) context.lineTo(x, y);
-    context.closePath();
-    context.lineWidth = 2;
-    if (model === "discrete") {
+    const middle = middleOf(body, pose.centre, pose.rotation);
+    for (const face of facesOf(body, pose.rotation, LOOK)) {
+      context.beginPath();
+      for (const point of face) {
+        const { x, y } = this.project(model, plus(middle, point), side);
+        context.lineTo(x, y);
+      }
+      context.closePath();
+      context.lineWidth = model === "discrete" ? 1 : 2;
       context.fillStyle = COLOURS.discrete;
-      context.fill();
-    } else {
-      context.strokeStyle = COLOURS.continuous;
+      context.strokeStyle = model === "discrete" ? COLOURS.blow.discrete : COLOURS.continuous;
+      if (model === "discrete") context.fill();
       context.stroke();
     }
   }

@@ -1,8 +1,9 @@
 // What the picture shows at one time: the bodies of both models, the blow, and the speeds of the ends.
 import type { Impact } from "./answers";
-import { contactPoint, type Body } from "./body";
+import { lowestPlace, type Body } from "./body";
 import { significant } from "./format";
-import { endMotion, type Motion, type Pose, type Vector } from "./motion";
+import { endMotion, type Motion, type Pose } from "./motion";
+import { plus, rotate, type Vector } from "./rotation";
 
 export type ModelName = "discrete" | "continuous";
 
@@ -25,7 +26,10 @@ export interface Label {
 
 export interface Frame {
   side: boolean;
-  bounds: Bounds;
+  /** Of the picture, or side by side of each model's part. */
+  bounds: Record<ModelName, Bounds>;
+  /** Whether a body leaves the plane of x and z: then it is looked at from higher up. */
+  inSpace: boolean;
   figures: { model: ModelName; body: Body; pose: Pose }[];
   arrows: Arrow[];
   labels: Label[];
@@ -35,6 +39,8 @@ export interface Bounds {
   left: number;
   right: number;
   top: number;
+  /** Of the middle, along y. */
+  depth: number;
 }
 
 export interface Motions {
@@ -71,15 +77,37 @@ export function scalesOf(motions: Motions): Scales {
  * and comes close again for the clattering.
  */
 function boundsOf(figures: Frame["figures"]): Bounds {
-  const bounds = { left: Infinity, right: -Infinity, top: 0 };
+  const bounds = { left: Infinity, right: -Infinity, top: 0, depth: 0 };
   for (const { body, pose } of figures) {
     // Perspective makes the near corner of a broad body stick out.
-    const half = body.length / 2 + 0.2 * body.width;
+    const half = Math.max(body.length / 2 + 0.2 * body.width, 0.6 * body.width, 0.6 * body.thickness);
     bounds.left = Math.min(bounds.left, pose.centre[0] - half);
     bounds.right = Math.max(bounds.right, pose.centre[0] + half);
-    bounds.top = Math.max(bounds.top, body.length * 0.55, pose.centre[2] + half * 1.15);
+    bounds.top = Math.max(bounds.top, 1.1 * half, pose.centre[2] + half * 1.15);
+    bounds.depth += pose.centre[1] / figures.length;
   }
-  return figures.length ? bounds : { left: -0.5, right: 0.5, top: 0.5 };
+  return figures.length ? bounds : { left: -0.5, right: 0.5, top: 0.5, depth: 0 };
+}
+
+/** Side by side each model stands in the middle of its part, both in the same size. */
+function boundsOfParts(figures: Frame["figures"], side: boolean): Frame["bounds"] {
+  const all = boundsOf(figures);
+  if (!side) return { discrete: all, continuous: all };
+  const own = (model: ModelName): Bounds => {
+    const only = figures.filter((figure) => figure.model === model);
+    return only.length ? boundsOf(only) : all;
+  };
+  const parts = { discrete: own("discrete"), continuous: own("continuous") };
+  const half = Math.max(...Object.values(parts).map(({ left, right }) => (right - left) / 2));
+  const top = Math.max(parts.discrete.top, parts.continuous.top);
+  const sized = ({ left, right, depth }: Bounds): Bounds =>
+    ({ left: (left + right) / 2 - half, right: (left + right) / 2 + half, top, depth });
+  return { discrete: sized(parts.discrete), continuous: sized(parts.continuous) };
+}
+
+/** Whether the axis across the plane of motion is turned out of its place. */
+function leavesPlane({ pose }: Frame["figures"][number]): boolean {
+  return Math.abs(Math.abs(rotate(pose.rotation, [0, 1, 0])[1]) - 1) > 1e-3;
 }
 
 /** The last impact that has begun at a time; null while the body still falls. */
@@ -90,7 +118,7 @@ export function impactAt(impacts: readonly Impact[], time: number): Impact | nul
 }
 
 export function frameAt(motions: Motions, time: number, scales: Scales, side: boolean): Frame {
-  const frame: Frame = { side, bounds: boundsOf([]), figures: [], arrows: [], labels: [] };
+  const frame: Frame = { side, bounds: boundsOfParts([], side), inSpace: false, figures: [], arrows: [], labels: [] };
   for (const model of ["continuous", "discrete"] as const) {
     const motion = motions[model];
     if (!motion || time > motion.end + 1e-12) continue;
@@ -100,7 +128,8 @@ export function frameAt(motions: Motions, time: number, scales: Scales, side: bo
     if (side || model === "discrete" || !motions.discrete) addEnds(frame, model, motion, pose, scales);
     addBlow(frame, model, motion, pose, time, scales, side || !motions.discrete);
   }
-  frame.bounds = boundsOf(frame.figures);
+  frame.bounds = boundsOfParts(frame.figures, side);
+  frame.inSpace = frame.figures.some(leavesPlane);
   return frame;
 }
 
@@ -127,7 +156,7 @@ function addBlow(frame: Frame, model: ModelName, motion: Motion, pose: Pose, tim
   if (model === "continuous" && !pressing && !side) return;
   const [vector, text] = pressing
     ? [pose.force.map((f) => f * scales.force) as Vector, `${significant(pose.force[2], 3)} N`]
-    : [[impact.impulse_tangential * scales.impulse, 0, impact.impulse_normal * scales.impulse] as Vector,
+    : [impact.impulse.map((part) => part * scales.impulse) as Vector,
       `${significant(impact.impulse_normal, 3)} N·s`];
   const { length } = motion.body;
   const outwards = x < pose.centre[0] ? -1 : 1;
@@ -141,10 +170,7 @@ function addBlow(frame: Frame, model: ModelName, motion: Motion, pose: Pose, tim
 }
 
 function struckPoint(motion: Motion, impact: Impact): Vector {
-  const pose = motion.pose(impact.start);
-  const [x, y] = pose.centre;
-  // "a-top" is the upper edge of end a, the lowest point of a body that has turned over; "both" has its middle below the centre.
-  const end = /^[ab]/.exec(impact.end)?.[0] as "a" | "b" | undefined;
-  if (!end || impact.end === "both") return [x, y, 0];
-  return [x + contactPoint(motion.body, end, pose.inclination), y, 0];
+  const { centre, rotation } = motion.pose(impact.start);
+  const [x, y] = plus(centre, lowestPlace(motion.body, rotation));
+  return [x, y, 0];
 }

@@ -5,19 +5,25 @@ import { EnergyBars, ForceChart } from "./charts";
 import { Controls } from "./controls";
 import { byId } from "./dom";
 import { Explanation } from "./explain";
-import { frameAt, impactAt, scalesOf, type Scales } from "./frame";
+import { download } from "./files";
+import { frameAt, impactAt, scalesOf, type ModelName, type Scales } from "./frame";
 import { AngleMap } from "./map";
 import { Models } from "./models";
 import { Numbers } from "./numbers";
 import { goOffline, hidePanels, setUpLayout } from "./panels";
+import { isInPlane } from "./parameters";
 import { Player, TimeWarp } from "./playback";
 import { Prediction } from "./prediction";
 import { explainRequest, gravityNumber } from "./requests";
 import { firstSpeed } from "./restitution";
+import { SceneFile } from "./scene_file";
 import { setUpSharing } from "./sharing";
+import { Sound } from "./sound";
 import { Stage } from "./stage";
-import { readAddress, writeAddress, type State } from "./state";
-import { ImpactTable, csvOf, download } from "./table";
+import { readAddress, usualLayout, writeAddress, type State } from "./state";
+import { setUpStory } from "./story";
+import { Strip } from "./strip";
+import { ImpactTable, csvOf } from "./table";
 import { Transport } from "./transport";
 import { impactInWords, outcomeInWords } from "./words";
 
@@ -40,7 +46,14 @@ class Page {
   private readonly energy = new EnergyBars();
   private readonly force = new ForceChart();
   private readonly explanation = new Explanation();
-  private readonly table = new ImpactTable((n) => this.goTo(n));
+  private readonly table = new ImpactTable((model, n) => this.goToImpact(model, n));
+  private readonly strip = new Strip((model, n) => this.goToImpact(model, n));
+  private readonly sound = new Sound(this.state.lock.includes("sound"));
+  private readonly showLayout: () => void;
+  /** Of the situation before. */
+  private wasInPlane = isInPlane(this.state.parameters);
+  /** When the playback showed its last frame. */
+  private playedTo = -Infinity;
   private readonly map = new AngleMap((angle) => this.setAngle(angle));
   private readonly player = new Player(new TimeWarp(0, 1, [], false), () => this.onTime());
   private readonly controls = new Controls(this.state, () => this.update(), () => this.playSoon());
@@ -67,9 +80,15 @@ class Page {
     hidePanels(state);
     this.player.rate = state.rate;
     this.transport.setSettings(state.rate, state.slow, state.lock);
-    setUpLayout(state, () => this.onTime());
+    this.showLayout = setUpLayout(state, () => this.onTime());
+    new SceneFile(state, () => this.showAnew());
+    setUpStory(state, () => {
+      this.prediction.dismiss();
+      this.showAnew();
+      byId("motion").scrollIntoView();
+    });
     setUpSharing(state, () => this.syncTime(), (asks) => { if (asks) this.prediction.open(); });
-    byId("csv").addEventListener("click", () => download("impacts.csv", csvOf(this.models.impacts)));
+    byId("csv").addEventListener("click", () => download("impacts.csv", csvOf(this.models.impacts), "text/csv"));
     if (state.predict) this.prediction.open();
     this.controls.refresh();
     this.update();
@@ -78,15 +97,32 @@ class Page {
   /** The situation changed. */
   private update(): void {
     const { parameters } = this.state;
+    this.chooseLayout();
     this.asked = performance.now();
     this.followsImpact = this.hasShown;
     this.models.ask(parameters);
     const speed = firstSpeed(parameters);
     if (speed > 0) void this.map.show(gravityNumber(parameters, speed), parameters.e);
     this.map.setAngle(parameters.angle);
-    byId("map-note").hidden = parameters.body === "rod" && parameters.friction === 0;
+    byId("map-note").hidden = parameters.body === "rod" && parameters.friction === 0 && isInPlane(parameters);
     byId("numbers-note").hidden = parameters.body !== "rod";
     this.remember();
+  }
+
+  /** Another situation as a whole, from a file or the story. */
+  private showAnew(): void {
+    this.player.pause();
+    this.controls.refresh();
+    this.update();
+  }
+
+  /** Into space and back the layout goes along; any other time it stays what was chosen. */
+  private chooseLayout(): void {
+    const { parameters, lock } = this.state;
+    const inPlane = isInPlane(parameters);
+    if (inPlane !== this.wasInPlane && !lock.includes("layout")) this.state.layout = usualLayout(parameters);
+    this.wasInPlane = inPlane;
+    this.showLayout();
   }
 
   private onAnswer(): void {
@@ -94,7 +130,8 @@ class Page {
     this.scales = scalesOf(models.motions);
     this.rewarp();
     this.prediction.setImpacts(models.steps);
-    this.table.show(models.impacts, this.state.impact);
+    this.table.show(models.impacts, models.pairing, this.state.impact);
+    this.strip.show(models.motions, models.pairing, this.state.impact);
     byId("outcome").textContent = models.discrete ? outcomeInWords(models.discrete.outcome) : "";
     this.force.show(models.continuous, models.motions.discrete, this.state.impact);
     this.explain();
@@ -116,15 +153,25 @@ class Page {
     const warp = this.models.warp(this.state.slow);
     if (!warp) return;
     this.player.setWarp(warp);
-    this.transport.setMarks(this.models.steps.map(({ start }) => this.player.progressAt(start)));
+    this.transport.setMarks(this.models.steps.map((step) => ({
+      place: this.player.progressAt(step.start), name: `${step.n}${step.predictable === false ? "?" : ""}`,
+    })));
   }
 
   /** The time moved. */
   private onTime(): void {
     const impact = impactAt(this.models.steps, this.player.time);
     if (impact && impact.n !== this.state.impact && this.player.playing) this.choose(impact.n);
+    this.hear();
     this.draw();
     if (!this.player.playing) this.remember();
+  }
+
+  private hear(): void {
+    const { time, playing } = this.player;
+    if (playing && time > this.playedTo) this.sound.pass(this.models.steps, this.playedTo, time);
+    // What was passed by while the picture stood is not heard afterwards.
+    this.playedTo = time;
   }
 
   private draw(): void {
@@ -146,6 +193,7 @@ class Page {
   private choose(n: number): void {
     this.state.impact = n;
     this.table.choose(n);
+    this.strip.choose(n);
     this.force.show(this.models.continuous, this.models.motions.discrete, n);
     this.explain();
   }
@@ -163,6 +211,15 @@ class Page {
     this.onTime();
   }
 
+  /** To an impact of either model; the equations and steps are those of the discrete one. */
+  private goToImpact(model: ModelName, n: number): void {
+    const impact = this.models.impacts[model]?.[n - 1];
+    if (this.models.impacts.discrete?.[n - 1]) this.goTo(n);
+    if (!impact || model === "discrete") return;
+    this.player.seek(impact.start);
+    this.onTime();
+  }
+
   private scrub(progress: number): void {
     this.player.pause();
     this.followsImpact = false;
@@ -176,7 +233,11 @@ class Page {
     if (this.prediction.isOpen) return;
     this.followsImpact = false;
     if (this.player.playing) this.player.pause();
-    else this.player.play();
+    else {
+      this.player.play();
+      // A blow at this very moment is to be heard.
+      this.playedTo = this.player.time - 1e-9;
+    }
     this.onTime();
   }
 

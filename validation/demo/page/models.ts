@@ -1,14 +1,17 @@
 // Both models' answers to the situation, and the motions that follow from them.
 import type { Impact, SequenceAnswer, SimulateAnswer } from "./answers";
 import { Latest, type ApiError } from "./api";
-import { CONTINUOUS_RADIUS, type Body } from "./body";
+import { CONTINUOUS_RADIUS, uniformBody, type Body } from "./body";
 import { ContinuousMotion } from "./continuous_motion";
 import { DiscreteMotion } from "./discrete_motion";
 import type { Motions } from "./frame";
+import { pairingOf, struckNames, type Pairing } from "./pairing";
+import { bodyOf, isInPlane, type Parameters } from "./parameters";
 import { TimeWarp } from "./playback";
 import { keyOf, sequenceRequest, simulateRequest } from "./requests";
-import { bodyOf, type Parameters } from "./state";
-import type { Impacts } from "./table";
+import type { Vector } from "./rotation";
+
+export type Impacts = Record<"discrete" | "continuous", readonly Impact[] | null>;
 
 /** Until a situation stands still for so long, the slower model is not asked [ms]. */
 const CONTINUOUS_DELAY = 150;
@@ -28,6 +31,7 @@ export class Models {
   continuous: SimulateAnswer | null = null;
   /** Of which situation the continuous model's answer is. */
   private continuousOf = "";
+  private body: Body | null = null;
   /** Which situation it refused last. */
   private refusedOf = "";
   private readonly sequence: Latest<SequenceAnswer, Parameters>;
@@ -53,6 +57,13 @@ export class Models {
     return { discrete: this.discrete?.impacts ?? null, continuous: this.continuous?.impacts ?? null };
   }
 
+  /** Which impacts of the two models are the same; null while one of them has none. */
+  get pairing(): Pairing | null {
+    const { discrete, continuous } = this;
+    if (!discrete || !continuous || !this.body) return null;
+    return pairingOf(this.body, discrete, continuous);
+  }
+
   /** The impacts to step through: the discrete model's, or the other's if it has none. */
   get steps(): readonly Impact[] {
     return this.discrete?.impacts ?? this.continuous?.impacts ?? [];
@@ -72,7 +83,10 @@ export class Models {
     this.events.onError("discrete", null);
     if (this.refusedOf !== key) this.events.onError("continuous", null);
     this.discrete = answer;
-    this.motions.discrete = answer.impacts.length ? new DiscreteMotion(bodyOf(parameters), answer.impacts, parameters.gravity) : null;
+    const body = { ...bodyOf(parameters), ...answer.body };
+    this.body = body;
+    this.motions.discrete = answer.impacts.length
+      ? new DiscreteMotion(body, answer.impacts, parameters.gravity, spinOf(parameters)) : null;
     if (this.continuousOf !== key) {
       // What the other model said belongs to another situation.
       this.motions.continuous = null;
@@ -84,13 +98,22 @@ export class Models {
   private onSimulation(answer: SimulateAnswer, parameters: Parameters): void {
     this.continuousOf = keyOf(simulateRequest(parameters));
     this.events.onError("continuous", null);
-    this.continuous = answer;
+    const given = bodyOf(parameters);
+    // In space an end is not enough to say what strikes.
+    const impacts = isInPlane(parameters) ? answer.impacts
+      : answer.impacts.map((impact) => ({ ...impact, corners: struckNames(given, impact) }));
+    this.continuous = { ...answer, impacts };
     this.motions.continuous = answer.history.t.length > 1
-      ? new ContinuousMotion(continuousBody(bodyOf(parameters)), answer.impacts, answer.history, parameters.gravity) : null;
+      ? new ContinuousMotion(
+        { ...continuousBody(given), ...answer.body }, impacts, answer.history, parameters.gravity) : null;
     this.events.onAnswer();
   }
 }
 
 function continuousBody(body: Body): Body {
-  return body.shape === "rod" && body.radius === 0 ? { ...body, radius: CONTINUOUS_RADIUS } : body;
+  return body.shape === "rod" && body.radius === 0 ? uniformBody({ ...body, radius: CONTINUOUS_RADIUS }) : body;
+}
+
+function spinOf({ spinning, wx, wy, wz }: Parameters): Vector {
+  return spinning ? [wx, wy, wz] : [0, 0, 0];
 }

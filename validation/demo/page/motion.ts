@@ -1,17 +1,16 @@
 // What both models' motions have in common: where the body is at a time, and where its energy is.
-import { centreHeight, type Body } from "./body";
 import type { Impact } from "./answers";
-
-export type Vector = [number, number, number];
-/** Euler parameters, the scalar first. */
-export type Rotation = [number, number, number, number];
+import { centreHeight, type Body } from "./body";
+import { FreeRotation } from "./free_rotation";
+import { cross, inclinationOf, plus, product, rotate, rotateBack, turnAbout, type Rotation, type Vector } from "./rotation";
 
 export interface Pose {
+  /** Of mass. */
   centre: Vector;
   rotation: Rotation;
   velocity: Vector;
   spin: Vector;
-  /** In the plane of motion: > 0 if end a is lower [rad]. */
+  /** > 0 if end a is lower; in the plane of motion also past the upright [rad]. */
   inclination: number;
   /** Force of the ground [N]; 0 in the discrete model, which knows impulses only. */
   force: Vector;
@@ -36,29 +35,17 @@ export interface Motion {
   energies(time: number): Energies;
 }
 
-/** Rotation about the axis across the plane of motion; an inclination is the negative of its angle. */
-export function planeRotation(inclination: number): Rotation {
-  return [Math.cos(inclination / 2), 0, -Math.sin(inclination / 2), 0];
-}
-
-export function rotate([w, x, y, z]: Rotation, [a, b, c]: Vector): Vector {
-  const tx = 2 * (y * c - z * b);
-  const ty = 2 * (z * a - x * c);
-  const tz = 2 * (x * b - y * a);
-  return [a + w * tx + y * tz - z * ty, b + w * ty + z * tx - x * tz, c + w * tz + x * ty - y * tx];
-}
-
 /** Where the middle of an end is, and how fast it moves. */
 export function endMotion(body: Body, pose: Pose, end: "a" | "b"): { place: Vector; velocity: Vector } {
   const along = end === "a" ? -body.length / 2 : body.length / 2;
-  const [x, y, z] = rotate(pose.rotation, [along, 0, 0]);
-  const [cx, cy, cz] = pose.centre;
-  const [vx, vy, vz] = pose.velocity;
-  const [wx, wy, wz] = pose.spin;
-  return {
-    place: [cx + x, cy + y, cz + z],
-    velocity: [vx + wy * z - wz * y, vy + wz * x - wx * z, vz + wx * y - wy * x],
-  };
+  const from = rotate(pose.rotation, plus([along, 0, 0], body.centre, -1));
+  return { place: plus(pose.centre, from), velocity: plus(pose.velocity, cross(pose.spin, from)) };
+}
+
+export function energyOfRotation(body: Body, { rotation, spin }: Pose): number {
+  const [x, y, z] = rotateBack(rotation, spin);
+  const [xx, yy, zz, xy, xz, yz] = body.inertia;
+  return (xx * x * x + yy * y * y + zz * z * z) / 2 + xy * x * y + xz * x * z + yz * y * z;
 }
 
 /** How long before the first touch the picture starts: a part of the whole, but not before a release from rest. */
@@ -67,7 +54,7 @@ export function leadIn(impacts: readonly Impact[], speed: number, gravity: numbe
   const span = last ? last.start + last.duration : 0;
   const crossing = (0.4 * length) / Math.max(speed, 1e-9);
   const lead = Math.min(Math.max(0.3 * span, 0.1 * crossing), crossing);
-  return gravity > 0 ? Math.min(lead, speed / gravity) : lead;
+  return gravity > 0 ? Math.min(lead, Math.max(0, speed) / gravity) : lead;
 }
 
 /** Until when the flight after the last impact is shown: for a while, but never into the ground. */
@@ -75,25 +62,41 @@ export function leadOut(body: Body, from: number, begin: number, pose: (time: nu
   const span = Math.max(0.5 * from, -begin);
   const steps = 60;
   for (let i = 1; i <= steps; i++) {
-    const { centre, inclination } = pose(from + (span * i) / steps);
-    if (centre[2] < centreHeight(body, inclination) - 1e-9) return from + (span * (i - 1)) / steps;
+    const { centre, rotation } = pose(from + (span * i) / steps);
+    if (centre[2] < centreHeight(body, rotation) - 1e-9) return from + (span * (i - 1)) / steps;
   }
   return from + span;
 }
 
-/** Free flight in the plane, so long before or after a known pose. */
-export function coast(known: Pose, gravity: number, time: number): Pose {
-  const [x, y, z] = known.centre;
-  const [vx, vy, vz] = known.velocity;
-  const [c, , s] = planeRotation(-known.spin[1] * time);
-  const [a, b, d, e] = known.rotation;
-  return {
-    ...known,
-    rotation: [c * a - s * d, c * b + s * e, c * d + s * a, c * e - s * b],
-    inclination: known.inclination - known.spin[1] * time,
-    centre: [x + vx * time, y + vy * time, z + vz * time - (gravity * time * time) / 2],
-    velocity: [vx, vy, vz - gravity * time],
-    force: [0, 0, 0],
-    inContact: false,
-  };
+/** A free flight before or after a known pose. */
+export class Flight {
+  private readonly turning: FreeRotation | null;
+
+  /** @param span how long it may last, negative before the pose [s] */
+  constructor(body: Body, readonly known: Pose, private readonly gravity: number, span: number) {
+    const [x, y, z] = rotateBack(known.rotation, known.spin);
+    const isStill = x === 0 && y === 0 && z === 0;
+    // About an axis of the body that lies across the plane of motion the spin is constant.
+    const [, , , xy, , yz] = body.inertia;
+    const isPlane = Math.hypot(x, z) <= 1e-9 * Math.abs(y) && xy === 0 && yz === 0;
+    this.turning = isStill || isPlane ? null : new FreeRotation(body.inertia, known, span);
+  }
+
+  /** So long after the known pose. */
+  pose(time: number): Pose {
+    const { known } = this;
+    const [vx, vy, vz] = known.velocity;
+    const { rotation, spin } = this.turning?.at(time) ?? this.steady(time);
+    return {
+      rotation, spin, inclination: inclinationOf(rotation),
+      centre: plus(plus(known.centre, known.velocity, time), [0, 0, (-this.gravity * time * time) / 2]),
+      velocity: [vx, vy, vz - this.gravity * time], force: [0, 0, 0], inContact: false,
+    };
+  }
+
+  private steady(time: number): { rotation: Rotation; spin: Vector } {
+    const { rotation, spin } = this.known;
+    const rate = rotateBack(rotation, spin)[1];
+    return { rotation: rate === 0 ? rotation : product(rotation, turnAbout(1, rate * time)), spin };
+  }
 }

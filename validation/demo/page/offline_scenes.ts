@@ -3,7 +3,7 @@ import { type BodyName } from "./body";
 import { MAP_RANGE } from "./map_range";
 import { anglesRequest, canonical, explainRequest, gravityNumber, keyOf, sequenceRequest, simulateRequest } from "./requests";
 import { firstSpeed } from "./restitution";
-import { DEFAULT_PARAMETERS, setBody, type Parameters } from "./state";
+import { DEFAULT_PARAMETERS, setBody, type Parameters } from "./parameters";
 
 export interface Scene {
   name: string;
@@ -30,6 +30,13 @@ export const SCENES: readonly Scene[] = [
   scene("thick-rod", "Thick rod", "thick-rod", { gravity: 9.81, e: 0.9 }),
   scene("phone-damped", "Phone, damped", "phone", { ...PHONE, e: 0.75, friction: 0.075, damping: 1e7 }),
   scene("phone-elastic", "Phone, elastic", "phone", { ...PHONE, damping: 0 }),
+  scene("phone-corner", "Phone on its corner", "phone", {
+    ...PHONE, turn: "tilted", angle: 30, tilt: 40, e: 0.77, friction: 0.075, damping: 1e7, impacts: 3,
+  }),
+  scene("box-edge", "Box along an edge", "own-box", {
+    turn: "orientation", orientation: 8, drop: "velocity", vx: 0.2, vy: 0.1, vz: -2, spinning: true, wx: 1, wy: 2, wz: 0,
+    gravity: 9.81, e: 0.8, friction: 0.3, stiffness: 1e9, impacts: 3,
+  }),
 ];
 
 /** So much of a scene fits into an offline copy of 2 MB: a phone's contacts and flights take many samples. */
@@ -39,11 +46,12 @@ const OFFLINE: Readonly<Record<string, { angles: number[]; impacts: number }>> =
   "thick-rod": { angles: [10, 20, 30, 45], impacts: 3 },
   "phone-damped": { angles: [10, 20, 30], impacts: 3 },
   "phone-elastic": { angles: [10, 30], impacts: 2 },
+  "phone-corner": { angles: [30], impacts: 2 },
 };
 const EXPLAINED_IMPACTS = 2;
 
 export function offlineScenes(): OfflineScene[] {
-  return SCENES.map(({ name, title, parameters: online }) => {
+  return SCENES.filter(({ name }) => name in OFFLINE).map(({ name, title, parameters: online }) => {
     const { angles, impacts } = OFFLINE[name] ?? { angles: [], impacts: 3 };
     const parameters = { ...online, impacts, angle: angles.includes(online.angle) ? online.angle : (angles[0] ?? 10) };
     const { from, to, count } = MAP_RANGE;

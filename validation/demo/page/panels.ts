@@ -1,15 +1,20 @@
 // Panels and switches that only show the state: what is hidden, how the models are laid out, what an offline copy lacks.
 import { offlineScenes } from "./api";
 import { byId } from "./dom";
-import { PANELS, type Parameters, type State } from "./state";
+import type { Parameters } from "./parameters";
+import { PANELS, type State } from "./state";
 
 export function hidePanels(state: State): void {
-  for (const panel of PANELS) byId(`panel-${panel}`).hidden = state.hide.includes(panel);
+  for (const panel of PANELS) {
+    const box = document.getElementById(panel === "story" ? "story" : `panel-${panel}`);
+    if (box) box.hidden = state.hide.includes(panel);
+  }
   byId("panel-controls").hidden = state.hide.includes("controls");
   document.body.classList.toggle("no-controls", state.hide.includes("controls"));
 }
 
-export function setUpLayout(state: State, onChange: () => void): void {
+/** @return shows the layout of the state */
+export function setUpLayout(state: State, onChange: () => void): () => void {
   const buttons = [...document.querySelectorAll<HTMLButtonElement>("button[data-layout]")];
   const show = (): void => {
     byId("stage").dataset["layout"] = state.layout;
@@ -24,6 +29,7 @@ export function setUpLayout(state: State, onChange: () => void): void {
     });
   }
   show();
+  return show;
 }
 
 /** An offline copy shows what a link names if it holds that, else the nearest of what it holds. */

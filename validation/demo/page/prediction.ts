@@ -48,6 +48,11 @@ export class Prediction {
     document.body.classList.add("predicting");
   }
 
+  /** Without an answer and without what follows one. */
+  dismiss(): void {
+    if (this.isOpen) this.close();
+  }
+
   private tell(): void {
     this.reveal.textContent = this.guess && this.impacts.length ? revealed(this.guess, this.impacts) : "";
   }

@@ -1,5 +1,5 @@
 // The sliders: what they are called, their range and scale. The program, not the page, says which numbers are allowed.
-import type { Quantity } from "./state";
+import type { Quantity } from "./parameters";
 
 export interface QuantitySpec {
   label: string;
@@ -18,10 +18,20 @@ export interface QuantitySpec {
 const linear = (label: string, unit: string, min: number, max: number, step: number): QuantitySpec =>
   ({ label, unit, min, max, step, scale: "linear" });
 
+/** Parts of a vector: fields without a slider. */
+function parts<Name extends Quantity>(names: readonly Name[], unit: string, most: number): Record<Name, QuantitySpec> {
+  return Object.fromEntries(names.map((name) => [name, linear(name, unit, -most, most, 0.01)])) as Record<Name, QuantitySpec>;
+}
+
 export const SPECS: Readonly<Record<Quantity, QuantitySpec>> = {
   angle: linear("Angle", "°", 0, 90, 0.1),
+  tilt: linear("Tilt before", "°", -180, 180, 0.5),
+  orientation: linear("Part that points down", "", 1, 26, 1),
+  ...parts(["q0", "q1", "q2", "q3"], "", 1),
   speed: linear("Speed", "m/s", 0.1, 10, 0.1),
   height: linear("Height", "m", 0.1, 3, 0.01),
+  ...parts(["vx", "vy", "vz"], "m/s", 10),
+  ...parts(["wx", "wy", "wz"], "rad/s", 100),
   gravity: linear("Gravity", "m/s²", 0, 25, 0.01),
   e: { ...linear("Restitution", "", 0, 1, 0.01), symbol: "e" },
   friction: { ...linear("Friction", "", 0, 1, 0.005), symbol: "μ" },
@@ -41,7 +51,8 @@ export const SPECS: Readonly<Record<Quantity, QuantitySpec>> = {
 
 /** What the program calls these quantities in its messages. */
 const BLAMED: Readonly<Record<string, Quantity>> = {
-  restitution: "e", static_friction: "friction", sliding_friction: "friction", size: "length",
+  restitution: "e", static_friction: "friction", sliding_friction: "friction", size: "length", attitude: "q0",
+  velocity: "vx", angular_velocity: "wx",
 };
 
 export function blamedQuantity(name: string | undefined): Quantity | undefined {

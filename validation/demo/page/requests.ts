@@ -1,9 +1,9 @@
 // The requests that the page makes. Both the page and its build use them, so that the keys of an offline copy agree.
 import { CONTINUOUS_RADIUS } from "./body";
 import { dampingOf } from "./restitution";
-import { bodyOf, type Parameters } from "./state";
+import { bodyOf, isInPlane, type Parameters } from "./parameters";
 
-export type Path = "sequence" | "angles" | "explain" | "simulate";
+export type Path = "sequence" | "angles" | "explain" | "simulate" | "scene" | "file";
 export type Json = string | number | boolean | null | Json[] | { [key: string]: Json };
 export interface Request {
   path: Path;
@@ -24,7 +24,7 @@ export function canonical(body: Request["body"]): string {
 
 export function sequenceRequest(parameters: Parameters): Request {
   const body = { ...drop(parameters), ...shape(parameters, 0), restitution: parameters.e };
-  return { path: "sequence", body: parameters.friction === 0 ? body : { ...body, friction: parameters.friction } };
+  return { path: "sequence", body: { ...body, ...friction(parameters), ...parameters.extra } };
 }
 
 /** Fewer digits in the equations than the program's six: they are to be read. */
@@ -34,14 +34,32 @@ export function explainRequest(parameters: Parameters, impact: number): Request 
 }
 
 export function simulateRequest(parameters: Parameters): Request {
-  const { stiffness, friction, planar } = parameters;
-  const body: Request["body"] = {
-    ...drop(parameters), ...shape(parameters, CONTINUOUS_RADIUS), stiffness, digits: CONTINUOUS_DIGITS, planar, history: true,
-  };
+  const body = { ...drop(parameters), ...shape(parameters, CONTINUOUS_RADIUS), ...ground(parameters) };
+  const run = { digits: CONTINUOUS_DIGITS, planar: parameters.planar && isInPlane(parameters), history: true };
+  return { path: "simulate", body: { ...body, ...run, ...parameters.extra } };
+}
+
+/** A scene file of what both models are asked. */
+export function fileRequest(parameters: Parameters): Request {
+  const both = { ...sequenceRequest(parameters).body, ...ground(parameters), ...parameters.extra };
+  return { path: "file", body: parameters.planar && isInPlane(parameters) ? { ...both, planar: true } : both };
+}
+
+export function sceneRequest(name: string, text: string): Request {
+  return { path: "scene", body: { name, text } };
+}
+
+function friction({ friction: coefficient }: Parameters): Request["body"] {
+  return coefficient === 0 ? {} : { friction: coefficient };
+}
+
+function ground(parameters: Parameters): Request["body"] {
+  const { stiffness, friction: coefficient } = parameters;
   const damping = dampingOf(parameters);
-  if (damping !== 0) body["damping"] = damping;
-  if (friction !== 0) Object.assign(body, { static_friction: friction, sliding_friction: friction });
-  return { path: "simulate", body };
+  return {
+    stiffness, ...(damping === 0 ? {} : { damping }),
+    ...(coefficient === 0 ? {} : { static_friction: coefficient, sliding_friction: coefficient }),
+  };
 }
 
 /** G = g L/v², the one number by which gravity enters the map of contact angles. */
@@ -54,8 +72,23 @@ export function anglesRequest(gravity: number, e: number, from: number, to: numb
 }
 
 function drop(parameters: Parameters): Request["body"] {
-  const { angle, gravity, impacts } = parameters;
-  return { angle, gravity, impacts, [parameters.drop]: parameters[parameters.drop] };
+  const { gravity, impacts } = parameters;
+  return { ...attitude(parameters), ...motion(parameters), gravity, impacts };
+}
+
+function attitude({ turn, angle, tilt, orientation, q0, q1, q2, q3 }: Parameters): Request["body"] {
+  switch (turn) {
+    case "plane": return { angle };
+    case "tilted": return { angle, tilt };
+    case "orientation": return { orientation };
+    case "attitude": return { attitude: [q0, q1, q2, q3] };
+  }
+}
+
+function motion(parameters: Parameters): Request["body"] {
+  const { drop: given, speed, height, vx, vy, vz, spinning, wx, wy, wz } = parameters;
+  const moved = given === "velocity" ? { velocity: [vx, vy, vz] } : given === "height" ? { height } : { speed };
+  return spinning ? { ...moved, angular_velocity: [wx, wy, wz] } : moved;
 }
 
 function shape(parameters: Parameters, leastRadius: number): Request["body"] {

@@ -1,7 +1,8 @@
 // Which damping of the ground gives a coefficient of restitution: the exact relation for one frictionless contact whose
 // depth is one number, s = (c_G/k_G) v, ln[(1 + s)/(1 − s e)] = s (1 + e).
-import { bodyOf, type Parameters } from "./state";
+import { attitudeOf } from "./attitude";
 import { centreHeight } from "./body";
+import { bodyOf, type Parameters } from "./parameters";
 
 function dampingFor(e: number, stiffness: number, speed: number): number {
   if (!(e < 1) || !(speed > 0)) return 0;
@@ -22,7 +23,9 @@ function dampingFor(e: number, stiffness: number, speed: number): number {
 /** Downward speed of the centre of mass at the first touch [m/s]; 0 if the body is not released above that. */
 export function firstSpeed(parameters: Parameters): number {
   if (parameters.drop === "speed") return parameters.speed;
-  const fall = parameters.height - centreHeight(bodyOf(parameters), (parameters.angle * Math.PI) / 180);
+  if (parameters.drop === "velocity") return Math.max(0, -parameters.vz);
+  const body = bodyOf(parameters);
+  const fall = parameters.height - centreHeight(body, attitudeOf(parameters, body));
   return Math.sqrt(Math.max(0, 2 * parameters.gravity * fall));
 }
 

@@ -1,5 +1,6 @@
 // Handing on what is shown, as a link.
 import { byId } from "./dom";
+import { copyText } from "./files";
 import { addressOf, type State } from "./state";
 
 export function setUpSharing(state: State, sync: () => void, onAskFirst: (asks: boolean) => void): void {
@@ -8,7 +9,8 @@ export function setUpSharing(state: State, sync: () => void, onAskFirst: (asks: 
   button.addEventListener("click", () => {
     sync();
     const link = addressOf(state);
-    void copy(link).then((copied) => {
+    // Where a browser does not let a page write to the clipboard, the link is shown instead.
+    void copyText(link).then((copied) => {
       done.textContent = copied ? "Link copied" : link;
       setTimeout(() => { done.textContent = ""; }, copied ? 2500 : 20_000);
     });
@@ -20,14 +22,4 @@ export function setUpSharing(state: State, sync: () => void, onAskFirst: (asks: 
     state.predict = askFirst.checked;
     onAskFirst(askFirst.checked);
   });
-}
-
-/** Where a browser does not let a page write to the clipboard, the link is shown instead. */
-async function copy(text: string): Promise<boolean> {
-  try {
-    await navigator.clipboard.writeText(text);
-    return true;
-  } catch {
-    return false;
-  }
 }

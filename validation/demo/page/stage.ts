@@ -1,21 +1,9 @@
 // The picture and the labels over it.
 import { byId, make } from "./dom";
 import { FlatView } from "./flat_view";
-import type { Frame, ModelName } from "./frame";
-import type { Vector } from "./motion";
+import type { Frame } from "./frame";
+import type { View } from "./picture";
 import { SpaceView } from "./view";
-
-/** Place in the picture, from its upper left corner [px]. */
-export interface Projection {
-  x: number;
-  y: number;
-}
-
-export interface View {
-  resize(width: number, height: number): void;
-  draw(frame: Frame): void;
-  project(model: ModelName, point: Vector, side: boolean): Projection;
-}
 
 export class Stage {
   private readonly box = byId("stage");

@@ -1,21 +1,11 @@
 // What the page shows, and its form as a link: the query string holds everything that a colleague needs to see the same.
-import { BODIES, type Body, type BodyName } from "./body";
+import { BODIES, type BodyName } from "./body";
+import {
+  DEFAULT_PARAMETERS, DROPS, QUANTITIES, TURNS, isInPlane, isUsed, setBody, type Choices, type Parameters, type Quantity,
+} from "./parameters";
+import { parametersOf } from "./scene_arguments";
 
-export const QUANTITIES = ["angle", "speed", "height", "gravity", "e", "friction", "stiffness", "damping", "impacts",
-  "mass", "length", "radius", "width", "thickness"] as const;
-export type Quantity = (typeof QUANTITIES)[number];
-
-export const PANELS = ["numbers", "table", "force", "energy", "map", "explain"] as const;
-
-/** The situation: all that the two models need. SI units, angles in degrees. */
-export interface Parameters extends Record<Quantity, number> {
-  body: BodyName;
-  /** What is given: the speed at the first touch, or the height of release. */
-  drop: "speed" | "height";
-  /** The ground's damping is that which gives the coefficient of restitution e. */
-  follow: boolean;
-  planar: boolean;
-}
+export const PANELS = ["story", "strip", "numbers", "table", "force", "energy", "map", "explain"] as const;
 
 export interface State {
   parameters: Parameters;
@@ -34,11 +24,10 @@ export interface State {
 
 export const RATES = [0.25, 0.5, 1, 2] as const;
 
-export const DEFAULT_PARAMETERS: Parameters = {
-  body: "rod", drop: "speed", angle: 10, speed: 1, height: 1, gravity: 0, e: 1, friction: 0,
-  stiffness: 1e10, damping: 0, follow: true, impacts: 6, planar: true,
-  mass: 1, length: 1, radius: 0, width: 0.07, thickness: 0.01,
-};
+/** In space the models stand beside each other: what tumbles cannot be told apart in one place. */
+export function usualLayout(parameters: Parameters): State["layout"] {
+  return isInPlane(parameters) ? "overlay" : "side";
+}
 
 function defaultState(): State {
   return {
@@ -47,23 +36,28 @@ function defaultState(): State {
   };
 }
 
-export function bodyOf(parameters: Parameters): Body {
-  const { mass, length, radius, width, thickness } = parameters;
-  if (parameters.body === "own-rod") return { shape: "rod", mass, length, radius, width: 0, thickness: 0 };
-  if (parameters.body === "own-box") return { shape: "box", mass, length, radius: 0, width, thickness };
-  return BODIES[parameters.body].body;
+/** Of a scene's arguments without a control: their names in a link begin so. */
+const EXTRA = "with.";
+/** What a link says of the view, not of the situation. */
+const VIEW = ["impact", "t", "layout", "rate", "slow", "predict", "lock", "hide", "given"];
+
+/** The choice without which a quantity would not be the one that counts. */
+function choiceOf(quantity: Quantity): keyof Choices | null {
+  if (/^(angle|tilt|orientation|q\d)$/.test(quantity)) return "turn";
+  if (/^(speed|height|v[xyz])$/.test(quantity)) return "drop";
+  if (/^w[xyz]$/.test(quantity)) return "spinning";
+  return /^(mass|length|radius|width|thickness)$/.test(quantity) ? "body" : null;
 }
 
-/** A size means something only for a body of one's own, a height only if it is what is given. */
-export function isUsed(parameters: Parameters, quantity: Quantity): boolean {
-  switch (quantity) {
-    case "speed": return parameters.drop === "speed";
-    case "height": return parameters.drop === "height";
-    case "mass": case "length": return parameters.body.startsWith("own");
-    case "radius": return parameters.body === "own-rod";
-    case "width": case "thickness": return parameters.body === "own-box";
-    default: return true;
-  }
+/** Takes over a situation, but for what the link of a class has locked; @return names of what stays as it was. */
+export function assignUnlocked({ parameters, lock }: State, wanted: Parameters): string[] {
+  const locked = lock.filter((name): name is keyof Parameters => name in parameters);
+  const choices = locked.map((name) => choiceOf(name as Quantity)).filter((name) => name !== null);
+  const kept = [...new Set<keyof Parameters>([...locked, ...choices])];
+  const differing = kept.filter((name) => parameters[name] !== wanted[name]);
+  const before = Object.fromEntries(kept.map((name) => [name, parameters[name]]));
+  Object.assign(parameters, wanted, before);
+  return differing;
 }
 
 function toQuery(state: State): string {
@@ -74,10 +68,12 @@ function toQuery(state: State): string {
     if (quantity === "damping" && parameters.follow) continue;
     if (isUsed(parameters, quantity)) query.set(quantity, String(parameters[quantity]));
   }
+  if (parameters.turn !== "plane") query.set("turn", parameters.turn);
   if (!parameters.planar) query.set("planar", "0");
+  for (const [name, text] of Object.entries(parameters.extra)) query.set(EXTRA + name, text);
   query.set("impact", String(state.impact));
   if (Number.isFinite(state.time)) query.set("t", String(state.time));
-  if (state.layout === "side") query.set("layout", "side");
+  if (state.layout !== usualLayout(parameters)) query.set("layout", state.layout);
   if (state.rate !== 1) query.set("rate", String(state.rate));
   if (!state.slow) query.set("slow", "0");
   if (!state.predict) query.set("predict", "0");
@@ -86,25 +82,45 @@ function toQuery(state: State): string {
   return query.toString().replace(/%2C/g, ",");
 }
 
+function numberIn(query: URLSearchParams, key: string, otherwise: number): number {
+  const given = query.get(key);
+  return given === null || given.trim() === "" || !Number.isFinite(Number(given)) ? otherwise : Number(given);
+}
+
 /** Numbers pass as they are given, even senseless ones: the program says what is allowed. */
-function fromQuery(text: string): State {
-  const query = new URLSearchParams(text);
-  const state = defaultState();
-  const { parameters } = state;
-  const number = (key: string, otherwise: number): number => {
-    const given = query.get(key);
-    return given === null || given.trim() === "" || !Number.isFinite(Number(given)) ? otherwise : Number(given);
-  };
-  const list = (key: string): string[] => (query.get(key) ?? "").split(",").map((s) => s.trim()).filter(Boolean);
+function situationIn(query: URLSearchParams): Parameters {
+  if (query.has("given")) return parametersOf(Object.fromEntries([...query].filter(([name]) => !VIEW.includes(name))));
+  const parameters = { ...DEFAULT_PARAMETERS };
   const body = query.get("body");
   if (body !== null && Object.hasOwn(BODIES, body)) setBody(parameters, body as BodyName);
-  parameters.drop = query.has("height") && !query.has("speed") ? "height" : "speed";
-  for (const quantity of QUANTITIES) parameters[quantity] = number(quantity, parameters[quantity]);
-  parameters.follow = !query.has("damping");
-  parameters.planar = query.get("planar") !== "0";
+  Object.assign(parameters, choicesIn(query));
+  for (const quantity of QUANTITIES) parameters[quantity] = numberIn(query, quantity, parameters[quantity]);
+  parameters.extra = Object.fromEntries([...query].filter(([name]) => name.startsWith(EXTRA))
+    .map(([name, text]) => [name.slice(EXTRA.length), text]));
+  return parameters;
+}
+
+function choicesIn(query: URLSearchParams): Omit<Choices, "body"> {
+  const hasAny = (...names: Quantity[]): boolean => names.some((name) => query.has(name));
+  const turn = hasAny("q0", "q1", "q2", "q3") ? "attitude" : hasAny("orientation") ? "orientation" : hasAny("tilt") ? "tilted" : "plane";
+  const drop = hasAny("vx", "vy", "vz") ? "velocity" : hasAny("height") && !hasAny("speed") ? "height" : "speed";
+  return {
+    turn: TURNS.find((one) => one === query.get("turn")) ?? turn, drop: DROPS.find((one) => one === query.get("drop")) ?? drop,
+    spinning: hasAny("wx", "wy", "wz"), follow: !query.has("damping"), planar: query.get("planar") !== "0",
+  };
+}
+
+/** What a link says. */
+export function stateOf(text: string): State {
+  const query = new URLSearchParams(text);
+  const state = defaultState();
+  const number = (key: string, otherwise: number): number => numberIn(query, key, otherwise);
+  const list = (key: string): string[] => (query.get(key) ?? "").split(",").map((s) => s.trim()).filter(Boolean);
+  state.parameters = situationIn(query);
   state.impact = Math.max(1, Math.round(number("impact", 1)));
   state.time = number("t", query.has("impact") ? NaN : 0);
-  state.layout = query.get("layout") === "side" ? "side" : "overlay";
+  const layout = query.get("layout");
+  state.layout = layout === "side" || layout === "overlay" ? layout : usualLayout(state.parameters);
   state.rate = RATES.find((rate) => rate === number("rate", 1)) ?? 1;
   state.slow = query.get("slow") !== "0";
   state.predict = query.get("predict") !== "0";
@@ -113,18 +129,11 @@ function fromQuery(text: string): State {
   return state;
 }
 
-/** Chooses a body; one's own starts with sizes that make sense for its shape. */
-export function setBody(parameters: Parameters, name: BodyName): void {
-  parameters.body = name;
-  const { mass, length, radius, width, thickness } = BODIES[name].body;
-  Object.assign(parameters, { mass, length, radius, width, thickness });
-}
-
 // An offline copy is a file: there only the fragment of its address may change.
 const inFragment = (): boolean => location.protocol === "file:";
 
 export function readAddress(): State {
-  return fromQuery(inFragment() ? location.hash.slice(1) : location.search);
+  return stateOf(inFragment() ? location.hash.slice(1) : location.search);
 }
 
 export function addressOf(state: State): string {

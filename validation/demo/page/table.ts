@@ -3,6 +3,8 @@ import type { Impact } from "./answers";
 import { byId, make } from "./dom";
 import { significant } from "./format";
 import type { ModelName } from "./frame";
+import type { Impacts } from "./models";
+import { growth, type Pairing } from "./pairing";
 import { CONTINUOUS_DIGITS } from "./requests";
 
 interface Column {
@@ -16,32 +18,44 @@ const COLUMNS: readonly Column[] = [
   { title: "Angle", unit: "°", value: (i) => i.contact_angle_deg },
   { title: "Impulse", unit: "N·s", value: (i) => i.impulse_normal },
   { title: "Velocity after", unit: "m/s", value: (i) => i.velocity_after[2] },
-  { title: "Spin after", unit: "rad/s", value: (i) => i.angular_velocity_after[1] },
+  { title: "Spin after", unit: "rad/s", value: (i) => spinOf(i) },
   { title: "Lasts", unit: "ms", value: (i) => (i.peak_force === null ? null : i.duration * 1e3) },
   { title: "Peak force", unit: "N", value: (i) => i.peak_force },
   { title: "Energy lost", unit: "J", value: (i) => lossWithoutRounding(i) },
 ];
 
+/** About the axis across the plane; in space, where it has no such axis, its size. */
+function spinOf({ corners, angular_velocity_after: spin }: Impact): number {
+  return corners ? Math.hypot(...spin) : spin[1];
+}
+
 const DIGITS: Readonly<Record<ModelName, number>> = { discrete: 6, continuous: CONTINUOUS_DIGITS };
 
-export type Impacts = Record<ModelName, readonly Impact[] | null>;
+const MODELS = ["discrete", "continuous"] as const;
 
 export class ImpactTable {
   private readonly table = byId("impact-table");
   private readonly body = make("tbody");
 
-  constructor(private readonly onChoose: (n: number) => void) {
+  private readonly notes = byId("pairing");
+
+  constructor(private readonly onChoose: (model: ModelName, n: number) => void) {
     const heads = COLUMNS.map(({ title, unit }) => make("th", { scope: "col" }, title, make("span", { class: "unit" }, unit)));
-    const first = ["Impact", "Model", "End"].map((title) => make("th", { scope: "col" }, title));
+    const first = ["Impact", "Model", "Where"].map((title) => make("th", { scope: "col" }, title));
     this.table.append(make("thead", {}, make("tr", {}, ...first, ...heads)), this.body);
   }
 
-  show(impacts: Impacts, chosen: number): void {
-    const count = Math.max(impacts.discrete?.length ?? 0, impacts.continuous?.length ?? 0);
+  /** Rows of one impact stand together where it is the same in both models. */
+  show(impacts: Impacts, pairing: Pairing | null, chosen: number): void {
+    const paired = pairing?.count ?? 0;
+    const groups = Array.from({ length: paired }, (_, i) => MODELS.map((model) => ({ model, impact: impacts[model]?.[i] })));
+    for (const model of MODELS) for (const impact of impacts[model]?.slice(paired) ?? []) groups.push([{ model, impact }]);
     // Rows that are replaced while the focus is on one of their buttons would lose it.
     const focused = (document.activeElement as HTMLElement | null)?.dataset["choose"];
-    this.body.replaceChildren(...Array.from({ length: count }, (_, i) => this.rows(impacts, i + 1, chosen)).flat());
+    this.body.replaceChildren(...groups.flatMap((group) => this.rows(group, chosen)));
     if (focused) this.body.querySelector<HTMLElement>(`[data-choose="${focused}"]`)?.focus();
+    const lines = [pairingInWords(impacts, pairing), ...MODELS.map((model) => unpredictableInWords(impacts[model] ?? [], model))];
+    this.notes.replaceChildren(...lines.filter(Boolean).map((line) => make("p", {}, line)));
   }
 
   choose(chosen: number): void {
@@ -52,23 +66,43 @@ export class ImpactTable {
     }
   }
 
-  private rows(impacts: Impacts, n: number, chosen: number): HTMLTableRowElement[] {
-    const models = (["discrete", "continuous"] as const).filter((model) => impacts[model]?.[n - 1]);
-    return models.map((model, i) => {
-      const impact = impacts[model]?.[n - 1] as Impact;
-      const row = make("tr", { "data-impact": n, "data-model": model, class: n === chosen ? "chosen" : "" });
-      if (i === 0) {
-        const button = make("button", {
-          type: "button", "data-choose": n, "aria-pressed": String(n === chosen), "aria-label": `Explain impact ${n}`,
-        }, String(n));
-        row.append(make("th", { scope: "rowgroup", rowspan: models.length }, button));
-      }
-      row.append(make("td", {}, make("span", { class: `swatch ${model}` }), model), make("td", {}, impact.end));
+  private rows(group: { model: ModelName; impact: Impact | undefined }[], chosen: number): HTMLTableRowElement[] {
+    return group.flatMap(({ model, impact }, i) => {
+      if (!impact) return [];
+      const { n } = impact;
+      const marks = [n === chosen ? "chosen" : "", impact.predictable === false ? "unpredictable" : ""].filter(Boolean);
+      const row = make("tr", { "data-impact": n, "data-model": model, class: marks.join(" ") });
+      if (i === 0) row.append(this.head(n, chosen, group.length, model));
+      const where = (impact.corners ?? impact.end).replace(/-(?=[xyz])/g, "−");
+      row.append(make("td", {}, make("span", { class: `swatch ${model}` }), model), make("td", {}, where));
       row.append(...COLUMNS.map(({ title, value }) => cell(title, value(impact), impact, model)));
-      row.addEventListener("click", () => this.onChoose(n));
-      return row;
+      row.addEventListener("click", () => this.onChoose(model, n));
+      return [row];
     });
   }
+
+  private head(n: number, chosen: number, rows: number, model: ModelName): HTMLElement {
+    const alone = rows > 1 ? "" : ` of the ${model} model`;
+    const choose = rows > 1 || model === "discrete" ? String(n) : `${model}-${n}`;
+    const label = model === "continuous" ? `Show impact ${n}${alone}` : `Explain impact ${n}${alone}`;
+    const button = make("button", {
+      type: "button", "data-choose": choose, "aria-pressed": String(n === chosen), "aria-label": label,
+    }, String(n));
+    return make("th", { scope: "rowgroup", rowspan: rows }, button);
+  }
+}
+
+/** "Impact 3 is not the same in both models: …; nor are those that follow." */
+function pairingInWords({ discrete, continuous }: Impacts, pairing: Pairing | null): string {
+  if (!pairing?.reason) return "";
+  const next = pairing.count + 1;
+  const follow = Math.max(discrete?.length ?? 0, continuous?.length ?? 0) > next ? "; nor are those that follow" : "";
+  return `Impact ${next} is not the same in both models: ${pairing.reason.replace(/-(?=[xyz])/g, "−")}${follow}.`;
+}
+
+function unpredictableInWords(impacts: readonly Impact[], model: ModelName): string {
+  const first = impacts.find(({ predictable }) => predictable === false);
+  return first ? `?: in the ${model} model impact ${first.n} cannot be predicted, nor what follows${growth(first)}.` : "";
 }
 
 function cell(title: string, value: number | null, impact: Impact, model: ModelName): HTMLElement {
@@ -82,12 +116,13 @@ function lossWithoutRounding({ energy_loss, energy_before }: Impact): number {
 }
 
 const CSV: readonly [string, (impact: Impact) => number | string | null][] = [
-  ["n", (i) => i.n], ["end", (i) => i.end], ["start_s", (i) => i.start], ["duration_s", (i) => i.duration],
+  ["n", (i) => i.n], ["end", (i) => i.end], ["corners", (i) => i.corners ?? ""], ["predictable", (i) => String(i.predictable !== false)], ["start_s", (i) => i.start], ["duration_s", (i) => i.duration],
   ["inclination_deg", (i) => i.inclination_deg], ["contact_angle_deg", (i) => i.contact_angle_deg],
   ["approach_speed_m_s", (i) => i.approach_speed], ["restitution", (i) => i.restitution],
   ["impulse_normal_N_s", (i) => i.impulse_normal], ["impulse_tangential_N_s", (i) => i.impulse_tangential],
-  ["peak_force_N", (i) => i.peak_force], ["velocity_x_m_s", (i) => i.velocity_after[0]],
+  ["peak_force_N", (i) => i.peak_force], ["velocity_x_m_s", (i) => i.velocity_after[0]], ["velocity_y_m_s", (i) => i.velocity_after[1]],
   ["velocity_z_m_s", (i) => i.velocity_after[2]], ["spin_rad_s", (i) => i.angular_velocity_after[1]],
+  ["spin_x_rad_s", (i) => i.angular_velocity_after[0]], ["spin_z_rad_s", (i) => i.angular_velocity_after[2]],
   ["energy_before_J", (i) => i.energy_before], ["energy_after_J", (i) => i.energy_after], ["energy_loss_J", (i) => i.energy_loss],
 ];
 
@@ -96,10 +131,4 @@ export function csvOf(impacts: Impacts): string {
   const rows = (["discrete", "continuous"] as const).flatMap((model) =>
     (impacts[model] ?? []).map((impact) => [model, ...CSV.map(([, value]) => value(impact) ?? "")].join(",")));
   return [["model", ...CSV.map(([name]) => name)].join(","), ...rows].join("\n") + "\n";
-}
-
-export function download(name: string, text: string): void {
-  const url = URL.createObjectURL(new Blob([text], { type: "text/csv" }));
-  make("a", { href: url, download: name }).click();
-  setTimeout(() => URL.revokeObjectURL(url), 10_000);
 }

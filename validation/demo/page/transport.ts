@@ -40,12 +40,12 @@ export class Transport {
     this.slow.disabled = lock.includes("slow");
   }
 
-  setMarks(places: readonly number[]): void {
-    this.marks.replaceChildren(...places.map((place, i) => {
-      const mark = make("span", {}, String(i + 1));
+  setMarks(marks: readonly { place: number; name: string }[]): void {
+    this.marks.replaceChildren(...marks.map(({ place, name }, i) => {
+      const mark = make("span", {}, name);
       mark.style.left = `${(100 * place).toFixed(2)}%`;
       // Numbers of impacts that nearly coincide would cover each other.
-      if (i > 0 && place - (places[i - 1] ?? 0) < 0.025) mark.textContent = "";
+      if (i > 0 && place - (marks[i - 1]?.place ?? 0) < 0.025) mark.textContent = "";
       return mark;
     }));
   }

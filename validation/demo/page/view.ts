@@ -8,18 +8,18 @@ import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 import { ArrowMesh } from "./arrow_mesh";
-import type { Body } from "./body";
+import { THINNEST, middleOf, type Body } from "./body";
 import { COLOURS } from "./colours";
-import type { Arrow, Bounds, Frame, ModelName } from "./frame";
-import type { Pose, Vector } from "./motion";
-import type { Projection, View } from "./stage";
+import type { Arrow, Frame, ModelName } from "./frame";
+import type { Pose } from "./motion";
+import type { Projection, View } from "./picture";
+import type { Vector } from "./rotation";
 
 const MODELS: readonly ModelName[] = ["discrete", "continuous"];
 const FIELD_OF_VIEW = 24; // degrees, upright
-const ELEVATION = 0.16; // of the camera over the ground [rad]
-const AZIMUTH = -0.14;
-/** A rod without thickness still has to be seen. */
-const THINNEST = 0.008;
+/** Of the camera over the ground, and around the picture [rad]: in space from where three faces of a box are seen. */
+const PLANE = { elevation: 0.16, azimuth: -0.14 };
+const SPACE = { elevation: 0.34, azimuth: -0.3 };
 
 interface Figure {
   group: Group;
@@ -37,7 +37,7 @@ export class SpaceView implements View {
   private ground: LineSegments | null = null;
   private cell = 0;
   private size = { width: 1, height: 1 };
-  private bounds: Bounds = { left: -0.5, right: 0.5, top: 0.5 };
+  private frame: Frame | null = null;
 
   constructor(canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
@@ -60,8 +60,8 @@ export class SpaceView implements View {
   }
 
   draw(frame: Frame): void {
-    this.bounds = frame.bounds;
-    this.layGround(frame.figures[0]?.body.length ?? 1);
+    this.frame = frame;
+    this.layGround(frame);
     for (const model of MODELS) {
       const figure = frame.figures.find((f) => f.model === model);
       this.layers[model].visible = figure !== undefined;
@@ -73,7 +73,7 @@ export class SpaceView implements View {
       const { left, bottom, width, height } = part;
       this.renderer.setViewport(left, bottom, width, height);
       this.renderer.setScissor(left, bottom, width, height);
-      this.aim(width / height);
+      this.aim(part.model, width / height);
       if (part.model) for (const { model } of frame.figures) this.layers[model].visible = model === part.model;
       this.renderer.render(this.scene, this.camera);
     }
@@ -82,7 +82,7 @@ export class SpaceView implements View {
   project(model: ModelName, [x, y, z]: Vector, side: boolean): Projection {
     const part = this.parts(side).find((p) => p.model === null || p.model === model);
     const { left, bottom, width, height } = part ?? { left: 0, bottom: 0, ...this.size };
-    this.aim(width / height);
+    this.aim(side ? model : null, width / height);
     const point = new Vector3(x, y, z).project(this.camera);
     return { x: left + ((point.x + 1) / 2) * width, y: this.size.height - bottom - ((point.y + 1) / 2) * height };
   }
@@ -97,18 +97,20 @@ export class SpaceView implements View {
     return MODELS.map((model, i) => ({ model, left: 0, bottom: ((1 - i) * height) / 2, width, height: height / 2 }));
   }
 
-  private aim(aspect: number): void {
-    const { left, right, top } = this.bounds;
+  private aim(model: ModelName | null, aspect: number): void {
+    if (!this.frame) return;
+    const { left, right, top, depth } = this.frame.bounds[model ?? "discrete"];
+    const { elevation, azimuth } = this.frame.inSpace ? SPACE : PLANE;
     const margin = 1.16;
     const half = Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
     const tall = (top * margin) / 2;
     const wide = ((right - left) * margin) / 2;
     const distance = Math.max(tall / half, wide / (half * aspect)) + 0.15 * wide;
     // Where width decides, the ground stays low in the picture instead of floating in its middle.
-    const centre = new Vector3((left + right) / 2, 0, Math.max(top * 0.47, 0.58 * distance * half));
-    const flat = Math.cos(ELEVATION) * distance;
+    const centre = new Vector3((left + right) / 2, depth, Math.max(top * 0.47, 0.58 * distance * half));
+    const flat = Math.cos(elevation) * distance;
     this.camera.position.set(
-      centre.x + Math.sin(AZIMUTH) * flat, -Math.cos(AZIMUTH) * flat, centre.z + Math.sin(ELEVATION) * distance,
+      centre.x + Math.sin(azimuth) * flat, centre.y - Math.cos(azimuth) * flat, centre.z + Math.sin(elevation) * distance,
     );
     this.camera.aspect = aspect;
     this.camera.near = distance / 50;
@@ -125,24 +127,27 @@ export class SpaceView implements View {
       rebuild(figure, model, body);
     }
     const [w, x, y, z] = pose.rotation;
-    figure.group.position.set(...pose.centre);
+    const middle = middleOf(body, pose.centre, pose.rotation);
+    figure.group.position.set(...middle);
     figure.group.quaternion.set(x, y, z, w);
     for (const part of figure.shadow.children) {
-      part.position.set(...pose.centre);
+      part.position.set(...middle);
       part.quaternion.set(x, y, z, w);
     }
   }
 
   /** A body that drifts stays on the grid, which moves along by whole cells. */
-  private layGround(length: number): void {
+  private layGround(frame: Frame): void {
+    const length = frame.figures[0]?.body.length ?? 1;
     if (this.cell !== length / 10) {
       this.cell = length / 10;
       if (this.ground) this.scene.remove(this.ground);
       this.ground = groundGrid(this.cell);
       this.scene.add(this.ground);
     }
-    const middle = (this.bounds.left + this.bounds.right) / 2;
-    this.ground?.position.setX(Math.round(middle / this.cell) * this.cell);
+    const { left, right, depth } = frame.bounds.discrete;
+    this.ground?.position.setX(Math.round((left + right) / 2 / this.cell) * this.cell);
+    this.ground?.position.setY(Math.round(depth / this.cell) * this.cell);
   }
 
   private placeArrows(model: ModelName, wanted: Arrow[]): void {

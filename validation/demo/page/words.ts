@@ -17,15 +17,23 @@ function endInWords(end: string): string {
   return end === "both" ? "both ends at once" : end;
 }
 
+/** Names such as "-x+y-z", with true minus signs. */
+export function cornersInWords(corners: string): string {
+  const names = corners.split(" ").map((name) => name.replace(/-/g, "−"));
+  if (names[0] === "a" || names[0] === "b") return endInWords(names.length > 1 ? "both" : names[0]);
+  if (names.length === 1) return `corner ${names[0]}`;
+  return `corners ${names.slice(0, -1).join(", ")} and ${names[names.length - 1]} at once`;
+}
+
 export function impactInWords(impacts: readonly Impact[], n: number): string {
   const impact = impacts[n - 1];
   const first = impacts[0];
   if (!impact || !first) return "";
-  const end = endInWords(impact.end);
+    const place = impact.corners ? cornersInWords(impact.corners) : endInWords(impact.end);
   const angle = `${significant(impact.contact_angle_deg, 3)}°`;
-  if (n === 1) return `Impact 1: ${end}, at ${angle}, impulse ${significant(impact.impulse_normal, 3)} N·s`;
+  if (n === 1) return `Impact 1: ${place}, at ${angle}, impulse ${significant(impact.impulse_normal, 3)} N·s`;
   const after = `${significant(impact.start - first.start, 2)} s after the first`;
-  return `Impact ${n}: ${end}, ${after}, ${comparison(impact.impulse_normal / first.impulse_normal)}`;
+  return `Impact ${n}: ${place}, ${after}, ${comparison(impact.impulse_normal / first.impulse_normal)}`;
 }
 
 const OUTCOMES: Readonly<Record<string, string>> = {

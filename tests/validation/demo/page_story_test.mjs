@@ -1,0 +1,146 @@
+// The page of `clatter demo` as it tells its story: untouched, without JavaScript, and to the ear.
+// DEMO_COPY: an offline copy of it.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { pathToFileURL } from "node:url";
+import { LARGE, NARROW, axeSource, onPage, printed, sequence } from "./page_browser.mjs";
+
+const copy = process.env.DEMO_COPY;
+assert.ok(copy, "DEMO_COPY is what clatter demo --export wrote");
+
+const numbersIn = (text) => (text.match(/\d+(?:\.\d+)?/g) ?? []).map(Number);
+const has = (text, value, digits) => {
+  const place = Number(value.toPrecision(digits));
+  assert.ok(numbersIn(text).some((shown) => Math.abs(shown - place) <= 1e-12 * place), `${place} is not in: ${text}`);
+};
+
+async function storyOf(page) {
+  await page.waitForSelector("#story", { state: "attached" });
+  return page.locator("#story li p").allTextContents();
+}
+
+test("untouched, the page shows the second blow, the doubling and the fold in five steps, with the program's numbers", () => onPage("/", async (page) => {
+  const [first, second, doubling, fold, phone] = await storyOf(page);
+  const rod = sequence("--angle", "10").impacts;
+  has(first, rod[0].impulse_normal, 4);
+  has(first, rod[0].angular_velocity_after[1], 4);
+  has(second, rod[1].approach_speed, 4);
+  has(second, rod[1].start, 3);
+  has(second, rod[1].impulse_normal, 4);
+  has(second, rod[1].impulse_normal / rod[0].impulse_normal, 3);
+  for (const [angle, digits] of [["10", 4], ["1", 5], ["0.1", 6]]) {
+    const [one, two] = sequence("--angle", angle).impacts;
+    has(doubling, two.impulse_normal / one.impulse_normal, digits);
+  }
+  const flat = sequence("--angle", "0.1").impacts.map((i) => i.contact_angle_deg);
+  has(doubling, (2 * flat[1]) / flat[0], 5);
+  const { rows: [regimes] } = printed("regimes");
+  has(fold, regimes.second.theta_deg, 6);
+  has(fold, regimes.second.beta_deg, 4);
+  has(fold, regimes.third.theta_deg, 6);
+  const { impacts } = printed("simulate", "phone-elastic", "--impacts", "2");
+  has(phone, impacts[1].peak_force / impacts[0].peak_force, 3);
+  assert.equal(await page.locator("#story svg").count(), 5);
+  const below = await page.locator("#story").evaluate((story) => story.getBoundingClientRect().top > document.getElementById("prediction").getBoundingClientRect().bottom);
+  assert.equal(below, true);
+}));
+
+test("a step of the story is shown in the picture, and opens as a link by itself", () => onPage("/", async (page, context) => {
+  await page.waitForSelector("#prediction:not([hidden])");
+  await page.click("#story-4 a");
+  assert.equal(await page.isVisible("#prediction"), false);
+  assert.equal(await page.inputValue("#angle"), "58");
+  await page.waitForFunction(() => /^Impact 2: end b/.test(document.getElementById("caption").textContent));
+  await page.click("#story-5 a");
+  await page.waitForFunction(() => /^Impact 2/.test(document.getElementById("caption").textContent) && document.getElementById("body").value === "phone");
+  const other = await context.newPage();
+  const link = await page.locator("#story-2 a").evaluate((one) => one.href);
+  await other.goto(link);
+  await other.waitForFunction(() => /^Impact 2: end b, 0\.087 s/.test(document.getElementById("caption").textContent));
+}));
+
+for (const [name, viewport] of [["large", LARGE], ["narrow", NARROW]]) {
+  test(`without JavaScript the story stands there as text and pictures, on a ${name} screen`, async () => {
+    for (const place of ["/", pathToFileURL(copy).href]) {
+      await onPage(place, async (page) => {
+        assert.equal((await storyOf(page)).length, 5);
+        for (const step of [1, 2, 3, 4, 5]) {
+          for (const part of ["h3", "p", "svg[role=img][aria-label]"]) {
+            const box = await page.locator(`#story-${step} ${part}`).boundingBox();
+            assert.ok(box && box.width > 100 && box.x >= 0 && box.x + box.width <= viewport.width, `${step} ${part}`);
+          }
+        }
+        const dead = await page.locator("main, header").locator("button:visible, input:visible, select:visible, a:visible, canvas:visible").count();
+        assert.equal(dead, 0);
+        assert.equal(await page.locator("noscript code").first().isVisible(), true);
+      }, { viewport, script: false });
+    }
+  });
+}
+
+/** An ear: every tone that starts, with its loudness and pitch. */
+function listen() {
+  globalThis.heard = [];
+  globalThis.contexts = 0;
+  const node = () => ({ connect: (other) => other });
+  globalThis.AudioContext = class {
+    currentTime = 0;
+    destination = node();
+    constructor() { globalThis.contexts += 1; }
+    resume() { return Promise.resolve(); }
+    suspend() { return Promise.resolve(); }
+    createGain() {
+      const gain = { setValueAtTime: (value) => { this.level = value; }, setTargetAtTime: () => undefined };
+      return { ...node(), gain };
+    }
+    createOscillator() {
+      const frequency = { value: 0 };
+      return { ...node(), frequency, stop: () => undefined, start: () => globalThis.heard.push({ gain: this.level, pitch: frequency.value }) };
+    }
+  };
+}
+
+test("sound is off until it is asked for; then blows sound as their impulses and angles, 2:1:2, and are told in a line", () => onPage(
+  "/?predict=0&angle=0.5&rate=2&sound=1", async (page) => {
+    await page.waitForSelector('tr[data-model="discrete"]');
+    const { impacts } = sequence("--angle", "0.5");
+    assert.equal(impacts.length, 3);
+    const played = (count) => page.waitForFunction((n) => {
+      const button = document.getElementById("play");
+      return button.getAttribute("aria-label") === "Play" && globalThis.heard.length >= n;
+    }, count);
+    await page.click("#play");
+    await played(0);
+    assert.deepEqual(await page.evaluate(() => [globalThis.heard.length, globalThis.contexts]), [0, 0]);
+    assert.equal(await page.isChecked("#sound"), false);
+    await page.check("#sound");
+    const captions = page.evaluate(() => new Promise((resolve) => {
+      const lines = [];
+      new MutationObserver(() => {
+        lines.push(document.getElementById("sound-caption").textContent);
+        if (lines.length === 3) resolve(lines);
+      }).observe(document.getElementById("sound-caption"), { childList: true, characterData: true, subtree: true });
+    }));
+    await page.click("#play");
+    const lines = await captions;
+    await played(3);
+    const heard = await page.evaluate(() => globalThis.heard);
+    assert.equal(heard.length, 3);
+    const near = (value, expected) => assert.ok(Math.abs(value - expected) < 1e-9 * expected, `${value} is not ${expected}`);
+    heard.forEach(({ gain, pitch }, i) => {
+      near(gain / heard[0].gain, impacts[i].impulse_normal / impacts[0].impulse_normal);
+      near(pitch / heard[0].pitch, impacts[i].contact_angle_deg / impacts[0].contact_angle_deg);
+    });
+    assert.deepEqual(heard.map(({ pitch }) => (pitch / heard[1].pitch).toFixed(2)), ["2.00", "1.00", "2.00"]);
+    assert.deepEqual(lines, ["♪ Impact 1", "♪ Impact 2: twice as loud as the first, an octave lower", "♪ Impact 3: about as loud as the first, about as high"]);
+    assert.ok(!page.url().includes("sound"));
+  }, { before: listen }));
+
+test("with the sound on axe finds nothing serious", () => onPage("/?predict=0", async (page) => {
+  await page.waitForSelector('tr[data-model="continuous"]');
+  await page.check("#sound");
+  assert.match(await page.textContent("#sound-caption"), /^♪ Louder/);
+  await page.evaluate(axeSource);
+  const { violations } = await page.evaluate(() => globalThis.axe.run());
+  assert.deepEqual(violations.filter(({ impact }) => impact === "serious" || impact === "critical").map(({ id }) => id), []);
+}, { before: listen }));
