@@ -26,7 +26,7 @@ Scene bare_scene(BodyScene::Shape shape) {
   Scene scene;
   scene.body.shape = shape;
   scene.ground.stiffness = 0;
-  scene.options.gravity = 0;
+  scene.world.gravity = 0;
   return scene;
 }
 

@@ -133,9 +133,10 @@ Step folds(const analytic::RegimeBoundary& second) {
 
 Step phone() {
   Scene scene = case_scene("phone-elastic");
-  scene.options.impacts = 2;
+  scene.request.impacts = 2;
   const numeric::Body body = scene.make_body();
-  const numeric::Simulation run = run_to_digits(body, scene.ground, scene.start(body), scene.options).run;
+  const numeric::Simulation run =
+      run_to_digits(body, scene.world, scene.start(body), scene.request, scene.accuracy).run;
   if (run.impacts.size() < 2) throw std::logic_error("the story: a phone strikes twice");
   const double first = run.impacts[0].value.peak_force, second = run.impacts[1].value.peak_force;
   return {"A phone does so, too",

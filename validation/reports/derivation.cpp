@@ -260,7 +260,7 @@ Value explanation_fields(const Explanation& explanation) {
       equations.push_back(Value::Fields{{"name", e.name},
                                         {"symbolic", e.formula},
                                         {"numeric", e.numbers},
-                                        {"tex", equation_tex(e, explanation.scene.options.digits, " \\\\ &= ")},
+                                        {"tex", equation_tex(e, explanation.scene.accuracy.digits, " \\\\ &= ")},
                                         {"words", equation_words(e)},
                                         {"value", e.value},
                                         {"error", e.error},
