@@ -157,11 +157,11 @@ std::string story_html() {
   const Step steps[]{first_blow(rod), second_blow(rod), doubling(second.theta * degrees_per_radian), folds(second),
                      phone()};
   std::string html =
-      "<section id=\"story\" aria-labelledby=\"story-title\">\n<h2 id=\"story-title\">The story in five "
-      "steps</h2>\n<ol>\n";
+      "<section id=\"story\" aria-labelledby=\"story-title\">\n<details open><summary><h2 id=\"story-title\">The story "
+      "in five steps</h2></summary>\n<ol>\n";
   std::size_t n = 0;
   for (const Step& step : steps) html += item(step, ++n);
-  return html + "</ol>\n</section>\n";
+  return html + "</ol>\n</details>\n</section>\n";
 }
 
 std::string page_with_story() {

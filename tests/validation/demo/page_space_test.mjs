@@ -5,7 +5,7 @@ import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
 import { after, test } from "node:test";
-import { LARGE, NARROW, SHOWN, axeSource, close, column, number, onPage, printed, sequence, waitForCell } from "./page_browser.mjs";
+import { SHOWN, close, column, number, onPage, printed, sequence, waitForCell } from "./page_browser.mjs";
 
 const scratch = mkdtempSync(path.join(tmpdir(), "clatter-page-"));
 after(() => rmSync(scratch, { recursive: true }));
@@ -172,21 +172,3 @@ test("in space the equations are set in type, too", () => onPage(`${CORNER}&impa
   await page.waitForFunction(() => /Rotation without torque/.test(document.getElementById("explain-steps").textContent));
   assert.equal(await page.locator("#explain-steps .katex-error").count(), 0);
 }));
-
-for (const [name, viewport] of [["large", LARGE], ["narrow", NARROW]]) {
-  test(`axe finds nothing serious in space on a ${name} screen, and nothing sticks out of it`, async () => {
-    for (const query of [`${CORNER}&with.centre=0,0,0.001`, `${EDGE}&impact=2`,
-      "/?predict=0&body=phone&turn=attitude&q0=0.8&q1=0.36&q2=-0.48&q3=0&vx=0.1&vy=0&vz=-1&wx=1&wy=0&wz=0"]) {
-      await onPage(query, async (page) => {
-        await page.waitForSelector("#explain-steps .katex");
-        await page.waitForSelector('[data-strip="continuous-1"]');
-        await page.evaluate(axeSource);
-        const { violations } = await page.evaluate(() => globalThis.axe.run());
-        const serious = violations.filter(({ impact }) => impact === "serious" || impact === "critical");
-        assert.deepEqual(serious.map(({ id, nodes }) => [id, nodes.map(({ target }) => target.join(" "))]), []);
-        const width = await page.evaluate(() => document.documentElement.scrollWidth);
-        assert.ok(width <= viewport.width, `${width} px are more than ${viewport.width}`);
-      }, { viewport });
-    }
-  });
-}

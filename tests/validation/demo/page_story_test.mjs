@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { pathToFileURL } from "node:url";
-import { LARGE, NARROW, axeSource, onPage, printed, sequence } from "./page_browser.mjs";
+import { LARGE, NARROW, onPage, printed, sequence } from "./page_browser.mjs";
 
 const copy = process.env.DEMO_COPY;
 assert.ok(copy, "DEMO_COPY is what clatter demo --export wrote");
@@ -135,12 +135,3 @@ test("sound is off until it is asked for; then blows sound as their impulses and
     assert.deepEqual(lines, ["♪ Impact 1", "♪ Impact 2: twice as loud as the first, an octave lower", "♪ Impact 3: about as loud as the first, about as high"]);
     assert.ok(!page.url().includes("sound"));
   }, { before: listen }));
-
-test("with the sound on axe finds nothing serious", () => onPage("/?predict=0", async (page) => {
-  await page.waitForSelector('tr[data-model="continuous"]');
-  await page.check("#sound");
-  assert.match(await page.textContent("#sound-caption"), /^♪ Louder/);
-  await page.evaluate(axeSource);
-  const { violations } = await page.evaluate(() => globalThis.axe.run());
-  assert.deepEqual(violations.filter(({ impact }) => impact === "serious" || impact === "critical").map(({ id }) => id), []);
-}, { before: listen }));

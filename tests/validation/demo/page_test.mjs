@@ -7,7 +7,7 @@ import path from "node:path";
 import { test } from "node:test";
 import { pathToFileURL } from "node:url";
 import {
-  LARGE, NARROW, SHOWN, address, axeSource, chromium, close, column, folder, number, onPage, sequence, slide, waitForCell,
+  LARGE, SHOWN, address, chromium, close, column, folder, number, onPage, sequence, slide, waitForCell,
 } from "./page_browser.mjs";
 
 test("the question comes first, and hides the answer until it is guessed", () => onPage("/", async (page) => {
@@ -197,25 +197,6 @@ test("what is wrong is said next to its control; the last good picture stays", (
 test("a link without sense shows what the program says of it", () => onPage("/?predict=0&e=2&mass=-1", async (page) => {
   await page.waitForFunction(() => /must be from 0 to 1/.test(document.getElementById("e-error").textContent));
 }, { mayFail: true }));
-
-for (const [name, viewport] of [["large", LARGE], ["narrow", NARROW]]) {
-  for (const query of ["/", "/?predict=0&friction=0.2&layout=side"]) {
-    test(`axe finds nothing serious on a ${name} screen at ${query}`, () => onPage(query, async (page) => {
-      await page.waitForSelector(query === "/" ? "#prediction:not([hidden])" : "#explain-steps .katex");
-      // The page's own policy lets no script in from a tag; through the debugger it may come.
-      await page.evaluate(axeSource);
-      const { violations } = await page.evaluate(() => globalThis.axe.run());
-      const serious = violations.filter(({ impact }) => impact === "serious" || impact === "critical");
-      assert.deepEqual(serious.map(({ id, nodes }) => [id, nodes.map(({ target }) => target.join(" "))]), []);
-    }, { viewport }));
-  }
-
-  test(`nothing sticks out of a ${name} screen`, () => onPage("/?predict=0&friction=0.2", async (page) => {
-    await page.waitForSelector("#explain-steps .katex");
-    const width = await page.evaluate(() => document.documentElement.scrollWidth);
-    assert.ok(width <= viewport.width, `${width} px are more than ${viewport.width}`);
-  }, { viewport }));
-}
 
 test("with reduced motion nothing moves by itself, without it the drop plays after the guess", async () => {
   const moves = (page) => page.evaluate(async () => {

@@ -10,7 +10,7 @@ const ELEVATION = 0.3;
 const WIDTH = 150;
 const HEIGHT = 104;
 const FLOOR = 84; // of the point that strikes, from the top
-const SPAN = 92; // of the body's longest diagonal
+const SPAN = 78; // of the body's longest diagonal
 
 /** Where the eye looks. */
 const LOOK: Vector = [

@@ -49,7 +49,7 @@ export class Strip {
     const isUnknown = impact.predictable === false;
     const isAlone = pairing !== null && n > pairing.count;
     const where = impact.corners ? cornersInWords(impact.corners) : `end ${impact.end}`;
-    const force = isUnknown ? "cannot be predicted" : `${significant(impact.impulse_normal, 3)} N·s`;
+    const force = isUnknown ? "unpredictable" : `${significant(impact.impulse_normal, 3)} N·s`;
     const alone = isAlone ? ", not the same blow in both models" : "";
     const button = make("button", {
       type: "button", "data-strip": `${model}-${n}`, class: [isUnknown ? "unpredictable" : "", isAlone ? "alone" : ""].join(" ").trim(),

@@ -38,6 +38,8 @@ export class ImpactTable {
   private readonly body = make("tbody");
 
   private readonly notes = byId("pairing");
+  /** Of each column, whatever the model. */
+  private largest: number[] = [];
 
   constructor(private readonly onChoose: (model: ModelName, n: number) => void) {
     const heads = COLUMNS.map(({ title, unit }) => make("th", { scope: "col" }, title, make("span", { class: "unit" }, unit)));
@@ -48,6 +50,8 @@ export class ImpactTable {
   /** Rows of one impact stand together where it is the same in both models. */
   show(impacts: Impacts, pairing: Pairing | null, chosen: number): void {
     const paired = pairing?.count ?? 0;
+    const all = MODELS.flatMap((model) => impacts[model] ?? []);
+    this.largest = COLUMNS.map(({ value }) => Math.max(0, ...all.map((impact) => Math.abs(value(impact) ?? 0))));
     const groups = Array.from({ length: paired }, (_, i) => MODELS.map((model) => ({ model, impact: impacts[model]?.[i] })));
     for (const model of MODELS) for (const impact of impacts[model]?.slice(paired) ?? []) groups.push([{ model, impact }]);
     // Rows that are replaced while the focus is on one of their buttons would lose it.
@@ -70,23 +74,25 @@ export class ImpactTable {
     return group.flatMap(({ model, impact }, i) => {
       if (!impact) return [];
       const { n } = impact;
-      const marks = [n === chosen ? "chosen" : "", impact.predictable === false ? "unpredictable" : ""].filter(Boolean);
-      const row = make("tr", { "data-impact": n, "data-model": model, class: marks.join(" ") });
-      if (i === 0) row.append(this.head(n, chosen, group.length, model));
+      // The chosen impact is the discrete model's, and the other's only where it is the same.
+      const isOther = model === "continuous" && group.length === 1;
+      const marks = [n === chosen && !isOther ? "chosen" : "", impact.predictable === false ? "unpredictable" : ""].filter(Boolean);
+      const row = make("tr", { "data-impact": isOther ? "" : n, "data-model": model, class: marks.join(" ") });
+      if (i === 0) row.append(this.head(n, n === chosen && !isOther, group.length, model));
       const where = (impact.corners ?? impact.end).replace(/-(?=[xyz])/g, "−");
       row.append(make("td", {}, make("span", { class: `swatch ${model}` }), model), make("td", {}, where));
-      row.append(...COLUMNS.map(({ title, value }) => cell(title, value(impact), impact, model)));
+      row.append(...COLUMNS.map(({ title, value }, place) => cell(title, beyondRounding(value(impact), this.largest[place]), impact, model)));
       row.addEventListener("click", () => this.onChoose(model, n));
       return [row];
     });
   }
 
-  private head(n: number, chosen: number, rows: number, model: ModelName): HTMLElement {
+  private head(n: number, isChosen: boolean, rows: number, model: ModelName): HTMLElement {
     const alone = rows > 1 ? "" : ` of the ${model} model`;
     const choose = rows > 1 || model === "discrete" ? String(n) : `${model}-${n}`;
     const label = model === "continuous" ? `Show impact ${n}${alone}` : `Explain impact ${n}${alone}`;
     const button = make("button", {
-      type: "button", "data-choose": choose, "aria-pressed": String(n === chosen), "aria-label": label,
+      type: "button", "data-choose": choose, "aria-pressed": String(isChosen), "aria-label": label,
     }, String(n));
     return make("th", { scope: "rowgroup", rowspan: rows }, button);
   }
@@ -108,6 +114,11 @@ function unpredictableInWords(impacts: readonly Impact[], model: ModelName): str
 function cell(title: string, value: number | null, impact: Impact, model: ModelName): HTMLElement {
   if (impact.predictable === false) return make("td", { class: "number", "data-column": title, title: "Cannot be predicted" }, "?");
   return make("td", { class: "number", "data-column": title }, significant(value, DIGITS[model]));
+}
+
+/** Rounding leaves a trace of what is zero by symmetry. */
+function beyondRounding(value: number | null, largest = 0): number | null {
+  return value !== null && Math.abs(value) < 1e-12 * largest ? 0 : value;
 }
 
 /** An elastic impact loses nothing; rounding and the step control leave a trace that would look like a loss. */

@@ -1,0 +1,56 @@
+// The page of `clatter demo` for those who hear it, use the keyboard or have a narrow screen: nothing serious for axe, nothing
+// that sticks out, in the plane, in space, with a bad file and with the sound on.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { LARGE, NARROW, axeSource, onPage } from "./page_browser.mjs";
+
+const SHOWN = "#explain-steps .katex";
+const CORNER = "/?predict=0&body=phone&angle=30&tilt=40&height=1&gravity=9.81&e=0.75&stiffness=1e8&impacts=4&with.centre=0,0,0.001";
+const EDGE = "/?predict=0&body=own-box&mass=1&length=0.1&width=0.05&thickness=0.02&orientation=7&gravity=9.81&e=0.5&friction=0.2&impact=2";
+const ANY = "/?predict=0&body=phone&turn=attitude&q0=0.8&q1=0.36&q2=-0.48&q3=0&vx=0.1&vy=0&vz=-1&wx=1&wy=0&wz=0";
+const STATES = [["/", "#prediction:not([hidden])"], ["/?predict=0&friction=0.2&layout=side", SHOWN], [CORNER, SHOWN], [EDGE, SHOWN], [ANY, SHOWN]];
+
+async function nothingSerious(page) {
+  // The page's own policy lets no script in from a tag; through the debugger it may come.
+  await page.evaluate(axeSource);
+  const { violations } = await page.evaluate(() => globalThis.axe.run());
+  const serious = violations.filter(({ impact }) => impact === "serious" || impact === "critical");
+  assert.deepEqual(serious.map(({ id, nodes }) => [id, nodes.map(({ target }) => target.join(" "))]), []);
+}
+
+for (const [name, viewport] of [["large", LARGE], ["narrow", NARROW]]) {
+  for (const [query, ready] of STATES) {
+    test(`axe finds nothing serious on a ${name} screen at ${query}, and nothing sticks out of it`, () => onPage(query, async (page) => {
+      await page.waitForSelector(ready);
+      if (ready === SHOWN) await page.waitForSelector('[data-strip="continuous-1"]');
+      await nothingSerious(page);
+      const width = await page.evaluate(() => document.documentElement.scrollWidth);
+      assert.ok(width <= viewport.width, `${width} px are more than ${viewport.width}`);
+    }, { viewport }));
+  }
+
+  test(`axe finds nothing serious on a ${name} screen with the sound on and a bad file told`, () => onPage("/?predict=0", async (page) => {
+    await page.waitForSelector('tr[data-model="continuous"]');
+    await page.check("#sound");
+    assert.match(await page.textContent("#sound-caption"), /^♪ Louder/);
+    await page.setInputFiles("#scene-file", { name: "bad.toml", mimeType: "application/toml", buffer: Buffer.from("bad") });
+    await page.waitForSelector("#file-error:not([hidden])");
+    await nothingSerious(page);
+  }, { viewport, mayFail: true }));
+}
+
+test("scene files, attitude, strip and story can be reached by the keyboard alone", () => onPage("/?predict=0&body=phone&turn=attitude&q0=1&q1=0&q2=0&q3=0", async (page) => {
+  await page.waitForSelector('[data-strip="discrete-1"]');
+  const reached = new Set();
+  for (let i = 0; i < 200; i++) {
+    await page.keyboard.press("Tab");
+    const name = await page.evaluate(() => {
+      const { id, dataset, ariaLabel, parentElement } = document.activeElement;
+      return id || dataset.strip || ariaLabel || parentElement?.id || "";
+    });
+    reached.add(name);
+  }
+  for (const wanted of ["scene-file", "download-scene", "copy-scene", "turn", "q0", "Turn about x −15°", "drop", "spinning", "sound", "discrete-1", "story-1"]) {
+    assert.ok(reached.has(wanted), `${wanted} is not among ${[...reached].join(", ")}`);
+  }
+}));
