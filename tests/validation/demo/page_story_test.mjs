@@ -59,6 +59,18 @@ test("a step of the story is shown in the picture, and opens as a link by itself
   await other.waitForFunction(() => /^Impact 2: end b, 0\.087 s/.test(document.getElementById("caption").textContent));
 }));
 
+test("in an offline copy each step of the story is shown by the nearest situation that the copy holds", () => onPage(pathToFileURL(copy).href, async (page) => {
+  for (const [step, angle] of [[1, 10], [2, 10], [3, 5], [4, 60], [5, 10]]) {
+    await page.click(`#story-${step} a`);
+    await page.waitForFunction((wanted) => {
+      const [cell] = document.querySelectorAll('#impact-table tr[data-model="continuous"] td[data-column="Angle"]');
+      return Math.abs(Number(cell?.textContent) - wanted) < 1e-3;
+    }, angle);
+    assert.equal(await page.textContent("#error"), "");
+    assert.equal(await page.isVisible("#file"), false);
+  }
+}));
+
 for (const [name, viewport] of [["large", LARGE], ["narrow", NARROW]]) {
   test(`without JavaScript the story stands there as text and pictures, on a ${name} screen`, async () => {
     for (const place of ["/", pathToFileURL(copy).href]) {

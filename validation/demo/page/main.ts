@@ -84,6 +84,7 @@ class Page {
     new SceneFile(state, () => this.showAnew());
     setUpStory(state, () => {
       this.prediction.dismiss();
+      goOffline(state);
       this.showAnew();
       byId("motion").scrollIntoView();
     });

@@ -32,14 +32,15 @@ export function setUpLayout(state: State, onChange: () => void): () => void {
   return show;
 }
 
-/** An offline copy shows what a link names if it holds that, else the nearest of what it holds. */
+/** An offline copy shows what is asked for if it holds that, else the nearest of what it holds. */
 export function goOffline({ parameters }: State): void {
   const [first] = offlineScenes;
   if (!first) return;
   byId("offline").hidden = false;
   const alike = ({ parameters: held }: { parameters: Parameters }): boolean =>
-    (["body", "drop", "gravity", "e", "friction"] as const).every((key) => held[key] === parameters[key]);
+    (["body", "turn", "drop", "gravity", "e", "friction"] as const).every((key) => held[key] === parameters[key]);
   const scene = offlineScenes.find(alike) ?? first;
-  const angle = scene.angles.includes(parameters.angle) ? parameters.angle : scene.parameters.angle;
+  const off = (angle: number): number => Math.abs(angle - parameters.angle);
+  const angle = scene.angles.reduce((best, one) => (off(one) < off(best) ? one : best), scene.parameters.angle);
   Object.assign(parameters, scene.parameters, { angle });
 }

@@ -10,12 +10,13 @@ import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js
 import { ArrowMesh } from "./arrow_mesh";
 import { THINNEST, middleOf, type Body } from "./body";
 import { COLOURS } from "./colours";
-import type { Arrow, Frame, ModelName } from "./frame";
+import type { Arrow, Bounds, Frame, ModelName } from "./frame";
 import type { Pose } from "./motion";
 import type { Projection, View } from "./picture";
 import type { Vector } from "./rotation";
 
 const MODELS: readonly ModelName[] = ["discrete", "continuous"];
+const THICK = 0.03; // radius of a rod that is drawn as round, over its length
 const FIELD_OF_VIEW = 24; // degrees, upright
 /** Of the camera over the ground, and around the picture [rad]: in space from where three faces of a box are seen. */
 const PLANE = { elevation: 0.16, azimuth: -0.14 };
@@ -61,7 +62,7 @@ export class SpaceView implements View {
 
   draw(frame: Frame): void {
     this.frame = frame;
-    this.layGround(frame);
+    this.makeGround(frame.figures[0]?.body.length ?? 1);
     for (const model of MODELS) {
       const figure = frame.figures.find((f) => f.model === model);
       this.layers[model].visible = figure !== undefined;
@@ -74,6 +75,7 @@ export class SpaceView implements View {
       this.renderer.setViewport(left, bottom, width, height);
       this.renderer.setScissor(left, bottom, width, height);
       this.aim(part.model, width / height);
+      this.moveGround(frame.bounds[part.model ?? "discrete"]);
       if (part.model) for (const { model } of frame.figures) this.layers[model].visible = model === part.model;
       this.renderer.render(this.scene, this.camera);
     }
@@ -136,18 +138,18 @@ export class SpaceView implements View {
     }
   }
 
+  private makeGround(length: number): void {
+    if (this.cell === length / 10) return;
+    this.cell = length / 10;
+    if (this.ground) this.scene.remove(this.ground);
+    this.ground = groundGrid(this.cell);
+    this.scene.add(this.ground);
+  }
+
   /** A body that drifts stays on the grid, which moves along by whole cells. */
-  private layGround(frame: Frame): void {
-    const length = frame.figures[0]?.body.length ?? 1;
-    if (this.cell !== length / 10) {
-      this.cell = length / 10;
-      if (this.ground) this.scene.remove(this.ground);
-      this.ground = groundGrid(this.cell);
-      this.scene.add(this.ground);
-    }
-    const { left, right, depth } = frame.bounds.discrete;
-    this.ground?.position.setX(Math.round((left + right) / 2 / this.cell) * this.cell);
-    this.ground?.position.setY(Math.round(depth / this.cell) * this.cell);
+  private moveGround({ left, right, depth }: Bounds): void {
+    const { cell } = this;
+    this.ground?.position.set(Math.round((left + right) / 2 / cell) * cell, Math.round(depth / cell) * cell, 0);
   }
 
   private placeArrows(model: ModelName, wanted: Arrow[]): void {
@@ -191,14 +193,24 @@ function rebuild(figure: Figure, model: ModelName, body: Body): void {
   figure.shadow.add(new Mesh(geometry, shadowMaterial()));
 }
 
-/** Edges of a box; of a rod its outline as seen from the side. */
+/** Edges of a box; of a thick rod its ends and four lines along it, of a thin one its outline as seen from the side. */
 function outlineOf(body: Body): LineSegmentsGeometry {
   const outline = new LineSegmentsGeometry();
   if (body.shape === "box") return outline.fromEdgesGeometry(new EdgesGeometry(geometryOf(body), 1));
-  const radius = Math.max(body.radius, 1.4 * THINNEST * body.length);
   const half = body.length / 2;
+  if (body.radius > THICK * body.length) return outline.setPositions(cage(half, body.radius));
+  const radius = Math.max(body.radius, 1.4 * THINNEST * body.length);
   const corners = [[-half, 0, -radius], [half, 0, -radius], [half, 0, radius], [-half, 0, radius]];
   return outline.setPositions(corners.flatMap((corner, i) => [...corner, ...(corners[(i + 1) % 4] ?? [])]));
+}
+
+function cage(half: number, radius: number): number[] {
+  const parts = 24;
+  const at = (x: number, i: number): number[] =>
+    [x, radius * Math.cos((2 * Math.PI * i) / parts), radius * Math.sin((2 * Math.PI * i) / parts)];
+  const all = Array.from({ length: parts }, (_, i) => i);
+  const circles = all.flatMap((i) => [-half, half].flatMap((x) => [...at(x, i), ...at(x, i + 1)]));
+  return [...circles, ...all.filter((i) => i % (parts / 4) === 0).flatMap((i) => [...at(-half, i), ...at(half, i)])];
 }
 
 function shadowMaterial(): Material {
