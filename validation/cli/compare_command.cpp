@@ -15,9 +15,7 @@
 #include "validation/reports/comparison_picture.hpp"
 #include "validation/reports/score_report.hpp"
 #include "validation/reports/swept_comparison_report.hpp"
-#include "validation/scene/body_properties.hpp"
 #include "validation/scene/failure.hpp"
-#include "validation/scene/scene_value.hpp"
 #include "validation/scene/shortfall.hpp"
 
 namespace clatter::validation {
@@ -54,12 +52,7 @@ int compare_foreign(const CompareInput& input) {
     submissions.push_back(judge_file(file, reference, names));
     is_met = is_met && requirement.is_met(submissions.back());
   }
-  Report report = score_report("compare", submissions);
-  report.head = scene_head(scene, Model::discrete);
-  report.fields["scene"] = scene_value(scene, Model::discrete);
-  report.fields["message"] = text_or_nothing(reference.remark);
-  if (!reference.remark.empty()) report.notes.push_back(reference.remark);
-  write_report(choice, report);
+  write_report(choice, against_report(scene, reference, submissions));
   return is_met ? 0 : check_failed;
 }
 
@@ -137,7 +130,7 @@ Command compare_command() {
   add_output_options(command, input->output);
   add_plot_options(command, input->plot);
   command.footer =
-      "Example: clatter compare validation/cases/phone-damped.toml --impacts 2\n"
+      "Example: clatter compare phone-damped --impacts 2\n"
       "         clatter compare phone-corner --impacts 8 (in space, corner by corner)\n"
       "With --against FILE a foreign run is judged by the discrete model: its impacts, velocities, times, energy.\n"
       "Exit status 1 if the stiff limit of the continuous model misses the discrete value,\n"

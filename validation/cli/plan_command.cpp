@@ -39,7 +39,7 @@ Command plan_command() {
   command.add_text("--within", input->within, "MS", "that the run may take; alone: as accurate as fits");
   add_output_options(command, input->output);
   command.footer =
-      "Example: clatter plan validation/cases/phone-damped.toml --digits 4\n"
+      "Example: clatter plan phone-damped --digits 4\n"
       "Exit status 3 if no model gives the digits; the best is shown all the same.";
   command.run = [input] { return run_plan(*input); };
   return command;

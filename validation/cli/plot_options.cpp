@@ -36,6 +36,10 @@ std::vector<std::string> run_words(const std::string& command, const std::string
   return {headline(command, what), scene_line(scene, model)};
 }
 
+void add_window_option(Command& command, std::optional<std::string>& text, const std::string& of) {
+  command.add_text("--window", text, "FROM:TO", "times " + of + ", in s after the first touch-down", "Output");
+}
+
 std::vector<RunFile> plot_files(const PlotTexts& texts) {
   if (!texts.plot) {
     if (texts.script)

@@ -18,6 +18,8 @@ struct PlotTexts {
   bool script = false;
 };
 void add_plot_options(Command& command, PlotTexts& texts);
+/// --window.  @param of what it is the window, in words
+void add_window_option(Command& command, std::optional<std::string>& text, const std::string& of);
 
 /// The files of these options, whether wanted or not.  @throws BadInput if the script is wanted without a picture.
 [[nodiscard]] std::vector<RunFile> plot_files(const PlotTexts& texts);

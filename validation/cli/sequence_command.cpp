@@ -6,6 +6,7 @@
 #include "validation/cli/options.hpp"
 #include "validation/cli/plot_options.hpp"
 #include "validation/cli/scene_flags.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/output/message.hpp"
 #include "validation/plan/sequence_method.hpp"
 #include "validation/reports/sequence_picture.hpp"
@@ -20,6 +21,7 @@ struct SequenceInput {
   std::optional<std::string> method;
   OutputTexts output;
   PlotTexts plot;
+  std::optional<std::string> window;
 };
 
 template <class Sequence>
@@ -30,23 +32,27 @@ int status_of(const Scene& scene, const Sequence& sequence) {
   return shortfall_status(sequence.outcome);
 }
 
+void draw(const Scene& scene, const DiscreteRun& run, const TimeWindow& window, PlotFile& plot) {
+  if (!run.planar()) return plot.leave_out("a sequence in space has no picture");
+  const Picture picture = sequence_picture(scene, *run.planar(), window);
+  if (picture.panels.front().rows.size() < 2) return plot.leave_out("the sequence has no such times");
+  plot.write(picture, run_words("sequence", "impact sequence, discrete model", scene, Model::discrete));
+}
+
 int run_sequence(const SequenceInput& input) {
   const Scene scene = read_scene_flags(input.scene);
   const OutputChoice choice = read_output(input.output);
   const SequenceMethod method = read_sequence_method(input.method.value_or("auto"));
+  const TimeWindow window = read_window(input.window);
+  if (input.window && !input.plot.plot) {
+    throw BadInput(fmt::format("--window {}: needs --plot FILE", *input.window));
+  }
   check_files(choice, plot_files(input.plot), files_of(scene));
   PlotFile plot(input.plot);
   const DiscreteRun run = run_discrete(scene, method);
   for (const std::string& warning : run.warnings()) say(warning);
   write_report(choice, sequence_report(scene, run));
-  if (plot.is_wanted()) {
-    if (run.planar()) {
-      plot.write(sequence_picture(scene, *run.planar()),
-                 run_words("sequence", "impact sequence, discrete model", scene, Model::discrete));
-    } else {
-      plot.leave_out("a sequence in space has no picture");
-    }
-  }
+  if (plot.is_wanted()) draw(scene, run, window, plot);
   return std::visit([&](const auto& sequence) { return status_of(scene, sequence); }, run.sequence);
 }
 
@@ -59,6 +65,7 @@ Command sequence_command() {
   command.add_text("--method", input->method, "NAME", "auto, closed-form (Eqs. 9 and 12) or discrete (auto)", "Scene");
   add_output_options(command, input->output);
   add_plot_options(command, input->plot);
+  add_window_option(command, input->window, "of the picture");
   command.footer = "Example: clatter sequence --angle 10 --gravity 9.81 --restitution 0.8 --impacts 20";
   command.run = [input] { return run_sequence(*input); };
   return command;

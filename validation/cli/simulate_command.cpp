@@ -16,6 +16,7 @@
 #include "validation/output/number.hpp"
 #include "validation/plan/planned_run.hpp"
 #include "validation/record/history_file.hpp"
+#include "validation/record/time_window.hpp"
 #include "validation/reports/simulation_picture.hpp"
 #include "validation/reports/simulation_report.hpp"
 #include "validation/scene/body_properties.hpp"
@@ -33,7 +34,17 @@ struct SimulateInput {
   SceneFlags scene;
   OutputTexts output;
   PlotTexts plot;
+  std::optional<std::string> window;
 };
+
+/// @throws BadInput if the window has nothing to act on.
+void check_window(const SimulateInput& input, const Scene& scene) {
+  static_cast<void>(read_window(input.window));
+  if (!input.window) return;
+  const std::string given = "--window " + *input.window;
+  if (scene.sweep) throw BadInput(given + ": left out in a sweep, whose picture has no time");
+  if (scene.history.empty() && !input.plot.plot) throw BadInput(given + ": needs --plot FILE or --history FILE");
+}
 
 constexpr long evaluations_before_progress = 200'000;
 
@@ -68,19 +79,25 @@ int status_of(const std::vector<SweptRun>& runs) {
 }
 
 /// The history's picture, unless there is none to draw.
-void draw(const Scene& scene, const Simulation& run, const PictureHistory& history, PlotFile& plot) {
+void draw(const Scene& scene, const Simulation& run, const PictureHistory& history, const TimeWindow& window,
+          PlotFile& plot) {
   if (run.outcome == Outcome::interrupted) plot.leave_out("interrupted");
   else if (run.impacts.empty()) plot.leave_out("no impact was computed");
+  else if (plot.is_wanted() && clipped(history.rows(), window).size() < 2) plot.leave_out("the run has no such times");
   else if (plot.is_wanted())
-    plot.write(simulation_picture(scene, history), run_words("simulate", "impact sequence, continuous contact", scene));
+    plot.write(simulation_picture(scene, history, window),
+               run_words("simulate", "impact sequence, continuous contact", scene));
 }
 
-int run_single(const Scene& scene, const numeric::Body& body, const OutputChoice& choice, PlotFile& plot) {
+int run_single(const Scene& scene, const numeric::Body& body, const SimulateInput& input, PlotFile& plot) {
+  const TimeWindow window = read_window(input.window);
   const CooperativeInterrupt interrupt;
   std::optional<HistoryFile> history;
   if (!scene.history.empty()) {
-    history.emplace(scene.history, std::vector<std::string>{headline("simulate", "time history"), scene_line(scene),
-                                                            "body: " + compact_json(body_value(scene))});
+    history.emplace(scene.history,
+                    std::vector<std::string>{headline("simulate", "time history"), scene_line(scene),
+                                             "body: " + compact_json(body_value(scene))},
+                    window);
   }
   PictureHistory picture(body);
   HistoryFan recorders;
@@ -97,8 +114,8 @@ int run_single(const Scene& scene, const numeric::Body& body, const OutputChoice
     planned = run_scene(scene, body, interrupt, show, recorders.is_empty() ? nullptr : &recorders);
   }
   if (history) history->commit();
-  write_report(choice, simulation_report(scene, planned));
-  draw(scene, planned.run, picture, plot);
+  write_report(read_output(input.output), simulation_report(scene, planned));
+  draw(scene, planned.run, picture, window, plot);
   warn(planned.warnings);
   return status_of(scene, planned);
 }
@@ -133,19 +150,20 @@ int run_sweep(const Scene& scene, const numeric::Body& body, const OutputChoice&
       std::any_of(runs.begin(), runs.end(), [](const SweptRun& swept) { return !swept.planned.run.impacts.empty(); });
   if (!any) plot.leave_out("no impact was computed");
   else if (plot.is_wanted())
-    plot.write(sweep_picture(scene, runs), run_words("simulate", "first impacts, continuous contact", scene));
+    plot.write(sweep_picture(scene, runs), run_words("simulate", "impact sequences, continuous contact", scene));
   return status_of(runs);
 }
 
 int run_simulate(const SimulateInput& input) {
   const Scene scene = read_scene_flags(input.scene);
   const OutputChoice choice = read_output(input.output);
+  check_window(input, scene);
   std::vector<RunFile> written = plot_files(input.plot);
   written.insert(written.begin(), {"--history", scene.history});
   check_files(choice, std::move(written), files_of(scene));
   PlotFile plot(input.plot);
   const numeric::Body body = scene.make_body();
-  return scene.sweep ? run_sweep(scene, body, choice, plot) : run_single(scene, body, choice, plot);
+  return scene.sweep ? run_sweep(scene, body, choice, plot) : run_single(scene, body, input, plot);
 }
 
 }  // namespace
@@ -156,9 +174,10 @@ Command simulate_command() {
   add_scene_flags(command, input->scene);
   add_output_options(command, input->output);
   add_plot_options(command, input->plot);
+  add_window_option(command, input->window, "of pictures and histories");
   command.footer =
-      "Example: clatter simulate validation/cases/phone-damped.toml --digits 8\n"
-      "validation/cases/every-key.toml explains the keys of scene files.";
+      "Example: clatter simulate phone-damped --digits 8\n"
+      "clatter keys explains the keys of scene files, clatter init writes one with all of them.";
   command.run = [input] { return run_simulate(*input); };
   return command;
 }

@@ -248,7 +248,7 @@ Command sweep_command() {
   command.add_flag("--restart", input->restart, "begin anew where FILE.part is there, instead of going on");
   command.add_text("--threads", input->threads, "N", "computing threads (all cores)");
   command.footer =
-      "Example: clatter sweep validation/cases/phone-damped.toml --set drop.angle_deg=5:85:5 "
+      "Example: clatter sweep phone-damped --set drop.angle_deg=5:85:5 "
       "--set ground.damping=0:2e7:1e6 --set run.impacts=2 --output phone.csv\n"
       "An interrupted sweep goes on when the same command is given again. The discrete model takes the impact.* keys.\n"
       "Continuous scenes are planned for run.digits. Each number has a column with its error, empty where that is not "

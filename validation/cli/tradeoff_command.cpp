@@ -60,7 +60,7 @@ Command tradeoff_command() {
   add_output_options(command, input->output);
   add_plot_options(command, input->plot);
   command.footer =
-      "Example: clatter tradeoff validation/cases/rod-45.toml --plot tradeoff.svg\n"
+      "Example: clatter tradeoff rod-45 --plot tradeoff.svg\n"
       "The table shows the front, --format csv all points.";
   command.run = [input] { return run_tradeoff(*input); };
   return command;

@@ -25,7 +25,7 @@ bool is_thin(const Scene& scene) { return scene.body.shape == BodyScene::Shape::
 Scene bare_scene(BodyScene::Shape shape) {
   Scene scene;
   scene.body.shape = shape;
-  scene.ground.stiffness = 0;
+  scene.world.ground.stiffness = 0;
   scene.world.gravity = 0;
   return scene;
 }
@@ -64,16 +64,16 @@ double touch_speed(Scene scene) {
 
 /// Restitution and friction that the ground gives the first impact, as in `clatter compare`.
 void take_impact_of_ground(Scene& scene) {
-  const double per_speed = scene.ground.damping / scene.ground.stiffness;
+  const double per_speed = scene.world.ground.damping / scene.world.ground.stiffness;
   scene.impact.restitution = analytic::restitution_of_damping(per_speed * touch_speed(scene));
-  if (scene.ground.has_friction()) scene.impact.friction = scene.ground.sliding_friction;
+  if (scene.world.ground.has_friction()) scene.impact.friction = scene.world.ground.sliding_friction;
 }
 
 SceneArguments arguments_of(Scene scene, bool has_impact) {
   require_shown(scene);
   SceneArguments result;
-  const bool is_of_ground = scene.ground.stiffness > 0 && !has_impact;
-  if (is_of_ground && (scene.ground.damping > 0 || scene.ground.has_friction())) {
+  const bool is_of_ground = scene.world.ground.stiffness > 0 && !has_impact;
+  if (is_of_ground && (scene.world.ground.damping > 0 || scene.world.ground.has_friction())) {
     take_impact_of_ground(scene);
     result.notes.emplace_back("restitution and friction of the discrete model are those of the ground, at impact 1");
   }

@@ -29,8 +29,8 @@ struct TrackFile {
   std::size_t frames = 0;
 };
 
-/// Reads a file of poses; a planar angle α becomes the rotation by −α about y (x right, z up), or by +α if it is
-/// clockwise.
+/// Reads a file of poses, or the data set of this name that the program carries; a planar angle α becomes the rotation
+/// by −α about y (x right, z up), or by +α if it is clockwise.
 /// @throws BadInput as NumericTable::read; for drops whose samples do not increase; for a quaternion whose length is
 ///         off 1 by more than a twentieth.
 [[nodiscard]] TrackFile read_tracks(const std::string& path, const TrackDescription& description);

@@ -148,6 +148,9 @@ TrackDescription read_description(const std::string& path) {
 
 TrackDescription description_of(const std::string& csv, const std::optional<std::string>& given) {
   if (given) return read_description(*given);
+  const std::vector<std::string> names = carried_descriptions();
+  const bool is_carried = std::find(names.begin(), names.end(), csv) != names.end();
+  if (is_carried && !std::filesystem::exists(csv)) return read_description(csv);
   const std::string beside = std::filesystem::path(csv).replace_extension(ending).string();
   if (!std::filesystem::exists(beside)) {
     throw BadInput(

@@ -49,6 +49,12 @@ double clean_step(double from, double step, long long i) {
   return read_number({text, end}, rounded) ? rounded : value;
 }
 
+double clean_ratio(double first, double last, long long i, long long count) {
+  const double part = static_cast<double>(i) / static_cast<double>(count - 1);
+  const double size = std::exp(std::log(std::fabs(first)) * (1 - part) + std::log(std::fabs(last)) * part);
+  return clean_step(std::copysign(size, first), 0, 0);
+}
+
 void append_number(std::string& out, double value) {
   if (!std::isfinite(value)) return;
   char text[32];

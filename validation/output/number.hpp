@@ -27,6 +27,9 @@ namespace clatter::validation {
 /// from + i·step rounded to 15 digits, so that steps that are decimal fractions give clean decimals.
 [[nodiscard]] double clean_step(double from, double step, long long i);
 
+/// Number i of `count` from `first` to `last`, neither 0 and both of one sign, with equal ratios; rounded likewise.
+[[nodiscard]] double clean_ratio(double first, double last, long long i, long long count);
+
 /// Appends shortest(value), or nothing if it is not finite.
 void append_number(std::string& out, double value);
 

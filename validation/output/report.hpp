@@ -52,6 +52,7 @@ using Row = std::vector<Cell>;
 struct Grid {
   std::vector<Column> columns;
   std::vector<Row> rows;
+  std::size_t leading = 1;  ///< so many shown columns say which row it is: in each block of a table that is too wide
 };
 
 /// What was asked, what came out, in rows and in words.
@@ -100,7 +101,7 @@ struct TextStyle {
 [[nodiscard]] std::string shown_text(const Cell& cell);
 
 /// Fewer digits, first in the columns from starts[0] on, then from starts[1] on, …, until the report fits 80 columns
-/// as a table or only three digits are left.
+/// as a table; all digits again if three are still too many.
 void fit_columns(Report& report, int digits, const std::vector<std::size_t>& starts);
 
 /// Width of a UTF-8 text in columns of a terminal.

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "validation/output/aligned_grid.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/symbols.hpp"
@@ -42,41 +43,6 @@ std::vector<std::string> head_lines(const Report& report) {
   std::vector<std::string> lines{report.title};
   lines.insert(lines.end(), report.head.begin(), report.head.end());
   return lines;
-}
-
-std::vector<std::size_t> widths(const Texts& texts) {
-  std::vector<std::size_t> width(texts[0].size(), 0);
-  for (const auto& line : texts) {
-    for (std::size_t i = 0; i < line.size(); ++i) width[i] = std::max(width[i], display_width(line[i]));
-  }
-  return width;
-}
-
-std::string padded(const std::string& text, std::size_t width, bool words) {
-  const std::string blanks(width - display_width(text), ' ');
-  return words ? text + blanks : blanks + text;
-}
-
-/// Heading, unit, a rule, and a line for each row.
-std::string aligned_grid(const Grid& grid) {
-  const std::vector<std::size_t> columns = shown_columns(grid);
-  const Texts texts = shown_texts(grid, columns);
-  const auto width = widths(texts);
-  std::string out;
-  std::size_t total = 0;
-  for (const std::size_t w : width) total += w + 2;
-  for (std::size_t row = 0; row < texts.size(); ++row) {
-    std::string line;
-    for (std::size_t i = 0; i < width.size(); ++i) {
-      line += "  " + padded(texts[row][i], width[i], grid.columns[columns[i]].words);
-    }
-    out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-    if (row != 1) continue;
-    out += "  ";
-    for (std::size_t i = 2; i < total; ++i) out += "─";
-    out += "\n";
-  }
-  return out;
 }
 
 std::string aligned(const Report& report) {
@@ -144,16 +110,6 @@ std::string latex(const Report& report) {
   return out;
 }
 
-std::size_t widest_line(const std::string& text) {
-  std::size_t widest = 0;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = text.find('\n', begin);
-    widest = std::max(widest, display_width(text.substr(begin, end - begin)));
-    begin = end + 1;
-  }
-  return widest;
-}
-
 }  // namespace
 
 std::string headline(const std::string& command, const std::string& what) {
@@ -197,10 +153,11 @@ std::string wrapped(const std::string& text, std::size_t width, const std::strin
 
 void fit_columns(Report& report, int digits, const std::vector<std::size_t>& starts) {
   Grid& grid = report.digest ? *report.digest : report.grid;
+  const std::vector<Row> whole = grid.rows;
   const std::vector<std::size_t> columns = shown_columns(grid);
   for (const std::size_t first : starts) {
     for (int shown = digits - 1; shown >= 3; --shown) {
-      if (widest_line(aligned_grid(grid)) <= 80) return;
+      if (natural_width(grid) <= table_width) return;
       for (Row& row : grid.rows) {
         for (std::size_t i = first; i < columns.size() && columns[i] < row.size(); ++i) {
           Cell& cell = row[columns[i]];
@@ -209,6 +166,7 @@ void fit_columns(Report& report, int digits, const std::vector<std::size_t>& sta
       }
     }
   }
+  if (natural_width(grid) > table_width) grid.rows = whole;  // it stands in several blocks, which take all digits
 }
 
 std::string report_text(const Report& report, const TextStyle& style) {

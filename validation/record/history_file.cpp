@@ -65,12 +65,14 @@ std::vector<double> history_numbers(const HistorySample& s) {
           s.in_contact ? 1.0 : 0.0};
 }
 
-HistoryFile::HistoryFile(const std::string& path, const std::vector<std::string>& head) : sink_(path, "--history") {
+HistoryFile::HistoryFile(const std::string& path, const std::vector<std::string>& head, const TimeWindow& window)
+    : sink_(path, "--history"), window_(window) {
   for (const std::string& line : head) sink_.write("# " + line + "\n");
   sink_.write(fmt::format("{}\n", fmt::join(history_names(), ",")));
 }
 
 void HistoryFile::record(const HistorySample& sample) {
+  if (!window_.holds(sample.time)) return;
   std::string line;
   for (const double number : history_numbers(sample)) line += (line.empty() ? "" : ",") + shortest(number);
   sink_.write(line + "\n");

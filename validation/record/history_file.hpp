@@ -7,6 +7,7 @@
 #include "numeric/history.hpp"
 #include "validation/output/report.hpp"
 #include "validation/output/sink.hpp"
+#include "validation/record/time_window.hpp"
 
 namespace clatter::validation {
 
@@ -20,13 +21,15 @@ namespace clatter::validation {
 /// Streams samples into a file that appears whole or not at all.
 class HistoryFile : public numeric::HistoryRecorder {
  public:
-  /// @param head  lines without "# ", written first.  @throws BadInput if the file cannot be created.
-  HistoryFile(const std::string& path, const std::vector<std::string>& head);
+  /// @param head  lines without "# ", written first.  @param window  what of the history is written.
+  /// @throws BadInput if the file cannot be created.
+  HistoryFile(const std::string& path, const std::vector<std::string>& head, const TimeWindow& window = {});
   void record(const numeric::HistorySample& sample) override;
   void commit() { sink_.commit(); }
 
  private:
   Sink sink_;
+  TimeWindow window_;
 };
 
 /// Samples of the fall from rest that ends in `touch` at time 0: `parts` of them, from the release on.

@@ -22,12 +22,13 @@ std::string equation_text(const Equation& equation, std::size_t name_width, int 
 }
 
 std::string as_text(const std::vector<std::string>& head, const std::vector<Step>& steps, int digits, bool ascii) {
+  const auto plain = [&](const std::string& text) { return ascii ? to_ascii(text) : text; };  // of another width
   std::string out;
-  for (const std::string& line : head) out += wrapped(line) + "\n";
+  for (const std::string& line : head) out += wrapped(plain(line)) + "\n";
   for (const Step& step : steps) {
     std::size_t name_width = 0;
     for (const Equation& e : step.equations) name_width = std::max(name_width, display_width(e.name));
-    out += "\n" + step.title + "\n" + wrapped("  " + step.text, 79, "") + "\n";
+    out += "\n" + step.title + "\n" + wrapped("  " + plain(step.text), 79, "") + "\n";
     for (const Equation& e : step.equations) out += equation_text(e, name_width, digits);
   }
   return ascii ? to_ascii(out) : out;

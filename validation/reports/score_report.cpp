@@ -6,7 +6,9 @@
 #include <filesystem>
 
 #include "validation/output/number.hpp"
+#include "validation/scene/body_properties.hpp"
 #include "validation/scene/option_values.hpp"
+#include "validation/scene/scene_value.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -176,6 +178,15 @@ Requirement read_requirement(const std::optional<std::string>& text) {
   std::vector<std::string> names = verdict_names();
   names.pop_back();
   return {.verdict = static_cast<Verdict>(read_name_option("--require", *text, names)), .error = {}};
+}
+
+Report against_report(const Scene& scene, const Reference& reference, const std::vector<Submission>& submissions) {
+  Report report = score_report("compare", submissions);
+  report.head = scene_head(scene, Model::discrete);
+  report.fields["scene"] = scene_value(scene, Model::discrete);
+  report.fields["message"] = text_or_nothing(reference.remark);
+  if (!reference.remark.empty()) report.notes.push_back(reference.remark);
+  return report;
 }
 
 }  // namespace clatter::validation

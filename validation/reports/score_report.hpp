@@ -3,6 +3,7 @@
 
 #include "validation/benchmark/submission.hpp"
 #include "validation/output/report.hpp"
+#include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
 
@@ -10,6 +11,10 @@ namespace clatter::validation {
 
 /// One row per file; groups with their worst phase and order in words and JSON.
 [[nodiscard]] Report score_report(const std::string& command, const std::vector<Submission>& submissions);
+
+/// The same of runs of a scene that has no certified answers: they are judged by the discrete model.
+[[nodiscard]] Report against_report(const Scene& scene, const Reference& reference,
+                                    const std::vector<Submission>& submissions);
 
 /// A vector as a list of its parts.
 [[nodiscard]] std::vector<double> parts(const analytic::space::Vector3& v);

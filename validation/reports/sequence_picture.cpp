@@ -55,8 +55,9 @@ struct Flight {
 
 class HeightCurve {
  public:
-  HeightCurve(const Scene& scene, const Sequence& sequence)
-      : body_(nominal_body(scene)), gravity_(scene.world.gravity), rows_(sequence.rows), whole_(whole_time(sequence)) {
+  HeightCurve(const Scene& scene, const Sequence& sequence, const TimeWindow& window)
+      : body_(nominal_body(scene)), gravity_(scene.world.gravity), rows_(sequence.rows), whole_(whole_time(sequence)),
+        width_(std::min(whole_, window.to - window.from)) {
     add_part(flight(rows_.front(), rows_.front().before), -approach());
     std::reverse(samples_.begin(), samples_.end());
     for (std::size_t i = 0; i + 1 < rows_.size(); ++i) {
@@ -91,7 +92,7 @@ class HeightCurve {
 
   /// Points for the share of the picture's width, more for a body that spins.
   [[nodiscard]] int parts(const Flight& flight, double duration) const {
-    const double share = std::fabs(duration) / whole_, turns = std::fabs(flight.velocity.angular * duration) / 6;
+    const double share = std::fabs(duration) / width_, turns = std::fabs(flight.velocity.angular * duration) / 6;
     return static_cast<int>(std::clamp(1000 * share, 6.0, 60.0) + std::min(24 * turns, 3000.0));
   }
 
@@ -123,17 +124,17 @@ class HeightCurve {
   PlanarBody body_;
   double gravity_;
   const std::vector<ImpactRow>& rows_;
-  double whole_;
+  double whole_, width_;  ///< time of the sequence, and of the picture
   std::vector<std::vector<double>> samples_;
 };
 
-PicturePanel height_panel(const Scene& scene, const Sequence& sequence) {
+PicturePanel height_panel(const Scene& scene, const Sequence& sequence, const TimeWindow& window) {
   PicturePanel panel{
       .columns = {{"time", "s", "time since the first impact"},
                   {"a", "m", "height of the lowest point of end a"},
                   {"b", "m", "height of the lowest point of end b"},
                   {"end", "m", "time at which the impacts end"}},
-      .rows = HeightCurve(scene, sequence).samples(),
+      .rows = clipped(HeightCurve(scene, sequence, window).samples(), window),
       .plot = {.title = "",
                .x_label = "",
                .y_label = "lowest point [m]",
@@ -208,10 +209,18 @@ std::vector<std::string> words_of(const Scene& scene) {
 
 }  // namespace
 
-Picture sequence_picture(const Scene& scene, const Sequence& sequence) {
+Picture sequence_picture(const Scene& scene, const Sequence& sequence, const TimeWindow& window) {
   Picture picture{.what = "Impact sequence, discrete model",
                   .scene = words_of(scene),
-                  .panels = {height_panel(scene, sequence), impulse_panel(scene, sequence)}};
+                  .panels = {height_panel(scene, sequence, window), impulse_panel(scene, sequence)}};
+  if (!window.is_all()) {
+    for (PicturePanel& panel : picture.panels) panel.plot.x = {window.from, window.to};
+    // No impulse may fall into the window; its axis has a range all the same.
+    double largest = 0;
+    for (const ImpactRow& row : sequence.rows) largest = std::max(largest, row.impact.normal_impulse);
+    picture.panels[1].plot.y = {0, 1.05 * largest};
+    return picture;
+  }
   const auto& samples = picture.panels[0].rows;
   const auto [first, last] = std::minmax_element(samples.begin(), samples.end(),
                                                  [](const auto& one, const auto& other) { return one[0] < other[0]; });

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "numeric/motion/free_flight.hpp"
 #include "validation/reports/swept_column.hpp"
@@ -29,28 +30,91 @@ const std::vector<FigureColumn>& history_columns() {
 
 FigureCurve over_time(const char* column, const char* legend) { return {.x = "time", .y = column, .legend = legend}; }
 
-/// The first contact is not on the frame.
-PicturePanel history_panel(const PictureHistory& history, const std::string& label, std::vector<FigureCurve> curves) {
+/// The samples that a picture shows, and its range of times.
+struct ShownHistory {
+  std::vector<std::vector<double>> rows;
+  Range2 time;
+};
+
+/// Without a window the first contact is not on the frame.
+ShownHistory shown_history(const PictureHistory& history, const TimeWindow& window) {
   const double end = history.rows().back()[0];
-  return {.columns = history_columns(),
-          .rows = history.rows(),
-          .plot = {.title = "",
-                   .x_label = "",
-                   .y_label = label,
-                   .curves = std::move(curves),
-                   .x = {-0.015 * end, end},
-                   .y = {}}};
+  if (window.is_all()) return {history.rows(), {-0.015 * end, end}};
+  return {clipped(history.rows(), window), {window.from, window.to}};
+}
+
+PicturePanel history_panel(const ShownHistory& history, const std::string& label, std::vector<FigureCurve> curves) {
+  return {
+      .columns = history_columns(),
+      .rows = history.rows,
+      .plot = {.title = "", .x_label = "", .y_label = label, .curves = std::move(curves), .x = history.time, .y = {}}};
+}
+
+/// The impacts of a sweep's picture: as many as each panel has colours for.
+std::size_t drawn_impacts(const std::vector<SweptRun>& runs) {
+  constexpr std::size_t most = 6;
+  std::size_t impacts = 1;
+  for (const SweptRun& swept : runs) impacts = std::max(impacts, swept.planned.run.impacts.size());
+  return std::min(impacts, most);
 }
 
 /// At least one per cent of the energy to both sides, so that what is lost to rounding alone looks like nothing.
 Range2 loss_range(const std::vector<SweptRun>& runs) {
   double energy = 0, loss = 0;
   for (const SweptRun& swept : runs) {
-    if (swept.planned.run.impacts.empty()) continue;
-    energy = std::max(energy, swept.planned.run.energy_start);
-    loss = std::max(loss, std::fabs(swept.planned.run.impacts[0].value.energy_loss));
+    const std::vector<numeric::ImpactRecord>& impacts = swept.planned.run.impacts;
+    if (!impacts.empty()) energy = std::max(energy, swept.planned.run.energy_start);
+    for (std::size_t i = 0; i < std::min(impacts.size(), drawn_impacts(runs)); ++i) {
+      loss = std::max(loss, std::fabs(impacts[i].value.energy_loss));
+    }
   }
   return loss < 0.01 * energy ? Range2{-0.01 * energy, 0.01 * energy} : Range2{};
+}
+
+/// What a sweep's picture shows of an impact.
+struct SweptQuantity {
+  const char *column, *unit, *label, *legend;
+  double (*get)(const numeric::ImpactNumbers&);
+};
+using numeric::ImpactNumbers;
+constexpr SweptQuantity swept_quantities[]{
+    {"Vz", "m/s", "velocity [m/s]", "normal velocity after the impact, Vₙ",
+     [](const ImpactNumbers& n) { return n.velocity_after.z(); }},
+    {"Omega", "rad/s", "Ω [rad/s]", "angular velocity after the impact, Ω",
+     [](const ImpactNumbers& n) { return n.angular_velocity_after.y(); }},
+    {"P", "N·s", "impulse [N·s]", "normal impulse, Pₙ", [](const ImpactNumbers& n) { return n.impulse.z(); }},
+    {"loss", "J", "energy [J]", "energy lost", [](const ImpactNumbers& n) { return n.energy_loss; }}};
+
+/// A curve for each impact over the swept values.
+PicturePanel swept_panel(const Scene& scene, const std::vector<SweptRun>& runs, const SweptQuantity& quantity) {
+  const std::size_t impacts = drawn_impacts(runs);
+  PicturePanel panel{
+      .columns = {{"value", swept_column(*scene.sweep).unit.empty() ? "1" : "°", swept_words(*scene.sweep)}},
+      .rows = {},
+      .plot = {.title = "",
+               .x_label = "",
+               .y_label = quantity.label,
+               .curves = {},
+               .x = swept_range(scene.sweep->from, scene.sweep->to),
+               .y = {}}};
+  for (std::size_t i = 0; i < impacts; ++i) {
+    const std::string of_impact = impacts == 1 ? "" : fmt::format(", impact {}", i + 1);
+    const std::string column = fmt::format("{}{}", quantity.column, i + 1);
+    panel.columns.push_back({column, quantity.unit, quantity.legend + of_impact});
+    panel.plot.curves.push_back({.x = "value",
+                                 .y = column,
+                                 .legend = i == 0 || impacts == 1 ? quantity.legend + of_impact : of_impact.substr(2),
+                                 .style = Style::line_points,
+                                 .where = {}});
+  }
+  for (const SweptRun& swept : runs) {
+    auto& row = panel.rows.emplace_back(std::vector<double>{swept.value});
+    for (std::size_t i = 0; i < impacts; ++i) {
+      const auto& records = swept.planned.run.impacts;
+      row.push_back(i < records.size() ? quantity.get(records[i].value) : no_number);
+    }
+  }
+  return panel;
 }
 
 }  // namespace
@@ -61,7 +125,8 @@ void PictureHistory::record(const numeric::HistorySample& s) {
                    s.energy_rotation, s.energy_potential, s.energy_ground, s.energy_total()});
 }
 
-Picture simulation_picture(const Scene& scene, const PictureHistory& history) {
+Picture simulation_picture(const Scene& scene, const PictureHistory& kept, const TimeWindow& window) {
+  const ShownHistory history = shown_history(kept, window);
   Picture picture{.what = "Impact sequence, continuous contact",
                   .scene = scene.summary(),
                   .panels = {history_panel(history, "height [m]",
@@ -77,43 +142,13 @@ Picture simulation_picture(const Scene& scene, const PictureHistory& history) {
 }
 
 Picture sweep_picture(const Scene& scene, const std::vector<SweptRun>& runs) {
-  const SceneSweep& sweep = *scene.sweep;
-  const std::vector<FigureColumn> columns{{"value", swept_column(sweep).unit.empty() ? "1" : "°", swept_words(sweep)},
-                                          {"Vz", "m/s", "normal velocity of the mass centre after impact 1"},
-                                          {"Omega", "rad/s", "angular velocity after impact 1"},
-                                          {"P", "N·s", "normal impulse of impact 1"},
-                                          {"loss", "J", "energy lost in impact 1"}};
-  std::vector<std::vector<double>> rows;
-  for (const SweptRun& swept : runs) {
-    if (swept.planned.run.impacts.empty()) {
-      rows.push_back({swept.value, no_number, no_number, no_number, no_number});
-      continue;
-    }
-    const numeric::ImpactNumbers& first = swept.planned.run.impacts[0].value;
-    rows.push_back({swept.value, first.velocity_after.z(), first.angular_velocity_after.y(), first.impulse.z(),
-                    first.energy_loss});
-  }
-  Picture picture{.what = "First impact, continuous contact", .scene = scene.summary(), .panels = {}};
-  struct Panel {
-    const char *column, *label, *legend;
-  };
-  for (const auto& [column, label, legend] :
-       {Panel{"Vz", "velocity [m/s]", "normal velocity after the impact, Vₙ"},
-        Panel{"Omega", "Ω [rad/s]", "angular velocity after the impact, Ω"},
-        Panel{"P", "impulse [N·s]", "normal impulse, Pₙ"}, Panel{"loss", "energy [J]", "energy lost"}}) {
-    picture.panels.push_back(
-        {.columns = columns,
-         .rows = rows,
-         .plot = {.title = "",
-                  .x_label = "",
-                  .y_label = label,
-                  .curves = {{.x = "value", .y = column, .legend = legend, .style = Style::line_points}},
-                  .x = swept_range(runs.front().value, runs.back().value),
-                  .y = {}}});
-  }
+  Picture picture{.what = drawn_impacts(runs) == 1 ? "First impact, continuous contact" : "Impacts, continuous contact",
+                  .scene = scene.summary(),
+                  .panels = {}};
+  for (const SweptQuantity& quantity : swept_quantities) picture.panels.push_back(swept_panel(scene, runs, quantity));
   picture.panels.back().plot.y = loss_range(runs);
-  const std::string unit = swept_column(sweep).unit;
-  picture.panels.back().plot.x_label = swept_words(sweep) + (unit.empty() ? "" : " [" + unit + "]");
+  const std::string unit = swept_column(*scene.sweep).unit;
+  picture.panels.back().plot.x_label = swept_words(*scene.sweep) + (unit.empty() ? "" : " [" + unit + "]");
   return picture;
 }
 

@@ -6,6 +6,7 @@
 #include "numeric/body.hpp"
 #include "numeric/history.hpp"
 #include "validation/figures/picture.hpp"
+#include "validation/record/time_window.hpp"
 #include "validation/reports/simulation_report.hpp"
 
 namespace clatter::validation {
@@ -35,10 +36,10 @@ class HistoryFan : public numeric::HistoryRecorder {
   std::vector<numeric::HistoryRecorder*> recorders_;
 };
 
-/// Heights, contact force and energies over time.
-[[nodiscard]] Picture simulation_picture(const Scene& scene, const PictureHistory& history);
+/// Heights, contact force and energies over time, as far as the window goes.
+[[nodiscard]] Picture simulation_picture(const Scene& scene, const PictureHistory& history, const TimeWindow& window);
 
-/// What the first impact of each value left: normal velocity, angular velocity, impulse, energy loss.
+/// What each impact of each value left, the first six: normal velocity, angular velocity, impulse, energy loss.
 [[nodiscard]] Picture sweep_picture(const Scene& scene, const std::vector<SweptRun>& runs);
 
 }  // namespace clatter::validation

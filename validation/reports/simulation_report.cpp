@@ -117,17 +117,23 @@ std::vector<std::string> notes_of(const Scene& scene, const PlannedRun& planned)
   return notes;
 }
 
+bool has_friction(const Scene& scene) {
+  const bool swept = scene.sweep && scene.sweep->quantity == SceneSweep::Quantity::friction;
+  return swept || scene.world.ground.has_friction();
+}
+
 std::vector<Column> columns_of(const Scene& scene) {
-  const bool friction = scene.world.ground.has_friction();
+  const bool friction = has_friction(scene);
   std::vector<std::string> shown{"n",
                                  "end",
                                  "start",
+                                 "duration",
                                  "contact_angle_deg",
                                  "impulse_normal",
                                  "peak_force",
                                  "velocity_after_z",
                                  "angular_velocity_after_y"};
-  shown.emplace_back(friction ? "impulse_tangential" : "duration");
+  if (friction) shown.emplace_back("impulse_tangential");
   if (friction || scene.world.ground.damping > 0) shown.emplace_back("energy_loss");
   return impact_columns<ContinuousRow>(shown);
 }
@@ -142,6 +148,17 @@ std::vector<Row> rows_of(const Scene& scene, const PlannedRun& planned) {
     rows.back()[0].shown = fmt::format("{}{}{}", n, trusted ? "" : "?", record.submerged ? "!" : "");
   }
   return rows;
+}
+
+/// Beside friction the table has room for three digits of how long contacts take.
+void shorten_durations(const Scene& scene, Grid& table) {
+  if (!has_friction(scene)) return;
+  const auto column = std::find_if(table.columns.begin(), table.columns.end(),
+                                   [](const Column& one) { return one.name == "duration"; });
+  const auto place = static_cast<std::size_t>(column - table.columns.begin());
+  for (Row& row : table.rows) {
+    if (place < row.size()) row[place].digits = std::min(row[place].digits, 3);
+  }
 }
 
 Value shortfall_value(const Scene& scene, const PlannedRun& planned) {
@@ -179,12 +196,14 @@ void add_run(const SweptRun& swept, const Scene& scene, Report& report) {
                                                 {"shortfall", shortfall_value(swept.scene, swept.planned)},
                                                 {"impacts", row_objects(impacts)}});
   for (Row& row : impacts.rows) {
+    const bool is_first = &row == &impacts.rows.front();
     row.insert(row.begin(), Cell(swept.value, 6));
-    if (&row == &impacts.rows.front()) report.digest->rows.push_back(row);
-    report.grid.rows.push_back(std::move(row));
+    report.grid.rows.push_back(row);
+    if (!is_first) row.front() = Cell();  // readers see the value once
+    report.digest->rows.push_back(std::move(row));
   }
   if (run.impacts.empty())
-    report.digest->rows.push_back({Cell(swept.value, 6), Cell(), Cell(), Cell(outcome_name(run.outcome))});
+    report.digest->rows.push_back({Cell(swept.value, 6), Cell("–"), Cell(outcome_name(run.outcome))});
   if (run.impacts.empty() || is_cut_short(run.outcome)) {
     report.remarks.push_back(fmt::format("{}: {}: {}", shortest(swept.value), outcome_name(run.outcome), run.message));
   }
@@ -205,18 +224,17 @@ Report simulation_report(const Scene& scene, const PlannedRun& planned) {
   report.fields["body"] = body_value(scene);
   report.fields["impacts"] = row_objects(report.grid);
   add_results(scene, planned, report.fields);
+  shorten_durations(scene, report.grid);
   fit_columns(report, scene.accuracy.digits, {2});
   return report;
 }
 
 Report sweep_report(const Scene& scene, const std::vector<SweptRun>& runs) {
-  Report report = begun_report("simulate", "first impacts, continuous contact");
+  Report report = begun_report("simulate", "impact sequences, continuous contact");
   report.head = scene_head(scene);
-  report.grid.columns =
-      impact_columns<ContinuousRow>({"touches", "impulse_normal", "impulse_ratio", "velocity_after_x",
-                                     "velocity_after_z", "angular_velocity_after_y", "peak_force", "energy_loss"});
+  report.grid.columns = columns_of(scene);
   report.grid.columns.insert(report.grid.columns.begin(), swept_column(*scene.sweep));
-  report.digest = Grid{report.grid.columns, {}};
+  report.digest = Grid{report.grid.columns, {}, 2};
   report.fields["model"] = "continuous";
   report.fields["scene"] = scene_value(scene);
   report.fields["body"] = body_value(scene);
@@ -227,6 +245,7 @@ Report sweep_report(const Scene& scene, const std::vector<SweptRun>& runs) {
   report.fields["message"] = fmt::format("{} of {} values", runs.size(), values);
   if (!runs.empty()) report.notes.push_back(method_words(runs.back().planned.run) + " (the last row's)");
   add_interruption(*scene.sweep, runs.size(), report);
+  shorten_durations(scene, *report.digest);
   fit_columns(report, scene.accuracy.digits, {2});
   return report;
 }

@@ -175,7 +175,8 @@ const std::vector<std::string>& scene_keys() {
     std::vector<std::string> list;
     for (const Key& key : all_keys()) list.emplace_back(key.name);
     for (const std::string& swept : sweep_names()) {
-      for (const char* part : {".from", ".to", ".step"}) list.push_back("sweep." + swept + part);
+      for (const char* part : {"", ".from", ".to", ".step", ".count", ".scale"})
+        list.push_back("sweep." + swept + part);
     }
     return list;
   }();

@@ -14,6 +14,7 @@
 #include "validation/scene/keys.hpp"
 #include "validation/scene/orientation.hpp"
 #include "validation/scene/scene.hpp"
+#include "validation/scene/scene_sweep.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -86,23 +87,6 @@ void check_accuracy(const SceneValues& values, const numeric::Accuracy& accuracy
   }
 }
 
-std::optional<SceneSweep> read_sweep_table(const SceneValues& values) {
-  constexpr Range positive{0, 1e300, true, "greater than 0"};
-  std::optional<SceneSweep> sweep;
-  for (std::size_t i = 0; i < sweep_names().size(); ++i) {
-    const std::string table = "sweep." + sweep_names()[i];
-    if (!values.has_table(table)) continue;
-    if (sweep) throw BadInput(fmt::format("{}: {}: only one quantity can be swept", values.path(), table));
-    const Range& range = range_of(i == 0 ? "drop.angle_deg" : "ground.sliding_friction");
-    for (const char* key : {".from", ".to", ".step"}) values.require(table + key, "a sweep has from, to and step");
-    sweep = SceneSweep{static_cast<SceneSweep::Quantity>(i), values.number(table + ".from", 0, range),
-                       values.number(table + ".to", 0, range), values.number(table + ".step", 1, positive)};
-    if (!(sweep->to >= sweep->from)) values.refuse(table + ".to", "at least the sweep's from");
-    if (!((sweep->to - sweep->from) / sweep->step <= 1e6)) values.refuse(table + ".step", "at most 1000000 values");
-  }
-  return sweep;
-}
-
 void check_sweep(const SceneValues& values, Scene& scene) {
   const std::string other = "a scene that does not sweep it";
   if (!scene.sweep) return;
@@ -158,7 +142,7 @@ Scene read_values(SceneValues values, const std::vector<SceneOverride>& override
     if (flag.key == "run.step") values.drop("run.tolerance");
     if (flag.key == "run.tolerance") values.drop("run.step");
     if (flag.key == "drop.angle_deg" || flag.key == "drop.attitude" || flag.key == "drop.orientation") {
-      for (const char* key : {".from", ".to", ".step"}) values.drop(std::string("sweep.angle_deg") + key);
+      drop_sweep(values, "angle_deg");
     }
     values.set(flag.key, flag.flag, flag.text);
   }

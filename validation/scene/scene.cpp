@@ -104,17 +104,6 @@ const char* method_name(numeric::Method method) { return method_names()[static_c
 
 const char* law_name(analytic::RestitutionLaw law) { return law_names()[static_cast<std::size_t>(law)].c_str(); }
 
-std::vector<double> SceneSweep::values() const {
-  std::vector<double> values;
-  const auto last = static_cast<long long>(std::floor((to - from) / step * (1 + 1e-12) + 1e-12));
-  for (long long i = 0; i <= last; ++i) {
-    values.push_back(std::min(clean_step(from, step, i), to));
-  }
-  return values;
-}
-
-const std::string& SceneSweep::name() const { return sweep_names()[static_cast<std::size_t>(quantity)]; }
-
 Scene Scene::at(double value) const {
   Scene one = *this;
   if (sweep->quantity == SceneSweep::Quantity::angle_deg) one.angle_deg = value;
@@ -128,7 +117,7 @@ Json Scene::json(Model model) const {
   if (!path.empty()) json["file"] = text_json(path);
   json.update(keys_json(*this, model));
   if (sweep) {
-    json["sweep"][sweep->name()] = {{"from", sweep->from}, {"to", sweep->to}, {"step", sweep->step}};
+    json["sweep"][sweep->name()] = sweep->json();
   }
   return json;
 }

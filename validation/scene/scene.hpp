@@ -47,13 +47,20 @@ struct BodyScene {
   [[nodiscard]] bool is_stl() const;
 };
 
-/// Values of one quantity for which the drop is repeated.
+/// Values of one quantity for which the drop is repeated: a list, or those from `from` to `to` by equal steps, equal
+/// distances or equal ratios.
 struct SceneSweep {
   enum class Quantity { angle_deg, friction } quantity = Quantity::angle_deg;
-  double from = 0, to = 0, step = 1;
+  double from = 0, to = 0;       ///< of a list the least and the largest
+  double step = 0;               ///< from one value to the next, `to` at most; 0: by `count`
+  long long count = 0;           ///< of the values, both ends taken; 0: by `step`
+  bool logarithmic = false;      ///< with `count`: equal ratios
+  std::vector<double> listed{};  ///< the values themselves, in place of a grid
   [[nodiscard]] std::vector<double> values() const;
   /// Key of the scene file under "sweep", and the quantity's name in JSON and CSV.
   [[nodiscard]] const std::string& name() const;
+  /// As a scene file has it: an array, or an object with from and to.
+  [[nodiscard]] Json json() const;
 };
 
 /// The model that a scene is read for.  The discrete one needs no ground, and its rod may be thin (body.radius = 0).

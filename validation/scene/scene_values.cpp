@@ -224,6 +224,15 @@ std::size_t SceneValues::name(const std::string& key, std::size_t fallback,
   return static_cast<std::size_t>(found - names.begin());
 }
 
+std::vector<double> SceneValues::number_list(const std::string& key, const Range& range) const {
+  const auto* const list = std::get_if<std::vector<double>>(&at(key).value);
+  const auto fits = [&](double value) { return inside(value, range); };
+  if (!list || list->empty() || !std::all_of(list->begin(), list->end(), fits)) {
+    refuse(key, fmt::format("a list of numbers, each {}", range.words));
+  }
+  return *list;
+}
+
 std::vector<double> SceneValues::numbers(const std::string& key, const std::vector<std::size_t>& sizes,
                                          const Range& range, const std::string& words) const {
   if (!has(key)) return {};

@@ -43,6 +43,9 @@ class SceneValues {
   [[nodiscard]] std::vector<double> numbers(const std::string& key, const std::vector<std::size_t>& sizes,
                                             const Range& range, const std::string& words) const;
 
+  /// A list of the file with at least one number.
+  [[nodiscard]] std::vector<double> number_list(const std::string& key, const Range& range) const;
+
   /// @throws BadInput "where: key = given: must be ALLOWED".
   [[noreturn]] void refuse(const std::string& key, const std::string& allowed) const;
   [[nodiscard]] const std::string& path() const { return path_; }

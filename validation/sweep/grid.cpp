@@ -76,18 +76,9 @@ SweepAxis read_ratio_axis(const AxisText& given, const std::string& key, bool wh
 double SweepAxis::at(long long i) const {
   if (!listed.empty()) return listed[static_cast<std::size_t>(i)];
   if (i == 0) return first;
-  if (logarithmic) return at_ratio(i);
+  if (logarithmic) return i == count - 1 ? last : clean_ratio(first, last, i, count);
   const double value = clean_step(first, step, i);
   return step > 0 ? std::fmin(value, last) : std::fmax(value, last);
-}
-
-/// With equal ratios, rounded like a step.
-double SweepAxis::at_ratio(long long i) const {
-  if (i == count - 1) return last;
-  const double part = static_cast<double>(i) / static_cast<double>(count - 1);
-  const double value =
-      std::copysign(std::exp(std::log(std::fabs(first)) * (1 - part) + std::log(std::fabs(last)) * part), first);
-  return clean_step(value, 0, 0);
 }
 
 double SweepAxis::drawn(double part) const {

@@ -24,9 +24,6 @@ struct SweepAxis {
   [[nodiscard]] double at(long long i) const;
   /// The value at `part` of the range, part in [0, 1).
   [[nodiscard]] double drawn(double part) const;
-
- private:
-  [[nodiscard]] double at_ratio(long long i) const;
 };
 
 /// FROM:TO:STEP, the values from FROM by STEP as far as TO, STEP with the sign of TO − FROM; FROM:TO:log:COUNT, values

@@ -74,7 +74,8 @@ std::vector<Column> result_columns(const Kind& kind) {
                                 : in_space                   ? impact_columns<SpaceRow>(shown_of_impacts)
                                                              : impact_columns<DiscreteRow>(shown_of_impacts);
   if (rows == RowKind::impact) columns.push_back(outcome_column());
-  columns.push_back({"reason", "reason", "", "why it has no numbers, or fewer impacts or digits than asked for"});
+  columns.push_back(
+      word_column("reason", "reason", "why it has no numbers, or fewer impacts or digits than asked for"));
   return columns;
 }
 

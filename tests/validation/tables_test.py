@@ -1,0 +1,149 @@
+#!/usr/bin/python3
+"""What every command's output has in common: tables for a terminal, a version in every form, help that can be followed."""
+
+import csv
+import io
+import json
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["CLATTER_PROGRAM"]
+ROOT = os.environ["CLATTER_ROOT"]
+TERMINAL = 80  # columns
+
+# Commands that print rows, with tables of all kinds: long texts, many columns, vectors.
+COMMANDS = [
+    ["sequence", "--angle", "10"], ["sequence", "phone-corner", "--impacts", "3"], ["angles", "--as-printed", "--step", "30"],
+    ["regimes"], ["explain", "2", "--angle", "10"], ["simulate", "phone-corner", "--impacts", "2"],
+    ["simulate", "phone-sweep", "--impacts", "2", "--digits", "4"], ["compare", "rod-10"], ["compare", "phone-damped", "--impacts", "1"],
+    ["sweep", "phone-damped", "--set", "drop.angle_deg=5,40"],
+    ["sweep", "phone-damped", "--set", "drop.angle_deg=5,40", "--set", "drop.spin=0,1", "--rows", "impact"],
+    ["sweep", "phone-corner", "--set", "drop.orientation=1,20", "--model", "discrete", "--rows", "impact"],
+    ["verify", "--only", "E1", "C3"], ["plan", "phone-damped", "--impacts", "1"],
+    ["extremes", "--only", "restitution", "--seconds", "600"],
+    ["measured", "fit", "square-drops"], ["measured", "predict", "square-drops"], ["measured", "score", "square-drops"],
+    ["benchmark", "list"], ["benchmark", "truth", "corner"], ["keys"], ["columns"],
+]
+
+
+def run(*arguments, folder=None):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, cwd=folder, check=False)
+
+
+def printed(*arguments, statuses=(0,)):
+    done = run(*arguments)
+    assert done.returncode in statuses, (arguments, done.stderr)
+    return done.stdout
+
+
+def version():
+    return printed("--version").split()[1]
+
+
+class Tables(unittest.TestCase):
+    def test_no_table_is_wider_than_a_terminal(self):
+        for command in COMMANDS:
+            with self.subTest(command=command):
+                text = printed(*command, "--format", "table", statuses=(0, 1, 3))
+                self.assertEqual([line for line in text.splitlines() if len(line) > TERMINAL], [])
+
+    def test_nor_in_plain_characters_which_are_wider(self):
+        for command in COMMANDS[:5] + COMMANDS[-4:]:
+            with self.subTest(command=command):
+                text = printed(*command, "--format", "table", "--ascii")
+                self.assertEqual([line for line in text.splitlines() if len(line) > TERMINAL], [])
+
+    def test_a_folded_text_keeps_all_its_words_in_their_order(self):
+        rows = list(csv.DictReader(io.StringIO(printed("columns", "--only", "sweep", "--format", "csv", "--bare"))))
+        table = printed("columns", "--only", "sweep")
+        start = next(line for line in table.splitlines() if "meaning" in line).index("meaning")
+        body = table.split("─\n")[1].split("history: of")[0]
+        shown = " ".join(line[start:] for line in body.splitlines())
+        self.assertEqual(shown.split(), " ".join(row["meaning"] for row in rows).split())
+
+    def test_a_table_in_blocks_shows_every_column_of_every_row_and_names_the_row_in_each(self):
+        arguments = ["sweep", "phone-damped", "--set", "drop.angle_deg=5,40,70", "--set", "run.impacts=2"]
+        rows = list(csv.DictReader(io.StringIO(printed(*arguments, "--format", "csv", "--bare"))))
+        table = printed(*arguments, "--format", "table")
+        parts = [part for part in table.split("\n\n") if "─" in part]
+        self.assertGreater(len(parts), 1)
+        for part in parts:
+            body = [line.split() for line in part.split("─\n")[1].splitlines()]
+            self.assertEqual([row[0] for row in body[:3]], [row["index"] for row in rows])
+        for name in ("total_normal_impulse", "largest_peak_force", "last_start", "drop.angle_deg", "outcome"):
+            self.assertEqual(sum(name in part.split("─")[0].split() for part in parts), 1, name)
+            part = next(part for part in parts if name in part.split("─")[0].split())
+            for line, row in zip(part.split("─\n")[1].splitlines(), rows):
+                shown = line.split()[part.split("─")[0].splitlines()[-3].split().index(name)]
+                if name == "outcome":
+                    self.assertEqual(shown, row[name])
+                else:
+                    self.assertAlmostEqual(float(shown) / float(row[name]), 1, delta=1e-5)
+
+
+class Version(unittest.TestCase):
+    def test_csv_and_json_of_every_command_carry_the_version_that_their_names_follow(self):
+        for command in [*COMMANDS, ["benchmark", "show", "rod-10"]]:
+            with self.subTest(command=command):
+                data = json.loads(printed(*command, "--format", "json", statuses=(0, 1, 3)))
+                self.assertEqual(data["clatter"], version())
+                first = printed(*command, "--format", "csv", statuses=(0, 1, 3)).split("\n", 1)[0]
+                self.assertRegex(first, rf"^# clatter {re.escape(version())}, {command[0]}( \w+)?: ")
+
+    def test_so_do_files_and_scores(self):
+        with tempfile.TemporaryDirectory() as folder:
+            run_file = os.path.join(folder, "run.csv")
+            with open(run_file, "w", encoding="utf-8") as file:
+                file.write("# problem: rod-10\n" + printed("benchmark", "truth", "rod-10", "--format", "csv", "--bare"))
+            for command in (["benchmark", "score", run_file], ["compare", "rod-10", "--against", run_file]):
+                self.assertEqual(json.loads(printed(*command, "--format", "json"))["clatter"], version())
+                self.assertIn(f"# clatter {version()}, {command[0]}: ", printed(*command, "--format", "csv"))
+            history = os.path.join(folder, "history.csv")
+            printed("simulate", "phone-damped", "--impacts", "1", "--history", history)
+            printed("figures", "--only", "9", "--output", folder)
+            for path in (history, os.path.join(folder, "figure_09.csv")):
+                with open(path, encoding="utf-8") as file:
+                    comments = [line for line in file if line.startswith("#")]
+                self.assertTrue(any(line.startswith(f"# clatter {version()}") for line in comments), path)
+
+
+class Help(unittest.TestCase):
+    """Who installed the program has no source tree."""
+
+    def commands(self):
+        listed = printed("--help").split("Subcommands:\n")[1]
+        return [line.split()[0] for line in listed.splitlines() if re.match(r"  \S", line)]
+
+    def test_no_help_text_names_a_path_of_the_source(self):
+        texts = {name: printed(name, "--help") for name in self.commands()}
+        self.assertGreater(len(texts), 15)
+        texts["man"] += printed("man")
+        for name, text in texts.items():
+            self.assertNotRegex(text, r"\b(validation|notebooks-data|tests|analytic|numeric)/", name)
+
+    def test_every_example_of_the_help_works_in_an_empty_folder(self):
+        slow = {"verify", "tradeoff", "extremes", "demo"}  # the same commands run in tests of their own
+        done = 0
+        for name in self.commands():
+            example = re.search(r"Example: clatter (.*)", printed(name, "--help"))
+            self.assertIsNotNone(example, name)
+            words = re.split(r" \(| > | \| ", example[1])[0].split()
+            needs_gnuplot = "--plot" in words and not shutil.which("gnuplot")
+            if name in slow or needs_gnuplot or "run.csv" in example[1]:
+                continue
+            with self.subTest(command=name), tempfile.TemporaryDirectory() as folder:
+                if name == "benchmark":
+                    with open(os.path.join(folder, words[2]), "w", encoding="utf-8") as file:
+                        file.write("# problem: rod-10\n" + printed("benchmark", "truth", "rod-10", "--format", "csv", "--bare"))
+                result = run(*words, folder=folder)
+                self.assertEqual(result.returncode, 0, (words, result.stderr))
+                done += 1
+        self.assertGreater(done, 12)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,26 @@
+// The times that pictures and histories show.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace clatter::validation {
+
+/// From one time to another after the first touch-down, both taken [s].
+struct TimeWindow {
+  double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();
+  [[nodiscard]] bool holds(double time) const { return time >= from && time <= to; }
+  [[nodiscard]] bool is_all() const { return from == -std::numeric_limits<double>::infinity(); }
+};
+
+/// "FROM:TO"; all times without a text.  @throws BadInput unless both are finite numbers and FROM < TO.
+[[nodiscard]] TimeWindow read_window(const std::optional<std::string>& text);
+
+/// Of rows that begin with a time, in order, those in the window; where others lie beyond an end of the window, a row
+/// there on the straight line between its neighbours, so that curves reach the frame.
+[[nodiscard]] std::vector<std::vector<double>> clipped(const std::vector<std::vector<double>>& rows,
+                                                       const TimeWindow& window);
+
+}  // namespace clatter::validation
