@@ -3,6 +3,7 @@
 
     notebooks-data/notebooks.py [NOTEBOOK ...]           executes them (all of notebooks/) and writes what they show
     notebooks-data/notebooks.py --check [NOTEBOOK ...]   executes them, says where the outputs differ, changes nothing
+    ... --in FOLDER ...                                  they are opened there; otherwise in an empty folder
 
 The module clatter comes from PYTHONPATH, or from build/dev/python without one.  Exit status 0, or 1 if a cell fails or an output differs.
 """
@@ -42,9 +43,9 @@ def joined(outputs):
     return whole
 
 
-def executed(notebook):
+def executed(notebook, folder):
     """The notebook with new outputs, without what changes from run to run.  @raise CellExecutionError"""
-    ExecutePreprocessor(timeout=SECONDS_PER_CELL, kernel_name="python3").preprocess(notebook, {"metadata": {"path": str(FOLDER)}})
+    ExecutePreprocessor(timeout=SECONDS_PER_CELL, kernel_name="python3").preprocess(notebook, {"metadata": {"path": folder}})
     notebook.metadata = {"kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"},
                          "language_info": {"name": "python"}}
     for number, cell in enumerate(notebook.cells, 1):
@@ -75,11 +76,11 @@ def failure(error):
     return re.sub(r"\x1b\[[0-9;]*m", "", str(error)).strip().splitlines()[-1]
 
 
-def process(path, check):
+def process(path, check, folder):
     """What is wrong, one line each."""
     old = nbformat.read(path, as_version=4)
     try:
-        new = executed(nbformat.read(path, as_version=4))
+        new = executed(nbformat.read(path, as_version=4), folder)
     except CellExecutionError as error:
         return [f"{path.name}: {failure(error)}"]
     if not check:
@@ -92,6 +93,11 @@ def process(path, check):
 def main(arguments):
     check = "--check" in arguments
     names = [argument for argument in arguments if argument != "--check"]
+    opened = ""
+    if "--in" in names[:-1]:
+        place = names.index("--in")
+        opened = os.path.abspath(names[place + 1])
+        del names[place:place + 2]
     if any(name.startswith("-") for name in names):
         print(__doc__, file=sys.stderr)
         return 2
@@ -99,8 +105,10 @@ def main(arguments):
     complaints = []
     with tempfile.TemporaryDirectory() as scratch:
         prepare_kernel(scratch)
+        empty = Path(scratch, "empty")
+        empty.mkdir()
         for path in paths:
-            complaints += process(path, check)
+            complaints += process(path, check, opened or str(empty))
     print("\n".join(complaints), end="\n" if complaints else "")
     return 1 if complaints else 0
 

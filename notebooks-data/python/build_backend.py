@@ -23,6 +23,7 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ("CMakeLists.txt", "LICENSE", "README.md", "pyproject.toml", "analytic", "numeric", "validation",
            "notebooks-data", "tests/packages.bash", "tests/analytic/reference")
+DATA_LICENCE = ROOT / "validation" / "measured" / "data-licence.txt"  # of the measured drops, which the module carries
 LEFT_OUT = {"__pycache__", "node_modules"}
 EARLIEST = (1980, 1, 1, 0, 0, 0)  # of a zip file, so that equal files make an equal wheel
 
@@ -106,7 +107,8 @@ def dist_info_files(dist_info: str) -> dict[str, bytes]:
     """Metadata of the wheel."""
     wheel = f"Wheel-Version: 1.0\nGenerator: clatter\nRoot-Is-Purelib: false\nTag: {wheel_tag()}\n"
     return {f"{dist_info}/METADATA": metadata().encode(), f"{dist_info}/WHEEL": wheel.encode(),
-            f"{dist_info}/LICENSE": (ROOT / "LICENSE").read_bytes()}
+            f"{dist_info}/LICENSE": (ROOT / "LICENSE").read_bytes(),
+            f"{dist_info}/data-licence.txt": DATA_LICENCE.read_bytes()}
 
 
 def build_wheel(wheel_directory: str, config_settings: Settings = None, metadata_directory: str | None = None) -> str:

@@ -82,22 +82,25 @@ AnglesRequest request_of(const std::optional<Numbers>& theta, const Given& given
 }
 
 /// Row after row.
-std::vector<double> rows_of(const AnglesRequest& request, std::size_t width) {
-  return run_interruptible([&](const std::function<bool()>& goes_on) {
-    std::vector<double> rows(static_cast<std::size_t>(request.count) * width);
-    for (long long i = 0; i < request.count && goes_on(); ++i) {
-      const validation::AnglesRow row = validation::angles_row(request, i);
-      std::copy_n(row.begin(), width, rows.begin() + i * static_cast<long long>(width));
+std::vector<double> rows_of(const AnglesRequest& request, std::size_t width, const py::object& progress) {
+  const auto count = static_cast<std::size_t>(request.count);
+  const auto work = [&](const Watch& watch) {
+    std::vector<double> rows(count * width);
+    for (std::size_t i = 0; i < count && watch.tell(i, count); ++i) {
+      const validation::AnglesRow row = validation::angles_row(request, static_cast<long long>(i));
+      std::copy_n(row.begin(), width, rows.begin() + static_cast<std::ptrdiff_t>(i * width));
     }
+    watch.tell(count, count);
     return rows;
-  });
+  };
+  return run_interruptible(work, progress);
 }
 
 /// (report, column name to array)
-py::tuple angles(const std::optional<Numbers>& theta, const Given& given) {
+py::tuple angles(const std::optional<Numbers>& theta, const Given& given, const py::object& progress) {
   const AnglesRequest request = request_of(theta, given);
   const std::vector<validation::Column> columns = validation::angles_columns(request);
-  const std::vector<double> rows = rows_of(request, columns.size());
+  const std::vector<double> rows = rows_of(request, columns.size(), progress);
   py::dict arrays;
   for (std::size_t k = 0; k < columns.size(); ++k) {
     py::array_t<double> array(request.count);
@@ -116,7 +119,8 @@ void add_discrete_functions(py::module_& module) {
   module.def("explain", &explain, py::arg("impact"), py::arg("name"), py::arg("text"), py::arg("changes"),
              "How an impact came about.");
   module.def("regimes", &regimes, py::arg("options"), "Number of impacts of the thin rod, and its fold angles.");
-  module.def("angles", &angles, py::arg("theta"), py::arg("options"), "Contact angles of the thin rod.");
+  module.def("angles", &angles, py::arg("theta"), py::arg("options"), py::arg("progress"),
+             "Contact angles of the thin rod.");
 }
 
 }  // namespace clatter::python

@@ -47,6 +47,7 @@ PYBIND11_MODULE(_clatter, module) {
   add_discrete_functions(module);
   add_scene_functions(module);
   add_study_functions(module);
+  add_evidence_functions(module);
   add_verify_function(module);
 }
 

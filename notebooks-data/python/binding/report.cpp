@@ -50,6 +50,9 @@ void add_report_class(py::module_& module) {
       .def(
           "data", [](const Report& report) { return to_python(report.made().fields); },
           "The program's JSON as Python objects.")
+      .def(
+          "rows", [](const Report& report) { return to_python(row_objects(report.made().grid)); },
+          "The rows of its CSV as Python objects.")
       .def("text", &text_of, py::arg("format"), py::arg("ascii"), "What the program prints with --format.")
       .def(
           "html", [](const Report& report) { return validation::html_table(report.made()); },

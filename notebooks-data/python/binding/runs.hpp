@@ -11,6 +11,8 @@ void add_discrete_functions(pybind11::module_& module);
 void add_scene_functions(pybind11::module_& module);
 /// plan, tradeoff, sweep.
 void add_study_functions(pybind11::module_& module);
+/// measured, benchmark_*, compare_against, extremes, figure.
+void add_evidence_functions(pybind11::module_& module);
 /// verify.
 void add_verify_function(pybind11::module_& module);
 

@@ -26,9 +26,10 @@ Scene read_scene(const SceneSource& source, const NamedTexts& given) {
   return read_scene(source.values(), validation::scene_overrides(given), validation::Model::continuous);
 }
 
-PlannedRun run_scene(const Scene& scene, const std::function<bool()>& goes_on, numeric::HistoryRecorder* history) {
+/// @param seen  is told the number of impacts that are done, and says whether to go on.
+PlannedRun run_scene(const Scene& scene, const std::function<bool(int)>& seen, numeric::HistoryRecorder* history) {
   const numeric::Body body = scene.make_body();
-  const numeric::Observer observer{.history = history, .progress = [&](int, long) { return goes_on(); }};
+  const numeric::Observer observer{.history = history, .progress = [&](int impacts, long) { return seen(impacts); }};
   const numeric::MotionState start = scene.start(body);
   if (history && scene.height) validation::record_fall(*history, start, body.mass(), scene.world.gravity, 20);
   return validation::run_to_digits(body, scene.world, start, scene.request, scene.accuracy, observer);
@@ -49,26 +50,35 @@ Report single_report(Scene scene, PlannedRun planned) {
   return {[run] { return validation::simulation_report(run->scene, run->planned); }};
 }
 
-Report swept_report(const Scene& scene, const std::function<bool()>& goes_on) {
+Report swept_report(const Scene& scene, const Watch& watch) {
   SweptRuns swept{scene, {}};
-  for (const double value : scene.sweep->values()) {
-    if (!goes_on()) break;
+  const std::vector<double> values = scene.sweep->values();
+  for (const double value : values) {
+    if (!watch.tell(swept.runs.size(), values.size())) break;
     const Scene one = scene.at(value);
-    swept.runs.push_back({value, one, run_scene(one, goes_on, nullptr)});
+    swept.runs.push_back({value, one,
+                          run_scene(
+                              one, [&](int) { return watch(); }, nullptr)});
   }
+  watch.tell(swept.runs.size(), values.size());
   const auto run = std::make_shared<const SweptRuns>(std::move(swept));
   return {[run] { return validation::sweep_report(run->scene, run->runs); }};
 }
 
 /// (report, history or None)
 py::tuple simulate(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes,
-                   bool with_history) {
+                   bool with_history, const py::object& progress) {
   const Scene scene = read_scene({name, text}, changes);
   History history;
-  Report report = run_interruptible([&](const std::function<bool()>& goes_on) {
-    if (scene.sweep) return swept_report(scene, goes_on);
-    return single_report(scene, run_scene(scene, goes_on, with_history ? &history : nullptr));
-  });
+  const auto work = [&](const Watch& watch) {
+    if (scene.sweep) return swept_report(scene, watch);
+    const auto asked = static_cast<std::size_t>(scene.options.impacts);
+    const auto seen = [&](int impacts) { return watch.tell(static_cast<std::size_t>(impacts), asked); };
+    PlannedRun planned = run_scene(scene, seen, with_history ? &history : nullptr);
+    watch.tell(planned.run.impacts.size(), asked);
+    return single_report(scene, std::move(planned));
+  };
+  Report report = run_interruptible(work, progress);
   return py::make_tuple(std::move(report), with_history && !scene.sweep ? py::object(history.arrays()) : py::none());
 }
 
@@ -77,18 +87,20 @@ struct ComparedScene {
   std::vector<validation::SweptComparison> values;  ///< one, or one per swept value
 };
 
-Report compare(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes) {
+Report compare(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes,
+               const py::object& progress) {
   const Scene scene = read_scene({name, text}, changes);
   ComparedScene compared{scene, {}};
-  run_interruptible([&](const std::function<bool()>& goes_on) {
+  const auto work = [&](const Watch& watch) {
     const numeric::Body body = scene.make_body();
-    if (!scene.sweep) compared.values.push_back({0, compare_models(scene, body)});
-    for (const double value : scene.sweep ? scene.sweep->values() : std::vector<double>{}) {
-      if (!goes_on()) break;
-      compared.values.push_back({value, compare_models(scene.at(value), body)});
+    const std::vector<double> values = scene.sweep ? scene.sweep->values() : std::vector<double>{0};
+    for (const double value : values) {
+      if (!watch.tell(compared.values.size(), values.size())) break;
+      compared.values.push_back({value, compare_models(scene.sweep ? scene.at(value) : scene, body)});
     }
-    return true;
-  });
+    return watch.tell(compared.values.size(), values.size());
+  };
+  run_interruptible(work, progress);
   const auto run = std::make_shared<const ComparedScene>(std::move(compared));
   return {[run] {
     return run->scene.sweep ? validation::swept_comparison_report(run->scene, run->values)
@@ -107,8 +119,8 @@ std::map<std::string, std::string> cases() {
 
 void add_scene_functions(py::module_& module) {
   module.def("simulate", &simulate, py::arg("name"), py::arg("text"), py::arg("changes"), py::arg("history"),
-             "Drop of any body, continuous contact.");
-  module.def("compare", &compare, py::arg("name"), py::arg("text"), py::arg("changes"),
+             py::arg("progress"), "Drop of any body, continuous contact.");
+  module.def("compare", &compare, py::arg("name"), py::arg("text"), py::arg("changes"), py::arg("progress"),
              "Both models over the same scene.");
   module.def("cases", &cases, "Texts of the scene files that the program carries, by name.");
 }

@@ -52,28 +52,39 @@ struct MeasuredScene {
 };
 
 /// (report, why the reference falls short, or "")
-py::tuple tradeoff(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes) {
+py::tuple tradeoff(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes,
+                   const py::object& progress) {
   const Scene scene = read_scene({name, text}, changes);
   if (scene.sweep) throw validation::BadInput("sweep: a sweep has no tradeoff; leave out [sweep]");
-  const auto measured = run_interruptible([&](const GoesOn& goes_on) {
+  const auto work = [&](const Watch& watch) {
     validation::TradeoffOptions options;
-    options.progress = [&](std::size_t, std::size_t) { return goes_on(); };
-    return std::make_shared<const MeasuredScene>(MeasuredScene{scene, measure_tradeoff(scene, options)});
-  });
+    std::size_t all = 0;
+    options.progress = [&](std::size_t done, std::size_t of) { return watch.tell(done, all = of); };
+    MeasuredScene made{scene, measure_tradeoff(scene, options)};
+    watch.tell(all, all);
+    return std::make_shared<const MeasuredScene>(std::move(made));
+  };
+  const auto measured = run_interruptible(work, progress);
   return py::make_tuple(Report{[measured] { return tradeoff_report(measured->scene, measured->tradeoff); }},
                         measured->tradeoff.shortfall);
 }
 
 /// All rows on all cores.
-std::string rows_of(const validation::SweepPlan& plan, const GoesOn& goes_on) {
+std::string rows_of(const validation::SweepPlan& plan, const Watch& watch) {
   const validation::SweepBody body =
       plan.body_axes.empty() ? make_sweep_body(plan, plan.scene) : validation::SweepBody{};
   validation::RangeQueue queue({0, plan.points.count()}, range_size(plan));
   std::string rows;
+  std::size_t done = 0;
+  const auto count = static_cast<std::size_t>(plan.points.count());
   validation::SweepHooks hooks;
-  hooks.write = [&](const validation::RangeRows& some) { rows += some.text; };
+  hooks.write = [&](const validation::RangeRows& some) {
+    rows += some.text;
+    done += static_cast<std::size_t>(some.scenes);
+    watch.tell(done, count);
+  };
   hooks.tick = [] {};
-  hooks.stop = [&] { return !goes_on(); };
+  hooks.stop = [&] { return !watch(); };
   const int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   run_on_threads(queue, threads, runners_of(plan, body), hooks);
   return rows;
@@ -81,7 +92,7 @@ std::string rows_of(const validation::SweepPlan& plan, const GoesOn& goes_on) {
 
 /// (report, how many scenes fall short and why the first, or "")
 py::tuple sweep(const std::string& name, const std::optional<std::string>& text, const std::vector<std::string>& sets,
-                const NamedTexts& options) {
+                const NamedTexts& options, const py::object& progress) {
   const auto option = [&](const char* word) -> std::optional<std::string> {
     const auto found = options.find(word);
     return found == options.end() ? std::nullopt : std::optional(found->second);
@@ -93,7 +104,7 @@ py::tuple sweep(const std::string& name, const std::optional<std::string>& text,
                                                                   .seed = option("seed"),
                                                                   .model = option("model"),
                                                                   .rows = option("rows")});
-  const std::string rows = run_interruptible([&](const GoesOn& goes_on) { return rows_of(plan, goes_on); });
+  const std::string rows = run_interruptible([&](const Watch& watch) { return rows_of(plan, watch); }, progress);
   validation::ShortfallCount shortfalls(plan);
   shortfalls.add(rows);
   const auto report = std::make_shared<validation::Report>(plan.report());
@@ -107,9 +118,10 @@ py::tuple sweep(const std::string& name, const std::optional<std::string>& text,
 void add_study_functions(py::module_& module) {
   module.def("plan", &plan, py::arg("name"), py::arg("text"), py::arg("changes"), py::arg("within"),
              "The smallest model that serves.");
-  module.def("tradeoff", &tradeoff, py::arg("name"), py::arg("text"), py::arg("changes"), "Cost against error.");
+  module.def("tradeoff", &tradeoff, py::arg("name"), py::arg("text"), py::arg("changes"), py::arg("progress"),
+             "Cost against error.");
   module.def("sweep", &sweep, py::arg("name"), py::arg("text"), py::arg("sets"), py::arg("options"),
-             "Many scenes, a row each.");
+             py::arg("progress"), "Many scenes, a row each.");
 }
 
 }  // namespace clatter::python

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from clatter import _clatter
 from clatter.arrays import Array, numpy_for
-from clatter.scenes import called, texts_of
+from clatter.scenes import Progress, called, texts_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -91,6 +91,7 @@ def angles(
     impulse_ratio: float | None = None,
     as_printed: bool = False,
     digits: int | None = None,
+    progress: Progress | None = None,
 ) -> Angles:
     """Contact angles beta and gamma (Eq. 12) and impulses of the thin rod's first three impacts.
 
@@ -98,7 +99,7 @@ def angles(
     gravity_number: G = g L/v_n^2 (0); or gravity [m/s²] with length (1 m) and speed (1 m/s).
     restitution (1), impulse_ratio: Eq. 8's mu_i (0).
     as_printed: also beta by the paper's printed gravity term, whose sign and factor are wrong.
-    digits: shown in the table (6).  Raises BadInput, NotComputed.
+    digits: shown in the table (6).  progress(done, of): of the angles.  Raises BadInput, NotComputed.
 
     >>> clatter.angles([10]).beta_deg
     array([5.08198288])
@@ -108,4 +109,4 @@ def angles(
                       "impulse_ratio": impulse_ratio, "digits": digits, "as_printed": as_printed})
     np = numpy_for("angles()")
     values = None if theta is None else np.atleast_1d(np.asarray(theta, dtype=float)).ravel()
-    return Angles(*called(_clatter.angles, values, given))
+    return Angles(*called(_clatter.angles, values, given, progress))

@@ -1,4 +1,4 @@
-"""What explanations, plans, studies of cost, sweeps and regimes return."""
+"""What explanations, plans, studies of cost, sweeps, regimes, measurements and scores return."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -73,23 +73,24 @@ class Tradeoff(Result):
         return len(self.points)
 
 
-class Rows(Result):
-    """Rows of a sweep or of regimes; `rows` holds a record for each."""
+class Table(Result):
+    """Rows of CSV; `rows` holds a record for each."""
 
     def __init__(self, report: Report) -> None:
         super().__init__(report)
-        self.rows = [Record(row) for row in self._data["rows"]]
+        self._rows = report.rows()
+        self.rows = [Record(row) for row in self._rows]
 
     @property
     def scene(self) -> dict[str, Any]:
-        """Everything that the first scene was computed with.  @raise AttributeError: regimes are of no scene."""
+        """Everything that was computed with.  @raise AttributeError: the rows are not of one scene."""
         if "scene" not in self._data:
-            raise AttributeError("the rod's regimes have no scene; to_dict()['parameters'] tells them")
+            raise AttributeError("these rows are not of one scene; to_dict() tells what there is")
         return dict(self._data["scene"])
 
     def column(self, name: str) -> Array:
         """One value of each row, vectors as rows; NaN where there is none."""
-        return as_array([row[name] for row in self._data["rows"]])
+        return as_array([row[name] for row in self._rows])
 
     def __len__(self) -> int:
         return len(self.rows)
@@ -99,3 +100,45 @@ class Rows(Result):
 
     def __getitem__(self, index: int) -> Record:
         return self.rows[index]
+
+
+class Measured(Table):
+    """What tracked drops say of impact laws."""
+
+    @property
+    def data(self) -> Record:
+        """The tracks: file, drops, frames, torn ..."""
+        return Record(self._data["data"])
+
+    @property
+    def calibration(self) -> Record:
+        """What was found out of the tracking itself: turn, inertia_factor ..."""
+        return Record(self._data["calibration"])
+
+
+class Problem(Table):
+    """A problem of the benchmark; the rows are its certified answer."""
+
+    @property
+    def starts(self) -> list[Record]:
+        """Where the drop begins, in each of its phases: position, velocity, phi, omega, first_touch ..."""
+        return [Record(start) for start in self._data["starts"]]
+
+
+class Scored(Table):
+    """Others' answers: a row for each file.  is_met: whether all do what was required."""
+
+    def __init__(self, report: Report, is_met: bool) -> None:
+        super().__init__(report)
+        self.is_met = is_met
+
+
+class Rows(Table):
+    """Rows of a sweep or of regimes; `rows` holds a record for each."""
+
+    @property
+    def scene(self) -> dict[str, Any]:
+        """Everything that the first scene was computed with.  @raise AttributeError: regimes are of no scene."""
+        if "scene" not in self._data:
+            raise AttributeError("the rod's regimes have no scene; to_dict()['parameters'] tells them")
+        return dict(self._data["scene"])

@@ -13,6 +13,8 @@ from clatter.errors import BadInput
 
 Value = str | float | bool | Iterable[float]
 Scene = str | os.PathLike[str] | Mapping[str, Any]
+Path = str | os.PathLike[str]
+Progress = Callable[[int, int], object]  # called with (done, of) a few times a second; what it raises ends the work
 Returned = TypeVar("Returned")
 
 class SceneText(NamedTuple):

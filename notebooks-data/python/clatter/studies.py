@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from clatter import _clatter
 from clatter.errors import ClatterWarning, NotComputed
 from clatter.findings import Plan, Rows, Tradeoff
-from clatter.scenes import Scene, Value, called, scene_text, text_of, texts_of
+from clatter.scenes import Progress, Scene, Value, called, scene_text, text_of, texts_of
 
 
 def sweep(
@@ -19,13 +19,16 @@ def sweep(
     seed: int | None = None,
     errors: bool = True,
     require_digits: bool = False,
+    progress: Progress | None = None,
 ) -> Rows:
     """Many scenes that differ in the values of a few keys, computed on all cores.
 
     scene: a scene file, the name of one of cases(), or a dict like case(name).
-    values: by the key of the scene file a value, or a range "FROM:TO:STEP" ("LOW:HIGH" or "LOW:HIGH:log" with random).
+    values: by the key of the scene file a value, or a grid "FROM:TO:STEP", "FROM:TO:log:COUNT" or "A,B,..." ("LOW:HIGH" or
+    "LOW:HIGH:log" with random).
     model: "discrete" or "continuous" (that if the scene has a ground).  rows: one per "scene" or per "impact".
     random: so many scenes with values at random, which depend on seed (1).  errors: without them at half the cost.
+    progress(done, of): of the scenes.
     Raises BadInput; NotComputed if require_digits and a scene has fewer; warns of scenes that fall short.  A scene that is
     refused or outside the model is a row with its outcome and reason.
 
@@ -36,7 +39,7 @@ def sweep(
     sets += [] if errors else ["run.errors=false"]
     sets += ["run.require_digits=true"] if require_digits else []
     options = texts_of({"random": random, "seed": seed, "model": model, "rows": rows})
-    report, shortfall = called(_clatter.sweep, *scene_text(scene), sets, options)
+    report, shortfall = called(_clatter.sweep, *scene_text(scene), sets, options, progress)
     if shortfall and require_digits:
         raise NotComputed(shortfall)
     if shortfall:
@@ -60,12 +63,12 @@ def plan(scene: Scene, *, within: float | None = None, **changes: Value | None) 
     return Plan(report)
 
 
-def tradeoff(scene: Scene, **changes: Value | None) -> Tradeoff:
+def tradeoff(scene: Scene, *, progress: Progress | None = None, **changes: Value | None) -> Tradeoff:
     """Cost against true error of every model and method on one scene; some seconds to a minute.
 
-    scene and changes as for simulate().  Raises BadInput, NotComputed; warns if the reference falls short.
+    scene and changes as for simulate().  progress(done, of): of the runs.  Raises BadInput, NotComputed; warns if the reference falls short.
     """
-    report, shortfall = called(_clatter.tradeoff, *scene_text(scene), texts_of(changes))
+    report, shortfall = called(_clatter.tradeoff, *scene_text(scene), texts_of(changes), progress)
     if shortfall:
         warnings.warn(shortfall, ClatterWarning, stacklevel=2)
     return Tradeoff(report)

@@ -1,0 +1,159 @@
+// What judges the models and others' programs: measured drops, the benchmark, the map of extremes, figures.
+#include <pybind11/stl.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "interruptible.hpp"
+#include "report.hpp"
+#include "runs.hpp"
+#include "scene_source.hpp"
+#include "validation/cli/measured_run.hpp"
+#include "validation/figures/figure.hpp"
+#include "validation/output/bad_input.hpp"
+#include "validation/reports/benchmark_report.hpp"
+#include "validation/reports/extremes_report.hpp"
+#include "validation/reports/score_report.hpp"
+#include "validation/scene/named_texts.hpp"
+
+namespace clatter::python {
+namespace {
+
+namespace py = pybind11;
+using validation::NamedTexts;
+
+Report kept(validation::Report report) {
+  const auto made = std::make_shared<const validation::Report>(std::move(report));
+  return {[made] { return *made; }};
+}
+
+std::optional<std::string> given(const NamedTexts& options, const char* name) {
+  const auto found = options.find(name);
+  return found == options.end() ? std::nullopt : std::optional(found->second);
+}
+
+/// @param action  fit, predict or score
+Report measured(const std::string& action, const std::string& file, const NamedTexts& options) {
+  const validation::MeasuredRequest request{.file = file,
+                                            .body = given(options, "body"),
+                                            .seed = given(options, "seed"),
+                                            .share = given(options, "share"),
+                                            .fit_on = given(options, "fit_on"),
+                                            .fit_from = given(options, "fit_from")};
+  return run_interruptible([&](const Watch&) {
+    const validation::MeasuredRun run = validation::read_measured_run(request);
+    if (action == "fit") return kept(validation::measured_fit_report(run));
+    const validation::Scores scores = score_measured(run.file, run.fit, run.split.scored, true);
+    return kept(action == "predict" ? measured_predict_report(run, scores) : measured_score_report(run, scores));
+  });
+}
+
+Report benchmark_list() { return kept(validation::benchmark_list_report()); }
+
+Report benchmark_show(const std::string& id) {
+  return kept(validation::benchmark_statement(validation::problem_named("problem", id)));
+}
+
+Report benchmark_truth(const std::string& id, const std::optional<std::string>& law) {
+  const validation::Problem& problem = validation::problem_named("problem", id);
+  const std::string only = validation::truth_laws(problem).front();
+  const std::string asked = law ? validation::read_law("law", *law) : only;
+  return kept(benchmark_truth_report(problem, only == "any" ? only : asked));
+}
+
+using Submissions = std::vector<validation::Submission>;
+
+/// `judge` of each file.  @returns (report, whether all do what `require` asks)
+template <class Judge, class Tell>
+py::tuple judged(const std::vector<std::string>& files, const NamedTexts& options, const py::object& progress,
+                 const Judge& judge, const Tell& report_of) {
+  const validation::Requirement requirement = validation::read_requirement(given(options, "require"));
+  const auto columns = given(options, "columns");
+  const validation::ColumnNames names =
+      columns ? validation::read_column_names("columns", *columns) : validation::ColumnNames{};
+  const auto work = [&](const Watch& watch) {
+    Submissions submissions;
+    for (const std::string& file : files) {
+      if (!watch.tell(submissions.size(), files.size())) break;
+      submissions.push_back(judge(file, names));
+    }
+    watch.tell(submissions.size(), files.size());
+    return submissions;
+  };
+  const Submissions submissions = run_interruptible(work, progress);
+  const bool is_met =
+      std::all_of(submissions.begin(), submissions.end(), [&](const auto& one) { return requirement.is_met(one); });
+  return py::make_tuple(kept(report_of(submissions)), is_met);
+}
+
+py::tuple benchmark_score(const std::vector<std::string>& files, const NamedTexts& options,
+                          const py::object& progress) {
+  const std::string problem = given(options, "problem").value_or("");
+  return judged(
+      files, options, progress,
+      [&](const std::string& file, const auto& names) { return validation::judge_file(file, problem, names); },
+      [](const Submissions& all) { return validation::score_report("benchmark", all); });
+}
+
+py::tuple compare_against(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes,
+                          const std::vector<std::string>& files, const NamedTexts& options,
+                          const py::object& progress) {
+  const validation::Scene scene =
+      read_scene(SceneSource{name, text}.values(), validation::scene_overrides(changes), validation::Model::discrete);
+  if (scene.sweep) throw validation::BadInput("sweep: runs of others are judged by a scene that sweeps nothing");
+  const validation::Reference reference = reference_of(scene);
+  return judged(
+      files, options, progress,
+      [&](const std::string& file, const auto& names) { return judge_file(file, reference, names); },
+      [&](const Submissions& all) { return against_report(scene, reference, all); });
+}
+
+Report extremes(const std::vector<std::string>& only, bool quick, std::uint64_t seed, double seconds,
+                const py::object& progress) {
+  std::vector<std::string> names;
+  for (const validation::MapAxis& axis : validation::map_axes()) names.push_back(axis.name);
+  for (const std::string& name : only) static_cast<void>(validation::read_name_option("only", name, names));
+  validation::ExtremesOptions options;
+  options.axes = only;
+  options.long_runs = !quick;
+  options.runs.seed = seed;
+  options.cell_seconds = seconds;
+  const auto work = [&](const Watch& watch) {
+    options.progress = [&](std::size_t done, std::size_t of) { return watch.tell(done, of); };
+    return measure_extremes(options);
+  };
+  return kept(extremes_report(run_interruptible(work, progress)));
+}
+
+Report figure(int number) {
+  const std::vector<int>& known = validation::figure_numbers();
+  if (std::find(known.begin(), known.end(), number) == known.end()) {
+    throw validation::BadInput(fmt::format("figure {}: there is none; there are {}", number, fmt::join(known, ", ")));
+  }
+  return run_interruptible([&](const Watch& watch) {
+    validation::CaseRuns case_runs;
+    case_runs.goes_on = watch;
+    return kept(figure_report(validation::make_figure(number, case_runs)));
+  });
+}
+
+}  // namespace
+
+void add_evidence_functions(py::module_& module) {
+  module.def("measured", &measured, py::arg("action"), py::arg("file"), py::arg("options"),
+             "Impact laws against tracked drops.");
+  module.def("benchmark_list", &benchmark_list, "The problems with certified answers.");
+  module.def("benchmark_show", &benchmark_show, py::arg("id"), "The statement of a problem.");
+  module.def("benchmark_truth", &benchmark_truth, py::arg("id"), py::arg("law"), "The certified answer of a problem.");
+  module.def("benchmark_score", &benchmark_score, py::arg("files"), py::arg("options"), py::arg("progress"),
+             "Others' answers, scored.");
+  module.def("compare_against", &compare_against, py::arg("name"), py::arg("text"), py::arg("changes"),
+             py::arg("files"), py::arg("options"), py::arg("progress"), "Others' runs of a scene, scored.");
+  module.def("extremes", &extremes, py::arg("only"), py::arg("quick"), py::arg("seed"), py::arg("seconds"),
+             py::arg("progress"), "The map of what holds.");
+  module.def("figure", &figure, py::arg("number"), "The data of a figure of the paper.");
+}
+
+}  // namespace clatter::python

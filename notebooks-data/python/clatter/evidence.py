@@ -1,0 +1,159 @@
+"""What judges the models and the programs of others: measured drops, certified problems, the map of extremes, figures."""
+
+import os
+from collections.abc import Iterable, Mapping
+
+from clatter import _clatter
+from clatter.discrete import source_of
+from clatter.errors import BadInput
+from clatter.findings import Measured, Problem, Scored, Table
+from clatter.scenes import Path, Progress, Scene, Value, called, texts_of
+
+_MOST_SECONDS = 3600.0
+
+
+def _measured(action: str, tracks: Path, options: Mapping[str, Path | float | None]) -> Measured:
+    texts: dict[str, Value | None] = {
+        name: os.fspath(value) if isinstance(value, os.PathLike) else value for name, value in options.items()}
+    return Measured(called(_clatter.measured, action, os.fspath(tracks), texts_of(texts)))
+
+
+def measured_fit(
+    tracks: Path,
+    *,
+    body: Path | None = None,
+    seed: int | None = None,
+    share: float | None = None,
+    fit_on: str | None = None,
+    fit_from: Path | None = None,
+) -> Measured:
+    """Restitution and friction of three impact laws, fitted to tracked drops; a row for each law.
+
+    tracks: poses, frame by frame (CSV), or "square-drops" or "cube-tosses", which come with clatter.
+    body: what was tracked, a TOML file or one of those names (the file of the same name that ends in .toml).
+    seed (1), share (0.5): of the drops that are drawn to fit on; or fit_on: these, as in "1,3,10-20"; or fit_from:
+    another file, all of which is fitted on.  Raises BadInput.
+    """
+    options = {"body": body, "seed": seed, "share": share, "fit_on": fit_on, "fit_from": fit_from}
+    return _measured("fit", tracks, options)
+
+
+def measured_predict(
+    tracks: Path,
+    *,
+    body: Path | None = None,
+    seed: int | None = None,
+    share: float | None = None,
+    fit_on: str | None = None,
+    fit_from: Path | None = None,
+) -> Measured:
+    """The motion after the first impact of each drop that nothing was fitted to; arguments as for measured_fit()."""
+    options = {"body": body, "seed": seed, "share": share, "fit_on": fit_on, "fit_from": fit_from}
+    return _measured("predict", tracks, options)
+
+
+def measured_score(
+    tracks: Path,
+    *,
+    body: Path | None = None,
+    seed: int | None = None,
+    share: float | None = None,
+    fit_on: str | None = None,
+    fit_from: Path | None = None,
+) -> Measured:
+    """How well the fitted laws predict drops that nothing was fitted to; arguments as for measured_fit().
+
+    >>> next(row.value for row in clatter.measured_score("square-drops") if row.quantity == "as fitted") < 10
+    True
+    """
+    options = {"body": body, "seed": seed, "share": share, "fit_on": fit_on, "fit_from": fit_from}
+    return _measured("score", tracks, options)
+
+
+def benchmark_list() -> Table:
+    """The problems with certified answers, a row each."""
+    return Table(called(_clatter.benchmark_list))
+
+
+def benchmark_show(problem: str) -> Problem:
+    """The statement of a problem: data, starts, what is asked, tolerances, certified answer.
+
+    >>> clatter.benchmark_show("rod-10").starts[0].position
+    array([0.        , 0.        , 0.17364818])
+    """
+    return Problem(called(_clatter.benchmark_show, problem))
+
+
+def benchmark_truth(problem: str, law: str | None = None) -> Table:
+    """The certified answer, a row for each impact.  law: "newton", "poisson" or "stronge", then "routh" or "moreau"."""
+    return Table(called(_clatter.benchmark_truth, problem, law))
+
+
+def benchmark_score(
+    files: Path | Iterable[Path],
+    *,
+    problem: str | None = None,
+    columns: str | None = None,
+    require: str | float | None = None,
+    progress: Progress | None = None,
+) -> Scored:
+    """Scores the motions or lists of impacts of other programs, in files that `clatter benchmark score` reads.
+
+    problem: in place of the files' lines "# problem: ID".  columns: "NAME=COLUMN,...", what the files call theirs.
+    require: "exact", "sharp", "good", "coarse" or a largest error, for is_met.  progress(done, of): of the files.
+    """
+    options = texts_of({"problem": problem, "columns": columns, "require": require})
+    return Scored(*called(_clatter.benchmark_score, _listed(files), options, progress))
+
+
+def compare_against(
+    scene: Scene | float,
+    files: Path | Iterable[Path],
+    *,
+    columns: str | None = None,
+    require: str | float | None = None,
+    progress: Progress | None = None,
+    **changes: Value | None,
+) -> Scored:
+    """Scores others' runs of any scene by the discrete model, as benchmark_score() does; scene as for sequence()."""
+    source, angle = source_of(scene, None)
+    options = texts_of({"columns": columns, "require": require})
+    return Scored(*called(_clatter.compare_against, *source, texts_of({**changes, "angle": changes.get("angle", angle)}),
+                          _listed(files), options, progress))
+
+
+def _listed(files: Path | Iterable[Path]) -> list[str]:
+    names = [files] if isinstance(files, (str, os.PathLike)) else files
+    return [os.fspath(name) for name in names]
+
+
+def extremes(
+    only: Iterable[str] = (),
+    *,
+    quick: bool = False,
+    seed: int = 1,
+    seconds: float = 1.0,
+    progress: Progress | None = None,
+) -> Table:
+    """The map of what holds, to the ends of every quantity: a row for each cell.
+
+    only: quantities such as ["angle", "speed"]; quick: without the long runs; seed: of the random scenes; seconds: that a
+    cell may take.  progress(done, of): of the cells.  A minute or more for all.
+    """
+    names = list(only)
+    if quick and names:
+        raise BadInput("quick: excludes only; give one of them, not both")
+    if not 0 < seconds <= _MOST_SECONDS:
+        raise BadInput(f"seconds {seconds!r}: must be greater than 0, at most {_MOST_SECONDS:g}")
+    if not 0 <= seed < 2**31:
+        raise BadInput(f"seed {seed!r}: must be a whole number from 0 to {2**31 - 1}")
+    return Table(called(_clatter.extremes, names, quick, seed, float(seconds), progress))
+
+
+def figure(number: int) -> Table:
+    """The data of a figure of the paper: 7 to 12, 14 to 17, 19 to 24.
+
+    >>> clatter.figure(7).column("theta_deg")[:3]
+    array([0. , 0.1, 0.2])
+    """
+    return Table(called(_clatter.figure, number))
