@@ -41,11 +41,11 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12)")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS python3-numpy)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-matplotlib)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, jupyter-notebook")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
     "Python module of clatter: impact sequences of falling rigid bodies
 Impact sequences, contact angles, simulations and comparisons of the two
-models as Python objects and NumPy arrays.")
+models as Python objects and NumPy arrays, with what the notebooks import.")
 
 # Compiled Python files come and go with the package.
 set(scripts ${PROJECT_BINARY_DIR}/generated/packages/python)
@@ -57,12 +57,27 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${scripts}/postinst ${scripts}/pre
 
 # What Debian asks of every package: the licence, and the changes.
 set(documents ${PROJECT_BINARY_DIR}/generated/packages)
-file(WRITE ${documents}/copyright [[
+file(READ ${PROJECT_SOURCE_DIR}/validation/measured/data-licence.txt data_licence)
+string(STRIP "${data_licence}" data_licence)
+string(REPLACE "\n\n" "\n.\n" data_licence " ${data_licence}")
+string(REPLACE "\n" "\n " data_licence "${data_licence}")
+file(CONFIGURE OUTPUT ${documents}/copyright @ONLY CONTENT [[
 Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
 Upstream-Name: clatter
 
 Files: *
 Copyright: 2026 The clatter authors
+License: GPL-3+
+Comment: The page of clatter demo also holds three.js, KaTeX and uPlot, whose notices (MIT licence) it shows.
+
+Files: validation/measured/*.csv
+Copyright: 2020 Dynamic Autonomy and Intelligent Robotics Lab
+License: BSD-3-Clause
+Comment: Rows of these data are part of the program and of the Python module.
+
+License: BSD-3-Clause
+@data_licence@
+
 License: GPL-3+
  This program is free software: you can redistribute it and/or modify it under the terms of the GNU General Public
  License as published by the Free Software Foundation, either version 3 of the License, or (at your option) any later

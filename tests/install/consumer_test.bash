@@ -14,13 +14,14 @@ with_cmake() {
   cmake -S "$source" -B "$prefix/consumer" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_PREFIX_PATH="$prefix" >"$prefix/log"
   cmake --build "$prefix/consumer" --target all headers >>"$prefix/log" || { cat -- "$prefix/log"; return 1; }
   "$prefix/consumer/analytic_example"
+  "$prefix/consumer/space_example"
   "$prefix/consumer/numeric_example"
 }
 
 with_pkg_config() {
   local flags library
   flags=$(PKG_CONFIG_PATH=$(dirname -- "$(find "$prefix" -name clatter.pc)") pkg-config --cflags --libs clatter)
-  for library in analytic numeric; do
+  for library in analytic space numeric; do
     # shellcheck disable=SC2086  # the flags are words
     g++ -std=c++20 "$source/${library}_example.cpp" -o "$prefix/$library" $flags
     "$prefix/$library"

@@ -19,6 +19,7 @@ test_the_wheel() {
   /usr/bin/python3 -m venv "$folder/venv"
   "$folder/venv/bin/pip" wheel --no-deps --no-index --config-settings build-dir="$root/build/release" --wheel-dir "$folder" .
   wheel=$(echo "$folder"/clatter-*.whl)
+  printf 'wheel: %d bytes\n' "$(stat -c %s "$wheel")"
   (($(stat -c %s "$wheel") <= 10000000)) || fail "the wheel is larger than 10 MB"
   "$folder/venv/bin/pip" install --no-index "$wheel"
   (cd / && "$folder/venv/bin/python" -I - <<'PYTHON'
@@ -33,8 +34,30 @@ except ImportError as error:  # the bare environment has no NumPy
     assert "NumPy" in str(error), error
 else:
     raise AssertionError("angles() without NumPy")
+assert len(clatter.measured_score("square-drops")) > 5
+assert clatter.benchmark_truth("rod-10")[1].place == "b"
 PYTHON
   ) || fail "the module from the wheel does not work"
+  test_the_extra "$wheel"
+}
+
+# The extra asks for NumPy and matplotlib, here those of the system; with them the notebooks' helpers work.
+test_the_extra() {
+  if "$folder/venv/bin/pip" install --no-index "$1[plots]" 2>"$folder/refused"; then fail "the extra plots asks for nothing"; fi
+  grep -qE 'numpy|matplotlib' "$folder/refused" || fail "pip does not say what the extra lacks: $(cat "$folder/refused")"
+  /usr/bin/python3 -m venv --system-site-packages "$folder/plots"
+  "$folder/plots/bin/pip" install --no-index "$1[plots]"
+  (cd / && "$folder/plots/bin/python" -I - <<'PYTHON'
+import clatter.lecture
+import clatter.look
+from importlib.metadata import files, requires
+
+assert {'numpy; extra == "plots"', 'matplotlib; extra == "plots"'} <= set(requires("clatter")), requires("clatter")
+assert any(path.name == "data-licence.txt" for path in files("clatter")), "the licence of the measured drops is missing"
+assert clatter.__file__.startswith(__import__("sys").prefix), clatter.__file__
+assert clatter.lecture.costs()[0]["scene"], clatter.lecture.costs()[0]
+PYTHON
+  ) || fail "the notebooks' helpers do not work with the extra plots"
 }
 
 make_packages() {
@@ -65,7 +88,16 @@ test_the_packages() {
   in_chroot bash -c 'dpkg -i /tmp/*.deb' >/dev/null
   in_chroot clatter sequence --angle 10 | grep -q 'Sum of normal impulses' || fail "the packaged program prints no table"
   in_chroot clatter simulate rod-10 --impacts 1 --format json >/dev/null || fail "the packaged program does not simulate"
+  in_chroot clatter measured fit square-drops >/dev/null || fail "the packaged program has no measured drops"
+  in_chroot sh -c '{ echo "# problem: rod-10"; clatter benchmark truth rod-10 --format csv --bare; } >/tmp/run.csv'
+  in_chroot clatter benchmark score /tmp/run.csv --require exact >/dev/null ||
+    fail "the packaged program does not score its own truth"
+  rm -f -- "$folder/system/tmp/run.csv"
+  in_chroot sh -c 'cd /usr/share/clatter/cases && for case in *.toml; do clatter sequence "$case" --impacts 1 || [ $? != 2 ] || exit 2; done' \
+    >"$folder/cases" 2>&1 || fail "an installed case is refused: $(tail -n 1 "$folder/cases")"
   in_chroot python3 -c 'import clatter; assert len(clatter.sequence(angle=10)) == 3' || fail "the packaged module does not work"
+  grep -q 'Redistributions in binary form' "$folder/system/usr/share/doc/clatter/copyright" ||
+    fail "the package does not tell the licence of the measured drops"
   in_chroot dpkg --purge clatter libclatter-dev python3-clatter >/dev/null 2>&1
   in_chroot find / -xdev -not -path '/proc/*' -not -path '/var/lib/dpkg/*' -not -path '/var/log/*' | sort >"$folder/after"
   diff "$folder/before" "$folder/after" || fail "files are left after the purge"

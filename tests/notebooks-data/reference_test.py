@@ -43,6 +43,19 @@ class Reference(unittest.TestCase):
             page = self.page(f"{command}.html")
             self.assertEqual([name for name in names if name not in page], [])
 
+    def test_it_has_a_page_of_theory_and_an_example_for_each_model(self):
+        examples = sorted(path.stem for path in (ROOT / "tests/install").glob("*_example.cpp"))
+        first = self.page("index.html")
+        self.assertEqual(examples, ["analytic_example", "numeric_example", "space_example"])
+        for page, equation, example in (("discrete_model", "P_n = −(1 + e) m u / (A − μ_i B)", "analytic_example"),
+                                        ("space_model", "dv/dp = W (n − μ s)", "space_example"),
+                                        ("continuous_model", "f_n", "numeric_example")):
+            with self.subTest(model=page):
+                self.assertIn(equation, self.page(f"{page}.html"))
+                main = (ROOT / "tests/install" / f"{example}.cpp").read_text(encoding="utf-8").split("int main() {")[1]
+                lines = [line.strip() for line in main.splitlines() if line.strip()]
+                self.assertEqual([line for line in lines if line not in first], [])
+
     def test_its_pages_ask_for_nothing_from_outside(self):
         for path in (Path(self.folder.name) / "html").glob("*.html"):
             self.assertNotRegex(path.read_text(encoding="utf-8"), r'(src|href)="https?://(?!www\.doxygen\.org)', path.name)
