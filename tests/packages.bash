@@ -23,7 +23,7 @@ test_packages=(libboost-test-dev python3)
 # shellcheck disable=SC2034
 full_packages=(clang-format libgmsh-dev libbenchmark-dev zsh fish groff-base chromium chromium-driver libopenmpi-dev openmpi-bin
                pybind11-dev python3-dev python3-numpy python3-matplotlib python3-mpmath jupyter-nbconvert python3-ipykernel mypy
-               python3-venv doxygen pkg-config dpkg-dev lintian mmdebstrap help2man)
+               python3-venv doxygen pkg-config dpkg-dev lintian mmdebstrap help2man reuse)
 # Engines of others that the tests put through the league, the smallest two; validation/benchmark/engines/run installs the
 # rest.
 # shellcheck disable=SC2034

@@ -72,7 +72,7 @@ py::tuple simulate(const std::string& name, const std::optional<std::string>& te
   History history;
   const auto work = [&](const Watch& watch) {
     if (scene.sweep) return swept_report(scene, watch);
-    const auto asked = static_cast<std::size_t>(scene.options.impacts);
+    const auto asked = static_cast<std::size_t>(scene.request.impacts);
     const auto seen = [&](int impacts) { return watch.tell(static_cast<std::size_t>(impacts), asked); };
     PlannedRun planned = run_scene(scene, seen, with_history ? &history : nullptr);
     watch.tell(planned.run.impacts.size(), asked);
