@@ -407,6 +407,16 @@ class Documentation(unittest.TestCase):
                                   capture_output=True, text=True, cwd=cache, env=dict(os.environ, MYPYPATH=folder))
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
+    def test_what_the_stub_promises_is_there(self):
+        folder = str(Path(clatter.__file__).resolve().parent.parent)
+        with tempfile.TemporaryDirectory() as scratch:
+            # Classes of pybind11 have a metaclass and a constructor of its own.
+            known = Path(scratch, "known")
+            known.write_text("clatter._clatter.Report\nclatter._clatter.Report.__init__\n", encoding="utf-8")
+            done = subprocess.run(["stubtest", "--allowlist", known, "clatter._clatter"], capture_output=True, text=True,
+                                  cwd=scratch, env=dict(os.environ, MYPYPATH=folder))
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
     def test_the_stub_names_what_the_compiled_part_has(self):
         compiled = clatter._clatter
         stub = ast.parse(Path(clatter.__file__).with_name("_clatter.pyi").read_text(encoding="utf-8"))
