@@ -1,4 +1,4 @@
-#include "validation/scene/time_window.hpp"
+#include "validation/record/time_window.hpp"
 
 #include <fmt/format.h>
 
