@@ -83,21 +83,24 @@ ContactDiagnosis ContactSystem::diagnose(const ContactState& y, ContactState& ra
   return diagnosis;
 }
 
+SlipField ContactSystem::slip_field() const {
+  using Kind = FrictionPhase::Kind;
+  SlipField field;
+  if (phase_.kind != Kind::regularised && phase_.kind != Kind::local) return field;
+  field.kind = SlipField::Kind::points;
+  field.planar = planar_;
+  if (phase_.kind == Kind::regularised) field.regularisation = ground_.regularisation_speed;
+  else field.floor = phase_.floor;
+  return field;
+}
+
 void ContactSystem::evaluate(const ContactState& y, ContactState& rate, ContactDiagnosis* diagnosis,
                              std::vector<int>* submerged) {
-  using Kind = FrictionPhase::Kind;
   ++evaluations_;
   const GroundView view = this->view(y);
-  SlipField field;
-  if (phase_.kind == Kind::regularised || phase_.kind == Kind::local) {
-    field.kind = SlipField::Kind::points;
-    field.planar = planar_;
-    if (phase_.kind == Kind::regularised) field.regularisation = ground_.regularisation_speed;
-    else field.floor = phase_.floor;
-  }
   LoadRates rates;
-  const bool wants_rates = diagnosis || phase_.kind == Kind::stick;
-  const ContactLoad load = loader_.load(view, field, wants_rates ? &rates : nullptr, submerged);
+  const bool wants_rates = diagnosis || phase_.kind == FrictionPhase::Kind::stick;
+  const ContactLoad load = loader_.load(view, slip_field(), wants_rates ? &rates : nullptr, submerged);
   const bool presses = load.force > 0;
   Instant at{view,
              load,

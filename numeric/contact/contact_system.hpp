@@ -115,6 +115,8 @@ class ContactSystem {
  private:
   struct Instant;
   struct Friction;
+  /// Where the present friction acts: at a patch as a whole, or at each of its points.
+  [[nodiscard]] SlipField slip_field() const;
   void evaluate(const ContactState& y, ContactState& rate, ContactDiagnosis* diagnosis, std::vector<int>* submerged);
   [[nodiscard]] GroundView view(const ContactState& y) const;
   [[nodiscard]] Vector3 angular_acceleration(const Vector3& moment, const Vector3& omega) const;

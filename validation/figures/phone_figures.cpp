@@ -69,6 +69,16 @@ void add_panels_over_angle(Figure& figure) {
   }
 }
 
+const std::vector<FigureColumn> over_angle_columns{
+    {"theta", "deg", "contact angle"},
+    {"Vn", "m/s", "normal velocity of the mass centre after the impact"},
+    {"Omega", "rad/s", "angular velocity after the impact"},
+    {"peak_force", "N", "largest normal force"},
+    {"loss", "J", "energy lost in the impact"},
+    {"touches", "1", "places that came down in it; 2: the second impact has merged into it"},
+    {"Vn_discrete", "m/s", "normal velocity, discrete model of the corner"},
+    {"Omega_discrete", "rad/s", "angular velocity, discrete model of the corner"}};
+
 }  // namespace
 
 Figure figure_phone_history(CaseRuns& case_runs, bool damped) {
@@ -151,14 +161,7 @@ Figure figure_phone_over_angle(CaseRuns& case_runs) {
   Figure figure{.number = 24,
                 .title = "first impact of the damped phone over the contact angle",
                 .scene = "validation/cases/phone-sweep.toml",
-                .columns = {{"theta", "deg", "contact angle"},
-                            {"Vn", "m/s", "normal velocity of the mass centre after the impact"},
-                            {"Omega", "rad/s", "angular velocity after the impact"},
-                            {"peak_force", "N", "largest normal force"},
-                            {"loss", "J", "energy lost in the impact"},
-                            {"touches", "1", "places that came down in it; 2: the second impact has merged into it"},
-                            {"Vn_discrete", "m/s", "normal velocity, discrete model of the corner"},
-                            {"Omega_discrete", "rad/s", "angular velocity, discrete model of the corner"}}};
+                .columns = over_angle_columns};
   const Scene scene = scene_of_case(name, {});
   const numeric::Body body = scene.make_body();
   for (const SweptSimulation& swept : case_runs.sweep(name)) {

@@ -86,27 +86,29 @@ void add_panel(Figure& figure, double number, const std::string& letter) {
   figure.plots.push_back(plot);
 }
 
+const std::vector<FigureColumn> position_columns{{"panel", "1", "1: (a1), 2: (a2), 3: (b), 4: (c)"},
+                                                 {"theta", "deg", "contact angle of the first impact"},
+                                                 {"impacts", "1", "impacts so far; 2: just after the second one"},
+                                                 {"time", "L/|v_n|", "since the first impact"},
+                                                 {"inclination", "deg", "of the rod; positive: end a is the lower one"},
+                                                 {"x_a", "L", "of end a, which strikes first"},
+                                                 {"z_a", "L", "height of end a"},
+                                                 {"x_centre", "L", "of the mass centre"},
+                                                 {"z_centre", "L", "height of the mass centre"},
+                                                 {"x_b", "L", "of end b"},
+                                                 {"z_b", "L", "height of end b"},
+                                                 {"V_centre", "|v_n|", "normal velocity of the mass centre"},
+                                                 {"Omega", "|v_n|/L", "angular velocity; positive: clockwise"},
+                                                 {"V_a", "|v_n|", "normal velocity of end a"},
+                                                 {"V_b", "|v_n|", "normal velocity of end b"}};
+
 }  // namespace
 
 Figure figure_rod_positions() {
   Figure figure{.number = 8,
                 .title = "positions of the rod from the first impact to the second, below, at and above the fold",
                 .scene = "thin rod, m = L = |v_n| = 1, omega = 0, e = 1, no friction, no gravity; discrete model",
-                .columns = {{"panel", "1", "1: (a1), 2: (a2), 3: (b), 4: (c)"},
-                            {"theta", "deg", "contact angle of the first impact"},
-                            {"impacts", "1", "impacts so far; 2: just after the second one"},
-                            {"time", "L/|v_n|", "since the first impact"},
-                            {"inclination", "deg", "of the rod; positive: end a is the lower one"},
-                            {"x_a", "L", "of end a, which strikes first"},
-                            {"z_a", "L", "height of end a"},
-                            {"x_centre", "L", "of the mass centre"},
-                            {"z_centre", "L", "height of the mass centre"},
-                            {"x_b", "L", "of end b"},
-                            {"z_b", "L", "height of end b"},
-                            {"V_centre", "|v_n|", "normal velocity of the mass centre"},
-                            {"Omega", "|v_n|/L", "angular velocity; positive: clockwise"},
-                            {"V_a", "|v_n|", "normal velocity of end a"},
-                            {"V_b", "|v_n|", "normal velocity of end b"}}};
+                .columns = position_columns};
   double number = 1;
   for (const auto& [letter, theta] : panels()) {
     add_rows(figure, number, theta);

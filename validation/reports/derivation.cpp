@@ -149,14 +149,12 @@ class Derivation {
 
   void point_impact(const ImpactRow& row) {
     const analytic::ImpactLaw& law = drop_.law;
-    const analytic::PlanarVelocity& v = row.before;
     const double angle = row.inclination;
     const bool upright = steps_.size() == 1 && scene_.angle_deg == 90;
     const int vertex = std::countr_zero(row.vertices);
     const analytic::ContactPoint d = drop_.body.contact_point(vertex, std::sin(angle), upright ? 0 : std::cos(angle));
     const double k2 = drop_.body.gyration_square;
     const auto [a, b, c] = analytic::contact_inertia(k2, d);
-    const double u = -row.impact.approach_speed;
     const double ratio = row.impact.impulse_ratio();
     Step& point = open("The contact point", "d from the centre of mass to the contact point; I = m k².");
     point.equations = {{"d_t", "x cos α − z sin α", "", d.tangential, "m"},
@@ -169,6 +167,15 @@ class Derivation {
       point.equations.push_back({"s", "v_t + ω d_n, slip before", "", row.impact.slip_before, "m/s"});
       point.equations.push_back({"μᵢ", fmt::format("P_t/P_n, mode {}", mode_name(row.impact.mode)), "", ratio, ""});
     }
+    momentum(row, d, ratio);
+  }
+
+  /// Eq. 8 solved for the impulse and the velocities after.
+  void momentum(const ImpactRow& row, const analytic::ContactPoint& d, double ratio) {
+    const analytic::PlanarVelocity& v = row.before;
+    const double k2 = drop_.body.gyration_square;
+    const auto [a, b, c] = analytic::contact_inertia(k2, d);
+    const double u = -row.impact.approach_speed;
     Step& step = open("Eq. 8",
                       "m (V_n − v_n) = P_n,  m (V_t − v_t) = μᵢ P_n,  I (Ω − ω) = μᵢ P_n d_n − P_n d_t,  "
                       "V_n − Ω d_t = −e (v_n − ω d_t)");

@@ -58,7 +58,14 @@ std::size_t index_of(Enum value) {
   return static_cast<std::size_t>(value);
 }
 
-void append_drop(std::vector<Key>& keys) {
+template <std::vector<double> Scene::*member>
+ListValue three_velocities(const char* example) {
+  const auto get = [](const Scene& s) { return s.*member; };
+  const auto put = [](Scene& s, const std::vector<double>& v) { s.*member = v; };
+  return {get, put, {3}, velocities, "three numbers from -1e9 to 1e9", example, &any};
+}
+
+void append_attitude(std::vector<Key>& keys) {
   keys.insert(keys.end(),
               {
                   {"drop.angle_deg", Use::both, "--angle", "DEG", "°",
@@ -79,6 +86,12 @@ void append_drop(std::vector<Key>& keys) {
                    "or which part of a box points down: 1-6 faces, 7-18 edges, 19-26 corners",
                    OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.orientation; }, orientations},
                    nullptr, false, ways_to_turn},
+              });
+}
+
+void append_motion(std::vector<Key>& keys) {
+  keys.insert(keys.end(),
+              {
                   {"drop.speed", Use::both, "--speed", "M/S", "m/s", "downward, of the centre of mass at first touch",
                    NumberValue{[](Scene& s) -> double& { return s.speed; }, speeds, &positive},
                    [](const Scene& s, Model model) {
@@ -92,26 +105,12 @@ void append_drop(std::vector<Key>& keys) {
                    NumberValue{[](Scene& s) -> double& { return s.tangential_velocity; }, velocities, &any}},
                   {"drop.velocity", Use::both, "--velocity", "X,Y,Z", "m/s",
                    "or all of it: of the centre of mass at the first touch, world",
-                   ListValue{[](const Scene& s) { return s.velocity; },
-                             [](Scene& s, const std::vector<double>& v) { s.velocity = v; },
-                             {3},
-                             velocities,
-                             "three numbers from -1e9 to 1e9",
-                             "[0, 0, -1]",
-                             &any},
-                   nullptr, false, parts_of_velocity},
+                   three_velocities<&Scene::velocity>("[0, 0, -1]"), nullptr, false, parts_of_velocity},
                   {"drop.spin", Use::both, "--spin", "RAD/S", "rad/s", "clockwise, as Omega in Eq. 8",
                    NumberValue{[](Scene& s) -> double& { return s.spin; }, velocities, &any}},
                   {"drop.angular_velocity", Use::both, "--angular-velocity", "X,Y,Z", "rad/s",
                    "or all of it: at the first touch, world components",
-                   ListValue{[](const Scene& s) { return s.angular_velocity; },
-                             [](Scene& s, const std::vector<double>& v) { s.angular_velocity = v; },
-                             {3},
-                             velocities,
-                             "three numbers from -1e9 to 1e9",
-                             "[0, 0, 0]",
-                             &any},
-                   nullptr, false, turn_of_plane},
+                   three_velocities<&Scene::angular_velocity>("[0, 0, 0]"), nullptr, false, turn_of_plane},
                   {"world.gravity", Use::both, "--gravity", "M/S2", "m/s²", "acceleration of free fall",
                    NumberValue{[](Scene& s) -> double& { return s.world.gravity; }, gravities, &not_negative}},
               });
@@ -137,52 +136,64 @@ void append_impact(std::vector<Key>& keys) {
       });
 }
 
-void append_body(std::vector<Key>& keys) {
+void append_shape(std::vector<Key>& keys) {
+  keys.insert(keys.end(),
+              {
+                  {"body.shape", Use::both, "--body", "rod|box|mesh", "", "shape of what falls",
+                   NameValue{&shape_names(), [](const Scene& s) { return index_of(s.body.shape); },
+                             [](Scene& s, std::size_t i) { s.body.shape = static_cast<Shape>(i); }}},
+                  {"body.mass", Use::both, "--mass", "KG", "kg", "mass",
+                   NumberValue{[](Scene& s) -> double& { return s.body.mass; }, masses, &wide_masses}},
+                  {"body.length", Use::both, "--length", "M", "m", "of the rod",
+                   NumberValue{[](Scene& s) -> double& { return s.body.length; }, sizes, &wide_sizes}, of_rod},
+                  {"body.radius", Use::both, "--radius", "M", "m", "of the rod",
+                   NumberValue{[](Scene& s) -> double& { return s.body.radius; }, radii, &wide_radii}, of_rod},
+                  {"body.size", Use::both, "--size", "LxWxT", "m",
+                   "of the box: along the inclination, across, upright at 0 degrees",
+                   ListValue{[](const Scene& s) {
+                               return std::vector<double>{s.body.size.x(), s.body.size.y(), s.body.size.z()};
+                             },
+                             [](Scene& s, const std::vector<double>& v) {
+                               s.body.size = {v[0], v[1], v[2]};
+                             },
+                             {3},
+                             sizes,
+                             "three lengths in m greater than 0, as in [0.106, 0.044, 0.019]",
+                             "[0.106, 0.044, 0.019]",
+                             &wide_sizes},
+                   of_box},
+              });
+}
+
+void append_mesh(std::vector<Key>& keys) {
+  keys.insert(keys.end(),
+              {
+                  {"body.mesh.sectors", Use::continuous, "", "N", "", "elements around the rod",
+                   WholeNumber{[](Scene& s) -> int& { return s.body.sectors; }, 3, most}, of_rod},
+                  {"body.mesh.rings", Use::continuous, "", "N", "", "from its axis outward",
+                   WholeNumber{[](Scene& s) -> int& { return s.body.rings; }, 1, most}, of_rod},
+                  {"body.mesh.layers", Use::continuous, "", "N", "", "along it",
+                   WholeNumber{[](Scene& s) -> int& { return s.body.layers; }, 1, most}, of_rod},
+                  {"body.mesh.nx", Use::continuous, "", "N", "", "elements along the box",
+                   WholeNumber{[](Scene& s) -> int& { return s.body.nx; }, 1, most}, of_box},
+                  {"body.mesh.ny", Use::continuous, "", "N", "", "across it",
+                   WholeNumber{[](Scene& s) -> int& { return s.body.ny; }, 1, most}, of_box},
+                  {"body.mesh.nz", Use::continuous, "", "N", "", "through its thickness",
+                   WholeNumber{[](Scene& s) -> int& { return s.body.nz; }, 1, most}, of_box},
+                  {"body.mesh.file", Use::both, "", "FILE", "", "Gmsh (.msh, .geo) or STL",
+                   TextValue{[](Scene& s) -> std::string& { return s.body.file; }}, of_mesh},
+                  {"body.mesh.unit", Use::both, "", "M", "m", "of the file's coordinates",
+                   NumberValue{[](Scene& s) -> double& { return s.body.unit; }, positive}, of_mesh},
+                  {"body.mesh.density", Use::both, "", "KG/M3", "kg/m³", "of a file's body, or body.mass",
+                   OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.body.density; }, positive},
+                   [](const Scene& s, Model) { return only_if(s.body.density.has_value()); }, false, mass_of_body},
+              });
+}
+
+void append_mass_properties(std::vector<Key>& keys) {
   keys.insert(
       keys.end(),
       {
-          {"body.shape", Use::both, "--body", "rod|box|mesh", "", "shape of what falls",
-           NameValue{&shape_names(), [](const Scene& s) { return index_of(s.body.shape); },
-                     [](Scene& s, std::size_t i) { s.body.shape = static_cast<Shape>(i); }}},
-          {"body.mass", Use::both, "--mass", "KG", "kg", "mass",
-           NumberValue{[](Scene& s) -> double& { return s.body.mass; }, masses, &wide_masses}},
-          {"body.length", Use::both, "--length", "M", "m", "of the rod",
-           NumberValue{[](Scene& s) -> double& { return s.body.length; }, sizes, &wide_sizes}, of_rod},
-          {"body.radius", Use::both, "--radius", "M", "m", "of the rod",
-           NumberValue{[](Scene& s) -> double& { return s.body.radius; }, radii, &wide_radii}, of_rod},
-          {"body.size", Use::both, "--size", "LxWxT", "m",
-           "of the box: along the inclination, across, upright at 0 degrees",
-           ListValue{[](const Scene& s) {
-                       return std::vector<double>{s.body.size.x(), s.body.size.y(), s.body.size.z()};
-                     },
-                     [](Scene& s, const std::vector<double>& v) {
-                       s.body.size = {v[0], v[1], v[2]};
-                     },
-                     {3},
-                     sizes,
-                     "three lengths in m greater than 0, as in [0.106, 0.044, 0.019]",
-                     "[0.106, 0.044, 0.019]",
-                     &wide_sizes},
-           of_box},
-          {"body.mesh.sectors", Use::continuous, "", "N", "", "elements around the rod",
-           WholeNumber{[](Scene& s) -> int& { return s.body.sectors; }, 3, most}, of_rod},
-          {"body.mesh.rings", Use::continuous, "", "N", "", "from its axis outward",
-           WholeNumber{[](Scene& s) -> int& { return s.body.rings; }, 1, most}, of_rod},
-          {"body.mesh.layers", Use::continuous, "", "N", "", "along it",
-           WholeNumber{[](Scene& s) -> int& { return s.body.layers; }, 1, most}, of_rod},
-          {"body.mesh.nx", Use::continuous, "", "N", "", "elements along the box",
-           WholeNumber{[](Scene& s) -> int& { return s.body.nx; }, 1, most}, of_box},
-          {"body.mesh.ny", Use::continuous, "", "N", "", "across it",
-           WholeNumber{[](Scene& s) -> int& { return s.body.ny; }, 1, most}, of_box},
-          {"body.mesh.nz", Use::continuous, "", "N", "", "through its thickness",
-           WholeNumber{[](Scene& s) -> int& { return s.body.nz; }, 1, most}, of_box},
-          {"body.mesh.file", Use::both, "", "FILE", "", "Gmsh (.msh, .geo) or STL",
-           TextValue{[](Scene& s) -> std::string& { return s.body.file; }}, of_mesh},
-          {"body.mesh.unit", Use::both, "", "M", "m", "of the file's coordinates",
-           NumberValue{[](Scene& s) -> double& { return s.body.unit; }, positive}, of_mesh},
-          {"body.mesh.density", Use::both, "", "KG/M3", "kg/m³", "of a file's body, or body.mass",
-           OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.body.density; }, positive},
-           [](const Scene& s, Model) { return only_if(s.body.density.has_value()); }, false, mass_of_body},
           {"body.inertia", Use::both, "--inertia", "LIST", "kg m²",
            "about the centre of mass, principal or xx, yy, zz, xy, xz, yz in body axes; without it the uniform "
            "body's about its own centre",
@@ -271,9 +282,12 @@ void append_run(std::vector<Key>& keys) {
 const std::vector<Key>& all_keys() {
   static const std::vector<Key> keys = [] {
     std::vector<Key> rows;
-    append_drop(rows);
+    append_attitude(rows);
+    append_motion(rows);
     append_impact(rows);
-    append_body(rows);
+    append_shape(rows);
+    append_mesh(rows);
+    append_mass_properties(rows);
     append_ground(rows);
     append_run(rows);
     return rows;
