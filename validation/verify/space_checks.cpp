@@ -8,6 +8,7 @@
 #include "analytic/space/shapes.hpp"
 #include "validation/compare/uniform.hpp"
 #include "validation/oracles/reference_scene.hpp"
+#include "validation/oracles/stepped_impact.hpp"
 #include "validation/verify/check.hpp"
 #include "validation/verify/reference.hpp"
 
@@ -189,30 +190,6 @@ Measured symmetries(CaseRuns&) {
   return {2 * drops, worst, Answer::holds, "turned by 2.1 rad about the vertical, and mirrored; 3 impacts each"};
 }
 
-/// Eq. (2) of impact.hpp, stepped: dv/dp = W (n − μ v_t/|v_t|) and dP_t/dp = −μ v_t/|v_t|, Runge–Kutta of order 4.
-struct SteppedPath {
-  Vector3 velocity;
-  Vector2 friction = Vector2::Zero();
-};
-SteppedPath stepped(const Matrix3& inverse_inertia, const Vector3& start, double friction, double impulse) {
-  constexpr int steps = 4000;
-  using State5 = Eigen::Matrix<double, 5, 1>;
-  const auto rate = [&](const State5& y) {
-    const Vector2 slope = -friction * y.head<2>().normalized();
-    State5 d;
-    d << inverse_inertia * Vector3(slope.x(), slope.y(), 1), slope;
-    return d;
-  };
-  State5 y;
-  y << start, 0, 0;
-  const double h = impulse / steps;
-  for (int i = 0; i < steps; ++i) {
-    const State5 a = rate(y), b = rate(y + h / 2 * a), c = rate(y + h / 2 * b), d = rate(y + h * c);
-    y += h / 6 * (a + 2 * b + 2 * c + d);
-  }
-  return {y.head<3>(), y.tail<2>()};
-}
-
 Measured path_of_friction(CaseRuns&) {
   double worst = 0;
   int paths = 0;
@@ -224,14 +201,14 @@ Measured path_of_friction(CaseRuns&) {
     const ContactVelocity velocity = contact_velocity(before, place);
     if (!(velocity.value.z() < 0)) continue;
     const Impact impact = strike(drop.body, before, place, drop.law);
-    // Slip that comes close to zero turns faster than fixed steps follow.
     if (impact.path != PathKind::turning_slip || !(impact.least_slip > 0.1 * velocity.value.norm())) continue;
     ++paths;
     const Matrix3 inverse =
         inverse_contact_inertia(drop.body.mass, axes * drop.body.inertia.inverse() * axes.transpose(), axes * place);
-    const SteppedPath path = stepped(inverse, velocity.value, drop.law.law.friction_value, impact.impulse.z());
-    worst = std::max({worst, (impact.contact_after - path.velocity).norm() / velocity.value.norm(),
-                      (impact.impulse.head<2>() - path.friction).norm() / impact.impulse.norm()});
+    const oracle::SteppedImpact exact(
+        {.inverse_inertia = inverse, .velocity = velocity.value, .velocity_scale = velocity.scale}, drop.law.law);
+    worst = std::max({worst, (impact.contact_after - exact.velocity().cast<double>()).norm() / velocity.value.norm(),
+                      (impact.impulse - exact.impulse().cast<double>()).head<2>().norm() / impact.impulse.norm()});
   }
   return {static_cast<double>(paths), worst, Answer::holds, "paths along which slip turns and stays above a tenth"};
 }

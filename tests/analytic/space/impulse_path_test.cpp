@@ -3,7 +3,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "tests/analytic/oracle/impact_path_oracle.hpp"
+#include "validation/oracles/stepped_impact.hpp"
 #include "tests/analytic/space/random_contact.hpp"
 
 namespace {
