@@ -45,10 +45,11 @@ struct State {
   Vector3 angular_velocity = Vector3::Zero();    ///< world frame [rad/s]
 };
 
-/// A point of the hull: a vertex, or the lowest point of a rim.
+/// A point of the hull, a vertex or the lowest point of a rim; or all of a rim that lies level.
 struct Corner {
   int index = 0;                    ///< into Body::vertices, or vertices.size() + index into Body::rims
-  Vector3 place = Vector3::Zero();  ///< body frame, from the centre of mass [m]
+  Vector3 place = Vector3::Zero();  ///< body frame, from the centre of mass; the centre of a level rim [m]
+  double radius = 0;                ///< of a level rim; 0: a point [m]
 };
 
 }  // namespace clatter::analytic::space

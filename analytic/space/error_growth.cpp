@@ -121,7 +121,9 @@ Eigen::MatrixXd ErrorGrowth::strike_jacobian(const Strike& strike, const ImpactR
   const double reach = body_.reach();
   const double speed = row.impact.contact_before.norm();
   const double turning = row.before.angular_velocity.norm() * reach;
-  const double steps[3] = {relative_step * std::fmin(1.0, speed / std::fmax(turning, speed)), relative_step * speed,
+  // The lowest point of a rim moves by ρ for a turn by the rim's steepness.
+  const double room = row.group ? 1 : steepness(body_, row.before.attitude, row.corners.front().index);
+  const double steps[3] = {relative_step * std::fmin(room, speed / std::fmax(turning, speed)), relative_step * speed,
                            relative_step * speed / reach};
   Eigen::MatrixXd derivatives(9, 9);
   for (int k = 0; k < 9; ++k) {

@@ -230,11 +230,11 @@ class Search {
   bool solve_quotient(int point, const Node& b) {
     const Touch touch{.point = point, .normal_velocity = from_[static_cast<std::size_t>(point)].velocity};
     const double turn = b.point.time * flight_.rotation().fastest();
-    const bool vertex = static_cast<std::size_t>(point) < body_.vertices.size();
+    const std::optional<Vector3> place = hopping_place(body_, flight_, point);
     const double bend = from_[static_cast<std::size_t>(point)].acceleration;
     const double guess = bend < 0 ? -2 * touch.normal_velocity / bend : b.point.time / 2;
-    if (vertex && turn <= Hop::largest_turn) {
-      hop_.emplace(body_, flight_, touch);
+    if (place && turn <= Hop::largest_turn) {
+      hop_.emplace(body_, flight_, *place, touch.normal_velocity);
       const auto sample = [&](double t) -> detail::Sample {
         const Hop::Value value = hop_->at(t);
         return {value.quotient, value.slope, epsilon / 4 * touch.normal_velocity};
@@ -243,7 +243,7 @@ class Search {
       hop_time_ = root.value;
       return take(point, root.value, {0, b.point.time});
     }
-    if (vertex && guess * flight_.rotation().fastest() < Hop::largest_turn / 2) {  // the root lies near: come nearer
+    if (place && guess * flight_.rotation().fastest() < Hop::largest_turn / 2) {  // the root lies near: come nearer
       const Node nearer = at(point, Hop::largest_turn * 0.99 / flight_.rotation().fastest());
       if (nearer.point.height < 0) return solve_quotient(point, nearer);
     }

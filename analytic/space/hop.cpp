@@ -1,9 +1,12 @@
 #include "analytic/space/hop.hpp"
 
+#include <cmath>
+
+#include "analytic/detail/limits.hpp"
+
 namespace clatter::analytic::space {
 
-Hop::Hop(const Body& body, const FreeFlight& flight, const Touch& touch) : speed_(touch.normal_velocity) {
-  const Vector3& r = body.vertices[static_cast<std::size_t>(touch.point)];
+Hop::Hop(const Body& body, const FreeFlight& flight, const Vector3& place, double speed) : speed_(speed) {
   const Matrix3& inertia = body.inertia;
   const Matrix3 inverse = inertia.inverse();
   std::array<Vector3, terms + 2> e, w, momentum;
@@ -21,7 +24,7 @@ Hop::Hop(const Body& body, const FreeFlight& flight, const Touch& touch) : speed
     momentum[n + 1] = torque / next;
     w[n + 1] = inverse * momentum[n + 1];
   }
-  for (std::size_t k = 0; k < terms; ++k) bends_[k] = e[k + 2].dot(r);
+  for (std::size_t k = 0; k < terms; ++k) bends_[k] = e[k + 2].dot(place);
   bends_[0] -= flight.gravity() / 2;
 }
 
@@ -37,6 +40,15 @@ Hop::Value Hop::at(double time) const {
 double Hop::velocity(double time) const {
   const Value value = at(time);
   return value.quotient + time * value.slope;
+}
+
+std::optional<Vector3> hopping_place(const Body& body, const FreeFlight& flight, int point) {
+  const auto index = static_cast<std::size_t>(point);
+  if (index < body.vertices.size()) return body.vertices[index];
+  const Corner corner = touching_corner(body, flight.start().attitude, point);
+  const Vector3& spin = flight.start().angular_velocity;
+  const bool stays_level = corner.radius > 0 && spin.head<2>().norm() <= 64 * detail::epsilon * std::fabs(spin.z());
+  return stays_level ? std::optional<Vector3>(corner.place) : std::nullopt;
 }
 
 }  // namespace clatter::analytic::space

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "analytic/space/first_contact.hpp"
 
@@ -14,7 +15,8 @@ class Hop {
  public:
   static constexpr double largest_turn = 0.1;  ///< [rad]
 
-  Hop(const Body& body, const FreeFlight& flight, const Touch& touch);
+  /// Of the point at `place` (body frame), which leaves with the normal velocity `speed`.
+  Hop(const Body& body, const FreeFlight& flight, const Vector3& place, double speed);
 
   struct Value {
     double quotient = 0;  ///< h/t [m/s]
@@ -29,5 +31,9 @@ class Hop {
   double speed_;
   std::array<double, terms> bends_{};  ///< of C
 };
+
+/// The place whose height is that of the touching point during a hop: a vertex; the centre of a level rim that stays
+/// level, since the body turns about the vertical alone.  The lowest point of another rim is at no one place.
+[[nodiscard]] std::optional<Vector3> hopping_place(const Body& body, const FreeFlight& flight, int point);
 
 }  // namespace clatter::analytic::space

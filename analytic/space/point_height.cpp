@@ -17,6 +17,9 @@ namespace {
 /// t³(1 − t)/4!.
 constexpr double value_error = 1.0 / 46080, quotient_error = 0.03456 / 720, bend_error = 27.0 / 256 / 24;
 
+/// A rim steeper than this has a lowest point; below, the point would be that of an attitude's rounding.
+constexpr double level = 64 * epsilon;
+
 /// Bernstein coefficients of the polynomial of degree 5 with given values and derivatives at both ends of s.
 template <class T>
 std::array<T, 6> coefficients(double s, const T (&start)[3], const T (&end)[3]) {
@@ -59,28 +62,30 @@ PointHeight PointHeights::at(int point, const FlightMoment& m) const {
   }
   const auto& [c, a, radius] = rim(point);
   const Vector3 v = e - e.dot(a) * a, v1 = rate - rate.dot(a) * a, v2 = second - second.dot(a) * a;
-  const double size = v.norm();
-  const double slope = size > 0 ? v.dot(v1) / size : v1.norm();
-  const double bend = (v1.squaredNorm() - slope * slope + v.dot(v2)) / size;
+  const double size = v.norm(), speed = v1.norm();
+  double slope = speed, bend = speed > 0 ? v1.dot(v2) / speed : v2.norm();  // of |v₁ t + v₂ t²/2| after t = 0
+  if (size > level) {
+    slope = v.dot(v1) / size;
+    bend = (speed * speed - slope * slope + v.dot(v2)) / size;
+  }
   return {m.time, m.centre + e.dot(c) - radius * size, m.rate + rate.dot(c) - radius * slope,
           second.dot(c) - gravity - radius * bend};
 }
 
-Vector3 touching_place(const Body& body, const Quaternion& attitude, int point) {
+Corner touching_corner(const Body& body, const Quaternion& attitude, int point) {
   const auto index = static_cast<std::size_t>(point);
-  if (index < body.vertices.size()) return body.vertices[index];
+  if (index < body.vertices.size()) return {.index = point, .place = body.vertices[index]};
   const auto& [c, a, radius] = body.rims[index - body.vertices.size()];
   const Vector3 e = attitude.conjugate() * Vector3::UnitZ(), v = e - e.dot(a) * a;
   const double size = v.norm();
-  return size > 0 ? Vector3(c - radius / size * v) : c;
+  if (size <= level) return {.index = point, .place = c, .radius = radius};
+  return {.index = point, .place = c - radius / size * v};
 }
 
-bool lies_level(const Body& body, const Quaternion& attitude, int point) {
-  constexpr double rounding = 64 * epsilon;  // of an attitude
+double steepness(const Body& body, const Quaternion& attitude, int point) {
   const auto index = static_cast<std::size_t>(point);
-  if (index < body.vertices.size()) return false;
-  return (attitude.conjugate() * Vector3::UnitZ()).cross(body.rims[index - body.vertices.size()].axis).norm() <=
-         rounding;
+  if (index < body.vertices.size()) return 1;
+  return (attitude.conjugate() * Vector3::UnitZ()).cross(body.rims[index - body.vertices.size()].axis).norm();
 }
 
 double PointHeights::depth(int point) const {
@@ -159,7 +164,7 @@ void PointHeights::bend_of_vertex(const Piece& piece, HeightBounds& bounds) cons
   bounds.largest_bend = std::fmin(bounds.largest_bend, largest + tolerance);
 }
 
-/// From f = |v|: f f′ = v·v′, f′² + f f″ = |v′|² + v·v″, 3 f′f″ + f f‴ = 3 v′·v″ + v·v‴.
+/// From f = |v|: f f′ = v·v′, f′² + f f″ = |v′|² + v·v″ (so that f″ >= −|v″|), 3 f′f″ + f f‴ = 3 v′·v″ + v·v‴.
 void PointHeights::bend_of_rim(const Rim& rim, const Piece& piece, HeightBounds& bounds) const {
   const PointHeight &a = piece.from, &b = piece.to;
   const double s = b.time - a.time;
@@ -168,13 +173,27 @@ void PointHeights::bend_of_rim(const Rim& rim, const Piece& piece, HeightBounds&
     return (e - e.dot(rim.axis) * rim.axis).norm();
   };
   const double size = std::fmax(across(piece.start), across(piece.end)) - rates_[1] * s;
+  const auto pull = [&](const FlightMoment& m) {
+    const Vector3& second = m.vertical.second;
+    return (second - second.dot(rim.axis) * rim.axis).norm();
+  };
+  const auto lift = [&](const FlightMoment& m) { return m.vertical.second.dot(rim.centre) + rim.radius * pull(m); };
+  const double drift = (rim.centre.norm() + rim.radius) * rates_[3] * s / 2;
   bounds.least_bend = -infinite;
-  bounds.largest_bend = infinite;
+  bounds.largest_bend = std::fmax(lift(piece.start), lift(piece.end)) - flight_.gravity() + drift;
+  const FreeRotation& rotation = flight_.rotation();
+  const double off_axis = rim.centre.cross(rim.axis).norm(), off_spin = rim.axis.cross(rotation.spin_axis()).norm();
+  if (off_axis <= 4 * epsilon * reach_ && off_spin <= 4 * epsilon) {
+    // The rim's axis is all that moves, however fast the body spins about this axis.
+    const double turning = rotation.axis_speed() + 8 * epsilon * rotation.fastest();
+    const double most = 2 * (rim.centre.norm() + rim.radius) * turning * rotation.fastest() - flight_.gravity();
+    bounds.largest_bend = std::fmin(bounds.largest_bend, most);
+  }
   if (!(size > 0)) return;
   const double third = rates_[3] + 3 * rates_[1] * (2 * rates_[2] + rates_[1] * rates_[1] / size) / size;
   const double near = (rim.centre.norm() * rates_[3] + rim.radius * third) * s / 2;
   bounds.least_bend = std::fmin(a.acceleration, b.acceleration) - near;
-  bounds.largest_bend = std::fmax(a.acceleration, b.acceleration) + near;
+  bounds.largest_bend = std::fmin(bounds.largest_bend, std::fmax(a.acceleration, b.acceleration) + near);
 }
 
 HeightBounds PointHeights::bounds(int point, const Piece& piece) const {

@@ -28,7 +28,7 @@ struct PointHeight {
   double time = 0;          ///< [s]
   double height = 0;        ///< h [m]
   double velocity = 0;      ///< h′ [m/s]
-  double acceleration = 0;  ///< h″ [m/s²]; NaN where a rim lies flat
+  double acceleration = 0;  ///< h″ [m/s²]; of a level rim that after the moment, as is h′
 };
 
 /// Bounds over a piece of a flight.
@@ -47,11 +47,15 @@ struct Piece {
   bool touching = false;  ///< from: h = 0 at t = 0
 };
 
-/// Where a point touches the ground or is nearest to it, body frame: a vertex, or the lowest point of a rim [m].
-[[nodiscard]] Vector3 touching_place(const Body& body, const Quaternion& attitude, int point);
-
-/// Whether the point is a rim that lies level to rounding: all of the rim touches, no point of it more than another.
-[[nodiscard]] bool lies_level(const Body& body, const Quaternion& attitude, int point);
+/// Where a point touches the ground or is nearest to it: a vertex, the lowest point of a rim, or all of a rim that lies
+/// level to rounding, no point of it lower than another.
+[[nodiscard]] Corner touching_corner(const Body& body, const Quaternion& attitude, int point);
+/// Corner::place of the same.
+[[nodiscard]] inline Vector3 touching_place(const Body& body, const Quaternion& attitude, int point) {
+  return touching_corner(body, attitude, point).place;
+}
+/// Sine of the angle between the plane of the rim that the point is and the ground; 1 for a vertex.
+[[nodiscard]] double steepness(const Body& body, const Quaternion& attitude, int point);
 
 /// The heights of a body's vertices and rims.
 class PointHeights {

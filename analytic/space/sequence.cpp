@@ -8,6 +8,7 @@
 #include "analytic/detail/limits.hpp"
 #include "analytic/errors.hpp"
 #include "analytic/space/error_growth.hpp"
+#include "analytic/space/level_rim.hpp"
 #include "analytic/space/sequence_units.hpp"
 #include "analytic/space/tail.hpp"
 
@@ -124,7 +125,9 @@ class Run {
   /// The state before the impact: the height of the centre of mass is that of the corner that touches.
   void arrive(const FreeFlight& flight, const FirstContact& flown, const Vector3& from) {
     State now = flown.time > 0 ? flight.at(flown.time) : state_;
-    const Vector3 place = touching_place(body_, now.attitude, flown.point);
+    const Corner corner = touching_corner(body_, now.attitude, flown.point);
+    if (corner.radius > 0) now = levelled(body_, now, corner);
+    const Vector3& place = corner.place;
     now.position.z() = -(now.attitude * place).z();
     if (growth_) growth_->fly(flight, flown, from, place);
     state_ = now;
@@ -144,13 +147,7 @@ class Run {
     row.flight = flown;
     row.amplification = missing;
     row.error = RowErrors::unknown();
-    for (const int point : arriving) {
-      if (lies_level(body_, state_.attitude, point)) {
-        throw OutsideModelError(
-            "a round end lands level, which is a face without corners: tilt it, or give it corners");
-      }
-      row.corners.push_back({point, touching_place(body_, state_.attitude, point)});
-    }
+    for (const int point : arriving) row.corners.push_back(touching_corner(body_, state_.attitude, point));
     strike(row);
     state_.velocity = row.impact.velocity_after;
     state_.angular_velocity = row.impact.angular_velocity_after;
@@ -165,7 +162,7 @@ class Run {
 
   void strike(ImpactRow& row) const {
     const Corner& corner = row.corners.front();
-    if (row.corners.size() > 1) {
+    if (row.corners.size() > 1 || corner.radius > 0) {
       row.group = strike_together(body_, row.before, row.corners, drop_.law);
       row.impact = impact_of(*row.group, row.before, corner.place);
       row.approach_speed = row.group->approach_speed;
@@ -186,7 +183,8 @@ class Run {
     const bool plastic = drop_.law.law.restitution == 0 && drop_.law.law.law != RestitutionLaw::viscoelastic;
     for (const Corner& corner : row.corners) {
       const ContactVelocity velocity = contact_velocity(state_, corner.place);
-      double normal = row.group ? velocity.value.z() : row.impact.contact_after.z();
+      const double turning = corner.radius * state_.angular_velocity.head<2>().norm();  // of a level rim
+      double normal = row.group ? velocity.value.z() - turning : row.impact.contact_after.z();
       const bool rounding = std::fabs(normal) <= 16 * epsilon * velocity.scale;
       if (rounding && (row.group || plastic)) normal = 0;
       touches_.push_back({corner.index, normal});

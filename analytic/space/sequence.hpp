@@ -47,10 +47,10 @@ struct ImpactRow {
   double start = 0;             ///< time since the first impact [s]
   std::vector<Corner> corners;  ///< that arrived; the first is the one that `impact` is of
   State before;                 ///< height of the centre of mass in position.z
-  /// Of the corner, or of several corners together: then the contact velocities are those of the first corner, path and
-  /// energy those of the group, p_c and what describes slip are not known (NaN).
+  /// Of the corner, or of several corners or a level rim together: then the contact velocities are those of the first
+  /// corner, path and energy those of the group, p_c and what describes slip are not known (NaN).
   Impact impact;
-  std::optional<GroupImpact> group;  ///< if several corners arrived
+  std::optional<GroupImpact> group;  ///< if several corners arrived, or all of a rim that lies level
   double approach_speed = 0;         ///< of the corner; largest of the group [m/s]
   double energy_before = 0;          ///< translational + rotational + potential (z = 0 at the ground) [J]
   double energy_after = 0;

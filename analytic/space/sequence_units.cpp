@@ -92,7 +92,10 @@ void SequenceUnits::to_si(FirstContact& flight) const {
 
 void SequenceUnits::to_si(ImpactRow& row) const {
   scale(row.start, length_ - speed_);
-  for (Corner& corner : row.corners) scale(corner.place, length_);
+  for (Corner& corner : row.corners) {
+    scale(corner.place, length_);
+    scale(corner.radius, length_);
+  }
   to_si(row.before);
   to_si(row.impact);
   if (row.group) to_si(*row.group);

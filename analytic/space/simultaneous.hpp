@@ -17,6 +17,8 @@
 // A tilt however small makes corners strike in some order, which can decide the outcome: tilted_outcomes() lists every
 // outcome that small tilts in all directions give.  In the limit of no tilt heights are linear in a time that is scaled
 // with the tilt, so that the order follows from heights and velocities alone.
+//
+// The rim of a round end that lies level is a face with a full circle of touching points: level_rim.hpp.
 #pragma once
 
 #include <optional>
@@ -42,13 +44,13 @@ struct GroupImpact {
 };
 
 /// The rebound as a whole of the corners that approach; nothing if pushes alone cannot do it, or if none approaches.
-/// @param touching corners at one height; a single one strikes as in impact.hpp
-/// @throws as strike()
+/// @param touching corners at one height; a single one strikes as in impact.hpp; a level rim touches alone
+/// @throws as strike(); std::domain_error for a level rim beside another corner
 [[nodiscard]] std::optional<GroupImpact> rebound_as_a_whole(const Body& body, const State& before,
                                                             std::span<const Corner> touching, const Law& law);
 
 /// The impact of a set of touching corners by the rules above.  No impulse if none approaches.
-/// @throws as strike(); NumericalError if 10 000 strikes do not end it
+/// @throws as strike(); NumericalError if 40 000 strikes do not end it
 [[nodiscard]] GroupImpact strike_together(const Body& body, const State& before, std::span<const Corner> touching,
                                           const Law& law);
 
@@ -60,8 +62,11 @@ struct TiltedOutcome {
 
 struct OutcomeSet {
   std::vector<TiltedOutcome> outcomes;  ///< distinct to 1e-6 of the velocities
-  double velocity_spread = 0;           ///< largest distance between two V, that of strike_together() included [m/s]
-  double angular_velocity_spread = 0;   ///< the same for Ω [rad/s]
+  /// Whether outcomes vary continuously with the direction of the tilt (level rim): `outcomes` are then those of single
+  /// directions, and the spreads hold to 2e-3 of themselves.
+  bool varies = false;
+  double velocity_spread = 0;          ///< largest distance between two V, that of strike_together() included [m/s]
+  double angular_velocity_spread = 0;  ///< the same for Ω [rad/s]
 };
 
 /// Every outcome that small tilts in all directions give; one that a sector of less than 0.2° alone gives can be

@@ -166,7 +166,7 @@ void end_state(const Drop& drop, const ImpactRow& last, const Vector3& lever, Ta
   const Vector3 drift = axes * (body.inertia.inverse() * (body.inertia * w).cross(w)) * tail.end_time;
   tail.velocity_after = impact.velocity_after + impulse / body.mass + fall;
   tail.angular_velocity_after = impact.angular_velocity_after + change + drift;
-  if (tail.corners.size() < 3) return;
+  if (tail.corners.size() < 3 && !(last.corners.front().radius > 0)) return;  // neither a face nor a level rim
   tail.velocity_after.z() = 0;
   tail.angular_velocity_after.head<2>().setZero();
 }

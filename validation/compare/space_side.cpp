@@ -54,12 +54,8 @@ bool is_settled(const space::ImpactRow& row, const Vector3& middle, double scale
 }
 
 std::string open_words(const space::Drop& drop, const space::ImpactRow& row) {
-  const space::OutcomeSet set = tilted_outcomes(drop.body, row.before, row.corners, drop.law);
-  return fmt::format(
-      "{} corners land at once: the rebound depends on where between them the ground presses; small tilts give {} "
-      "outcomes, up to {} m/s and {} rad/s apart",
-      row.corners.size(), set.outcomes.size(), significant(set.velocity_spread, 2),
-      significant(set.angular_velocity_spread, 2));
+  return fmt::format("{}: the rebound depends on where between them the ground presses; {}", landing_words(row.corners),
+                     tilt_words(tilted_outcomes(drop.body, row.before, row.corners, drop.law)));
 }
 
 SequenceImpact space_impact(const Scene& scene, const space::Drop& drop, const space::ImpactRow& row) {

@@ -235,16 +235,19 @@ void write_group(const ImpactInSpace& impact, StepWriter& writer) {
   const space::GroupImpact& group = *row.group;
   std::vector<int> corners;
   for (const space::Corner& corner : row.corners) corners.push_back(corner.index);
+  const bool is_rim = row.corners.front().radius > 0;
+  const std::string who = is_rim ? "all points of the rim of " : "";
   const std::string how =
-      group.is_whole ? "Pushes alone can make the body rebound as a whole, each corner at e times its approach."
+      group.is_whole ? "Pushes alone can make the body rebound as a whole, each point at e times its approach."
                      : "Pushes alone cannot make the body rebound as a whole; they strike one after the other, "
                        "the fastest first: " +
                            order_words(impact, group) + ".";
-  writer.open("Corners at once", fmt::format("At once: {}.  {}", impact.corner_names(corners), how));
+  writer.open("Corners at once", fmt::format("At once: {}{}.  {}", who, impact.corner_names(corners), how));
   for (const space::Corner& corner : row.corners) {
     const Vector3 arm = row.before.attitude * corner.place;
     writer.add({.name = "u",
-                .formula = fmt::format("approach speed of {}", impact.corner_names({corner.index})),
+                .formula = fmt::format("approach speed of {}{}", is_rim ? "the centre of the rim of " : "",
+                                       impact.corner_names({corner.index})),
                 .value = -(row.before.velocity + row.before.angular_velocity.cross(arm)).z(),
                 .unit = "m/s",
                 .size = row.approach_speed});
@@ -270,10 +273,13 @@ void write_group_impact(const ImpactInSpace& impact, StepWriter& writer) {
   write_group(impact, writer);
   const space::ImpactRow& row = impact.row();
   const space::OutcomeSet set = tilted_outcomes(impact.drop.body, row.before, row.corners, impact.drop.law);
-  writer.open("Small tilts",
-              fmt::format("However small, a tilt makes the corners strike in some order.  All directions give {} "
-                          "outcome{}.",
-                          set.outcomes.size(), set.outcomes.size() == 1 ? "" : "s"));
+  const std::size_t count = set.outcomes.size();
+  const std::string outcomes = set.varies   ? "another outcome; those of eight follow"
+                               : count == 1 ? "the same outcome"
+                                            : fmt::format("one of {} outcomes", count);
+  writer.open("Small tilts", fmt::format("However small, a tilt makes the corners strike in some order.  Each "
+                                         "direction gives {}.",
+                                         outcomes));
   const double speed = std::max(row.before.velocity.norm(), row.approach_speed);
   writer.add({.name = "ΔV",
               .formula = "largest distance of two, that above included",
@@ -285,9 +291,10 @@ void write_group_impact(const ImpactInSpace& impact, StepWriter& writer) {
               .value = set.angular_velocity_spread,
               .unit = "rad/s",
               .size = speed / impact.drop.body.reach()});
-  int number = 0;
-  for (const space::TiltedOutcome& outcome : set.outcomes) {
-    writer.open(fmt::format("Outcome {} of {}", ++number, set.outcomes.size()),
+  const std::size_t step = set.varies ? std::max<std::size_t>(count / 8, 1) : 1;
+  for (std::size_t i = 0; i < count; i += step) {
+    const space::TiltedOutcome& outcome = set.outcomes[i];
+    writer.open(fmt::format("Outcome {} of {}", i + 1, count),
                 fmt::format("The body is raised on the side of {}° from x: {}.",
                             significant(outcome.tilt_direction * degrees, 4), order_words(impact, outcome.impact)));
     writer.add_vector("V", "′", "velocity of the centre of mass after", outcome.impact.velocity_after, "m/s");

@@ -49,12 +49,8 @@ std::vector<std::string> group_notes(const Sequence& sequence, const analytic::s
     if (!row.group) continue;
     const analytic::space::OutcomeSet set = tilted_outcomes(drop.body, row.before, row.corners, drop.law);
     const double speed = std::max(row.before.velocity.norm(), row.approach_speed);
-    std::string words =
-        fmt::format("impact {}: {} corners at once, {}", n, row.corners.size(), order_words(*row.group));
-    if (set.velocity_spread > 1e-6 * speed) {
-      words += fmt::format("; small tilts give {} outcomes, {} m/s and {} rad/s apart", set.outcomes.size(),
-                           significant(set.velocity_spread, 3), significant(set.angular_velocity_spread, 3));
-    }
+    std::string words = fmt::format("impact {}: {}, {}", n, landing_words(row.corners), order_words(*row.group));
+    if (set.velocity_spread > 1e-6 * speed) words += "; " + tilt_words(set);
     notes.push_back(words);
   }
   return notes;

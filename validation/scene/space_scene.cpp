@@ -9,6 +9,7 @@
 
 #include "analytic/errors.hpp"
 #include "analytic/space/shapes.hpp"
+#include "validation/output/number.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/hull.hpp"
@@ -153,6 +154,18 @@ std::string corner_name(const Scene& scene, const space::Corner& corner) {
     case BodyScene::Shape::mesh: break;
   }
   return std::to_string(corner.index + 1);
+}
+
+std::string tilt_words(const space::OutcomeSet& set) {
+  const std::string outcomes = set.varies ? "outcomes that change with the direction of the tilt,"
+                                          : fmt::format("{} outcomes,", set.outcomes.size());
+  return fmt::format("small tilts give {} up to {} m/s and {} rad/s apart", outcomes,
+                     significant(set.velocity_spread, 2), significant(set.angular_velocity_spread, 2));
+}
+
+std::string landing_words(const std::vector<space::Corner>& corners) {
+  if (corners.front().radius > 0) return "a round end lands level";
+  return fmt::format("{} corners land at once", corners.size());
 }
 
 std::vector<SpaceRow> space_rows(const Scene& scene, const space::Sequence& sequence, const Vector3& centre) {

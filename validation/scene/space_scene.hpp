@@ -60,6 +60,11 @@ class DiscreteBody {
 /// Name of a corner of the body: the signs of the coordinates of a box's corner ("+x-y+z"), "a" and "b" of a rod's
 /// ends, otherwise its number from 1.
 [[nodiscard]] std::string corner_name(const Scene& scene, const analytic::space::Corner& corner);
+/// What small tilts make of corners that land at once: how many outcomes and how far apart; of a level rim, which has
+/// one for each direction, how far apart.
+[[nodiscard]] std::string tilt_words(const analytic::space::OutcomeSet& set);
+/// The corners of a row in words: "2 corners land at once", "a round end lands level".
+[[nodiscard]] std::string landing_words(const std::vector<analytic::space::Corner>& corners);
 /// The rows of a sequence with the names of the corners that strike.
 /// @param centre  of mass, in the body's frame [m]
 [[nodiscard]] std::vector<SpaceRow> space_rows(const Scene& scene, const analytic::space::Sequence& sequence,

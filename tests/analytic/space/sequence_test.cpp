@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string>
 
-#include "analytic/errors.hpp"
 #include "analytic/space/shapes.hpp"
 #include "validation/oracles/reference_scene.hpp"
 
@@ -75,19 +74,6 @@ struct Errors {
 };
 
 }  // namespace
-
-/// A point of the rim would be as good as any other, and its lever arm a number out of rounding.
-BOOST_AUTO_TEST_CASE(a_round_end_that_lands_level_is_refused_and_one_that_is_tilted_strikes_with_its_lowest_point) {
-  Drop drop{.body = cylinder(1, {.length = 1, .radius = 0.05}), .velocity = Vector3(0, 0.3, -1), .law = {}};
-  const auto upright = [](double tilt) { return Quaternion(Eigen::AngleAxisd(-M_PI / 2 + tilt, Vector3::UnitY())); };
-  drop.attitude = upright(0);
-  BOOST_CHECK_EXCEPTION(
-      (void)impact_sequence(drop, {.impacts = 1}), clatter::analytic::OutsideModelError,
-      [](const auto& error) { return std::string(error.what()).starts_with("a round end lands level"); });
-  drop.attitude = upright(1e-9);
-  const Sequence sequence = impact_sequence(drop, {.impacts = 1});
-  BOOST_TEST(std::fabs(sequence.rows.at(0).corners.at(0).place.z()) == 0.05, boost::test_tools::tolerance(1e-12));
-}
 
 BOOST_AUTO_TEST_CASE(every_reference_scene_comes_out_impact_by_impact_within_its_tolerance) {
   const auto all = scenes();

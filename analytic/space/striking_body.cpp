@@ -1,0 +1,117 @@
+#include "analytic/space/striking_body.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "analytic/contact_impulse.hpp"
+#include "analytic/detail/limits.hpp"
+#include "analytic/errors.hpp"
+#include "analytic/space/impulse_path.hpp"
+
+namespace clatter::analytic::space {
+
+StrikingBody::StrikingBody(const Body& body, const State& before, const Law& law)
+    : body_(body), law_(law), state_(before), before_(before), axes_(before.attitude.toRotationMatrix()) {
+  law.validate();
+  inverse_inertia_ = axes_ * body.inertia.inverse() * axes_.transpose();
+}
+
+double StrikingBody::rounding(double distance) const {
+  return 64 * detail::epsilon * (before_.velocity.norm() + before_.angular_velocity.norm() * distance);
+}
+
+void StrikingBody::strike_at(const Vector3& place, const std::vector<int>& points, const Law& law) {
+  const Impact impact = space::strike(body_, state_, place, law);
+  push(impact.impulse, arm(place).cross(impact.impulse), impact.path, points);
+}
+
+std::optional<FaceRebound> StrikingBody::face_rebound(double depth) const {
+  const double speed = -state_.velocity.z();
+  if (!(speed > 0)) return {};
+  const double e = restitution_at(law_.law, speed);
+  const Vector2 turn = -(1 + e) * state_.angular_velocity.head<2>();
+  const Vector2 moment = inverse_inertia_.topLeftCorner<2, 2>().inverse() * turn;
+  const double normal = (1 + e) * body_.mass * speed;
+  const Vector3 below(0, 0, -depth);
+  const Vector3 slip = velocity(below);
+  const ContactImpulse whole =
+      face_impulse({.mass = body_.mass,
+                    .approach_speed = speed,
+                    .slip = slip.head<2>(),
+                    .drift = Vector2(-depth * turn.y(), depth * turn.x()) / normal,
+                    .velocity_scale = state_.velocity.norm() + state_.angular_velocity.norm() * depth},
+                   law_);
+  const Vector3 of_friction = below.cross(whole.impulse);
+  const Vector2 of_pushes = moment - of_friction.head<2>();
+  return FaceRebound{.impulse = whole.impulse,
+                     .moment = {moment.x(), moment.y(), 0},
+                     .pressure_point = Vector2(-of_pushes.y(), of_pushes.x()) / whole.impulse.z(),
+                     .path = whole.path};
+}
+
+void StrikingBody::push(const Vector3& impulse, const Vector3& moment, PathKind path, const std::vector<int>& points) {
+  if (impact_.order.empty()) impact_.path = path;
+  add(impulse, moment);
+  if (!merges_ || impact_.order.empty()) impact_.order.push_back(points);
+}
+
+void StrikingBody::add(const Vector3& impulse, const Vector3& moment) {
+  impact_.impulse += impulse;
+  impact_.moment += moment;
+  state_.velocity += impulse / body_.mass;
+  state_.angular_velocity += inverse_inertia_ * moment;
+}
+
+void StrikingBody::take(const StrikingBody& other) {
+  state_ = other.state_;
+  impact_ = other.impact_;
+}
+
+GroupImpact StrikingBody::result() const {
+  GroupImpact result = impact_;
+  result.velocity_after = state_.velocity;
+  result.angular_velocity_after = state_.angular_velocity;
+  result.energy_loss = -(result.impulse.dot(before_.velocity + state_.velocity) +
+                         result.moment.dot(before_.angular_velocity + state_.angular_velocity)) /
+                       2;
+  return result;
+}
+
+bool StrikeSeries::converges(StrikingBody& struck) {
+  if (struck.strikes() < next_) return false;
+  next_ = struck.strikes() + block;
+  Sum& now = sums_.emplace_back();
+  now << struck.impact().impulse, struck.impact().moment;
+  if (sums_.size() < 4) return false;
+  const std::size_t n = sums_.size();
+  const Sum last = sums_[n - 1] - sums_[n - 2], before = sums_[n - 2] - sums_[n - 3];
+  const double ratio = last.norm() / before.norm();
+  const double earlier = before.norm() / (sums_[n - 3] - sums_[n - 4]).norm();
+  const bool steady = std::fabs(ratio - earlier) <= 1e-3 * (1 - ratio) &&
+                      (last - ratio * before).norm() <= 1e-2 * (1 - ratio) * last.norm();
+  if (!(ratio < 1) || !steady) return false;
+  const Sum rest = 0.9 * ratio / (1 - ratio) * last;
+  struck.add(rest.head<3>(), rest.tail<3>());
+  sums_.clear();
+  return true;
+}
+
+std::size_t add_distinct(const TiltedOutcome& outcome, double reach, double scale, std::vector<TiltedOutcome>& found) {
+  constexpr double same = 1e-6;
+  const GroupImpact& impact = outcome.impact;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const GroupImpact& other = found[i].impact;
+    const double apart = (impact.velocity_after - other.velocity_after).norm() +
+                         reach * (impact.angular_velocity_after - other.angular_velocity_after).norm();
+    if (apart <= same * scale) return i;
+  }
+  found.push_back(outcome);
+  return found.size() - 1;
+}
+
+void check_number_of_strikes(std::size_t strikes) {
+  if (strikes < 40000) return;
+  throw NumericalError("corners that touch together strike one after the other without end");
+}
+
+}  // namespace clatter::analytic::space

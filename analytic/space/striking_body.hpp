@@ -1,0 +1,93 @@
+// A body that is struck at several places while its velocity changes and its attitude does not.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "analytic/space/simultaneous.hpp"
+
+namespace clatter::analytic::space {
+
+/// The impulse of a face that rebounds as a whole, and where its pushes act.
+struct FaceRebound {
+  Vector3 impulse = Vector3::Zero();         ///< P, world frame [N·s]
+  Vector3 moment = Vector3::Zero();          ///< about the centre of mass [N·m·s]
+  Vector2 pressure_point = Vector2::Zero();  ///< of (2) in simultaneous.hpp, from the centre of mass [m]
+  PathKind path = PathKind::frictionless;
+};
+
+/// Strikes add up to one GroupImpact.  World frame; arms are from the centre of mass.
+class StrikingBody {
+ public:
+  /// Body and law must outlive this.  @throws std::domain_error as Law::validate()
+  StrikingBody(const Body& body, const State& before, const Law& law);
+
+  [[nodiscard]] Vector3 arm(const Vector3& place) const { return axes_ * place; }
+  /// Inverse of arm(): body frame.
+  [[nodiscard]] Vector3 place(const Vector3& arm) const { return axes_.transpose() * arm; }
+  [[nodiscard]] const State& state() const { return state_; }
+  [[nodiscard]] const Body& body() const { return body_; }
+  [[nodiscard]] const Law& law() const { return law_; }
+  [[nodiscard]] const Matrix3& inverse_inertia() const { return inverse_inertia_; }
+  [[nodiscard]] Vector3 velocity(const Vector3& arm) const {
+    return state_.velocity + state_.angular_velocity.cross(arm);
+  }
+  /// Rounding of the normal velocity of a point at this distance from the centre of mass [m/s].
+  [[nodiscard]] double rounding(double distance) const;
+  [[nodiscard]] bool approaches(const Vector3& arm) const { return velocity(arm).z() < -rounding(arm.norm()); }
+  void know_approach(double speed) { impact_.approach_speed = std::fmax(impact_.approach_speed, speed); }
+
+  /// The impact of one point; `points` are the indices that the record gets.  @throws as space::strike()
+  void strike_at(const Vector3& place, const std::vector<int>& points) { strike_at(place, points, law_); }
+  void strike_at(const Vector3& place, const std::vector<int>& points, const Law& law);
+  /// V_z, ω_x, ω_y → −e times themselves; nothing if the centre of mass does not come down.
+  /// @param depth  of the ground below the centre of mass [m]
+  [[nodiscard]] std::optional<FaceRebound> face_rebound(double depth) const;
+  /// Goes on from another that began with the same body, state and law.
+  void take(const StrikingBody& other);
+  void push(const FaceRebound& face, const std::vector<int>& points) {
+    push(face.impulse, face.moment, face.path, points);
+  }
+
+  /// Adds an impulse to the last strike.
+  void add(const Vector3& impulse, const Vector3& moment);
+  [[nodiscard]] const GroupImpact& impact() const { return impact_; }
+  [[nodiscard]] std::size_t strikes() const { return impact_.order.size(); }
+  /// Lets what follows count as part of the last strike, or as strikes of their own.
+  void merge_strikes(bool merge) { merges_ = merge; }
+  [[nodiscard]] GroupImpact result() const;
+
+ private:
+  void push(const Vector3& impulse, const Vector3& moment, PathKind path, const std::vector<int>& points);
+
+  const Body& body_;
+  const Law& law_;
+  State state_, before_;
+  Matrix3 axes_, inverse_inertia_;
+  GroupImpact impact_;
+  bool merges_ = false;
+};
+
+/// Strikes in turn can go on as a geometric series, each round a little weaker than the one before.
+class StrikeSeries {
+ public:
+  /// Once the sums over blocks of 64 strikes fall by one ratio q, adds nine tenths of their remaining sum,
+  /// block·q/(1 − q), so that what is left still approaches; true if so.
+  bool converges(StrikingBody& struck);
+
+ private:
+  static constexpr std::size_t block = 64;
+  using Sum = Eigen::Matrix<double, 6, 1>;  ///< impulse and moment
+  std::vector<Sum> sums_;                   ///< after each block
+  std::size_t next_ = block;
+};
+
+/// Adds an outcome unless one nearer than 1e-6 of the velocities is among those found; returns the place of either.
+/// @param reach  largest distance of a touching point from the centre of mass [m]
+/// @param scale  of the velocities [m/s]
+std::size_t add_distinct(const TiltedOutcome& outcome, double reach, double scale, std::vector<TiltedOutcome>& found);
+
+/// @throws NumericalError if there are too many
+void check_number_of_strikes(std::size_t strikes);
+
+}  // namespace clatter::analytic::space
