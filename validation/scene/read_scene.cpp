@@ -22,8 +22,6 @@ namespace {
 constexpr double attitude_rounding = 0.01;  // numbers typed with two digits are meant to have the length 1
 constexpr Range thick{1e-100, 1e100, false, "from 1e-100 to 1e100"};
 
-const Range& range_of(std::string_view key) { return std::get<NumberValue>(key_named(key).value).range; }
-
 void only_for(const SceneValues& values, const std::vector<std::string>& keys, const std::string& what) {
   for (const std::string& key : keys) {
     if (values.has(key)) values.refuse(key, "left out: it is only for " + what);
