@@ -50,8 +50,8 @@ BOOST_AUTO_TEST_CASE(the_planar_body_of_a_box_has_its_corners_and_inertia) {
 
 BOOST_AUTO_TEST_CASE(creeping_friction_and_outlines_that_leave_the_plane_are_refused_by_name) {
   Scene creeping = box_scene(10);
-  creeping.ground.static_friction = creeping.ground.sliding_friction = 0.1;
-  creeping.ground.friction = numeric::FrictionLaw::regularised;
+  creeping.world.ground.static_friction = creeping.world.ground.sliding_friction = 0.1;
+  creeping.world.ground.friction = numeric::FrictionLaw::regularised;
   BOOST_CHECK_EXCEPTION(compared(creeping), analytic::OutsideModelError, says("regularised"));
   // A cube whose centre of mass lies off its middle plane y = 0.1.
   const numeric::Vector3 h(0.5, 0.5, 0.5);
