@@ -1,5 +1,5 @@
 // A scene as the arguments of the program's requests, and as the situation of the page.
-import { DEFAULT_PARAMETERS, setBody, type Parameters, type Quantity } from "./parameters";
+import { DEFAULT_PARAMETERS, isInPlane, setBody, type Parameters, type Quantity } from "./parameters";
 
 type Argument = string | number | boolean | readonly number[];
 export type SceneArguments = Readonly<Record<string, Argument>>;
@@ -60,6 +60,8 @@ export function parametersOf(given: SceneArguments): Parameters {
   takeContact(left, parameters);
   parameters.planar = left.take("planar") === "true";
   parameters.extra = left.rest();
+  // The page keeps a motion in a plane only where nothing takes it out; a file may do so anywhere.
+  if (parameters.planar && !isInPlane(parameters)) parameters.extra = { ...parameters.extra, planar: "true" };
   return parameters;
 }
 
