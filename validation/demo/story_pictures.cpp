@@ -9,7 +9,7 @@
 namespace clatter::validation {
 namespace {
 
-// The page's colour of the discrete model, its dark shade for blows and of lines.
+// Colours of the page: of the discrete model, of its blows, of lines.
 constexpr const char *body_colour = "#0072b2", *blow_colour = "#0a3d62", *line = "#b9c3cd";
 constexpr double width = 300, height = 160;
 

@@ -127,7 +127,8 @@ function lossWithoutRounding({ energy_loss, energy_before }: Impact): number {
 }
 
 const CSV: readonly [string, (impact: Impact) => number | string | null][] = [
-  ["n", (i) => i.n], ["end", (i) => i.end], ["corners", (i) => i.corners ?? ""], ["predictable", (i) => String(i.predictable !== false)], ["start_s", (i) => i.start], ["duration_s", (i) => i.duration],
+  ["n", (i) => i.n], ["end", (i) => i.end], ["corners", (i) => i.corners ?? ""],
+  ["predictable", (i) => String(i.predictable !== false)], ["start_s", (i) => i.start], ["duration_s", (i) => i.duration],
   ["inclination_deg", (i) => i.inclination_deg], ["contact_angle_deg", (i) => i.contact_angle_deg],
   ["approach_speed_m_s", (i) => i.approach_speed], ["restitution", (i) => i.restitution],
   ["impulse_normal_N_s", (i) => i.impulse_normal], ["impulse_tangential_N_s", (i) => i.impulse_tangential],
