@@ -86,7 +86,7 @@ bool has_ended_well(Outcome outcome) {
 
 Simulation run_case(const ContinuousCase& scene, const ContinuousRun& how, const GoesOn& goes_on) {
   const numeric::Body body(numeric::box_mesh({.size = scene.size, .mass = scene.mass}));
-  const numeric::World world{.ground = scene.world.ground, .gravity = scene.gravity, .planar = how.planar};
+  const numeric::World world{.ground = scene.ground, .gravity = scene.gravity, .planar = how.planar};
   const numeric::Request request{.impacts = scene.impacts, .error_estimates = how.estimates, .amplification = false};
   const numeric::Accuracy accuracy{
       .method = how.method, .digits = how.digits, .evaluation_limit = scene.evaluation_limit};

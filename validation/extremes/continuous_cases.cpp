@@ -58,21 +58,21 @@ CellMeasure by_other_method(const ContinuousCase& unit, const UnitScale& scale, 
 
 /// Flat landing without damping: half a sine; with it: the exact restitution.  Speeds relative to that of approach.
 CellMeasure by_flat_landing(ContinuousCase scene, bool planar, const CellClock& clock) {
-  scene.world.ground.area = numeric::AreaMeasure::projected;  // the sides of the box then bear nothing
+  scene.ground.area = numeric::AreaMeasure::projected;  // the sides of the box then bear nothing
   CellMeasure measure{.oracle = "restitution's equation at 64 bits", .outcome = {}};
   const Simulation run = require_case(scene, {.planar = planar}, until(clock, run_share), measure);
   const numeric::ImpactRecord& row = run.impacts.at(0);
   const double speed = -scene.velocity.z();
-  const double s = scene.world.ground.damping / scene.world.ground.stiffness * speed;
+  const double s = scene.ground.damping / scene.ground.stiffness * speed;
   const double e = static_cast<double>(exact_restitution(static_cast<long double>(s)));
   measure.error =
       std::max({std::fabs(row.value.velocity_after.z() / speed - e),
                 std::fabs(row.value.impulse.z() / (scene.mass * speed) - (1 + e)) / (1 + e), worst_ledger_gap(run)});
-  if (scene.world.ground.damping == 0) {
+  if (scene.ground.damping == 0) {
     measure.oracle = "half sine";
     const bool upright = scene.angle_deg == 90;
     const double area = (upright ? scene.size.z() : scene.size.x()) * scene.size.y();
-    const double rate = std::sqrt(scene.world.ground.stiffness * area / scene.mass);
+    const double rate = std::sqrt(scene.ground.stiffness * area / scene.mass);
     measure.error = std::max({measure.error, std::fabs(row.value.duration * rate / std::numbers::pi - 1),
                               std::fabs(row.value.peak_force / (scene.mass * speed * rate) - 1)});
   }
@@ -100,12 +100,12 @@ double damping_for(double restitution, double stiffness) {
 /// The scene of an axis at a value; false if it is none of the continuous model.
 bool case_on_axis(const std::string& axis, double value, ContinuousCase& scene) {
   if (axis == "angle") scene.angle_deg = value;
-  else if (axis == "stiffness") scene.world.ground.stiffness = value;
-  else if (axis == "damping") scene.world.ground.damping = value;
+  else if (axis == "stiffness") scene.ground.stiffness = value;
+  else if (axis == "damping") scene.ground.damping = value;
   else if (axis == "friction") {
     scene.angle_deg = 45;
     scene.velocity.x() = 0.5;
-    scene.world.ground.static_friction = scene.world.ground.sliding_friction = value;
+    scene.ground.static_friction = scene.ground.sliding_friction = value;
   } else if (axis == "speed") scene.velocity.z() = -value;
   else if (axis == "gravity") scene.gravity = value;
   else return axis == "size" || axis == "mass" || axis == "restitution" || axis == "impacts";
@@ -117,7 +117,7 @@ CellMeasure continuous_cell(const std::string& axis, double value, bool planar, 
   case_on_axis(axis, value, scene);
   if (axis == "restitution") {
     scene.angle_deg = 0;
-    scene.world.ground.damping = damping_for(value, scene.world.ground.stiffness);
+    scene.ground.damping = damping_for(value, scene.ground.stiffness);
     return by_flat_landing(scene, planar, clock);
   }
   if (axis == "impacts") return by_energy(scene, static_cast<int>(value), planar, clock);
