@@ -213,12 +213,8 @@ std::string benchmark_list_text() {
   std::size_t width = 0;
   for (const Problem& problem : benchmark_problems()) width = std::max(width, problem.id.size());
   std::string text;
-  for (const Problem& problem : benchmark_problems()) {
-    std::istringstream title(wrapped(problem.title, 77 - width, ""));
-    std::string name = problem.id;
-    for (std::string line; std::getline(title, line); name.clear())
-      text += fmt::format("{:{}}  {}\n", name, width, line);
-  }
+  for (const Problem& problem : benchmark_problems())
+    text += fmt::format("{:{}}  {}\n", problem.id, width, problem.title);
   return text;
 }
 
