@@ -20,6 +20,7 @@ namespace {
 /// Length of a piece [rad].
 constexpr double piece_angle = 0.6;
 constexpr int most_pieces = 1 << 18;
+constexpr int most_evaluations = 1'000'000;
 /// Stretches of fewer pieces are looked through at once.
 constexpr double shortest_stretch = 24;
 
@@ -262,7 +263,9 @@ class Search {
   }
 
   Node at(int point, double time) {
-    ++found_.evaluations;
+    if (++found_.evaluations > most_evaluations) {
+      throw NumericalError("no contact found nor excluded in a million evaluations of a flight's rotation");
+    }
     const FlightMoment moment = heights_.moment(time);
     return {moment, heights_.at(point, moment)};
   }

@@ -39,7 +39,8 @@ struct FirstContact {
 /// Points at height 0 to rounding at t = 0 count as touching: they do not arrive then unless they approach.
 /// Accuracy of the time: some ulp × (1 + condition number).  Where a point that touches returns after less than a tenth
 /// of a radian, its height comes from its Taylor series at t = 0, so that small hops keep their relative accuracy.
-/// @throws NumericalError if no contact is found, nor excluded, in 250 000 pieces, or a root cannot be polished.
+/// @throws NumericalError if no contact is found, nor excluded, in 250 000 pieces or a million evaluations, or a root
+///         cannot be polished.
 [[nodiscard]] FirstContact first_contact(const Body& body, const FreeFlight& flight, std::span<const Touch> touching);
 
 }  // namespace clatter::analytic::space

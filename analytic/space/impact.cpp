@@ -11,8 +11,6 @@
 #include "analytic/space/impulse_path.hpp"
 
 namespace clatter::analytic::space {
-namespace {}  // namespace
-
 void Law::validate() const {
   law.validate();
   const double length = ratio_direction.norm();
@@ -26,9 +24,9 @@ void Law::validate() const {
 
 double Impact::restitution() const { return contact_before.z() < 0 ? -contact_after.z() / contact_before.z() : 0; }
 
-Matrix3 inverse_contact_inertia(double mass, const Matrix3& inverse_inertia_world, const Vector3& arm) {
+Matrix3 inverse_contact_inertia(double mass, const Matrix3& inverse_inertia, const Vector3& arm) {
   const Matrix3 cross = cross_matrix(arm);
-  const Matrix3 turning = cross * inverse_inertia_world * cross.transpose();
+  const Matrix3 turning = cross * inverse_inertia * cross.transpose();
   return Matrix3::Identity() / mass + (turning + turning.transpose()) / 2;
 }
 
@@ -55,18 +53,16 @@ Impact strike(const Body& body, const State& before, const ContactVelocity& velo
   if (!v.allFinite()) throw NumericalError("the velocity of the corner is not finite");
   if (!(v.z() < 0)) return impact;
 
-  const Matrix3 axes = before.attitude.toRotationMatrix();
-  const Vector3 arm = axes * place;
-  const Matrix3 inverse_inertia = axes * body.inertia.inverse() * axes.transpose();
+  // In body axes nothing cancels, however much a needle's moments differ.
+  const Matrix3 axes = before.attitude.toRotationMatrix(), inverse_inertia = body.inertia.inverse();
+  const Matrix3 turned = axes * inverse_contact_inertia(body.mass, inverse_inertia, place) * axes.transpose();
+  const Matrix3 w = (turned + turned.transpose()) / 2;
   const ContactImpulse at_corner =
-      contact_impulse({.inverse_inertia = inverse_contact_inertia(body.mass, inverse_inertia, arm),
-                       .velocity = v,
-                       .velocity_scale = velocity.scale},
-                      law);
+      contact_impulse({.inverse_inertia = w, .velocity = v, .velocity_scale = velocity.scale}, law);
   impact.impulse = at_corner.impulse;
   impact.contact_after = at_corner.velocity_after;
   impact.velocity_after += at_corner.impulse / body.mass;
-  impact.angular_velocity_after += inverse_inertia * arm.cross(at_corner.impulse);
+  impact.angular_velocity_after += axes * (inverse_inertia * place.cross(axes.transpose() * at_corner.impulse));
   impact.compression_impulse = at_corner.compression_impulse;
   impact.slip_stop_impulse = at_corner.slip_stop_impulse;
   impact.least_slip = at_corner.least_slip;

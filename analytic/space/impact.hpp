@@ -50,8 +50,8 @@ struct Impact {
   [[nodiscard]] double restitution() const;
 };
 
-/// W of (1) at the corner `arm` = r [m], world frame.
-[[nodiscard]] Matrix3 inverse_contact_inertia(double mass, const Matrix3& inverse_inertia_world, const Vector3& arm);
+/// W of (1) at the corner `arm` = r [m]; all in one frame.
+[[nodiscard]] Matrix3 inverse_contact_inertia(double mass, const Matrix3& inverse_inertia, const Vector3& arm);
 
 /// Velocity of a corner, and the size of the parts that it was summed from: its rounding errors are below 4ε × scale.
 struct ContactVelocity {

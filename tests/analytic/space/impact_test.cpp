@@ -246,7 +246,9 @@ BOOST_AUTO_TEST_CASE(an_impulse_ratio_acts_in_its_direction_and_jamming_is_refus
       continue;
     }
     const Vector3 expected = -(1 + law.law.restitution) * contact.velocity.z() / rate * along;
-    BOOST_CHECK_LE((strike(c, law).impulse - expected).norm(), 1e-12 * expected.norm());
+    // Near jamming the terms of `rate` cancel, and W's rounding grows by this.
+    const double condition = contact.inverse_inertia.norm() * along.norm() / rate;
+    BOOST_CHECK_LE((strike(c, law).impulse - expected).norm(), 1e-14 * condition * expected.norm());
   }
   BOOST_CHECK_GT(jams, 20);
 }
