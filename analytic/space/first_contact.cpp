@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "analytic/detail/limits.hpp"
-#include "analytic/detail/root_finder.hpp"
 #include "analytic/errors.hpp"
-#include "analytic/space/hop.hpp"
+#include "analytic/space/point_search.hpp"
 
 namespace clatter::analytic::space {
 
@@ -20,23 +18,14 @@ namespace {
 /// Length of a piece [rad].
 constexpr double piece_angle = 0.6;
 constexpr int most_pieces = 1 << 18;
-constexpr int most_evaluations = 1'000'000;
 /// Stretches of fewer pieces are looked through at once.
 constexpr double shortest_stretch = 24;
-
-/// A moment of a point.
-struct Node {
-  FlightMoment moment;
-  PointHeight point;
-};
 
 class Search {
  public:
   Search(const Body& body, const FreeFlight& flight, std::span<const Touch> touching)
-      : body_(body), flight_(flight), touching_(touching), heights_(body, flight) {
-    found_.near_miss.clearance = never;
-    threshold_ = heights_.reach() / 20;
-  }
+      : flight_(flight), touching_(touching), search_(body, flight), heights_(search_.heights()),
+        found_(search_.found()) {}
 
   FirstContact run() {
     const FlightMoment start = heights_.moment(0);
@@ -66,7 +55,7 @@ class Search {
       const Touch* known = touch(point);
       if (known) h.velocity = known->normal_velocity;
       if (known || std::fabs(h.height) <= heights_.noise(0)) h.height = 0;
-      if (h.height == 0 && h.velocity < 0 && !(found_.end == FlightEnd::contact)) take(point, 0, {0, 0});
+      if (h.height == 0 && h.velocity < 0 && !(found_.end == FlightEnd::contact)) search_.take(point, 0, {0, 0});
       if (!known || h.velocity != 0 || found_.end == FlightEnd::contact) continue;
       if (h.acceleration < 0) {
         found_.end = FlightEnd::stays_touching;
@@ -113,7 +102,7 @@ class Search {
     const double lowest = heights_.lowest_between(start, last);
     if (lowest > 0) {
       NearMiss& miss = found_.near_miss;
-      if (lowest < std::fmin(threshold_, miss.clearance)) {
+      if (lowest < std::fmin(search_.threshold(), miss.clearance)) {
         miss = {.clearance = lowest, .margin = heights_.noise(end), .time = start.time, .vertex = 0};
       }
       start = last;
@@ -138,7 +127,7 @@ class Search {
       const double lowest = std::fmin(start.centre, next.centre);
       for (std::size_t i = 0; i < from_.size(); ++i) {
         to_[i] = heights_.at(static_cast<int>(i), next);
-        if (lowest <= depths_[i]) look(static_cast<int>(i), {start, from_[i]}, {next, to_[i]});
+        if (lowest <= depths_[i]) search_.look(static_cast<int>(i), {start, from_[i]}, {next, to_[i]});
       }
       if (found_.end == FlightEnd::contact) return false;
       start = next;
@@ -147,176 +136,36 @@ class Search {
     return true;
   }
 
-  /// Looks for the point's first root in a piece, unless one before it is known.  True when one was found.
-  bool look(int point, const Node& a, const Node& b) {
-    if (a.point.time >= best_) return true;
-    const bool touching = a.point.time == 0 && a.point.height == 0;
-    const HeightBounds bounds = heights_.bounds(point, {a.moment, b.moment, a.point, b.point, touching});
-    if (bounds.lowest > (touching ? 0 : std::fmin(threshold_, found_.near_miss.clearance))) return false;
-    if (touching) {
-      // (h/t)′ = h″/2 somewhere before.
-      if (bounds.least_bend >= 0) return false;
-      if (bounds.largest_bend <= 0) return b.point.height < 0 ? solve_quotient(point, b) : false;
-    } else if (bounds.largest_bend <= 0) {
-      return b.point.height <= 0 ? solve(point, a, b) : false;
-    } else if (bounds.least_bend >= 0) {
-      return convex(point, a, b);
-    } else {
-      const double length = b.point.time - a.point.time;
-      if (a.point.velocity + bounds.largest_bend * length < 0) return b.point.height <= 0 ? solve(point, a, b) : false;
-      if (a.point.velocity + bounds.least_bend * length > 0) return false;
-    }
-    return halves(point, a, b);
-  }
-
-  bool halves(int point, const Node& a, const Node& b) {
-    const double middle = a.point.time + (b.point.time - a.point.time) / 2;
-    if (!(middle > a.point.time && middle < b.point.time) ||
-        b.point.time - a.point.time <= 8 * epsilon * b.point.time) {
-      if (b.point.height > 0) return false;
-      found_.within_margin = true;
-      return take(point, b.point.time, {a.point.time, b.point.time});
-    }
-    const Node node = at(point, middle);
-    if (look(point, a, node)) return true;
-    if (!(node.point.height > 0)) return solve_after(point, a, node);
-    return look(point, node, b);
-  }
-
-  /// A height that is not above the ground though the piece before has no root that could be told: at rounding.
-  bool solve_after(int point, const Node& a, const Node& node) {
-    found_.within_margin = true;
-    return take(point, node.point.time, {a.point.time, node.point.time});
-  }
-
-  bool convex(int point, const Node& a, const Node& b) {
-    if (b.point.height <= 0) return solve(point, a, b);
-    if (!(a.point.velocity < 0 && b.point.velocity > 0)) return false;
-    const auto sample = [&](double t) -> detail::Sample {
-      const PointHeight h = at(point, t).point;
-      return {h.velocity, h.acceleration, 0};
-    };
-    const double share = a.point.velocity / (a.point.velocity - b.point.velocity);
-    const detail::Root root = detail::bracketed_root(detail::FunctionView(sample), {a.point.time, b.point.time},
-                                                     a.point.time + share * (b.point.time - a.point.time), true);
-    const Node bottom = at(point, root.value);
-    const double margin = heights_.noise(root.value);
-    if (bottom.point.height > 0) {
-      if (bottom.point.height < found_.near_miss.clearance) {
-        found_.near_miss = {.clearance = bottom.point.height, .margin = margin, .time = root.value, .vertex = point};
-      }
-      return false;
-    }
-    const bool slight = -bottom.point.height <= margin;
-    if (slight && !(bottom.point.time > a.point.time)) return false;
-    if (!solve(point, a, bottom)) return false;
-    found_.within_margin = slight;
-    return true;
-  }
-
-  bool solve(int point, const Node& a, const Node& b) {
-    if (!(a.point.height > 0)) return false;
-    const double noise = epsilon * heights_.reach() / 4;
-    const auto sample = [&](double t) -> detail::Sample {
-      const PointHeight h = at(point, t).point;
-      return {h.height, h.velocity, noise};
-    };
-    const double share = a.point.height / (a.point.height - b.point.height);
-    const detail::Root root = detail::bracketed_root(detail::FunctionView(sample), {a.point.time, b.point.time},
-                                                     a.point.time + share * (b.point.time - a.point.time), false);
-    return take(point, root.value, {a.point.time, b.point.time});
-  }
-
-  /// Root of h/t in (0, b].
-  bool solve_quotient(int point, const Node& b) {
-    const Touch touch{.point = point, .normal_velocity = from_[static_cast<std::size_t>(point)].velocity};
-    const double turn = b.point.time * flight_.rotation().fastest();
-    const std::optional<Vector3> place = hopping_place(body_, flight_, point);
-    const double bend = from_[static_cast<std::size_t>(point)].acceleration;
-    const double guess = bend < 0 ? -2 * touch.normal_velocity / bend : b.point.time / 2;
-    if (place && turn <= Hop::largest_turn) {
-      hop_.emplace(body_, flight_, *place, touch.normal_velocity);
-      const auto sample = [&](double t) -> detail::Sample {
-        const Hop::Value value = hop_->at(t);
-        return {value.quotient, value.slope, epsilon / 4 * touch.normal_velocity};
-      };
-      const detail::Root root = detail::bracketed_root(detail::FunctionView(sample), {0, b.point.time}, guess, false);
-      hop_time_ = root.value;
-      return take(point, root.value, {0, b.point.time});
-    }
-    if (place && guess * flight_.rotation().fastest() < Hop::largest_turn / 2) {  // the root lies near: come nearer
-      const Node nearer = at(point, Hop::largest_turn * 0.99 / flight_.rotation().fastest());
-      if (nearer.point.height < 0) return solve_quotient(point, nearer);
-    }
-    // h/t >= u − max|h″| t/2 has no root before this.
-    const double bound = heights_.reach() * heights_.rate_bound(2) + flight_.gravity();
-    const double low = std::fmin(touch.normal_velocity / bound, b.point.time / 2);
-    const double noise = epsilon * heights_.reach() / 4;
-    const auto sample = [&](double t) -> detail::Sample {
-      const PointHeight h = at(point, t).point;
-      return {h.height / t, (h.velocity - h.height / t) / t, noise / t};
-    };
-    const bool inside = guess > low && guess < b.point.time;
-    const detail::Root root = detail::bracketed_root(detail::FunctionView(sample), {low, b.point.time},
-                                                     inside ? guess : (low + b.point.time) / 2, false);
-    return take(point, root.value, {low, b.point.time});
-  }
-
-  Node at(int point, double time) {
-    if (++found_.evaluations > most_evaluations) {
-      throw NumericalError("no contact found nor excluded in a million evaluations of a flight's rotation");
-    }
-    const FlightMoment moment = heights_.moment(time);
-    return {moment, heights_.at(point, moment)};
-  }
-
-  bool take(int point, double time, detail::Bracket bracket) {
-    if (!(time < best_)) return true;
-    best_ = time;
-    found_.end = FlightEnd::contact;
-    found_.time = time;
-    found_.point = point;
-    found_.bracket_low = bracket.low;
-    found_.bracket_high = bracket.high;
-    return true;
-  }
-
   /// The point's velocity, and those that arrive with it.
   void arrive() {
-    const FlightMoment moment = heights_.moment(best_);
+    const double best = search_.best();
+    const FlightMoment moment = heights_.moment(best);
     ++found_.evaluations;
     const State& start = flight_.start();
     const double parts =
-        std::fabs(start.velocity.z()) + flight_.gravity() * best_ + flight_.rotation().fastest() * heights_.reach();
+        std::fabs(start.velocity.z()) + flight_.gravity() * best + flight_.rotation().fastest() * heights_.reach();
     found_.velocity_error = 4 * epsilon * parts;
     const PointHeight first =
-        best_ == 0 ? from_[static_cast<std::size_t>(found_.point)] : heights_.at(found_.point, moment);
-    found_.normal_velocity = first.velocity;
+        best == 0 ? from_[static_cast<std::size_t>(found_.point)] : heights_.at(found_.point, moment);
+    found_.normal_velocity = search_.arrival_velocity(first, found_.velocity_error);
     found_.acceleration = first.acceleration;
-    if (best_ > 0 && hop_ && hop_time_ == best_) {
-      found_.normal_velocity = hop_->velocity(best_);
-      found_.velocity_error = 4 * epsilon * std::fabs(found_.normal_velocity);
-    }
     found_.together.assign(1, found_.point);
     for (int i = 0; i < heights_.count(); ++i) {
       if (i == found_.point) continue;
-      const PointHeight h = best_ == 0 ? from_[static_cast<std::size_t>(i)] : heights_.at(i, moment);
+      const PointHeight h = best == 0 ? from_[static_cast<std::size_t>(i)] : heights_.at(i, moment);
       // The others' heights err by the time's error, too.
       const double slower = std::fabs(h.velocity / first.velocity);
-      if (std::fabs(h.height) <= heights_.noise(best_) * (1 + slower) && h.velocity < 0) found_.together.push_back(i);
+      if (std::fabs(h.height) <= heights_.noise(best) * (1 + slower) && h.velocity < 0) found_.together.push_back(i);
     }
   }
 
-  const Body& body_;
   const FreeFlight& flight_;
   std::span<const Touch> touching_;
-  PointHeights heights_;
-  FirstContact found_;
+  PointSearch search_;
+  PointHeights& heights_;
+  FirstContact& found_;
   std::vector<PointHeight> from_, to_;
   std::vector<double> depths_;
-  std::optional<Hop> hop_;
-  double hop_time_ = -1;
-  double best_ = never, threshold_;
   int pieces_ = 0;
 };
 

@@ -9,6 +9,7 @@
 #include "analytic/errors.hpp"
 #include "analytic/space/error_growth.hpp"
 #include "analytic/space/level_rim.hpp"
+#include "analytic/space/row_impact.hpp"
 #include "analytic/space/sequence_units.hpp"
 #include "analytic/space/tail.hpp"
 
@@ -21,20 +22,6 @@ namespace {
 
 /// Of the rotation, in a sequence: a third of a second.
 constexpr int most_evaluations = 1'000'000;
-
-Impact impact_of(const GroupImpact& group, const State& before, const Vector3& place) {
-  const Vector3 arm = before.attitude * place;
-  return {.impulse = group.impulse,
-          .contact_before = before.velocity + before.angular_velocity.cross(arm),
-          .contact_after = group.velocity_after + group.angular_velocity_after.cross(arm),
-          .velocity_after = group.velocity_after,
-          .angular_velocity_after = group.angular_velocity_after,
-          .compression_impulse = missing,
-          .slip_stop_impulse = missing,
-          .least_slip = missing,
-          .energy_loss = group.energy_loss,
-          .path = group.path};
-}
 
 /// The loop of impacts, in internal units.
 class Run {
@@ -148,11 +135,11 @@ class Run {
     row.amplification = missing;
     row.error = RowErrors::unknown();
     for (const int point : arriving) row.corners.push_back(touching_corner(body_, state_.attitude, point));
-    strike(row);
+    strike_row(body_, drop_.law, row);
     state_.velocity = row.impact.velocity_after;
     state_.angular_velocity = row.impact.angular_velocity_after;
     row.energy_after = energy(state_);
-    leave(row);
+    find_departures(drop_.law, row, state_, touches_);
     result_.total_normal_impulse += row.impact.impulse.z();
     warn_of_energy(row.impact);
     if (growth_) grow(row);
@@ -160,46 +147,8 @@ class Run {
     result_.rows.push_back(std::move(row));
   }
 
-  void strike(ImpactRow& row) const {
-    const Corner& corner = row.corners.front();
-    if (row.corners.size() > 1 || corner.radius > 0) {
-      row.group = strike_together(body_, row.before, row.corners, drop_.law);
-      row.impact = impact_of(*row.group, row.before, corner.place);
-      row.approach_speed = row.group->approach_speed;
-      return;
-    }
-    ContactVelocity velocity = contact_velocity(row.before, corner.place);
-    // A small hop knows its normal velocity better.
-    if (row.flight.time > 0 && row.flight.velocity_error < 2 * epsilon * velocity.scale) {
-      velocity.value.z() = row.flight.normal_velocity;
-    }
-    row.impact = space::strike(body_, row.before, velocity, corner.place, drop_.law);
-    row.approach_speed = -velocity.value.z();
-  }
-
-  /// How the corners that arrived leave.
-  void leave(const ImpactRow& row) {
-    touches_.clear();
-    const bool plastic = drop_.law.law.restitution == 0 && drop_.law.law.law != RestitutionLaw::viscoelastic;
-    for (const Corner& corner : row.corners) {
-      const ContactVelocity velocity = contact_velocity(state_, corner.place);
-      const double turning = corner.radius * state_.angular_velocity.head<2>().norm();  // of a level rim
-      double normal = row.group ? velocity.value.z() - turning : row.impact.contact_after.z();
-      const bool rounding = std::fabs(normal) <= 16 * epsilon * velocity.scale;
-      if (rounding && (row.group || plastic)) normal = 0;
-      touches_.push_back({corner.index, normal});
-    }
-  }
-
   void grow(ImpactRow& row) {
-    const ErrorGrowth::Strike again = [&](const State& before) {
-      if (row.group) {
-        const GroupImpact group = strike_together(body_, before, row.corners, drop_.law);
-        return impact_of(group, before, row.corners.front().place);
-      }
-      return space::strike(body_, before, touching_place(body_, before.attitude, row.corners.front().index), drop_.law);
-    };
-    growth_->strike(again, row);
+    growth_->strike([&](const State& before) { return struck_again(body_, drop_.law, row, before); }, row);
   }
 
   void warn_of_energy(const Impact& impact) {
