@@ -115,7 +115,7 @@ class Help(unittest.TestCase):
     """Who installed the program has no source tree."""
 
     def commands(self):
-        listed = printed("--help").split("Subcommands:\n")[1]
+        listed = printed("--help").split("Subcommands:\n")[1].split("\n\n")[0]
         return [line.split()[0] for line in listed.splitlines() if re.match(r"  \S", line)]
 
     def test_no_help_text_names_a_path_of_the_source(self):
