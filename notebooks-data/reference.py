@@ -21,7 +21,7 @@ def printed(program, *arguments):
 
 def commands(program):
     """Their names, in the order of --help."""
-    listed = printed(program, "--help").split("Subcommands:\n")[1]
+    listed = printed(program, "--help").split("Subcommands:\n")[1].split("\n\n")[0]
     return [line.split()[0] for line in listed.splitlines() if line.startswith("  ") and not line.startswith("   ")]
 
 

@@ -12,7 +12,7 @@ using detail::never;
 
 namespace {
 
-constexpr int most_evaluations = 1'000'000;
+constexpr int most_evaluations_of_a_flight = 1'000'000;
 
 }  // namespace
 
@@ -133,7 +133,7 @@ bool PointSearch::solve_quotient(int point, const PointHeight& start, const Node
 }
 
 PointSearch::Node PointSearch::at(int point, double time) {
-  if (++found_.evaluations > most_evaluations) {
+  if (++found_.evaluations > most_evaluations_of_a_flight) {
     throw NumericalError("no contact found nor excluded in a million evaluations of a flight's rotation");
   }
   const FlightMoment moment = heights_.moment(time);

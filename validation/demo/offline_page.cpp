@@ -44,6 +44,16 @@ void leave_out_errors(Json& answer) {
   for (Json& row : answer["rows"]) row.erase("error_estimate");
 }
 
+/// The page shows equations as TeX alone.
+void leave_out_texts(Json& answer) {
+  if (!answer.contains("steps")) return;
+  for (Json& step : answer["steps"]) {
+    for (Json& equation : step["equations"]) {
+      for (const char* name : {"symbolic", "numeric", "value", "error", "unit"}) equation.erase(name);
+    }
+  }
+}
+
 /// @throws std::logic_error if the page's own request is refused.
 Json answered(const Json& request) {
   const ApiAnswer answer = answer_request("/api/" + request.at("path").get<std::string>(), request.at("body").dump());
@@ -51,6 +61,7 @@ Json answered(const Json& request) {
   Json json = Json::parse(answer.body);
   shorten_history(json);
   leave_out_errors(json);
+  leave_out_texts(json);
   return json;
 }
 

@@ -260,6 +260,7 @@ Explanation explain_impact(Scene scene, int n) {
 }
 
 Value explanation_fields(const Explanation& explanation) {
+  const int digits = std::max(explanation.scene.accuracy.digits, 6);  // a drawing of few digits still tells its numbers
   Value::List steps;
   for (const Step& step : explanation.steps) {
     Value::List equations;
@@ -267,7 +268,7 @@ Value explanation_fields(const Explanation& explanation) {
       equations.push_back(Value::Fields{{"name", e.name},
                                         {"symbolic", e.formula},
                                         {"numeric", e.numbers},
-                                        {"tex", equation_tex(e, explanation.scene.accuracy.digits, " \\\\ &= ")},
+                                        {"tex", equation_tex(e, digits, " \\\\ &= ")},
                                         {"words", equation_words(e)},
                                         {"value", e.value},
                                         {"error", e.error},

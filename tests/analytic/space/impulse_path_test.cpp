@@ -3,8 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "validation/oracles/stepped_impact.hpp"
 #include "tests/analytic/space/random_contact.hpp"
+#include "validation/oracles/stepped_impact.hpp"
 
 namespace {
 
