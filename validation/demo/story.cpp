@@ -29,18 +29,18 @@ double ratio(const ContactAngles& rod) { return rod.impulse[1] / rod.impulse[0];
 /// Of the three impulses; as θ → 0 that of the flat landing.
 double sum(const ContactAngles& rod) { return rod.impulse[0] + rod.impulse[1] + rod.impulse[2]; }
 
-struct Step {
+struct StoryStep {
   std::string title, picture, text, link;
 };
 
-std::string item(const Step& step, std::size_t n) {
+std::string item(const StoryStep& step, std::size_t n) {
   return fmt::format(
       "<li id=\"story-{0}\"><h3>{0}. {1}</h3>\n{2}\n<p>{3}</p>\n<a class=\"show\" href=\"?predict=0&amp;{4}\">Show "
       "step {0} in the picture</a></li>\n",
       n, html_escaped(step.title), step.picture, html_escaped(step.text), step.link);
 }
 
-Step first_blow(const ContactAngles& rod) {
+StoryStep first_blow(const ContactAngles& rod) {
   const std::string words = fmt::format("A rod that leans by {}° strikes with its left end", shown_angle);
   return {
       "It strikes at an angle",
@@ -56,7 +56,7 @@ Step first_blow(const ContactAngles& rod) {
       "impact=1"};
 }
 
-Step second_blow(const ContactAngles& rod) {
+StoryStep second_blow(const ContactAngles& rod) {
   const Angle beta = Angle::from_radians(rod.beta.angle);
   // Eq. 8 of an elastic impact: P (1 + 3 cos² β) = 2 v of the end.
   const double speed = rod.impulse[1] * (1 + 3 * beta.cosine * beta.cosine) / 2;
@@ -74,7 +74,7 @@ Step second_blow(const ContactAngles& rod) {
       "impact=2"};
 }
 
-Step doubling(double fold) {
+StoryStep doubling(double fold) {
   Curve curve{.points = {}, .colour = "#0072b2", .name = "P₂/P₁"};
   for (int i = 0; i <= 100; ++i) {
     const double theta = 0.01 + (fold - 0.02) * i / 100;
@@ -114,7 +114,7 @@ Curve angles_up_to(const analytic::RegimeBoundary& end, bool third) {
   return curve;
 }
 
-Step folds(const analytic::RegimeBoundary& second) {
+StoryStep folds(const analytic::RegimeBoundary& second) {
   const analytic::RegimeBoundary third = regime_boundary(analytic::ImpactNumber::third, {});
   return {
       "The fold: where it ends",
@@ -131,7 +131,7 @@ Step folds(const analytic::RegimeBoundary& second) {
       "angle=58&amp;impact=2"};
 }
 
-Step phone() {
+StoryStep phone() {
   Scene scene = case_scene("phone-elastic");
   scene.request.impacts = 2;
   const numeric::Body body = scene.make_body();
@@ -154,13 +154,13 @@ Step phone() {
 std::string story_html() {
   const ContactAngles rod = rod_at(shown_angle);
   const analytic::RegimeBoundary second = regime_boundary(analytic::ImpactNumber::second, {});
-  const Step steps[]{first_blow(rod), second_blow(rod), doubling(second.theta * degrees_per_radian), folds(second),
-                     phone()};
+  const StoryStep steps[]{first_blow(rod), second_blow(rod), doubling(second.theta * degrees_per_radian), folds(second),
+                          phone()};
   std::string html =
       "<section id=\"story\" aria-labelledby=\"story-title\">\n<details open><summary><h2 id=\"story-title\">The story "
       "in five steps</h2></summary>\n<ol>\n";
   std::size_t n = 0;
-  for (const Step& step : steps) html += item(step, ++n);
+  for (const StoryStep& step : steps) html += item(step, ++n);
   return html + "</ol>\n</details>\n</section>\n";
 }
 

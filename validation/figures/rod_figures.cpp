@@ -43,18 +43,18 @@ FirstImpact thin_rod(double angle_deg, const analytic::ImpactLaw& law) {
              .law = law});
 }
 
-struct ShownNumber {
+struct ShownRodNumber {
   const char *name, *unit, *quantity, *label;
   double FirstImpact::*value;
 };
-constexpr ShownNumber normal_velocity{"Vn", "m/s", "normal velocity of the mass centre after the impact",
-                                      "post-impact Vₙ", &FirstImpact::normal_velocity};
-constexpr ShownNumber tangential_velocity{"Vt", "m/s", "tangential velocity of the mass centre after the impact",
-                                          "post-impact Vₜ", &FirstImpact::tangential_velocity};
-constexpr ShownNumber angular_velocity{"Omega", "rad/s", "angular velocity after the impact", "post-impact Ω",
-                                       &FirstImpact::angular_velocity};
-constexpr ShownNumber impulse{"Pn", "N s", "normal impulse", "normal impulse Pₙ", &FirstImpact::impulse};
-constexpr ShownNumber loss{"loss", "J", "energy lost in the impact", "energy loss", &FirstImpact::loss};
+constexpr ShownRodNumber normal_velocity{"Vn", "m/s", "normal velocity of the mass centre after the impact",
+                                         "post-impact Vₙ", &FirstImpact::normal_velocity};
+constexpr ShownRodNumber tangential_velocity{"Vt", "m/s", "tangential velocity of the mass centre after the impact",
+                                             "post-impact Vₜ", &FirstImpact::tangential_velocity};
+constexpr ShownRodNumber angular_velocity{"Omega", "rad/s", "angular velocity after the impact", "post-impact Ω",
+                                          &FirstImpact::angular_velocity};
+constexpr ShownRodNumber impulse{"Pn", "N s", "normal impulse", "normal impulse Pₙ", &FirstImpact::impulse};
+constexpr ShownRodNumber loss{"loss", "J", "energy lost in the impact", "energy loss", &FirstImpact::loss};
 
 /// One kind of result: suffix of the columns and how it is drawn.
 struct Source {
@@ -64,9 +64,9 @@ struct Source {
 /// A panel for each number, two discrete models as lines and the continuous one as points.
 /// @param axes  of all panels
 /// @param every  so many points of the continuous model are drawn as one
-void add_panels(Figure& figure, const std::vector<ShownNumber>& numbers, const std::vector<Source>& sources,
+void add_panels(Figure& figure, const std::vector<ShownRodNumber>& numbers, const std::vector<Source>& sources,
                 const FigurePlot& axes, int every) {
-  for (const ShownNumber& number : numbers) {
+  for (const ShownRodNumber& number : numbers) {
     FigurePlot plot = axes;
     for (std::size_t i = 0; i < sources.size(); ++i) {
       const std::string name = std::string(number.name) + "_" + sources[i].suffix;
@@ -88,10 +88,10 @@ void letter(Figure& figure, const std::vector<const char*>& letters) {
   for (std::size_t i = 0; i < letters.size(); ++i) figure.plots[i].title = letters[i];
 }
 
-void add_row(Figure& figure, double x, const std::vector<ShownNumber>& numbers,
+void add_row(Figure& figure, double x, const std::vector<ShownRodNumber>& numbers,
              const std::vector<FirstImpact>& sources) {
   std::vector<double>& row = figure.rows.emplace_back(std::vector<double>{x});
-  for (const ShownNumber& number : numbers) {
+  for (const ShownRodNumber& number : numbers) {
     for (const FirstImpact& source : sources) row.push_back(source.*number.value);
   }
 }
@@ -109,7 +109,7 @@ Figure figure_rod_over_angle(CaseRuns& case_runs) {
                 .title = "first impact of the rod over the contact angle, no friction",
                 .scene = "validation/cases/rod-sweep.toml",
                 .columns = {{"theta", "deg", "contact angle"}}};
-  const std::vector<ShownNumber> numbers{normal_velocity, angular_velocity, impulse, loss};
+  const std::vector<ShownRodNumber> numbers{normal_velocity, angular_velocity, impulse, loss};
   add_panels(figure, numbers,
              {{"thin", "discrete model of the thin rod, Eqs. 9 to 11", "thin rod, Eqs. 9–11"},
               {"rim", "discrete model with the rim as contact point", "rim"},
@@ -138,7 +138,7 @@ Figure figure_rod_over_friction(CaseRuns& case_runs) {
                 .title = "first impact of the rod at 45 degrees over friction",
                 .scene = "validation/cases/rod-friction-sweep.toml",
                 .columns = {{"mu", "1", "friction coefficient; impulse ratio of Eq. 9"}}};
-  const std::vector<ShownNumber> numbers{normal_velocity, tangential_velocity, angular_velocity, impulse, loss};
+  const std::vector<ShownRodNumber> numbers{normal_velocity, tangential_velocity, angular_velocity, impulse, loss};
   add_panels(figure, numbers,
              {{"eq9", "Eq. 9 with mu as the impulse ratio", "Eq. 9"},
               {"coulomb", "discrete model at the rim, Coulomb friction", "rim, Coulomb"},

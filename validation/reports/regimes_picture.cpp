@@ -11,7 +11,7 @@ using analytic::degrees_per_radian;
 using analytic::RegimeBoundary;
 using Style = FigureCurve::Style;
 
-constexpr std::size_t most_with_points = 60;  // so few values are marked on their curves
+constexpr std::size_t most_marked = 60;  // so few values are marked on their curves
 
 /// [°]; without such an impact the area of fewer impacts begins at 0.
 double boundary(const RegimeBoundary& b) { return b.kind == BoundaryKind::never ? 0 : b.theta * degrees_per_radian; }
@@ -41,7 +41,7 @@ Range2 range_of(const std::vector<Regimes>& all, const RegimesAxis& axis) {
 Picture regimes_picture(const std::vector<Regimes>& all, const RegimesAxis& axis, const std::string& rod) {
   const bool leaves_out =
       axis.logarithmic && std::any_of(all.begin(), all.end(), [](const Regimes& one) { return !(one.value > 0); });
-  const Style style = all.size() > most_with_points ? Style::line : all.size() > 1 ? Style::line_points : Style::marks;
+  const Style style = all.size() > most_marked ? Style::line : all.size() > 1 ? Style::line_points : Style::marks;
   PicturePanel panel{.columns = {{axis.name, "1", axis.words},
                                  {"theta_2_deg", "°", "largest θ with a second impact"},
                                  {"theta_3_deg", "°", "largest θ with a third impact"},
