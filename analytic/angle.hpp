@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // An inclination with its sine and cosine, exact at 0° and 90° when it comes in degrees.
 #pragma once
 

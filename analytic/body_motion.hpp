@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A planar body on its way from impact to impact.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Velocity of the contact point of a BodyMotion, from V and Ω or carried along the flight,
 // whichever keeps more digits.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contact angles of the first three impacts of the thin rod: β(θ) and γ(θ), Eq. 12 and its relatives.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The impulse of one impact, and its derivatives.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Routh's construction: the path of an impact with Coulomb friction in impulse space.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The elastic, frictionless impacts of a uniform thin rod as reflections, free of cancellation.
 //
 // In the plane of X = V_n and Y = kΩ kinetic energy is a circle, and an elastic frictionless impact of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Small departures of the elastic rod's contact angles from the limit θ : β : γ = 2 : 1 : 2.
 #pragma once
 

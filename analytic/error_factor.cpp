@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "analytic/error_factor.hpp"
 
 #include <algorithm>

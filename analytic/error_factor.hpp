@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Errors of a state of several numbers, to first order, as a factor of their covariance.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How errors of the start and of rounding grow along an impact sequence.
 //
 // The state (t, α, u, s, Ω, ΣP) of a body whose vertex touches the ground goes through impacts and

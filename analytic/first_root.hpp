@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The certified first root of a vertex's height: when the vertex reaches the ground.
 //
 // h″ = −g + ω² (p cos ωt + q sin ωt) of vertex_height.hpp (1) has zeros in closed form; they split

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Free flight of a planar body between two impacts, and the earliest vertex to reach the ground.
 //
 // While the centre of mass moves on its parabola and the body turns at the constant rate Ω, each

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Errors of an impact's numbers, and what the impact adds to them (error_growth.hpp).
 #include <algorithm>
 #include <bit>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "analytic/impact_law.hpp"
 
 #include <cmath>

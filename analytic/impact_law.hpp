@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One impact of a planar body: impulse and momentum with a restitution law and friction.
 //
 // With d = (d_t, d_n) from the centre of mass to the contact point and I = m k², an impulse (P_t, P_n)

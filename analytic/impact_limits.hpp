@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which impulse ratios an impact can have: sticking, Brach's two limits, jamming.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rigid bodies that move in the vertical plane and touch the ground with vertices.
 #pragma once
 

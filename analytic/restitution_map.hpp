@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Exact map between the damping of a viscoelastic ground and the coefficient of restitution.
 //
 // For a contact force (k_G + c_G δ̇) K(δ) with any growth K and s = (c_G/k_G) v, v the approach speed,

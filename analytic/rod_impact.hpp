@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The paper's closed forms for the unit rod (m = L = 1, v_n = −1, ω = 0): Eqs. 9 and 11.
 //
 // These stand apart from impact_law.hpp, which is tested against them.

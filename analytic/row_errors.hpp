@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bounds on the errors of a sequence's numbers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Derivatives of an impact and of a flight with respect to the state before, for error_growth.hpp.
 //
 // The state (t, α, u, s, Ω, ΣP) is that of a body one of whose vertices touches the ground, with

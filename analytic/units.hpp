@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Internal units: powers of two near the size, speed and mass of a drop.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Height of a vertex during free flight.
 //
 // While the centre of mass moves on its parabola and the body turns at the constant rate Ω = σω,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Work of a viscoelastic contact along an impact in impulse space.
 //
 // The contact force (k_G + c_G δ̇) K(δ)/k_G of a ground with τ = c_G/k_G [s/m] drives the normal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Draws notebooks-data/figures/demo.png, the page of `clatter demo` at the second impact of the rod.
 //   DEMO_URL=http://127.0.0.1:8318/ DEMO_PAGE=build/dev/page node notebooks-data/demo_picture.mjs
 import { createRequire } from "node:module";

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Writes what the documents show of the program's output: blocks of README.md, verification.md, the figures' data,
 extremes.md with figures/extremes.svg.
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Draws every figure of the paper from the program's own numbers, and pictures that the paper lacks.
 
     figures.py PROGRAM                   renews the data of the extra pictures and writes all SVG files

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Writes what the league's numbers say: league.md, league.html, two pictures and the README's block "<!-- league -->", from
 league.csv and league_costs.csv.
 

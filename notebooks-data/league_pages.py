@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A page as blocks, written as Markdown or as HTML that opens offline."""
 
 import html

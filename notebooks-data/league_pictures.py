@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures of the league: error of the velocities over the step, and over the time of a run."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The league's numbers by engine, settings, problem and step."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Colours, fonts and axes of all pictures; installed as clatter.look."""
 
 import math

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the notebooks.
 
     notebooks-data/notebooks.py [NOTEBOOK ...]           executes them (all of notebooks/) and writes what they show

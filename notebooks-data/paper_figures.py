@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The paper's figures: the panels that the head of figures/figure_NN.csv describes, side by side."""
 
 from plotting import GREEN, INK, PINK, common_legend, draw_plot, new_figure, panel_legend

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures that the paper lacks: contact angles and regimes at a glance, the fold, cost against error, the extremes."""
 
 import itertools

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What all pictures share: tables of the program, one look, curves in panels, and SVG with the same bytes every time."""
 
 import csv

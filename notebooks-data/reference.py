@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Builds the reference, pages that open offline, from headers, keys, columns and --help.  A warning is an error.
 
 Usage: reference.py PROGRAM FOLDER    (then open FOLDER/html/index.html)

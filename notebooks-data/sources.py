@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Data of the extra pictures that the program prints, kept as CSV files."""
 
 import csv

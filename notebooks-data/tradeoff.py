@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Measures cost against true error on eight scenes: tradeoff.csv, tradeoff.md and figures/tradeoff.svg.
 
     notebooks-data/tradeoff.py PROGRAM

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a simulation says of each impact, and how it ended.
 #pragma once
 

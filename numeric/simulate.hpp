@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A drop through the continuous-contact model: impact after impact, with free flight between them.
 #pragma once
 

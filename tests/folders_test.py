@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Includes between the folders of a room point one way: a file includes from its own folder and from those below it."""
 
 import re

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Every C++ file is as clang-format writes it with the project's .clang-format."""
 
 import subprocess

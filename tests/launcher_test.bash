@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Tests ./clatter and tests/packages.bash in small trees of their own.  PATH
 # holds nothing but stand-ins for what installs and compiles, which note every
 # call, and links to the few tools that do neither.

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Every file says whose it is and on what terms (reuse.software), and sources say so themselves.
 
 The tree has no folder LICENSES/: the texts are LICENSE and, of the measured drops, data-licence.txt beside them.

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """No test depends on how fast or busy the machine is: none sleeps in a hope, and no limit of time is short enough to decide.
 
 What is waited for stands in tests/waiting.py and in the launcher's wait_for, which look for it again and again.

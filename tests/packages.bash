@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The Debian packages that the program and its tests need, and how they get here.
 # Sourced by ./clatter and tests/run; the caller sets `speaker`, its name in
 # messages, and `log`, the file that takes apt-get's output.

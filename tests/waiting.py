@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Waiting for what happens, never for a time: no test may depend on how fast or busy the machine is."""
 
 import os

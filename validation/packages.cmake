@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Debian packages by cpack: clatter (program), libclatter-dev (libraries), python3-clatter (Python module).
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME clatter)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers that carry derivatives: forward-mode differentiation.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Errors of the discrete model.  A broken contract is std::domain_error, a run that ends early is an
 // outcome beside its rows (sequence.hpp); the two below are what is left.
 #pragma once

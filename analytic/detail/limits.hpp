@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Limits of double precision, under the names that the discrete model's formulas use.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "analytic/detail/log1p_minus.hpp"
 
 #include <boost/math/special_functions/log1p.hpp>

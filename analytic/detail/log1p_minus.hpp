@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A logarithmic difference that keeps its relative accuracy for small arguments.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Roots of smooth functions of one variable by GSL, inside a bracket and with a count of evaluations.
 #pragma once
 

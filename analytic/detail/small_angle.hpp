@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Trigonometric differences that keep their relative accuracy for small angles.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rigid bodies in space that touch the ground with vertices and rims, and the state of their motion.
 //
 // World frame: x right, y into the page, z up, ground z = 0.  Body frame: origin at the centre of mass.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How errors of a drop in space and of rounding grow along its sequence.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The earliest corner of a body in space to reach the ground after an impact.
 //
 // The flight is cut into pieces of a fraction of a radian.  On each, point_height.hpp bounds the height of every vertex

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Growth of errors along a flight, up to the touch that ends it.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Free flight of a body in space: a parabola and a torque-free rotation.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Torque-free rotation of a body in space, in closed form.
 #pragma once
 

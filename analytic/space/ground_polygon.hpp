@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The polygon that touching corners span on the ground.
 #pragma once
 

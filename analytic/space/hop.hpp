@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Height of a point that has just left the ground, as a series in time.
 #pragma once
 

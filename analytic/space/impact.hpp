@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One impact of a body in space at one corner: impulse and momentum with a restitution law and Coulomb friction.
 //
 // With r from the centre of mass to the corner, I the inertia in world axes and [r]× the matrix of the cross product,

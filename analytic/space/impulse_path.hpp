@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The impulse of one corner with Coulomb friction: the path of Keller and Routh in impulse space.
 //
 // The path starts with slip or without, and has at most two parts:

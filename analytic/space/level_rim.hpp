@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A round end that lands level: all of its rim touches at once.
 //
 // With x the horizontal offset from the rim's centre, |x| = ρ, the rim's points move up at

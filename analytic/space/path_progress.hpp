@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How far an impact has come along its path in impulse space, and when its restitution law ends it.
 //
 // Units here: the approach speed v and v/W_nn.  Restitution laws, with u the normal velocity and u = −1 at the start:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Height above the ground of a body's vertices and rims during a free flight, and bounds between two moments.
 //
 // With e = Aᵀ z, the vertical in body axes, a vertex at r has

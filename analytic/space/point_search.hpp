@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The first root of the height of a body's point in a piece of a flight, certified by bounds of its second derivative.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Principal moments and axes of a body's inertia, with more digits than a double has.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A row of the sequence: what strikes there, and how the corners leave.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Impact sequences of a body in space: strike, fly, strike, ... until it ends.
 #pragma once
 

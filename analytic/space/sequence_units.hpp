@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Units of a sequence in space: powers of two near the drop's own length, speed and mass.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Several corners that strike the ground at once: an edge, a face.
 //
 // The body rebounds as a whole, every corner that approaches leaving at e times its approach speed, if pushes alone

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How slip grows and turns along the path of an impact in impulse space, as functions of its direction alone.
 //
 // With A = W_tt, b = W_tn, c = W_nn of the inverse contact inertia, slip σ in direction s = (cos φ, sin φ), t ⟂ s:

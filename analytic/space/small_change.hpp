@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Small changes of a state, by which derivatives are taken as differences.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A body that is struck at several places while its velocity changes and its attitude does not.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Infinitely many impacts of a body in space in a finite time: where they end.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Torque-free rotation of a body with different principal moments, by theta functions.
 //
 // Axes: 3 is the one that the momentum circles (largest moment if L² >= 2T I_middle, else smallest), 2 has the middle

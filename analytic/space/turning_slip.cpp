@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "analytic/space/turning_slip.hpp"
 
 #include <boost/math/quadrature/gauss.hpp>

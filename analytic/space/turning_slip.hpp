@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Slip that turns: the curved part of an impact's path, by quadrature between two invariant directions.
 //
 // Slip turns from a repelling direction φ_r towards the next attracting one, φ_a.  With f, g, h of slip_field.hpp and

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """PEP 517 backend: builds the compiled part of clatter with CMake and packs it as a wheel.
 
 Nothing of it comes from an index of packages: CMake, a compiler and the libraries are those of the system.

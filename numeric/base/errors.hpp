@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Errors of the simulator.  A broken contract is std::domain_error or std::invalid_argument, a run that
 // ends early is an outcome beside its rows (simulate.hpp); the two below are what is left.
 #pragma once

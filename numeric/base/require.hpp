@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Refusal of arguments that break a contract.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mass, centre of mass and inertia of a body.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Clipping of surface polygons: the contact polygons of Figs. 3 and 4 of Shan et al. (2005).
 #pragma once
 

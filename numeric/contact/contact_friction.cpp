@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Friction of a contact: Eq. 5 (stick) and Eq. 6 (slip) at the pressure centre, or over the patch.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // An instant of a contact, between the load and the friction that it meets.
 #pragma once
 

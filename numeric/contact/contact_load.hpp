@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The ground's load on a body: normal force, its moment, powers and stored energy.
 #pragma once
 

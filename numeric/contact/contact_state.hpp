@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The state of a contact that is stepped, U of Eq. 3 of Shan et al. (2005): a vector with named blocks.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The equations of motion of a body in contact with the ground: the right side of Eq. 3 of Shan et al. (2005).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The ground: a distributed viscoelastic foundation with Coulomb friction.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Integrals over a contact polygon, exact because depth, rate and position are linear over its plane.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Friction over a contact polygon whose points slip in different directions.
 #pragma once
 

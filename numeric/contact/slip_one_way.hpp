@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Friction of slip in one direction: the motion in a plane.
 #pragma once
 

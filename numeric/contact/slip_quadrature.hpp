@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Friction that varies over the contact patch.
 #pragma once
 

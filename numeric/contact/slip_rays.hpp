@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Friction with a rounded direction of slip, along rays from the point of no slip.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Friction along a straight segment: the one-dimensional integrals of slip_integrals.
 #pragma once
 

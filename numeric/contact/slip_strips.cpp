@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "numeric/contact/slip_strips.hpp"
 
 #include <algorithm>

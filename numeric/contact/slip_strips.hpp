@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Friction of a patch whose point of no slip is far away or nowhere, but whose slip varies.
 #pragma once
 

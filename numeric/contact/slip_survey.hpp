@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What slip_integrals must know of a polygon to choose among its ways.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One run of a drop: flights and contacts in turn, without error estimates.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a second run of a drop says about the errors of the first.
 #pragma once
 

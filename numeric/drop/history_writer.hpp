@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Turns instants of contacts and flights into history samples.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a simulation is given besides a body and its start: the world, the request, the accuracy and an observer.
 #pragma once
 

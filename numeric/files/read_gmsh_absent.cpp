@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stands in for read_gmsh.cpp where Gmsh's library was not found or not wanted.
 #include "numeric/base/errors.hpp"
 #include "numeric/files/import.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Faces, shape functions and quadrature of the solid elements.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A rigid body as a finite-element mesh of straight-sided solids.
 #pragma once
 

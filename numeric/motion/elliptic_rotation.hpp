@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Torque-free rotation of a body with three different principal moments.
 #pragma once
 

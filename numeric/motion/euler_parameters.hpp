@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Euler parameters of an attitude, in the paper's matrices.
 #pragma once
 

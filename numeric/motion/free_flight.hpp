@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Free flight in closed form, and the next touch-down.
 #pragma once
 

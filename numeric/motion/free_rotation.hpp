@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Torque-free rotation of a rigid body in closed form.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "numeric/motion/jacobi_functions.hpp"
 
 #include <boost/math/special_functions/ellint_rf.hpp>

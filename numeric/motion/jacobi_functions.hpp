@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Jacobi's elliptic functions of one modulus, up to its very limit.
 #pragma once
 

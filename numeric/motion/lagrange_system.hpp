@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The equations of motion as Shan et al. (2005) print them, for reading and comparison.
 #pragma once
 

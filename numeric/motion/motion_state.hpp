@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Position, attitude and velocity of a rigid body.
 #pragma once
 

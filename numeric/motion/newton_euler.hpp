@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Newton's and Euler's equations of a rigid body.
 #pragma once
 

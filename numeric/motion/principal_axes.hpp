@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Principal moments and axes of an inertia tensor.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Attitude and angular velocity of a rigid body.
 #pragma once
 

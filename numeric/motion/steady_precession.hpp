@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Torque-free rotation that trigonometric functions describe.
 #pragma once
 

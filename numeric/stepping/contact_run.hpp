@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One contact from touch-down to lift-off.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How deep, fast and long a contact is expected to be.
 #pragma once
 

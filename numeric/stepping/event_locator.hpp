@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where an event lies within a step of a contact.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The phases of friction that a contact went through, and their common name.
 #pragma once
 

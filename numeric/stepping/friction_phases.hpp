@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The phases of friction along a contact: stick and slip, Eqs. 5 and 6 of Shan et al. (2005).
 #pragma once
 

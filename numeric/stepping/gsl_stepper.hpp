@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Embedded Runge–Kutta methods of the GNU Scientific Library.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What Coulomb's law of a patch taken as flat leaves out: the slip of its points from turning times depth.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One step of a Runge–Kutta method for Eq. 3 of Shan et al. (2005), U̇ = R(U).
 #pragma once
 

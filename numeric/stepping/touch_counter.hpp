@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which parts of the body touch the ground, and how many times a new one came down.
 #pragma once
 

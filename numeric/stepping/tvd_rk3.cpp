@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "numeric/stepping/tvd_rk3.hpp"
 
 namespace clatter::numeric {

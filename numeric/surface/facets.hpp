@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The surface as planar polygons, ready for contact: coplanar neighbours merged, so that a finely meshed flat
 // face costs what its outline costs.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A bounding-volume hierarchy over the facets, so that only those near the ground are visited.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Polygons that share edges, as half-edges.
 #pragma once
 

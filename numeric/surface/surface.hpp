@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The closed surface of a body, made of triangles and quadrilaterals.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Speed of the discrete model, and of the textbook's way to β for comparison.  Not a test.
 #include <benchmark/benchmark.h>
 #include <gsl/gsl_errno.h>

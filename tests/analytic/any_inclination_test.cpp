@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Drops at an inclination beyond 0° to 90°: end b low, or turned over.
 #include <boost/test/unit_test.hpp>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Accuracy of contact_angles(): every number against 50 digits, at 100 000 angles and at the folds.
 //
 // The error of a double is counted in ulp and divided by 2 + 2κ, κ = |θ q′(θ)/q|; the contract of

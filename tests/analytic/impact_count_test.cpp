@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Number and order of impacts of impact_sequence() against a brute-force simulation, at 100 000 random
 // drops.
 

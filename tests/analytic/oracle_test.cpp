@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The oracles judged on their own: against tables, closed forms and each other.
 
 #include <boost/test/unit_test.hpp>

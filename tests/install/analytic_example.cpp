@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A rod at 10°: the impact sequence of the discrete model.
 #include <clatter/analytic/sequence.hpp>
 #include <cstdio>

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A project of somebody else builds against the installed libraries, with CMake and with pkg-config; the module of
 # Python is imported from there.  Usage: consumer_test.bash BUILD
 set -euo pipefail

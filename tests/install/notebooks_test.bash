@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The notebooks show what they show, opened in any folder, with nothing but the installed module.
 # Usage: notebooks_test.bash BUILD
 set -euo pipefail

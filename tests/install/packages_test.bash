@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Each way in works from nothing: the wheel in a virtual environment, the Debian packages in a bare system, where they
 # are installed, run and purged.  Usage: packages_test.bash  (as root; it completes the release tree)
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The pictures show the program's numbers, with names and units, and their files are the same every time."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The league's numbers, pages and pictures say the same, and each thing that goes wrong is shown by a run."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The notebooks as committed: what a reader on the web sees, and the numbers of the solutions against other oracles.
 
 That the outputs are those of the program is judged by notebooks.py --check, which runs the cells.

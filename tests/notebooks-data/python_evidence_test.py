@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Measured drops, the benchmark, extremes and figures in Python are those of the program; long calls tell how far they are.
 
 PYTHONPATH holds the built package, CLATTER_PROGRAM the program, CLATTER_ROOT the source tree.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The Python module gives what the program gives, in Python's terms.
 
 PYTHONPATH holds the built package, CLATTER_PROGRAM the program, CLATTER_ROOT the source tree.

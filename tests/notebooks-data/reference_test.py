@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The reference is built without a warning, opens offline, and holds every command, key and column."""
 
 import html

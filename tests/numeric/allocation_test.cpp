@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The stepping loop takes no memory from the heap.
 #include <boost/test/unit_test.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Error estimates, amplification, the choice of method, and records of whole drops.
 #include <boost/test/unit_test.hpp>
 

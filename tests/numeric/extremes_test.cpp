@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The ends of every range: each drop ends in finite numbers or in an outcome that says why not.
 #include <boost/test/unit_test.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contacts with closed forms: flat and upright landings, and what no landing may lose.
 #include <boost/math/special_functions/lambert_w.hpp>
 #include <boost/multiprecision/cpp_dec_float.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contacts with friction end in numbers: lift-off from stick, bodies that sink, sizes at the ends of the range.
 #include <boost/test/unit_test.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Friction by the slip of each place: however a face is meshed, against brute force, and what a flat patch leaves out.
 #include <boost/test/unit_test.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Observed orders of the time integration.
 #include <boost/test/unit_test.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Two runs of a drop, number by number, in units of their error bars.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Friction over a polygon against brute force: pieces halved until the slip varies little, in extended precision.
 #include <boost/test/unit_test.hpp>
 

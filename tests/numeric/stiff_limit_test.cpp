@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The stiff limit is the impulse of a rigid body at the real contact point.
 #include <boost/test/unit_test.hpp>
 

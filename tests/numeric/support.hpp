@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes and checks that the tests of the numeric module share.
 #pragma once
 

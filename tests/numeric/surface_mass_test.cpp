@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mass, centre and inertia of what a closed surface of triangles encloses.
 #include <boost/test/unit_test.hpp>
 #include <limits>

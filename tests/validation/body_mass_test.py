@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Centre and inertia of every body, and what a closed STL surface encloses."""
 
 import math

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """clatter compare of drops in space: every body, every format, and one line for each impact that has no limit."""
 
 import csv

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Both models side by side: the planar body, the predicted sizes, the stiff limit, and what cannot be compared.
 #include <boost/test/unit_test.hpp>
 

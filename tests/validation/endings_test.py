@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What a run writes appears whole or not at all, wherever it goes and however it ends, and nothing else stays behind."""
 
 import os

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The map of extremes: what each cell promises, and that a broken promise is seen.
 #include <fmt/format.h>
 

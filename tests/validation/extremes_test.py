@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter extremes` as its users meet it.  Costs are measured, not judged."""
 
 import csv

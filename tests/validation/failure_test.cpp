@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Each kind of failure has its own exit status and one line.
 #include <boost/test/unit_test.hpp>
 

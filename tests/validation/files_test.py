@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What a run reads, or has written, is not overwritten by whatever name."""
 
 import os

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Whether a point lies within the convex hull of others.
 #include "validation/scene/hull.hpp"
 

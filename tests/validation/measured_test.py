@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter measured`: tracked drops from a file to a table, a picture, or one line that says what is wrong."""
 
 import json

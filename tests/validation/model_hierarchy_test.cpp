@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Each level of the hierarchy tends to the one above it where its assumption becomes true.
 #include <fmt/format.h>
 

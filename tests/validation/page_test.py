@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The page of `clatter verify --html` in headless Chromium: whole, without script errors, without a request to anywhere."""
 
 import json

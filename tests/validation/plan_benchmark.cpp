@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How often a plan keeps its word, and what its choice costs next to the cheapest that would have done:
 //     plan_benchmark [SCENES [SEED]]
 #include <fmt/format.h>

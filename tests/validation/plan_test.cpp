@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Plans keep their word.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """clatter plan, and the runs that follow it."""
 
 import json

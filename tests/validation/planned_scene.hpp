@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A random scene, its plan, and whether the plan was right.
 #pragma once
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """--plot and --plot-script: the pictures, the scripts that draw them, and what is refused."""
 
 import csv

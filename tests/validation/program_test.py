@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The program as its users meet it: options, errors, formats, files, exit statuses."""
 
 import csv

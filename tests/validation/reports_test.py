@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Forms of output: every command that prints rows prints them as table, CSV, JSON, Markdown and LaTeX."""
 
 import csv

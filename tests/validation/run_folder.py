@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A folder with a scene and its mesh, in which the program runs.  CLATTER_PROGRAM is the program, CLATTER_ROOT the source tree."""
 
 import os

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """[sweep] of scene files: lists, grids by count and ratio, every impact shown; windows of pictures and histories."""
 
 import csv

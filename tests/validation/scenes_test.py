@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """One language of scenes for every command: files, cases and flags alone; what clatter keys and clatter init say of it."""
 
 import json

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter simulate` as its users meet it: scene files, their errors, overrides, formats, histories, sweeps."""
 
 import csv

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """clatter explain of a drop in space: each number that it shows against laws of mechanics put into numbers here."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A box with its mass off its centre, Euler parameters, and rows of a run that are compared."""
 
 import json

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """clatter plan and tradeoff of drops in space: the discrete model in space stands between the plane and the contacts."""
 
 import json

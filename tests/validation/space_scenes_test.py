@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Keys of a drop in space: attitude and velocities, in either model, and the language that has them."""
 
 import csv

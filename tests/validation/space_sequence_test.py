@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """clatter sequence of a drop in space: one scene language, one record, laws of mechanics as oracles."""
 
 import csv

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """clatter sweep of the discrete model over drops in space: one row per scene or impact, those of the drops by themselves."""
 
 import csv

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What a million rods and a thousand phones take: tests/validation/sweep_benchmark.py PROGRAM"""
 
 import subprocess

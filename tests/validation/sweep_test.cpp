@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sweeps: values of the scenes, order of the rows, and what a run finds of an earlier one.
 #include <boost/test/unit_test.hpp>
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter sweep` as its users meet it: the same file however it came about, rows as the other commands have them."""
 
 import csv

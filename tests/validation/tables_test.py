@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What every command's output has in common: tables for a terminal, a version in every form, help that can be followed."""
 
 import csv

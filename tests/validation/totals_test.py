@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Sums and their errors: what is printed of them, what CSV and JSON carry, and when a run falls short (exit status 3)."""
 
 import csv

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter tradeoff` as its users meet it.  Costs are measured, not judged: no test depends on a time."""
 
 import json

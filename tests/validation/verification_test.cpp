@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The table of checks, and the judge.
 #include <boost/test/unit_test.hpp>
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter compare`, `verify` and `figures` as their users meet them."""
 
 import csv

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/benchmark/exact_map.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The exact impact at a state that a foreign code had.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How well a foreign run flies between its impacts.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The impacts of a foreign run: those found in its motion, or those that it lists.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A motion that another program sampled: rows of time, place and velocity.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a foreign run is judged by: the body, how it touches the ground first, the laws that a run may declare, and the
 // impacts that each of them gives.
 #pragma once

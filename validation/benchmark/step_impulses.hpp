@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which points of a body took the impulses of one step of a sampled motion, and when.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files with answers of others: read, judged, and put together by problem.
 #pragma once
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Truth of the benchmark's problems, from the equations of impact and flight alone, in arithmetic of 50 digits.
 
 Nothing here comes from the program: its discrete model is the second route, and a test holds the two together.

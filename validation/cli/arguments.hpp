@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The command line before it is parsed: unknown, repeated and incomplete options found with a clear word.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `clatter benchmark list|show|truth|score`: problems with certified answers, and others' answers to them.
 #include <fmt/format.h>
 

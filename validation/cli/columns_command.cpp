@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `clatter columns`: every column of CSV and JSON, by command.
 #include <algorithm>
 #include <memory>

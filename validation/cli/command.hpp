@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A command of the program, described as data: parser, help, completion scripts and manual page are made from it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/cli/commands.hpp"
 
 namespace clatter::validation {

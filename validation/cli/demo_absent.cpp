@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `clatter demo` of a build that could not make the page.
 #include "validation/cli/commands.hpp"
 #include "validation/output/bad_input.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `clatter keys` and `clatter init`: the language of scenes, and a scene file to begin with.
 #include <fmt/format.h>
 

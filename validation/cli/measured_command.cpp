@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `clatter measured fit|predict|score FILE`: impact laws against tracked drops.
 #include <fmt/format.h>
 

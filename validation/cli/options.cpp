@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/cli/options.hpp"
 
 #include "validation/output/bad_input.hpp"

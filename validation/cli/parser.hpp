@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The command line, read with CLI11, which only this parser knows.
 #pragma once
 

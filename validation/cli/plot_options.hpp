@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // --plot and --plot-script of the commands that draw what they have computed.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Options of the commands that deal with the thin rod's contact angles.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/cli/scene_flags.hpp"
 
 #include "validation/cli/options.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A scene file and the flags that override its keys, for the commands that take one.
 #pragma once
 

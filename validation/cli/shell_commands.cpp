@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shell completion, made from the descriptions of the commands, and the man page, made from their --help.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Runs that several checks and figures share, each made once.
 #pragma once
 

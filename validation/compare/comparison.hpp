@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The same scene through both models, aligned by impact.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The discrete model's part of a comparison, planar or in space: one form for both.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How far the two models must differ on a ground of finite stiffness, from what the discrete model leaves out.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Random drops in space through both models: does the stiff limit hold what its error bars say?
 #pragma once
 

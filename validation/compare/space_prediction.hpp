@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How far the two models must differ in space on a ground of finite stiffness: prediction.hpp for any motion.
 #pragma once
 

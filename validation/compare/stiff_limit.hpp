@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The limit of the continuous model as the ground becomes stiff, by extrapolation over ever stiffer grounds.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Runs over ever stiffer grounds: which of their impacts are single, short contacts that all of them have.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Uniform random numbers that do not depend on the library's distributions.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the page of `clatter demo` asks for, answered with the program's JSON.  No network here.
 #pragma once
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Bundles the page with Node.js and writes OUTPUT, a C++ source that holds it.
 #   cmake -DPAGE=folder of the page's sources -DWORK=folder to build in -DNPM=npm -DOUTPUT=.. -P bundle.cmake
 # Without the packages from npm (no network) the source holds no page and the build goes on: `clatter demo` says so.

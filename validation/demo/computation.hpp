@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Answers of the API, each computed by a process of its own, so that it can be ended whatever it does.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The page of `clatter demo`, as the build bundled it.
 #pragma once
 

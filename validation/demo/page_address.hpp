@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A scene as the page of `clatter demo` shows it.
 #pragma once
 

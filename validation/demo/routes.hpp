@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a request to the page's server gets: an answer at once, or a computation.  No network here.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Scenes that go between the page of `clatter demo` and files: opened as arguments of the API, given back as a file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The page and its API over HTTP, for this machine alone.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The story that the page of `clatter demo` tells by itself, also to a browser without JavaScript.
 #pragma once
 

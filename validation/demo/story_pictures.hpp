@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The pictures of the page's story, as SVG elements that stand in HTML.
 #pragma once
 

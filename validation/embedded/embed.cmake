@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Writes OUTPUT, a C++ source with the texts of FILES (relative to ROOT): cmake -DROOT=.. -DOUTPUT=.. -DFILES=.. -P embed.cmake
 set(entries "")
 string(REPLACE "|" ";" files "${FILES}")

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files of the source tree that the program carries in itself, so that it needs none beside it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The quantities that the map sweeps, and their values up to both ends.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One cell of the map of extremes: a model at one value of one quantity.
 #pragma once
 

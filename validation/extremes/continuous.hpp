@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A drop of the continuous model and how far its numbers are from others.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The thin rod's first three impacts, solved again in 50 digits.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What each cell of the map runs, and how its number is judged.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The map of what holds: every model over every quantity up to its ends.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where a rigid body that strikes with one corner stops describing tracked drops.
 #include <fmt/format.h>
 

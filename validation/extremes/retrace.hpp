@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A discrete sequence held against the laws that it must obey, row by row in extended precision.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Torque-free rotation over very many turns, from one turn integrated in extended precision.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Figs. 7 and 9 to 12: the thin rod's first three impacts, with the continuous model of a very thin rod on a very
 // stiff ground as points.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The paper's figures as data: columns, rows, and which of them to draw against which.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The figures one by one; make_figure() chooses.
 #pragma once
 

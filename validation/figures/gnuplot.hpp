@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // gnuplot, as a program that this one starts.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the figures of forces and energies over time share.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Figs. 19 to 24: the paper's phone.
 #include <fmt/format.h>
 

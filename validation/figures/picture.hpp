@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A picture of a run: panels over one another, as a gnuplot script.
 #pragma once
 

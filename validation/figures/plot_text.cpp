@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/figures/plot_text.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A plot in gnuplot's language: axes, data blocks and the plot command.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Figs. 14 to 17: the paper's rod in the continuous model, with the discrete model for the thin rod (Eq. 9) and for
 // the real rim.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fig. 8: where the thin rod is between its first two impacts, below, at and above the fold of β.
 #include <fmt/format.h>
 

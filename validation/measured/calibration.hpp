@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a file says of its body before any impact law is asked: axes, ground, inertia, rounded corners.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A free flight fitted to tracked poses: a parabola and a rotation with constant angular velocity, robust, with
 // covariance.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A track taken apart: the flights between its impacts, and the frames that belong to none.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the discrete model says of a drop from the motion before its first impact.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The tracked drops that the program carries: parts of two published data sets.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Restitution and friction fitted to measured impacts, for each law.
 #pragma once
 

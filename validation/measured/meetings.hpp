@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where the motion of a track changes: impacts, and what else happens between two flights.
 #pragma once
 

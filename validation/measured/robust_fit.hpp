@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Parameters that make the sum of bounded or slowly growing losses least, with confidence from the items' scatter.
 #pragma once
 

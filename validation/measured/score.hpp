@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fitted on one part of a file's drops, scored on the other.
 #pragma once
 

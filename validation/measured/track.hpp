@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tracked motion: poses of a body, frame by frame, drop by drop.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The impacts of a track: when, where, and the motion before and after, with errors.
 #pragma once
 

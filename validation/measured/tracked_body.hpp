@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The body that was tracked, and how its file is to be read: a TOML file beside the CSV.
 //
 //     [body]       size = [L, W, T], mass                              a box; in the plane W is left out of account

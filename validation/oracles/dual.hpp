@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers that carry their derivative, to know condition numbers at any precision.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The free flight of a planar body to its next contact, by steps that provably pass none.
 //
 // With |h″| <= M = g + Ω²ρ, ρ the vertex's distance from the centre of mass, a vertex at height h with velocity h′

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Impact sequences of a planar body to many digits, by brute force: Routh's path in impulse space
 // segment by segment, and flights by steps that provably pass no contact.
 //

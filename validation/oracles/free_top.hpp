@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A free top by Taylor series of Euler's equations and of the Euler parameters, in any arithmetic.
 // Shares nothing with the closed forms that it judges.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The velocity of a contact point along an impact with Coulomb friction, segment by segment
 // (event_oracle.hpp).
 #pragma once

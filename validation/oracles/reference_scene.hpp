@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The drops of tests/analytic/reference/space_scenes.csv with the impacts of space_sequences.csv.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reference tables: comment lines, a line of column names, rows of decimal numbers with gaps.
 #pragma once
 

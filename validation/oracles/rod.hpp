@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The thin rod at and between its impacts, from the balances of momentum and free flight, at any precision.
 //
 // The unit rod (m = L = 1, I = 1/12) has its ends at d = ±(cos α, sin α)/2 from the centre of mass; α > 0 means that

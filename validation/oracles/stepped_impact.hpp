@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One impact of a corner with Coulomb friction by stepping its equation of motion in long double.
 //
 // Equation (2) of analytic/space/impact.hpp with dp = σ dτ, so that steps in p shrink with slip σ = |v_t|:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the user gave and cannot be used: one line, exit status 2.
 #pragma once
 

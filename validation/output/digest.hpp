@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Digests that tell whether bytes are still the same.
 #pragma once
 

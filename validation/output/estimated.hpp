@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A number with its error, sums of such numbers, and what a reader is shown of them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Ctrl-C, SIGTERM and SIGHUP: status 130, nothing half-written.
 #pragma once
 

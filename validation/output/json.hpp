@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // JSON text.  Only sources that take JSON apart include <nlohmann/json.hpp>, which takes seconds to compile.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a command says, once for people and for other programs: tables, CSV and JSON are projections of a report.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The files of one run: where their names lead, and that no two of them are one.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The values of a report: a tree of nothing, truths, numbers and texts.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The first three impacts of a thin rod from Eqs. 9 and 12 alone.
 #pragma once
 

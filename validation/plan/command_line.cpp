@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The command that runs a plan's choice.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What methods cost and deliver, from the measured table of scenes in notebooks-data/tradeoff.csv.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The hierarchy of models: from a formula to the body in space, each level under one interface.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The smallest model, and the loosest setting of it, that gives the digits asked for.
 #pragma once
 

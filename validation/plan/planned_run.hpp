@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A run of the continuous model whose method and tolerance follow from the digits asked for.
 #pragma once
 

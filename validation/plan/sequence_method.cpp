@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/plan/sequence_method.hpp"
 
 #include "validation/output/bad_input.hpp"

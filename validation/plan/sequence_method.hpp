@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A run of the discrete model by the name of its method.
 #pragma once
 

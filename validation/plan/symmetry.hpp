@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Whether a body and its motion are their own mirror image.
 #pragma once
 

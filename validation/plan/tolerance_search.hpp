@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The loosest tolerance of a continuous level that keeps to an error.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What is known of an impact: one list of quantities, which tables, CSV, JSON, sweeps and comparisons take theirs from.
 #pragma once
 

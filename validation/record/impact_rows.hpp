@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The quantities of impacts as columns and rows.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/record/motion_numbers.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The numbers of an impact that every model has, and how far two models are apart in them.
 #pragma once
 

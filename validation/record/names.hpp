@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Names that the models' results have in tables, JSON and CSV.
 #pragma once
 

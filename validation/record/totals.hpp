@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sums over the impacts of a run, with the errors that follow from those of the impacts.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contact angles and impulses over θ as a picture.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contact angles and impulses of the thin rod's first three impacts, an angle θ a row.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reports of `clatter benchmark list`, `show` and `truth`.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/reports/comparison_picture.hpp"
 
 #include "validation/reports/swept_column.hpp"

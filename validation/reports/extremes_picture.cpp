@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The map as a heat map, written as SVG without another program.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The map of extremes as a report and as a picture.
 #pragma once
 

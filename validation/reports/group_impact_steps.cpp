@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The steps of an impact of several corners at once in space.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reports and the picture of `clatter measured`.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How many impacts happen, over a parameter of the rod, as a picture.
 #pragma once
 

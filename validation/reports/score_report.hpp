@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The report on others' answers, of `clatter benchmark score` and `clatter compare --against`.
 #pragma once
 

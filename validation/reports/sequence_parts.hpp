@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the reports of a sequence in the plane and of one in space have in common.
 #pragma once
 

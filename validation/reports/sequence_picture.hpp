@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // An impact sequence as a picture.
 #pragma once
 

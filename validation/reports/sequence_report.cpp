@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/reports/sequence_report.hpp"
 
 #include "validation/reports/sequence_parts.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How an impact in space came about, as equations with their numbers put in.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The steps of an impact of one corner in space.
 #include <fmt/format.h>
 

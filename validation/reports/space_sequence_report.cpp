@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/reports/space_sequence_report.hpp"
 
 #include "validation/output/number.hpp"

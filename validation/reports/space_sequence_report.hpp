@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What `clatter sequence` says of a drop in space.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Steps of a derivation: titled groups of equations with their numbers put in.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What `clatter compare` says of a swept scene.
 #pragma once
 

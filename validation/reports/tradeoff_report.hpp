@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cost against error as a report and as a picture.
 #pragma once
 

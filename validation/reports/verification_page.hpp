@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The results as one HTML page that needs nothing beside it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mass, size, centre and inertia of a scene's body, and whether a body can have those that the scene gives.
 #pragma once
 

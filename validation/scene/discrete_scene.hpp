@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A scene as the discrete model sees it: by the real body and ground, or by sizes and the impact.* keys alone.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What an exception says of a run: one classification for the command line, sweeps, the server and Python.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What is done with the rows of keys.cpp, whatever their kind.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The language of scenes: one row a key.  From the rows come the reader of files, the flags of the commands, the JSON
 // echo, what a sweep may set, and the arguments of Python and of the page.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Arguments by the names of the command line's flags, with "_" for "-", for those who have no command line.
 #pragma once
 

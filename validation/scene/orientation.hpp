@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The 26 drops of a box that drop-test standards have: on each face, edge and corner.
 #pragma once
 

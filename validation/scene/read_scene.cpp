@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How a scene file and the flags that override it become a checked scene: each key by its row, then what keys have to
 // do with each other.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Parameters of the thin rod whose contact angles are asked for, as flags give them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A scene: what falls, how, on what ground, and what is asked of either model.
 #pragma once
 

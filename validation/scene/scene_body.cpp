@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The body of a scene and how it comes to the ground.
 #include <fmt/format.h>
 

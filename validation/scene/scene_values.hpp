@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The values of a scene file, with the flags that override them, each knowing where it stands.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where a run falls short of what was asked of it: exit status 3.
 #pragma once
 

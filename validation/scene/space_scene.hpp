@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A scene as the discrete model in space sees it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Values of a swept quantity: from, to, and a step or a count.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/sweep/counter_random.hpp"
 
 #include <Random123/philox.h>

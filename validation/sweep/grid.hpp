@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The values of the swept keys: a grid, or numbers drawn from ranges.
 #pragma once
 

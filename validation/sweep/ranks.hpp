@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The processes that share a sweep: one, or those that mpirun started (CMake option CLATTER_MPI).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A build without MPI: always one process.
 #include "validation/sweep/ranks.hpp"
 

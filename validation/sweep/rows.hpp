@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The rows of a sweep: CSV with numbers in their shortest round-trip form.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The file that a sweep writes, and the part of it that an interrupted run leaves.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a sweep computes: scenes that differ in the values of a few keys.
 #pragma once
 

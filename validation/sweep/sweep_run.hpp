@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Scenes handed out to whoever computes them, and their rows put back in order.
 #pragma once
 

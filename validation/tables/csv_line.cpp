@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/tables/csv_line.hpp"
 
 #include <algorithm>

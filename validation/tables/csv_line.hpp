@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One line of a CSV file, cut into fields.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers from a CSV file that someone else wrote: comments, a header, rows of finite numbers.
 //
 //     # engine: some engine            comment "key: value", above the header

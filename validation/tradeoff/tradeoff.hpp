@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What accuracy costs: every model and method over its settings, on one scene.
 #pragma once
 

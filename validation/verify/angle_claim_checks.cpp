@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The claims C1 to C8: what the discrete model of the thin rod shows, each with a number.
 #include <fmt/format.h>
 

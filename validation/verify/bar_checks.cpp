@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Error bars: how many errors lie within them, and how much wider they are than the errors.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Drops for the check of the discrete model's error bars.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks: what is claimed, who judges it, and how far the two may be apart.
 #pragma once
 

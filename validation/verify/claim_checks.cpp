@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The claims C9 to C20: what the simulator shows, each with a number.
 #include <fmt/format.h>
 

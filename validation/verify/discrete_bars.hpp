@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Error bars of the discrete model against event simulations of 80 digits and more.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contact angles of the elastic rod, of which many claims and errata speak.
 #pragma once
 

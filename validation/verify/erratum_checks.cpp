@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The errata E1 to E11: the printed form and the right one, both evaluated.
 #include <fmt/format.h>
 

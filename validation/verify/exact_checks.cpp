@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Exact results: closed forms, 30-digit tables, conservation laws, convergence orders.
 #include <fmt/format.h>
 

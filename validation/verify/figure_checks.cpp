@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The figures of the paper: does what they show obey the laws that it must?
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The fold at which the second impact ends, from its defining equations alone.
 #pragma once
 

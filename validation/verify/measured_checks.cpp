@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Predictions held against drops that cameras tracked.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Both models over every scene, and over random ones: the stiff limit is the discrete value.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reference tables that the program carries: 30 digits of the thin rod's first three impacts, and others.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What judges the models and others' programs: measured drops, the benchmark, the map of extremes, figures.
 #include <pybind11/stl.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "history.hpp"
 
 #include <pybind11/numpy.h>

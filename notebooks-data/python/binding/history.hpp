@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A time history in memory, for NumPy.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Long work without Python's lock, which Ctrl-C can end and which tells how far it is.
 #pragma once
 

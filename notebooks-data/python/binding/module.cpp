@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The compiled part of the Python module: clatter._clatter.  What users see is in clatter/*.py.
 #include <pybind11/pybind11.h>
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Clattering: impact sequences of falling rigid bodies.
 
 >>> import clatter

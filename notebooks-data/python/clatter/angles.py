@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Contact angles of the thin rod as arrays."""
 
 from __future__ import annotations

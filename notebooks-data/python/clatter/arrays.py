@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """NumPy's arrays where NumPy is installed; without it numbers come as lists."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What judges the models and the programs of others: measured drops, certified problems, the map of extremes, figures."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What explanations, plans, studies of cost, sweeps, regimes, measurements and scores return."""
 
 from collections.abc import Iterator

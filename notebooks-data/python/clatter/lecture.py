@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What all notebooks share: the look of the pictures, and answers in a form that a test can read.
 
     from clatter.lecture import answer, plt

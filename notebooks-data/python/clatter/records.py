@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Small objects over the program's JSON: each name of the JSON is an attribute."""
 
 from collections.abc import Iterator, Mapping

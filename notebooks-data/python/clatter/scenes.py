@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Scenes in the forms that Python has for them, and arguments as the texts that the program checks."""
 
 import difflib

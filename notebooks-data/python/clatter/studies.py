@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Studies of scenes: sweeps, plans, what accuracy costs."""
 
 import warnings

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The first three impacts of the thin rod, from the physics alone and at any precision: momentum balances, then free
 // flight (rod.hpp), then the first zero of each end's height.
 //

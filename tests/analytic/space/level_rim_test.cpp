@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "analytic/space/level_rim.hpp"
 
 #include <boost/test/unit_test.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The impacts of tests/analytic/reference/space_impacts.csv.
 #pragma once
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Answers of the notebooks' exercises by other means than clatter's: closed forms, own root-finders, own integrations.
 
 ORACLES: exercise to (function that gives the expected numbers, relative tolerance).

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Expected answers of the exercises of notebook 1, without clatter."""
 
 from decimal import Decimal, getcontext

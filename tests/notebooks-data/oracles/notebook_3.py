@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Expected answers of the exercises of notebook 3, without clatter."""
 
 from math import cos, degrees, pi, radians, sin

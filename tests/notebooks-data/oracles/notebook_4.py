@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What the exercises of 4_friction must give, without clatter."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What the exercises of 5_what_the_ground_does must give, without clatter."""
 
 import math

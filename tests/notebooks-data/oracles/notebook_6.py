@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What the exercises of 6_the_phone must give, without clatter."""
 
 import math

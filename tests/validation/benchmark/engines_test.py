@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Two engines of Debian through the whole league: built, run, judged, run again."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Motions sampled from the truth of a benchmark's problem: parabola and free turning between the truth's impacts."""
 import json
 import math

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Planted faults: each is found by the score that should find it, and no two look the same."""
 import json
 import pathlib

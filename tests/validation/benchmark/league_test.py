@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How the league makes runs of problems, reads adapters' reports and puts phases together; no engine is needed."""
 
 import argparse

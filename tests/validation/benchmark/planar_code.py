@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A small event-driven code for planar rods and boxes, in which faults can be planted."""
 import math
 

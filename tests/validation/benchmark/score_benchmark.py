@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Seconds to score a file of a million rows, in the plane and in space.  usage: score_benchmark.py PROGRAM"""
 import math
 import os

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Answers of others: what is read, how it is scored, what is refused."""
 import json
 import math

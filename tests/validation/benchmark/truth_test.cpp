@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The truth of the benchmark's problems, computed again by another route: the discrete model, Moreau's condition, the
 // simulator.
 #include <boost/test/unit_test.hpp>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter demo` and clients that are slow, idle, gone or no clients at all.
 
 CLATTER_PROGRAM is the program.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The page of `clatter demo` for those who hear it, use the keyboard or have a narrow screen: nothing serious for axe, nothing
 // that sticks out, in the plane, in space, with a bad file and with the sound on.
 import assert from "node:assert/strict";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A browser on the page of `clatter demo`, for its tests.
 // DEMO_URL: where the page is served. DEMO_PAGE: the folder in which it was built. CLATTER_PROGRAM: the program to compare
 // with. CHROMIUM: the browser.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The modules of the page, as its sources import each other.
 import assert from "node:assert/strict";
 import { readFileSync, readdirSync } from "node:fs";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Scene files on the page of `clatter demo`: opened, dropped, pasted and given back, all as the program has them.
 import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";

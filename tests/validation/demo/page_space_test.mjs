@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies in space on the page of `clatter demo`: any attitude, velocity and spin, drawn blow by blow; which impacts correspond
 // and which cannot be predicted.
 import assert from "node:assert/strict";

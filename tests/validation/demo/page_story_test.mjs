@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The page of `clatter demo` as it tells its story: untouched, without JavaScript, and to the ear.
 // DEMO_COPY: an offline copy of it.
 import assert from "node:assert/strict";

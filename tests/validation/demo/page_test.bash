@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Serves the page with `clatter demo` and tests it in a browser; page_modules_test checks its sources and their types alone.
 # Usage: page_test.bash PROGRAM PAGE TESTS, the folder in which the page was built and the name of a file beside this one
 set -euo pipefail

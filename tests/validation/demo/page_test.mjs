@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The page of `clatter demo` in a browser: what it shows is what the program computes, a link carries the whole state, and
 // keyboard, screen reader and narrow screens are served.
 // DEMO_COPY: an offline copy of it; the rest as in page_browser.mjs.

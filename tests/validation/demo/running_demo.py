@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A running `clatter demo`, for its tests.  CLATTER_PROGRAM is the program."""
 
 import http.client

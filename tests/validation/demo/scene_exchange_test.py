@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Scene files that the page of `clatter demo` opens and gives back: the same scenes, and nobody else's files.
 
 CLATTER_PROGRAM is the program, CLATTER_ROOT the folder of the source.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter demo`: its answers are the program's, and nobody but its own page can use it.
 
 CLATTER_PROGRAM is the program.

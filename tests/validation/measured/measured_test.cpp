@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tracked drops: found, measured, fitted.  The oracle is what a track was made from, or conservation of momentum.
 #include <algorithm>
 #include <boost/test/unit_test.hpp>

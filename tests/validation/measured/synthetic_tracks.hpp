@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tracks of the discrete model's own sequences, with noise, lost and torn frames, and a ground that lies elsewhere.
 #pragma once
 

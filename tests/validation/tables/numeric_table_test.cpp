@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // CSV files of others: what is read, and what is said of those that cannot be.
 #include "validation/tables/numeric_table.hpp"
 

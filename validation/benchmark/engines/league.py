@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the league: every engine on every problem, with every step and starting height, its own settings and tuned ones.
 
 Started by `run`, which builds what this needs.  Writes league.csv, the numbers, which repeat to the bit on one machine, and

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs of one engine on one problem with one of its settings: every step and gap, each a trajectory in a file."""
 
 import hashlib

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The adapter of this program's own two models: program.py clatter-simulate|clatter-sequence PROGRAM
 
 Reads runs as every adapter does (native/problem.hpp).  Both models locate their impacts, so a run begins at the touch.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Problems as runs: what an adapter reads, one line of flat numbers for each problem, gap, step and settings.
 
 A problem gives the body at the first touch.  A run begins earlier, with the body's lowest point at `gap` above the floor:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Scores of a cell's trajectories, by `clatter benchmark score`, as rows of the league's tables: one for each step."""
 
 import json

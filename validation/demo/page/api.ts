@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Questions to the program that serves the page, or their answers from an offline copy.
 import { keyOf, type Json, type Request } from "./requests";
 import type { Parameters } from "./parameters";

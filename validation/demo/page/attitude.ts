@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The attitude that the situation gives, for the picture and for the height of a fall.
 import type { Body } from "./body";
 import type { Parameters } from "./parameters";

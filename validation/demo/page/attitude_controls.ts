@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How the body is turned at the first touch: by angles, by the part of a box that points down, or by Euler parameters.
 import { isOffline } from "./api";
 import { attitudeOf, orientationName } from "./attitude";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The falling body: sizes, inertia, and where it touches the ground. Lengths in m, masses in kg.
 import { plus, rotate, rotateBack, type Rotation, type Vector } from "./rotation";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The force of the ground over time, and where the energy is.
 import uPlot from "uplot";
 import type { SimulateAnswer } from "./answers";

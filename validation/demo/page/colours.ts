@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Colours that also colour-blind eyes tell apart (Okabe and Ito). A second mark always goes with them: a solid body or an
 // outline, a dash, a word.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The continuous model between the samples of its time history: every step of a contact, some 20 of a flight.
 import type { Body } from "./body";
 import type { History, Impact } from "./answers";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sliders, number fields and choices of the situation.
 import { isOffline, offlineScenes, type ApiError } from "./api";
 import { AttitudeControls } from "./attitude_controls";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The discrete model between its impacts: the centre of mass on a parabola, the rotation free.
 import type { Impact } from "./answers";
 import { centreHeight, type Body } from "./body";

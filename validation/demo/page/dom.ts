@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Small helpers for the page's elements.
 
 type Attributes = Record<string, string | number | boolean>;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How the chosen impact came about: the program's equations, in its own TeX.
 import katex from "katex";
 import type { Equation, ExplainAnswer } from "./answers";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Texts that leave the page: as a file, or by the clipboard.
 import { make } from "./dom";
 

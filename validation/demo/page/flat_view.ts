@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The picture from the side, for browsers that have no graphics card to draw with.
 import { middleOf, type Body } from "./body";
 import { COLOURS } from "./colours";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers as people read them.
 
 /** With so many significant digits, a true minus sign, and powers of ten where zeros would have to be counted. */

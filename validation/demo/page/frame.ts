@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the picture shows at one time: the bodies of both models, the blow, and the speeds of the ends.
 import type { Impact } from "./answers";
 import { lowestPlace, type Body } from "./body";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rotation of a body in flight, for the picture alone: no number of a table comes from here.
 //     I ω̇ = −ω × I ω,   q̇ = q (0, ω)/2   in axes of the body, by the classical Runge–Kutta method.
 import type { Inertia } from "./body";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The page: from a change of the situation to the requests, and from their answers to the panels.
 import type { ExplainAnswer } from "./answers";
 import { Latest, isAvailable, isOffline } from "./api";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The map of contact angles: β and γ, at which the thin rod strikes again, over the first angle θ.
 import uPlot from "uplot";
 import type { AngleRow, AnglesAnswer } from "./answers";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Both models' answers to the situation, and the motions that follow from them.
 import type { Impact, SequenceAnswer, SimulateAnswer } from "./answers";
 import { Latest, type ApiError } from "./api";

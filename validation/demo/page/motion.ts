@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What both models' motions have in common: where the body is at a time, and where its energy is.
 import type { Impact } from "./answers";
 import { centreHeight, type Body } from "./body";

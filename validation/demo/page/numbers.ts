@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The numbers of the picture: both models at the time that is shown, and what lies between them.
 import { byId, make } from "./dom";
 import { fixed } from "./format";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The scenes of an offline copy and the requests whose answers it has to hold.
 import { type BodyName } from "./body";
 import { MAP_RANGE } from "./map_range";

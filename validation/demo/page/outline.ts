@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A body as faces, for pictures that are drawn in lines.
 import { THINNEST, type Body } from "./body";
 import { cross, plus, rotate, type Rotation, type Vector } from "./rotation";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which impacts of the two models are the same blow: the n-th of both, while everything before was the same, the same end or
 // corner strikes, and neither is beyond prediction.
 import type { Impact, SequenceAnswer } from "./answers";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Panels and switches that only show the state: what is hidden, how the models are laid out, what an offline copy lacks.
 import { offlineScenes } from "./api";
 import { byId } from "./dom";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The situation: all that the two models need. SI units, angles in degrees.
 import { BODIES, uniformBody, type Body, type BodyName } from "./body";
 

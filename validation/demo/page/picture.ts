@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What draws the motion: in space, or without a graphics card in lines.
 import type { Frame, ModelName } from "./frame";
 import type { Vector } from "./rotation";

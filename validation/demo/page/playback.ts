@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Playback: which time of the motion the picture shows. It slows down through each contact, which lasts milliseconds.
 // The physics is computed once for a situation; nothing here changes it.
 

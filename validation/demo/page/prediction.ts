@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Before the first answer: what does the reader expect? A guess that is tested teaches more than a table that is read.
 import type { Impact } from "./answers";
 import { byId } from "./dom";

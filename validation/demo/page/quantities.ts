@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The sliders: what they are called, their range and scale. The program, not the page, says which numbers are allowed.
 import type { Quantity } from "./parameters";
 

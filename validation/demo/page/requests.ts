@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The requests that the page makes. Both the page and its build use them, so that the keys of an offline copy agree.
 import { CONTINUOUS_RADIUS } from "./body";
 import { dampingOf } from "./restitution";

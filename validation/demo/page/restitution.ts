@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which damping of the ground gives a coefficient of restitution: the exact relation for one frictionless contact whose
 // depth is one number, s = (c_G/k_G) v, ln[(1 + s)/(1 − s e)] = s (1 + e).
 import { attitudeOf } from "./attitude";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Vectors, and rotations by Euler parameters.
 
 export type Vector = [number, number, number];

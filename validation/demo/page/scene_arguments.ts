@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A scene as the arguments of the program's requests, and as the situation of the page.
 import { DEFAULT_PARAMETERS, isInPlane, setBody, type Parameters, type Quantity } from "./parameters";
 

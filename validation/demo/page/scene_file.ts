@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Scene files: opened by a button, dropped on the page or pasted, and given back as a file or by the clipboard.
 import type { FileAnswer, SceneAnswer } from "./answers";
 import { ApiError, ask, isOffline } from "./api";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Handing on what is shown, as a link.
 import { byId } from "./dom";
 import { copyText } from "./files";

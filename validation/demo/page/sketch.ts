@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A small picture of a body at a touch, drawn in lines: parallel projection, seen from the right, the front and above.
 import { middleOf, type Body } from "./body";
 import { COLOURS } from "./colours";

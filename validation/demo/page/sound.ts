@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Blows to be heard: louder with the impulse, higher with the contact angle, so that 2:1:2 is an octave down and up again.
 // Each is told in a line, too. Off until somebody switches it on; no link does.
 import type { Impact } from "./answers";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The picture and the labels over it.
 import { byId, make } from "./dom";
 import { FlatView } from "./flat_view";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the page shows, and its form as a link: the query string holds everything that a colleague needs to see the same.
 import { BODIES, type BodyName } from "./body";
 import {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The story that the program wrote into the page: each of its steps can be shown in the picture.
 import { stateOf, assignUnlocked, type State } from "./state";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The sequence of impacts as a strip of pictures: the discrete model's above, those of the continuous one below.
 import type { Impact } from "./answers";
 import { lowestPlace } from "./body";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The impact table of both models, and its CSV.
 import type { Impact } from "./answers";
 import { byId, make } from "./dom";

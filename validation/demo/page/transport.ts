@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Play, pause, scrub, and step from impact to impact.
 import { byId, make } from "./dom";
 import { fixed } from "./format";

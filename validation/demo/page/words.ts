@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Impacts in words: the line below the picture, which a screen reader reads aloud.
 import type { Impact } from "./answers";
 import { significant } from "./format";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Box2D 2.4: impulses with Newton's restitution in single precision.  It has no capsule that moves: the rod is two
 // circles.
 #include <box2d/box2d.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bullet 3: btDiscreteDynamicsWorld with sequential impulses; built once in single and once in double precision.
 #include <btBulletDynamicsCommon.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Chipmunk 7: impulses with Newton's restitution, one step of semi-implicit Euler.  The rod is a segment, the box a
 // polygon.
 #include <chipmunk/chipmunk.h>

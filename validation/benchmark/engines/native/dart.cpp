@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // DART: boxed LCP with Newton's restitution.  The rod is two spheres: its own detector has no capsule.
 #include <dart/collision/ode/ode.hpp>
 #include <dart/dart.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // MuJoCo 2: soft contacts without a coefficient of restitution.
 // default: its own contact.  tuned: a spring and a damper (negative solref) that return the coefficient of restitution.
 #include <mujoco/mujoco.h>

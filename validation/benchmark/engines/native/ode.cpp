@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // ODE: contact joints with Newton's restitution, dWorldQuickStep.  (dWorldStep bounds friction by an earlier normal
 // force.)
 #include <ode/ode.h>

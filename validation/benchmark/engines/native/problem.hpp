@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What every native adapter shares: a run as flat numbers, the trajectory it returns, and the loop around both.
 //
 // An adapter reads runs from standard input, one a line, as `key=value` pairs in SI units:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Siconos: event-driven integration with LSODAR, which locates each impact.  A row stands at each event.
 #include <unistd.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Siconos: time stepping of Moreau and Jean.  default: theta = 1/2, one Newton step; tuned: Newton iterated.
 #include <unistd.h>
 

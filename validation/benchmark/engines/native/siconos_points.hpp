@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A body of the plane as Siconos sees it: three coordinates, and the heights of its points above the floor as
 // relations.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Simbody: rigid contact of points with a plane, SemiExplicitEulerTimeStepper.  Rod's ends and box's corners are
 // points.
 #include <Simbody.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Box2D 3: single precision, soft contacts in sub-steps with a restitution pass.  The rod is a capsule.
 import load from './node_modules/box2d3-wasm/build/dist/es/compat/Box2D.compat.mjs';
 import { requirePlane, runAll, versionOf } from './problem.mjs';

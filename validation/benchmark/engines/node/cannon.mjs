@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // cannon-es: double precision, soft contacts (SPOOK).  It has no capsule: the rod is two spheres over a plane.
 import * as CANNON from 'cannon-es';
 import { contactPoints, runAll, versionOf } from './problem.mjs';

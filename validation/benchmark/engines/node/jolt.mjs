@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Jolt: single precision, impulses with speculative contacts.  The rod is a capsule over a box.
 import load from 'jolt-physics/wasm-compat';
 import { runAll, versionOf } from './problem.mjs';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // matter-js: positions and their differences (Verlet) in pixels and milliseconds.  The rod is a thin rectangle.
 import Matter from 'matter-js';
 import { requirePlane, runAll, versionOf } from './problem.mjs';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // MuJoCo 3: double precision, soft contacts without a coefficient of restitution.
 // default: its own contact.  tuned: a spring and a damper (negative solref) that return the coefficient of restitution.
 import load from '@mujoco/mujoco';

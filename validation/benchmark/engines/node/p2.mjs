@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // p2-es: double precision, soft contacts (SPOOK).  The rod is a capsule over a plane.
 import * as p2 from 'p2-es';
 import { requirePlane, runAll, versionOf } from './problem.mjs';

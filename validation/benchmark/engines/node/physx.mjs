@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // PhysX 5: single precision, impulses.  The rod is a capsule over a plane.
 import { readFileSync } from 'node:fs';
 import { runAll, versionOf } from './problem.mjs';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // planck: Box2D 2 in JavaScript, double precision.  It has no capsule that moves: the rod is two circles.
 import * as planck from 'planck';
 import { contactPoints, requirePlane, runAll, versionOf } from './problem.mjs';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What every adapter for Node.js shares: a run as flat numbers, the trajectory it returns, and the loop around both.
 // The keys of a run, the frame and the report are those of native/problem.hpp.
 import { readFileSync, writeFileSync } from 'node:fs';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rapier 3D: single precision, soft contacts.  The rod is a capsule over a half-space.
 import RAPIER from '@dimforge/rapier3d-compat';
 import { runAll, versionOf } from './problem.mjs';
