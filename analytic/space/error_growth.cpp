@@ -115,32 +115,42 @@ Eigen::MatrixXd ErrorGrowth::strike_jacobian(const Strike& strike, const ImpactR
   return derivatives;
 }
 
+std::pair<Eigen::MatrixXd, Eigen::MatrixXd> ErrorGrowth::energy_gradients(const ImpactRow& row, const Matrix3& inertia,
+                                                                          const Eigen::MatrixXd& velocity,
+                                                                          const Eigen::MatrixXd& turning) const {
+  const State& before = row.before;
+  const Vector3 arm = before.attitude * row.corners.front().place;
+  const Vector3& w = before.angular_velocity;
+  const Vector3 momentum = inertia * w, momentum_after = inertia * row.impact.angular_velocity_after;
+  Eigen::MatrixXd energy = Eigen::MatrixXd::Zero(1, size), energy_after = energy;
+  energy.block<1, 3>(0, 1) = momentum.cross(w).transpose() + body_.mass * gravity_ * cross_matrix(arm).row(2);
+  energy.block<1, 3>(0, 4) = body_.mass * before.velocity.transpose();
+  energy.block<1, 3>(0, 7) = momentum.transpose();
+  energy_after.block<1, 3>(0, 1) = energy.block<1, 3>(0, 1) - momentum.cross(w).transpose() +
+                                   momentum_after.cross(row.impact.angular_velocity_after).transpose();
+  energy_after += body_.mass * row.impact.velocity_after.transpose().lazyProduct(velocity) +
+                  momentum_after.transpose().lazyProduct(turning);
+  return {energy, energy_after};
+}
+
 void ErrorGrowth::fill(const Eigen::MatrixXd& derivatives, ImpactRow& row) const {
   const State& before = row.before;
   const Vector3 arm = before.attitude * row.corners.front().place;
   const Matrix3 axes = before.attitude.toRotationMatrix(), inertia = axes * body_.inertia * axes.transpose();
-  Eigen::MatrixXd time = Eigen::MatrixXd::Zero(1, size), approach = time, energy = time;
+  Eigen::MatrixXd time = Eigen::MatrixXd::Zero(1, size), approach = time;
   Eigen::MatrixXd angle = Eigen::MatrixXd::Zero(3, size), impulse = angle, velocity = angle, turning = angle;
   time(0, 0) = 1;
   angle.block<3, 3>(0, 1) = Matrix3::Identity();
   impulse.rightCols(9) = derivatives.topRows(3);
   velocity.rightCols(9) = derivatives.middleRows(3, 3);
   turning.rightCols(9) = derivatives.bottomRows(3);
-  // u = V_z + (ω × r)_z, and energy with z = −r_z and the inertia turned.
+  // u = V_z + (ω × r)_z.
   const Vector3& w = before.angular_velocity;
   approach.block<1, 3>(0, 1) = -(cross_matrix(w) * cross_matrix(arm)).row(2);
   approach(0, 6) = 1;
   approach.block<1, 3>(0, 7) = -cross_matrix(arm).row(2);
-  const Vector3 momentum = inertia * w;
-  energy.block<1, 3>(0, 1) = momentum.cross(w).transpose() + body_.mass * gravity_ * cross_matrix(arm).row(2);
-  energy.block<1, 3>(0, 4) = body_.mass * before.velocity.transpose();
-  energy.block<1, 3>(0, 7) = momentum.transpose();
-  Eigen::MatrixXd energy_after = Eigen::MatrixXd::Zero(1, size);
+  const auto [energy, energy_after] = energy_gradients(row, inertia, velocity, turning);
   const Vector3 momentum_after = inertia * row.impact.angular_velocity_after;
-  energy_after.block<1, 3>(0, 1) = energy.block<1, 3>(0, 1) - momentum.cross(w).transpose() +
-                                   momentum_after.cross(row.impact.angular_velocity_after).transpose();
-  energy_after += body_.mass * row.impact.velocity_after.transpose().lazyProduct(velocity) +
-                  momentum_after.transpose().lazyProduct(turning);
   const Factor rounding = impulse_rounding(row);
   const double in_velocity = deviations * rounding.middleRows(4, 3).norm();
   const double in_turning = deviations * rounding.bottomRows(3).norm();

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <utility>
 
 #include "analytic/space/sequence.hpp"
 
@@ -49,6 +50,12 @@ class ErrorGrowth {
   [[nodiscard]] Factor impulse_rounding(const ImpactRow& row) const;
   void advance(const Jacobian& jacobian);
   [[nodiscard]] Eigen::MatrixXd strike_jacobian(const Strike& strike, const ImpactRow& row) const;
+  /// Of the energies before and after the impact, with z = −r_z and the inertia turned.
+  /// @param velocity, turning  gradients of the motion after, 3 × size
+  [[nodiscard]] std::pair<Eigen::MatrixXd, Eigen::MatrixXd> energy_gradients(const ImpactRow& row,
+                                                                             const Matrix3& inertia,
+                                                                             const Eigen::MatrixXd& velocity,
+                                                                             const Eigen::MatrixXd& turning) const;
   void fill(const Eigen::MatrixXd& derivatives, ImpactRow& row) const;
   [[nodiscard]] Jacobian flight_jacobian(const FreeFlight& flight, double time) const;
   void check_others(const FreeFlight& flight, const FirstContact& contact);

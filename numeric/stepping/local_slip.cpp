@@ -37,6 +37,17 @@ double zero_of(Function&& function, double start, double reach) {
   return std::fabs(at_inner) < std::fabs(at_outer) ? inner : outer;
 }
 
+/// The slip at which the misfit vanishes, one component after the other; `reach` is how far a component may go.
+template <class Misfit>
+AlongGround without_misfit(const Misfit& misfit, AlongGround slip, const AlongGround& reach, bool planar) {
+  for (int sweep = 0; sweep < (planar ? 1 : sweeps); ++sweep) {
+    slip.east = zero_of([&](double east) { return misfit({east, slip.north}).east; }, slip.east, reach.east);
+    if (planar) continue;
+    slip.north = zero_of([&](double north) { return misfit({slip.east, north}).north; }, slip.north, reach.north);
+  }
+  return slip;
+}
+
 }  // namespace
 
 void LocalSlipEstimate::begin() {
@@ -81,19 +92,7 @@ void LocalSlipEstimate::part_of_step(ContactSystem& system, const ContactState& 
   };
   AlongGround slip = slip_;
   if (misfit(slip).norm() > enough * h * bound) {
-    for (int sweep = 0; sweep < (planar ? 1 : sweeps); ++sweep) {
-      slip.east = zero_of(
-          [&](double east) {
-            return misfit({east, slip.north}).east;
-          },
-          slip.east, by_east.east * h * bound);
-      if (planar) continue;
-      slip.north = zero_of(
-          [&](double north) {
-            return misfit({slip.east, north}).north;
-          },
-          slip.north, by_north.north * h * bound);
-    }
+    slip = without_misfit(misfit, slip, {by_east.east * h * bound, by_north.north * h * bound}, planar);
     static_cast<void>(misfit(slip));
   }
   slip_ = slip;

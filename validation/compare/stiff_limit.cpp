@@ -155,35 +155,47 @@ bool take_limit(const std::vector<Simulation>& ladder, const ContactSizes& sizes
   return rows.count == ladder.front().impacts.size() && at.largest_change <= settled_change;
 }
 
+/// Runs of a scene on ever stiffer ground with the same damping over stiffness.
+class StifferRuns {
+ public:
+  StifferRuns(const Scene& scene, const numeric::Body& body, const LimitRequest& request)
+      : body_(body), world_(scene.world), accuracy_(scene.accuracy), start_(scene.start(body)),
+        damping_per_stiffness_(world_.ground.damping / world_.ground.stiffness) {
+    world_.planar = request.planar;
+    world_.point_friction = !request.planar;
+    accuracy_.method = numeric::Method::automatic;
+    accuracy_.step = 0;
+    accuracy_.digits = 12;
+    accuracy_.evaluation_limit =
+        request.planar ? std::min(accuracy_.evaluation_limit, evaluations_in_plane) : evaluations_in_space;
+  }
+  [[nodiscard]] Simulation at(double stiffness, const numeric::Request& wanted) {
+    world_.ground.stiffness = stiffness;
+    world_.ground.damping = damping_per_stiffness_ * stiffness;
+    return numeric::simulate(body_, world_, start_, wanted, accuracy_);
+  }
+
+ private:
+  const numeric::Body& body_;
+  numeric::World world_;
+  numeric::Accuracy accuracy_;
+  numeric::MotionState start_;
+  double damping_per_stiffness_;
+};
+
 }  // namespace
 
 StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, const LimitRequest& request) {
-  numeric::World world = scene.world;
-  world.planar = request.planar;
-  world.point_friction = !request.planar;
+  StifferRuns runs(scene, body, request);
   numeric::Request wanted{.impacts = request.impacts, .error_estimates = false, .amplification = false};
-  numeric::Accuracy accuracy = scene.accuracy;
-  accuracy.method = numeric::Method::automatic;
-  accuracy.step = 0;
-  accuracy.digits = 12;
-  accuracy.evaluation_limit =
-      request.planar ? std::min(accuracy.evaluation_limit, evaluations_in_plane) : evaluations_in_space;
   const ContactSizes sizes = ContactSizes::of(scene, body, request.planar);
-  const double damping_per_stiffness = scene.world.ground.damping / scene.world.ground.stiffness;
-  const numeric::MotionState start = scene.start(body);
-
   StiffLimit limit{.rows = {}, .ended = "the runs end before a limit shows"};
-  const auto run_at = [&](double stiffness) {
-    world.ground.stiffness = stiffness;
-    world.ground.damping = damping_per_stiffness * stiffness;
-    ++limit.runs;
-    return numeric::simulate(body, world, start, wanted, accuracy);
-  };
   double stiffness = scene.world.ground.stiffness;
   std::vector<Simulation> ladder;
   // The runs' contacts must all be short enough, and the limit must have settled: climb until they are and it has.
   while (limit.runs < most_runs) {
-    ladder.push_back(run_at(stiffness));
+    ladder.push_back(runs.at(stiffness, wanted));
+    ++limit.runs;
     limit.stiffness = stiffness;
     stiffness *= stiffening;
     if (ladder.back().impacts.empty()) {
@@ -201,7 +213,8 @@ StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, const Limi
   if (request.planar || ladder.size() < runs_of_a_limit) return limit;
   // Slip that turns costs the runs digits: how many, the stiffest estimates.
   wanted.error_estimates = true;
-  ladder.back() = run_at(limit.stiffness);
+  ladder.back() = runs.at(limit.stiffness, wanted);
+  ++limit.runs;
   static_cast<void>(take_limit(ladder, sizes, request, limit));
   return limit;
 }
