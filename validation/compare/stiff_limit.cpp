@@ -190,12 +190,15 @@ StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, const Limi
   numeric::Request wanted{.impacts = request.impacts, .error_estimates = false, .amplification = false};
   const ContactSizes sizes = ContactSizes::of(scene, body, request.planar);
   StiffLimit limit{.rows = {}, .ended = "the runs end before a limit shows"};
+  const auto run_at = [&](double stiffness) {
+    ++limit.runs;
+    return runs.at(stiffness, wanted);
+  };
   double stiffness = scene.world.ground.stiffness;
   std::vector<Simulation> ladder;
   // The runs' contacts must all be short enough, and the limit must have settled: climb until they are and it has.
   while (limit.runs < most_runs) {
-    ladder.push_back(runs.at(stiffness, wanted));
-    ++limit.runs;
+    ladder.push_back(run_at(stiffness));
     limit.stiffness = stiffness;
     stiffness *= stiffening;
     if (ladder.back().impacts.empty()) {
@@ -213,8 +216,7 @@ StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, const Limi
   if (request.planar || ladder.size() < runs_of_a_limit) return limit;
   // Slip that turns costs the runs digits: how many, the stiffest estimates.
   wanted.error_estimates = true;
-  ladder.back() = runs.at(limit.stiffness, wanted);
-  ++limit.runs;
+  ladder.back() = run_at(limit.stiffness);
   static_cast<void>(take_limit(ladder, sizes, request, limit));
   return limit;
 }

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "analytic/contact_angles.hpp"
+#include "validation/measured/score.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation {
@@ -103,7 +104,10 @@ std::vector<int> range(int from, int to, int step) {
 
 /// Lower ends of the ranges of residual_bins().
 std::vector<AxisValue> arm_angles() {
-  return {{0, "0-10"}, {10, "10-20"}, {20, "20-25"}, {25, "25-30"}, {30, "30-35"}, {35, "35-40"}, {40, "40-60"}};
+  std::vector<AxisValue> angles;
+  for (std::size_t i = 1; i < std::size(arm_angle_edges); ++i)
+    angles.push_back({arm_angle_edges[i - 1], fmt::format("{}-{}", arm_angle_edges[i - 1], arm_angle_edges[i])});
+  return angles;
 }
 
 std::vector<MapAxis> make_axes() {

@@ -3,17 +3,12 @@
 
 #include <cmath>
 
-#include "validation/embedded/embedded.hpp"
-
 namespace clatter::validation {
 namespace {
 
 constexpr std::uint64_t split_seed = 1;
 
-MeasuredFile kept_file(const std::string& name) {
-  const std::string csv = "validation/measured/" + name + ".csv";
-  return measure_tracks(parse_tracks(csv, std::string(embedded_text(csv)), read_description(name)));
-}
+MeasuredFile kept_file(const std::string& name) { return measure_tracks(carried_tracks(name, read_description(name))); }
 
 Scores scores_of(const MeasuredFile& file, const TrackPart& fitted, const TrackPart& scored) {
   return score_measured(file, fit_measured(file, fitted), scored, false);

@@ -198,7 +198,10 @@ std::vector<ResidualBin> residual_bins(const std::vector<ScoredDrop>& drops) {
     double (*value)(const ScoredDrop&);
   };
   const std::vector<Axis> axes{
-      {"angle", "°", {0, 10, 20, 25, 30, 35, 40, 60}, [](const ScoredDrop& d) { return d.measured.angle_degrees(); }},
+      {"angle",
+       "°",
+       {std::begin(arm_angle_edges), std::end(arm_angle_edges)},
+       [](const ScoredDrop& d) { return d.measured.angle_degrees(); }},
       {"approach", "m/s", {0, 1, 1.5, 2, 2.5, 3, 4}, [](const ScoredDrop& d) { return d.measured.approach; }},
       {"slip", "m/s", {0, 0.25, 0.5, 1, 1.5, 2, 4}, [](const ScoredDrop& d) { return d.measured.slip; }}};
   for (const Axis& axis : axes) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 
 #include "validation/embedded/embedded.hpp"
@@ -113,12 +112,6 @@ Quaternion rotation_of(const Vector3& vector) {
   return q;
 }
 
-Matrix3 cross_matrix(const Vector3& v) {
-  Matrix3 m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   std::sort(values.begin(), values.end());
@@ -131,12 +124,12 @@ double quantile(std::vector<double> values, double share) {
 double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
 
 TrackFile read_tracks(const std::string& path, const TrackDescription& description) {
-  const std::vector<std::string> names = carried_descriptions();
-  const bool is_carried = std::find(names.begin(), names.end(), path) != names.end();
-  if (is_carried && !std::filesystem::exists(path)) {
-    return parse_tracks(path, std::string(embedded_text("validation/measured/" + path + ".csv")), description);
-  }
+  if (means_carried(path)) return carried_tracks(path, description);
   return tracks_of(NumericTable::read(path, request_for(description)), description);
+}
+
+TrackFile carried_tracks(const std::string& name, const TrackDescription& description) {
+  return parse_tracks(name, std::string(embedded_text("validation/measured/" + name + ".csv")), description);
 }
 
 TrackFile parse_tracks(const std::string& path, std::string text, const TrackDescription& description) {

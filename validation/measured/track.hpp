@@ -36,6 +36,9 @@ struct TrackFile {
 ///         off 1 by more than a twentieth.
 [[nodiscard]] TrackFile read_tracks(const std::string& path, const TrackDescription& description);
 
+/// The data set of this name that the program carries.
+[[nodiscard]] TrackFile carried_tracks(const std::string& name, const TrackDescription& description);
+
 /// The same from a text; `path` is its name in errors.
 [[nodiscard]] TrackFile parse_tracks(const std::string& path, std::string text, const TrackDescription& description);
 
@@ -54,8 +57,6 @@ struct PoseNoise {
 [[nodiscard]] Vector3 rotation_vector(const Quaternion& rotation);
 /// Unit quaternion of a rotation vector.
 [[nodiscard]] Quaternion rotation_of(const Vector3& vector);
-/// [v]×, so that [v]× w = v × w.
-[[nodiscard]] Matrix3 cross_matrix(const Vector3& v);
 /// Standard deviation of a normal distribution over the median of its magnitude.
 inline constexpr double deviation_of_median = 1.4826;
 /// The middle of a list; NaN of none.

@@ -135,6 +135,11 @@ std::vector<std::string> carried_descriptions() {
   return names;
 }
 
+bool means_carried(const std::string& path) {
+  const std::vector<std::string> names = carried_descriptions();
+  return std::find(names.begin(), names.end(), path) != names.end() && !std::filesystem::exists(path);
+}
+
 TrackDescription read_description(const std::string& path) {
   const std::vector<std::string> names = carried_descriptions();
   if (std::find(names.begin(), names.end(), path) != names.end()) {
@@ -149,9 +154,7 @@ TrackDescription read_description(const std::string& path) {
 
 TrackDescription description_of(const std::string& csv, const std::optional<std::string>& given) {
   if (given) return read_description(*given);
-  const std::vector<std::string> names = carried_descriptions();
-  const bool is_carried = std::find(names.begin(), names.end(), csv) != names.end();
-  if (is_carried && !std::filesystem::exists(csv)) return read_description(csv);
+  if (means_carried(csv)) return read_description(csv);
   const std::string beside = std::filesystem::path(csv).replace_extension(ending).string();
   if (!std::filesystem::exists(beside)) {
     throw BadInput(

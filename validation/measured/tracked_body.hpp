@@ -16,9 +16,11 @@
 #include <vector>
 
 #include "analytic/space/body.hpp"
+#include "analytic/space/cross_matrix.hpp"
 
 namespace clatter::validation {
 
+using analytic::space::cross_matrix;
 using analytic::space::Matrix3;
 using analytic::space::Quaternion;
 using analytic::space::Vector3;
@@ -58,6 +60,8 @@ struct TrackDescription {
 [[nodiscard]] TrackDescription description_of(const std::string& csv, const std::optional<std::string>& given);
 /// Names of the descriptions that the program carries.
 [[nodiscard]] std::vector<std::string> carried_descriptions();
+/// Whether a path names tracks that the program carries, and no file.
+[[nodiscard]] bool means_carried(const std::string& path);
 
 /// How the body differs from the one described: what resting poses and momentum about the touched corner say.
 struct Calibration {

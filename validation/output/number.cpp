@@ -50,6 +50,8 @@ double clean_step(double from, double step, long long i) {
   return read_number({text, end}, rounded) ? rounded : value;
 }
 
+long long count_of_steps(double steps) { return static_cast<long long>(std::floor(steps * (1 + 1e-12) + 1e-12)) + 1; }
+
 double clean_ratio(double first, double last, long long i, long long count) {
   const double part = static_cast<double>(i) / static_cast<double>(count - 1);
   const double size = std::exp(std::log(std::fabs(first)) * (1 - part) + std::log(std::fabs(last)) * part);

@@ -28,6 +28,10 @@ namespace clatter::validation {
 /// from + i·step rounded to 15 digits, so that steps that are decimal fractions give clean decimals.
 [[nodiscard]] double clean_step(double from, double step, long long i);
 
+/// How many values from + i·step there are up to `to`, given steps = (to − from)/step >= 0: a step that fits the range
+/// but for rounding reaches its end.
+[[nodiscard]] long long count_of_steps(double steps);
+
 /// Number i of `count` from `first` to `last`, neither 0 and both of one sign, with equal ratios; rounded likewise.
 [[nodiscard]] double clean_ratio(double first, double last, long long i, long long count);
 

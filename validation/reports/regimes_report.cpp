@@ -144,8 +144,7 @@ bool spans_decades(const std::vector<double>& values) {
 }
 
 /// The parameters that all rows share.
-std::string rod_words(const RegimesTexts& input, const Quantity& quantity) {
-  RodParameters rod = read_rod(input.rod);
+std::string rod_words(const RodParameters& rod, const Quantity& quantity) {
   std::string words = "thin rod, m = L = |vₙ| = 1";
   for (const Quantity& other : all_quantities()) {
     if (&other != &quantity) words += fmt::format(", {} = {}", other.heading, shortest(rod.*other.member));
@@ -160,7 +159,7 @@ FoundRegimes find_regimes(const RegimesTexts& input) {
   std::vector<std::string> names;
   for (const Quantity& quantity : quantities) names.emplace_back(quantity.name);
   const Quantity& quantity = quantities[input.over ? read_name_option("--over", *input.over, names) : 0];
-  RodParameters rod = read_rod(input.rod);
+  const RodParameters rod = read_rod(input.rod);
   const int digits = input.digits ? read_integer_option("--digits", *input.digits, 1, 17) : 8;
   FoundRegimes found;
   found.name = quantity.name;
@@ -168,17 +167,18 @@ FoundRegimes find_regimes(const RegimesTexts& input) {
   found.values = values_of(input, quantity);
   found.logarithmic =
       input.logarithmic || (quantity.member == &RodParameters::gravity_number && spans_decades(found.values));
-  found.rod_words = rod_words(input, quantity);
+  found.rod_words = rod_words(rod, quantity);
   found.script_head = {headline("regimes", regimes_summary),
                        fmt::format("{}; {} from {} to {}, {} values", found.rod_words, quantity.heading,
                                    shortest(found.values.front()), shortest(found.values.back()), found.values.size())};
   for (const double value : found.values) {
-    rod.*quantity.member = value;
-    found.all.push_back({value, analytic::regime_boundary(ImpactNumber::second, rod),
-                         analytic::regime_boundary(ImpactNumber::third, rod)});
+    RodParameters varied = rod;
+    varied.*quantity.member = value;
+    found.all.push_back({value, analytic::regime_boundary(ImpactNumber::second, varied),
+                         analytic::regime_boundary(ImpactNumber::third, varied)});
   }
-  found.report = report_of(found.all, quantity, read_rod(input.rod), digits);
-  found.report.head = {rod_summary(read_rod(input.rod)) + ", but for the first column"};
+  found.report = report_of(found.all, quantity, rod, digits);
+  found.report.head = {rod_summary(rod) + ", but for the first column"};
   return found;
 }
 

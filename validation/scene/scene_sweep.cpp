@@ -69,9 +69,8 @@ std::vector<double> SceneSweep::values() const {
   std::vector<double> values;
   for (long long i = 0; i < count; ++i) values.push_back(placed(*this, i));
   if (count > 0) return values;
-  // A step that fits the range but for rounding reaches its end.
-  const auto last = static_cast<long long>(std::floor((to - from) / step * (1 + 1e-12) + 1e-12));
-  for (long long i = 0; i <= last; ++i) values.push_back(std::min(clean_step(from, step, i), to));
+  const long long steps = count_of_steps((to - from) / step);
+  for (long long i = 0; i < steps; ++i) values.push_back(std::min(clean_step(from, step, i), to));
   return values;
 }
 

@@ -38,8 +38,7 @@ Sweep read_sweep(const SweepTexts& texts, const SweepDefault& fallback, const Ra
       texts.step ? read_number_option("--step", *texts.step, {0, 1e300, true, "greater than 0"}) : fallback.step;
   const double steps = (sweep.to - sweep.from) / sweep.step;
   if (!(steps < 1e8)) throw BadInput(fmt::format("--step {}: more than 100000000 values", sweep.step));
-  // A step that fits the range but for rounding reaches its end.
-  sweep.count = static_cast<long long>(std::floor(steps * (1 + 1e-12) + 1e-12)) + 1;
+  sweep.count = count_of_steps(steps);
   return sweep;
 }
 

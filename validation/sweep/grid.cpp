@@ -101,8 +101,7 @@ SweepAxis read_grid_axis(const std::string& key, const std::string& text, bool w
   const double steps = (to - axis.first) / axis.step;
   if (!(steps >= 0)) given.refuse("STEP must have the sign of TO - FROM");
   if (!(steps < static_cast<double>(most_scenes))) given.refuse(too_many());
-  // A step that fits the range but for rounding reaches its end.
-  axis.count = static_cast<long long>(std::floor(steps * (1 + 1e-12) + 1e-12)) + 1;
+  axis.count = count_of_steps(steps);
   axis.last = to;
   axis.last = axis.at(axis.count - 1);
   return axis;

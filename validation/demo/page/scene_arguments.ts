@@ -5,6 +5,11 @@ import { DEFAULT_PARAMETERS, isInPlane, setBody, type Parameters, type Quantity 
 type Argument = string | number | boolean | readonly number[];
 export type SceneArguments = Readonly<Record<string, Argument>>;
 
+/** The number that a text says; blank or no number: otherwise. */
+export function numberOf(text: string | null | undefined, otherwise: number): number {
+  return text == null || text.trim() === "" || !Number.isFinite(Number(text)) ? otherwise : Number(text);
+}
+
 /** Arguments that are taken one by one; what is left then has no control on the page. */
 class Given {
   private readonly texts: Map<string, string>;
@@ -24,8 +29,7 @@ class Given {
   }
 
   number(name: string, otherwise: number): number {
-    const text = this.take(name);
-    return text === undefined || text.trim() === "" || !Number.isFinite(Number(text)) ? otherwise : Number(text);
+    return numberOf(this.take(name), otherwise);
   }
 
   /** Numbers with "," or "x" between them, put in the places of these quantities. */

@@ -4,7 +4,7 @@ import { BODIES, type BodyName } from "./body";
 import {
   DEFAULT_PARAMETERS, DROPS, QUANTITIES, TURNS, isInPlane, isUsed, setBody, type Choices, type Parameters, type Quantity,
 } from "./parameters";
-import { parametersOf } from "./scene_arguments";
+import { numberOf, parametersOf } from "./scene_arguments";
 
 export const PANELS = ["story", "strip", "numbers", "table", "force", "energy", "map", "explain"] as const;
 
@@ -83,11 +83,6 @@ function toQuery(state: State): string {
   return query.toString().replace(/%2C/g, ",");
 }
 
-function numberIn(query: URLSearchParams, key: string, otherwise: number): number {
-  const given = query.get(key);
-  return given === null || given.trim() === "" || !Number.isFinite(Number(given)) ? otherwise : Number(given);
-}
-
 /** Numbers pass as they are given, even senseless ones: the program says what is allowed. */
 function situationIn(query: URLSearchParams): Parameters {
   if (query.has("given")) return parametersOf(Object.fromEntries([...query].filter(([name]) => !VIEW.includes(name))));
@@ -95,7 +90,7 @@ function situationIn(query: URLSearchParams): Parameters {
   const body = query.get("body");
   if (body !== null && Object.hasOwn(BODIES, body)) setBody(parameters, body as BodyName);
   Object.assign(parameters, choicesIn(query));
-  for (const quantity of QUANTITIES) parameters[quantity] = numberIn(query, quantity, parameters[quantity]);
+  for (const quantity of QUANTITIES) parameters[quantity] = numberOf(query.get(quantity), parameters[quantity]);
   parameters.extra = Object.fromEntries([...query].filter(([name]) => name.startsWith(EXTRA))
     .map(([name, text]) => [name.slice(EXTRA.length), text]));
   return parameters;
@@ -115,7 +110,7 @@ function choicesIn(query: URLSearchParams): Omit<Choices, "body"> {
 export function stateOf(text: string): State {
   const query = new URLSearchParams(text);
   const state = defaultState();
-  const number = (key: string, otherwise: number): number => numberIn(query, key, otherwise);
+  const number = (key: string, otherwise: number): number => numberOf(query.get(key), otherwise);
   const list = (key: string): string[] => (query.get(key) ?? "").split(",").map((s) => s.trim()).filter(Boolean);
   state.parameters = situationIn(query);
   state.impact = Math.max(1, Math.round(number("impact", 1)));
