@@ -13,7 +13,7 @@
 namespace clatter::analytic {
 
 using detail::epsilon;
-using detail::never;
+using detail::never_happens;
 
 namespace {
 
@@ -46,7 +46,7 @@ class Search {
     bool convex = std::fabs(place) < half_width_ || half_width_ == pi;
     const double left = convex ? half_width_ - place : (place > 0 ? 2 * pi : 0) - half_width_ - place;
     double boundary = start + std::fmax(left, 0) / h_.rate;
-    if (half_width_ == 0 || half_width_ == pi) boundary = never;
+    if (half_width_ == 0 || half_width_ == pi) boundary = never_happens;
     while (node.t < end) {
       const double stop = std::min(boundary, end);
       const bool empty = !(stop > node.t);  // a piece no longer than rounding
@@ -126,7 +126,7 @@ class Search {
   /// Convex: falls at most once, so its lowest point decides.
   bool convex_piece(Node& node, double stop) {
     if (node.value.velocity >= 0) {  // rises all the way: no need to look
-      node = stop < never ? at(stop) : Node{stop, {}};
+      node = stop < never_happens ? at(stop) : Node{stop, {}};
       return false;
     }
     const Node last = at(stop);
@@ -190,7 +190,7 @@ struct Centre {
   /// Last time at which the centre is at this height (infinite if it never comes down to it).
   [[nodiscard]] double falls_through(double level) const {
     const double above = height - level;
-    if (gravity < 0) return never;
+    if (gravity < 0) return never_happens;
     if (gravity > 0) {
       const double square = velocity * velocity + 2 * gravity * above;
       if (!(square > 0)) return 0;
@@ -198,11 +198,11 @@ struct Centre {
       // Of (V + √…)/g and its conjugate the one that does not cancel.
       return velocity > 0 ? (velocity + root) / gravity : 2 * above / (root - velocity);
     }
-    return velocity < 0 ? std::max(above / -velocity, 0.0) : never;
+    return velocity < 0 ? std::max(above / -velocity, 0.0) : never_happens;
   }
   /// Time from which the centre stays above the vertex's reach, without gravity.
   [[nodiscard]] double clear_for_good() const {
-    if (gravity != 0 || !(velocity > 0)) return never;
+    if (gravity != 0 || !(velocity > 0)) return never_happens;
     return std::max((reach - height) / velocity, 0.0);
   }
 };
@@ -210,7 +210,7 @@ struct Centre {
 /// A body that does not turn: a parabola.
 FirstRoot parabola_root(const VertexHeight& h, double end) {
   FirstRoot found;
-  double t = never;
+  double t = never_happens;
   if (h.gravity > 0) {
     // From the ground itself without squares: those of the smallest bounces would underflow.
     const double root =
@@ -219,19 +219,19 @@ FirstRoot parabola_root(const VertexHeight& h, double end) {
   } else if (h.velocity < 0) {
     t = h.height / -h.velocity;
   }
-  if (t > 0 && t <= end && t < never) {
+  if (t > 0 && t <= end && t < never_happens) {
     found.time = found.bracket_low = found.bracket_high = t;
   } else {
-    found.near_miss.clearance = h.height > 0 ? h.height : never;
+    found.near_miss.clearance = h.height > 0 ? h.height : never_happens;
   }
   return found;
 }
 
 /// Start of the turn that can hold the first root after a first turn without one.
 double second_window(const Centre& centre, double turn) {
-  if (centre.gravity < 0) return never;
+  if (centre.gravity < 0) return never_happens;
   if (centre.gravity == 0) {
-    return centre.velocity < 0 ? std::max(turn, centre.falls_through(centre.reach)) : never;
+    return centre.velocity < 0 ? std::max(turn, centre.falls_through(centre.reach)) : never_happens;
   }
   // While V > g (t + turn/2), h(t + turn) > h(t): turns after a clean one are clean as well.
   const double rising = centre.velocity / centre.gravity - turn / 2;
@@ -245,20 +245,20 @@ FirstRoot first_root(const VertexHeight& height, double end) {
   const Centre centre(height);
   if (!(height.rate * (height.rate * centre.reach) > 0)) return parabola_root(height, end);
   FirstRoot found;
-  found.near_miss.clearance = never;
+  found.near_miss.clearance = never_happens;
   const double turn = 2 * pi / height.rate;
   // Below this the vertex is under the ground for certain.
   const double certain = centre.falls_through(-centre.reach);
   // A body that turns slowly is clear long before its turn ends; one that turns fast shows how near
   // it came within that turn.
   const double clear = centre.clear_for_good();
-  const double limit = std::min({end, certain, turn > 1e6 * clear ? clear : never});
+  const double limit = std::min({end, certain, turn > 1e6 * clear ? clear : never_happens});
   Search search(height, found);
   if (search.window(0, std::min(turn, limit)) || !(turn < limit)) return found;
   double start = second_window(centre, turn);
   // The centre comes down, but when and at which phase no double can say.  (The pieces of a turn
   // must also be longer than the steps between doubles there, or the search would stand still.)
-  const bool comes_down = centre.gravity > 0 || certain < never;
+  const bool comes_down = centre.gravity > 0 || certain < never_happens;
   const bool told = turn > 8 * epsilon * start && start < certain;
   if (start <= end && comes_down && !told) {
     throw NumericalError("the flight is so long that double precision leaves the phase at its end no digit");

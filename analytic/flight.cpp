@@ -9,7 +9,7 @@
 namespace clatter::analytic {
 
 using detail::epsilon;
-using detail::never;
+using detail::never_happens;
 
 namespace {
 
@@ -84,15 +84,15 @@ bool cannot_leave(const VertexHeight& height) {
 class Race {
  public:
   Race(const PlanarBody& body, const Departure& departure, Passes* passes) : departure_(departure), passes_(passes) {
-    if (passes_) passes_->fill({.clearance = never});
+    if (passes_) passes_->fill({.clearance = never_happens});
     for (int i = 0; i < body.vertex_count; ++i) heights_[i] = vertex_height(body, departure, i);
   }
 
   /// Vertex by vertex, each only up to the earliest arrival so far; those that touch go last, since
   /// they usually rise.
   Flight run(const PlanarBody& body) {
-    best_ = never;
-    flight_.near_miss.clearance = never;
+    best_ = never_happens;
+    flight_.near_miss.clearance = never_happens;
     for (const bool touching : {false, true}) {
       for (int i = 0; i < body.vertex_count; ++i) {
         if (contains(departure_.touching, i) == touching && !enter(i)) return flight_;
@@ -146,7 +146,7 @@ class Race {
   Passes* passes_;
   std::array<VertexHeight, max_vertices> heights_{};
   Flight flight_;
-  double best_ = never;
+  double best_ = never_happens;
 };
 
 }  // namespace

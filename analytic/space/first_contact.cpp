@@ -12,7 +12,7 @@
 namespace clatter::analytic::space {
 
 using detail::epsilon;
-using detail::never;
+using detail::never_happens;
 
 namespace {
 
@@ -72,7 +72,7 @@ class Search {
     const double deepest = *std::max_element(depths_.begin(), depths_.end());
     const double rises = flight_.rises_through(deepest), falls = flight_.falls_through(deepest);
     const double certain = flight_.falls_through(-heights_.reach());
-    const bool ever_falls = falls < never;
+    const bool ever_falls = falls < never_happens;
     if (!through(start, std::fmin(rises, certain))) return;
     if (!ever_falls || !(falls > start.time)) return;
     if (falls * epsilon * flight_.rotation().fastest() > 1e-3 || !(falls < falls * (1 + 4 * epsilon))) {
@@ -86,9 +86,9 @@ class Search {
   /// Looks through pieces from `start` to `end`; false when the first contact was found.  Leaves `start` at the end.
   bool through(FlightMoment& start, double end) {
     const double speed = flight_.rotation().fastest();
-    const bool periodic_hover = end == never && flight_.gravity() == 0 && !(flight_.start().velocity.z() < 0);
+    const bool periodic_hover = end == never_happens && flight_.gravity() == 0 && !(flight_.start().velocity.z() < 0);
     if (speed == 0) {
-      if (end < never) return pieces(start, end, end);
+      if (end < never_happens) return pieces(start, end, end);
       return true;  // a body that neither turns nor falls
     }
     if (periodic_hover && flight_.rotation().is_steady()) end = start.time + 2 * std::numbers::pi / speed;
@@ -97,7 +97,7 @@ class Search {
 
   /// Leaves out what is clear whatever the spin, so that many turns far above the ground cost little.
   bool stretch(FlightMoment& start, double end, double length) {
-    if (!(end - start.time > shortest_stretch * length) || end == never) return pieces(start, end, length);
+    if (!(end - start.time > shortest_stretch * length) || end == never_happens) return pieces(start, end, length);
     const FlightMoment last = heights_.moment(end);
     ++found_.evaluations;
     const double lowest = heights_.lowest_between(start, last);

@@ -7,7 +7,7 @@
 
 namespace clatter::analytic::space {
 
-using detail::never;
+using detail::never_happens;
 
 namespace {}  // namespace
 
@@ -31,15 +31,15 @@ double FreeFlight::falls_through(double height) const {
     // Of (V + √…)/g and its conjugate the one that does not cancel.
     return std::fmax(velocity > 0 ? (velocity + root) / gravity_ : 2 * above / (root - velocity), 0.0);
   }
-  return velocity < 0 ? std::fmax(above / -velocity, 0.0) : never;
+  return velocity < 0 ? std::fmax(above / -velocity, 0.0) : never_happens;
 }
 
 double FreeFlight::rises_through(double height) const {
   const double below = height - start_.position.z(), velocity = start_.velocity.z();
   if (!(below > 0)) return 0;
-  if (!(velocity > 0)) return never;
+  if (!(velocity > 0)) return never_happens;
   const double square = velocity * velocity - 2 * gravity_ * below;
-  return square > 0 ? 2 * below / (velocity + std::sqrt(square)) : never;
+  return square > 0 ? 2 * below / (velocity + std::sqrt(square)) : never_happens;
 }
 
 }  // namespace clatter::analytic::space

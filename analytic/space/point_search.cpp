@@ -9,7 +9,7 @@
 namespace clatter::analytic::space {
 
 using detail::epsilon;
-using detail::never;
+using detail::never_happens;
 
 namespace {
 
@@ -19,7 +19,7 @@ constexpr int most_evaluations_of_a_flight = 1'000'000;
 
 PointSearch::PointSearch(const Body& body, const FreeFlight& flight)
     : body_(body), flight_(flight), heights_(body, flight), threshold_(heights_.reach() / 20) {
-  found_.near_miss.clearance = never;
+  found_.near_miss.clearance = never_happens;
 }
 
 bool PointSearch::look(int point, const Node& a, const Node& b) {

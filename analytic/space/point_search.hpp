@@ -53,7 +53,7 @@ class PointSearch {
   FirstContact found_;
   std::optional<Hop> hop_;
   double hop_time_ = -1;
-  double best_ = detail::never, threshold_;
+  double best_ = detail::never_happens, threshold_;
 };
 
 }  // namespace clatter::analytic::space

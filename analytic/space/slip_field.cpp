@@ -3,8 +3,8 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "analytic/angle.hpp"
 #include "analytic/detail/limits.hpp"
 
 namespace clatter::analytic::space {
@@ -12,8 +12,6 @@ namespace clatter::analytic::space {
 using detail::epsilon;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 struct Quadratic {
   double b1, b2, d;

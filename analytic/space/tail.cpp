@@ -115,11 +115,11 @@ std::optional<Tail> SpaceAccumulation::extrapolate(const Accumulation::Tolerance
 
 /// First event from the end back at which each of the tail's corners has struck.
 std::size_t SpaceAccumulation::last_round(const Tail& tail) const {
-  std::vector<int> missing = tail.corners;
+  std::vector<int> unseen = tail.corners;
   std::size_t i = events_.size();
-  while (i > 1 && !missing.empty()) {
+  while (i > 1 && !unseen.empty()) {
     --i;
-    std::erase_if(missing, [&](int corner) {
+    std::erase_if(unseen, [&](int corner) {
       const auto& struck = events_[i].corners;
       return std::find(struck.begin(), struck.end(), corner) != struck.end();
     });

@@ -11,7 +11,7 @@ namespace clatter::analytic::space {
 namespace {
 
 using Extended = long double;
-constexpr Extended pi = std::numbers::pi_v<Extended>;
+constexpr Extended extended_pi = std::numbers::pi_v<Extended>;
 /// Below this k′² the body stays near its intermediate axis for hundreds of time constants; it keeps K finite.
 constexpr Extended smallest_complement = 1e-500L;
 
@@ -24,7 +24,7 @@ Extended quarter_period(Extended x) {
     b = std::sqrt(a * b);
     a = mean;
   }
-  return pi / (a + b);
+  return extended_pi / (a + b);
 }
 
 Extended square(Extended x) { return x * x; }
@@ -148,7 +148,8 @@ ThetaRotation::ThetaRotation(const PrincipalAxes& principal, const PrincipalVelo
 void ThetaRotation::set_direct(const Constants& c) {
   const Extended b =
       c.third * boost::math::ellint_rf(c.third_complement, c.modulus + c.complement * c.third_complement, Extended{1});
-  const Extended q = std::exp(-pi * c.complementary / c.quarter), shift = std::exp(-pi * b / c.quarter);
+  const Extended q = std::exp(-extended_pi * c.complementary / c.quarter),
+                 shift = std::exp(-extended_pi * b / c.quarter);
   Extended value = 1, slope = 0;
   for (int n = 1; n < terms; ++n) {
     const Extended sign = n % 2 == 0 ? 1 : -1;
@@ -160,9 +161,9 @@ void ThetaRotation::set_direct(const Constants& c) {
     value += sign * (growing + shrinking);
     slope -= sign * (growing - shrinking) * n;
   }
-  precession_ = c.first_rate + 2 * sense_ * rate_ * (pi / c.quarter) * slope / value;
+  precession_ = c.first_rate + 2 * sense_ * rate_ * (extended_pi / c.quarter) * slope / value;
   const ThetaConstants theta(q);
-  scale_ = static_cast<double>(pi / (2 * c.quarter));
+  scale_ = static_cast<double>(extended_pi / (2 * c.quarter));
   nome_ = static_cast<double>(q);
   sn_ = static_cast<double>(theta.three / theta.two);
   cn_ = static_cast<double>(theta.four / theta.two);
@@ -173,7 +174,8 @@ void ThetaRotation::set_dual(const Constants& c) {
   const Extended den = c.modulus + c.complement * c.third_complement;
   const Extended gap = std::sqrt(c.third_complement / den) *
                        boost::math::ellint_rf(c.modulus * square(c.third) / den, c.modulus / den, Extended{1});
-  const Extended p = std::exp(-pi * c.quarter / (2 * c.complementary)), beta = pi * gap / (4 * c.complementary);
+  const Extended p = std::exp(-extended_pi * c.quarter / (2 * c.complementary)),
+                 beta = extended_pi * gap / (4 * c.complementary);
   Extended value = 0, slope = 0, end_real = 0, end_imaginary = 0;
   for (int n = 0; n < terms; ++n) {
     const Extended odd = 2 * n + 1, cosine = std::cos(odd * beta), sine = std::sin(odd * beta);
@@ -187,10 +189,10 @@ void ThetaRotation::set_dual(const Constants& c) {
     end_real += rest * cosine * (1 + decay);
     end_imaginary += rest * sine * (1 - decay);
   }
-  precession_ = c.first_rate + 2 * sense_ * rate_ * (pi / (4 * c.complementary)) * slope / value;
+  precession_ = c.first_rate + 2 * sense_ * rate_ * (extended_pi / (4 * c.complementary)) * slope / value;
   half_turn_ = -4 * sense_ * std::atan2(end_imaginary, end_real);
   const ThetaConstants theta(p * p);
-  scale_ = static_cast<double>(pi / (2 * c.complementary));
+  scale_ = static_cast<double>(extended_pi / (2 * c.complementary));
   nome_ = static_cast<double>(p);
   sn_ = static_cast<double>(theta.three / theta.four);
   cn_ = static_cast<double>(2 * theta.two / theta.four);
@@ -201,7 +203,7 @@ ThetaRotation::Moment ThetaRotation::at(double time) const {
   const Extended u = start_ + rate_ * time;
   const Extended halves = std::nearbyint(u / (2 * quarter_));
   const Extended rest = u - halves * (2 * quarter_);
-  const Extended angle = std::remainder(halves * half_turn_ + precession_ * time, 2 * pi);
+  const Extended angle = std::remainder(halves * half_turn_ + precession_ * time, 2 * extended_pi);
   const double argument = scale_ * static_cast<double>(rest);
   const Functions f = dual_ ? dual(argument) : direct(argument);
   const double sign = std::fmod(halves, Extended{2}) == 0 ? 1 : -1;

@@ -176,12 +176,12 @@ Score best_of(const Reference& reference, const std::string& law, Judge&& judge)
 }
 
 ImpactSearch search_for(const Reference& reference) {
-  constexpr double rounding = 1e-6;      // of momentum, of codes with the digits of a float
-  constexpr double shortest_way = 0.02;  // of the reach, within which a compliant code turns the body round
+  constexpr double float_rounding = 1e-6;  // of momentum, of codes with the digits of a float
+  constexpr double shortest_way = 0.02;    // of the reach, within which a compliant code turns the body round
   ImpactSearch search{
       .least_impulse = std::numeric_limits<double>::infinity(),
       .spread_time = shortest_way * reference.reach() / reference.speed(),
-      .rounding = (reference.is_compliant ? 1e-3 : 1.0) * rounding * reference.body.mass * reference.speed(),
+      .rounding = (reference.is_compliant ? 1e-3 : 1.0) * float_rounding * reference.body.mass * reference.speed(),
       .most = reference.sequences.front().truth.size() + 1};
   for (const ReferenceSequence& sequence : reference.sequences) {
     for (const TruthRow& row : sequence.truth) {

@@ -9,12 +9,11 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/reports/benchmark_report.hpp"
 #include "validation/reports/score_report.hpp"
+#include "validation/scene/failure.hpp"
 #include "validation/scene/option_values.hpp"
 
 namespace clatter::validation {
 namespace {
-
-constexpr int check_failed = 1;
 
 struct BenchmarkInput {
   std::string action;

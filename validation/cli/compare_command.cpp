@@ -22,7 +22,6 @@
 namespace clatter::validation {
 namespace {
 
-constexpr int check_failed = 1;
 const char* const comparison_summary = "discrete and continuous model, impact by impact";
 
 struct CompareInput {

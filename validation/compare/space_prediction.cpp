@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "analytic/errors.hpp"
+#include "validation/output/estimated.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -15,8 +15,6 @@ using analytic::space::Drop;
 using analytic::space::ImpactRow;
 using analytic::space::Sequence;
 using analytic::space::Vector3;
-
-constexpr double unknown = std::numeric_limits<double>::infinity();
 
 Sequence run(const Drop& drop, std::size_t impacts) {
   return impact_sequence(drop, {.impacts = static_cast<int>(impacts), .amplification = false});
@@ -34,7 +32,7 @@ void add_difference(const Sequence& base, const Sequence& other, std::size_t fir
   for (std::size_t i = 0; first + i < sizes.size(); ++i) {
     same = same && i < base.rows.size() && i < other.rows.size() && same_corners(base.rows[i], other.rows[i]);
     MotionNumbers apart;
-    apart.fill(unknown);
+    apart.fill(unknown_error);
     if (same) {
       const MotionNumbers a = motion_numbers(base.rows[i]), b = motion_numbers(other.rows[i]);
       for (std::size_t q = 0; q < motion_number_count; ++q) apart[q] = std::fabs(b[q] - a[q]);
@@ -96,7 +94,7 @@ std::vector<PredictedSize> predicted_sizes(const Drop& drop, const Sequence& seq
                                            const std::vector<double>& contact_times) {
   std::vector<PredictedSize> sizes(std::min(sequence.rows.size(), contact_times.size()));
   const auto give_up_from = [&](std::size_t i) {
-    for (; i < sizes.size(); ++i) sizes[i].turning.fill(unknown);
+    for (; i < sizes.size(); ++i) sizes[i].turning.fill(unknown_error);
   };
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     try {

@@ -30,6 +30,10 @@ struct ContinuousRun {
   bool estimates = true;  ///< of the errors, by a second run
 };
 
+/// What the elastic energy may drift by in each impact: 10⁻⁴ of the digits asked for is the tolerance of a step, and a
+/// contact takes tens of steps.
+inline constexpr double drift_per_impact = 1e-8;
+
 /// Asked now and then during a run; false ends it.
 using GoesOn = std::function<bool()>;
 

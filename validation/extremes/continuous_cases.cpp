@@ -20,9 +20,6 @@ constexpr int digits_asked = 6;
 constexpr double promised = 1e-6;
 /// Estimates of errors are right to about this factor (tests/numeric/estimates_test.cpp).
 constexpr double estimate_factor = 10;
-/// What the elastic energy may drift by in each impact: 10⁻⁴ of the digits asked for is the tolerance of a step, and a
-/// contact takes tens of steps.
-constexpr double drift_per_impact = 1e-8;
 /// Shares of the cell's time after which the run and the oracle's run are ended; its estimates take as long as it.
 constexpr double run_share = 0.35, oracle_share = 0.9;
 /// Another method, far more accurate.

@@ -208,7 +208,6 @@ CellMeasure run_scenes(int count, double bound, const std::function<bool()>& goe
 
 /// 10⁴ impacts of the elastic phone: more than a second's work.
 CellMeasure marathon(bool planar, int impacts, const std::function<bool()>& goes_on) {
-  constexpr double drift_per_impact = 1e-8;  // as in continuous_cases.cpp
   ContinuousCase scene;
   scene.impacts = impacts;
   scene.gravity = 9.81;

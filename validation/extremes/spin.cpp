@@ -9,10 +9,10 @@ namespace clatter::validation {
 namespace {
 
 using Real = long double;
-using Quaternion = std::array<Real, 4>;
-constexpr int order = 22;  // of the Taylor series
+using Components = std::array<Real, 4>;  // of a unit quaternion, scalar first
+constexpr int order = 22;                // of the Taylor series
 
-Quaternion product(const Quaternion& a, const Quaternion& b) {
+Components product(const Components& a, const Components& b) {
   return {a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3], a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
           a[0] * b[2] + a[2] * b[0] + a[3] * b[1] - a[1] * b[3], a[0] * b[3] + a[3] * b[0] + a[1] * b[2] - a[2] * b[1]};
 }
@@ -66,7 +66,7 @@ void PeriodicSpin::find_period() {
 
 /// Attitude after a period = turn by ψ about the momentum; only ψ/2 modulo 2π matters.
 void PeriodicSpin::find_angle() {
-  const Quaternion after = advance(start_, period_).q;
+  const Components after = advance(start_, period_).q;
   Real sine = 0;
   for (std::size_t i = 0; i < 3; ++i) sine += axis_[i] * after[i + 1];
   angle_ = 2 * std::atan2(sine, after[0]);
@@ -76,9 +76,9 @@ double PeriodicSpin::error(const numeric::Rotation& rotation, double time) const
   const Real periods = std::round(time / period_);
   const Top rest = advance(start_, std::fma(-periods, period_, static_cast<Real>(time)));
   const Real half = std::remainder(periods * angle_ / 2, 2 * std::numbers::pi_v<Real>);
-  const Quaternion turn{std::cos(half), std::sin(half) * axis_[0], std::sin(half) * axis_[1],
+  const Components turn{std::cos(half), std::sin(half) * axis_[0], std::sin(half) * axis_[1],
                         std::sin(half) * axis_[2]};
-  const Quaternion exact = product(turn, rest.q);
+  const Components exact = product(turn, rest.q);
   const auto& a = rotation.attitude;
   const double found[4] = {a.w(), a.x(), a.y(), a.z()};
   Real same = 0, other = 0, worst = 0;

@@ -95,8 +95,6 @@ struct Scores {
   /// Middle error of a row by its name; NaN: there is none.
   [[nodiscard]] double middle_of(const std::string& row) const;
 };
-/// Ends of the ranges of the angle between arm and vertical [°].
-inline constexpr double arm_angle_edges[] = {0, 10, 20, 25, 30, 35, 40, 60};
 /// By angle, approach and slip; ranges without a drop are left out.
 [[nodiscard]] std::vector<ResidualBin> residual_bins(const std::vector<ScoredDrop>& drops);
 /// @param sequences  follow each drop to its rest

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "validation/measured/arm_angles.hpp"
 #include "validation/measured/score.hpp"
 
 namespace clatter::validation {

@@ -18,7 +18,7 @@ using analytic::space::Body;
 
 constexpr Range any{-1e100, 1e100, false, "a finite number"};
 constexpr Range positive{0, 1e100, true, "greater than 0"};
-constexpr Range share{0, 1, false, "from 0 to 1"};
+constexpr Range from_0_to_1{0, 1, false, "from 0 to 1"};
 constexpr Range not_negative{0, 1e100, false, "at least 0"};
 
 const std::string folder = "validation/measured/", ending = ".toml";
@@ -90,11 +90,11 @@ TrackDescription described(const SceneValues& values) {
   d.to_body = values.name("track.attitude", 0, {"body-to-world", "world-to-body"}) == 1;
   d.ground = values.number("world.ground", 0, any);
   d.gravity = values.number("world.gravity", 9.81, positive);
-  d.lever_tolerance = values.number("impact.lever_tolerance", 0.1, share);
+  d.lever_tolerance = values.number("impact.lever_tolerance", 0.1, from_0_to_1);
   if (values.has_table("published")) {
     values.require("published.restitution", "from 0 to 1");
     values.require("published.friction", "at least 0");
-    d.published = StatedLaw{values.number("published.restitution", 0, share),
+    d.published = StatedLaw{values.number("published.restitution", 0, from_0_to_1),
                             values.number("published.friction", 0, not_negative)};
   }
   if (values.has("source.text")) d.source = values.text("source.text");

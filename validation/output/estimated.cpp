@@ -8,7 +8,6 @@
 namespace clatter::validation {
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::infinity();
 constexpr int digits_of_zero = 6;
 
 bool is_zero(const Estimated& number, const Shown& shown) {
@@ -21,13 +20,13 @@ bool is_zero(const Estimated& number, const Shown& shown) {
 Estimated& Estimated::operator+=(const Estimated& other) {
   const bool known = is_known() && other.is_known();
   value += other.value;
-  error = known ? error + other.error + std::numeric_limits<double>::epsilon() / 2 * std::fabs(value) : unknown;
+  error = known ? error + other.error + std::numeric_limits<double>::epsilon() / 2 * std::fabs(value) : unknown_error;
   return *this;
 }
 
 Estimated larger(const Estimated& a, const Estimated& b) {
   const bool known = a.is_known() && b.is_known();
-  return {std::max(a.value, b.value), known ? std::max(a.error, b.error) : unknown};
+  return {std::max(a.value, b.value), known ? std::max(a.error, b.error) : unknown_error};
 }
 
 Cell known_cell(const Estimated& number, const Shown& shown) {

@@ -10,6 +10,9 @@
 
 namespace clatter::validation {
 
+/// Of a number of which nothing is known.
+inline constexpr double unknown_error = std::numeric_limits<double>::infinity();
+
 /// A number with a bound on its error or an estimate of that.  An error that is not finite: nothing is known of the
 /// number.
 struct Estimated {

@@ -12,8 +12,8 @@ namespace {
 using numeric::Matrix3;
 using numeric::Vector3;
 
-constexpr double same = 1e-9;  // of the body's size: meshes from files carry the rounding of their text
-constexpr double cell = 1e-3;  // likewise; a vertex near a wall is looked for on both sides of it
+constexpr double same = 1e-9;       // of the body's size: meshes from files carry the rounding of their text
+constexpr double cell_size = 1e-3;  // likewise; a vertex near a wall is looked for on both sides of it
 
 std::uint64_t key(const Eigen::Array3d& cells) {
   std::uint64_t hash = 0;
@@ -27,13 +27,13 @@ std::uint64_t key(const Eigen::Array3d& cells) {
 class VertexGrid {
  public:
   explicit VertexGrid(const std::vector<Vector3>& vertices) : vertices_(vertices) {
-    for (std::size_t i = 0; i < vertices.size(); ++i) cells_.emplace(key((vertices[i] / cell).array().floor()), i);
+    for (std::size_t i = 0; i < vertices.size(); ++i) cells_.emplace(key((vertices[i] / cell_size).array().floor()), i);
   }
 
   [[nodiscard]] bool has(const Vector3& point) const {
     for (int corner = 0; corner < 8; ++corner) {
       const Vector3 shift(corner & 1 ? same : -same, corner & 2 ? same : -same, corner & 4 ? same : -same);
-      const auto [first, last] = cells_.equal_range(key(((point + shift) / cell).array().floor()));
+      const auto [first, last] = cells_.equal_range(key(((point + shift) / cell_size).array().floor()));
       for (auto found = first; found != last; ++found) {
         if ((vertices_[found->second] - point).cwiseAbs().maxCoeff() <= same) return true;
       }

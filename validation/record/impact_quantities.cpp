@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "validation/output/estimated.hpp"
 #include "validation/record/names.hpp"
 
 namespace clatter::validation {
@@ -98,7 +99,7 @@ double ratio_error(const numeric::ImpactRecord& row) {
   return row.error.impulse.norm() * (1 + std::fabs(impulse_ratio(row.value))) / std::fabs(row.value.impulse.z());
 }
 
-using Row = ImpactRow;
+using PlanarRow = ImpactRow;
 using Errors = RowErrors;
 using Flown = analytic::space::ImpactRow;  // of the model in space
 using Bars = analytic::space::RowErrors;
@@ -131,8 +132,6 @@ double ratio_error_in_space(const SpaceRow& i) {
 Entry summed_impulse(const SpaceTail& t) {
   return EntryVector{t.tangential_impulse.x(), t.tangential_impulse.y(), t.normal_impulse};
 }
-constexpr double unknown = std::numeric_limits<double>::infinity();
-
 constexpr ImpactQuantity quantity(const char* name, const char* symbol, const char* unit, const char* meaning,
                                   Scale scale, Getter<DiscreteRow> of_discrete, Getter<SpaceRow> of_space,
                                   Getter<ContinuousRow> of_continuous, Getter<Tail> of_tail = {}, bool motion = false,
@@ -147,7 +146,7 @@ constexpr ImpactQuantity all[]{
              tail<[](const Tail&) { return Entry(std::string("tail")); }>(), false,
              space_tail<[](const SpaceTail&) { return Entry(std::string("tail")); }>()),
     quantity("end", "end", "", "which end of the body strikes, or its vertices", Scale::none,
-             discrete<[](const Row& r) { return Entry(PlanarBody::vertex_set_name(r.vertices)); }>(),
+             discrete<[](const PlanarRow& r) { return Entry(PlanarBody::vertex_set_name(r.vertices)); }>(),
              {[](const SpaceRow& i) { return Entry(i.end); }},
              fact<[](const Record& r) { return std::string(end_name(r.end)); }>(),
              tail<[](const Tail& t) { return Entry(PlanarBody::vertex_set_name(t.vertices)); }>()),
@@ -165,11 +164,11 @@ constexpr ImpactQuantity all[]{
              in_space<[](const Flown& r) { return Entry(static_cast<int>(r.corners.size())); }>(),
              fact<&Record::touches>()),
     quantity("start", "t", "s", "time of touch-down, after that of impact 1", Scale::time,
-             discrete<&Row::start, &Errors::start>(), in_space<&Flown::start, &Bars::start>(),
+             discrete<&PlanarRow::start, &Errors::start>(), in_space<&Flown::start, &Bars::start>(),
              number<&Numbers::start>(), tail<&Tail::end_time, &Tail::end_time_error>(), true,
              space_tail<&SpaceTail::end_time, &SpaceTail::end_time_error>()),
     quantity("duration", "contact", "s", "how long anything touches", Scale::time,
-             discrete<[](const Row&) { return 0.0; }>(), in_space<[](const Flown&) { return 0.0; }>(),
+             discrete<[](const PlanarRow&) { return 0.0; }>(), in_space<[](const Flown&) { return 0.0; }>(),
              number<&Numbers::duration>()),
     quantity("inclination_deg", "α", "°", "of the body's x axis at touch-down, positive with end a lower", Scale::angle,
              inclination,
@@ -182,32 +181,33 @@ constexpr ImpactQuantity all[]{
                       [](const Bars& e) { return e.attitude * degrees; }>(),
              number<[](const Numbers& n) { return n.contact_angle * degrees; }>(), {}, true),
     quantity("approach_speed", "v", "m/s", "of the contact point, downward", Scale::speed,
-             discrete<[](const Row& r) { return r.impact.approach_speed; }, &Errors::approach_speed>(),
+             discrete<[](const PlanarRow& r) { return r.impact.approach_speed; }, &Errors::approach_speed>(),
              in_space<&Flown::approach_speed, &Bars::approach_speed>(), number<&Numbers::approach_speed>()),
-    quantity("restitution", "e", "", "separation over approach speed that came out", Scale::ratio,
-             discrete<[](const Row& r) { return r.impact.restitution(); }, &Errors::restitution>(),
-             in_space<[](const Flown& r) { return r.impact.restitution(); }, [](const Bars&) { return unknown; }>(),
-             number<&Numbers::restitution>()),
+    quantity(
+        "restitution", "e", "", "separation over approach speed that came out", Scale::ratio,
+        discrete<[](const PlanarRow& r) { return r.impact.restitution(); }, &Errors::restitution>(),
+        in_space<[](const Flown& r) { return r.impact.restitution(); }, [](const Bars&) { return unknown_error; }>(),
+        number<&Numbers::restitution>()),
     quantity("impulse_normal", "Pₙ", "N·s", "normal impulse of the ground", Scale::impulse,
-             discrete<[](const Row& r) { return r.impact.normal_impulse; }, &Errors::normal_impulse>(),
+             discrete<[](const PlanarRow& r) { return r.impact.normal_impulse; }, &Errors::normal_impulse>(),
              in_space<[](const Flown& r) { return r.impact.impulse.z(); }, &Bars::impulse>(),
              number<[](const Numbers& n) { return n.impulse.z(); }>(),
              tail<&Tail::normal_impulse, &Tail::normal_impulse_error>(), false,
              space_tail<&SpaceTail::normal_impulse, &SpaceTail::normal_impulse_error>()),
     quantity("impulse_tangential", "Pₜ", "N·s", "tangential impulse of the ground, along x", Scale::impulse,
-             discrete<[](const Row& r) { return r.impact.tangential_impulse; }, &Errors::tangential_impulse>(),
+             discrete<[](const PlanarRow& r) { return r.impact.tangential_impulse; }, &Errors::tangential_impulse>(),
              in_space<[](const Flown& r) { return r.impact.impulse.x(); }, &Bars::impulse>(),
              number<[](const Numbers& n) { return n.impulse.x(); }>(),
              tail<&Tail::tangential_impulse, &Tail::tangential_impulse_error>(), false,
              space_tail<[](const SpaceTail& t) { return t.tangential_impulse.x(); }>()),
     quantity("impulse_ratio", "Pₜ/Pₙ", "", "tangential over normal impulse", Scale::ratio,
-             discrete<[](const Row& r) { return r.impact.impulse_ratio(); }, &Errors::impulse_ratio>(),
+             discrete<[](const PlanarRow& r) { return r.impact.impulse_ratio(); }, &Errors::impulse_ratio>(),
              {[](const SpaceRow& i) { return Entry(ratio_in_space(i.row)); },
               [](const SpaceRow& i) { return Entry(ratio_error_in_space(i)); }},
              {[](const ContinuousRow& i) { return Entry(impulse_ratio(i.row.value)); },
               [](const ContinuousRow& i) { return Entry(ratio_error(i.row)); }}),
     quantity("impulse", "Pₜ P_y Pₙ", "N·s", "impulse of the ground, world frame", Scale::impulse,
-             discrete<[](const Row& r) { return impulse(r.impact.tangential_impulse, r.impact.normal_impulse); },
+             discrete<[](const PlanarRow& r) { return impulse(r.impact.tangential_impulse, r.impact.normal_impulse); },
                       [](const Errors& e) { return impulse(e.tangential_impulse, e.normal_impulse); }>(),
              in_space<[](const Flown& r) { return r.impact.impulse; },
                       [](const Bars& e) { return Entry(each(e.impulse)); }>(),
@@ -217,7 +217,7 @@ constexpr ImpactQuantity all[]{
     quantity("peak_time", "peak t", "s", "when, after touch-down", Scale::time, none, none_in_space,
              number<&Numbers::peak_time>()),
     quantity("velocity_after", "Vₜ V_y Vₙ", "m/s", "of the centre of mass after the impact, world frame", Scale::speed,
-             discrete<[](const Row& r) { return Entry(velocity(r.impact.after)); },
+             discrete<[](const PlanarRow& r) { return Entry(velocity(r.impact.after)); },
                       [](const Errors& e) { return Entry(velocity(e.after)); }>(),
              in_space<[](const Flown& r) { return r.impact.velocity_after; },
                       [](const Bars& e) { return Entry(each(e.velocity_after)); }>(),
@@ -226,7 +226,7 @@ constexpr ImpactQuantity all[]{
                   [](const Tail& t) { return Entry(velocity(t.after_error)); }>(),
              true, space_tail<&SpaceTail::velocity_after>()),
     quantity("angular_velocity_after", "ω_x Ω ω_z", "rad/s", "after the impact, world frame", Scale::rate,
-             discrete<[](const Row& r) { return Entry(rotation(r.impact.after)); },
+             discrete<[](const PlanarRow& r) { return Entry(rotation(r.impact.after)); },
                       [](const Errors& e) { return Entry(rotation(e.after)); }>(),
              in_space<[](const Flown& r) { return r.impact.angular_velocity_after; },
                       [](const Bars& e) { return Entry(each(e.angular_velocity_after)); }>(),
@@ -235,13 +235,13 @@ constexpr ImpactQuantity all[]{
                   [](const Tail& t) { return Entry(rotation(t.after_error)); }>(),
              true, space_tail<&SpaceTail::angular_velocity_after>()),
     quantity("energy_before", "", "J", "translational, rotational and potential, before", Scale::energy,
-             discrete<&Row::energy_before, &Errors::energy_before>(),
+             discrete<&PlanarRow::energy_before, &Errors::energy_before>(),
              in_space<&Flown::energy_before, &Bars::energy_before>(), number<&Numbers::energy_before>()),
     quantity("energy_after", "", "J", "the same after the impact", Scale::energy,
-             discrete<&Row::energy_after, &Errors::energy_after>(),
+             discrete<&PlanarRow::energy_after, &Errors::energy_after>(),
              in_space<&Flown::energy_after, &Bars::energy_after>(), number<&Numbers::energy_after>()),
     quantity("energy_loss", "loss", "J", "energy lost in the impact", Scale::energy,
-             discrete<[](const Row& r) { return r.impact.energy_loss; }, &Errors::energy_loss>(),
+             discrete<[](const PlanarRow& r) { return r.impact.energy_loss; }, &Errors::energy_loss>(),
              in_space<[](const Flown& r) { return r.impact.energy_loss; },
                       [](const Bars& e) { return e.energy_before + e.energy_after; }>(),
              number<&Numbers::energy_loss>()),
@@ -252,7 +252,7 @@ constexpr ImpactQuantity all[]{
     quantity("work_released", "", "J", "elastic energy left in the ground where the clamp let go", Scale::energy, {},
              {}, number<&Numbers::work_released>()),
     quantity("mode", "mode", "", "how friction acted", Scale::none,
-             discrete<[](const Row& r) { return Entry(std::string(mode_name(r.impact.mode))); }>(),
+             discrete<[](const PlanarRow& r) { return Entry(std::string(mode_name(r.impact.mode))); }>(),
              in_space<[](const Flown& r) { return Entry(std::string(mode_name(r.impact.path))); }>(),
              fact<[](const Record& r) { return std::string(mode_name(r.mode)); }>()),
     quantity("submerged", "", "", "whether the whole body lay below the ground for a time", Scale::none, {}, {},
@@ -264,10 +264,10 @@ constexpr ImpactQuantity all[]{
     quantity("ledger_gap", "", "", "by how much the ledger of energy does not close", Scale::none, {}, {},
              fact<&Record::ledger_gap>()),
     quantity("amplification", "", "", "growth of a relative error of the start until the end of this impact",
-             Scale::none, discrete<&Row::amplification>(), in_space<&Flown::amplification>(),
+             Scale::none, discrete<&PlanarRow::amplification>(), in_space<&Flown::amplification>(),
              fact<&Record::amplification>()),
     quantity("predictable", "", "", "whether errors have not grown so far that another sequence may follow",
-             Scale::none, discrete<[](const Row& r) { return Entry(r.error.predictable); }>(),
+             Scale::none, discrete<[](const PlanarRow& r) { return Entry(r.error.predictable); }>(),
              in_space<[](const Flown& r) { return Entry(r.error.predictable); }>(), fact<&Record::predictable>())};
 
 }  // namespace

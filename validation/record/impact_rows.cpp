@@ -18,8 +18,6 @@ namespace {
 using analytic::ImpactRow;
 using analytic::Tail;
 
-constexpr double unknown = std::numeric_limits<double>::infinity();
-
 Value to_value(const Entry& entry) {
   return std::visit(
       [](const auto& content) -> Value {
@@ -111,7 +109,7 @@ template <class Impact, class Use>
 void for_each_quantity(const Impact& impact, Use&& use) {
   for (const ImpactQuantity& quantity : impact_quantities()) {
     const Getter<Impact>& get = quantity.of<Impact>();
-    if (get.value) use(quantity, get.value(impact), get.error ? get.error(impact) : Entry(unknown));
+    if (get.value) use(quantity, get.value(impact), get.error ? get.error(impact) : Entry(unknown_error));
   }
 }
 
@@ -136,8 +134,8 @@ template <class AnyTail>
 Entry tail_entry(const Entry& kind, Entry (*get)(const AnyTail&), const AnyTail& tail) {
   if (get) return get(tail);
   switch (width_of(kind)) {
-    case 3: return EntryVector{unknown, unknown, unknown};
-    case 4: return EntryParameters{unknown, unknown, unknown, unknown};
+    case 3: return EntryVector{unknown_error, unknown_error, unknown_error};
+    case 4: return EntryParameters{unknown_error, unknown_error, unknown_error, unknown_error};
     default: return nullptr;
   }
 }

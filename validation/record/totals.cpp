@@ -4,11 +4,9 @@
 namespace clatter::validation {
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::infinity();
-
 void forget(Totals& sums) {
   for (Estimated* sum : {&sums.normal_impulse, &sums.energy_loss, &sums.last_start, &sums.largest_peak})
-    sum->error = unknown;
+    sum->error = unknown_error;
 }
 
 }  // namespace
@@ -44,7 +42,7 @@ Totals totals(const numeric::Simulation& run) {
   sums.impacts = static_cast<int>(run.impacts.size());
   for (const numeric::ImpactRecord& row : run.impacts) {
     const numeric::ImpactNumbers &value = row.value, &error = row.error;
-    const Estimated peak{value.peak_force, row.predictable ? error.peak_force : unknown};
+    const Estimated peak{value.peak_force, row.predictable ? error.peak_force : unknown_error};
     const bool is_first = &row == &run.impacts.front();
     sums.predictable = sums.predictable && row.predictable;
     sums.normal_impulse += {value.impulse.z(), error.impulse.z()};

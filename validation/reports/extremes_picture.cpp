@@ -12,7 +12,7 @@
 namespace clatter::validation {
 namespace {
 
-constexpr double left = 150, strip = 780, right = 20, row_height = 15, axis_gap = 36, top = 118;
+constexpr double left_margin = 150, strip = 780, right_margin = 20, row_height = 15, axis_gap = 36, top = 118;
 
 std::string escaped(const std::string& text) {
   std::string out;
@@ -70,8 +70,8 @@ std::string definitions() {
 }
 
 std::string legend() {
-  std::string out = text(left, 62, "font-size=\"12\"", "right digits:");
-  double x = left + 82;
+  std::string out = text(left_margin, 62, "font-size=\"12\"", "right digits:");
+  double x = left_margin + 82;
   for (int digits = 0; digits < 16; digits += 2) {
     out += box(x, 50, 40, 16, colour_of(digits)) + "/>\n";
     out += text(x + 20, 62,
@@ -79,8 +79,8 @@ std::string legend() {
                 digits == 14 ? "14–16" : fmt::format("{}–{}", digits, digits + 2));
     x += 40;
   }
-  out += text(left, 86, "font-size=\"12\"", "no number:");
-  x = left + 82;
+  out += text(left_margin, 86, "font-size=\"12\"", "no number:");
+  x = left_margin + 82;
   for (const auto& [name, words] : {std::pair{"bad-input", "bad input"},
                                     {"outside-model", "outside the model"},
                                     {"not-computed", "not computed"},
@@ -97,8 +97,8 @@ std::string strip_of(const std::vector<const ExtremeCell*>& cells, double y) {
   std::string out;
   const double width = strip / static_cast<double>(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    out += box(left + width * static_cast<double>(i), y, width + 0.3, row_height - 2, fill_of(*cells[i])) + "><title>" +
-           tooltip(*cells[i]) + "</title></rect>\n";
+    out += box(left_margin + width * static_cast<double>(i), y, width + 0.3, row_height - 2, fill_of(*cells[i])) +
+           "><title>" + tooltip(*cells[i]) + "</title></rect>\n";
   }
   return out;
 }
@@ -111,7 +111,7 @@ std::string scale_of(const std::vector<const ExtremeCell*>& cells, double y) {
   for (std::size_t i = 0; i < cells.size(); i += step) {
     const bool crowds_last = i + step >= cells.size() && i + 1 < cells.size() && cells.size() - 1 - i < (step + 1) / 2;
     const std::size_t at = crowds_last || i + step >= cells.size() ? cells.size() - 1 : i;
-    out += text(left + width * (static_cast<double>(at) + 0.5), y,
+    out += text(left_margin + width * (static_cast<double>(at) + 0.5), y,
                 "text-anchor=\"middle\" font-size=\"9.5\" fill=\"#444444\"", cells[at]->label);
   }
   return out;
@@ -137,18 +137,18 @@ std::string extremes_picture(const ExtremesMap& map) {
     for (const ModelLevel model : all_levels) {
       const auto cells = cells_of(map, axis.name, model);
       if (cells.empty()) continue;
-      body += text(left - 6, y + 10.5, "text-anchor=\"end\" font-size=\"11\"", level_name(model));
+      body += text(left_margin - 6, y + 10.5, "text-anchor=\"end\" font-size=\"11\"", level_name(model));
       body += strip_of(cells, y);
       last = cells;
       y += row_height;
     }
     if (last.empty()) continue;
     body += text(12, begin + 10.5, "font-size=\"12\" font-weight=\"bold\"", axis.symbol);
-    body += text(left, begin - 3, "font-size=\"9\" fill=\"#555555\"", axis.what);
+    body += text(left_margin, begin - 3, "font-size=\"9\" fill=\"#555555\"", axis.what);
     body += scale_of(last, y + 8);
     y += axis_gap;
   }
-  const double width = left + strip + right;
+  const double width = left_margin + strip + right_margin;
   return fmt::format(
              "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
              "font-family=\"sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",

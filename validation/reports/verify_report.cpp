@@ -7,6 +7,7 @@
 
 #include "validation/output/interrupt.hpp"
 #include "validation/output/number.hpp"
+#include "validation/scene/failure.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -103,7 +104,6 @@ VerifySummary summary_of(const std::vector<CheckResult>& results) {
 }
 
 int verify_status(const VerifySummary& summary) {
-  constexpr int check_failed = 1;
   if (summary.not_run > 0) return interrupted_status;
   return summary.failed > 0 ? check_failed : 0;
 }

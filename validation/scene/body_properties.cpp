@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analytic/space/principal_axes.hpp"
 #include "numeric/files/import.hpp"
 #include "numeric/mesh/generators.hpp"
 #include "validation/output/bad_input.hpp"
@@ -22,7 +22,7 @@ using numeric::MassProperties;
 using numeric::Matrix3;
 using numeric::Vector3;
 
-constexpr double rounding = 1e-9;  // of numbers that a user typed
+constexpr double typed_rounding = 1e-9;  // of numbers that a user typed
 
 /// The six numbers xx, yy, zz, xy, xz, yz, or three principal ones.
 Matrix3 symmetric(const std::vector<double>& i) {
@@ -35,14 +35,12 @@ Matrix3 symmetric(const std::vector<double>& i) {
   return matrix;
 }
 
-Vector3 vector_of(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
-
 /// Eigenvalues, ascending; scaled, since their products may overflow where they do not.
 Vector3 principal(const Matrix3& matrix) {
   const double size = matrix.cwiseAbs().maxCoeff();
   if (!(size > 0) || !std::isfinite(size)) return Vector3::Constant(size);
-  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(Matrix3(matrix / size), Eigen::EigenvaluesOnly);
-  return size * solver.eigenvalues();
+  const auto [least, middle, largest] = analytic::space::PrincipalAxes(matrix / size).moments;
+  return size * Vector3(static_cast<double>(least), static_cast<double>(middle), static_cast<double>(largest));
 }
 
 /// Six digits, without zeros at the end; "?" where the number is not representable.
@@ -79,12 +77,12 @@ void check(const Scene& scene, double mass, const Matrix3& k2, const Bounds& bou
   if (is_given && !positive) {
     refuse(scene, "body.inertia", "positive definite; its principal moments are " + three);
   }
-  if (is_given && !(moments[2] <= (moments[0] + moments[1]) * (1 + rounding))) {
+  if (is_given && !(moments[2] <= (moments[0] + moments[1]) * (1 + typed_rounding))) {
     refuse(scene, "body.inertia",
            "a body's, with no principal moment larger than the sum of the other two; they are " + three);
   }
   const double largest = bounds.reach * bounds.reach;
-  if (moments[2] <= largest * (1 + rounding)) return;
+  if (moments[2] <= largest * (1 + typed_rounding)) return;
   refuse(scene, is_given ? "body.inertia" : "body.centre",
          fmt::format("a body's, with no principal moment larger than m R2 = {} kg m2, R = {} m from the centre of mass "
                      "to the furthest point of the hull; they are {}",
@@ -188,10 +186,10 @@ BodyProperties nominal_properties(const Scene& scene) {
   if (is_rod) {
     const double across = std::hypot(off.y(), off.z());
     bounds.reach = std::hypot(half.x() + off.x(), body.radius + across);
-    bounds.is_outside = std::max(off.x() - half.x(), across - body.radius) > rounding * bounds.reach;
+    bounds.is_outside = std::max(off.x() - half.x(), across - body.radius) > typed_rounding * bounds.reach;
   } else {
     bounds.reach = (half + off).stableNorm();
-    bounds.is_outside = (off - half).maxCoeff() > rounding * bounds.reach;
+    bounds.is_outside = (off - half).maxCoeff() > typed_rounding * bounds.reach;
   }
   check(scene, properties.mass, properties.gyration_square, bounds);
   return properties;

@@ -3,12 +3,16 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "numeric/mass_properties.hpp"
 #include "validation/output/value.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
+
+/// The vector of a key's three components.
+[[nodiscard]] inline numeric::Vector3 vector_of(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
 
 /// Axes and origin of the body frame: the geometric centre of a rod or box, the origin of a mesh's file.
 struct BodyProperties {

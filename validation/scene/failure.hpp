@@ -18,6 +18,9 @@ struct Failure {
   std::string message;  ///< one line
 };
 
+/// The exit status of a run whose models disagree, whose check fails or whose requirement is not met.
+inline constexpr int check_failed = 1;
+
 /// Of the exception that is being handled.  A std::domain_error is a value that a library refuses, any other
 /// std::logic_error a defect.  @pre called in a handler
 [[nodiscard]] Failure current_failure();

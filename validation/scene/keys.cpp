@@ -11,13 +11,8 @@
 namespace clatter::validation {
 namespace {
 
-using Shape = BodyScene::Shape;
-
-constexpr double largest = std::numeric_limits<double>::max();
 constexpr int most = 100'000;  // elements along an edge of a mesh
-constexpr Range any{-largest, largest, false, "finite"};
-constexpr Range positive{0, largest, true, "greater than 0"};
-constexpr Range not_negative{0, largest, false, "at least 0"};
+constexpr Range finite{-largest_number, largest_number, false, "finite"};
 constexpr Range sizes{1e-100, 1e100, false, "from 1e-100 to 1e100"};
 constexpr Range radii{0, 1e100, false, "from 0 to 1e100"};
 constexpr Range masses{1e-100, 1e100, false, "from 1e-100 to 1e100"};
@@ -50,9 +45,9 @@ Echo only_if(bool shown) { return shown ? Echo::value : Echo::absent; }
 Echo in_discrete_only_if(bool given, Model model) {
   return given || model == Model::continuous ? Echo::value : Echo::absent;
 }
-Echo of_rod(const Scene& scene, Model) { return only_if(scene.body.shape == Shape::rod); }
-Echo of_box(const Scene& scene, Model) { return only_if(scene.body.shape == Shape::box); }
-Echo of_mesh(const Scene& scene, Model) { return only_if(scene.body.shape == Shape::mesh); }
+Echo of_rod(const Scene& scene, Model) { return only_if(scene.body.shape == BodyScene::Shape::rod); }
+Echo of_box(const Scene& scene, Model) { return only_if(scene.body.shape == BodyScene::Shape::box); }
+Echo of_mesh(const Scene& scene, Model) { return only_if(scene.body.shape == BodyScene::Shape::mesh); }
 
 template <class Enum>
 std::size_t index_of(Enum value) {
@@ -63,7 +58,7 @@ template <std::vector<double> Scene::*member>
 ListValue three_velocities(const char* example) {
   const auto get = [](const Scene& s) { return s.*member; };
   const auto put = [](Scene& s, const std::vector<double>& v) { s.*member = v; };
-  return {get, put, {3}, velocities, "three numbers from -1e9 to 1e9", example, &any};
+  return {get, put, {3}, velocities, "three numbers from -1e9 to 1e9", example, &finite};
 }
 
 void append_attitude(std::vector<Key>& keys) {
@@ -91,30 +86,31 @@ void append_attitude(std::vector<Key>& keys) {
 }
 
 void append_motion(std::vector<Key>& keys) {
-  keys.insert(keys.end(),
-              {
-                  {"drop.speed", Use::both, "--speed", "M/S", "m/s", "downward, of the centre of mass at first touch",
-                   NumberValue{[](Scene& s) -> double& { return s.speed; }, speeds, &positive},
-                   [](const Scene& s, Model model) {
-                     return null_if(!s.velocity.empty() || (s.height.has_value() && model == Model::continuous));
-                   }},
-                  {"drop.height", Use::both, "--height", "M", "m", "or its height at release from rest",
-                   OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.height; }, heights, &positive},
-                   nullptr, false, speed_of_fall},
-                  {"drop.tangential_velocity", Use::both, "--tangential-velocity", "M/S", "m/s",
-                   "of the centre of mass, to the right",
-                   NumberValue{[](Scene& s) -> double& { return s.tangential_velocity; }, velocities, &any}},
-                  {"drop.velocity", Use::both, "--velocity", "X,Y,Z", "m/s",
-                   "or all of it: of the centre of mass at the first touch, world",
-                   three_velocities<&Scene::velocity>("[0, 0, -1]"), nullptr, false, parts_of_velocity},
-                  {"drop.spin", Use::both, "--spin", "RAD/S", "rad/s", "clockwise, as Omega in Eq. 8",
-                   NumberValue{[](Scene& s) -> double& { return s.spin; }, velocities, &any}},
-                  {"drop.angular_velocity", Use::both, "--angular-velocity", "X,Y,Z", "rad/s",
-                   "or all of it: at the first touch, world components",
-                   three_velocities<&Scene::angular_velocity>("[0, 0, 0]"), nullptr, false, turn_of_plane},
-                  {"world.gravity", Use::both, "--gravity", "M/S2", "m/s²", "acceleration of free fall",
-                   NumberValue{[](Scene& s) -> double& { return s.world.gravity; }, gravities, &not_negative}},
-              });
+  keys.insert(
+      keys.end(),
+      {
+          {"drop.speed", Use::both, "--speed", "M/S", "m/s", "downward, of the centre of mass at first touch",
+           NumberValue{[](Scene& s) -> double& { return s.speed; }, speeds, &positive_number},
+           [](const Scene& s, Model model) {
+             return null_if(!s.velocity.empty() || (s.height.has_value() && model == Model::continuous));
+           }},
+          {"drop.height", Use::both, "--height", "M", "m", "or its height at release from rest",
+           OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.height; }, heights, &positive_number},
+           nullptr, false, speed_of_fall},
+          {"drop.tangential_velocity", Use::both, "--tangential-velocity", "M/S", "m/s",
+           "of the centre of mass, to the right",
+           NumberValue{[](Scene& s) -> double& { return s.tangential_velocity; }, velocities, &finite}},
+          {"drop.velocity", Use::both, "--velocity", "X,Y,Z", "m/s",
+           "or all of it: of the centre of mass at the first touch, world",
+           three_velocities<&Scene::velocity>("[0, 0, -1]"), nullptr, false, parts_of_velocity},
+          {"drop.spin", Use::both, "--spin", "RAD/S", "rad/s", "clockwise, as Omega in Eq. 8",
+           NumberValue{[](Scene& s) -> double& { return s.spin; }, velocities, &finite}},
+          {"drop.angular_velocity", Use::both, "--angular-velocity", "X,Y,Z", "rad/s",
+           "or all of it: at the first touch, world components",
+           three_velocities<&Scene::angular_velocity>("[0, 0, 0]"), nullptr, false, turn_of_plane},
+          {"world.gravity", Use::both, "--gravity", "M/S2", "m/s²", "acceleration of free fall",
+           NumberValue{[](Scene& s) -> double& { return s.world.gravity; }, gravities, &not_negative_number}},
+      });
 }
 
 void append_impact(std::vector<Key>& keys) {
@@ -129,10 +125,10 @@ void append_impact(std::vector<Key>& keys) {
                      [](Scene& s, std::size_t i) { s.impact.law = static_cast<analytic::RestitutionLaw>(i); }}},
           {"impact.impulse_ratio", Use::both, "--impulse-ratio", "MU_I", "",
            "Eq. 8's ratio of tangential to normal impulse",
-           OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.impact.impulse_ratio; }, any},
+           OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.impact.impulse_ratio; }, finite},
            [](const Scene& s, Model model) { return in_discrete_only_if(!s.impact.friction.has_value(), model); }},
           {"impact.friction", Use::both, "--friction", "MU", "", "or Coulomb's coefficient of friction",
-           OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.impact.friction; }, not_negative},
+           OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.impact.friction; }, not_negative_number},
            [](const Scene& s, Model model) { return in_discrete_only_if(s.impact.friction.has_value(), model); }},
       });
 }
@@ -142,7 +138,7 @@ void append_shape(std::vector<Key>& keys) {
               {
                   {"body.shape", Use::both, "--body", "rod|box|mesh", "", "shape of what falls",
                    NameValue{&shape_names(), [](const Scene& s) { return index_of(s.body.shape); },
-                             [](Scene& s, std::size_t i) { s.body.shape = static_cast<Shape>(i); }}},
+                             [](Scene& s, std::size_t i) { s.body.shape = static_cast<BodyScene::Shape>(i); }}},
                   {"body.mass", Use::both, "--mass", "KG", "kg", "mass",
                    NumberValue{[](Scene& s) -> double& { return s.body.mass; }, masses, &wide_masses}},
                   {"body.length", Use::both, "--length", "M", "m", "of the rod",
@@ -184,9 +180,9 @@ void append_mesh(std::vector<Key>& keys) {
                   {"body.mesh.file", Use::both, "", "FILE", "", "Gmsh (.msh, .geo) or STL",
                    TextValue{[](Scene& s) -> std::string& { return s.body.file; }}, of_mesh},
                   {"body.mesh.unit", Use::both, "", "M", "m", "of the file's coordinates",
-                   NumberValue{[](Scene& s) -> double& { return s.body.unit; }, positive}, of_mesh},
+                   NumberValue{[](Scene& s) -> double& { return s.body.unit; }, positive_number}, of_mesh},
                   {"body.mesh.density", Use::both, "", "KG/M3", "kg/m³", "of a file's body, or body.mass",
-                   OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.body.density; }, positive},
+                   OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.body.density; }, positive_number},
                    [](const Scene& s, Model) { return only_if(s.body.density.has_value()); }, false, mass_of_body},
               });
 }
@@ -201,7 +197,7 @@ void append_mass_properties(std::vector<Key>& keys) {
            ListValue{[](const Scene& s) { return s.body.inertia; },
                      [](Scene& s, const std::vector<double>& v) { s.body.inertia = v; },
                      {3, 6},
-                     any,
+                     finite,
                      "three principal moments in kg m2, or six numbers xx, yy, zz, xy, xz, yz",
                      "[1, 1, 1]"}},
           {"body.centre", Use::both, "--centre", "X,Y,Z", "m",
@@ -210,7 +206,7 @@ void append_mass_properties(std::vector<Key>& keys) {
            ListValue{[](const Scene& s) { return s.body.centre; },
                      [](Scene& s, const std::vector<double>& v) { s.body.centre = v; },
                      {3},
-                     any,
+                     finite,
                      "three coordinates in m, of a mesh in its file's unit",
                      "[0, 0, 0]"}},
           {"body.merge", Use::continuous, "", "true|false", "", "coplanar elements become one facet",
@@ -223,14 +219,14 @@ void append_ground(std::vector<Key>& keys) {
       keys.end(),
       {
           {"ground.stiffness", Use::continuous, "--stiffness", "N/M3", "N/m³", "k_G",
-           NumberValue{[](Scene& s) -> double& { return s.world.ground.stiffness; }, positive},
+           NumberValue{[](Scene& s) -> double& { return s.world.ground.stiffness; }, positive_number},
            [](const Scene& s, Model) { return null_if(!(s.world.ground.stiffness > 0)); }, true},
           {"ground.damping", Use::continuous, "--damping", "N.S/M4", "N·s/m⁴", "c_G",
-           NumberValue{[](Scene& s) -> double& { return s.world.ground.damping; }, not_negative}},
+           NumberValue{[](Scene& s) -> double& { return s.world.ground.damping; }, not_negative_number}},
           {"ground.static_friction", Use::continuous, "--static-friction", "MU", "", "of the ground",
-           NumberValue{[](Scene& s) -> double& { return s.world.ground.static_friction; }, not_negative}},
+           NumberValue{[](Scene& s) -> double& { return s.world.ground.static_friction; }, not_negative_number}},
           {"ground.sliding_friction", Use::continuous, "--sliding-friction", "MU", "", "of the ground",
-           NumberValue{[](Scene& s) -> double& { return s.world.ground.sliding_friction; }, not_negative}},
+           NumberValue{[](Scene& s) -> double& { return s.world.ground.sliding_friction; }, not_negative_number}},
           {"ground.area", Use::continuous, "--area", "surface|projected", "", "area over which the load is integrated",
            NameValue{&area_names(), [](const Scene& s) { return index_of(s.world.ground.area); },
                      [](Scene& s, std::size_t i) { s.world.ground.area = static_cast<numeric::AreaMeasure>(i); }}},
@@ -238,7 +234,7 @@ void append_ground(std::vector<Key>& keys) {
            NameValue{&friction_law_names(), [](const Scene& s) { return index_of(s.world.ground.friction); },
                      [](Scene& s, std::size_t i) { s.world.ground.friction = static_cast<numeric::FrictionLaw>(i); }}},
           {"ground.regularisation_speed", Use::continuous, "", "M/S", "m/s", "v_r of the regularised law",
-           NumberValue{[](Scene& s) -> double& { return s.world.ground.regularisation_speed; }, positive}},
+           NumberValue{[](Scene& s) -> double& { return s.world.ground.regularisation_speed; }, positive_number}},
       });
 }
 
@@ -259,7 +255,7 @@ void append_run(std::vector<Key>& keys) {
            NumberValue{[](Scene& s) -> double& { return s.accuracy.tolerance; }, tolerances},
            [](const Scene& s, Model) { return null_if(!(s.accuracy.tolerance > 0)); }},
           {"run.step", Use::continuous, "--step", "S", "s", "of tvd-rk3",
-           NumberValue{[](Scene& s) -> double& { return s.accuracy.step; }, positive},
+           NumberValue{[](Scene& s) -> double& { return s.accuracy.step; }, positive_number},
            [](const Scene& s, Model) { return null_if(!(s.accuracy.step > 0)); }},
           {"run.history", Use::continuous, "--history", "FILE", "", "time history as CSV",
            TextValue{[](Scene& s) -> std::string& { return s.history; }},

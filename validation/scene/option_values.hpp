@@ -2,6 +2,7 @@
 // The texts of options, read and checked one by one.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,11 @@ struct Range {
   bool low_open = false;  ///< low itself is not allowed
   const char* words;      ///< what is allowed, in words
 };
+
+inline constexpr double largest_number = std::numeric_limits<double>::max();
+inline constexpr Range any_number{-largest_number, largest_number, false, "a finite number"};
+inline constexpr Range positive_number{0, largest_number, true, "greater than 0"};
+inline constexpr Range not_negative_number{0, largest_number, false, "at least 0"};
 
 /// @throws BadInput unless `text` is a finite number in `range`; `option` is as typed ("--angle").
 [[nodiscard]] double read_number_option(const std::string& option, const std::string& text, const Range& range);

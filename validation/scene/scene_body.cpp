@@ -20,8 +20,6 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-numeric::Vector3 vector_of(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
-
 }  // namespace
 
 bool BodyScene::is_stl() const {

@@ -16,7 +16,7 @@ namespace clatter::validation {
 namespace {
 
 constexpr int most_values = 1'000'000;
-constexpr std::array<const char*, 5> parts{".from", ".to", ".step", ".count", ".scale"};
+constexpr std::array<const char*, 5> range_parts{".from", ".to", ".step", ".count", ".scale"};
 const char* const forms = "a sweep is a list, or has from, to and step or count";
 const std::vector<std::string> scales{"linear", "log"};
 
@@ -101,7 +101,7 @@ std::optional<SceneSweep> read_sweep_table(const SceneValues& values) {
 
 void drop_sweep(SceneValues& values, const std::string& name) {
   values.drop("sweep." + name);
-  for (const char* part : parts) values.drop("sweep." + name + part);
+  for (const char* part : range_parts) values.drop("sweep." + name + part);
 }
 
 }  // namespace clatter::validation

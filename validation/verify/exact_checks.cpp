@@ -106,13 +106,13 @@ Measured restitution_map(CaseRuns&) {
           Answer::holds, fmt::format("e(1) = {}", significant(at_one, 12))};
 }
 
-struct Landing {
+struct FlatLanding {
   numeric::ImpactNumbers numbers;
   double mass = 2, area = 0.06, stiffness = 1e8, speed = 3;
 };
 
-Landing flat_landing(double damping) {
-  Landing landing;
+FlatLanding flat_landing(double damping) {
+  FlatLanding landing;
   const numeric::Body body(numeric::box_mesh({.size = {0.3, 0.2, 0.1}, .mass = landing.mass}));
   const numeric::World world{
       .ground = {.stiffness = landing.stiffness, .damping = damping, .area = numeric::AreaMeasure::projected},
@@ -124,7 +124,7 @@ Landing flat_landing(double damping) {
 }
 
 Measured half_sine(CaseRuns&) {
-  const Landing landing = flat_landing(0);
+  const FlatLanding landing = flat_landing(0);
   const double frequency = std::sqrt(landing.stiffness * landing.area / landing.mass);
   const double force = landing.speed * std::sqrt(landing.stiffness * landing.area * landing.mass);
   const double error = std::max(relative(landing.numbers.duration, analytic::pi / frequency),
@@ -136,7 +136,7 @@ Measured half_sine(CaseRuns&) {
 Measured damped_landing(CaseRuns&) {
   double worst = 0, at_one = 0;
   for (const double s : {0.01, 0.1, 1.0, 5.0}) {
-    const Landing landing = flat_landing(s * 1e8 / 3);
+    const FlatLanding landing = flat_landing(s * 1e8 / 3);
     const double e = landing.numbers.restitution;
     const double residual = std::log1p(s) - std::log1p(-s * e) - s * (1 + e);
     const double slope = s / (1 - s * e) - s;  // of the residual over e

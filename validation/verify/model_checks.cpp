@@ -14,7 +14,7 @@ namespace clatter::validation {
 namespace {
 
 /// The farthest that a limit lies from the discrete value, over the size of the number at large.
-struct Landing {
+struct LandingCount {
   double miss = 0;       ///< of all
   double deviation = 0;  ///< at the scene's own stiffness
   int impacts = 0, landed = 0;
@@ -46,13 +46,13 @@ struct Landing {
 };
 
 Measured of_case(CaseRuns& case_runs, const char* name) {
-  Landing landing;
+  LandingCount landing;
   landing.take(case_runs.comparison(name, 0));
   return landing.measured();
 }
 
 Measured of_sweep(CaseRuns& case_runs, const char* name) {
-  Landing landing;
+  LandingCount landing;
   for (const auto& [value, comparison] : case_runs.swept_comparison(name)) landing.take(comparison);
   return landing.measured();
 }
