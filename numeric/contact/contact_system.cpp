@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "numeric/contact/contact_instant.hpp"
+#include "numeric/motion/euler_parameters.hpp"
 
 namespace clatter::numeric {
 namespace {
@@ -52,8 +53,6 @@ MotionState ContactSystem::motion(const ContactState& y) const {
 }
 
 GroundView ContactSystem::view(const ContactState& y) const {
-  const double b = euler_parameters(y)[0];
-  const Vector3 e = euler_parameters(y).tail<3>();
   GroundView view;
   view.reference = plane_;
   view.turn = back_turned_change(b, e, plane_.normal);
@@ -121,8 +120,7 @@ void ContactSystem::evaluate(const ContactState& y, ContactState& rate, ContactD
   const Vector3& omega = view.angular_velocity;
   const Vector3 alpha = angular_acceleration(moment, omega);
   displacement(rate) = velocity(y);
-  euler_parameters(rate)[0] = -0.5 * e.dot(omega);
-  euler_parameters(rate).tail<3>() = 0.5 * (b * omega + e.cross(omega));
+  euler_parameters(rate) = euler_parameter_rates(euler_parameters(y), omega);
   velocity(rate) = equations_.linear({friction.force.east, friction.force.north, load.force}) - Vector3(0, 0, gravity_);
   angular_velocity(rate) = alpha;
   works(rate) << load.damping_power, load.release_power, friction.power;

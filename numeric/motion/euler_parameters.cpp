@@ -19,8 +19,4 @@ Matrix34 rate_matrix(const Vector4& beta) {
   return 2 * matrix;
 }
 
-Vector4 euler_parameter_rates(const Vector4& beta, const Vector3& angular_velocity) {
-  return rate_matrix(beta).transpose() * angular_velocity / 4;
-}
-
 }  // namespace clatter::numeric

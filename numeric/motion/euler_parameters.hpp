@@ -20,6 +20,11 @@ using Matrix34 = Eigen::Matrix<double, 3, 4>;
 [[nodiscard]] Matrix34 rate_matrix(const Vector4& beta);
 
 /// β̇ = ½ β ω′ = ¼ G′ᵀ ω′ [1/s] for unit β and the angular velocity ω′ in the body frame [rad/s].
-[[nodiscard]] Vector4 euler_parameter_rates(const Vector4& beta, const Vector3& angular_velocity);
+[[nodiscard]] inline Vector4 euler_parameter_rates(const Vector4& beta, const Vector3& angular_velocity) {
+  const Vector3 b = beta.tail<3>();
+  Vector4 rates;
+  rates << -0.5 * b.dot(angular_velocity), 0.5 * (beta[0] * angular_velocity + b.cross(angular_velocity));
+  return rates;
+}
 
 }  // namespace clatter::numeric

@@ -62,10 +62,26 @@ inline analytic::space::Quaternion quaternion(const ReferenceFields& f) {
   return {f.number("q0"), f.number("q1"), f.number("q2"), f.number("q3")};
 }
 
+/// The drop of a row of space_scenes.csv.
+inline analytic::space::Drop reference_drop(const ReferenceFields& f) {
+  using namespace analytic;
+  space::Drop drop;
+  drop.body = space::box(f.number("mass"), {.size = f.vector("L"), .centre = f.vector("c")});
+  drop.body.inertia = f.symmetric("I");
+  drop.attitude = quaternion(f);
+  drop.velocity = f.vector("V");
+  drop.angular_velocity = f.vector("O");
+  drop.gravity = f.number("gravity");
+  drop.law.law.restitution = f.number("restitution");
+  drop.law.law.law = law_named(f.text("law"));
+  drop.law.law.friction_value = f.number("friction");
+  drop.law.law.friction = drop.law.law.friction_value > 0 ? FrictionKind::coulomb : FrictionKind::none;
+  return drop;
+}
+
 /// @param scenes_table rows of space_scenes.csv  @param impacts_table rows of space_sequences.csv
 inline std::vector<ReferenceScene> reference_scenes(const std::vector<ReferenceRow>& scenes_table,
                                                     const std::vector<ReferenceRow>& impacts_table) {
-  using namespace analytic;
   std::vector<ReferenceScene> scenes;
   for (const ReferenceRow& row : scenes_table) {
     const ReferenceFields f(row);
@@ -74,17 +90,7 @@ inline std::vector<ReferenceScene> reference_scenes(const std::vector<ReferenceR
     scene.end = f.text("end");
     scene.end_acceleration = f.number("end_acceleration");
     scene.tolerance = f.number("tolerance");
-    space::Drop& drop = scene.drop;
-    drop.body = space::box(f.number("mass"), {.size = f.vector("L"), .centre = f.vector("c")});
-    drop.body.inertia = f.symmetric("I");
-    drop.attitude = quaternion(f);
-    drop.velocity = f.vector("V");
-    drop.angular_velocity = f.vector("O");
-    drop.gravity = f.number("gravity");
-    drop.law.law.restitution = f.number("restitution");
-    drop.law.law.law = law_named(f.text("law"));
-    drop.law.law.friction_value = f.number("friction");
-    drop.law.law.friction = drop.law.law.friction_value > 0 ? FrictionKind::coulomb : FrictionKind::none;
+    scene.drop = reference_drop(f);
   }
   for (const ReferenceRow& row : impacts_table) {
     const ReferenceFields f(row);
