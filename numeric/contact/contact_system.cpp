@@ -53,6 +53,8 @@ MotionState ContactSystem::motion(const ContactState& y) const {
 }
 
 GroundView ContactSystem::view(const ContactState& y) const {
+  const double b = euler_parameters(y)[0];
+  const Vector3 e = euler_parameters(y).tail<3>();
   GroundView view;
   view.reference = plane_;
   view.turn = back_turned_change(b, e, plane_.normal);
@@ -115,8 +117,6 @@ void ContactSystem::evaluate(const ContactState& y, ContactState& rate, ContactD
   const Friction friction = presses ? this->friction(at) : Friction{};
   const Vector3 moment = at.moment + friction.moment;
 
-  const double b = euler_parameters(y)[0];
-  const Vector3 e = euler_parameters(y).tail<3>();
   const Vector3& omega = view.angular_velocity;
   const Vector3 alpha = angular_acceleration(moment, omega);
   displacement(rate) = velocity(y);
