@@ -231,12 +231,14 @@ BOOST_AUTO_TEST_CASE(table_of_costs_is_read_and_refused) {
 }
 
 BOOST_AUTO_TEST_CASE(run_is_repeated_until_its_own_estimates_keep_to_the_digits) {
-  Scene scene = planar_case("phone-damped", 4);
-  const numeric::Body body = scene.make_body();
-  for (int digits = 3; digits <= 6; ++digits) {  // errors grow a hundredfold; the first guess misses some of these
-    scene.accuracy.digits = digits;
-    const PlannedRun planned = run_to_digits(body, scene.world, scene.start(body), scene.request, scene.accuracy);
-    BOOST_TEST(planned.achieved <= planned.asked, digits << " digits: " << planned.achieved);
+  // Errors of the phone grow a hundredfold; of the rod with friction the first guess misses 6 and 7 digits.
+  for (Scene scene : {planar_case("phone-damped", 4), planar_case("rod-friction-01", 3)}) {
+    const numeric::Body body = scene.make_body();
+    for (int digits = 3; digits <= 7; ++digits) {
+      scene.accuracy.digits = digits;
+      const PlannedRun planned = run_to_digits(body, scene.world, scene.start(body), scene.request, scene.accuracy);
+      BOOST_TEST(planned.achieved <= planned.asked, digits << " digits: " << planned.achieved);
+    }
   }
 }
 

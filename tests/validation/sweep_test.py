@@ -74,20 +74,35 @@ def records(text):
     return list(csv.DictReader(io.StringIO("".join(l for l in text.splitlines(True) if not l.startswith("#")))))
 
 
+def stl(triangles):
+    """Triangles of three corners, counterclockwise from outside."""
+    text = "solid body\n"
+    for triangle in triangles:
+        corners = "".join("vertex %r %r %r\n" % tuple(corner) for corner in triangle)
+        text += "facet normal 0 0 0\nouter loop\n" + corners + "endloop\nendfacet\n"
+    return text + "endsolid body\n"
+
+
+def octahedron_stl(side):
+    """The middles of the faces of a cube about the origin."""
+    half = side / 2
+    return stl(((x, 0, 0), (0, y, 0), (0, 0, z)) if x * y * z > 0 else ((0, y, 0), (x, 0, 0), (0, 0, z))
+               for x in (-half, half) for y in (-half, half) for z in (-half, half))
+
+
 def box_stl(side):
     """A cube about the origin."""
-    text, half = "solid box\n", side / 2
+    triangles, half = [], side / 2
     for axis in range(3):
         for sign in (-1, 1):
             corners = []
             for u, v in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
                 corner = [0.0, 0.0, 0.0]
                 corner[axis], corner[(axis + 1) % 3], corner[(axis + 2) % 3] = sign * half, u * half, v * half
-                corners.append("vertex %r %r %r\n" % tuple(corner))
+                corners.append(corner)
             a, b, c, d = corners[::sign]
-            for triangle in ((a, b, c), (a, c, d)):
-                text += "facet normal 0 0 0\nouter loop\n" + "".join(triangle) + "endloop\nendfacet\n"
-    return text + "endsolid box\n"
+            triangles += [(a, b, c), (a, c, d)]
+    return stl(triangles)
 
 
 class Folder(unittest.TestCase):
@@ -373,12 +388,14 @@ class SameBytes(Folder):
     def test_a_sweep_does_not_go_on_with_another_mesh_of_the_same_name(self):
         self.write("body.stl", box_stl(0.1))
         scene = self.write("mesh.toml", "[drop]\nangle_deg = 10\n[body]\nshape = 'mesh'\nmass = 1\ninertia = [1e-3, 1e-3, 1e-3]\n"
-                           "mesh = { file = 'body.stl' }\n[ground]\nstiffness = 1e8\n[run]\nimpacts = 1\ndigits = 3\n")
+                           "centre = [0, 0, 0]\nmesh = { file = 'body.stl' }\n[ground]\nstiffness = 1e8\n"
+                           "[run]\nimpacts = 1\ndigits = 3\n")
         arguments = [scene, "--set", "drop.angle_deg=1:3:1"]
         whole = self.sweep(*arguments)
         self.write("out.csv.part", whole[:-10])
-        self.write("body.stl", box_stl(0.2))
-        self.assertIn("is of another sweep", self.refuse(*arguments, "--output", self.path("out.csv")))
+        for other in (box_stl(0.2), octahedron_stl(0.1)):  # the second has extents, mass and inertia of the first
+            self.write("body.stl", other)
+            self.assertIn("is of another sweep", self.refuse(*arguments, "--output", self.path("out.csv")))
         self.write("body.stl", box_stl(0.1))
         self.sweep(*arguments, "--output", self.path("out.csv"))
         self.assertEqual(self.read("out.csv").decode(), whole)

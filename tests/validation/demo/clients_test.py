@@ -4,6 +4,7 @@
 CLATTER_PROGRAM is the program.
 """
 
+import contextlib
 import json
 import os
 import select
@@ -43,9 +44,17 @@ class Patience(unittest.TestCase):
         self.addCleanup(self.demo.process.stdout.close)
         self.addCleanup(self.demo.process.stderr.close)
         self.addCleanup(self.demo.process.wait)
-        self.addCleanup(self.demo.process.kill)
+        self.addCleanup(self.end)
         self.open = []
         self.addCleanup(lambda: [connection.close() for connection in self.open])
+
+    def end(self):
+        """The server, and computations that were stopped before they could ask to end with their server."""
+        children = self.demo.computing() if self.demo.process.poll() is None else []
+        self.demo.process.kill()
+        for pid in children:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
 
     def start_long(self, count=1):
         before = len(self.demo.computing())
