@@ -15,6 +15,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from stl_text import stl  # noqa: E402
 from waiting import until  # noqa: E402
 
 PROGRAM = os.environ["CLATTER_PROGRAM"]
@@ -103,7 +104,7 @@ def box_inertia(size, mass):
 
 def box_stl(size, attitude, centre):
     """A box in an STL file, in mm."""
-    text = "solid box\n"
+    triangles = []
     for axis in range(3):
         for side in (0, 1):
             square = [[0, 0, 0] for _ in range(4)]
@@ -112,10 +113,8 @@ def box_stl(size, attitude, centre):
             square = [[1000 * (x - 0.5) * s for x, s in zip(p, size)] for p in square]
             square = [[sum(x * y for x, y in zip(row, p)) + c for row, c in zip(attitude, centre)] for p in square]
             a, b, c, d = square if side else square[::-1]
-            for triangle in ((a, b, c), (a, c, d)):
-                corners = "".join("vertex %.17g %.17g %.17g\n" % tuple(p) for p in triangle)
-                text += f"facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n"
-    return text + "endsolid box\n"
+            triangles += [(a, b, c), (a, c, d)]
+    return stl(triangles)
 
 
 def run(*arguments, **options):

@@ -8,6 +8,7 @@ import random
 import unittest
 
 from space_folder import BOX, CENTRE, INERTIA, MASS, SIZE, SpaceFolder, box_moments, cross, rotated, times, words
+from stl_text import stl
 
 PHONE = ["--body", "box", "--size", "x".join(map(str, SIZE)), "--mass", str(MASS)]
 CORNER = [*PHONE, "--angle", "40", "--tilt", "25"]
@@ -23,10 +24,7 @@ def l_shape(height):
     for i in range(6):
         j = (i + 1) % 6
         faces += [(low[i], low[j], high[j]), (low[i], high[j], high[i])]
-    lines = ["solid l"]
-    for face in faces:
-        lines += ["facet normal 0 0 0", "outer loop", *("vertex %r %r %r" % corner for corner in face), "endloop", "endfacet"]
-    return "\n".join([*lines, "endsolid l", ""])
+    return stl(faces)
 
 
 class Sequence(SpaceFolder):

@@ -12,6 +12,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from stl_text import stl  # noqa: E402
 from waiting import until  # noqa: E402
 
 PROGRAM = os.environ["CLATTER_PROGRAM"]
@@ -72,15 +73,6 @@ BAD_OPTIONS = {
 def records(text):
     """Rows of a CSV text without its head."""
     return list(csv.DictReader(io.StringIO("".join(l for l in text.splitlines(True) if not l.startswith("#")))))
-
-
-def stl(triangles):
-    """Triangles of three corners, counterclockwise from outside."""
-    text = "solid body\n"
-    for triangle in triangles:
-        corners = "".join("vertex %r %r %r\n" % tuple(corner) for corner in triangle)
-        text += "facet normal 0 0 0\nouter loop\n" + corners + "endloop\nendfacet\n"
-    return text + "endsolid body\n"
 
 
 def octahedron_stl(side):

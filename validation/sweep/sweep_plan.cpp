@@ -114,11 +114,10 @@ std::string end_text(const SweepAxis& axis, double value) {
 
 /// The sides of the box as one value of body.size; those that are not set are the file's.
 SceneOverride size_override(const SceneValues& values, const std::array<std::string, 3>& sides) {
-  const Range any{-std::numeric_limits<double>::max(), std::numeric_limits<double>::max(), false, ""};
   std::array<std::string, 3> texts = sides;
   if (std::any_of(sides.begin(), sides.end(), [](const std::string& side) { return side.empty(); })) {
     values.require(box_size, "as not all of its sides are set");
-    const std::vector<double> given = values.numbers(box_size, {3}, any, "three lengths in m");
+    const std::vector<double> given = values.numbers(box_size, {3}, any_number, "three lengths in m");
     for (std::size_t i = 0; i < 3; ++i) texts[i] = sides[i].empty() ? shortest(given[i]) : sides[i];
   }
   return {box_size, "--set body.size", fmt::format("{}", fmt::join(texts, "x"))};
