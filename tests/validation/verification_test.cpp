@@ -20,7 +20,7 @@ const Check& check(const std::string& id) {
 
 CheckResult judged(const Check& one) {
   CaseRuns case_runs;
-  return verify({&one}, case_runs, [](std::size_t, std::size_t, const std::string&) { return true; }).at(0);
+  return verify_checks({&one}, case_runs, [](std::size_t, std::size_t, const std::string&) { return true; }).at(0);
 }
 
 }  // namespace
@@ -83,7 +83,8 @@ BOOST_AUTO_TEST_CASE(an_interrupt_leaves_the_rest_not_run) {
   std::vector<const Check*> checks;
   for (const char* id : {"C1", "C2", "C3", "C6", "C7", "X3", "X5", "X6"}) checks.push_back(&check(id));
   CaseRuns case_runs;
-  const auto results = verify(checks, case_runs, [](std::size_t, std::size_t, const std::string&) { return false; });
+  const auto results =
+      verify_checks(checks, case_runs, [](std::size_t, std::size_t, const std::string&) { return false; });
   const auto done = std::count_if(results.begin(), results.end(), [](const CheckResult& one) { return one.done; });
   BOOST_TEST(done >= 1);
   BOOST_TEST(done < 8);

@@ -7,7 +7,7 @@
 #include "analytic/errors.hpp"
 #include "analytic/space/simultaneous.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline benchmark {
 namespace {
 
 namespace space = analytic::space;
@@ -100,4 +100,4 @@ State exact_map(const Reference& reference, const DeclaredLaw& law, const State&
   return after;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline benchmark

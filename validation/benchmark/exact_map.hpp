@@ -6,7 +6,7 @@
 
 #include "validation/benchmark/reference.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline benchmark {
 
 /// The state right after the points strike by `law`: the impact laws of the discrete model in space, or Moreau's.
 /// A point that does not approach gets no impulse.
@@ -23,4 +23,4 @@ namespace clatter::validation {
                                                       const analytic::space::Vector3& velocity,
                                                       const analytic::ImpactLaw& law);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline benchmark

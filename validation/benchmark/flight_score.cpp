@@ -8,7 +8,7 @@
 
 #include "validation/output/number.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline benchmark {
 namespace {
 
 using analytic::space::State;
@@ -96,4 +96,4 @@ void score_flights(const Motion& motion, const Reference& reference, const Refer
   Flights(motion, reference, sequence, impacts).score(score);
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline benchmark

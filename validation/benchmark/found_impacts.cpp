@@ -9,7 +9,7 @@
 
 #include "validation/benchmark/step_impulses.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline benchmark {
 namespace {
 
 namespace space = analytic::space;
@@ -224,4 +224,4 @@ std::vector<FoundImpact> listed_impacts(const NumericTable& table, const Referen
   return found;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline benchmark

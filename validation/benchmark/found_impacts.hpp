@@ -7,7 +7,7 @@
 
 #include "validation/benchmark/motion.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline benchmark {
 
 /// How a code may have booked an impact.  One that resolves the instant has the point on the ground then.  Any other
 /// strikes with the pose at the begin or the end of its step, or between, and adds the step's gravity before the
@@ -51,4 +51,4 @@ struct ImpactSearch {
 [[nodiscard]] std::vector<FoundImpact> listed_impacts(const NumericTable& table, const Reference& reference);
 [[nodiscard]] TableRequest impact_list_request(bool in_space, const ColumnNames& names);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline benchmark

@@ -6,7 +6,7 @@
 
 #include "validation/output/bad_input.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline benchmark {
 namespace {
 
 namespace space = analytic::space;
@@ -153,4 +153,4 @@ void Motion::find_first_touch() {
   }
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline benchmark

@@ -8,7 +8,7 @@
 #include "validation/benchmark/reference.hpp"
 #include "validation/tables/numeric_table.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline benchmark {
 
 /// In the plane  t,x,z,phi,vx,vz,omega: of the centre of mass, floor z = 0, x to the right, phi and omega
 /// counter-clockwise on the page, so that phi > 0 has end a low.  In space  t,x,y,z,q0,q1,q2,q3,vx,vy,vz,wx,wy,wz:
@@ -62,4 +62,4 @@ class Motion {
   double first_touch_ = 0, start_error_ = 0;
 };
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline benchmark

@@ -13,7 +13,7 @@
 #include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/space_scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline benchmark {
 namespace {
 
 namespace space = analytic::space;
@@ -259,4 +259,4 @@ Reference reference_of(const Scene& scene) {
   return reference;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline benchmark

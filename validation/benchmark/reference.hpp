@@ -12,7 +12,7 @@
 #include "analytic/space/impact.hpp"
 #include "validation/benchmark/problem.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline benchmark {
 
 /// A law of impact that a run may declare.
 struct DeclaredLaw {
@@ -77,4 +77,4 @@ struct Reference {
 /// @throws as the discrete model does; BadInput for a scene that has no impact.
 [[nodiscard]] Reference reference_of(const Scene& scene);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline benchmark

@@ -11,7 +11,7 @@
 #include "validation/benchmark/flight_score.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline benchmark {
 namespace {
 
 namespace space = analytic::space;
@@ -234,4 +234,4 @@ Score score_list(const std::vector<FoundImpact>& impacts, const Reference& refer
                  [&](const ReferenceSequence& sequence) { return score_impacts(impacts, reference, sequence); });
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline benchmark

@@ -9,7 +9,7 @@
 
 #include "validation/benchmark/found_impacts.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline benchmark {
 
 /// Classes of tolerance, the best first; each has its largest error in Reference::tolerances.
 enum class Verdict { exact, sharp, good, coarse, fails };
@@ -68,4 +68,4 @@ struct Score {
 [[nodiscard]] Score score_list(const std::vector<FoundImpact>& impacts, const Reference& reference,
                                const std::string& law);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline benchmark

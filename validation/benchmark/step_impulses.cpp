@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace clatter::validation {
+namespace clatter::validation::inline benchmark {
 namespace {
 
 namespace space = analytic::space;
@@ -218,4 +218,4 @@ std::vector<StepImpulse> step_impulses(const Motion& motion, const Reference& re
   return Step(motion, reference, row).impulses();
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline benchmark

@@ -6,7 +6,7 @@
 
 #include "validation/benchmark/motion.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline benchmark {
 
 /// An impulse of a step at one point, or at several that came down together.
 struct StepImpulse {
@@ -33,4 +33,4 @@ struct StepImpulse {
 [[nodiscard]] double meeting_time(const analytic::space::State& before, const analytic::space::State& after,
                                   double step, double gravity);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline benchmark

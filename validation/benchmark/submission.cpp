@@ -13,7 +13,7 @@
 #include "validation/output/number.hpp"
 #include "validation/tables/csv_line.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline benchmark {
 namespace {
 
 /// A file's text as a table of the kind that its header says.
@@ -173,4 +173,4 @@ std::vector<SubmissionGroup> group_submissions(const std::vector<Submission>& su
   return all;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline benchmark

@@ -8,7 +8,7 @@
 
 #include "validation/benchmark/score.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline benchmark {
 
 /// Lines above a file's header, "# key: value"; the problem alone is required, and not even that where a scene is
 /// given.
@@ -55,4 +55,4 @@ struct SubmissionGroup {
 /// @param submissions in any order
 [[nodiscard]] std::vector<SubmissionGroup> group_submissions(const std::vector<Submission>& submissions);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline benchmark

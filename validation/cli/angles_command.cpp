@@ -16,7 +16,7 @@
 #include "validation/reports/angles_picture.hpp"
 #include "validation/reports/angles_report.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 namespace {
 
 struct AnglesInput {
@@ -102,4 +102,4 @@ Command angles_command() {
   return command;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

@@ -8,7 +8,7 @@
 
 #include "validation/output/bad_input.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 namespace {
 
 /// What stands before a command: the program's own options.
@@ -137,4 +137,4 @@ std::vector<std::string> checked_arguments(const std::vector<Command>& commands,
   return out;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

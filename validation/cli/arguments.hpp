@@ -7,7 +7,7 @@
 
 #include "validation/cli/command.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 
 /// Checks the arguments against the commands and joins each option with its value as "--name=value", so that a value
 /// may begin with a minus sign.
@@ -15,4 +15,4 @@ namespace clatter::validation {
 [[nodiscard]] std::vector<std::string> checked_arguments(const std::vector<Command>& commands,
                                                          const std::vector<std::string>& arguments);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

@@ -12,7 +12,7 @@
 #include "validation/scene/failure.hpp"
 #include "validation/scene/option_values.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 namespace {
 
 struct BenchmarkInput {
@@ -122,4 +122,4 @@ Command benchmark_command() {
   return command;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

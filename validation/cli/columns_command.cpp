@@ -23,7 +23,7 @@
 #include "validation/scene/option_values.hpp"
 #include "validation/sweep/rows.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 namespace {
 
 struct ColumnsInput {
@@ -125,4 +125,4 @@ Command columns_command() {
   return command;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

@@ -3,7 +3,7 @@
 
 #include <sstream>
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 
 std::vector<std::string> Argument::choices() const {
   std::vector<std::string> list;
@@ -21,4 +21,4 @@ std::vector<std::string> Command::option_names() const {
   return names;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

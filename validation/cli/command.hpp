@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 
 /// What a command accepts, and where its text goes; the command checks the text itself.
 struct Argument {
@@ -53,4 +53,4 @@ struct Command {
   [[nodiscard]] std::vector<std::string> option_names() const;
 };
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

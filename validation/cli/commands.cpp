@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/cli/commands.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 
 const std::vector<Command>& all_commands() {
   static const std::vector<Command> commands{
@@ -12,4 +12,4 @@ const std::vector<Command>& all_commands() {
   return commands;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

@@ -6,7 +6,7 @@
 
 #include "validation/cli/command.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 
 [[nodiscard]] Command sequence_command();
 [[nodiscard]] Command angles_command();
@@ -32,4 +32,4 @@ namespace clatter::validation {
 /// All of them, in the order of the help.
 [[nodiscard]] const std::vector<Command>& all_commands();
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

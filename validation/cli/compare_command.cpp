@@ -19,7 +19,7 @@
 #include "validation/scene/failure.hpp"
 #include "validation/scene/shortfall.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 namespace {
 
 const char* const comparison_summary = "discrete and continuous model, impact by impact";
@@ -140,4 +140,4 @@ Command compare_command() {
   return command;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

@@ -3,7 +3,7 @@
 #include "validation/cli/commands.hpp"
 #include "validation/output/bad_input.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 
 Command demo_command() {
   Command command{.name = "demo", .help = "a page in the browser (not in this build)"};
@@ -13,4 +13,4 @@ Command demo_command() {
   return command;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

@@ -19,7 +19,7 @@
 #include "validation/output/interrupt.hpp"
 #include "validation/output/sink.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 namespace {
 
 constexpr int usual_port = 8318;
@@ -125,4 +125,4 @@ Command demo_command() {
   return command;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

@@ -7,7 +7,7 @@
 #include "validation/output/message.hpp"
 #include "validation/reports/explanation_report.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 namespace {
 
 struct ExplainInput {
@@ -43,4 +43,4 @@ Command explain_command() {
   return command;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

@@ -11,7 +11,7 @@
 #include "validation/output/sink.hpp"
 #include "validation/reports/extremes_report.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 namespace {
 
 struct ExtremesInput {
@@ -88,4 +88,4 @@ Command extremes_command() {
   return command;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

@@ -11,7 +11,7 @@
 #include "validation/figures/figure_file.hpp"
 #include "validation/output/bad_input.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 namespace {
 
 struct FiguresInput {
@@ -79,4 +79,4 @@ Command figures_command() {
   return command;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

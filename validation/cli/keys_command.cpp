@@ -11,7 +11,7 @@
 #include "validation/output/symbols.hpp"
 #include "validation/scene/keys.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 namespace {
 
 /// A scene of the shape, with what each needs to be run.
@@ -137,4 +137,4 @@ Command init_command() {
   return command;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

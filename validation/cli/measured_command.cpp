@@ -11,7 +11,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/reports/measured_report.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 namespace {
 
 const std::vector<std::string>& actions() {
@@ -97,4 +97,4 @@ Command measured_command() {
   return command;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

@@ -8,7 +8,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/scene/option_values.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 namespace {
 
 void refuse_two_splits(const MeasuredRequest& input) {
@@ -74,4 +74,4 @@ MeasuredRun read_measured_run(const MeasuredRequest& input) {
   return run;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

@@ -7,7 +7,7 @@
 
 #include "validation/reports/measured_report.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 
 /// Texts as given; each is checked when it is read.
 struct MeasuredRequest {
@@ -22,4 +22,4 @@ struct MeasuredRequest {
 /// @throws BadInput naming the option or the file.
 [[nodiscard]] MeasuredRun read_measured_run(const MeasuredRequest& request);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

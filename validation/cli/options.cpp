@@ -5,7 +5,7 @@
 #include "validation/output/number.hpp"
 #include "validation/output/sink.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 
 void add_output_options(Command& command, OutputTexts& t) {
   command.add_text("--format", t.format, "table|csv|json|markdown|latex", "form of the output (table)", "Output");
@@ -50,4 +50,4 @@ void add_sweep_options(Command& command, SweepTexts& t, const std::string& what)
   command.add_text("--count", t.count, "N", "or the number of values, both ends included", "Range");
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

@@ -12,7 +12,7 @@
 #include "validation/scene/option_values.hpp"
 #include "validation/scene/swept_range.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 
 /// Texts of the output options.
 struct OutputTexts {
@@ -41,4 +41,4 @@ void write_report(const OutputChoice& choice, const Report& report);
 
 void add_sweep_options(Command& command, SweepTexts& texts, const std::string& what);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

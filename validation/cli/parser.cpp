@@ -8,7 +8,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/version.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 namespace {
 
 CLI::Option* add_value(CLI::App& app, const Argument& argument) {
@@ -69,4 +69,4 @@ ParsedLine parse_line(const std::vector<Command>& commands, const std::vector<st
   return {.command = &*found};
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

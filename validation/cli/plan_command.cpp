@@ -8,7 +8,7 @@
 #include "validation/reports/plan_report.hpp"
 #include "validation/scene/failure.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 namespace {
 
 struct PlanInput {
@@ -46,4 +46,4 @@ Command plan_command() {
   return command;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

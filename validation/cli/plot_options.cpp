@@ -11,7 +11,7 @@
 #include "validation/output/message.hpp"
 #include "validation/scene/scene_value.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 namespace {
 
 using std::filesystem::path;
@@ -82,4 +82,4 @@ void PlotFile::leave_out(const std::string& reason) const {
   if (picture_) say(fmt::format("--plot {}: no picture: {}", path_, reason));
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

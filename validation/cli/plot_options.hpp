@@ -12,7 +12,7 @@
 #include "validation/output/sink.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 
 struct PlotTexts {
   std::optional<std::string> plot;
@@ -48,4 +48,4 @@ class PlotFile {
 [[nodiscard]] std::vector<std::string> run_words(const std::string& command, const std::string& what,
                                                  const Scene& scene, Model model = Model::continuous);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

@@ -7,7 +7,7 @@
 #include "validation/output/sink.hpp"
 #include "validation/scene/failure.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 namespace {
 
 int parse_and_run(const std::vector<std::string>& given) {
@@ -37,4 +37,4 @@ int run_program(const std::vector<std::string>& arguments) {
   return guarded([&] { return parse_and_run(arguments); });
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

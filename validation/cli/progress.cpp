@@ -7,7 +7,7 @@
 
 #include "validation/output/interrupt.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 
 void Progress::show(const std::string& text) {
   if (!shows_progress()) return;
@@ -25,4 +25,4 @@ std::string progress_bar(std::size_t done, std::size_t of) {
   return std::string(filled, '#') + std::string(width - filled, '.') + fmt::format(" {} of {}", done, of);
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 
 /// A line on stderr that renews itself, for runs that last; nothing where progress is not shown.
 class Progress {
@@ -22,4 +22,4 @@ class Progress {
 /// "#####......... 5 of 14".
 [[nodiscard]] std::string progress_bar(std::size_t done, std::size_t of);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

@@ -7,7 +7,7 @@
 #include "validation/cli/rod_options.hpp"
 #include "validation/reports/regimes_report.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 namespace {
 
 struct RegimesInput {
@@ -51,4 +51,4 @@ Command regimes_command() {
   return command;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

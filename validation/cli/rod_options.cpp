@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/cli/rod_options.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 
 void add_rod_options(Command& command, RodTexts& t) {
   const auto add = [&](const char* name, std::optional<std::string>& text, const char* type, const char* help) {
@@ -15,4 +15,4 @@ void add_rod_options(Command& command, RodTexts& t) {
   add("--impulse-ratio", t.impulse_ratio, "MU_I", "Eq. 8's ratio of tangential to normal impulse (0)");
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

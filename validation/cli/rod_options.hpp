@@ -5,8 +5,8 @@
 #include "validation/cli/command.hpp"
 #include "validation/scene/rod_parameters.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 
 void add_rod_options(Command& command, RodTexts& texts);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

@@ -5,7 +5,7 @@
 #include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/keys.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 namespace {
 
 /// Keys that a flag overrides.
@@ -62,4 +62,4 @@ std::vector<RunFile> files_of(const Scene& scene) {
   return {{"the scene file", scene.path}, {"the mesh file", scene.body.file}};
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

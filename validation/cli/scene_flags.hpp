@@ -11,7 +11,7 @@
 #include "validation/output/run_files.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 
 /// What was typed, by the name of the flag.
 struct SceneFlags {
@@ -32,4 +32,4 @@ void add_scene_flags(Command& command, SceneFlags& flags, Model model = Model::c
 /// What a run of the scene reads: the scene's file and its mesh's.
 [[nodiscard]] std::vector<RunFile> files_of(const Scene& scene);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

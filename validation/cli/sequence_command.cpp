@@ -14,7 +14,7 @@
 #include "validation/reports/sequence_report.hpp"
 #include "validation/scene/shortfall.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 namespace {
 
 struct SequenceInput {
@@ -72,4 +72,4 @@ Command sequence_command() {
   return command;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

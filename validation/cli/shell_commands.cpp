@@ -13,7 +13,7 @@
 #include "validation/output/version.hpp"
 #include "validation/scene/option_values.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 namespace {
 
 constexpr const char* file_type = "FILE";
@@ -174,4 +174,4 @@ Command man_command() {
   return command;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

@@ -25,7 +25,7 @@
 #include "validation/scene/scene_value.hpp"
 #include "validation/scene/shortfall.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 namespace {
 
 using numeric::Outcome;
@@ -183,4 +183,4 @@ Command simulate_command() {
   return command;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

@@ -22,7 +22,7 @@
 #include "validation/sweep/sweep_file.hpp"
 #include "validation/sweep/sweep_plan.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -262,4 +262,4 @@ Command sweep_command() {
   return command;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

@@ -14,7 +14,7 @@
 #include "validation/reports/tradeoff_report.hpp"
 #include "validation/scene/failure.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 namespace {
 
 struct TradeoffInput {
@@ -67,4 +67,4 @@ Command tradeoff_command() {
   return command;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

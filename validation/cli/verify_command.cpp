@@ -14,7 +14,7 @@
 #include "validation/reports/verify_report.hpp"
 #include "validation/verify/selection.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline cli {
 namespace {
 
 struct VerifyInput {
@@ -39,7 +39,7 @@ int run_verify(const VerifyInput& input) {
   std::vector<CheckResult> results;
   {
     Progress progress;
-    results = verify(selection.checks, case_runs, [&](std::size_t done, std::size_t of, const std::string& id) {
+    results = verify_checks(selection.checks, case_runs, [&](std::size_t done, std::size_t of, const std::string& id) {
       progress.show(fmt::format("{} {}", progress_bar(done, of), id));
       return !interrupt.requested();
     });
@@ -66,4 +66,4 @@ Command verify_command() {
   return command;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline cli

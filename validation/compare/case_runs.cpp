@@ -5,7 +5,7 @@
 
 #include "validation/record/history_file.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline compare {
 namespace {
 
 class SampleList : public numeric::HistoryRecorder {
@@ -102,4 +102,4 @@ const std::vector<CaseRuns::SweptComparison>& CaseRuns::swept_comparison(const s
   });
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline compare

@@ -11,7 +11,7 @@
 #include "validation/record/names.hpp"
 #include "validation/scene/shortfall.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline compare {
 namespace {
 
 using numeric::ImpactRecord;
@@ -291,4 +291,4 @@ Comparison compare_models(const Scene& scene, const numeric::Body& body) {
   return comparison;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline compare

@@ -12,7 +12,7 @@
 #include "validation/record/motion_numbers.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline compare {
 
 /// One impact of both models.  Deviations are continuous − discrete.
 struct ComparedImpact {
@@ -55,4 +55,4 @@ struct Comparison {
 /// @throws analytic::OutsideModelError if the discrete model cannot represent the scene.
 [[nodiscard]] Comparison compare_models(const Scene& scene, const numeric::Body& body);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline compare

@@ -11,7 +11,7 @@
 #include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/space_scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline compare {
 namespace {
 
 using analytic::ImpactMode;
@@ -48,14 +48,13 @@ bool is_open_face(const ImpactRow& row) {
 }
 
 SequenceImpact planar_impact(const analytic::Drop& drop, const ImpactRow& row) {
-  constexpr double epsilon = std::numeric_limits<double>::epsilon();
   const ImpactMode mode = row.impact.mode;
   SequenceImpact impact{.numbers = motion_numbers(row),
                         .errors = motion_errors(row),
                         .end = end_of(drop.body, row),
                         .place = {},
                         .amplification = row.amplification,
-                        .predictable = row.amplification * epsilon <= 0.01,
+                        .predictable = row.amplification * std::numeric_limits<double>::epsilon() <= 0.01,
                         .is_group = false,
                         .sticks = mode == ImpactMode::stick || mode == ImpactMode::slip_stick,
                         .nearly_stops = false,
@@ -94,4 +93,4 @@ DiscreteSide discrete_side(const Scene& scene, const numeric::Body& body) {
   return is_planar(scene, body) ? planar_side(scene, body) : space_side(scene, body);
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline compare

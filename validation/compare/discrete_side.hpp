@@ -11,7 +11,7 @@
 #include "validation/record/motion_numbers.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline compare {
 
 /// One impact.
 struct SequenceImpact {
@@ -52,4 +52,4 @@ struct DiscreteSide {
 /// @throws analytic::OutsideModelError if the discrete model cannot represent the scene.
 [[nodiscard]] DiscreteSide discrete_side(const Scene& scene, const numeric::Body& body);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline compare

@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace clatter::validation {
+namespace clatter::validation::inline compare {
 namespace {
 
 using analytic::Drop;
@@ -112,4 +112,4 @@ std::vector<PredictedSize> predicted_sizes(const Drop& drop, const Sequence& seq
   return sizes;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline compare

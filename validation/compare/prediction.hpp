@@ -7,7 +7,7 @@
 #include "analytic/sequence.hpp"
 #include "validation/record/motion_numbers.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline compare {
 
 /// Sizes of the deviations of one impact's numbers; the sum over this impact and those before it, whose deviations
 /// are carried along by the motion between them.
@@ -29,4 +29,4 @@ struct PredictedSize {
 /// [0°, 90°].  Speeds of tangential and angular motion may change sign with that.
 [[nodiscard]] analytic::Drop drop_at(const analytic::Drop& drop, const analytic::ImpactRow& row);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline compare

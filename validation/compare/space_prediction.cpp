@@ -8,7 +8,7 @@
 #include "analytic/errors.hpp"
 #include "validation/output/estimated.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline compare {
 namespace {
 
 using analytic::space::Drop;
@@ -110,4 +110,4 @@ std::vector<PredictedSize> predicted_sizes(const Drop& drop, const Sequence& seq
   return sizes;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline compare

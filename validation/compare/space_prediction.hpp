@@ -5,7 +5,7 @@
 #include "analytic/space/sequence.hpp"
 #include "validation/compare/prediction.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline compare {
 
 /// As predicted_sizes in the plane: gravity for T, a turn by |Ω| T/2 about the axis of Ω before or after, whichever is
 /// faster, the corner v T/(2π) further inside along each of the body's axes, half the duration of each contact before.
@@ -17,4 +17,4 @@ namespace clatter::validation {
 /// The drop that begins with this row: the state before it.
 [[nodiscard]] analytic::space::Drop drop_at(const analytic::space::Drop& drop, const analytic::space::ImpactRow& row);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline compare

@@ -11,7 +11,7 @@
 #include "validation/output/number.hpp"
 #include "validation/scene/space_scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline compare {
 namespace {
 
 namespace space = analytic::space;
@@ -110,4 +110,4 @@ DiscreteSide space_side(const Scene& scene, const numeric::Body& body) {
   return side;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline compare

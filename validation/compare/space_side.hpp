@@ -4,9 +4,9 @@
 
 #include "validation/compare/discrete_side.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline compare {
 
 /// @throws analytic::OutsideModelError for regularised friction, and where the first impact leaves the model.
 [[nodiscard]] DiscreteSide space_side(const Scene& scene, const numeric::Body& body);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline compare

@@ -11,7 +11,7 @@
 #include "validation/compare/stiff_runs.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline compare {
 namespace {
 
 using numeric::ImpactRecord;
@@ -221,4 +221,4 @@ StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, const Limi
   return limit;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline compare

@@ -11,7 +11,7 @@
 #include "validation/output/number.hpp"
 #include "validation/record/names.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline compare {
 namespace {
 
 using numeric::ImpactRecord;
@@ -124,4 +124,4 @@ CommonRows common_rows(const std::vector<Simulation>& ladder, const ContactSizes
   return rows;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline compare

@@ -9,7 +9,7 @@
 #include "numeric/simulate.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline compare {
 
 /// Against what contacts are short, and how their ground is damped.
 struct ContactSizes {
@@ -32,4 +32,4 @@ struct CommonRows {
 /// short in the softest of them.
 [[nodiscard]] CommonRows common_rows(const std::vector<numeric::Simulation>& ladder, const ContactSizes& sizes);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline compare

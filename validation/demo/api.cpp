@@ -26,7 +26,7 @@
 #include "validation/scene/named_texts.hpp"
 #include "validation/scene/scene_value.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline demo {
 namespace {
 
 // A page shows no more than this, and nobody is to keep the server busy for long.
@@ -224,4 +224,4 @@ ApiAnswer answer_request(const std::string& path, const std::string& body) {
   }
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline demo

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace clatter::validation {
+namespace clatter::validation::inline demo {
 
 struct ApiAnswer {
   int status = 200;  ///< of HTTP: 200; 400 bad input; 404 no such path; 422 not computed or outside the model
@@ -27,4 +27,4 @@ struct ApiAnswer {
 /// {"error": words, "status": exit status}
 [[nodiscard]] std::string error_json(const std::string& words, int exit_status);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline demo

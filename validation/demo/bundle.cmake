@@ -40,7 +40,7 @@ endif()
 file(WRITE ${OUTPUT} "// Made by the build from validation/demo/page/.
 #include \"validation/demo/page.hpp\"
 
-namespace clatter::validation {
+namespace clatter::validation::inline demo {
 
 std::string_view demo_page() {
   return R\"clatter-demo(${page})clatter-demo\";
@@ -50,5 +50,5 @@ std::string_view demo_requests() {
   return R\"clatter-demo(${requests})clatter-demo\";
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline demo
 ")

@@ -22,7 +22,7 @@
 #include "validation/demo/api.hpp"
 #include "validation/output/interrupt.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline demo {
 namespace {
 
 namespace asio = boost::asio;
@@ -179,4 +179,4 @@ void ComputationQueue::cancel_all() {
   }
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline demo

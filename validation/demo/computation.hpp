@@ -16,7 +16,7 @@
 
 #include "validation/demo/routes.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline demo {
 
 /// One computation.  The process is this one's copy, which starts in a millisecond; it must have no other threads.
 class Computation : public std::enable_shared_from_this<Computation> {
@@ -82,4 +82,4 @@ class ComputationQueue {
   Lane discrete_, continuous_;
 };
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline demo

@@ -13,7 +13,7 @@
 #include "validation/output/json.hpp"
 #include "validation/output/version.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline demo {
 namespace {
 
 Json known_scenes() { return Json::parse(demo_requests()).at("scenes"); }
@@ -98,4 +98,4 @@ std::string offline_page(const std::vector<std::string>& scenes,
   return page.replace(at + place.size() - 3, 2, embeddable({{"clatter", version}, {"scenes", chosen}}));
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline demo

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace clatter::validation {
+namespace clatter::validation::inline demo {
 
 /// Names of the scenes that a copy can hold.
 [[nodiscard]] std::vector<std::string> offline_scenes();
@@ -16,4 +16,4 @@ namespace clatter::validation {
 [[nodiscard]] std::string offline_page(const std::vector<std::string>& scenes,
                                        const std::function<bool(std::size_t, std::size_t)>& progress);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline demo

@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace clatter::validation {
+namespace clatter::validation::inline demo {
 
 /// One HTML file with everything in it; empty if the build had no Node.js.
 [[nodiscard]] std::string_view demo_page();
@@ -12,4 +12,4 @@ namespace clatter::validation {
 /// requests: [{path, body, key}]}]}; empty as above.
 [[nodiscard]] std::string_view demo_requests();
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline demo

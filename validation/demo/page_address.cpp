@@ -3,7 +3,7 @@
 
 #include "validation/demo/scene_exchange.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline demo {
 namespace {
 
 /// A list as flags have it: numbers with commas between.
@@ -30,4 +30,4 @@ std::string page_query(const Scene& scene) {
   return query;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline demo

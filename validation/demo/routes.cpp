@@ -8,7 +8,7 @@
 
 #include "validation/demo/api.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline demo {
 namespace {
 
 namespace http = boost::beast::http;
@@ -89,4 +89,4 @@ HttpResponse json_response(unsigned http_status, std::string json) {
   return text_response(http_status, std::move(json), json_type);
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline demo

@@ -6,7 +6,7 @@
 #include <boost/beast/http/string_body.hpp>
 #include <string>
 
-namespace clatter::validation {
+namespace clatter::validation::inline demo {
 
 using HttpRequest = boost::beast::http::request<boost::beast::http::string_body>;
 using HttpResponse = boost::beast::http::response<boost::beast::http::string_body>;
@@ -30,4 +30,4 @@ struct DemoSite {
 [[nodiscard]] HttpResponse refusal(unsigned http_status, const std::string& words);
 [[nodiscard]] HttpResponse json_response(unsigned http_status, std::string json);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline demo

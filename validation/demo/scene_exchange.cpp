@@ -13,7 +13,7 @@
 #include "validation/output/version.hpp"
 #include "validation/scene/keys.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline demo {
 namespace {
 
 // The paper's mesh: with it the page simulates a rod whose radius is 0.
@@ -141,4 +141,4 @@ std::string scene_file(NamedTexts arguments) {
   return text;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline demo

@@ -9,7 +9,7 @@
 #include "validation/scene/named_texts.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline demo {
 
 /// A scene as the arguments that give it: {"body": "box", "size": [L, W, T], "angle": 10, …}.  Keys that have the value
 /// of flags alone are left out, but for the body's and for gravity.
@@ -30,4 +30,4 @@ struct SceneArguments {
 /// @throws BadInput as read_scene
 [[nodiscard]] std::string scene_file(NamedTexts arguments);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline demo

@@ -11,7 +11,7 @@
 #include "validation/demo/session.hpp"
 #include "validation/output/interrupt.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline demo {
 namespace {
 
 namespace asio = boost::asio;
@@ -84,4 +84,4 @@ void DemoServer::run() {
   state_->queue.cancel_all();
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline demo

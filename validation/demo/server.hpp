@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-namespace clatter::validation {
+namespace clatter::validation::inline demo {
 
 /// Serves `page` at "/" and the API below "/api/" on 127.0.0.1.  Anything else is refused: another path (404) or method
 /// (405), a body over 64 KiB (413), a header over 16 KiB (431), a body that is not JSON by its type (415), a Host or
@@ -33,4 +33,4 @@ class DemoServer {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline demo

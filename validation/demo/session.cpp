@@ -6,7 +6,7 @@
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/write.hpp>
 
-namespace clatter::validation {
+namespace clatter::validation::inline demo {
 namespace {
 
 namespace asio = boost::asio;
@@ -99,4 +99,4 @@ void Session::close() {
   socket_.close(ignored);
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline demo

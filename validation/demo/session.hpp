@@ -11,7 +11,7 @@
 
 #include "validation/demo/computation.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline demo {
 
 /// Reads a request, has it answered and closes the connection.  Who sends the request or takes the answer too slowly is
 /// left; who leaves before the answer is there has his computation ended.  All of this waits on no thread.
@@ -43,4 +43,4 @@ class Session : public std::enable_shared_from_this<Session> {
   bool is_watched_ = false, is_answered_ = false;
 };
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline demo

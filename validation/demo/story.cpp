@@ -13,7 +13,7 @@
 #include "validation/output/number.hpp"
 #include "validation/plan/planned_run.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline demo {
 namespace {
 
 using analytic::Angle;
@@ -174,4 +174,4 @@ std::string page_with_story() {
   return page.replace(at, place.size(), story_html());
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline demo

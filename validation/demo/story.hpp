@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace clatter::validation {
+namespace clatter::validation::inline demo {
 
 /// Five steps as HTML, each a heading, a picture as SVG and a text with the models' numbers: the first blow, the
 /// second, the doubling, the fold, a phone.  Computed anew by both models.
@@ -14,4 +14,4 @@ namespace clatter::validation {
 /// @throws std::logic_error if the page has no place for it.
 [[nodiscard]] std::string page_with_story();
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline demo

@@ -7,7 +7,7 @@
 
 #include "validation/output/html.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline demo {
 namespace {
 
 // Colours of the page: of the discrete model, of its blows, of lines.
@@ -91,4 +91,4 @@ std::string bar_picture(const std::vector<Bar>& bars, const std::string& words) 
   return picture(words, content);
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline demo

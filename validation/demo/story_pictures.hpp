@@ -8,7 +8,7 @@
 
 #include "analytic/angle.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline demo {
 
 /// A blow on an end of the rod.
 struct RodBlow {
@@ -44,4 +44,4 @@ struct Bar {
 };
 [[nodiscard]] std::string bar_picture(const std::vector<Bar>& bars, const std::string& words);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline demo

@@ -10,7 +10,7 @@
 #include "validation/measured/arm_angles.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline extremes {
 namespace {
 
 using Values = std::vector<AxisValue>;
@@ -161,4 +161,4 @@ const MapAxis& map_axis(const std::string& name) {
   throw std::out_of_range("no axis " + name);
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline extremes

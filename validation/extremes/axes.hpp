@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace clatter::validation {
+namespace clatter::validation::inline extremes {
 
 struct AxisValue {
   double value = 0;
@@ -25,4 +25,4 @@ struct MapAxis {
 /// @throws std::out_of_range if there is none of that name.
 [[nodiscard]] const MapAxis& map_axis(const std::string& name);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline extremes

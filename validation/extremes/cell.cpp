@@ -11,7 +11,7 @@
 #include "numeric/errors.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline extremes {
 namespace {
 
 void refuse(ExtremeCell& cell, CellVerdict verdict, const std::string& reason) {
@@ -91,4 +91,4 @@ std::string cell_failure(const ExtremeCell& cell, double seconds) {
   return "";
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline extremes

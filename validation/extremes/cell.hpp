@@ -10,7 +10,7 @@
 
 #include "validation/plan/model_hierarchy.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline extremes {
 
 inline constexpr double eps = std::numeric_limits<double>::epsilon();
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -103,4 +103,4 @@ template <class Work>
   return std::chrono::duration<double>(CellClock::Clock::now() - begin).count();
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline extremes

@@ -11,7 +11,7 @@
 #include "validation/extremes/cell.hpp"
 #include "validation/record/names.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline extremes {
 namespace {
 
 using numeric::ImpactNumbers;
@@ -140,4 +140,4 @@ double worst_energy_drift(const Simulation& run) {
       run, [&](const numeric::ImpactRecord& row) { return std::fabs(row.value.energy_after / run.energy_start - 1); });
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline extremes

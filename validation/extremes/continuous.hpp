@@ -8,7 +8,7 @@
 #include "numeric/simulate.hpp"
 #include "validation/extremes/cell.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline extremes {
 
 /// A box (the paper's phone unless said otherwise) and the ground that it falls on.
 struct ContinuousCase {
@@ -66,4 +66,4 @@ struct RunDistance {
 /// The energy after an impact against the first, over the first: the largest.  For an elastic drop.
 [[nodiscard]] double worst_energy_drift(const numeric::Simulation& run);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline extremes

@@ -11,7 +11,7 @@
 #include "validation/extremes/exact_rod.hpp"
 #include "validation/extremes/extreme_cases.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline extremes {
 namespace {
 
 using numeric::Simulation;
@@ -143,4 +143,4 @@ std::vector<ExtremeCase> continuous_cases(const MapAxis& axis) {
   return cases;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline extremes

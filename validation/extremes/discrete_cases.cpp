@@ -12,7 +12,7 @@
 #include "validation/extremes/retrace.hpp"
 #include "validation/record/names.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline extremes {
 namespace {
 
 using analytic::Angle;
@@ -193,4 +193,4 @@ std::vector<ExtremeCase> discrete_cases(const MapAxis& axis) {
   return cases;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline extremes

@@ -8,7 +8,7 @@
 #include "validation/oracles/impulse_path.hpp"
 #include "validation/oracles/rod.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline extremes {
 namespace {
 
 using oracle::End;
@@ -176,4 +176,4 @@ long double exact_restitution(long double damping_number) {
   return static_cast<long double>(oracle::exact_restitution(Digits50(damping_number)));
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline extremes

@@ -5,7 +5,7 @@
 #include "analytic/contact_angles.hpp"
 #include "analytic/sequence.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline extremes {
 
 /// What is held against the truth, and what it is called in the map.
 inline constexpr const char* exact_rod_oracle = "momentum balances and flight in 50 digits";
@@ -42,4 +42,4 @@ struct RodError {
 /// e of the flat landing on a viscoelastic ground, s = c_G v/k_G >= 0 (oracles/impulse_path.hpp).
 [[nodiscard]] long double exact_restitution(long double damping_number);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline extremes

@@ -10,7 +10,7 @@
 #include "validation/extremes/axes.hpp"
 #include "validation/extremes/cell.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline extremes {
 
 /// The sequence of a drop.  @throws analytic::NumericalError if a number of it could not be computed, OutsideModelError
 /// if an impact jams.
@@ -42,4 +42,4 @@ struct LongRuns {
 /// @param goes_on asked now and then; false ends the cell early
 [[nodiscard]] std::vector<ExtremeCase> long_cases(const LongRuns& runs, const std::function<bool()>& goes_on);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline extremes

@@ -8,7 +8,7 @@
 
 #include "validation/output/interrupt.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline extremes {
 namespace {
 
 constexpr double digits_within_a_region = 1;
@@ -105,4 +105,4 @@ const ExtremeCell* slowest_cell(const ExtremesMap& map) {
   return slowest;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline extremes

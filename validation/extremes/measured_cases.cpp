@@ -9,7 +9,7 @@
 #include "validation/extremes/extreme_cases.hpp"
 #include "validation/measured/kept_tracks.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline extremes {
 namespace {
 
 /// The drops whose arm at impact 1 is inclined from `low` on.
@@ -39,4 +39,4 @@ std::vector<ExtremeCase> measured_cases(const MapAxis& axis) {
   return cases;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline extremes

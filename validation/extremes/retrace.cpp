@@ -9,7 +9,7 @@
 
 #include "validation/extremes/cell.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline extremes {
 namespace {
 
 using analytic::Drop;
@@ -175,4 +175,4 @@ class Walk {
 
 Retrace retrace(const analytic::Drop& drop, const analytic::Sequence& sequence) { return Walk(drop, sequence).run(); }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline extremes

@@ -6,7 +6,7 @@
 
 #include "analytic/sequence.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline extremes {
 
 inline constexpr const char* retrace_oracle = "laws of motion, row by row at 64 bits";
 
@@ -26,4 +26,4 @@ struct Retrace {
 /// Numbers that are not finite give residuals that are infinite.
 [[nodiscard]] Retrace retrace(const analytic::Drop& drop, const analytic::Sequence& sequence);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline extremes

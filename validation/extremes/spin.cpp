@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace clatter::validation {
+namespace clatter::validation::inline extremes {
 namespace {
 
 using Real = long double;
@@ -92,4 +92,4 @@ double PeriodicSpin::error(const numeric::Rotation& rotation, double time) const
   return static_cast<double>(std::fmax(worst, std::fmin(same, other)));
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline extremes

@@ -7,7 +7,7 @@
 #include "numeric/motion/rotation.hpp"
 #include "validation/oracles/free_top.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline extremes {
 
 /// A freely turning body whose momentum is not along an axis of inertia.
 ///
@@ -34,4 +34,4 @@ class PeriodicSpin {
   long double longest_step_ = 0, period_ = 0, angle_ = 0;
 };
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline extremes

@@ -12,7 +12,7 @@
 #include "validation/extremes/spin.hpp"
 #include "validation/record/names.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline extremes {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
@@ -110,4 +110,4 @@ std::vector<ExtremeCase> turn_cases(const MapAxis& axis) {
   return cases;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline extremes

@@ -10,7 +10,7 @@
 #include "analytic/contact_angles.hpp"
 #include "validation/figures/figures.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline figures {
 namespace {
 
 using analytic::Angle;
@@ -210,4 +210,4 @@ Figure figure_impulses_with_gravity() {
                          {.y_label = "normal impulse P₁, P₂, P₃", .y = {0, no_number}, .legend_place = "beside"});
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline figures

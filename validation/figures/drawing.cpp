@@ -8,7 +8,7 @@
 #include "validation/figures/gnuplot.hpp"
 #include "validation/figures/plot_text.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline figures {
 namespace {
 
 std::string script(const Figure& figure, const FigurePlot& plot, std::size_t index) {
@@ -49,4 +49,4 @@ std::vector<std::string> draw(const Figure& figure) {
   return pictures;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline figures

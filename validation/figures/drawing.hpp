@@ -7,10 +7,10 @@
 
 #include "validation/figures/figure.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline figures {
 
 /// One SVG element per plot of the figure, a zoom after its plot, ready to stand in an HTML page.
 /// @throws as run_gnuplot.
 [[nodiscard]] std::vector<std::string> draw(const Figure& figure);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline figures

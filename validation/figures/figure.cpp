@@ -11,7 +11,7 @@
 #include "validation/output/json.hpp"
 #include "validation/output/version.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline figures {
 
 std::size_t column_index(const std::vector<FigureColumn>& columns, const std::string& name) {
   for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -145,4 +145,4 @@ Report figure_report(const Figure& figure) {
   return report;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline figures

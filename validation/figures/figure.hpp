@@ -11,7 +11,7 @@
 #include "validation/compare/case_runs.hpp"
 #include "validation/output/report.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline figures {
 
 /// In place of a number that a row or a range does not have: nothing is drawn there.
 inline constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
@@ -105,4 +105,4 @@ struct Figure {
 /// is drawn, as JSON does in the list "plots".
 [[nodiscard]] Report figure_report(const Figure& figure);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline figures

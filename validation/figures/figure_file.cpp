@@ -9,7 +9,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/sink.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline figures {
 
 void make_folder(const std::string& folder, const std::string& option) {
   std::error_code error;
@@ -39,4 +39,4 @@ void write_figure(const Figure& figure, const FigureFiles& files) {
   sink.commit();
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline figures

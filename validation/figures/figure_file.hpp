@@ -7,7 +7,7 @@
 
 #include "validation/figures/figure.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline figures {
 
 /// Creates the folder if it is not there.  @throws BadInput if it cannot be, or is a file.
 void make_folder(const std::string& folder, const std::string& option);
@@ -27,4 +27,4 @@ void check_figure_files(const std::vector<int>& numbers, const FigureFiles& file
 /// Writes the figure's file, whole or not at all.  @throws BadInput naming the file if it cannot be written.
 void write_figure(const Figure& figure, const FigureFiles& files);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline figures

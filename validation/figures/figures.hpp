@@ -4,7 +4,7 @@
 
 #include "validation/figures/figure.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline figures {
 
 /// Positions of the rod in its first flight (Fig. 8).
 [[nodiscard]] Figure figure_rod_positions();
@@ -29,4 +29,4 @@ namespace clatter::validation {
 [[nodiscard]] Figure figure_phone_energies(CaseRuns& case_runs);
 [[nodiscard]] Figure figure_phone_over_angle(CaseRuns& case_runs);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline figures

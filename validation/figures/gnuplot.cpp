@@ -16,7 +16,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline figures {
 namespace {
 
 std::filesystem::path temporary_folder() {
@@ -107,4 +107,4 @@ std::string gnuplot_quoted(const std::string& text) {
   return out + "'";
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline figures

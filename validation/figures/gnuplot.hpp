@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace clatter::validation {
+namespace clatter::validation::inline figures {
 
 /// Runs a script with gnuplot's default settings; returns what it writes to its standard output.
 /// @throws BadInput if gnuplot is not there; std::runtime_error with its first line of complaint if it fails, or if no
@@ -19,4 +19,4 @@ void require_gnuplot(const std::string& purpose, const std::string& terminal = "
 /// A text as gnuplot's string constant, in which nothing is replaced.
 [[nodiscard]] std::string gnuplot_quoted(const std::string& text);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline figures

@@ -11,7 +11,7 @@
 #include "validation/figures/plot_text.hpp"
 #include "validation/output/report.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline figures {
 namespace {
 
 // Lengths in units of the SVG's pixel.
@@ -134,4 +134,4 @@ std::string picture_script(const Picture& picture, PictureFormat format, const s
   return text + "unset multiplot\n";
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline figures

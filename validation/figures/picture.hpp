@@ -7,7 +7,7 @@
 
 #include "validation/figures/figure.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline figures {
 
 /// One plot with the numbers that it shows.
 struct PicturePanel {
@@ -31,4 +31,4 @@ enum class PictureFormat { svg, png };
 /// @param output file that the script writes; empty: to standard output, byte for byte the same.
 [[nodiscard]] std::string picture_script(const Picture& picture, PictureFormat format, const std::string& output);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline figures

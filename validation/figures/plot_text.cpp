@@ -11,7 +11,7 @@
 #include "validation/figures/thinning.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline figures {
 namespace {
 
 using Style = FigureCurve::Style;
@@ -207,4 +207,4 @@ std::string plot_command(const PlotData& data, const FigurePlot& plot, const std
   return command + "\n";
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline figures

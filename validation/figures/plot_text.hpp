@@ -7,7 +7,7 @@
 
 #include "validation/figures/figure.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline figures {
 
 /// What a plot takes its curves from.
 struct PlotData {
@@ -27,4 +27,4 @@ struct PlotData {
 /// plot says so.
 [[nodiscard]] std::string plot_command(const PlotData& data, const FigurePlot& plot, const std::string& name);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline figures

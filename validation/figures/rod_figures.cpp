@@ -12,7 +12,7 @@
 #include "validation/figures/history_panels.hpp"
 #include "validation/scene/discrete_scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline figures {
 namespace {
 
 using Style = FigureCurve::Style;
@@ -210,4 +210,4 @@ Figure figure_rod_sequence(CaseRuns& case_runs) {
   return figure;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline figures

@@ -7,7 +7,7 @@
 #include "analytic/contact_angles.hpp"
 #include "validation/figures/figures.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline figures {
 namespace {
 
 using analytic::Angle;
@@ -119,4 +119,4 @@ Figure figure_rod_positions() {
   return figure;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline figures

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace clatter::validation {
+namespace clatter::validation::inline figures {
 namespace {
 
 constexpr double strips = 1000;
@@ -61,4 +61,4 @@ std::vector<CurvePoint> thinned(const std::vector<CurvePoint>& points) {
   return kept;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline figures

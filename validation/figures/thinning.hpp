@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace clatter::validation {
+namespace clatter::validation::inline figures {
 
 /// A point of a curve; not finite: a gap.
 struct CurvePoint {
@@ -22,4 +22,4 @@ inline constexpr std::size_t whole_curve = 4000;
 /// such a run, so that both ends of each branch stay, and peaks however narrow.
 [[nodiscard]] std::vector<CurvePoint> thinned(const std::vector<CurvePoint>& points);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline figures

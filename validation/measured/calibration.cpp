@@ -6,7 +6,7 @@
 
 #include "analytic/space/principal_axes.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline measured {
 namespace {
 
 constexpr double least_ground_error = 1e-6;  // [m]
@@ -195,4 +195,4 @@ std::vector<PartImpact> impacts_of(const MeasuredFile& file, const TrackPart& pa
   return impacts;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline measured

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace clatter::validation {
+namespace clatter::validation::inline measured {
 namespace {
 
 using Eigen::Matrix2d;
@@ -182,4 +182,4 @@ StateVector FlightFit::residuals(const Frame& frame) const {
 
 double FlightFit::residual(const Frame& frame) const { return residuals(frame).cwiseAbs().maxCoeff(); }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline measured

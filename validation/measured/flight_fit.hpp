@@ -14,7 +14,7 @@
 
 #include "validation/measured/track.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline measured {
 
 /// Covariance of a state: position [m], attitude (rotation vector in the world frame) [rad], velocity [m/s], angular
 /// velocity [rad/s], world frame, in this order.
@@ -77,4 +77,4 @@ class FlightFit {
   bool planar_ = false;
 };
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline measured

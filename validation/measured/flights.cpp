@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace clatter::validation {
+namespace clatter::validation::inline measured {
 namespace {
 
 constexpr double explained = 5;  // standard deviations
@@ -157,4 +157,4 @@ FallGravity fall_gravity(const TrackFile& file, const PoseNoise& noise) {
   return {middle, std::max(least_spread, std::sqrt(rest))};
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline measured

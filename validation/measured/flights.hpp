@@ -6,7 +6,7 @@
 
 #include "validation/measured/flight_fit.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline measured {
 
 /// Indices of a track's frames that one flight explains, in order.
 using FlightFrames = std::vector<std::size_t>;
@@ -41,4 +41,4 @@ enum class FlightSide { first, last };
 /// errors; where there are fewer than 5 of those the description's, known to 5 %.
 [[nodiscard]] FallGravity fall_gravity(const TrackFile& file, const PoseNoise& noise);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline measured

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace clatter::validation {
+namespace clatter::validation::inline measured {
 namespace {
 
 constexpr std::uint64_t split_seed = 1;
@@ -32,4 +32,4 @@ CrossedScores crossed_scores(const std::string& name) {
   return {residual_bins(one.drops), std::fmax(flat(one), flat(other))};
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline measured

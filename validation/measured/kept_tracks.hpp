@@ -7,7 +7,7 @@
 
 #include "validation/measured/score.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline measured {
 
 /// Fitted on one half of a set's drops, drawn with seed 1, and scored on the other.
 /// @param name  "square-drops" or "cube-tosses"
@@ -20,4 +20,4 @@ struct CrossedScores {
 };
 [[nodiscard]] CrossedScores crossed_scores(const std::string& name);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline measured

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace clatter::validation {
+namespace clatter::validation::inline measured {
 namespace {
 
 using analytic::space::State;
@@ -211,4 +211,4 @@ MeasuredFile measure_tracks(TrackFile file) {
   return measured;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline measured

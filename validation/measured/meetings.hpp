@@ -8,7 +8,7 @@
 
 #include "validation/measured/flights.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline measured {
 
 /// Why the motion changed between two flights.
 enum class Change {
@@ -55,4 +55,4 @@ struct MeasuredFile {
 };
 [[nodiscard]] MeasuredFile measure_tracks(TrackFile file);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline measured

@@ -10,7 +10,7 @@
 #include "validation/output/number.hpp"
 #include "validation/sweep/counter_random.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline measured {
 namespace {
 
 using analytic::space::State;
@@ -120,4 +120,4 @@ MeasuredFit fit_measured(const MeasuredFile& file, const TrackPart& part) {
   return fit;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline measured

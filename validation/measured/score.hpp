@@ -7,7 +7,7 @@
 
 #include "validation/measured/forecast.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline measured {
 
 /// Which drops to fit on and which to score: never the same.
 struct TrackSplit {
@@ -101,4 +101,4 @@ struct Scores {
 [[nodiscard]] Scores score_measured(const MeasuredFile& file, const MeasuredFit& fit, const TrackPart& part,
                                     bool sequences);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline measured

@@ -5,7 +5,7 @@
 #include "validation/measured/arm_angles.hpp"
 #include "validation/measured/score.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline measured {
 namespace {
 
 using analytic::space::State;
@@ -229,4 +229,4 @@ Scores score_measured(const MeasuredFile& file, const MeasuredFit& fit, const Tr
   return scores;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline measured

@@ -12,7 +12,7 @@
 #include "validation/output/number.hpp"
 #include "validation/tables/numeric_table.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline measured {
 namespace {
 
 constexpr double least_noise = 1e-7;     // [m], [rad]
@@ -161,4 +161,4 @@ PoseNoise pose_noise(const TrackFile& file) {
   return noise;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline measured

@@ -7,7 +7,7 @@
 #include "analytic/errors.hpp"
 #include "analytic/space/first_contact.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline measured {
 namespace {
 
 using analytic::space::FirstContact;
@@ -158,4 +158,4 @@ TrackImpact measured_impact(const Meeting& meeting, const TrackedBody& body, dou
   return impact;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline measured

@@ -7,7 +7,7 @@
 
 #include "validation/measured/meetings.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline measured {
 
 /// One impact as it was measured.
 struct TrackImpact {
@@ -49,4 +49,4 @@ struct TrackImpact {
 [[nodiscard]] TrackImpact measured_impact(const Meeting& meeting, const TrackedBody& body, double ground_error,
                                           double lever_tolerance);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline measured

@@ -18,7 +18,7 @@
 #include "analytic/space/body.hpp"
 #include "analytic/space/cross_matrix.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline measured {
 
 using analytic::space::cross_matrix;
 using analytic::space::Matrix3;
@@ -109,4 +109,4 @@ class TrackedBody {
   double gyration_square_ = 1, reach_ = 1;
 };
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline measured

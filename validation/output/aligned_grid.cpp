@@ -5,7 +5,7 @@
 #include <sstream>
 #include <vector>
 
-namespace clatter::validation {
+namespace clatter::validation::inline output {
 namespace {
 
 constexpr std::size_t gap = 2;            // before each column
@@ -162,4 +162,4 @@ std::string aligned_grid(const Grid& grid) {
   return out;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline output

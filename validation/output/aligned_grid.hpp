@@ -7,7 +7,7 @@
 
 #include "validation/output/report.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline output {
 
 inline constexpr std::size_t table_width = 80;  ///< of a terminal
 
@@ -19,4 +19,4 @@ inline constexpr std::size_t table_width = 80;  ///< of a terminal
 /// the grid's leading columns again.
 [[nodiscard]] std::string aligned_grid(const Grid& grid);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline output

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace clatter::validation {
+namespace clatter::validation::inline output {
 namespace {
 
 std::size_t edit_distance(const std::string& from, const std::string& to) {
@@ -31,4 +31,4 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
   return nearest == candidates.end() ? std::string() : *nearest;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline output

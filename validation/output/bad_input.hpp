@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace clatter::validation {
+namespace clatter::validation::inline output {
 
 class BadInput : public std::runtime_error {
  public:
@@ -16,4 +16,4 @@ class BadInput : public std::runtime_error {
 /// The candidate nearest to `name` by edit distance.
 [[nodiscard]] std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline output

@@ -4,7 +4,7 @@
 #include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline output {
 namespace {
 
 /// "NAME [UNIT]: MEANING".
@@ -144,4 +144,4 @@ std::vector<Row> read_csv_rows(const std::string& text) {
   return rows;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline output

@@ -8,7 +8,7 @@
 
 #include "validation/output/report.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline output {
 
 /// Of a number of which nothing is known.
 inline constexpr double unknown_error = std::numeric_limits<double>::infinity();
@@ -53,4 +53,4 @@ struct Shown {
   return number.is_known() ? Value(number.error) : Value();
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline output

@@ -6,7 +6,7 @@
 
 #include "validation/output/report.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline output {
 namespace {
 
 using List = Value::List;
@@ -127,4 +127,4 @@ Value row_objects(const Grid& grid) {
   return rows;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline output

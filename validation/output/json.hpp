@@ -7,7 +7,7 @@
 
 #include "validation/output/value.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline output {
 
 using Json = nlohmann::ordered_json;
 
@@ -27,4 +27,4 @@ using Json = nlohmann::ordered_json;
 /// The same without blanks, on one line.
 [[nodiscard]] std::string compact_json(const Value& value);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline output

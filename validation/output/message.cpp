@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace clatter::validation {
+namespace clatter::validation::inline output {
 
 void say(const std::string& words) {
   std::string line = "clatter: " + words;
@@ -13,4 +13,4 @@ void say(const std::string& words) {
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline output

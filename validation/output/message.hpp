@@ -4,10 +4,10 @@
 
 #include <string>
 
-namespace clatter::validation {
+namespace clatter::validation::inline output {
 
 /// Writes "clatter: WORDS" as one line.  Nobody may be there to read (stderr closed, full or hung up), which changes
 /// neither the run nor its status.
 void say(const std::string& words);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline output

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace clatter::validation {
+namespace clatter::validation::inline output {
 
 std::string shortest(double value) { return fmt::format("{}", value + 0.0); }
 
@@ -70,4 +70,4 @@ bool read_integer(std::string_view text, long long& value) {
   return error == std::errc() && stop == end;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline output

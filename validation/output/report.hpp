@@ -9,7 +9,7 @@
 
 #include "validation/output/value.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline output {
 
 enum class Format { table, csv, json, markdown, latex };
 
@@ -111,4 +111,4 @@ void fit_columns(Report& report, int digits, const std::vector<std::size_t>& sta
 /// Text broken at blanks into lines of at most `width` columns, continuation lines indented.
 [[nodiscard]] std::string wrapped(const std::string& text, std::size_t width = 79, const std::string& indent = "  ");
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline output

@@ -13,7 +13,7 @@
 #include "validation/output/symbols.hpp"
 #include "validation/output/version.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline output {
 namespace {
 
 using Texts = std::vector<std::vector<std::string>>;
@@ -181,4 +181,4 @@ std::string report_text(const Report& report, const TextStyle& style) {
   return style.ascii ? to_ascii(aligned(plain(report))) : aligned(report);
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline output

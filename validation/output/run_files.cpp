@@ -16,7 +16,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/sink.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline output {
 namespace {
 
 namespace fs = std::filesystem;
@@ -111,4 +111,4 @@ void refuse_shared_files(const std::vector<RunFile>& written, const std::vector<
   }
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline output

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace clatter::validation {
+namespace clatter::validation::inline output {
 
 /// A file that a run reads or writes; an empty path: none.
 struct RunFile {
@@ -37,4 +37,4 @@ void require_writable(const RunFile& file);
 /// @throws BadInput if a file of `written` is one of `read`, or is written twice.
 void refuse_shared_files(const std::vector<RunFile>& written, const std::vector<RunFile>& read);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline output

@@ -14,7 +14,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline output {
 
 Sink::Sink(const std::string& path, const std::string& option) : path_(path), option_(option) {
   if (path_.empty()) {
@@ -81,4 +81,4 @@ void Sink::commit() {
   temporary_.clear();
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline output

@@ -9,7 +9,7 @@
 
 #include "validation/output/run_files.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline output {
 
 /// Nobody reads any more what is written to a pipe: the end of the run, but no failure.
 class ReaderGone : public std::runtime_error {
@@ -46,4 +46,4 @@ class Sink {
   std::FILE* stream_ = nullptr;
 };
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline output

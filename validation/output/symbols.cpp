@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clatter::validation {
+namespace clatter::validation::inline output {
 namespace {
 
 /// Characters, and after each what stands for it: separated by blanks, or a text for each.
@@ -54,4 +54,4 @@ std::string to_latex(const std::string& text) {
 }
 std::string to_ascii(const std::string& text) { return replaced(text, ascii); }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline output

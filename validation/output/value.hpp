@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-namespace clatter::validation {
+namespace clatter::validation::inline output {
 
 struct Field;
 
@@ -65,4 +65,4 @@ struct Field {
 /// Nothing in place of an empty text.
 [[nodiscard]] Value text_or_nothing(const std::string& text);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline output

@@ -7,7 +7,7 @@
 
 #include "analytic/contact_angles.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline plan {
 namespace {
 
 using analytic::Drop;
@@ -138,4 +138,4 @@ Sequence closed_form_sequence(const Drop& drop, int impacts, bool amplification)
   return sequence;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline plan

@@ -6,7 +6,7 @@
 
 #include "analytic/sequence.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline plan {
 
 /// Why the closed form does not apply to a drop; empty: it does.  It is for a thin rod that falls straight, one end
 /// first, with Newton's restitution and an impulse ratio as given, or none.
@@ -18,4 +18,4 @@ namespace clatter::validation {
 [[nodiscard]] analytic::Sequence closed_form_sequence(const analytic::Drop& drop, int impacts,
                                                       bool amplification = false);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline plan

@@ -5,7 +5,7 @@
 #include "validation/output/number.hpp"
 #include "validation/plan/plan.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline plan {
 namespace {
 
 /// A file name as a shell takes it.
@@ -36,4 +36,4 @@ std::string command_line(const Plan& plan) {
   return line;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline plan

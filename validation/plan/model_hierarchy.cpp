@@ -12,7 +12,7 @@
 #include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/space_scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline plan {
 namespace {
 
 using numeric::Method;
@@ -175,4 +175,4 @@ Truth true_values(const ModelHierarchy& hierarchy, double trusted) {
   return truth;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline plan

@@ -12,7 +12,7 @@
 #include "validation/plan/tolerance_search.hpp"
 #include "validation/record/names.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline plan {
 namespace {
 
 using numeric::Method;
@@ -282,4 +282,4 @@ Plan make_plan(const Scene& scene, const PlanTarget& target, const numeric::Obse
   return Planner(scene, target, observer).make();
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline plan

@@ -14,7 +14,7 @@
 #include "validation/record/names.hpp"
 #include "validation/scene/shortfall.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline plan {
 namespace {
 
 using numeric::Accuracy;
@@ -175,4 +175,4 @@ std::string shortfall(const Scene& scene, const PlannedRun& planned) {
   return digits_shortfall(scene.accuracy.digits, planned.achieved);
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline plan

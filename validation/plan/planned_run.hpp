@@ -8,7 +8,7 @@
 #include "validation/record/motion_numbers.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline plan {
 
 struct PlannedRun {
   numeric::Simulation run;
@@ -40,4 +40,4 @@ struct PlannedRun {
 /// As shortfall() of a sequence.
 [[nodiscard]] std::string shortfall(const Scene& scene, const PlannedRun& planned);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline plan

@@ -4,7 +4,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/plan/closed_form.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline plan {
 
 SequenceMethod read_sequence_method(const std::string& name) {
   return static_cast<SequenceMethod>(read_name_option("--method", name, {"auto", "closed-form", "discrete"}));
@@ -41,4 +41,4 @@ DiscreteRun run_discrete(const Scene& scene, SequenceMethod method) {
   return {std::move(drop), std::move(sequence)};
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline plan

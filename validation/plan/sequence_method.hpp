@@ -6,7 +6,7 @@
 
 #include "validation/scene/space_scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline plan {
 
 enum class SequenceMethod {
   automatic,    ///< the discrete model: the closed form costs as much, and knows less
@@ -31,4 +31,4 @@ struct DiscreteRun {
 /// @throws as chosen_drop and impact_sequence; BadInput if the closed form does not apply, with the reason.
 [[nodiscard]] DiscreteRun run_discrete(const Scene& scene, SequenceMethod method);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline plan

@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace clatter::validation {
+namespace clatter::validation::inline plan {
 namespace {
 
 using numeric::Matrix3;
@@ -47,10 +47,10 @@ class VertexGrid {
 };
 
 bool moves_in_plane(const numeric::MotionState& state) {
-  constexpr double rounding = 1e-14;  // of the turn from body to world components
+  constexpr double turn_rounding = 1e-14;  // of the turn from body to world components
   const Vector3 rate = state.attitude * state.angular_velocity;
-  return std::fabs(state.velocity.y()) <= rounding * state.velocity.norm() &&
-         std::hypot(rate.x(), rate.z()) <= rounding * rate.norm();
+  return std::fabs(state.velocity.y()) <= turn_rounding * state.velocity.norm() &&
+         std::hypot(rate.x(), rate.z()) <= turn_rounding * rate.norm();
 }
 
 }  // namespace
@@ -70,4 +70,4 @@ bool is_mirror_image(const numeric::Body& body, const numeric::MotionState& stat
   return true;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline plan

@@ -5,7 +5,7 @@
 
 #include "validation/output/number.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline record {
 
 using numeric::HistorySample;
 using numeric::Vector3;
@@ -95,4 +95,4 @@ void record_fall(numeric::HistoryRecorder& recorder, const numeric::MotionState&
   }
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline record

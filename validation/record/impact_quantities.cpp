@@ -8,7 +8,7 @@
 #include "validation/output/estimated.hpp"
 #include "validation/record/names.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline record {
 namespace {
 
 using analytic::ImpactRow;
@@ -275,4 +275,4 @@ std::span<const ImpactQuantity> impact_quantities() { return all; }
 
 double impulse_ratio(const numeric::ImpactNumbers& numbers) { return numbers.impulse.x() / numbers.impulse.z(); }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline record

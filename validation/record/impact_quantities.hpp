@@ -13,7 +13,7 @@
 #include "analytic/space/sequence.hpp"
 #include "numeric/impact_record.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline record {
 
 /// Impact n, counted from 1, of the discrete model.
 struct DiscreteRow {
@@ -82,4 +82,4 @@ struct ImpactQuantity {
 /// Tangential over normal impulse.
 [[nodiscard]] double impulse_ratio(const numeric::ImpactNumbers& numbers);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline record

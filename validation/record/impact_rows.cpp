@@ -12,7 +12,7 @@
 #include "validation/output/estimated.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline record {
 namespace {
 
 using analytic::ImpactRow;
@@ -246,4 +246,4 @@ template void append_tail<DiscreteRow>(std::string&, const analytic::Tail&, bool
 template void append_tail<SpaceRow>(std::string&, const analytic::Tail&, bool);
 template void append_tail<SpaceRow>(std::string&, const analytic::space::Tail&, bool);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline record

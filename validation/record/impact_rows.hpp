@@ -8,7 +8,7 @@
 #include "validation/output/report.hpp"
 #include "validation/record/impact_quantities.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline record {
 
 /// The columns of a model's quantities, then those of their errors as NAME_error.
 /// @param shown names of the columns that tables have
@@ -39,4 +39,4 @@ void append_impact(std::string& out, const Impact& impact, bool with_errors);
 template <class Columns, class AnyTail>
 void append_tail(std::string& out, const AnyTail& tail, bool with_errors);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline record

@@ -7,7 +7,7 @@
 
 #include "validation/record/impact_quantities.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline record {
 namespace {
 
 MotionNumbers sizes_of(double time, double speed, double radius, double mass) {
@@ -125,4 +125,4 @@ double distance(const std::vector<MotionNumbers>& rows, const std::vector<Motion
   return worst;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline record

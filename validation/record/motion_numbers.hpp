@@ -11,7 +11,7 @@
 #include "analytic/space/sequence.hpp"
 #include "numeric/simulate.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline record {
 
 /// The quantities of ImpactQuantity::motion: time of touch-down [s], contact angle [°], impulse x, y, z [N·s], velocity
 /// after x, y, z [m/s], angular velocity after x, y, z [rad/s]; world frame.  What lies out of the plane is zero in a
@@ -76,4 +76,4 @@ inline constexpr std::size_t normal_impulse_place = 4;  ///< in MotionNumbers
 [[nodiscard]] double distance(const std::vector<MotionNumbers>& rows, const std::vector<MotionNumbers>& truth,
                               const MotionNumbers& sizes);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline record

@@ -8,7 +8,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline record {
 
 TimeWindow read_window(const std::optional<std::string>& text) {
   if (!text) return {};
@@ -46,4 +46,4 @@ std::vector<std::vector<double>> clipped(const std::vector<std::vector<double>>&
   return kept;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline record

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace clatter::validation {
+namespace clatter::validation::inline record {
 
 /// From one time to another after the first touch-down, both taken [s].
 struct TimeWindow {
@@ -24,4 +24,4 @@ struct TimeWindow {
 [[nodiscard]] std::vector<std::vector<double>> clipped(const std::vector<std::vector<double>>& rows,
                                                        const TimeWindow& window);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline record

@@ -9,7 +9,7 @@
 
 #include "validation/scene/rod_parameters.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 using Style = FigureCurve::Style;
@@ -108,4 +108,4 @@ Picture angles_picture(const AnglesRequest& request) {
           .panels = {angles, impulses}};
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

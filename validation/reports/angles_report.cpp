@@ -14,11 +14,10 @@
 #include "validation/scene/rod_parameters.hpp"
 #include "validation/scene/swept_range.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 using analytic::degrees_per_radian;
-using analytic::NextImpact;
 
 constexpr std::size_t plain_columns = 17, impacts_column = 16, deficit_column = 15;
 constexpr double neighbour_shift = 0x1p-30;  // between rounding and the curvature of the results
@@ -31,7 +30,7 @@ struct AnglesTexts {
 };
 
 double angle_or_missing(const analytic::ContactAngle& angle) {
-  return angle.next == NextImpact::other_end ? angle.angle * degrees_per_radian : NAN;
+  return angle.next == analytic::NextImpact::other_end ? angle.angle * degrees_per_radian : NAN;
 }
 
 std::size_t column_count(const AnglesRequest& request) {
@@ -235,4 +234,4 @@ std::string angles_csv_rows(const AnglesRequest& request, long long begin, long 
   return csv_rows(grid.rows);
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -11,7 +11,7 @@
 #include "validation/output/report.hpp"
 #include "validation/scene/named_texts.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 
 /// What is asked for.
 struct AnglesRequest {
@@ -40,4 +40,4 @@ using AnglesRow = std::array<double, 19>;
 /// CSV of the rows from `begin` up to `end`; empty fields for what does not happen, and for errors that are not known.
 [[nodiscard]] std::string angles_csv_rows(const AnglesRequest& request, long long begin, long long end);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -13,7 +13,7 @@
 #include "validation/reports/score_report.hpp"
 #include "validation/scene/scene_value.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 constexpr int certain = 12;
@@ -290,4 +290,4 @@ Report benchmark_truth_report(const Problem& problem, const std::string& law) {
   return report;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -5,7 +5,7 @@
 #include "validation/benchmark/problem.hpp"
 #include "validation/output/report.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 
 [[nodiscard]] std::vector<Column> benchmark_list_columns();
 [[nodiscard]] std::vector<Column> benchmark_truth_columns();
@@ -21,4 +21,4 @@ namespace clatter::validation {
 /// The truth by `law`, in columns that `clatter benchmark score` reads.
 [[nodiscard]] Report benchmark_truth_report(const Problem& problem, const std::string& law);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -3,7 +3,7 @@
 
 #include "validation/reports/swept_column.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 using Style = FigureCurve::Style;
@@ -97,4 +97,4 @@ Picture swept_comparison_picture(const Scene& scene, const std::vector<SweptComp
       .what = "Discrete and continuous model, first impact", .scene = scene.summary(), .panels = panels(axis, rows)};
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -11,7 +11,7 @@
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/scene_value.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 /// Zero in both models and in the limit, by symmetry; a limit that misses is something.
@@ -256,4 +256,4 @@ Report comparison_report(const Scene& scene, const Comparison& comparison) {
   return report;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -18,7 +18,7 @@
 #include "validation/scene/shortfall.hpp"
 #include "validation/scene/space_scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 using analytic::degrees_per_radian;
@@ -286,4 +286,4 @@ Value explanation_fields(const Explanation& explanation) {
                        {"steps", steps}};
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -10,7 +10,7 @@
 #include "validation/reports/step_writer.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 
 /// The value with the digits that are known of it, of `digits`, and its unit.
 [[nodiscard]] std::string value_text(const Equation& equation, int digits);
@@ -31,4 +31,4 @@ struct Explanation {
 [[nodiscard]] Explanation explain_impact(Scene scene, int n);
 [[nodiscard]] Value explanation_fields(const Explanation& explanation);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

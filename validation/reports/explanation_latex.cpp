@@ -9,7 +9,7 @@
 
 #include "validation/output/estimated.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 struct Replacement {
@@ -170,4 +170,4 @@ std::string explanation_latex(const std::vector<std::string>& head, const std::v
   return out;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

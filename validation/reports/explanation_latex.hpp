@@ -7,7 +7,7 @@
 
 #include "validation/reports/step_writer.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 
 /// "NAME &= FORMULA", then the numbers put in and the value with its unit, each after `between`.
 [[nodiscard]] std::string equation_tex(const Equation& equation, int digits, const std::string& between);
@@ -18,4 +18,4 @@ namespace clatter::validation {
 [[nodiscard]] std::string explanation_latex(const std::vector<std::string>& head, const std::vector<Step>& steps,
                                             int digits);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -9,7 +9,7 @@
 #include "validation/reports/explanation_latex.hpp"
 #include "validation/scene/body_properties.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 /// "name = formula" and, where the line gets too long, "= numbers = value" below it.
@@ -94,4 +94,4 @@ std::string explanation_text(const Explanation& explanation, const TextStyle& st
   return report_text(report, style);
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -7,7 +7,7 @@
 #include "validation/output/report.hpp"
 #include "validation/reports/derivation.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 
 [[nodiscard]] std::vector<Column> explain_columns();
 /// A row for each equation.
@@ -15,4 +15,4 @@ namespace clatter::validation {
 /// In any format: tables, Markdown and LaTeX have the steps as text with equations.
 [[nodiscard]] std::string explanation_text(const Explanation& explanation, const TextStyle& style);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -9,7 +9,7 @@
 #include "validation/output/version.hpp"
 #include "validation/reports/extremes_report.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 constexpr double left_margin = 150, strip = 780, right_margin = 20, row_height = 15, axis_gap = 36, top = 118;
@@ -159,4 +159,4 @@ std::string extremes_picture(const ExtremesMap& map) {
          legend() + body + "</svg>\n";
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -8,7 +8,7 @@
 
 #include "validation/output/number.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 const char* const extremes_summary = "the map of what holds, to both ends of every quantity";
@@ -201,4 +201,4 @@ Report extremes_report(const ExtremesMap& map) {
   return report;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -9,7 +9,7 @@
 #include "validation/output/number.hpp"
 #include "validation/reports/space_derivation.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 namespace space = analytic::space;
@@ -103,4 +103,4 @@ void write_group_impact(const ImpactInSpace& impact, StepWriter& writer) {
   }
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -5,7 +5,7 @@
 
 #include "validation/output/number.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 std::string mm(double metres) { return significant(1e3 * metres, 3); }
@@ -117,4 +117,4 @@ std::string law_words(const FittedLaw& law) {
                      significant(law.friction, 3));
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -4,7 +4,7 @@
 
 #include "validation/reports/measured_report.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 
 /// A report with what every one of a run carries: its head, the data, the split, the calibration.
 [[nodiscard]] Report begun(const MeasuredRun& run, const std::string& action, const std::string& what);
@@ -15,4 +15,4 @@ namespace clatter::validation {
 /// "poisson, e = 0.47, μ = 0.097".
 [[nodiscard]] std::string law_words(const FittedLaw& law);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -9,7 +9,7 @@
 #include "validation/output/version.hpp"
 #include "validation/reports/measured_report.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 constexpr int points_of_a_flight = 40;
@@ -113,4 +113,4 @@ std::vector<std::string> measured_words(const MeasuredRun& run) {
           run.file.file.description.source};
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -8,7 +8,7 @@
 #include "validation/output/number.hpp"
 #include "validation/reports/measured_notes.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 /// "+-+": the signs of a corner's coordinates in the body's axes.
@@ -169,4 +169,4 @@ Report measured_predict_report(const MeasuredRun& run, const Scores& scores) {
   return report;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

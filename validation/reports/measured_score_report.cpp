@@ -6,7 +6,7 @@
 #include "validation/output/number.hpp"
 #include "validation/reports/measured_notes.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 /// 95 % interval of a share (Wilson).
@@ -108,4 +108,4 @@ Report measured_score_report(const MeasuredRun& run, const Scores& scores) {
   return report;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -11,7 +11,7 @@
 #include "validation/scene/option_values.hpp"
 #include "validation/scene/scene_value.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 std::string error_words(double error) { return std::isfinite(error) ? significant(error, 2) : "too large to tell"; }
@@ -208,4 +208,4 @@ Report plan_report(const Scene& scene, const Plan& plan) {
   return report;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

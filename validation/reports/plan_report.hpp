@@ -10,7 +10,7 @@
 #include "validation/output/report.hpp"
 #include "validation/plan/plan.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 
 [[nodiscard]] std::vector<Column> plan_columns();
 
@@ -28,4 +28,4 @@ struct PlanRequest {
 /// Why the plan does not give what was asked, one sentence; empty: it does.
 [[nodiscard]] std::string plan_shortfall(const Plan& plan);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

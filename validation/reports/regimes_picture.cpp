@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 using analytic::BoundaryKind;
@@ -70,4 +70,4 @@ Picture regimes_picture(const std::vector<Regimes>& all, const RegimesAxis& axis
   return {.what = "How many impacts, and where that changes", .scene = {rod}, .panels = {panel}};
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

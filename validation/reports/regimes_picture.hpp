@@ -8,7 +8,7 @@
 #include "analytic/contact_angles.hpp"
 #include "validation/figures/picture.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 
 /// One value of the parameter.
 struct Regimes {
@@ -24,4 +24,4 @@ struct RegimesAxis {
 /// θ₂ and θ₃ over the parameter, and the areas of one, two and three impacts.
 [[nodiscard]] Picture regimes_picture(const std::vector<Regimes>& all, const RegimesAxis& axis, const std::string& rod);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -11,7 +11,7 @@
 #include "validation/output/estimated.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 using analytic::BoundaryKind;
@@ -205,4 +205,4 @@ Report regimes_report(const NamedTexts& given) {
 
 std::vector<Column> regimes_columns() { return columns_of(all_quantities().front()); }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

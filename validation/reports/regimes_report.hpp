@@ -12,7 +12,7 @@
 #include "validation/scene/rod_parameters.hpp"
 #include "validation/scene/swept_range.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 
 /// What is asked for, as texts.
 struct RegimesTexts {
@@ -42,4 +42,4 @@ struct FoundRegimes {
 /// @throws BadInput as the command.
 [[nodiscard]] Report regimes_report(const NamedTexts& given);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -11,7 +11,7 @@
 #include "validation/scene/option_values.hpp"
 #include "validation/scene/scene_value.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 Value impact_value(const ImpactScore& one, int n) {
@@ -190,4 +190,4 @@ Report against_report(const Scene& scene, const Reference& reference, const std:
   return report;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -6,7 +6,7 @@
 #include "validation/output/report.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 
 [[nodiscard]] std::vector<Column> score_columns();
 
@@ -29,4 +29,4 @@ struct Requirement {
 /// @throws BadInput
 [[nodiscard]] Requirement read_requirement(const std::optional<std::string>& text);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

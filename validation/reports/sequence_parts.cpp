@@ -5,7 +5,7 @@
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/scene_value.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 
 void grow(Scales& scales, Scale scale, double number) {
   double& size = scales[static_cast<std::size_t>(scale)];
@@ -46,4 +46,4 @@ Report begun_sequence_report(const Scene& scene, const std::string& what, const 
   return report;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

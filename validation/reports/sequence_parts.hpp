@@ -15,7 +15,7 @@
 #include "validation/record/totals.hpp"
 #include "validation/scene/shortfall.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 
 /// A size against which numbers count as zero is at least that of this number.
 void grow(Scales& scales, Scale scale, double number);
@@ -75,4 +75,4 @@ void add_impact_row(Report& report, const Named& named, const ImpactDigits& digi
   if (!named.row.error.predictable) report.grid.rows.back()[0].shown = fmt::format("{}?", named.n);
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -10,7 +10,7 @@
 #include "validation/output/number.hpp"
 #include "validation/scene/discrete_scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 using analytic::ImpactRow;
@@ -232,4 +232,4 @@ Picture sequence_picture(const Scene& scene, const Sequence& sequence, const Tim
   return picture;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

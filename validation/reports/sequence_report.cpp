@@ -5,7 +5,7 @@
 #include "validation/reports/space_sequence_report.hpp"
 #include "validation/scene/discrete_scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 using analytic::ImpactRow;
@@ -108,4 +108,4 @@ Report sequence_report(const Scene& scene, const DiscreteRun& run) {
                          std::get<analytic::space::Sequence>(run.sequence));
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

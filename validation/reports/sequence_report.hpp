@@ -7,7 +7,7 @@
 #include "validation/output/report.hpp"
 #include "validation/plan/sequence_method.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 
 /// @param friction, loses  which columns tables have
 [[nodiscard]] std::vector<Column> sequence_columns(bool friction = true, bool loses = true);
@@ -16,4 +16,4 @@ namespace clatter::validation {
 /// Of a drop in the plane or in space.
 [[nodiscard]] Report sequence_report(const Scene& scene, const DiscreteRun& run);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

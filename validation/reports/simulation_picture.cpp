@@ -10,7 +10,7 @@
 #include "numeric/motion/free_flight.hpp"
 #include "validation/reports/swept_column.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 using Style = FigureCurve::Style;
@@ -153,4 +153,4 @@ Picture sweep_picture(const Scene& scene, const std::vector<SweptRun>& runs) {
   return picture;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

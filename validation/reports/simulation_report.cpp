@@ -15,7 +15,7 @@
 #include "validation/scene/scene_value.hpp"
 #include "validation/scene/shortfall.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 using numeric::ImpactRecord;
@@ -251,4 +251,4 @@ Report sweep_report(const Scene& scene, const std::vector<SweptRun>& runs) {
   return report;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

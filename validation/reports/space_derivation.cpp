@@ -11,7 +11,7 @@
 #include "analytic/space/point_height.hpp"
 #include "validation/scene/space_scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 namespace space = analytic::space;
@@ -227,4 +227,4 @@ void write_flight(const ImpactInSpace& impact, StepWriter& writer) {
   writer.add_vector("ω", "", "angular velocity", now.angular_velocity, "rad/s");
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -9,7 +9,7 @@
 #include "validation/reports/step_writer.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 
 /// Impact n of a sequence, counted from 1, and what it was computed from.
 struct ImpactInSpace {
@@ -43,4 +43,4 @@ void write_corner_impact(const ImpactInSpace& impact, StepWriter& writer);
 /// The impact of several corners at once, and what small tilts would make of them.
 void write_group_impact(const ImpactInSpace& impact, StepWriter& writer);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -14,7 +14,7 @@
 #include "validation/record/names.hpp"
 #include "validation/reports/space_derivation.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 namespace space = analytic::space;
@@ -219,4 +219,4 @@ class CornerImpact {
 
 void write_corner_impact(const ImpactInSpace& impact, StepWriter& writer) { CornerImpact(impact, writer).write(); }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -7,7 +7,7 @@
 #include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/space_scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 using analytic::space::Sequence;
@@ -104,4 +104,4 @@ Report sequence_report(const Scene& scene, const analytic::space::Drop& drop, co
   return report;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -6,10 +6,10 @@
 #include "validation/output/report.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 
 /// A row for each impact.
 [[nodiscard]] Report sequence_report(const Scene& scene, const analytic::space::Drop& drop,
                                      const analytic::space::Sequence& sequence);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

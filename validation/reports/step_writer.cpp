@@ -9,7 +9,7 @@
 #include "validation/output/estimated.hpp"
 #include "validation/record/names.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 
 Step missing_impact(int n, const SequenceEnd& end) {
   Step step{fmt::format("Impact {} does not happen", n),
@@ -55,4 +55,4 @@ std::string StepWriter::product(const Eigen::Vector3d& a, const Eigen::Vector3d&
   return text;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

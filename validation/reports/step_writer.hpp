@@ -8,7 +8,7 @@
 
 #include "analytic/sequence.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 
 /// One line of a derivation: `name = formula = numbers = value unit`.
 struct Equation {
@@ -64,4 +64,4 @@ class StepWriter {
   std::vector<Step> steps_;
 };
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

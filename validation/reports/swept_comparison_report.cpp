@@ -11,7 +11,7 @@
 #include "validation/output/number.hpp"
 #include "validation/reports/swept_column.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 /// How often first impacts are not compared (–), by reason.
@@ -100,4 +100,4 @@ Report swept_comparison_report(const Scene& scene, const std::vector<SweptCompar
   return report;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

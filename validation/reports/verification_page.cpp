@@ -12,7 +12,7 @@
 #include "validation/output/version.hpp"
 #include "validation/reports/verify_report.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 const char* const style = R"css(
@@ -130,4 +130,4 @@ std::string verify_page(const std::vector<CheckResult>& results, const std::stri
   return html + "</body></html>\n";
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -7,7 +7,7 @@
 
 #include "validation/verify/verification.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 
 /// Verdicts, and the figures that the checks belong to, redrawn from `case_runs` as inline SVG with the command that
 /// reproduces each.  No script, no request to anywhere.
@@ -15,4 +15,4 @@ namespace clatter::validation {
 [[nodiscard]] std::string verify_page(const std::vector<CheckResult>& results, const std::string& selection,
                                       CaseRuns& case_runs);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

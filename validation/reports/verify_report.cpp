@@ -9,7 +9,7 @@
 #include "validation/output/number.hpp"
 #include "validation/scene/failure.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 namespace {
 
 const char* const verify_summary = "every claim, its oracle, tolerance and measured error";
@@ -144,4 +144,4 @@ Report verify_report(const std::vector<CheckResult>& results, const std::string&
   return report;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

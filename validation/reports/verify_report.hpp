@@ -8,7 +8,7 @@
 #include "validation/output/report.hpp"
 #include "validation/verify/verification.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline reports {
 
 /// Counts of a run.
 struct VerifySummary {
@@ -25,4 +25,4 @@ struct VerifySummary {
 /// A row for each check.
 [[nodiscard]] Report verify_report(const std::vector<CheckResult>& results, const std::string& selection);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline reports

@@ -15,7 +15,7 @@
 #include "validation/scene/hull.hpp"
 #include "validation/scene/keys.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 namespace {
 
 using numeric::MassProperties;
@@ -224,4 +224,4 @@ std::vector<std::string> scene_head(const Scene& scene, Model model) {
   return head;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

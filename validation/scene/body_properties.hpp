@@ -9,7 +9,7 @@
 #include "validation/output/value.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 
 /// The vector of a key's three components.
 [[nodiscard]] inline numeric::Vector3 vector_of(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
@@ -47,4 +47,4 @@ struct SolidBody {
 /// The scene's summary and a line with the same numbers for a reader: the head of a table.
 [[nodiscard]] std::vector<std::string> scene_head(const Scene& scene, Model model = Model::continuous);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

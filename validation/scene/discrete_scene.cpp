@@ -15,7 +15,7 @@
 #include "validation/scene/keys.hpp"
 #include "validation/scene/space_scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 namespace {
 
 using analytic::Vertex;
@@ -219,4 +219,4 @@ Scene read_discrete_scene(const SceneValues& values, const std::vector<SceneOver
   return scene;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

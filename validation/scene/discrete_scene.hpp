@@ -6,7 +6,7 @@
 #include "numeric/body.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 
 /// Why the drop moves in space and not in the plane y = 0, as its keys say; empty: in the plane.  The one place that
 /// decides so; planar_body refuses meshes whose shape or mass is not symmetric about that plane.
@@ -41,4 +41,4 @@ namespace clatter::validation {
 /// @throws BadInput as read_scene, and for a scene that sweeps its angle.
 [[nodiscard]] Scene read_discrete_scene(const SceneValues& values, const std::vector<SceneOverride>& overrides);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

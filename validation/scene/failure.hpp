@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 
 enum class FailureKind {
   bad_input,      ///< what was given cannot be used
@@ -28,4 +28,4 @@ inline constexpr int check_failed = 1;
 /// 2, 3, 4 or 70.
 [[nodiscard]] int exit_status(FailureKind kind);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 namespace {
 
 using numeric::Vector3;
@@ -70,4 +70,4 @@ bool is_outside_hull(const Vector3& point, const std::vector<Vector3>& points) {
   return false;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

@@ -8,7 +8,7 @@
 
 #include "validation/scene/keys.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 namespace {
 
 template <class... Cases>
@@ -209,4 +209,4 @@ Json keys_json(const Scene& scene, Model model) {
   return json;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

@@ -7,7 +7,7 @@
 
 #include "validation/scene/orientation.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 namespace {
 
 constexpr int most = 100'000;  // elements along an edge of a mesh
@@ -291,4 +291,4 @@ const std::vector<Key>& all_keys() {
   return keys;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

@@ -14,7 +14,7 @@
 #include "validation/scene/scene.hpp"
 #include "validation/scene/scene_values.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 
 // The kinds of values: where one stands in a scene, and what is allowed.
 
@@ -124,4 +124,4 @@ void put_values(const SceneValues& values, Scene& scene, Model model);
 [[nodiscard]] const std::vector<std::string>& method_names();
 [[nodiscard]] const std::vector<std::string>& sweep_names();
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

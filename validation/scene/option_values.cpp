@@ -6,7 +6,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 
 double read_number_option(const std::string& option, const std::string& text, const Range& range) {
   double value = 0;
@@ -33,4 +33,4 @@ std::size_t read_name_option(const std::string& option, const std::string& text,
                              nearest_name(text, names)));
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 namespace {
 
 using Signs = std::array<int, 3>;
@@ -51,4 +51,4 @@ std::vector<double> orientation_attitude(int orientation, const numeric::Vector3
   return {std::cos(half), -down.y() * part, down.x() * part, 0};
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

@@ -7,7 +7,7 @@
 
 #include "numeric/linear_algebra.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 
 inline constexpr int orientation_count = 26;
 
@@ -20,4 +20,4 @@ inline constexpr int orientation_count = 26;
 /// the geometric centre, by the shortest turn from the box's own axes.
 [[nodiscard]] std::vector<double> orientation_attitude(int orientation, const numeric::Vector3& size);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

@@ -17,7 +17,7 @@
 #include "validation/scene/scene.hpp"
 #include "validation/scene/scene_sweep.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 namespace {
 
 constexpr double attitude_rounding = 0.01;  // numbers typed with two digits are meant to have the length 1
@@ -217,4 +217,4 @@ Scene case_scene(const std::string& name, const std::vector<SceneOverride>& over
   return read_values({case_path(name), case_text(name), scene_keys()}, overrides, Model::continuous);
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

@@ -7,7 +7,7 @@
 #include "validation/output/number.hpp"
 #include "validation/scene/option_values.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 
 analytic::RodParameters read_rod(const RodTexts& t) {
   analytic::RodParameters rod;
@@ -41,4 +41,4 @@ std::string rod_summary(const analytic::RodParameters& p) {
                      shortest(p.restitution), shortest(p.impulse_ratio));
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

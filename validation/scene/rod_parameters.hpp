@@ -8,7 +8,7 @@
 #include "analytic/contact_angles.hpp"
 #include "validation/output/value.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 
 struct RodTexts {
   std::optional<std::string> gravity_number, gravity, length, speed, restitution, impulse_ratio;
@@ -20,4 +20,4 @@ struct RodTexts {
 /// "thin rod, G = …, e = …, μᵢ = …".
 [[nodiscard]] std::string rod_summary(const analytic::RodParameters& parameters);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

@@ -10,7 +10,7 @@
 #include "validation/output/number.hpp"
 #include "validation/scene/keys.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 namespace {
 
 using numeric::FrictionLaw;
@@ -152,4 +152,4 @@ std::vector<std::string> Scene::summary(Model model) const {
                                       : friction_words(ground))};
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

@@ -12,7 +12,7 @@
 #include "validation/output/json.hpp"
 #include "validation/scene/scene_values.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 
 /// A flag as given, and the key of the scene file that it overrides.
 struct SceneOverride {
@@ -136,4 +136,4 @@ struct Scene {
 [[nodiscard]] const char* method_name(numeric::Method method);
 [[nodiscard]] const char* law_name(analytic::RestitutionLaw law);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

@@ -15,7 +15,7 @@
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -74,4 +74,4 @@ double Scene::fallen_speed(double touch) const {
   return std::sqrt(2 * world.gravity * (*height - touch));
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

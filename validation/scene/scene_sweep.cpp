@@ -11,7 +11,7 @@
 #include "validation/output/number.hpp"
 #include "validation/scene/keys.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 namespace {
 
 constexpr int most_values = 1'000'000;
@@ -103,4 +103,4 @@ void drop_sweep(SceneValues& values, const std::string& name) {
   for (const char* part : range_parts) values.drop("sweep." + name + part);
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

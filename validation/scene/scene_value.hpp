@@ -7,7 +7,7 @@
 #include "validation/output/value.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 
 /// All keys that the model has, defaults included, as Scene::json().
 [[nodiscard]] Value scene_value(const Scene& scene, Model model = Model::continuous);
@@ -15,4 +15,4 @@ namespace clatter::validation {
 /// "scene: {…}", the same as one line of JSON.
 [[nodiscard]] std::string scene_line(const Scene& scene, Model model = Model::continuous);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

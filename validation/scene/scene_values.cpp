@@ -14,7 +14,7 @@
 #include "validation/scene/keys.hpp"
 #include "validation/scene/option_values.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 namespace {
 
 std::string position(const std::string& path, const toml::source_region& region) {
@@ -255,4 +255,4 @@ std::vector<double> SceneValues::numbers(const std::string& key, const std::vect
   return numbers;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

@@ -11,7 +11,7 @@
 #include "validation/record/names.hpp"
 #include "validation/scene/failure.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 std::string digits_shortfall(int asked, double achieved) {
   if (achieved <= std::pow(10.0, -asked)) return "";
   if (!std::isfinite(achieved)) return fmt::format("asked {} digits, achieved none of all impacts", asked);
@@ -84,4 +84,4 @@ int shortfall_status(analytic::Outcome outcome) {
   return exit_status(outside ? FailureKind::outside_model : FailureKind::not_computed);
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

@@ -8,7 +8,7 @@
 #include "analytic/space/sequence.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 
 /// Largest relative error of the sequence's numbers, its tail's too; infinite if one cannot be predicted.
 [[nodiscard]] double largest_error(const analytic::Sequence& sequence);
@@ -40,4 +40,4 @@ class Shortfalls {
 /// Exit status of a sequence that falls short: 4 where it leaves the model, else 3.
 [[nodiscard]] int shortfall_status(analytic::Outcome outcome);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

@@ -15,7 +15,7 @@
 #include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/hull.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 namespace {
 
 namespace space = analytic::space;
@@ -186,4 +186,4 @@ std::vector<SpaceRow> space_rows(const Scene& scene, const space::Sequence& sequ
   return rows;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

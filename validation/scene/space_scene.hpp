@@ -11,7 +11,7 @@
 #include "validation/record/impact_quantities.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 
 /// Whether the planar discrete model does for the drop: it stays in its plane by symmetry, and the body has an outline
 /// of at most four corners there.  Otherwise the model in space runs, which gives the same in the plane up to rounding.
@@ -71,4 +71,4 @@ class DiscreteBody {
 [[nodiscard]] std::vector<SpaceRow> space_rows(const Scene& scene, const analytic::space::Sequence& sequence,
                                                const numeric::Vector3& centre);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

@@ -8,7 +8,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 
 double Sweep::value(long long i) const {
   if (i == count - 1 && step == 0) return to;
@@ -42,4 +42,4 @@ Sweep read_sweep(const SweepTexts& texts, const SweepDefault& fallback, const Ra
   return sweep;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

@@ -7,7 +7,7 @@
 
 #include "validation/scene/option_values.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline scene {
 
 /// From, to and step or count of a swept quantity.
 struct SweepTexts {
@@ -29,4 +29,4 @@ struct SweepDefault {
 };
 [[nodiscard]] Sweep read_sweep(const SweepTexts& texts, const SweepDefault& fallback, const Range& range);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline scene

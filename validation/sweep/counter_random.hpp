@@ -4,10 +4,10 @@
 
 #include <cstdint>
 
-namespace clatter::validation {
+namespace clatter::validation::inline sweep {
 
 /// Number `column` of scene `scene` in the family `seed`: uniform in [0, 1), a multiple of 2^-53, the same on every
 /// machine.  From Philox 4×32 with ten rounds (Salmon et al., Parallel random numbers: as easy as 1, 2, 3, 2011).
 [[nodiscard]] double uniform_at(std::uint64_t seed, std::uint64_t scene, std::uint32_t column);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline sweep

@@ -10,7 +10,7 @@
 #include "validation/output/number.hpp"
 #include "validation/sweep/counter_random.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline sweep {
 namespace {
 
 constexpr double largest_whole = 0x1p53;
@@ -147,4 +147,4 @@ void SweepPoints::at(long long point, std::vector<double>& values) const {
   }
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline sweep

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace clatter::validation {
+namespace clatter::validation::inline sweep {
 
 /// Most scenes of a sweep.
 inline constexpr long long most_scenes = 1'000'000'000;
@@ -56,4 +56,4 @@ class SweepPoints {
   std::uint64_t seed_ = 0;
 };
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline sweep

@@ -6,7 +6,7 @@
 
 #include "validation/sweep/sweep_run.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline sweep {
 
 /// This process among those of a sweep.  Process 0 writes; the others compute what it hands out to them, one thread
 /// each. Whatever ends process 0 early lets the others end, too.
@@ -33,4 +33,4 @@ class Ranks {
   std::vector<int> idle_;  ///< those of them that wait for a range
 };
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline sweep

@@ -2,11 +2,11 @@
 // A build without MPI: always one process.
 #include "validation/sweep/ranks.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline sweep {
 
 Ranks::Ranks() = default;
 Ranks::~Ranks() = default;
 void Ranks::hand_out(RangeQueue&, const SweepHooks&) {}
 void Ranks::serve(const ComputeRange&) {}
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline sweep

@@ -13,7 +13,7 @@
 
 #include "validation/sweep/ranks.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline sweep {
 namespace {
 
 /// To process 0: ready for a range; the rows of one; this process ends.  From it: a range, with no scenes the last one.
@@ -124,4 +124,4 @@ void Ranks::serve(const ComputeRange& compute) {
   }
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline sweep

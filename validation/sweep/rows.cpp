@@ -9,7 +9,7 @@
 #include "validation/record/names.hpp"
 #include "validation/record/totals.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline sweep {
 namespace {
 
 void append_cell(std::string& out, std::string_view text) {
@@ -212,4 +212,4 @@ void ShortfallCount::add_row(std::string_view row) {
   found_.add(std::string(index), std::string(reason));
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline sweep

@@ -13,7 +13,7 @@
 #include "validation/scene/shortfall.hpp"
 #include "validation/sweep/sweep_plan.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline sweep {
 
 /// Index and swept keys, then per scene
 ///     impacts, outcome, total_normal_impulse [N·s], first_peak_force, largest_peak_force [N] (continuous model),
@@ -64,4 +64,4 @@ class ShortfallCount {
   std::string last_;  ///< index of the last of them
 };
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline sweep

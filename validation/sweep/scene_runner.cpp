@@ -8,7 +8,7 @@
 #include "validation/scene/failure.hpp"
 #include "validation/scene/shortfall.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline sweep {
 namespace {
 
 const char* outcome_of(FailureKind kind) {
@@ -117,4 +117,4 @@ long long range_size(const SweepPlan& plan) {
   return std::clamp(4096 / plan.scene.request.impacts, 1, 512);
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline sweep

@@ -13,7 +13,7 @@
 #include "validation/sweep/sweep_plan.hpp"
 #include "validation/sweep/sweep_run.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline sweep {
 
 /// The body as the sweep's model wants it.
 struct SweepBody {
@@ -57,4 +57,4 @@ class SceneRunner {
 /// Scenes handed out at a time: some milliseconds' work.
 [[nodiscard]] long long range_size(const SweepPlan& plan);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline sweep

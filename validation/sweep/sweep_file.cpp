@@ -16,7 +16,7 @@
 
 #include "validation/output/bad_input.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline sweep {
 namespace {
 
 constexpr std::size_t block_bytes = 1 << 20;
@@ -214,4 +214,4 @@ void SweepFile::fail(const std::string& file, const char* what) const {
 
 void SweepFile::refuse(const std::string& why) const { throw BadInput(fmt::format("--output {}: {}", path_, why)); }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline sweep

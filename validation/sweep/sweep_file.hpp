@@ -11,7 +11,7 @@
 #include "validation/output/digest.hpp"
 #include "validation/output/run_files.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline sweep {
 
 /// What the file of a sweep must be.
 struct SweepFileForm {
@@ -70,4 +70,4 @@ class SweepFile {
   std::chrono::steady_clock::time_point flushed_;
 };
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline sweep

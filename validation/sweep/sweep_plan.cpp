@@ -15,7 +15,7 @@
 #include "validation/scene/scene_value.hpp"
 #include "validation/sweep/rows.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline sweep {
 namespace {
 
 const char* const static_friction = "ground.static_friction";
@@ -253,4 +253,4 @@ Report SweepPlan::report() const {
   return report;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline sweep

@@ -12,7 +12,7 @@
 #include "validation/scene/scene.hpp"
 #include "validation/sweep/grid.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline sweep {
 
 /// What was typed, empty where not given.
 struct SweepRequest {
@@ -49,4 +49,4 @@ struct SweepPlan {
 /// @throws BadInput with one line; both ends of every axis are checked like keys of the scene file.
 [[nodiscard]] SweepPlan read_sweep_plan(const SweepRequest& request);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline sweep

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-namespace clatter::validation {
+namespace clatter::validation::inline sweep {
 namespace {
 
 constexpr std::size_t most_waiting_bytes = 64 << 20;
@@ -123,4 +123,4 @@ void run_on_threads(RangeQueue& queue, int threads, const MakeCompute& make, con
   crew.write();
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline sweep

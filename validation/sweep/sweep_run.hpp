@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-namespace clatter::validation {
+namespace clatter::validation::inline sweep {
 
 /// Scenes first, first + 1, …, first + count − 1.
 struct SceneRange {
@@ -63,4 +63,4 @@ using MakeCompute = std::function<ComputeRange(std::function<bool()> stop)>;
 /// Computes all ranges on `threads` threads.  What write() or a computation throws ends the run and is thrown on.
 void run_on_threads(RangeQueue& queue, int threads, const MakeCompute& make, const SweepHooks& hooks);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline sweep

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace clatter::validation {
+namespace clatter::validation::inline tables {
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blanks = " \t\r";
@@ -53,4 +53,4 @@ void CsvLine::read_quoted(std::size_t start, CsvField& field) {
   at_ = end + 1;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline tables

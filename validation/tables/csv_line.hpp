@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace clatter::validation {
+namespace clatter::validation::inline tables {
 
 /// Without blanks at either end.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
@@ -39,4 +39,4 @@ class CsvLine {
   std::string unquoted_;  ///< a quoted field, put together
 };
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline tables

@@ -17,7 +17,7 @@
 #include "validation/output/number.hpp"
 #include "validation/tables/csv_line.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline tables {
 namespace {
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
@@ -263,4 +263,4 @@ void NumericTable::refuse(std::size_t row, std::string_view column, const std::s
       fmt::format("{}:{}:{}: {} = {}: must be {}", path_, line(row), place, column, shown_field(field), allowed));
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline tables

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clatter::validation {
+namespace clatter::validation::inline tables {
 
 /// Name that the reader knows → name in the file's header.
 using ColumnNames = std::map<std::string, std::string>;
@@ -98,4 +98,4 @@ class NumericTable {
   std::vector<Start> starts_;
 };
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline tables

@@ -10,7 +10,7 @@
 #include "validation/verify/fold.hpp"
 #include "validation/verify/reference.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline verify {
 namespace {
 
 using analytic::ContactAngles;
@@ -103,4 +103,4 @@ void add_angle_claim_measures(Measures& measures) {
   measures["C8"] = gravity_changes_little;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline verify

@@ -13,7 +13,7 @@
 #include "validation/verify/check.hpp"
 #include "validation/verify/discrete_bars.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline verify {
 namespace {
 
 constexpr int family = 9;
@@ -112,4 +112,4 @@ void add_bar_measures(Measures& measures) {
   measures["B2"] = bars_of_the_simulator;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline verify

@@ -5,7 +5,7 @@
 #include <random>
 #include <sstream>
 
-namespace clatter::validation {
+namespace clatter::validation::inline verify {
 
 using analytic::FrictionKind;
 
@@ -69,4 +69,4 @@ BarScene random_damped_bar_scene(unsigned family, int index) {
   return scene;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline verify

@@ -6,7 +6,7 @@
 
 #include "analytic/sequence.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline verify {
 
 enum class BarShape { thin_rod, rod, box };
 
@@ -34,4 +34,4 @@ struct BarScene {
 /// of mass from 0.001 to 3.
 [[nodiscard]] BarScene random_damped_bar_scene(unsigned family, int index);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline verify

@@ -9,7 +9,7 @@
 
 #include "validation/embedded/embedded.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline verify {
 namespace {
 
 constexpr double loosest = 5;  // times the error seen
@@ -100,4 +100,4 @@ const Measures& all_measures() {
   return measures;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline verify

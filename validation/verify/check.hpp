@@ -11,7 +11,7 @@
 #include "validation/compare/case_runs.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline verify {
 
 /// What a measurement says of a claim.
 enum class Answer {
@@ -76,4 +76,4 @@ void add_bar_measures(Measures& measures);
 void add_space_measures(Measures& measures);
 void add_measured_measures(Measures& measures);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline verify

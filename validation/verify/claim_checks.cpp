@@ -9,7 +9,7 @@
 #include "validation/verify/check.hpp"
 #include "validation/verify/elastic_rod.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline verify {
 namespace {
 
 using analytic::ContactAngles;
@@ -287,4 +287,4 @@ void add_claim_measures(Measures& measures) {
   measures["C20"] = damping_and_peaks;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline verify

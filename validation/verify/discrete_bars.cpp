@@ -11,7 +11,7 @@
 #include "validation/oracles/digits.hpp"
 #include "validation/oracles/event_oracle.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline verify {
 namespace {
 
 using analytic::FrictionKind;
@@ -251,4 +251,4 @@ void judge_bars(const BarScene& scene, int impacts, BarCoverage& coverage) {
   judge_end(sequence, truth, scene, coverage);
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline verify

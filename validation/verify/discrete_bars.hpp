@@ -7,7 +7,7 @@
 
 #include "validation/verify/bar_scene.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline verify {
 
 /// How many numbers lie within their bars.
 struct BarCoverage {
@@ -29,4 +29,4 @@ struct BarCoverage {
 /// the model says needs for being judged; adds what was found.
 void judge_bars(const BarScene& scene, int impacts, BarCoverage& coverage);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline verify

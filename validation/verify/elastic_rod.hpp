@@ -4,11 +4,11 @@
 
 #include "analytic/contact_angles.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline verify {
 
 /// For θ in degrees; G = g L/v_n².
 [[nodiscard]] inline analytic::ContactAngles elastic_angles(double degrees, double gravity_number = 0) {
   return contact_angles(analytic::Angle::from_degrees(degrees), {.gravity_number = gravity_number});
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline verify

@@ -15,7 +15,7 @@
 #include "validation/verify/elastic_rod.hpp"
 #include "validation/verify/fold.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline verify {
 namespace {
 
 using analytic::Angle;
@@ -188,4 +188,4 @@ void add_erratum_measures(Measures& measures) {
   measures["E11"] = two_versions_of_figure_17;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline verify

@@ -15,7 +15,7 @@
 #include "validation/verify/check.hpp"
 #include "validation/verify/reference.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline verify {
 namespace {
 
 using analytic::Angle;
@@ -249,4 +249,4 @@ void add_exact_measures(Measures& measures) {
   measures["X14"] = contact_time_powers;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline verify

@@ -9,7 +9,7 @@
 #include "validation/figures/figure.hpp"
 #include "validation/verify/check.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline verify {
 namespace {
 
 using numeric::HistorySample;
@@ -198,4 +198,4 @@ void add_figure_measures(Measures& measures) {
   measures["F24"] = figure_24;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline verify

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace clatter::validation {
+namespace clatter::validation::inline verify {
 namespace {
 
 long double slope(long double theta) {
@@ -32,4 +32,4 @@ double second_impact_fold() { return static_cast<double>(fold()); }
 
 double second_impact_fold_beta() { return static_cast<double>(std::acos(slope(fold()))); }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline verify

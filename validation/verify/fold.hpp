@@ -2,7 +2,7 @@
 // The fold at which the second impact ends, from its defining equations alone.
 #pragma once
 
-namespace clatter::validation {
+namespace clatter::validation::inline verify {
 
 /// θ* at which the other end grazes the ground: sin θ + K φ − sin(φ − θ) = 0 and cos(φ − θ) = K with
 /// K = (1 − 3c²)/(6c), φ = θ + β (Eq. 12 and its derivative).  By bisection in long double.
@@ -10,4 +10,4 @@ namespace clatter::validation {
 /// β* = arccos K there.
 [[nodiscard]] double second_impact_fold_beta();
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline verify

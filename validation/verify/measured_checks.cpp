@@ -6,7 +6,7 @@
 #include "validation/output/number.hpp"
 #include "validation/verify/check.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline verify {
 namespace {
 
 Measured velocities(const std::string& name) {
@@ -38,4 +38,4 @@ void add_measured_measures(Measures& measures) {
   measures["X22"] = clattering;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline verify

@@ -10,7 +10,7 @@
 #include "validation/output/number.hpp"
 #include "validation/verify/check.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline verify {
 namespace {
 
 /// The farthest that a limit lies from the discrete value, over the size of the number at large.
@@ -110,4 +110,4 @@ void add_model_measures(Measures& measures) {
   measures["R2"] = [](CaseRuns& case_runs) { return random_scenes(case_runs, 200); };
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline verify

@@ -6,7 +6,7 @@
 #include "validation/embedded/embedded.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline verify {
 namespace {
 
 std::vector<ReferenceRow> read(const std::string& name) {
@@ -34,4 +34,4 @@ const std::vector<ReferenceRow>& reference_table(ReferenceTable table) {
   return table == ReferenceTable::gravity ? gravity : no_gravity;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline verify

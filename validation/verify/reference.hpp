@@ -8,7 +8,7 @@
 
 #include "validation/oracles/reference_table.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline verify {
 
 /// One row: column name → value rounded to double; columns with a gap are absent (this impact does not happen with a
 /// contact angle up to 90°).
@@ -23,4 +23,4 @@ enum class ReferenceTable { no_gravity, gravity };
 /// = 1.
 [[nodiscard]] const std::vector<ReferenceRow>& reference_table(ReferenceTable table);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline verify

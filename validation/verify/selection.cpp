@@ -8,7 +8,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/scene/option_values.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline verify {
 
 CheckSelection select_checks(bool quick, const std::vector<std::string>& only) {
   if (quick && !only.empty()) throw BadInput("--quick: excludes --only; give one of them, not both");
@@ -26,4 +26,4 @@ CheckSelection select_checks(bool quick, const std::vector<std::string>& only) {
   return selection;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline verify

@@ -7,7 +7,7 @@
 
 #include "validation/verify/check.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline verify {
 
 struct CheckSelection {
   std::vector<const Check*> checks;  ///< in the order of the table
@@ -18,4 +18,4 @@ struct CheckSelection {
 /// @throws BadInput for an unknown name, with the nearest, or if both are given.
 [[nodiscard]] CheckSelection select_checks(bool quick, const std::vector<std::string>& only);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline verify

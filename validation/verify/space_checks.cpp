@@ -13,7 +13,7 @@
 #include "validation/verify/check.hpp"
 #include "validation/verify/reference.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline verify {
 namespace {
 
 using namespace analytic::space;
@@ -276,4 +276,4 @@ void add_space_measures(Measures& measures) {
   measures["S6"] = planar_model;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline verify

@@ -12,7 +12,7 @@
 
 #include "validation/output/number.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline verify {
 namespace {
 
 double thread_seconds() {
@@ -48,8 +48,9 @@ CheckResult run(const Check& check, CaseRuns& case_runs) {
 
 }  // namespace
 
-std::vector<CheckResult> verify(const std::vector<const Check*>& checks, CaseRuns& case_runs,
-                                const std::function<bool(std::size_t, std::size_t, const std::string&)>& progress) {
+std::vector<CheckResult> verify_checks(
+    const std::vector<const Check*>& checks, CaseRuns& case_runs,
+    const std::function<bool(std::size_t, std::size_t, const std::string&)>& progress) {
   std::vector<CheckResult> results(checks.size());
   for (std::size_t i = 0; i < checks.size(); ++i) results[i].check = checks[i];
   std::atomic<std::size_t> next = 0;
@@ -73,4 +74,4 @@ std::vector<CheckResult> verify(const std::vector<const Check*>& checks, CaseRun
   return results;
 }
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline verify

@@ -7,7 +7,7 @@
 
 #include "validation/verify/check.hpp"
 
-namespace clatter::validation {
+namespace clatter::validation::inline verify {
 
 struct CheckResult {
   const Check* check = nullptr;
@@ -21,8 +21,8 @@ struct CheckResult {
 /// Runs `checks` with as many threads as the machine has; results in the order of the checks.
 /// A check passes if its error is within the tolerance and the answer is the one that the table expects.
 /// @param progress called with (done, of, id), from any thread but never at once; return false to end early.
-[[nodiscard]] std::vector<CheckResult> verify(
+[[nodiscard]] std::vector<CheckResult> verify_checks(
     const std::vector<const Check*>& checks, CaseRuns& case_runs,
     const std::function<bool(std::size_t, std::size_t, const std::string&)>& progress);
 
-}  // namespace clatter::validation
+}  // namespace clatter::validation::inline verify

@@ -22,7 +22,7 @@ Report verify(bool quick, const std::vector<std::string>& only, const py::object
     validation::CaseRuns case_runs;
     case_runs.goes_on = watch;
     const auto tell = [&](std::size_t done, std::size_t of, const std::string&) { return watch.tell(done, of); };
-    auto checked = validation::verify(selection.checks, case_runs, tell);
+    auto checked = validation::verify_checks(selection.checks, case_runs, tell);
     watch.tell(checked.size(), selection.checks.size());
     return checked;
   };
