@@ -7,7 +7,7 @@
 
 #include "validation/compare/random_space_scenes.hpp"
 #include "validation/compare/space_prediction.hpp"
-#include "validation/scene/space_scene.hpp"
+#include "validation/scene/discrete_scene.hpp"
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/discrete_scene.hpp"
-#include "validation/scene/space_scene.hpp"
+#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation::inline benchmark {
 namespace {
@@ -212,13 +212,13 @@ Reference reference_of(const Problem& problem) {
                       .tolerances = problem.tolerances,
                       .until = problem.until,
                       .sequences = {}};
-  const DiscreteDrop drop = chosen_drop(problem.scene);
+  const DiscreteDrop drop = discrete_drop(problem.scene);
   if (const auto* planar = std::get_if<analytic::Drop>(&drop)) set_planar(reference, *planar);
   else set_space(reference, problem.scene, std::get<space::Drop>(drop));
   touch_down(reference);
   for (const std::string& law : truth_laws(problem)) {
     ReferenceSequence sequence{
-        .law = declared(law, impact_law(problem.scene)), .truth = truth_of(problem, law), .after = {}};
+        .law = declared(law, discrete_law(problem.scene).law), .truth = truth_of(problem, law), .after = {}};
     add_states(reference, sequence);
     reference.sequences.push_back(std::move(sequence));
   }
@@ -232,10 +232,9 @@ Reference reference_of(const Scene& scene) {
                       .start = {},
                       .until = {},
                       .sequences = {}};
-  const bool has_ground = scene.world.ground.stiffness > 0;
   const int impacts = scene.request.impacts;
   ReferenceSequence sequence;
-  const DiscreteDrop chosen = has_ground ? chosen_drop(scene, scene.make_body()) : chosen_drop(scene);
+  const DiscreteDrop chosen = discrete_drop(scene);
   if (const auto* drop = std::get_if<analytic::Drop>(&chosen)) {
     set_planar(reference, *drop);
     touch_down(reference);

@@ -126,6 +126,10 @@ void add_impact(Comparison& comparison, double radius, std::size_t i) {
     impact.discrete_error = side.impacts[i].errors;
     impact.discrete_end = side.impacts[i].end;
   }
+  if (comparison.as_given && i < comparison.as_given->impacts.size()) {
+    impact.as_given = comparison.as_given->impacts[i].numbers;
+    impact.as_given_error = comparison.as_given->impacts[i].errors;
+  }
   if (i < records.size()) {
     impact.continuous = motion_numbers(records[i]);
     impact.continuous_error = error_of(records[i]);
@@ -228,6 +232,18 @@ std::string shortfall_of(const Comparison& comparison, const Scene& scene) {
   return scene.require_digits ? digits_shortfall(scene.accuracy.digits, largest_error(comparison)) : "";
 }
 
+/// The sequence of the body as given and, where the mesh has other corners, that of these.
+void find_discrete_sides(Comparison& comparison, const Scene& scene, const numeric::Body& body) {
+  const DiscreteDrop drop = discrete_drop(scene);
+  comparison.approach_speed = first_approach_speed(drop);
+  comparison.discrete = discrete_side(scene, drop);
+  if (scene.body.shape == BodyScene::Shape::mesh) return;  // the mesh is the body
+  const DiscreteDrop of_mesh = mesh_drop(scene, body);
+  if (!has_other_corners(drop, of_mesh)) return;
+  comparison.as_given = std::move(comparison.discrete);
+  comparison.discrete = discrete_side(scene, of_mesh);
+}
+
 }  // namespace
 
 bool ComparedImpact::lands() const {
@@ -260,7 +276,7 @@ bool Comparison::agrees() const {
 
 Comparison compare_models(const Scene& scene, const numeric::Body& body) {
   Comparison comparison;
-  comparison.discrete = discrete_side(scene, body);
+  find_discrete_sides(comparison, scene, body);
   const DiscreteSide& side = comparison.discrete;
   numeric::Request request = scene.request;
   request.amplification = true;

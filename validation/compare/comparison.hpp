@@ -19,6 +19,8 @@ struct ComparedImpact {
   int n = 1;
   std::string reason;  ///< why the numbers at the scene's own stiffness cannot be compared; empty: they can
   std::optional<MotionNumbers> discrete, continuous;
+  std::optional<MotionNumbers> as_given;               ///< of the body as given, where the mesh has other corners
+  MotionNumbers as_given_error{};
   MotionNumbers discrete_error{}, continuous_error{};  ///< of these; not finite: not known
   std::string discrete_end, continuous_end;            ///< in space the corner
   double contact_time = 0;                             ///< of the continuous model [s]
@@ -38,7 +40,9 @@ struct ComparedImpact {
 };
 
 struct Comparison {
-  DiscreteSide discrete;
+  DiscreteSide discrete;                 ///< with the corners that the continuous model has
+  std::optional<DiscreteSide> as_given;  ///< `sequence`'s, where the mesh has other corners than the body as given
+  double approach_speed = 0;             ///< of the first contact, of the body as given [m/s]
   numeric::Simulation run;
   StiffLimit limit;
   std::vector<ComparedImpact> impacts;

@@ -9,7 +9,7 @@
 #include "analytic/impact_limits.hpp"
 #include "validation/compare/space_side.hpp"
 #include "validation/scene/discrete_scene.hpp"
-#include "validation/scene/space_scene.hpp"
+#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation::inline compare {
 namespace {
@@ -67,8 +67,7 @@ SequenceImpact planar_impact(const analytic::Drop& drop, const ImpactRow& row) {
   return impact;
 }
 
-DiscreteSide planar_side(const Scene& scene, const numeric::Body& body) {
-  const analytic::Drop drop = discrete_drop(scene, body);
+DiscreteSide planar_side(const Scene& scene, const analytic::Drop& drop) {
   const analytic::Sequence sequence = impact_sequence(drop, {.impacts = scene.request.impacts});
   DiscreteSide side{.in_space = false,
                     .corners = {},
@@ -89,8 +88,9 @@ DiscreteSide planar_side(const Scene& scene, const numeric::Body& body) {
 
 }  // namespace
 
-DiscreteSide discrete_side(const Scene& scene, const numeric::Body& body) {
-  return is_planar(scene, body) ? planar_side(scene, body) : space_side(scene, body);
+DiscreteSide discrete_side(const Scene& scene, const DiscreteDrop& drop) {
+  if (const auto* const planar = std::get_if<analytic::Drop>(&drop)) return planar_side(scene, *planar);
+  return space_side(scene, std::get<analytic::space::Drop>(drop));
 }
 
 }  // namespace clatter::validation::inline compare

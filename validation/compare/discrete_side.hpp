@@ -9,7 +9,7 @@
 
 #include "validation/compare/prediction.hpp"
 #include "validation/record/motion_numbers.hpp"
-#include "validation/scene/scene.hpp"
+#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation::inline compare {
 
@@ -48,8 +48,8 @@ struct DiscreteSide {
   std::function<std::vector<PredictedSize>(const std::vector<double>&)> predict;
 };
 
-/// The sequence of the scene, planar where that does (is_planar), otherwise in space.
-/// @throws analytic::OutsideModelError if the discrete model cannot represent the scene.
-[[nodiscard]] DiscreteSide discrete_side(const Scene& scene, const numeric::Body& body);
+/// The sequence of the drop of a scene.
+/// @throws analytic::OutsideModelError if the first impact leaves the model.
+[[nodiscard]] DiscreteSide discrete_side(const Scene& scene, const DiscreteDrop& drop);
 
 }  // namespace clatter::validation::inline compare

@@ -15,6 +15,11 @@ struct NumberPair {
   std::size_t quantity;
 
   [[nodiscard]] double discrete() const { return (*impact.discrete)[quantity]; }
+  /// Of the discrete model with the body as given, whose corners may not be the mesh's.
+  [[nodiscard]] Estimated given_number() const {
+    if (!impact.as_given) return discrete_number();
+    return {(*impact.as_given)[quantity], impact.as_given_error[quantity]};
+  }
   [[nodiscard]] double continuous() const { return (*impact.continuous)[quantity]; }
   [[nodiscard]] double deviation() const { return continuous() - discrete(); }
   [[nodiscard]] Estimated discrete_number() const { return {discrete(), impact.discrete_error[quantity]}; }

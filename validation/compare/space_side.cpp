@@ -9,7 +9,7 @@
 
 #include "validation/compare/space_prediction.hpp"
 #include "validation/output/number.hpp"
-#include "validation/scene/space_scene.hpp"
+#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation::inline compare {
 namespace {
@@ -86,8 +86,7 @@ SequenceImpact space_impact(const Scene& scene, const space::Drop& drop, const s
 
 }  // namespace
 
-DiscreteSide space_side(const Scene& scene, const numeric::Body& body) {
-  const space::Drop drop = space_drop(scene, body);
+DiscreteSide space_side(const Scene& scene, const space::Drop& drop) {
   const space::Sequence sequence = impact_sequence(drop, {.impacts = scene.request.impacts});
   DiscreteSide side{.in_space = true,
                     .corners = {},

@@ -6,7 +6,7 @@
 
 namespace clatter::validation::inline compare {
 
-/// @throws analytic::OutsideModelError for regularised friction, and where the first impact leaves the model.
-[[nodiscard]] DiscreteSide space_side(const Scene& scene, const numeric::Body& body);
+/// @throws analytic::OutsideModelError where the first impact leaves the model.
+[[nodiscard]] DiscreteSide space_side(const Scene& scene, const analytic::space::Drop& drop);
 
 }  // namespace clatter::validation::inline compare

@@ -36,6 +36,8 @@ FirstImpact of(const numeric::Simulation& run) {
   return {n.velocity_after.z(), n.velocity_after.x(), n.angular_velocity_after.y(), n.impulse.z(), n.energy_loss};
 }
 
+analytic::Drop planar_drop_of(const Scene& scene) { return std::get<analytic::Drop>(discrete_drop(scene)); }
+
 /// The thin rod of Eq. 9.
 FirstImpact thin_rod(double angle_deg, const analytic::ImpactLaw& law) {
   return of({.body = analytic::make_rod({}),
@@ -122,13 +124,12 @@ Figure figure_rod_over_angle(CaseRuns& case_runs) {
   figure.plots[2].y = {0, 2.1};
   figure.plots[3].y = {-0.05, 0.05};  // the losses are zero to nine digits
   const Scene scene = scene_of_case(name, {});
-  const numeric::Body body = scene.make_body();
   for (const SweptSimulation& swept : case_runs.sweep(name)) {
     add_row(figure, swept.value, numbers,
-            {thin_rod(swept.value, {}), of(discrete_drop(scene.at(swept.value), body)), of(swept.run)});
+            {thin_rod(swept.value, {}), of(planar_drop_of(scene.at(swept.value))), of(swept.run)});
     // The limit of small angles, beside the flat landing: the jump is one of the models, not of the drawing.
     if (swept.value == 0)
-      add_row(figure, 1e-9, numbers, {thin_rod(1e-9, {}), of(discrete_drop(scene.at(1e-9), body)), {}});
+      add_row(figure, 1e-9, numbers, {thin_rod(1e-9, {}), of(planar_drop_of(scene.at(1e-9))), {}});
   }
   return figure;
 }
@@ -149,12 +150,11 @@ Figure figure_rod_over_friction(CaseRuns& case_runs) {
   letter(figure, {"(a)", "(b) caption", "(b) text", "(c)", "(d)"});
   figure.columns.push_back({"ratio_continuous", "1", "impulse ratio that came out of the continuous model"});
   const Scene scene = scene_of_case(name, {});
-  const numeric::Body body = scene.make_body();
   for (const SweptSimulation& swept : case_runs.sweep(name)) {
     const analytic::ImpactLaw as_given{.friction = analytic::FrictionKind::impulse_ratio,
                                        .friction_value = swept.value};
     add_row(figure, swept.value, numbers,
-            {thin_rod(scene.angle_deg, as_given), of(discrete_drop(scene.at(swept.value), body)), of(swept.run)});
+            {thin_rod(scene.angle_deg, as_given), of(planar_drop_of(scene.at(swept.value))), of(swept.run)});
     const numeric::Vector3& p = swept.run.impacts[0].value.impulse;
     figure.rows.back().push_back(p.x() / p.z());
   }

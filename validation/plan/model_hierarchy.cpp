@@ -10,13 +10,18 @@
 #include "validation/plan/symmetry.hpp"
 #include "validation/record/names.hpp"
 #include "validation/scene/discrete_scene.hpp"
-#include "validation/scene/space_scene.hpp"
+#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation::inline plan {
 namespace {
 
 using numeric::Method;
 using numeric::Simulation;
+
+std::string reason_words(const Scene& scene) {
+  const std::string reason = reason_in_space(scene);
+  return reason.empty() ? "" : ": " + reason;
+}
 
 std::size_t index(ModelLevel level) { return static_cast<std::size_t>(level); }
 
@@ -89,18 +94,19 @@ ModelHierarchy::ModelHierarchy(Scene scene, numeric::Observer observer)
 
 /// The drop in the plane, or else in space.
 void ModelHierarchy::find_discrete() {
+  std::string &in_plane = against_[index(ModelLevel::discrete)],
+              &in_space = against_[index(ModelLevel::discrete_in_space)];
   try {
-    drop_ = discrete_drop(scene_, body_);
-    against_[index(ModelLevel::discrete_in_space)] =
-        "the drop stays in its plane, where the discrete model gives the same";
-    return;
+    const DiscreteDrop drop = discrete_drop(scene_);
+    if (const auto* const planar = std::get_if<analytic::Drop>(&drop)) {
+      drop_ = *planar;
+      in_space = "the drop stays in its plane, where the discrete model gives the same";
+      return;
+    }
+    space_drop_ = std::get<analytic::space::Drop>(drop);
+    in_plane = "the discrete model is planar: the body moves in space" + reason_words(scene_);
   } catch (const analytic::OutsideModelError& error) {
-    against_[index(ModelLevel::discrete)] = error.what();
-  }
-  try {
-    space_drop_ = validation::space_drop(scene_, body_);
-  } catch (const analytic::OutsideModelError& error) {
-    against_[index(ModelLevel::discrete_in_space)] = error.what();
+    in_plane = in_space = error.what();
   }
 }
 

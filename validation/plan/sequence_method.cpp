@@ -30,7 +30,7 @@ const std::vector<std::string>& DiscreteRun::warnings() const {
 }
 
 DiscreteRun run_discrete(const Scene& scene, SequenceMethod method) {
-  DiscreteDrop drop = chosen_drop(scene);
+  DiscreteDrop drop = discrete_drop(scene);
   if (const auto* const planar = std::get_if<analytic::Drop>(&drop)) {
     analytic::Sequence sequence = planar_sequence(scene, *planar, method);
     return {std::move(drop), std::move(sequence)};

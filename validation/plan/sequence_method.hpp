@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "validation/scene/space_scene.hpp"
+#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation::inline plan {
 
@@ -28,7 +28,7 @@ struct DiscreteRun {
 };
 
 /// Runs the scene.  Warnings are left in the sequence.
-/// @throws as chosen_drop and impact_sequence; BadInput if the closed form does not apply, with the reason.
+/// @throws as discrete_drop and impact_sequence; BadInput if the closed form does not apply, with the reason.
 [[nodiscard]] DiscreteRun run_discrete(const Scene& scene, SequenceMethod method);
 
 }  // namespace clatter::validation::inline plan

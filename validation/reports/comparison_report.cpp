@@ -9,6 +9,7 @@
 #include "validation/compare/number_pair.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/body_properties.hpp"
+#include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/scene_value.hpp"
 
 namespace clatter::validation::inline reports {
@@ -39,7 +40,9 @@ void add_rows(const Comparison& comparison, const ComparedImpact& impact, Grid& 
     const NumberPair pair{impact, q};
     const double scale = comparison.discrete.scales[q];
     Row row{first ? number_cell(impact) : Cell(), first ? Cell(short_end(impact.discrete_end)) : Cell(), Cell(heading),
-            known_cell(pair.discrete_number(), {6, scale})};
+            known_cell(pair.given_number(), {6, scale})};
+    if (comparison.as_given) row.push_back(known_cell(pair.discrete_number(), {6, scale}));
+    const std::size_t width = row.size() + 5;
     if (impact.reason.empty()) {
       row.insert(row.end(), {known_cell(pair.continuous_number(), {6, scale}),
                              difference_cell(pair.deviation_number(), scale), Cell(pair.predicted(), 2)});
@@ -47,7 +50,7 @@ void add_rows(const Comparison& comparison, const ComparedImpact& impact, Grid& 
       row.insert(row.end(), {Cell("–"), Cell(), Cell()});
     }
     if (impact.has_landing()) row.insert(row.end(), {miss_cell(pair.miss_number()), Cell(pair.bar(), 2)});
-    row.resize(9);
+    row.resize(width);
     grid.rows.push_back(std::move(row));
     first = false;
   }
@@ -83,6 +86,21 @@ std::vector<std::string> explanations(const Comparison& comparison) {
   return notes;
 }
 
+/// How far the mesh's corners are from the body's, in the normal impulse of each impact that both have.
+std::string mesh_words(const Comparison& comparison) {
+  if (!comparison.as_given) return "";
+  double worst = 0;
+  for (const ComparedImpact& impact : comparison.impacts) {
+    if (!impact.as_given || !impact.discrete) continue;
+    const std::size_t q = normal_impulse_place;
+    worst = std::max(worst, std::fabs((*impact.discrete)[q] - (*impact.as_given)[q]) / comparison.discrete.scales[q]);
+  }
+  return fmt::format(
+      "corners: the discrete model with the mesh's corners, which are not the body's; the limit is held against it, and "
+      "its Pₙ is up to {} of its size off the discrete column",
+      significant(worst, 2));
+}
+
 std::string limit_words(const Comparison& comparison) {
   const StiffLimit& limit = comparison.limit;
   if (limit.rows.empty()) return "No limit: the impacts do not come apart on stiffer ground either.";
@@ -111,15 +129,18 @@ bool is_predictable(const Comparison& comparison, const ComparedImpact& impact) 
 }
 
 /// Fields of a number: nothing where a model, or the limit, has none.
-Row number_row(const NumberPair& pair) {
+/// @param is_of_mesh  the mesh has other corners than the body as given
+Row number_row(const NumberPair& pair, bool is_of_mesh) {
   const ComparedImpact& impact = pair.impact;
   const PredictedSize& size = impact.predicted;
   const std::size_t q = pair.quantity;
   const bool comparable = impact.reason.empty();
   const auto where = [](bool known, const auto& get) { return Cell(known ? Value(get()) : Value()); };
-  return {where(impact.discrete.has_value(), [&] { return pair.discrete(); }),
+  const bool has_given = impact.as_given || (impact.discrete && !is_of_mesh);
+  const Estimated given = has_given ? pair.given_number() : Estimated{};
+  return {where(has_given, [&] { return given.value; }),
           where(impact.continuous.has_value(), [&] { return pair.continuous(); }),
-          where(impact.discrete.has_value(), [&] { return error_or_nothing(pair.discrete_number()); }),
+          where(has_given, [&] { return error_or_nothing(given); }),
           where(impact.continuous.has_value(), [&] { return error_or_nothing(pair.continuous_number()); }),
           where(comparable, [&] { return pair.deviation(); }),
           where(comparable, [&] { return error_or_nothing(pair.deviation_number()); }),
@@ -130,16 +151,19 @@ Row number_row(const NumberPair& pair) {
           where(comparable, [&] { return size.delay[q]; }),
           where(impact.limit.has_value(), [&] { return impact.limit->value[q]; }),
           where(impact.limit.has_value(), [&] { return impact.limit->error[q]; }),
-          where(impact.limit.has_value(), [&] { return pair.allowance(); })};
+          where(impact.limit.has_value(), [&] { return pair.allowance(); }),
+          where(is_of_mesh && impact.discrete, [&] { return pair.discrete(); }),
+          where(is_of_mesh && impact.discrete, [&] { return error_or_nothing(pair.discrete_number()); }),
+          where(is_of_mesh && impact.discrete && has_given, [&] { return pair.discrete() - given.value; })};
 }
 
 const std::vector<Column>& number_columns() {
   static const std::vector<Column> columns{
-      {"discrete", "", "", "value of the discrete model"},
+      {"discrete", "", "", "value of the discrete model, as `clatter sequence` has it"},
       {"continuous", "", "", "value of the continuous model"},
       {"discrete_error", "", "", "bound on the error of the discrete value"},
       {"continuous_error", "", "", "estimated error of the continuous value"},
-      {"deviation", "", "", "continuous − discrete"},
+      {"deviation", "", "", "continuous − discrete, with the mesh's corners"},
       {"deviation_error", "", "", "error of the deviation"},
       {"predicted", "", "", "size of the deviation that the discrete model's omissions bring"},
       {"predicted_gravity", "", "", "of that: gravity during contacts"},
@@ -148,7 +172,12 @@ const std::vector<Column>& number_columns() {
       {"predicted_delay", "", "", "of that: the duration of contacts before"},
       {"limit", "", "", "of the continuous model for an ever stiffer ground"},
       {"limit_error", "", "", "error bar of the limit"},
-      {"allowance", "", "", "by which the limit may miss the discrete value"}};
+      {"allowance", "", "", "by which the limit may miss the discrete value"},
+      {"mesh_corners", "", "",
+       "value of the discrete model with the mesh's corners, which limit and deviation are held against; empty where they "
+       "are the body's"},
+      {"mesh_corners_error", "", "", "bound on its error"},
+      {"mesh_corners_off", "", "", "that value − the discrete model's"}};
   return columns;
 }
 
@@ -156,7 +185,7 @@ const std::vector<Column>& number_columns() {
 Value add_numbers(const Comparison& comparison, const ComparedImpact& impact, const Row& front, Grid& grid) {
   Value numbers;
   for (const auto& [name, heading, q] : comparison.discrete.quantities) {
-    const Row values = number_row({impact, q});
+    const Row values = number_row({impact, q}, comparison.as_given.has_value());
     numbers[name] = row_object(number_columns(), values);
     Row& row = grid.rows.emplace_back(front);
     row.insert(row.end(), {Cell(impact.n), Cell(name), Cell(is_predictable(comparison, impact)),
@@ -204,13 +233,12 @@ Cell miss_cell(const Estimated& miss) {
   return digits > 0 || !miss.is_known() ? Cell(miss.value, std::min(digits, 2)) : Cell(miss.value, std::string("0"));
 }
 
-Report begun_comparison(const Scene& scene) {
+Report begun_comparison(const Scene& scene, std::optional<double> approach) {
   Report report = begun_report("compare", "discrete and continuous model, impact by impact");
-  report.head = scene_head(scene);
-  report.head.emplace_back(
-      "discrete model: real corners and inertia, e from the damping at each impact's speed, Coulomb's μₖ");
+  report.head = scene_head(scene, Model::continuous, approach);
+  if (!approach) report.head.push_back("discrete model: " + law_words(scene, {}));
   report.fields["model"] = "comparison";
-  report.fields["scene"] = scene_value(scene);
+  report.fields["scene"] = scene_value(scene, Model::continuous, approach);
   report.fields["body"] = body_value(scene);
   report.grid.columns = comparison_columns();
   report.digest.emplace();
@@ -223,7 +251,7 @@ void add_comparison(const Comparison& comparison, const Row& front, Value& field
     fields["impacts"].push_back(impact_fields(comparison, impact, front, grid));
   fields["limit"] = Value::Fields{
       {"stiffness", comparison.limit.stiffness}, {"power", -comparison.limit.power}, {"runs", comparison.limit.runs}};
-  fields["discrete_ended"] = comparison.discrete.message;
+  fields["discrete_ended"] = (comparison.as_given ? *comparison.as_given : comparison.discrete).message;
   fields["continuous_ended"] = comparison.run.message;
   fields["agrees"] = comparison.agrees();
   fields["shortfall"] = text_or_nothing(comparison.shortfall);
@@ -231,7 +259,7 @@ void add_comparison(const Comparison& comparison, const Row& front, Value& field
 }
 
 Report comparison_report(const Scene& scene, const Comparison& comparison) {
-  Report report = begun_comparison(scene);
+  Report report = begun_comparison(scene, comparison.approach_speed);
   add_comparison(comparison, {}, report.fields, report.grid);
   const bool in_space = comparison.discrete.in_space;
   report.digest->columns = {{"n", "n", ""},
@@ -243,13 +271,17 @@ Report comparison_report(const Scene& scene, const Comparison& comparison) {
                             {"predicted", in_space ? "pred." : "predicted", ""},
                             {"miss", "limit off", ""},
                             {"allowance", "±", ""}};
+  if (comparison.as_given) {
+    auto& columns = report.digest->columns;
+    columns.insert(columns.begin() + 4, Column{"mesh_corners", "corners", ""});
+  }
   for (const ComparedImpact& impact : comparison.impacts) add_rows(comparison, impact, *report.digest);
   report.notes = reasons(comparison);
   for (const std::string& note : explanations(comparison)) report.notes.push_back(note);
   report.notes.emplace_back(
       "t in s, angles in °, P in N·s, V in m/s, Ω in rad/s; predicted: the size, no bound, of what gravity, turning "
       "and indentation do during contacts, carried on from impact to impact");
-  for (const std::string& words : {comparison.shortfall, limit_words(comparison), verdict_words(comparison)}) {
+  for (const std::string& words : {comparison.shortfall, mesh_words(comparison), limit_words(comparison), verdict_words(comparison)}) {
     if (!words.empty()) report.notes.push_back(words);
   }
   fit_columns(report, 6, {3});

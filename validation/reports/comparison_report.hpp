@@ -16,7 +16,8 @@ namespace clatter::validation::inline reports {
 
 /// What a sweep's report shares with that of one comparison: the head without rows, and one comparison's fields and
 /// rows, each behind the cells `front`.
-[[nodiscard]] Report begun_comparison(const Scene& scene);
+/// @param approach  speed of the first contact in the discrete model [m/s]; none: it is swept
+[[nodiscard]] Report begun_comparison(const Scene& scene, std::optional<double> approach);
 void add_comparison(const Comparison& comparison, const Row& front, Value& fields, Grid& grid);
 /// A difference, to two digits at most.
 [[nodiscard]] Cell difference_cell(const Estimated& difference, double scale);

@@ -16,7 +16,7 @@
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/scene_value.hpp"
 #include "validation/scene/shortfall.hpp"
-#include "validation/scene/space_scene.hpp"
+#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation::inline reports {
 namespace {
@@ -250,6 +250,7 @@ Explanation explain_impact(Scene scene, int n) {
     const bool falls_short = scene.require_digits || !has_impact;
     return {.scene = scene,
             .impact = n,
+            .approach_speed = first_approach_speed(drop),
             .steps = has_impact ? derive_impact(scene, drop, sequence, n)
                                 : std::vector<Step>{missing_impact(
                                       n, {have, sequence.outcome, sequence.message, sequence.near_miss})},
@@ -257,7 +258,7 @@ Explanation explain_impact(Scene scene, int n) {
             .shortfall = falls_short ? shortfall(scene, sequence) : "",
             .shortfall_status = shortfall_status(sequence.outcome)};
   };
-  return std::visit(explained, chosen_drop(scene));
+  return std::visit(explained, discrete_drop(scene));
 }
 
 Value explanation_fields(const Explanation& explanation) {
@@ -279,7 +280,7 @@ Value explanation_fields(const Explanation& explanation) {
   }
   return Value::Fields{{"clatter", version},
                        {"model", "discrete"},
-                       {"scene", scene_value(explanation.scene, Model::discrete)},
+                       {"scene", scene_value(explanation.scene, Model::discrete, explanation.approach_speed)},
                        {"body", body_value(explanation.scene, Model::discrete)},
                        {"impact", explanation.impact},
                        {"shortfall", text_or_nothing(explanation.shortfall)},

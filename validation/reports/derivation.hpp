@@ -23,6 +23,7 @@ namespace clatter::validation::inline reports {
 struct Explanation {
   Scene scene;
   int impact = 1;
+  double approach_speed = 0;  ///< of the first contact [m/s]
   std::vector<Step> steps;
   std::vector<std::string> warnings;
   std::string shortfall;     ///< as of the sequence up to this impact

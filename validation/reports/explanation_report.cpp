@@ -67,7 +67,7 @@ std::vector<Column> explain_columns() {
 
 Report explanation_report(const Explanation& explanation) {
   Report report = begun_report("explain", fmt::format("impact {} step by step", explanation.impact));
-  report.head = scene_head(explanation.scene, Model::discrete);
+  report.head = scene_head(explanation.scene, Model::discrete, explanation.approach_speed);
   report.fields = explanation_fields(explanation);
   report.grid.columns = explain_columns();
   for (const Step& step : explanation.steps) {

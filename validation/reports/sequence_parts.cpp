@@ -36,12 +36,14 @@ std::string accuracy_words(int digits, double error) {
                      std::max(-std::log10(error), 0.0));
 }
 
-Report begun_sequence_report(const Scene& scene, const std::string& what, const Totals& sums) {
+Report begun_sequence_report(const Scene& scene, const DiscreteDrop& drop, const std::string& what,
+                             const Totals& sums) {
   Report report = begun_report("sequence", what);
-  report.head = scene_head(scene, Model::discrete);
+  const double approach = first_approach_speed(drop);
+  report.head = scene_head(scene, Model::discrete, approach);
   report.remarks = {totals_line(sums)};
   report.fields["model"] = "discrete";
-  report.fields["scene"] = scene_value(scene, Model::discrete);
+  report.fields["scene"] = scene_value(scene, Model::discrete, approach);
   report.fields["body"] = body_value(scene, Model::discrete);
   return report;
 }

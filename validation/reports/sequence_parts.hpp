@@ -13,6 +13,7 @@
 #include "validation/record/impact_rows.hpp"
 #include "validation/record/names.hpp"
 #include "validation/record/totals.hpp"
+#include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/shortfall.hpp"
 
 namespace clatter::validation::inline reports {
@@ -30,7 +31,8 @@ void grow(Scales& scales, Scale scale, double number);
 [[nodiscard]] std::string accuracy_words(int digits, double error);
 
 /// Of the report: title, head, remarks and the JSON fields before the impacts.
-[[nodiscard]] Report begun_sequence_report(const Scene& scene, const std::string& what, const Totals& sums);
+[[nodiscard]] Report begun_sequence_report(const Scene& scene, const DiscreteDrop& drop, const std::string& what,
+                                           const Totals& sums);
 
 /// How far the sequence can be trusted, its sum, its accuracy and why it ended.
 template <class Sequence>

@@ -54,10 +54,12 @@ struct Flight {
   }
 };
 
+PlanarBody planar_body_of(const Scene& scene) { return std::get<analytic::Drop>(discrete_drop(scene)).body; }
+
 class HeightCurve {
  public:
   HeightCurve(const Scene& scene, const Sequence& sequence, const TimeWindow& window)
-      : body_(nominal_body(scene)), gravity_(scene.world.gravity), rows_(sequence.rows), whole_(whole_time(sequence)),
+      : body_(planar_body_of(scene)), gravity_(scene.world.gravity), rows_(sequence.rows), whole_(whole_time(sequence)),
         width_(std::min(whole_, window.to - window.from)) {
     add_part(flight(rows_.front(), rows_.front().before), -approach());
     std::reverse(samples_.begin(), samples_.end());
@@ -173,7 +175,7 @@ PicturePanel impulse_panel(const Scene& scene, const Sequence& sequence) {
                               .curves = {},
                               .x = {},
                               .y = {0, no_number}}};
-  const PlanarBody body = nominal_body(scene);
+  const PlanarBody body = planar_body_of(scene);
   bool is_used[5] = {};
   for (const ImpactRow& row : sequence.rows) {
     auto& numbers = panel.rows.emplace_back(std::vector<double>{row.start, no_number, no_number, no_number, no_number});
@@ -200,12 +202,7 @@ std::vector<std::string> words_of(const Scene& scene) {
   if (scene.spin != 0) drop += fmt::format(", spin {} rad/s", shortest(scene.spin));
   if (scene.has_vectors()) drop = scene.drop_words();
   drop += fmt::format(", gravity {} m/s²", shortest(scene.world.gravity));
-  const analytic::ImpactLaw law = impact_law(scene);
-  std::string impact = fmt::format("e = {} ({})", shortest(law.restitution), law_name(law.law));
-  if (law.friction == analytic::FrictionKind::coulomb) impact += ", Coulomb friction μ = ";
-  if (law.friction == analytic::FrictionKind::impulse_ratio) impact += ", impulse ratio μᵢ = ";
-  if (law.friction != analytic::FrictionKind::none) impact += shortest(law.friction_value);
-  return {scene.summary(Model::discrete).front(), drop, impact};
+  return {scene.summary(Model::discrete).front(), drop, law_words(scene, {})};
 }
 
 }  // namespace

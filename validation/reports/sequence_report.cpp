@@ -43,8 +43,6 @@ Scales scales_of(const Sequence& sequence) {
   return scales;
 }
 
-bool with_friction(const Scene& scene) { return impact_law(scene).friction != analytic::FrictionKind::none; }
-
 bool loses_energy(const Sequence& sequence) {
   return std::any_of(sequence.rows.begin(), sequence.rows.end(), [&](const ImpactRow& row) {
     return std::fabs(row.impact.energy_loss) > 1e-14 * sequence.rows[0].energy_before;
@@ -85,10 +83,10 @@ std::vector<Column> sequence_columns(bool friction, bool loses) {
   return impact_columns<DiscreteRow>(shown);
 }
 
-Report sequence_report(const Scene& scene, const Sequence& sequence) {
-  Report report = begun_sequence_report(scene, "impact sequence, discrete model", totals(sequence));
+Report sequence_report(const Scene& scene, const analytic::Drop& drop, const Sequence& sequence) {
+  Report report = begun_sequence_report(scene, drop, "impact sequence, discrete model", totals(sequence));
   report.notes = closing_notes(scene, sequence);
-  report.grid.columns = sequence_columns(with_friction(scene), loses_energy(sequence));
+  report.grid.columns = sequence_columns(drop.law.friction != analytic::FrictionKind::none, loses_energy(sequence));
   const ImpactDigits digits{.digits = scene.accuracy.digits, .scales = scales_of(sequence)};
   int n = 0;
   for (const ImpactRow& row : sequence.rows) add_impact_row(report, DiscreteRow{row, ++n, scene.angle_deg}, digits);
@@ -103,7 +101,9 @@ Report sequence_report(const Scene& scene, const Sequence& sequence) {
 }
 
 Report sequence_report(const Scene& scene, const DiscreteRun& run) {
-  if (const Sequence* const planar = run.planar()) return sequence_report(scene, *planar);
+  if (const Sequence* const planar = run.planar()) {
+    return sequence_report(scene, std::get<analytic::Drop>(run.drop), *planar);
+  }
   return sequence_report(scene, std::get<analytic::space::Drop>(run.drop),
                          std::get<analytic::space::Sequence>(run.sequence));
 }

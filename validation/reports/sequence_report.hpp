@@ -12,7 +12,8 @@ namespace clatter::validation::inline reports {
 /// @param friction, loses  which columns tables have
 [[nodiscard]] std::vector<Column> sequence_columns(bool friction = true, bool loses = true);
 /// A row for each impact, and in tables and CSV one for the tail.
-[[nodiscard]] Report sequence_report(const Scene& scene, const analytic::Sequence& sequence);
+[[nodiscard]] Report sequence_report(const Scene& scene, const analytic::Drop& drop,
+                                     const analytic::Sequence& sequence);
 /// Of a drop in the plane or in space.
 [[nodiscard]] Report sequence_report(const Scene& scene, const DiscreteRun& run);
 

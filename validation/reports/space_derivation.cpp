@@ -9,7 +9,7 @@
 
 #include "analytic/space/free_flight.hpp"
 #include "analytic/space/point_height.hpp"
-#include "validation/scene/space_scene.hpp"
+#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation::inline reports {
 namespace {

@@ -5,7 +5,7 @@
 #include "validation/reports/sequence_parts.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/discrete_scene.hpp"
-#include "validation/scene/space_scene.hpp"
+#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation::inline reports {
 namespace {
@@ -83,7 +83,7 @@ Value tail_fields(const std::optional<analytic::space::Tail>& some) {
 }  // namespace
 
 Report sequence_report(const Scene& scene, const analytic::space::Drop& drop, const Sequence& sequence) {
-  Report report = begun_sequence_report(scene, "impact sequence, discrete model in space", totals(sequence));
+  Report report = begun_sequence_report(scene, drop, "impact sequence, discrete model in space", totals(sequence));
   report.notes = closing_notes(scene, drop, sequence);
   std::vector<std::string> shown{"n",
                                  "corners",
@@ -93,7 +93,7 @@ Report sequence_report(const Scene& scene, const analytic::space::Drop& drop, co
                                  "angular_velocity_after_x",
                                  "angular_velocity_after_y",
                                  "angular_velocity_after_z"};
-  if (impact_law(scene).friction != analytic::FrictionKind::none) shown.emplace_back("mode");
+  if (drop.law.law.friction != analytic::FrictionKind::none) shown.emplace_back("mode");
   report.grid.columns = impact_columns<SpaceRow>(shown);
   const ImpactDigits digits{.digits = scene.accuracy.digits, .scales = scales_of(sequence)};
   const numeric::Vector3 centre = body_properties(scene, Model::discrete).centre;

@@ -69,7 +69,7 @@ WorstNumber worst_number(const Comparison& comparison, const ComparedImpact& imp
 }
 
 Report swept_comparison_report(const Scene& scene, const std::vector<SweptComparison>& swept) {
-  Report report = begun_comparison(scene);
+  Report report = begun_comparison(scene, {});
   const Column value_column = swept_column(*scene.sweep);
   report.grid.columns.insert(report.grid.columns.begin(), value_column);
   report.digest->columns = {value_column,

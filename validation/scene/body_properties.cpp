@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <tuple>
 
 #include "analytic/space/principal_axes.hpp"
 #include "numeric/files/import.hpp"
@@ -116,25 +119,25 @@ numeric::Mesh gmsh_mesh(const BodyScene& body) {
   return mesh;
 }
 
-SolidBody own_solid(const BodyScene& body) {
-  const auto of = [](const numeric::Mesh& mesh) {
-    return SolidBody{numeric::mass_properties(mesh), numeric::boundary_surface(mesh)};
-  };
-  switch (body.shape) {
-    case BodyScene::Shape::rod:
-      return of(numeric::rod_mesh({.length = body.length,
-                                   .radius = body.radius,
-                                   .mass = body.mass,
-                                   .sectors = body.sectors,
-                                   .rings = body.rings,
-                                   .layers = body.layers}));
-    case BodyScene::Shape::box:
-      return of(numeric::box_mesh({.size = body.size, .mass = body.mass, .nx = body.nx, .ny = body.ny, .nz = body.nz}));
-    case BodyScene::Shape::mesh: break;
+SolidBody read_solid(const BodyScene& body) {
+  if (body.is_stl()) {
+    const numeric::Surface surface = numeric::read_stl(body.file, body.unit);
+    return {stl_properties(body, surface), surface};
   }
-  if (!body.is_stl()) return of(gmsh_mesh(body));
-  const numeric::Surface surface = numeric::read_stl(body.file, body.unit);
-  return {stl_properties(body, surface), surface};
+  const numeric::Mesh mesh = gmsh_mesh(body);
+  return {numeric::mass_properties(mesh), numeric::boundary_surface(mesh)};
+}
+
+numeric::Mesh own_mesh(const BodyScene& body) {
+  if (body.shape == BodyScene::Shape::box) {
+    return numeric::box_mesh({.size = body.size, .mass = body.mass, .nx = body.nx, .ny = body.ny, .nz = body.nz});
+  }
+  return numeric::rod_mesh({.length = body.length,
+                            .radius = body.meshed_radius(),
+                            .mass = body.mass,
+                            .sectors = body.sectors,
+                            .rings = body.rings,
+                            .layers = body.layers});
 }
 
 /// Sums that cancel leave no number to be shown.
@@ -155,38 +158,23 @@ BodyProperties of_solid(const SolidBody& solid) {
           without_rounding(k2, k2.cwiseAbs().maxCoeff())};
 }
 
-}  // namespace
-
-Vector3 BodyProperties::principal_inertia() const { return mass * principal(gyration_square); }
-
-SolidBody solid_body(const Scene& scene) {
-  SolidBody solid = own_solid(scene.body);
-  MassProperties& properties = solid.properties;
-  if (!scene.body.centre.empty()) {
-    const double unit = scene.body.shape == BodyScene::Shape::mesh ? scene.body.unit : 1;
-    properties.centre = unit * vector_of(scene.body.centre);
-  }
-  if (!scene.body.inertia.empty()) properties.inertia = symmetric(scene.body.inertia);
-  check(scene, properties.mass, properties.inertia / properties.mass, bounds_of(properties.centre, solid.surface));
-  return solid;
-}
-
-BodyProperties nominal_properties(const Scene& scene) {
+/// Of a rod of this radius or of a box.
+BodyProperties shape_properties(const Scene& scene, double radius) {
   const BodyScene& body = scene.body;
   const bool is_rod = body.shape == BodyScene::Shape::rod;
   BodyProperties properties{.mass = body.mass};
-  properties.extents = is_rod ? Vector3(body.length, 2 * body.radius, 2 * body.radius) : body.size;
+  properties.extents = is_rod ? Vector3(body.length, 2 * radius, 2 * radius) : body.size;
   const Vector3 s = properties.extents.cwiseProduct(properties.extents) / (is_rod ? 16 : 12);
   const double along = is_rod ? body.length * body.length / 12 : s.x();
   properties.gyration_square = Vector3(s.y() + s.z(), s.z() + along, along + s.y()).asDiagonal();
   if (!body.centre.empty()) properties.centre = vector_of(body.centre);
   if (!body.inertia.empty()) properties.gyration_square = symmetric(body.inertia) / body.mass;
   const Vector3 half = properties.extents / 2, off = properties.centre.cwiseAbs();
-  Bounds bounds{.is_thin = is_rod && body.radius == 0};
+  Bounds bounds{.is_thin = is_rod && radius == 0};
   if (is_rod) {
     const double across = std::hypot(off.y(), off.z());
-    bounds.reach = std::hypot(half.x() + off.x(), body.radius + across);
-    bounds.is_outside = std::max(off.x() - half.x(), across - body.radius) > typed_rounding * bounds.reach;
+    bounds.reach = std::hypot(half.x() + off.x(), radius + across);
+    bounds.is_outside = std::max(off.x() - half.x(), across - radius) > typed_rounding * bounds.reach;
   } else {
     bounds.reach = (half + off).stableNorm();
     bounds.is_outside = (off - half).maxCoeff() > typed_rounding * bounds.reach;
@@ -195,9 +183,48 @@ BodyProperties nominal_properties(const Scene& scene) {
   return properties;
 }
 
+}  // namespace
+
+/// Keeps the mesh that it has read, and reads again only where unit, density or mass have changed.
+class MeshFile {
+ public:
+  [[nodiscard]] SolidBody read(const BodyScene& body) {
+    const std::scoped_lock lock(mutex_);
+    const Key key{body.file, body.unit, body.density, body.mass, body.centre.empty(), body.inertia.empty()};
+    if (key_ != key) solid_ = read_solid(body);
+    key_ = key;
+    return *solid_;
+  }
+
+ private:
+  using Key = std::tuple<std::string, double, std::optional<double>, double, bool, bool>;
+  std::mutex mutex_;
+  std::optional<Key> key_;
+  std::optional<SolidBody> solid_;
+};
+
+std::shared_ptr<MeshFile> unread_mesh() { return std::make_shared<MeshFile>(); }
+
+Vector3 BodyProperties::principal_inertia() const { return mass * principal(gyration_square); }
+
+SolidBody solid_body(const Scene& scene) {
+  const BodyScene& body = scene.body;
+  if (body.shape != BodyScene::Shape::mesh) {
+    const BodyProperties given = shape_properties(scene, body.meshed_radius());
+    return {{.mass = given.mass, .centre = given.centre, .inertia = given.mass * given.gyration_square},
+            numeric::boundary_surface(own_mesh(body))};
+  }
+  SolidBody solid = body.mesh_file ? body.mesh_file->read(body) : read_solid(body);
+  MassProperties& properties = solid.properties;
+  if (!body.centre.empty()) properties.centre = body.unit * vector_of(body.centre);
+  if (!body.inertia.empty()) properties.inertia = symmetric(body.inertia);
+  check(scene, properties.mass, properties.inertia / properties.mass, bounds_of(properties.centre, solid.surface));
+  return solid;
+}
+
 BodyProperties body_properties(const Scene& scene, Model model) {
-  const bool is_nominal = model == Model::discrete && scene.body.shape != BodyScene::Shape::mesh;
-  return is_nominal ? nominal_properties(scene) : of_solid(solid_body(scene));
+  if (scene.body.shape == BodyScene::Shape::mesh) return of_solid(solid_body(scene));
+  return shape_properties(scene, model == Model::discrete ? scene.body.radius : scene.body.meshed_radius());
 }
 
 Value body_value(const Scene& scene, Model model) {
@@ -211,17 +238,14 @@ Value body_value(const Scene& scene, Model model) {
                        {"inertia", std::vector<double>{i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2)}}};
 }
 
-std::vector<std::string> scene_head(const Scene& scene, Model model) {
+std::string body_words(const Scene& scene, Model model) {
   const BodyProperties body = body_properties(scene, model);
   const auto three = [&](const Vector3& v, const char* between) {
     return fmt::format("{1}{0}{2}{0}{3}", between, short_text(v.x()), short_text(v.y()), short_text(v.z()));
   };
-  std::vector<std::string> head = scene.summary(model);
-  head.insert(head.begin() + 1,
-              fmt::format("body: mass {} kg, extents {} m, centre of mass ({}) m, principal inertia {} kg·m²",
-                          short_text(body.mass), three(body.extents, " × "), three(body.centre, ", "),
-                          three(body.principal_inertia(), ", ")));
-  return head;
+  return fmt::format("body: mass {} kg, extents {} m, centre of mass ({}) m, principal inertia {} kg·m²",
+                     short_text(body.mass), three(body.extents, " × "), three(body.centre, ", "),
+                     three(body.principal_inertia(), ", "));
 }
 
 }  // namespace clatter::validation::inline scene

@@ -25,7 +25,8 @@ struct BodyProperties {
   [[nodiscard]] numeric::Vector3 principal_inertia() const;
 };
 
-/// A meshed body: of the numbers that the scene does not give, the mesh's own.
+/// A body with its mesh.  Mass, centre and inertia are those of the shape as given, of a file's mesh its own where the
+/// scene gives none; the mesh is the surface only.
 struct SolidBody {
   numeric::MassProperties properties;
   numeric::Surface surface;
@@ -35,16 +36,16 @@ struct SolidBody {
 ///         largest distance of the hull from the centre of mass), a centre outside the hull.
 [[nodiscard]] SolidBody solid_body(const Scene& scene);
 
-/// Of a rod (a round cylinder; radius 0: a thin rod) or box by its sizes alone.  @throws BadInput as solid_body.
-/// @pre the shape is no mesh
-[[nodiscard]] BodyProperties nominal_properties(const Scene& scene);
+/// Begins with a file that has not been read.
+[[nodiscard]] std::shared_ptr<MeshFile> unread_mesh();
 
-/// Of the body that the model drops.  @throws as solid_body.
+/// Of the body that the model drops: a rod (a round cylinder) or box by its sizes alone.  A rod of radius 0 is thin in the
+/// discrete model and has the radius of its mesh in the continuous one.  @throws as solid_body.
 [[nodiscard]] BodyProperties body_properties(const Scene& scene, Model model);
 
 /// "mass", "extents", "centre", "principal_inertia" (ascending), "inertia" (xx, yy, zz, xy, xz, yz), SI.
 [[nodiscard]] Value body_value(const Scene& scene, Model model = Model::continuous);
-/// The scene's summary and a line with the same numbers for a reader: the head of a table.
-[[nodiscard]] std::vector<std::string> scene_head(const Scene& scene, Model model = Model::continuous);
+/// The same for a reader: "body: mass … kg, extents …".
+[[nodiscard]] std::string body_words(const Scene& scene, Model model);
 
 }  // namespace clatter::validation::inline scene

@@ -5,19 +5,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "analytic/body_motion.hpp"
 #include "analytic/errors.hpp"
+#include "analytic/restitution_map.hpp"
+#include "analytic/space/shapes.hpp"
 #include "validation/output/bad_input.hpp"
-#include "validation/scene/body_properties.hpp"
+#include "validation/output/number.hpp"
+#include "validation/scene/hull.hpp"
 #include "validation/scene/keys.hpp"
-#include "validation/scene/space_scene.hpp"
 
 namespace clatter::validation::inline scene {
 namespace {
 
+namespace space = analytic::space;
+using analytic::RestitutionLaw;
 using analytic::Vertex;
 using numeric::Vector3;
 
@@ -86,14 +90,195 @@ bool vanish(std::initializer_list<double> parts, double whole) {
   return std::all_of(parts.begin(), parts.end(), [&](double part) { return std::fabs(part) <= typed * whole; });
 }
 
-[[noreturn]] void in_space(const std::string& reason) { outside("the body moves in space: " + reason); }
+/// The points that the convex hull of all needs, each once.
+std::vector<Vector3> hull_corners(const std::vector<Vector3>& points, double size) {
+  constexpr double same = 1e-9;  // of the size, as is_outside_hull has it
+  std::vector<Vector3> distinct;
+  for (const Vector3& point : points) {
+    const auto equals = [&](const Vector3& other) { return (other - point).norm() <= same * size; };
+    if (std::none_of(distinct.begin(), distinct.end(), equals)) distinct.push_back(point);
+  }
+  std::vector<Vector3> corners;
+  for (std::size_t i = 0; i < distinct.size(); ++i) {
+    std::vector<Vector3> others = distinct;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    if (others.empty() || is_outside_hull(distinct[i], others)) corners.push_back(distinct[i]);
+  }
+  return corners;
+}
 
-void require_plane(const Scene& scene) {
-  const std::string reason = reason_in_space(scene);
-  if (!reason.empty()) in_space(reason);
+/// Height of the centre of mass above the lowest vertex or rim.
+double touch_height(const space::Body& body, const space::Quaternion& attitude) {
+  const space::Vector3 up = attitude.conjugate() * space::Vector3::UnitZ();
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const space::Vector3& vertex : body.vertices) lowest = std::fmin(lowest, up.dot(vertex));
+  for (const space::Rim& rim : body.rims)
+    lowest = std::fmin(lowest, up.dot(rim.centre) - rim.radius * up.cross(rim.axis).norm());
+  return -lowest;
+}
+
+/// By sizes alone, about the centre of mass.
+space::Body simple_body(const Scene& scene) {
+  const BodyScene& body = scene.body;
+  const BodyProperties properties = body_properties(scene, Model::discrete);
+  space::Body made = body.shape == BodyScene::Shape::rod
+                         ? space::cylinder(body.mass, {.length = body.length, .radius = body.radius})
+                         : space::box(body.mass, {.size = body.size, .centre = Vector3::Zero()});
+  if (!body.inertia.empty()) made.inertia = body.mass * properties.gyration_square;
+  for (space::Vector3& vertex : made.vertices) vertex -= properties.centre;
+  for (space::Rim& rim : made.rims) rim.centre -= properties.centre;
+  return made;
+}
+
+/// The outline by sizes alone, about the centre of mass.
+analytic::PlanarBody simple_outline(const Scene& scene) {
+  const BodyScene& body = scene.body;
+  analytic::PlanarBody planar =
+      body.shape == BodyScene::Shape::rod
+          ? analytic::make_rod({.mass = body.mass, .length = body.length, .radius = body.radius})
+          : analytic::make_box(
+                {.mass = body.mass, .length = body.size.x(), .width = body.size.y(), .thickness = body.size.z()});
+  const BodyProperties properties = body_properties(scene, Model::discrete);
+  if (!body.inertia.empty()) planar.gyration_square = properties.gyration_square(1, 1);
+  for (Vertex& vertex : planar.vertices) {
+    vertex.x -= properties.centre.x();
+    vertex.z -= properties.centre.z();
+  }
+  planar.uniform_thin_rod = planar.uniform_thin_rod && body.inertia.empty() && properties.centre.isZero(0);
+  return planar;
+}
+
+/// The outline of a body that is symmetric about the plane; none if it has no such outline.
+std::optional<analytic::PlanarBody> symmetric_outline(const numeric::Body& body) {
+  try {
+    return planar_body(body);
+  } catch (const analytic::OutsideModelError&) {
+    return std::nullopt;
+  }
+}
+
+
+/// Motion and law of a drop in the plane.
+analytic::Drop planar_drop(const Scene& scene, const analytic::PlanarBody& body) {
+  const analytic::Angle inclination = analytic::Angle::from_degrees(scene.angle_deg);
+  const Vector3 velocity = scene.touch_velocity();
+  const auto touch = [&] { return analytic::BodyMotion(body, inclination, {}, 0).centre_height(); };
+  const double normal = scene.height ? -scene.fallen_speed(touch()) : velocity.z();
+  return {.body = body,
+          .inclination = inclination,
+          .velocity = {.normal = normal, .tangential = velocity.x(), .angular = scene.touch_angular_velocity().y()},
+          .gravity = scene.world.gravity,
+          .law = discrete_law(scene).law};
+}
+
+/// The same in space, where an impulse ratio acts along x.
+space::Drop space_drop(const Scene& scene, const space::Body& body) {
+  space::Drop drop{.body = body,
+                   .attitude = scene.touch_attitude(),
+                   .velocity = scene.touch_velocity(),
+                   .angular_velocity = scene.touch_angular_velocity(),
+                   .gravity = scene.world.gravity,
+                   .law = {}};
+  drop.law.law = discrete_law(scene).law;
+  if (scene.height) drop.velocity.z() = -scene.fallen_speed(touch_height(drop.body, drop.attitude));
+  return drop;
+}
+
+/// Corners of the two bodies, each matched by one of the other's.
+template <class Places>
+bool same_places(const Places& some, const Places& others, double size) {
+  constexpr double same = 1e-9;  // of the size, as is_outside_hull has it
+  const auto near = [&](const auto& one) {
+    return std::any_of(others.begin(), others.end(), [&](const auto& other) { return (one - other).norm() <= same * size; });
+  };
+  return some.size() == others.size() && std::all_of(some.begin(), some.end(), near);
+}
+
+std::vector<Eigen::Vector2d> places_of(const analytic::PlanarBody& body) {
+  std::vector<Eigen::Vector2d> places;
+  for (int i = 0; i < body.vertex_count; ++i) {
+    const Vertex& vertex = body.vertices[static_cast<std::size_t>(i)];
+    places.emplace_back(vertex.x, vertex.z);
+  }
+  return places;
+}
+
+const char* source_name(LawSource source, const char* of_ground) {
+  switch (source) {
+    case LawSource::standard: return "default";
+    case LawSource::impact: return "impact";
+    case LawSource::ground: return of_ground;
+  }
+  return "";
+}
+
+std::string law_friction_words(const Scene& scene, const DiscreteLaw& law) {
+  const bool is_swept = scene.sweep && scene.sweep->quantity == SceneSweep::Quantity::friction;
+  if (is_swept && law.friction_from != LawSource::impact) return "Coulomb friction as swept";
+  const std::string value = shortest(law.law.friction_value);
+  const char* const from = law.friction_from == LawSource::ground ? ", from the ground" : "";
+  switch (law.law.friction) {
+    case analytic::FrictionKind::coulomb: return fmt::format("Coulomb friction μ = {}{}", value, from);
+    case analytic::FrictionKind::impulse_ratio: return fmt::format("impulse ratio μᵢ = {}", value);
+    case analytic::FrictionKind::none: break;
+  }
+  return "no friction";
+}
+
+double ground_restitution(const DiscreteLaw& law, double approach) {
+  return analytic::restitution_of_damping(law.law.damping_per_stiffness * approach);
+}
+
+std::string restitution_words(const DiscreteLaw& law, std::optional<double> approach) {
+  if (law.restitution_from != LawSource::ground) {
+    return fmt::format("e = {} ({})", shortest(law.law.restitution), law_name(law.law.law));
+  }
+  if (!(law.law.damping_per_stiffness > 0)) return "e = 1 (viscoelastic), from the ground without damping";
+  if (!approach) {
+    return fmt::format("e from the ground's damping (viscoelastic, c/k = {} s/m)",
+                       significant(law.law.damping_per_stiffness, 6));
+  }
+  return fmt::format("e = {} at {} m/s (viscoelastic), from the ground's damping",
+                     significant(ground_restitution(law, *approach), 3), significant(*approach, 3));
 }
 
 }  // namespace
+
+RestitutionLaw restitution_law(const Scene& scene) {
+  if (scene.impact.law) return *scene.impact.law;
+  return scene.impact.restitution || !scene.has_ground() ? RestitutionLaw::newton : RestitutionLaw::viscoelastic;
+}
+
+bool takes_friction_of_ground(const Scene& scene) {
+  const DiscreteImpact& impact = scene.impact;
+  return !impact.impulse_ratio && !impact.friction && scene.has_ground() && scene.world.ground.has_friction();
+}
+
+DiscreteLaw discrete_law(const Scene& scene) {
+  const DiscreteImpact& impact = scene.impact;
+  const numeric::Ground& ground = scene.world.ground;
+  DiscreteLaw found{.law = {.restitution = impact.restitution.value_or(1), .law = restitution_law(scene)}};
+  analytic::ImpactLaw& law = found.law;
+  if (impact.restitution || impact.law) found.restitution_from = LawSource::impact;
+  if (law.law == RestitutionLaw::viscoelastic) {
+    found.restitution_from = LawSource::ground;
+    law.damping_per_stiffness = ground.damping / ground.stiffness;
+  }
+  if (impact.impulse_ratio || impact.friction) {
+    found.friction_from = LawSource::impact;
+    law.friction = impact.friction ? analytic::FrictionKind::coulomb : analytic::FrictionKind::impulse_ratio;
+    law.friction_value = impact.friction ? *impact.friction : *impact.impulse_ratio;
+  } else if (takes_friction_of_ground(scene)) {
+    if (ground.friction == numeric::FrictionLaw::regularised) {
+      throw analytic::OutsideModelError(
+          "the discrete model has Coulomb's law; regularised friction creeps instead of sticking");
+    }
+    found.friction_from = LawSource::ground;
+    law.friction = analytic::FrictionKind::coulomb;
+    law.friction_value = ground.sliding_friction;
+  }
+  return found;
+}
 
 std::string reason_in_space(const Scene& scene) {
   const auto given = [&](const char* key) { return fmt::format("{} = {}", key, key_named(key).get(scene).dump()); };
@@ -123,7 +308,7 @@ analytic::PlanarBody planar_body(const numeric::Body& body) {
                         analytic::max_vertices));
   }
   const std::string reason = asymmetry(body, corners);
-  if (!reason.empty()) in_space(reason);
+  if (!reason.empty()) outside("the body moves in space: " + reason);
   // a and b are the lower ones at each end.
   std::sort(corners.begin(), corners.end(), [](const Vertex& p, const Vertex& q) { return p.z < q.z; });
   for (std::size_t i = 0; i + 1 < corners.size(); i += 2) {
@@ -136,87 +321,172 @@ analytic::PlanarBody planar_body(const numeric::Body& body) {
   return planar;
 }
 
-analytic::Drop discrete_drop(const Scene& scene, const numeric::Body& body) {
-  require_plane(scene);
-  const numeric::Ground& ground = scene.world.ground;
-  if (ground.has_friction() && ground.friction == numeric::FrictionLaw::regularised) {
-    outside("and has Coulomb's law; regularised friction creeps instead of sticking");
-  }
-  const numeric::MotionState start = scene.start(body);
-  analytic::ImpactLaw law{.law = analytic::RestitutionLaw::viscoelastic,
-                          .damping_per_stiffness = ground.damping / ground.stiffness};
-  if (ground.has_friction()) {
-    law.friction = analytic::FrictionKind::coulomb;
-    law.friction_value = ground.sliding_friction;
-  }
-  return {.body = planar_body(body),
-          .inclination = analytic::Angle::from_degrees(scene.angle_deg),
-          .velocity = {.normal = start.velocity.z(),
-                       .tangential = start.velocity.x(),
-                       .angular = scene.touch_angular_velocity().y()},
-          .gravity = scene.world.gravity,
-          .law = law};
+space::Body space_body(const numeric::Body& body) {
+  return space::polyhedron(hull_corners(body.facets().vertices, body.radius()),
+                           {.mass = body.mass(), .centre = Vector3::Zero(), .inertia = body.inertia()});
 }
 
-analytic::PlanarBody nominal_body(const Scene& scene) {
-  const BodyScene& body = scene.body;
-  if (body.shape == BodyScene::Shape::mesh) return planar_body(scene.make_body());
-  analytic::PlanarBody planar =
-      body.shape == BodyScene::Shape::rod
-          ? analytic::make_rod({.mass = body.mass, .length = body.length, .radius = body.radius})
-          : analytic::make_box(
-                {.mass = body.mass, .length = body.size.x(), .width = body.size.y(), .thickness = body.size.z()});
-  const BodyProperties properties = nominal_properties(scene);
-  if (!body.inertia.empty()) planar.gyration_square = properties.gyration_square(1, 1);
-  for (Vertex& vertex : planar.vertices) {
-    vertex.x -= properties.centre.x();
-    vertex.z -= properties.centre.z();
-  }
-  planar.uniform_thin_rod = planar.uniform_thin_rod && body.inertia.empty() && properties.centre.isZero(0);
-  return planar;
+
+const analytic::ImpactLaw& law_of(const DiscreteDrop& drop) {
+  if (const auto* const planar = std::get_if<analytic::Drop>(&drop)) return planar->law;
+  return std::get<space::Drop>(drop).law.law;
 }
 
-analytic::ImpactLaw impact_law(const Scene& scene) {
-  const DiscreteImpact& impact = scene.impact;
-  analytic::ImpactLaw law{.restitution = impact.restitution, .law = impact.law};
-  if (impact.impulse_ratio) {
-    law.friction = analytic::FrictionKind::impulse_ratio;
-    law.friction_value = *impact.impulse_ratio;
+double first_approach_speed(const DiscreteDrop& drop) {
+  double lowest = std::numeric_limits<double>::infinity(), speed = 0;
+  const auto take = [&](double height, double down, double size) {
+    const bool is_level = std::fabs(height - lowest) <= 1e-12 * size;
+    if (height < lowest || is_level) speed = is_level ? std::fmax(speed, down) : down;
+    lowest = std::fmin(lowest, height);
+  };
+  if (const auto* const planar = std::get_if<analytic::Drop>(&drop)) {
+    const double sine = std::sin(planar->inclination.radians), cosine = std::cos(planar->inclination.radians);
+    for (int i = 0; i < planar->body.vertex_count; ++i) {
+      const analytic::ContactPoint d = planar->body.contact_point(i, sine, cosine);
+      take(d.normal, -normal_velocity(planar->velocity, d), planar->body.reach());
+    }
+    return speed;
   }
-  if (impact.friction) {
-    law.friction = analytic::FrictionKind::coulomb;
-    law.friction_value = *impact.friction;
+  const auto& in_space = std::get<space::Drop>(drop);
+  const auto at = [&](const Vector3& arm) {
+    take(arm.z(), -(in_space.velocity + in_space.angular_velocity.cross(arm)).z(), in_space.body.reach());
+  };
+  for (const Vector3& vertex : in_space.body.vertices) at(in_space.attitude * vertex);
+  for (const space::Rim& rim : in_space.body.rims) {
+    const Vector3 axis = in_space.attitude * rim.axis;
+    const Vector3 down = axis * axis.z() - Vector3::UnitZ();  // within the rim's plane
+    at(in_space.attitude * rim.centre + (down.norm() > 0 ? Vector3(rim.radius * down.normalized()) : Vector3::Zero()));
   }
-  return law;
+  return speed;
 }
 
-analytic::Drop impact_drop(const Scene& scene, const analytic::PlanarBody& body) {
-  require_plane(scene);
-  const analytic::Angle inclination = analytic::Angle::from_degrees(scene.angle_deg);
-  const double gravity = scene.world.gravity;
-  const Vector3 velocity = scene.touch_velocity();
-  const auto touch = [&] { return analytic::BodyMotion(body, inclination, {}, 0).centre_height(); };
-  const double normal = scene.height ? -scene.fallen_speed(touch()) : velocity.z();
-  return {.body = body,
-          .inclination = inclination,
-          .velocity = {.normal = normal, .tangential = velocity.x(), .angular = scene.touch_angular_velocity().y()},
-          .gravity = gravity,
-          .law = impact_law(scene)};
+DiscreteBody::DiscreteBody(const Scene& scene) : centre_(body_properties(scene, Model::discrete).centre) {
+  if (scene.body.shape == BodyScene::Shape::mesh) solid_ = std::make_shared<const numeric::Body>(scene.make_body());
+  else scene_ = scene;
 }
 
-analytic::Drop impact_drop(const Scene& scene) { return impact_drop(scene, nominal_body(scene)); }
+DiscreteBody::DiscreteBody(std::shared_ptr<const numeric::Body> solid) : solid_(std::move(solid)) {}
+
+const std::optional<analytic::PlanarBody>& DiscreteBody::outline() {
+  if (!has_looked_for_outline_) outline_ = solid_ ? symmetric_outline(*solid_) : simple_outline(*scene_);
+  has_looked_for_outline_ = true;
+  return outline_;
+}
+
+const space::Body& DiscreteBody::in_space() {
+  if (!in_space_) in_space_ = solid_ ? space_body(*solid_) : simple_body(*scene_);
+  return *in_space_;
+}
+
+DiscreteDrop DiscreteBody::drop(const Scene& scene) {
+  if (reason_in_space(scene).empty() && outline()) return planar_drop(scene, *outline());
+  return space_drop(scene, in_space());
+}
+
+DiscreteDrop discrete_drop(const Scene& scene) { return DiscreteBody(scene).drop(scene); }
+
+DiscreteDrop mesh_drop(const Scene& scene, const numeric::Body& body) {
+  return DiscreteBody(std::shared_ptr<const numeric::Body>(std::shared_ptr<void>(), &body)).drop(scene);
+}
+
+bool has_other_corners(const DiscreteDrop& drop, const DiscreteDrop& mesh) {
+  constexpr double same = 1e-9;
+  if (drop.index() != mesh.index()) return true;
+  if (const auto* const one = std::get_if<analytic::Drop>(&drop)) {
+    const auto& other = std::get<analytic::Drop>(mesh);
+    const double k = one->body.gyration_square;
+    return !(std::fabs(k - other.body.gyration_square) <= same * k) ||
+           !same_places(places_of(one->body), places_of(other.body), one->body.reach());
+  }
+  const auto &one = std::get<space::Drop>(drop), &other = std::get<space::Drop>(mesh);
+  return !one.body.rims.empty() || !((one.body.inertia - other.body.inertia).norm() <= same * one.body.inertia.norm()) ||
+         !same_places(one.body.vertices, other.body.vertices, one.body.reach());
+}
 
 Scene read_discrete_scene(const SceneValues& values, const std::vector<SceneOverride>& overrides) {
   Scene scene = read_scene(values, overrides, Model::discrete);
-  if (scene.sweep && scene.sweep->quantity == SceneSweep::Quantity::angle_deg) {
-    throw BadInput(fmt::format("{}: sweep.angle_deg: must be left out here; give --angle", values.path()));
+  if (scene.sweep) {
+    const bool is_angle = scene.sweep->quantity == SceneSweep::Quantity::angle_deg;
+    if (is_angle || !(scene.impact.friction || scene.impact.impulse_ratio)) {
+      throw BadInput(fmt::format("{}: sweep.{}: must be left out here; give {}", values.path(), scene.sweep->name(),
+                                 is_angle ? "--angle" : "--friction"));
+    }
   }
-  if (scene.height) {
-    const DiscreteDrop drop = chosen_drop(scene);
+  if (scene.falls()) {
+    const DiscreteDrop drop = discrete_drop(scene);
     const auto* const planar = std::get_if<analytic::Drop>(&drop);
-    scene.speed = planar ? -planar->velocity.normal : -std::get<analytic::space::Drop>(drop).velocity.z();
+    scene.speed = planar ? -planar->velocity.normal : -std::get<space::Drop>(drop).velocity.z();
   }
   return scene;
+}
+
+std::string law_words(const Scene& scene, std::optional<double> approach) {
+  const DiscreteLaw law = discrete_law(scene);
+  return fmt::format("{}{} {}", restitution_words(law, approach), law.restitution_from == LawSource::ground ? ";" : ",",
+                     law_friction_words(scene, law));
+}
+
+Value law_fields(const Scene& scene, std::optional<double> approach) {
+  const DiscreteLaw found = discrete_law(scene);
+  const analytic::ImpactLaw& law = found.law;
+  Value fields = Value::Fields{{"law", law_name(law.law)}};
+  if (found.restitution_from != LawSource::ground) fields["restitution"] = law.restitution;
+  else if (approach) {
+    fields["restitution"] = ground_restitution(found, *approach);
+    fields["approach_speed"] = *approach;
+  }
+  fields["restitution_from"] = source_name(found.restitution_from, "ground.damping");
+  switch (law.friction) {
+    case analytic::FrictionKind::none: fields["friction_law"] = "none"; break;
+    case analytic::FrictionKind::coulomb: fields["friction_law"] = "coulomb"; break;
+    case analytic::FrictionKind::impulse_ratio: fields["friction_law"] = "impulse-ratio"; break;
+  }
+  if (law.friction != analytic::FrictionKind::none) fields["friction"] = law.friction_value;
+  fields["friction_from"] = source_name(found.friction_from, "ground.sliding_friction");
+  return fields;
+}
+
+std::string corner_name(const Scene& scene, const space::Corner& corner) {
+  const std::vector<double>& centre = scene.body.centre;
+  const bool is_moved = !centre.empty() && scene.body.shape != BodyScene::Shape::mesh;
+  const double x = corner.place.x() + (is_moved ? centre[0] : 0), y = corner.place.y() + (is_moved ? centre[1] : 0),
+               z = corner.place.z() + (is_moved ? centre[2] : 0);
+  const auto sign = [](double coordinate) { return coordinate < 0 ? '-' : '+'; };
+  switch (scene.body.shape) {
+    case BodyScene::Shape::rod: return x < 0 ? "a" : "b";
+    case BodyScene::Shape::box: return fmt::format("{}x{}y{}z", sign(x), sign(y), sign(z));
+    case BodyScene::Shape::mesh: break;
+  }
+  return std::to_string(corner.index + 1);
+}
+
+std::string tilt_words(const space::OutcomeSet& set) {
+  const std::string outcomes = set.varies ? "outcomes that change with the direction of the tilt,"
+                                          : fmt::format("{} outcomes,", set.outcomes.size());
+  return fmt::format("small tilts give {} up to {} m/s and {} rad/s apart", outcomes,
+                     significant(set.velocity_spread, 2), significant(set.angular_velocity_spread, 2));
+}
+
+std::string landing_words(const std::vector<space::Corner>& corners) {
+  if (corners.front().radius > 0) return "a round end lands level";
+  return fmt::format("{} corners land at once", corners.size());
+}
+
+std::vector<SpaceRow> space_rows(const Scene& scene, const space::Sequence& sequence, const Vector3& centre) {
+  std::vector<SpaceRow> rows;
+  for (const space::ImpactRow& row : sequence.rows) {
+    SpaceRow named{.row = row, .n = static_cast<int>(rows.size()) + 1};
+    bool left = false, right = false;
+    for (const space::Corner& corner : row.corners) {
+      (corner.place.x() + centre.x() < 0 ? left : right) = true;
+      named.corners += (named.corners.empty() ? "" : " ") + corner_name(scene, corner);
+    }
+    named.end = left && right ? "both" : left ? "a" : "b";
+    const Vector3 place = row.corners.front().place + centre;
+    named.place = {place.x(), place.y(), place.z()};
+    rows.push_back(named);
+  }
+  return rows;
 }
 
 }  // namespace clatter::validation::inline scene

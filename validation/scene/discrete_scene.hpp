@@ -1,12 +1,43 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A scene as the discrete model sees it: by the real body and ground, or by sizes and the impact.* keys alone.
+// A scene as the discrete model sees it, in the plane or in space: the one rule from a scene to its law, its body and
+// its drop, which every command, notebook and page takes.
 #pragma once
 
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
 #include "analytic/sequence.hpp"
+#include "analytic/space/sequence.hpp"
 #include "numeric/body.hpp"
+#include "validation/record/impact_quantities.hpp"
+#include "validation/scene/body_properties.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation::inline scene {
+
+/// What gave a number of the discrete model's law.
+enum class LawSource {
+  standard,  ///< neither [impact] nor a ground: elastic, frictionless
+  impact,    ///< the [impact] keys
+  ground,    ///< c_G/k_G, or the ground's sliding friction
+};
+
+/// Restitution and friction of the discrete model, and where each came from.
+struct DiscreteLaw {
+  analytic::ImpactLaw law;
+  LawSource restitution_from = LawSource::standard, friction_from = LawSource::standard;
+};
+
+/// The restitution law: that of [impact]; else Newton's with a restitution or without a ground; else the ground's.
+[[nodiscard]] analytic::RestitutionLaw restitution_law(const Scene& scene);
+/// Whether friction is left to the ground, and the ground has some.
+[[nodiscard]] bool takes_friction_of_ground(const Scene& scene);
+/// The law that the discrete model takes: each number from [impact] where that gives it, else from the ground.
+/// @throws analytic::OutsideModelError where the ground's regularised friction would be taken.
+[[nodiscard]] DiscreteLaw discrete_law(const Scene& scene);
 
 /// Why the drop moves in space and not in the plane y = 0, as its keys say; empty: in the plane.  The one place that
 /// decides so; planar_body refuses meshes whose shape or mass is not symmetric about that plane.
@@ -17,28 +48,75 @@ namespace clatter::validation::inline scene {
 /// @throws analytic::OutsideModelError if the body is not symmetric about the plane y = 0 (products of inertia or
 ///         corners off it by more than 1e-9 of its size), or its outline has more than four corners.
 [[nodiscard]] analytic::PlanarBody planar_body(const numeric::Body& body);
+/// The body with its own corners: the vertices of the hull of its surface.
+[[nodiscard]] analytic::space::Body space_body(const numeric::Body& body);
 
-/// The drop of `scene` for the discrete model: real contact points and inertia, restitution from the exact map of the
-/// ground's damping at each impact's own speed, Coulomb friction with the sliding coefficient.
-/// @throws analytic::OutsideModelError as planar_body, for a drop in space and for regularised friction.
-[[nodiscard]] analytic::Drop discrete_drop(const Scene& scene, const numeric::Body& body);
+/// A drop for the discrete model that runs it: in the plane where reason_in_space is empty and the body has an outline
+/// there, else in space, where the same motion comes out up to rounding.
+using DiscreteDrop = std::variant<analytic::Drop, analytic::space::Drop>;
 
-/// The body of `scene` by its sizes alone, as `clatter sequence` has it: a rod is a cylinder (radius 0: a thin rod), a
-/// box its outline, with body.centre and body.inertia; a mesh as planar_body.  @throws as planar_body, numeric::Body
-/// and nominal_properties.
-[[nodiscard]] analytic::PlanarBody nominal_body(const Scene& scene);
+/// The law of a drop.
+[[nodiscard]] const analytic::ImpactLaw& law_of(const DiscreteDrop& drop);
+/// Approach speed of the lowest point at the first touch [m/s].
+[[nodiscard]] double first_approach_speed(const DiscreteDrop& drop);
 
-/// The drop of `scene` with restitution and friction as its impact.* keys give them.
-/// @throws analytic::OutsideModelError for a drop in space; BadInput if drop.height is not above the centre of mass at
-///         the touch.
-[[nodiscard]] analytic::Drop impact_drop(const Scene& scene, const analytic::PlanarBody& body);
-[[nodiscard]] analytic::Drop impact_drop(const Scene& scene);
+/// A scene's body for the discrete model, each form made when a drop first needs it.  By its sizes alone a rod is a
+/// round cylinder with its rims in space (radius 0: a thin rod), a box its outline or its corners; of a mesh, or of
+/// `solid`, the corners of the surface.
+class DiscreteBody {
+ public:
+  /// @throws as body_properties
+  explicit DiscreteBody(const Scene& scene);
+  /// The corners of a mesh in place of those of the shape that it stands for.
+  explicit DiscreteBody(std::shared_ptr<const numeric::Body> solid);
+  /// The drop of a scene that has this body.
+  /// @throws BadInput if drop.height is not above the centre of mass at the touch; OutsideModelError as discrete_law.
+  [[nodiscard]] DiscreteDrop drop(const Scene& scene);
+  /// Of mass, in the body's frame [m].
+  [[nodiscard]] const numeric::Vector3& centre() const { return centre_; }
 
-/// Restitution and friction as the scene's impact.* keys give them.
-[[nodiscard]] analytic::ImpactLaw impact_law(const Scene& scene);
+ private:
+  [[nodiscard]] const std::optional<analytic::PlanarBody>& outline();
+  [[nodiscard]] const analytic::space::Body& in_space();
+
+  std::optional<Scene> scene_;                  ///< of a shape by its sizes
+  std::shared_ptr<const numeric::Body> solid_;  ///< of a mesh
+  numeric::Vector3 centre_ = numeric::Vector3::Zero();
+  bool has_looked_for_outline_ = false;
+  std::optional<analytic::PlanarBody> outline_;
+  std::optional<analytic::space::Body> in_space_;
+};
+
+/// The drop of a scene: its body, motion and law for the discrete model.  @throws as DiscreteBody
+[[nodiscard]] DiscreteDrop discrete_drop(const Scene& scene);
+/// The same with the corners of the mesh that the continuous model drops.
+[[nodiscard]] DiscreteDrop mesh_drop(const Scene& scene, const numeric::Body& body);
+/// Whether the corners or the inertia of the two drops' bodies differ by more than 1e-9 of their size: those of a mesh
+/// from those of the shape that it stands for.
+[[nodiscard]] bool has_other_corners(const DiscreteDrop& drop, const DiscreteDrop& mesh);
 
 /// A scene for `sequence` and `explain`: `speed` is that of the fall, where a height is given.
-/// @throws BadInput as read_scene, and for a scene that sweeps its angle.
+/// @throws BadInput as read_scene, and for a scene that sweeps what the discrete model takes.
 [[nodiscard]] Scene read_discrete_scene(const SceneValues& values, const std::vector<SceneOverride>& overrides);
+
+/// "e = 0.770 at 4.33 m/s, from the ground's damping; Coulomb friction μ = 0.075, from the ground".
+/// @param approach  of the first contact [m/s]; none: e is told by c_G/k_G
+[[nodiscard]] std::string law_words(const Scene& scene, std::optional<double> approach);
+/// The same as fields: "law", "restitution" (at "approach_speed"), "restitution_from", "friction_law", "friction",
+/// "friction_from".
+[[nodiscard]] Value law_fields(const Scene& scene, std::optional<double> approach);
+
+/// Name of a corner of the body: the signs of the coordinates of a box's corner ("+x-y+z"), "a" and "b" of a rod's
+/// ends, otherwise its number from 1.
+[[nodiscard]] std::string corner_name(const Scene& scene, const analytic::space::Corner& corner);
+/// What small tilts make of corners that land at once: how many outcomes and how far apart; of a level rim, which has
+/// one for each direction, how far apart.
+[[nodiscard]] std::string tilt_words(const analytic::space::OutcomeSet& set);
+/// The corners of a row in words: "2 corners land at once", "a round end lands level".
+[[nodiscard]] std::string landing_words(const std::vector<analytic::space::Corner>& corners);
+/// The rows of a sequence with the names of the corners that strike.
+/// @param centre  of mass, in the body's frame [m]
+[[nodiscard]] std::vector<SpaceRow> space_rows(const Scene& scene, const analytic::space::Sequence& sequence,
+                                               const numeric::Vector3& centre);
 
 }  // namespace clatter::validation::inline scene

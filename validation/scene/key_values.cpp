@@ -73,7 +73,7 @@ const std::vector<std::string>& shape_names() {
 }
 
 const std::vector<std::string>& law_names() {
-  static const std::vector<std::string> names{"newton", "poisson", "stronge"};
+  static const std::vector<std::string> names{"newton", "poisson", "stronge", "viscoelastic"};
   return names;
 }
 
@@ -112,6 +112,7 @@ std::string Key::allowed() const {
 
 Json Key::get(const Scene& scene) const {
   Scene shown = scene;  // the places are those of a scene that may be changed
+  if (!shown.impact.restitution) shown.impact.restitution = 1;
   const Echo shows = echo_of(*this, scene, Model::continuous);
   return shows == Echo::value ? value_json(*this, shown) : Json(nullptr);
 }
@@ -192,7 +193,9 @@ void put_values(const SceneValues& values, Scene& scene, Model model) {
 
 Json keys_json(const Scene& scene, Model model) {
   Scene shown = scene;  // the places are those of a scene that may be changed
-  if (model == Model::discrete && !shown.impact.impulse_ratio) shown.impact.impulse_ratio = 0;  // none is a ratio of 0
+  // What the discrete model takes without being told: no friction is a ratio of 0.
+  if (model == Model::discrete && !shown.impact.impulse_ratio) shown.impact.impulse_ratio = 0;
+  if (!shown.impact.restitution) shown.impact.restitution = 1;
   Json json = Json::object();
   for (const Key& key : all_keys()) {
     if (!key.is_for(model)) continue;

@@ -5,10 +5,13 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/orientation.hpp"
 
 namespace clatter::validation::inline scene {
 namespace {
+
+constexpr auto viscoelastic = analytic::RestitutionLaw::viscoelastic;
 
 constexpr int most = 100'000;  // elements along an edge of a mesh
 constexpr Range finite{-largest_number, largest_number, false, "finite"};
@@ -33,10 +36,11 @@ constexpr Range tolerances{numeric::least_tolerance, 0.1, false, "from 5e-14 to 
 // Keys whose place another takes.
 constexpr std::array mass_of_body{"body.mass"};
 constexpr std::array speed_of_fall{"drop.speed"};
+constexpr std::array speed_and_height{"drop.speed", "drop.height"};
 constexpr std::array turns{"drop.angle_deg", "drop.tilt_deg"};
 constexpr std::array ways_to_turn{"drop.angle_deg", "drop.tilt_deg", "drop.attitude"};
 constexpr std::array turn_of_plane{"drop.spin"};
-constexpr std::array parts_of_velocity{"drop.speed", "drop.height", "drop.tangential_velocity"};
+constexpr std::array parts_of_velocity{"drop.speed", "drop.height", "drop.clearance", "drop.tangential_velocity"};
 
 Echo null_if(bool none) { return none ? Echo::null : Echo::value; }
 Echo only_if(bool shown) { return shown ? Echo::value : Echo::absent; }
@@ -47,6 +51,13 @@ Echo in_discrete_only_if(bool given, Model model) {
 Echo of_rod(const Scene& scene, Model) { return only_if(scene.body.shape == BodyScene::Shape::rod); }
 Echo of_box(const Scene& scene, Model) { return only_if(scene.body.shape == BodyScene::Shape::box); }
 Echo of_mesh(const Scene& scene, Model) { return only_if(scene.body.shape == BodyScene::Shape::mesh); }
+
+/// An impulse ratio of 0 says that there is no friction.
+bool has_impulse_ratio(const Scene& scene) {
+  return scene.impact.impulse_ratio || !(scene.impact.friction || takes_friction_of_ground(scene));
+}
+/// The discrete model has no use for keys of a ground that is not there.
+Echo of_ground(const Scene& scene, Model model) { return only_if(model == Model::continuous || scene.has_ground()); }
 
 template <class Enum>
 std::size_t index_of(Enum value) {
@@ -91,11 +102,15 @@ void append_motion(std::vector<Key>& keys) {
           {"drop.speed", Use::both, "--speed", "M/S", "m/s", "downward, of the centre of mass at first touch",
            NumberValue{[](Scene& s) -> double& { return s.speed; }, speeds, &positive_number},
            [](const Scene& s, Model model) {
-             return null_if(!s.velocity.empty() || (s.height.has_value() && model == Model::continuous));
+             return null_if(!s.velocity.empty() || (s.falls() && model == Model::continuous));
            }},
           {"drop.height", Use::both, "--height", "M", "m", "or its height at release from rest",
            OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.height; }, heights, &positive_number},
            nullptr, false, speed_of_fall},
+          {"drop.clearance", Use::both, "--clearance", "M", "m",
+           "or that of its lowest point at release from rest, the drop height of test standards",
+           OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.clearance; }, heights, &positive_number},
+           nullptr, false, speed_and_height},
           {"drop.tangential_velocity", Use::both, "--tangential-velocity", "M/S", "m/s",
            "of the centre of mass, to the right",
            NumberValue{[](Scene& s) -> double& { return s.tangential_velocity; }, velocities, &finite}},
@@ -107,7 +122,7 @@ void append_motion(std::vector<Key>& keys) {
           {"drop.angular_velocity", Use::both, "--angular-velocity", "X,Y,Z", "rad/s",
            "or all of it: at the first touch, world components",
            three_velocities<&Scene::angular_velocity>("[0, 0, 0]"), nullptr, false, turn_of_plane},
-          {"world.gravity", Use::both, "--gravity", "M/S2", "m/s²", "acceleration of free fall",
+          {"world.gravity", Use::both, "--gravity", "M/S2", "m/s²", "acceleration of free fall; 9.81 where a height or clearance is given, else 0",
            NumberValue{[](Scene& s) -> double& { return s.world.gravity; }, gravities, &not_negative_number}},
       });
 }
@@ -117,16 +132,20 @@ void append_impact(std::vector<Key>& keys) {
       keys.end(),
       {
           {"impact.restitution", Use::both, "--restitution", "E", "",
-           "coefficient of restitution of the discrete model",
-           NumberValue{[](Scene& s) -> double& { return s.impact.restitution; }, restitutions}},
-          {"impact.law", Use::both, "--restitution-law", "newton|poisson|stronge", "", "what the coefficient relates",
-           NameValue{&law_names(), [](const Scene& s) { return index_of(s.impact.law); },
+           "coefficient of the discrete model; without it from the ground's damping, or 1 without a ground",
+           OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.impact.restitution; }, restitutions},
+           [](const Scene& s, Model) { return null_if(restitution_law(s) == viscoelastic); }},
+          {"impact.law", Use::both, "--restitution-law", "newton|poisson|stronge|viscoelastic", "",
+           "what the coefficient relates; viscoelastic: it follows from the ground's damping and the approach speed, as "
+           "it does where a ground and no restitution is given",
+           NameValue{&law_names(), [](const Scene& s) { return index_of(restitution_law(s)); },
                      [](Scene& s, std::size_t i) { s.impact.law = static_cast<analytic::RestitutionLaw>(i); }}},
           {"impact.impulse_ratio", Use::both, "--impulse-ratio", "MU_I", "",
            "Eq. 8's ratio of tangential to normal impulse",
            OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.impact.impulse_ratio; }, finite},
-           [](const Scene& s, Model model) { return in_discrete_only_if(!s.impact.friction.has_value(), model); }},
-          {"impact.friction", Use::both, "--friction", "MU", "", "or Coulomb's coefficient of friction",
+           [](const Scene& s, Model model) { return in_discrete_only_if(has_impulse_ratio(s), model); }},
+          {"impact.friction", Use::both, "--friction", "MU", "",
+           "or Coulomb's coefficient of friction; without either the ground's sliding_friction",
            OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.impact.friction; }, not_negative_number},
            [](const Scene& s, Model model) { return in_discrete_only_if(s.impact.friction.has_value(), model); }},
       });
@@ -217,23 +236,26 @@ void append_ground(std::vector<Key>& keys) {
   keys.insert(
       keys.end(),
       {
-          {"ground.stiffness", Use::continuous, "--stiffness", "N/M3", "N/m³", "k_G",
+          {"ground.stiffness", Use::both, "--stiffness", "N/M3", "N/m³", "k_G",
            NumberValue{[](Scene& s) -> double& { return s.world.ground.stiffness; }, positive_number},
-           [](const Scene& s, Model) { return null_if(!(s.world.ground.stiffness > 0)); }, true},
-          {"ground.damping", Use::continuous, "--damping", "N.S/M4", "N·s/m⁴", "c_G",
-           NumberValue{[](Scene& s) -> double& { return s.world.ground.damping; }, not_negative_number}},
-          {"ground.static_friction", Use::continuous, "--static-friction", "MU", "", "of the ground",
-           NumberValue{[](Scene& s) -> double& { return s.world.ground.static_friction; }, not_negative_number}},
-          {"ground.sliding_friction", Use::continuous, "--sliding-friction", "MU", "", "of the ground",
-           NumberValue{[](Scene& s) -> double& { return s.world.ground.sliding_friction; }, not_negative_number}},
-          {"ground.area", Use::continuous, "--area", "surface|projected", "", "area over which the load is integrated",
+           [](const Scene& s, Model model) {
+             return s.has_ground() ? Echo::value : model == Model::continuous ? Echo::null : Echo::absent;
+           },
+           true},
+          {"ground.damping", Use::both, "--damping", "N.S/M4", "N·s/m⁴", "c_G",
+           NumberValue{[](Scene& s) -> double& { return s.world.ground.damping; }, not_negative_number}, of_ground},
+          {"ground.static_friction", Use::both, "--static-friction", "MU", "", "of the ground",
+           NumberValue{[](Scene& s) -> double& { return s.world.ground.static_friction; }, not_negative_number}, of_ground},
+          {"ground.sliding_friction", Use::both, "--sliding-friction", "MU", "", "of the ground",
+           NumberValue{[](Scene& s) -> double& { return s.world.ground.sliding_friction; }, not_negative_number}, of_ground},
+          {"ground.area", Use::both, "--area", "surface|projected", "", "area over which the load is integrated",
            NameValue{&area_names(), [](const Scene& s) { return index_of(s.world.ground.area); },
-                     [](Scene& s, std::size_t i) { s.world.ground.area = static_cast<numeric::AreaMeasure>(i); }}},
-          {"ground.friction_law", Use::continuous, "", "NAME", "", "what friction does where the face slips unevenly",
+                     [](Scene& s, std::size_t i) { s.world.ground.area = static_cast<numeric::AreaMeasure>(i); }}, of_ground},
+          {"ground.friction_law", Use::both, "", "NAME", "", "what friction does where the face slips unevenly",
            NameValue{&friction_law_names(), [](const Scene& s) { return index_of(s.world.ground.friction); },
-                     [](Scene& s, std::size_t i) { s.world.ground.friction = static_cast<numeric::FrictionLaw>(i); }}},
-          {"ground.regularisation_speed", Use::continuous, "", "M/S", "m/s", "v_r of the regularised law",
-           NumberValue{[](Scene& s) -> double& { return s.world.ground.regularisation_speed; }, positive_number}},
+                     [](Scene& s, std::size_t i) { s.world.ground.friction = static_cast<numeric::FrictionLaw>(i); }}, of_ground},
+          {"ground.regularisation_speed", Use::both, "", "M/S", "m/s", "v_r of the regularised law",
+           NumberValue{[](Scene& s) -> double& { return s.world.ground.regularisation_speed; }, positive_number}, of_ground},
       });
 }
 

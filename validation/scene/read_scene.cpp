@@ -12,6 +12,7 @@
 #include "validation/embedded/embedded.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
+#include "validation/scene/body_properties.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/scene/orientation.hpp"
 #include "validation/scene/scene.hpp"
@@ -21,7 +22,6 @@ namespace clatter::validation::inline scene {
 namespace {
 
 constexpr double attitude_rounding = 0.01;  // numbers typed with two digits are meant to have the length 1
-constexpr Range thick{1e-100, 1e100, false, "from 1e-100 to 1e100"};
 
 void only_for(const SceneValues& values, const std::vector<std::string>& keys, const std::string& what) {
   for (const std::string& key : keys) {
@@ -41,13 +41,14 @@ void refuse_both(const std::vector<SceneOverride>& overrides, const char* first,
 void check_mesh(const SceneValues& values, BodyScene& body) {
   values.require("body.mesh.file", "a Gmsh or STL file");
   const std::filesystem::path file = body.file;
+  body.mesh_file = unread_mesh();
   body.file = (file.is_absolute() ? file : std::filesystem::path(values.path()).parent_path() / file).string();
   if (body.is_stl() && !body.density) {
     values.require("body.mass", "or body.mesh.density: an STL surface has neither");
   }
 }
 
-void check_body(const SceneValues& values, BodyScene& body, Model model) {
+void check_body(const SceneValues& values, BodyScene& body) {
   using Shape = BodyScene::Shape;
   if (body.shape != Shape::rod) {
     only_for(values, {"body.length", "body.radius", "body.mesh.sectors", "body.mesh.rings", "body.mesh.layers"},
@@ -59,7 +60,6 @@ void check_body(const SceneValues& values, BodyScene& body, Model model) {
   if (body.shape != Shape::mesh) {
     only_for(values, {"body.mesh.file", "body.mesh.unit", "body.mesh.density"}, "a mesh");
   }
-  if (model == Model::continuous) static_cast<void>(values.number("body.radius", 1, thick));
   if (body.shape == Shape::box) values.require("body.size", "the box's [L, W, T] in m");
   if (body.shape == Shape::mesh) check_mesh(values, body);
 }
@@ -115,23 +115,56 @@ void check_drop(const SceneValues& values, Scene& scene) {
   } else if (!swept) {
     values.require("drop.angle_deg", "the inclination at the first impact");
   }
-  if (scene.height && !(scene.world.gravity > 0)) values.refuse("drop.height", "left out where world.gravity is 0");
+  for (const auto& [key, is_given] : {std::pair{"drop.height", scene.height}, {"drop.clearance", scene.clearance}}) {
+    if (is_given && !(scene.world.gravity > 0)) values.refuse(key, "left out where world.gravity is 0");
+  }
 }
 
-/// Flags alone begin with the paper's thin rod without gravity, scene files with a body that can be dropped on the
-/// earth.
-Scene default_scene(const std::string& path, Model model) {
+/// The same for files, flags and Python: the paper's thin rod, without gravity unless something falls from a height.
+Scene default_scene(const SceneValues& values) {
   Scene scene;
-  scene.path = path;
+  scene.path = values.path();
   scene.world.ground.stiffness = 0;  // none, until it is given
-  scene.world.gravity = path.empty() ? 0 : 9.81;
-  if (path.empty() && model == Model::discrete) scene.body.radius = 0;
+  scene.world.gravity = values.has("drop.height") || values.has("drop.clearance") ? 9.81 : 0;
   return scene;
+}
+
+/// Which of the laws' numbers go together, and which a ground must give.
+void check_impact(const SceneValues& values, const Scene& scene) {
+  using analytic::RestitutionLaw;
+  if (!scene.impact.law || *scene.impact.law == RestitutionLaw::newton) return;
+  const bool is_viscoelastic = *scene.impact.law == RestitutionLaw::viscoelastic;
+  if (is_viscoelastic && !scene.has_ground()) {
+    values.refuse("impact.law", "newton, poisson or stronge where no ground is given, whose damping it takes");
+  }
+  if (is_viscoelastic && scene.impact.restitution) {
+    values.refuse("impact.restitution", "left out: the viscoelastic law takes it from the ground's damping");
+  }
+  if (!is_viscoelastic && !scene.impact.restitution) {
+    values.refuse("impact.law", "given with impact.restitution, the coefficient that it relates");
+  }
+}
+
+/// A restitution takes the place of a file's viscoelastic law, and that law of a file's restitution.
+void make_room_for_law(SceneValues& values, const std::vector<SceneOverride>& overrides) {
+  const auto given = [&](const char* key) {
+    return std::find_if(overrides.begin(), overrides.end(), [&](const SceneOverride& o) { return o.key == key; });
+  };
+  const auto law = given("impact.law"), restitution = given("impact.restitution"), none = overrides.end();
+  const bool computes = law != none && law->text == "viscoelastic";
+  if (computes && restitution != none) {
+    throw BadInput(fmt::format("{} {} and {} {}: give one of them, not both", law->flag, law->text, restitution->flag,
+                               restitution->text));
+  }
+  if (computes) values.drop("impact.restitution");
+  const bool file_computes = law == none && values.has("impact.law") && values.text("impact.law") == "viscoelastic";
+  if (restitution != none && file_computes) values.drop("impact.law");
 }
 
 Scene read_values(SceneValues values, const std::vector<SceneOverride>& overrides, Model model) {
   for (const Alternative& pair : alternatives()) refuse_both(overrides, pair.instead_of, pair.key);
   refuse_both(overrides, "run.tolerance", "run.step");
+  make_room_for_law(values, overrides);
   for (const SceneOverride& flag : overrides) {
     for (const Alternative& pair : alternatives()) {
       if (flag.key == pair.key) values.drop(pair.instead_of);
@@ -145,7 +178,7 @@ Scene read_values(SceneValues values, const std::vector<SceneOverride>& override
     }
     values.set(flag.key, flag.flag, flag.text);
   }
-  Scene scene = default_scene(values.path(), model);
+  Scene scene = default_scene(values);
   scene.sweep = read_sweep_table(values);
   for (const Alternative& pair : alternatives()) values.exclude(pair.instead_of, pair.key);
   put_values(values, scene, model);
@@ -153,8 +186,9 @@ Scene read_values(SceneValues values, const std::vector<SceneOverride>& override
   check_drop(values, scene);
   check_accuracy(values, scene.accuracy);
   values.exclude("impact.impulse_ratio", "impact.friction");
-  check_body(values, scene.body, model);
+  check_body(values, scene.body);
   check_ground(values, scene.world.ground, model);
+  check_impact(values, scene);
   return scene;
 }
 

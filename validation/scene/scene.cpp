@@ -18,8 +18,9 @@ using numeric::FrictionLaw;
 std::string body_words(const BodyScene& body) {
   switch (body.shape) {
     case BodyScene::Shape::rod:
-      return fmt::format("rod {} m, radius {} m, {} kg; {} elements ({} sectors, {} rings, {} layers)",
-                         shortest(body.length), shortest(body.radius), shortest(body.mass),
+      return fmt::format("rod {} m, radius {} m{}, {} kg; {} elements ({} sectors, {} rings, {} layers)",
+                         shortest(body.length), shortest(body.meshed_radius()),
+                         body.is_thin_rod() ? " (thin: 0.01 of the length)" : "", shortest(body.mass),
                          static_cast<long long>(body.sectors) * body.rings * body.layers, body.sectors, body.rings,
                          body.layers);
     case BodyScene::Shape::box:
@@ -72,12 +73,6 @@ std::string discrete_body_words(const BodyScene& body) {
   return body_words(body);
 }
 
-std::string discrete_friction_words(const DiscreteImpact& impact) {
-  if (impact.friction) return fmt::format("Coulomb friction μ = {}", shortest(*impact.friction));
-  if (impact.impulse_ratio) return fmt::format("impulse ratio μᵢ = {}", shortest(*impact.impulse_ratio));
-  return "no friction";
-}
-
 std::string in_brackets(const std::vector<double>& numbers) {
   std::string text;
   for (const double number : numbers) text += (text.empty() ? "(" : ", ") + shortest(number);
@@ -86,17 +81,15 @@ std::string in_brackets(const std::vector<double>& numbers) {
 
 std::vector<std::string> discrete_summary(const Scene& scene) {
   const std::string speed =
-      scene.height ? significant(scene.speed, 6) : shortest(scene.speed);  // of the fall: computed
+      scene.falls() ? significant(scene.speed, 6) : shortest(scene.speed);  // of the fall: computed
   std::string motion = fmt::format("drop: {}° at {} m/s", shortest(scene.angle_deg), speed);
   if (scene.height) motion += fmt::format(" (from {} m)", shortest(*scene.height));
+  if (scene.clearance) motion += fmt::format(" ({} m clear of the ground)", shortest(*scene.clearance));
   motion +=
       fmt::format(", tangential {} m/s, spin {} rad/s", shortest(scene.tangential_velocity), shortest(scene.spin));
   if (scene.has_vectors()) motion = "drop: " + scene.drop_words();
   motion += fmt::format(", gravity {} m/s²", shortest(scene.world.gravity));
-  return {discrete_body_words(scene.body), motion,
-          fmt::format("impact: e = {} ({}), {}; at most {} impacts, {} digits", shortest(scene.impact.restitution),
-                      law_name(scene.impact.law), discrete_friction_words(scene.impact), scene.request.impacts,
-                      scene.accuracy.digits)};
+  return {discrete_body_words(scene.body), motion};
 }
 
 }  // namespace
@@ -132,6 +125,7 @@ std::string Scene::drop_words() const {
   if (!attitude.empty()) words = "attitude " + in_brackets(attitude);
   if (tilt_deg != 0) words += fmt::format(", tilted by {}°", shortest(tilt_deg));
   if (!velocity.empty()) words += fmt::format(", velocity {} m/s", in_brackets(velocity));
+  else if (clearance) words += fmt::format(", {} m clear of the ground", shortest(*clearance));
   else words += height ? fmt::format(" from {} m", shortest(*height)) : fmt::format(" at {} m/s", shortest(speed));
   if (tangential_velocity != 0) words += fmt::format(", tangential {} m/s", shortest(tangential_velocity));
   if (spin != 0) words += fmt::format(", spin {} rad/s", shortest(spin));

@@ -2,6 +2,7 @@
 // A scene: what falls, how, on what ground, and what is asked of either model.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,22 +20,26 @@ struct SceneOverride {
   std::string key, flag, text;
 };
 
-/// The discrete model's part of a scene, carried along for the commands that run both models.
+/// What a scene says of the discrete model's impacts; what it leaves out comes from the ground (discrete_law).
 struct DiscreteImpact {
-  double restitution = 1;
-  analytic::RestitutionLaw law = analytic::RestitutionLaw::newton;
+  std::optional<double> restitution;
+  std::optional<analytic::RestitutionLaw> law;
   std::optional<double> impulse_ratio, friction;
 };
+
+/// The mesh of a body's file, read once for all who ask (body_properties.cpp).
+class MeshFile;
 
 /// What the body is made of.
 struct BodyScene {
   enum class Shape { rod, box, mesh } shape = Shape::rod;
   double mass = 1;                           ///< [kg]
-  double length = 1, radius = 0.01;          ///< of a rod [m]
+  double length = 1, radius = 0;             ///< of a rod; radius 0: a thin one [m]
   numeric::Vector3 size{0, 0, 0};            ///< of a box [m]
   int sectors = 16, rings = 4, layers = 30;  ///< of a rod's mesh
   int nx = 1, ny = 1, nz = 1;                ///< of a box's mesh
   std::string file;                          ///< Gmsh (.msh, .geo) or STL, resolved
+  std::shared_ptr<MeshFile> mesh_file;       ///< shared by copies of the scene
   double unit = 1;                           ///< of the file's coordinates [m]
   std::optional<double> density;             ///< of a file's body, instead of a mass [kg/m³]
   /// About the centre of mass, axes of the body frame: three principal moments, or xx, yy, zz, xy, xz, yz [kg·m²];
@@ -46,6 +51,10 @@ struct BodyScene {
   bool merge = true;
 
   [[nodiscard]] bool is_stl() const;
+  /// A rod without thickness, which the continuous model gives `meshed_radius()`.
+  [[nodiscard]] bool is_thin_rod() const { return shape == Shape::rod && !(radius > 0); }
+  /// Of the rod's mesh: its radius, 0.01 of the length of a thin one [m].
+  [[nodiscard]] double meshed_radius() const { return is_thin_rod() ? 0.01 * length : radius; }
 };
 
 /// Values of one quantity for which the drop is repeated: a list, or those from `from` to `to` by equal steps, equal
@@ -64,7 +73,7 @@ struct SceneSweep {
   [[nodiscard]] Json json() const;
 };
 
-/// The model that a scene is read for.  The discrete one needs no ground, and its rod may be thin (body.radius = 0).
+/// The model that a scene is read for.  The discrete one needs no ground.
 enum class Model { discrete, continuous };
 
 /// A checked scene.
@@ -76,6 +85,7 @@ struct Scene {
   std::optional<double> orientation;  ///< of a box, in 1..26 (orientation.hpp); gives `attitude`, by settle()
   double speed = 1;                   ///< of the centre of mass at the first touch, downward [m/s]
   std::optional<double> height;       ///< of the centre of mass at release, if given [m]
+  std::optional<double> clearance;    ///< of the lowest point at release, if given [m]
   double tangential_velocity = 0;     ///< [m/s]
   double spin = 0;                    ///< [rad/s]
   /// Of the centre of mass at the first touch, world [m/s]; empty: (tangential_velocity, 0, −speed).
@@ -90,6 +100,9 @@ struct Scene {
   std::string history;          ///< file for the time history; empty: none
   std::optional<SceneSweep> sweep;
 
+  [[nodiscard]] bool has_ground() const { return world.ground.stiffness > 0; }
+  /// Whether the body falls from rest, from a height or clearance.
+  [[nodiscard]] bool falls() const { return height || clearance; }
   /// The scene with the swept quantity at one value, and no sweep.
   [[nodiscard]] Scene at(double value) const;
   [[nodiscard]] numeric::Body make_body() const;
@@ -98,7 +111,8 @@ struct Scene {
   void settle();
   /// Body → world; unit.
   [[nodiscard]] Eigen::Quaterniond touch_attitude() const;
-  /// Of the centre of mass at the first touch, world [m/s]; with `height` the speed is not yet that of the fall.
+  /// Of the centre of mass at the first touch, world [m/s]; with `height`, not with `clearance`, the speed is not yet
+  /// that of the fall.
   [[nodiscard]] numeric::Vector3 touch_velocity() const;
   [[nodiscard]] numeric::Vector3 touch_angular_velocity() const;  ///< world components [rad/s]
   /// State at the first touch; with `height` the speed there follows from the fall.
@@ -113,7 +127,7 @@ struct Scene {
   [[nodiscard]] bool has_vectors() const;
   /// How the body comes to the ground, for a reader, without what is zero.
   [[nodiscard]] std::string drop_words() const;
-  /// The scene for a reader: a few lines.
+  /// The scene for a reader: a few lines, without the discrete model's law.
   [[nodiscard]] std::vector<std::string> summary(Model model = Model::continuous) const;
 };
 

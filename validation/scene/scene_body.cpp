@@ -42,7 +42,8 @@ Eigen::Quaterniond Scene::touch_attitude() const {
 }
 
 numeric::Vector3 Scene::touch_velocity() const {
-  return velocity.empty() ? numeric::Vector3(tangential_velocity, 0, -speed) : vector_of(velocity);
+  if (!velocity.empty()) return vector_of(velocity);
+  return {tangential_velocity, 0, clearance ? -std::sqrt(2 * world.gravity * *clearance) : -speed};
 }
 
 numeric::Vector3 Scene::touch_angular_velocity() const {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "numeric/body.hpp"
-#include "validation/scene/space_scene.hpp"
+#include "validation/scene/discrete_scene.hpp"
 #include "validation/sweep/rows.hpp"
 #include "validation/sweep/sweep_plan.hpp"
 #include "validation/sweep/sweep_run.hpp"

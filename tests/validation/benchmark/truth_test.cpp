@@ -10,7 +10,7 @@
 #include "validation/benchmark/exact_map.hpp"
 #include "validation/benchmark/reference.hpp"
 #include "validation/scene/discrete_scene.hpp"
-#include "validation/scene/space_scene.hpp"
+#include "validation/scene/discrete_scene.hpp"
 
 namespace {
 
