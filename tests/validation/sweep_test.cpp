@@ -268,16 +268,21 @@ BOOST_AUTO_TEST_CASE(every_number_of_a_scene_can_be_put_where_the_reader_puts_it
   BOOST_TEST(put >= 30);
 }
 
-BOOST_AUTO_TEST_CASE(only_the_discrete_model_takes_a_scene_without_ground_or_a_thin_rod) {
+BOOST_AUTO_TEST_CASE(only_the_discrete_model_takes_a_scene_without_ground) {
   const SceneValues bare("scene.toml", "[drop]\nangle_deg = 10\n", scene_keys());
   BOOST_CHECK_EXCEPTION(static_cast<void>(read_scene(bare, {}, Model::continuous)), BadInput,
                         says("ground.stiffness: required"));
   BOOST_TEST(read_scene(bare, {}, Model::discrete).json()["ground"]["stiffness"].is_null());
-  const std::vector<SceneOverride> thin{{"body.radius", "--set body.radius", "0"}};
-  BOOST_TEST(read_scene(bare, thin, Model::discrete).body.radius == 0);
-  const SceneValues grounded("scene.toml", "[drop]\nangle_deg = 10\n[ground]\nstiffness = 1\n", scene_keys());
-  BOOST_CHECK_EXCEPTION(static_cast<void>(read_scene(grounded, thin, Model::continuous)), BadInput,
-                        says("--set body.radius '0'"));
+}
+
+BOOST_AUTO_TEST_CASE(a_thin_rod_is_meshed_with_a_hundredth_of_its_length_as_radius) {
+  const SceneValues grounded("scene.toml", "[drop]\nangle_deg = 10\n[body]\nlength = 3\n[ground]\nstiffness = 1\n",
+                             scene_keys());
+  const Scene scene = read_scene(grounded, {}, Model::continuous);
+  BOOST_TEST(scene.body.radius == 0);
+  double across = 0;
+  for (const numeric::Vector3& vertex : scene.make_body().facets().vertices) across = std::max(across, vertex.z());
+  BOOST_TEST(std::fabs(across - 0.03) <= 1e-15);
 }
 
 BOOST_AUTO_TEST_CASE(rows_that_come_in_any_order_are_taken_in_that_of_their_scenes) {

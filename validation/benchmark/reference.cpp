@@ -11,7 +11,6 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/discrete_scene.hpp"
-#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation::inline benchmark {
 namespace {

@@ -19,7 +19,7 @@ struct ComparedImpact {
   int n = 1;
   std::string reason;  ///< why the numbers at the scene's own stiffness cannot be compared; empty: they can
   std::optional<MotionNumbers> discrete, continuous;
-  std::optional<MotionNumbers> as_given;               ///< of the body as given, where the mesh has other corners
+  std::optional<MotionNumbers> as_given;  ///< of the body as given, where the mesh has other corners
   MotionNumbers as_given_error{};
   MotionNumbers discrete_error{}, continuous_error{};  ///< of these; not finite: not known
   std::string discrete_end, continuous_end;            ///< in space the corner

@@ -9,7 +9,6 @@
 #include "analytic/impact_limits.hpp"
 #include "validation/compare/space_side.hpp"
 #include "validation/scene/discrete_scene.hpp"
-#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation::inline compare {
 namespace {

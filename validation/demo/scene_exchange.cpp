@@ -7,7 +7,6 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "analytic/restitution_map.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/version.hpp"
@@ -15,12 +14,6 @@
 
 namespace clatter::validation::inline demo {
 namespace {
-
-// The paper's mesh: with it the page simulates a rod whose radius is 0.
-constexpr double simulated_radius = 0.01;
-constexpr std::array impact_keys{"impact.restitution", "impact.law", "impact.impulse_ratio", "impact.friction"};
-
-bool is_thin(const Scene& scene) { return scene.body.shape == BodyScene::Shape::rod && scene.body.radius == 0; }
 
 /// What flags alone give a body of this shape.
 Scene bare_scene(BodyScene::Shape shape) {
@@ -32,9 +25,8 @@ Scene bare_scene(BodyScene::Shape shape) {
 }
 
 bool is_always_said(const Key& key) {
-  constexpr std::array names{"body.shape", "body.mass", "body.length", "body.radius", "body.size", "world.gravity",
-                             // Said, since a ground gives another where no impact.* key stands.
-                             "impact.restitution"};
+  constexpr std::array names{"body.shape", "body.mass",     "body.length",       "body.radius",
+                             "body.size",  "world.gravity", "impact.restitution"};
   return std::find(names.begin(), names.end(), std::string_view(key.name)) != names.end();
 }
 
@@ -56,50 +48,24 @@ void require_shown(const Scene& scene) {
   if (scene.sweep) throw BadInput("sweep: must be left out; the page shows one drop, and this scene sweeps a quantity");
 }
 
-/// Downward, of the centre of mass at the first touch [m/s].
-double touch_speed(Scene scene) {
-  if (!scene.height) return -scene.touch_velocity().z();
-  if (is_thin(scene)) scene.body.radius = simulated_radius;
-  return -scene.start(scene.make_body()).velocity.z();
-}
+}  // namespace
 
-/// Restitution and friction that the ground gives the first impact, as in `clatter compare`.
-void take_impact_of_ground(Scene& scene) {
-  const double per_speed = scene.world.ground.damping / scene.world.ground.stiffness;
-  scene.impact.restitution = analytic::restitution_of_damping(per_speed * touch_speed(scene));
-  if (scene.world.ground.has_friction()) scene.impact.friction = scene.world.ground.sliding_friction;
-}
-
-SceneArguments arguments_of(Scene scene, bool has_impact) {
+SceneArguments scene_arguments(const Scene& scene) {
   require_shown(scene);
   SceneArguments result;
-  const bool is_of_ground = scene.world.ground.stiffness > 0 && !has_impact;
-  if (is_of_ground && (scene.world.ground.damping > 0 || scene.world.ground.has_friction())) {
-    take_impact_of_ground(scene);
-    result.notes.emplace_back("restitution and friction of the discrete model are those of the ground, at impact 1");
-  }
   if (!scene.history.empty()) result.notes.emplace_back("run.history is left out: a page writes no file");
   for (const Key* key : said_keys(scene)) result.arguments.push_back({key->argument(), value_of(key->get(scene))});
   return result;
 }
 
-/// Reads `values` for the model that they are for; no simulation takes a rod without thickness, but the page does.
-Scene read_for_page(SceneValues values, const std::vector<SceneOverride>& overrides) {
-  constexpr Range any{-1e300, 1e300, false, "at least 0"};
-  std::vector<SceneOverride> others = overrides;
-  bool thin = values.has("body.radius") && values.number("body.radius", 1, any) == 0;
-  if (thin) values.drop("body.radius");
-  bool has_ground = values.has("ground.stiffness");
-  std::erase_if(others, [&](const SceneOverride& given) {
-    double number = 1;
-    const bool is_none = given.key == "body.radius" && read_number(given.text, number) && number == 0;
-    has_ground |= given.key == "ground.stiffness";
-    thin |= is_none;
-    return is_none;
-  });
-  Scene scene = read_scene(values, others, has_ground ? Model::continuous : Model::discrete);
-  if (thin) scene.body.radius = 0;
-  return scene;
+namespace {
+
+/// Reads `values` for the model that they are for.
+Scene read_for_page(const SceneValues& values, const std::vector<SceneOverride>& overrides) {
+  const bool has_ground = values.has("ground.stiffness") ||
+                          std::any_of(overrides.begin(), overrides.end(),
+                                      [](const SceneOverride& given) { return given.key == "ground.stiffness"; });
+  return read_scene(values, overrides, has_ground ? Model::continuous : Model::discrete);
 }
 
 std::string line_of(const Key& key, const Scene& scene) {
@@ -110,18 +76,8 @@ std::string line_of(const Key& key, const Scene& scene) {
 
 }  // namespace
 
-SceneArguments scene_arguments(const Scene& scene) {
-  const DiscreteImpact& impact = scene.impact;
-  const bool has_impact = impact.restitution != 1 || impact.impulse_ratio || impact.friction ||
-                          impact.law != analytic::RestitutionLaw::newton;
-  return arguments_of(scene, has_impact);
-}
-
 SceneArguments opened_scene(const std::string& name, const std::string& text) {
-  const SceneValues values(name, text, scene_keys());
-  const bool has_impact =
-      std::any_of(impact_keys.begin(), impact_keys.end(), [&](const char* key) { return values.has(key); });
-  return arguments_of(read_for_page(values, {}), has_impact);
+  return scene_arguments(read_for_page(SceneValues(name, text, scene_keys()), {}));
 }
 
 std::string scene_file(NamedTexts arguments) {
@@ -129,8 +85,6 @@ std::string scene_file(NamedTexts arguments) {
   require_shown(scene);
   std::string text =
       fmt::format("# A scene of clatter {}: clatter sequence FILE, simulate FILE, compare FILE.\n", version);
-  if (is_thin(scene))
-    text += fmt::format("# simulate and compare need a radius: the page took --radius {}.\n", simulated_radius);
   std::string table;
   for (const Key* key : said_keys(scene)) {
     const std::string name = key->name, its_table = name.substr(0, name.find('.'));

@@ -18,12 +18,11 @@ struct SceneArguments {
   std::vector<std::string> notes;  ///< what the arguments say that the scene does not, or do not say, a line each
 };
 
-/// The scene as it is; where it has a ground and no impact.* keys, restitution and friction of the discrete model are
-/// those that the ground gives the first impact.  @throws BadInput for a mesh or a sweep, and as Scene::start.
+/// The scene as it is, with the law that the discrete model takes.  @throws BadInput for a mesh or a sweep
 [[nodiscard]] SceneArguments scene_arguments(const Scene& scene);
 
 /// The same of a file's text; `name` is what messages call the file.  A file without a ground is one of the discrete
-/// model; a radius of 0 is allowed with a ground, too.  @throws BadInput "name:line:column: …" as read_scene.
+/// model.  @throws BadInput "name:line:column: …" as read_scene.
 [[nodiscard]] SceneArguments opened_scene(const std::string& name, const std::string& text);
 
 /// The scene that the arguments give, as the text of a file: read again it gives the same arguments.

@@ -167,10 +167,10 @@ Figure figure_phone_over_angle(CaseRuns& case_runs) {
   for (const SweptSimulation& swept : case_runs.sweep(name)) {
     const numeric::ImpactRecord& first = swept.run.impacts.at(0);
     const numeric::ImpactNumbers& n = first.value;
-    const auto discrete =
-        impact_sequence(std::get<analytic::Drop>(discrete_drop(scene.at(swept.value))), {.impacts = 1, .amplification = false})
-            .rows[0]
-            .impact;
+    const auto discrete = impact_sequence(std::get<analytic::Drop>(discrete_drop(scene.at(swept.value))),
+                                          {.impacts = 1, .amplification = false})
+                              .rows[0]
+                              .impact;
     figure.rows.push_back({swept.value, n.velocity_after.z(), n.angular_velocity_after.y(), n.peak_force, n.energy_loss,
                            static_cast<double>(first.touches), discrete.after.normal, discrete.after.angular});
   }

@@ -128,8 +128,7 @@ Figure figure_rod_over_angle(CaseRuns& case_runs) {
     add_row(figure, swept.value, numbers,
             {thin_rod(swept.value, {}), of(planar_drop_of(scene.at(swept.value))), of(swept.run)});
     // The limit of small angles, beside the flat landing: the jump is one of the models, not of the drawing.
-    if (swept.value == 0)
-      add_row(figure, 1e-9, numbers, {thin_rod(1e-9, {}), of(planar_drop_of(scene.at(1e-9))), {}});
+    if (swept.value == 0) add_row(figure, 1e-9, numbers, {thin_rod(1e-9, {}), of(planar_drop_of(scene.at(1e-9))), {}});
   }
   return figure;
 }

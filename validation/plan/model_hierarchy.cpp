@@ -10,7 +10,6 @@
 #include "validation/plan/symmetry.hpp"
 #include "validation/record/names.hpp"
 #include "validation/scene/discrete_scene.hpp"
-#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation::inline plan {
 namespace {

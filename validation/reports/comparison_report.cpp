@@ -96,7 +96,8 @@ std::string mesh_words(const Comparison& comparison) {
     worst = std::max(worst, std::fabs((*impact.discrete)[q] - (*impact.as_given)[q]) / comparison.discrete.scales[q]);
   }
   return fmt::format(
-      "corners: the discrete model with the mesh's corners, which are not the body's; the limit is held against it, and "
+      "corners: the discrete model with the mesh's corners, which are not the body's; the limit is held against it, "
+      "and "
       "its Pₙ is up to {} of its size off the discrete column",
       significant(worst, 2));
 }
@@ -174,7 +175,8 @@ const std::vector<Column>& number_columns() {
       {"limit_error", "", "", "error bar of the limit"},
       {"allowance", "", "", "by which the limit may miss the discrete value"},
       {"mesh_corners", "", "",
-       "value of the discrete model with the mesh's corners, which limit and deviation are held against; empty where they "
+       "value of the discrete model with the mesh's corners, which limit and deviation are held against; empty where "
+       "they "
        "are the body's"},
       {"mesh_corners_error", "", "", "bound on its error"},
       {"mesh_corners_off", "", "", "that value − the discrete model's"}};
@@ -281,7 +283,8 @@ Report comparison_report(const Scene& scene, const Comparison& comparison) {
   report.notes.emplace_back(
       "t in s, angles in °, P in N·s, V in m/s, Ω in rad/s; predicted: the size, no bound, of what gravity, turning "
       "and indentation do during contacts, carried on from impact to impact");
-  for (const std::string& words : {comparison.shortfall, mesh_words(comparison), limit_words(comparison), verdict_words(comparison)}) {
+  for (const std::string& words :
+       {comparison.shortfall, mesh_words(comparison), limit_words(comparison), verdict_words(comparison)}) {
     if (!words.empty()) report.notes.push_back(words);
   }
   fit_columns(report, 6, {3});

@@ -14,9 +14,9 @@
 #include "validation/reports/explanation_latex.hpp"
 #include "validation/reports/space_derivation.hpp"
 #include "validation/scene/body_properties.hpp"
+#include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/scene_value.hpp"
 #include "validation/scene/shortfall.hpp"
-#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation::inline reports {
 namespace {

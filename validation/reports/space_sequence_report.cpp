@@ -5,7 +5,6 @@
 #include "validation/reports/sequence_parts.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/discrete_scene.hpp"
-#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation::inline reports {
 namespace {

@@ -39,8 +39,8 @@ struct SolidBody {
 /// Begins with a file that has not been read.
 [[nodiscard]] std::shared_ptr<MeshFile> unread_mesh();
 
-/// Of the body that the model drops: a rod (a round cylinder) or box by its sizes alone.  A rod of radius 0 is thin in the
-/// discrete model and has the radius of its mesh in the continuous one.  @throws as solid_body.
+/// Of the body that the model drops: a rod (a round cylinder) or box by its sizes alone.  A rod of radius 0 is thin in
+/// the discrete model and has the radius of its mesh in the continuous one.  @throws as solid_body.
 [[nodiscard]] BodyProperties body_properties(const Scene& scene, Model model);
 
 /// "mass", "extents", "centre", "principal_inertia" (ascending), "inertia" (xx, yy, zz, xy, xz, yz), SI.

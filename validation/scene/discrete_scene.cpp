@@ -157,7 +157,6 @@ std::optional<analytic::PlanarBody> symmetric_outline(const numeric::Body& body)
   }
 }
 
-
 /// Motion and law of a drop in the plane.
 analytic::Drop planar_drop(const Scene& scene, const analytic::PlanarBody& body) {
   const analytic::Angle inclination = analytic::Angle::from_degrees(scene.angle_deg);
@@ -189,7 +188,8 @@ template <class Places>
 bool same_places(const Places& some, const Places& others, double size) {
   constexpr double same = 1e-9;  // of the size, as is_outside_hull has it
   const auto near = [&](const auto& one) {
-    return std::any_of(others.begin(), others.end(), [&](const auto& other) { return (one - other).norm() <= same * size; });
+    return std::any_of(others.begin(), others.end(),
+                       [&](const auto& other) { return (one - other).norm() <= same * size; });
   };
   return some.size() == others.size() && std::all_of(some.begin(), some.end(), near);
 }
@@ -326,7 +326,6 @@ space::Body space_body(const numeric::Body& body) {
                            {.mass = body.mass(), .centre = Vector3::Zero(), .inertia = body.inertia()});
 }
 
-
 const analytic::ImpactLaw& law_of(const DiscreteDrop& drop) {
   if (const auto* const planar = std::get_if<analytic::Drop>(&drop)) return planar->law;
   return std::get<space::Drop>(drop).law.law;
@@ -399,7 +398,8 @@ bool has_other_corners(const DiscreteDrop& drop, const DiscreteDrop& mesh) {
            !same_places(places_of(one->body), places_of(other.body), one->body.reach());
   }
   const auto &one = std::get<space::Drop>(drop), &other = std::get<space::Drop>(mesh);
-  return !one.body.rims.empty() || !((one.body.inertia - other.body.inertia).norm() <= same * one.body.inertia.norm()) ||
+  return !one.body.rims.empty() ||
+         !((one.body.inertia - other.body.inertia).norm() <= same * one.body.inertia.norm()) ||
          !same_places(one.body.vertices, other.body.vertices, one.body.reach());
 }
 

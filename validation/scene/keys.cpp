@@ -122,7 +122,8 @@ void append_motion(std::vector<Key>& keys) {
           {"drop.angular_velocity", Use::both, "--angular-velocity", "X,Y,Z", "rad/s",
            "or all of it: at the first touch, world components",
            three_velocities<&Scene::angular_velocity>("[0, 0, 0]"), nullptr, false, turn_of_plane},
-          {"world.gravity", Use::both, "--gravity", "M/S2", "m/s²", "acceleration of free fall; 9.81 where a height or clearance is given, else 0",
+          {"world.gravity", Use::both, "--gravity", "M/S2", "m/s²",
+           "acceleration of free fall; 9.81 where a height or clearance is given, else 0",
            NumberValue{[](Scene& s) -> double& { return s.world.gravity; }, gravities, &not_negative_number}},
       });
 }
@@ -136,7 +137,8 @@ void append_impact(std::vector<Key>& keys) {
            OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.impact.restitution; }, restitutions},
            [](const Scene& s, Model) { return null_if(restitution_law(s) == viscoelastic); }},
           {"impact.law", Use::both, "--restitution-law", "newton|poisson|stronge|viscoelastic", "",
-           "what the coefficient relates; viscoelastic: it follows from the ground's damping and the approach speed, as "
+           "what the coefficient relates; viscoelastic: it follows from the ground's damping and the approach speed, "
+           "as "
            "it does where a ground and no restitution is given",
            NameValue{&law_names(), [](const Scene& s) { return index_of(restitution_law(s)); },
                      [](Scene& s, std::size_t i) { s.impact.law = static_cast<analytic::RestitutionLaw>(i); }}},
@@ -245,17 +247,22 @@ void append_ground(std::vector<Key>& keys) {
           {"ground.damping", Use::both, "--damping", "N.S/M4", "N·s/m⁴", "c_G",
            NumberValue{[](Scene& s) -> double& { return s.world.ground.damping; }, not_negative_number}, of_ground},
           {"ground.static_friction", Use::both, "--static-friction", "MU", "", "of the ground",
-           NumberValue{[](Scene& s) -> double& { return s.world.ground.static_friction; }, not_negative_number}, of_ground},
+           NumberValue{[](Scene& s) -> double& { return s.world.ground.static_friction; }, not_negative_number},
+           of_ground},
           {"ground.sliding_friction", Use::both, "--sliding-friction", "MU", "", "of the ground",
-           NumberValue{[](Scene& s) -> double& { return s.world.ground.sliding_friction; }, not_negative_number}, of_ground},
+           NumberValue{[](Scene& s) -> double& { return s.world.ground.sliding_friction; }, not_negative_number},
+           of_ground},
           {"ground.area", Use::both, "--area", "surface|projected", "", "area over which the load is integrated",
            NameValue{&area_names(), [](const Scene& s) { return index_of(s.world.ground.area); },
-                     [](Scene& s, std::size_t i) { s.world.ground.area = static_cast<numeric::AreaMeasure>(i); }}, of_ground},
+                     [](Scene& s, std::size_t i) { s.world.ground.area = static_cast<numeric::AreaMeasure>(i); }},
+           of_ground},
           {"ground.friction_law", Use::both, "", "NAME", "", "what friction does where the face slips unevenly",
            NameValue{&friction_law_names(), [](const Scene& s) { return index_of(s.world.ground.friction); },
-                     [](Scene& s, std::size_t i) { s.world.ground.friction = static_cast<numeric::FrictionLaw>(i); }}, of_ground},
+                     [](Scene& s, std::size_t i) { s.world.ground.friction = static_cast<numeric::FrictionLaw>(i); }},
+           of_ground},
           {"ground.regularisation_speed", Use::both, "", "M/S", "m/s", "v_r of the regularised law",
-           NumberValue{[](Scene& s) -> double& { return s.world.ground.regularisation_speed; }, positive_number}, of_ground},
+           NumberValue{[](Scene& s) -> double& { return s.world.ground.regularisation_speed; }, positive_number},
+           of_ground},
       });
 }
 

@@ -18,11 +18,10 @@ using numeric::FrictionLaw;
 std::string body_words(const BodyScene& body) {
   switch (body.shape) {
     case BodyScene::Shape::rod:
-      return fmt::format("rod {} m, radius {} m{}, {} kg; {} elements ({} sectors, {} rings, {} layers)",
-                         shortest(body.length), shortest(body.meshed_radius()),
-                         body.is_thin_rod() ? " (thin: 0.01 of the length)" : "", shortest(body.mass),
-                         static_cast<long long>(body.sectors) * body.rings * body.layers, body.sectors, body.rings,
-                         body.layers);
+      return fmt::format(
+          "rod {} m, radius {} m{}, {} kg; {} elements ({} sectors, {} rings, {} layers)", shortest(body.length),
+          shortest(body.meshed_radius()), body.is_thin_rod() ? " (thin: 0.01 of the length)" : "", shortest(body.mass),
+          static_cast<long long>(body.sectors) * body.rings * body.layers, body.sectors, body.rings, body.layers);
     case BodyScene::Shape::box:
       return fmt::format("box {} × {} × {} m, {} kg; {} × {} × {} elements", shortest(body.size.x()),
                          shortest(body.size.y()), shortest(body.size.z()), shortest(body.mass), body.nx, body.ny,

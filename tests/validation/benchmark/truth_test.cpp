@@ -57,7 +57,7 @@ analytic::ImpactLaw with_law(analytic::ImpactLaw law, const std::string& name) {
 }
 
 std::vector<TruthRow> planar_rows(const Problem& problem, const std::string& law, int impacts) {
-  analytic::Drop drop = impact_drop(problem.scene);
+  analytic::Drop drop = std::get<analytic::Drop>(discrete_drop(problem.scene));
   drop.law = with_law(drop.law, law);
   std::vector<TruthRow> rows;
   for (const analytic::ImpactRow& row : impact_sequence(drop, {.impacts = impacts}).rows) {
@@ -72,7 +72,7 @@ std::vector<TruthRow> planar_rows(const Problem& problem, const std::string& law
 }
 
 std::vector<TruthRow> rows_in_space(const Problem& problem, const std::string& law, int impacts) {
-  auto drop = std::get<analytic::space::Drop>(chosen_drop(problem.scene));
+  auto drop = std::get<analytic::space::Drop>(discrete_drop(problem.scene));
   drop.law.law = with_law(drop.law.law, law);
   std::vector<TruthRow> rows;
   for (const analytic::space::ImpactRow& row : impact_sequence(drop, {.impacts = impacts}).rows) {

@@ -7,7 +7,7 @@ import { byId, make } from "./dom";
 import { SCENES } from "./offline_scenes";
 import { DROPS, QUANTITIES, isInPlane, isUsed, setBody, type Choices, type Parameters, type Quantity } from "./parameters";
 import { SPECS, blamedQuantity, fieldText, fromSlider, sliderRange, toSlider, type QuantitySpec } from "./quantities";
-import { dampingOf, firstSpeed } from "./restitution";
+import { dampingOf, firstSpeed, restitutionOf } from "./restitution";
 import { assignUnlocked, type State } from "./state";
 
 interface Row {
@@ -34,12 +34,19 @@ const VECTORS: Readonly<Partial<Record<Quantity, { title: string; parts: readonl
 };
 const DROP_NAMES = { speed: "at a speed", height: "from a height", velocity: "at a velocity" } as const;
 
+/** A quantity's value, or that which follows from another's. */
+function shownValue(parameters: Parameters, quantity: Quantity): number {
+  if (quantity === "damping") return dampingOf(parameters);
+  return quantity === "e" ? restitutionOf(parameters) : parameters[quantity];
+}
+
 export class Controls {
   private readonly rows = new Map<Quantity, Row>();
   private readonly scene = byId<HTMLSelectElement>("scene");
   private readonly body = make("select", { id: "body" });
   private readonly drop = make("select", { id: "drop" });
   private readonly follow = make("input", { type: "checkbox", id: "follow" });
+  private readonly ofGround = make("input", { type: "checkbox", id: "ofGround" });
   private readonly planar = make("input", { type: "checkbox", id: "planar" });
   private readonly spinning = make("input", { type: "checkbox", id: "spinning" });
   private readonly attitude: AttitudeControls;
@@ -63,14 +70,14 @@ export class Controls {
     const { parameters, lock } = this.state;
     const offline = isOffline;
     for (const [quantity, row] of this.rows) {
-      const shown = quantity === "damping" ? dampingOf(parameters) : parameters[quantity];
+      const shown = shownValue(parameters, quantity);
       if (row.slider) {
         row.slider.value = String(this.sliderPosition(quantity, shown));
         row.slider.setAttribute("aria-valuetext", `${fieldText(shown)} ${SPECS[quantity].unit}`.trim());
       }
       if (document.activeElement !== row.field) row.field.value = fieldText(shown);
       row.box.hidden = !isUsed(parameters, quantity);
-      const followed = quantity === "damping" && parameters.follow;
+      const followed = quantity === "damping" ? parameters.follow : quantity === "e" && parameters.ofGround;
       const disabled = lock.includes(quantity) || followed || (offline && quantity !== "angle");
       if (row.slider) row.slider.disabled = disabled;
       row.field.disabled = disabled || offline;
@@ -78,6 +85,7 @@ export class Controls {
     this.body.value = parameters.body;
     this.drop.value = parameters.drop;
     this.follow.checked = parameters.follow;
+    this.ofGround.checked = parameters.ofGround;
     this.planar.checked = parameters.planar;
     if (this.planar.parentElement) this.planar.parentElement.hidden = !isInPlane(parameters);
     this.spinning.checked = parameters.spinning;
@@ -87,7 +95,7 @@ export class Controls {
     byId("extra-keys").textContent = extra.join("; ");
     this.scene.value = sceneOf(parameters) ?? "";
     this.scene.disabled = lock.includes("scene");
-    for (const choice of [this.body, this.drop, this.follow, this.planar, this.spinning]) {
+    for (const choice of [this.body, this.drop, this.follow, this.ofGround, this.planar, this.spinning]) {
       choice.disabled = offline || lock.includes(choice.id);
     }
   }
@@ -134,7 +142,9 @@ export class Controls {
       const vector = VECTORS[quantity];
       group.append(vector ? this.buildVector(vector.title, vector.parts) : this.buildRow(quantity));
       if (quantity === "orientation") group.append(this.attitude.orientation);
-      if (quantity === "stiffness") group.append(this.check(this.follow, "Damping follows e", "follow"));
+      if (quantity === "stiffness") {
+        group.append(this.check(this.follow, "Damping follows e", "follow"), this.check(this.ofGround, "e follows damping", "ofGround"));
+      }
     }
     if (title === "Run") group.append(this.check(this.planar, "Keep the motion in its plane", "planar"));
     return group;
@@ -163,10 +173,14 @@ export class Controls {
     return make("p", { class: "choice" }, make("label", { for: "drop" }, "Dropped"), this.drop);
   }
 
-  private check(box: HTMLInputElement, text: string, key: keyof Choices & ("follow" | "planar" | "spinning")): HTMLElement {
+  private check(box: HTMLInputElement, text: string, key: keyof Choices & ("follow" | "ofGround" | "planar" | "spinning")): HTMLElement {
     box.addEventListener("change", () => {
       const { parameters } = this.state;
-      if (key === "follow") parameters.damping = dampingOf(parameters);
+      if (key === "follow" || key === "ofGround") {
+        parameters.damping = dampingOf(parameters);
+        parameters.e = restitutionOf(parameters);
+        parameters.follow = parameters.ofGround = false;  // each is the other's cause, or neither
+      }
       parameters[key] = box.checked;
       this.change();
     });

@@ -16,7 +16,7 @@ import { isInPlane } from "./parameters";
 import { Player, TimeWarp } from "./playback";
 import { Prediction } from "./prediction";
 import { explainRequest, gravityNumber } from "./requests";
-import { firstSpeed } from "./restitution";
+import { firstSpeed, restitutionOf } from "./restitution";
 import { SceneFile } from "./scene_file";
 import { setUpSharing } from "./sharing";
 import { Sound } from "./sound";
@@ -104,7 +104,7 @@ class Page {
     this.followsImpact = this.hasShown;
     this.models.ask(parameters);
     const speed = firstSpeed(parameters);
-    if (speed > 0) void this.map.show(gravityNumber(parameters, speed), parameters.e);
+    if (speed > 0) void this.map.show(gravityNumber(parameters, speed), restitutionOf(parameters));
     this.map.setAngle(parameters.angle);
     byId("map-note").hidden = parameters.body === "rod" && parameters.friction === 0 && isInPlane(parameters);
     byId("numbers-note").hidden = parameters.body !== "rod";

@@ -112,7 +112,7 @@ export class Models {
 }
 
 function continuousBody(body: Body): Body {
-  return body.shape === "rod" && body.radius === 0 ? uniformBody({ ...body, radius: CONTINUOUS_RADIUS }) : body;
+  return body.shape === "rod" && body.radius === 0 ? uniformBody({ ...body, radius: CONTINUOUS_RADIUS * body.length }) : body;
 }
 
 function spinOf({ spinning, wx, wy, wz }: Parameters): Vector {

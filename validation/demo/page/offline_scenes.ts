@@ -3,7 +3,7 @@
 import { type BodyName } from "./body";
 import { MAP_RANGE } from "./map_range";
 import { anglesRequest, canonical, explainRequest, gravityNumber, keyOf, sequenceRequest, simulateRequest } from "./requests";
-import { firstSpeed } from "./restitution";
+import { firstSpeed, restitutionOf } from "./restitution";
 import { DEFAULT_PARAMETERS, setBody, type Parameters } from "./parameters";
 
 export interface Scene {
@@ -23,16 +23,16 @@ function scene(name: string, title: string, body: BodyName, changes: Partial<Par
   return { name, title, parameters: Object.assign(parameters, changes) };
 }
 
-const PHONE: Partial<Parameters> = { drop: "height", height: 1, gravity: 9.81, stiffness: 1e8, follow: false };
+const PHONE: Partial<Parameters> = { drop: "height", height: 1, gravity: 9.81, stiffness: 1e8, follow: false, ofGround: true };
 
 export const SCENES: readonly Scene[] = [
   scene("rod", "Elastic rod", "rod", {}),
   scene("rod-gravity", "Rod, gravity, e = 0.8", "rod", { gravity: 9.81, e: 0.8 }),
   scene("thick-rod", "Thick rod", "thick-rod", { gravity: 9.81, e: 0.9 }),
-  scene("phone-damped", "Phone, damped", "phone", { ...PHONE, e: 0.75, friction: 0.075, damping: 1e7 }),
+  scene("phone-damped", "Phone, damped", "phone", { ...PHONE, friction: 0.075, damping: 1e7 }),
   scene("phone-elastic", "Phone, elastic", "phone", { ...PHONE, damping: 0 }),
   scene("phone-corner", "Phone on its corner", "phone", {
-    ...PHONE, turn: "tilted", angle: 30, tilt: 40, e: 0.77, friction: 0.075, damping: 1e7, impacts: 3,
+    ...PHONE, turn: "tilted", angle: 30, tilt: 40, friction: 0.075, damping: 1e7, impacts: 3,
   }),
   scene("box-edge", "Box along an edge", "own-box", {
     turn: "orientation", orientation: 8, drop: "velocity", vx: 0.2, vy: 0.1, vz: -2, spinning: true, wx: 1, wy: 2, wz: 0,
@@ -57,7 +57,7 @@ export function offlineScenes(): OfflineScene[] {
     const parameters = { ...online, impacts, angle: angles.includes(online.angle) ? online.angle : (angles[0] ?? 10) };
     const { from, to, count } = MAP_RANGE;
     // The map is that of the thin rod: for other bodies it is not worth its room.
-    const map = anglesRequest(gravityNumber(parameters, firstSpeed(parameters)), parameters.e, from, to, count);
+    const map = anglesRequest(gravityNumber(parameters, firstSpeed(parameters)), restitutionOf(parameters), from, to, count);
     const all = [
       ...(parameters.body === "rod" ? [map] : []),
       ...angles.flatMap((angle) => {

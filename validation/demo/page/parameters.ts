@@ -21,6 +21,8 @@ export interface Choices {
   spinning: boolean;
   /** The ground's damping is that which gives the coefficient of restitution e. */
   follow: boolean;
+  /** Restitution and friction of the discrete model are the ground's: e follows from its damping. */
+  ofGround: boolean;
   planar: boolean;
 }
 
@@ -32,7 +34,7 @@ export interface Parameters extends Record<Quantity, number>, Choices {
 export const DEFAULT_PARAMETERS: Parameters = {
   body: "rod", turn: "plane", drop: "speed", spinning: false, angle: 10, tilt: 0, orientation: 19, q0: 1, q1: 0, q2: 0, q3: 0,
   speed: 1, height: 1, vx: 0, vy: 0, vz: -1, wx: 0, wy: 0, wz: 0, gravity: 0, e: 1, friction: 0,
-  stiffness: 1e10, damping: 0, follow: true, impacts: 6, planar: true,
+  stiffness: 1e10, damping: 0, follow: true, ofGround: false, impacts: 6, planar: true,
   mass: 1, length: 1, radius: 0, width: 0.07, thickness: 0.01, extra: {},
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The requests that the page makes. Both the page and its build use them, so that the keys of an offline copy agree.
-import { CONTINUOUS_RADIUS } from "./body";
 import { dampingOf } from "./restitution";
 import { bodyOf, isInPlane, type Parameters } from "./parameters";
 
@@ -24,8 +23,8 @@ export function canonical(body: Request["body"]): string {
 }
 
 export function sequenceRequest(parameters: Parameters): Request {
-  const body = { ...drop(parameters), ...shape(parameters, 0), restitution: parameters.e };
-  return { path: "sequence", body: { ...body, ...friction(parameters), ...parameters.extra } };
+  const body = { ...drop(parameters), ...shape(parameters) };
+  return { path: "sequence", body: { ...body, ...law(parameters), ...parameters.extra } };
 }
 
 /** Fewer digits in the equations than the program's six: they are to be read. */
@@ -35,7 +34,7 @@ export function explainRequest(parameters: Parameters, impact: number): Request 
 }
 
 export function simulateRequest(parameters: Parameters): Request {
-  const body = { ...drop(parameters), ...shape(parameters, CONTINUOUS_RADIUS), ...ground(parameters) };
+  const body = { ...drop(parameters), ...shape(parameters), ...ground(parameters) };
   const run = { digits: CONTINUOUS_DIGITS, planar: parameters.planar && isInPlane(parameters), history: true };
   return { path: "simulate", body: { ...body, ...run, ...parameters.extra } };
 }
@@ -50,8 +49,11 @@ export function sceneRequest(name: string, text: string): Request {
   return { path: "scene", body: { name, text } };
 }
 
-function friction({ friction: coefficient }: Parameters): Request["body"] {
-  return coefficient === 0 ? {} : { friction: coefficient };
+/** What the discrete model takes: the ground, or restitution and friction of their own. */
+function law(parameters: Parameters): Request["body"] {
+  if (parameters.ofGround) return ground(parameters);
+  const { e, friction: coefficient } = parameters;
+  return coefficient === 0 ? { restitution: e } : { restitution: e, friction: coefficient };
 }
 
 function ground(parameters: Parameters): Request["body"] {
@@ -92,8 +94,8 @@ function motion(parameters: Parameters): Request["body"] {
   return spinning ? { ...moved, angular_velocity: [wx, wy, wz] } : moved;
 }
 
-function shape(parameters: Parameters, leastRadius: number): Request["body"] {
+function shape(parameters: Parameters): Request["body"] {
   const { shape: kind, mass, length, radius, width, thickness } = bodyOf(parameters);
   if (kind === "box") return { body: "box", mass, size: [length, width, thickness] };
-  return { body: "rod", mass, length, radius: radius === 0 ? leastRadius : radius };
+  return { body: "rod", mass, length, radius };
 }

@@ -30,6 +30,27 @@ export function firstSpeed(parameters: Parameters): number {
   return Math.sqrt(Math.max(0, 2 * parameters.gravity * fall));
 }
 
+/** The coefficient of restitution that damping gives at a speed, to the digits that a control shows. */
+function restitutionFor(damping: number, stiffness: number, speed: number): number {
+  const s = (damping / stiffness) * speed;
+  if (!(s > 0)) return 1;
+  let low = 0;
+  let high = Math.min(1, 1 / s);
+  for (let i = 0; i < 60; i++) {
+    const e = (low + high) / 2;
+    // Negative below the root; no number, which counts as above, where s e reaches 1.
+    if (Math.log1p(s) - Math.log1p(-s * e) - s * (1 + e) < 0) low = e;
+    else high = e;
+  }
+  return Number(low.toPrecision(3));
+}
+
+/** The coefficient of restitution of the first impact: as given, or as the ground gives it. */
+export function restitutionOf(parameters: Parameters): number {
+  if (!parameters.ofGround) return parameters.e;
+  return restitutionFor(parameters.damping, parameters.stiffness, firstSpeed(parameters));
+}
+
 /** Damping of the ground that the continuous model gets [N s/m⁴]. */
 export function dampingOf(parameters: Parameters): number {
   if (!parameters.follow) return parameters.damping;

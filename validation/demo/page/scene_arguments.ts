@@ -61,6 +61,9 @@ export function parametersOf(given: SceneArguments): Parameters {
   takeMotion(left, parameters);
   parameters.gravity = left.number("gravity", 0);
   parameters.impacts = left.number("impacts", DEFAULT_PARAMETERS.impacts);
+  const restitutionLaw = left.take("restitution_law");
+  parameters.ofGround = restitutionLaw === "viscoelastic";
+  if (restitutionLaw !== undefined && !parameters.ofGround) left.put("restitution_law", restitutionLaw);
   parameters.e = left.number("restitution", 1);
   takeContact(left, parameters);
   parameters.planar = left.take("planar") === "true";
@@ -106,12 +109,14 @@ function takeMotion(left: Given, parameters: Parameters): void {
 function takeContact(left: Given, parameters: Parameters): void {
   const ratio = left.take("impulse_ratio");
   if (ratio !== undefined && Number(ratio) !== 0) left.put("impulse_ratio", ratio);
-  parameters.friction = left.number("friction", 0);
+  const given = left.take("friction");
+  parameters.friction = numberOf(given, 0);
   if (!left.has("stiffness")) return;
   parameters.stiffness = left.number("stiffness", DEFAULT_PARAMETERS.stiffness);
   parameters.damping = left.number("damping", 0);
   parameters.follow = false;
   const names = ["static_friction", "sliding_friction"] as const;
   const own = names.map((name) => left.number(name, 0));
+  if (given === undefined && parameters.ofGround) parameters.friction = own[1] ?? 0;
   if (own.some((coefficient) => coefficient !== parameters.friction)) names.forEach((name, i) => left.put(name, String(own[i])));
 }

@@ -67,10 +67,12 @@ function toQuery(state: State): string {
   query.set("body", parameters.body);
   for (const quantity of QUANTITIES) {
     if (quantity === "damping" && parameters.follow) continue;
+    if (quantity === "e" && parameters.ofGround) continue;
     if (isUsed(parameters, quantity)) query.set(quantity, String(parameters[quantity]));
   }
   if (parameters.turn !== "plane") query.set("turn", parameters.turn);
   if (!parameters.planar) query.set("planar", "0");
+  if (parameters.ofGround) query.set("law", "ground");
   for (const [name, text] of Object.entries(parameters.extra)) query.set(EXTRA + name, text);
   query.set("impact", String(state.impact));
   if (Number.isFinite(state.time)) query.set("t", String(state.time));
@@ -102,7 +104,8 @@ function choicesIn(query: URLSearchParams): Omit<Choices, "body"> {
   const drop = hasAny("vx", "vy", "vz") ? "velocity" : hasAny("height") && !hasAny("speed") ? "height" : "speed";
   return {
     turn: TURNS.find((one) => one === query.get("turn")) ?? turn, drop: DROPS.find((one) => one === query.get("drop")) ?? drop,
-    spinning: hasAny("wx", "wy", "wz"), follow: !query.has("damping"), planar: query.get("planar") !== "0",
+    spinning: hasAny("wx", "wy", "wz"), follow: !query.has("damping"), ofGround: query.get("law") === "ground",
+    planar: query.get("planar") !== "0",
   };
 }
 
