@@ -6,7 +6,7 @@
 
 #include "numeric/base/errors.hpp"
 #include "numeric/base/require.hpp"
-#include "numeric/body/inertia.hpp"
+#include "numeric/body/mass_properties.hpp"
 
 namespace clatter::numeric {
 namespace {

@@ -10,6 +10,13 @@
 
 namespace clatter::numeric {
 
+/// Which ends of the body touched during an impact: by the sign of x′ of the vertices that went into the ground.
+enum class ContactEnd { a, b, both, middle };
+[[nodiscard]] constexpr ContactEnd contact_end(bool a, bool b) {
+  if (a && b) return ContactEnd::both;
+  return a ? ContactEnd::a : b ? ContactEnd::b : ContactEnd::middle;
+}
+
 /// Body frame: axes of the mesh, origin at the centre of mass.
 class Body {
  public:

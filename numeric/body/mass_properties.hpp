@@ -2,6 +2,7 @@
 // Mass, centre of mass and inertia of a body.
 #pragma once
 
+#include "numeric/base/linear_algebra.hpp"
 #include "numeric/mesh/mesh.hpp"
 #include "numeric/surface/surface.hpp"
 
@@ -29,5 +30,13 @@ struct MassProperties {
 /// @throws MeshError as check_closed: open, non-manifold or facing inward.  std::domain_error for the density or for an
 ///         element with four corners.  NumericalError if a result overflows or vanishes.
 [[nodiscard]] MassProperties mass_properties(const Surface& surface, double density);
+
+/// Principal moments of a real body are positive and none exceeds the sum of the others.
+/// @throws std::domain_error naming the moment that breaks this, or an inertia that is not finite.
+void check_inertia(const Matrix3& inertia);
+
+/// I⁻¹ [1/(kg·m²)] of a checked inertia, symmetric [kg·m²].  Accuracy: some eps times the ratio of the largest to the
+/// smallest moment.
+[[nodiscard]] Matrix3 inverse_inertia(const Matrix3& inertia);
 
 }  // namespace clatter::numeric

@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 
 #include "numeric/base/linear_algebra.hpp"
-#include "numeric/body/contact_end.hpp"
-#include "numeric/stepping/friction_mode.hpp"
+#include "numeric/body/body.hpp"
+#include "numeric/stepping/contact_result.hpp"
 
 namespace clatter::numeric {
 

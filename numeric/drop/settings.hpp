@@ -6,7 +6,7 @@
 
 #include "numeric/contact/ground.hpp"
 #include "numeric/drop/history.hpp"
-#include "numeric/stepping/method.hpp"
+#include "numeric/stepping/stepper.hpp"
 
 namespace clatter::numeric {
 

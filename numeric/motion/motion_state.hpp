@@ -16,4 +16,10 @@ struct MotionState {
   Vector3 angular_velocity = Vector3::Zero();                    ///< body frame [rad/s]
 };
 
+/// Attitude and body-frame angular velocity at an instant.
+struct Rotation {
+  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  ///< body → world, unit
+  Vector3 angular_velocity = Vector3::Zero();                    ///< body frame [rad/s]
+};
+
 }  // namespace clatter::numeric

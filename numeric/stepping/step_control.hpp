@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "numeric/stepping/contact_result.hpp"
-#include "numeric/stepping/contact_step.hpp"
+#include "numeric/stepping/stepper.hpp"
 #include "numeric/stepping/touch_counter.hpp"
 
 namespace clatter::numeric {

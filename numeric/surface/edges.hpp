@@ -2,8 +2,10 @@
 // The edges of polygons that share nodes.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace clatter::numeric {
@@ -20,10 +22,16 @@ struct EdgeSide {
 class Edges {
  public:
   void reserve(std::size_t sides) { sides_.reserve(sides); }
-  void add(int from, int to, int owner);
+  void add(int from, int to, int owner) {
+    sides_.push_back({std::min(from, to), std::max(from, to), owner, from > to});
+  }
 
   /// Sorts by edge, sides of one edge by owner.
-  void sort();
+  void sort() {
+    std::sort(sides_.begin(), sides_.end(), [](const EdgeSide& a, const EdgeSide& b) {
+      return std::tie(a.low, a.high, a.owner) < std::tie(b.low, b.high, b.owner);
+    });
+  }
 
   /// Calls visit(std::span<const EdgeSide>) once for each edge.  Call sort() first.
   template <typename Visit>
@@ -41,6 +49,8 @@ class Edges {
 };
 
 /// Whether exactly two polygons share the edge, and run along it in opposite directions.
-[[nodiscard]] bool is_manifold(std::span<const EdgeSide> sides);
+[[nodiscard]] inline bool is_manifold(std::span<const EdgeSide> sides) {
+  return sides.size() == 2 && sides[0].reversed != sides[1].reversed;
+}
 
 }  // namespace clatter::numeric

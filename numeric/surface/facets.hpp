@@ -28,6 +28,16 @@ struct Facets {
   std::vector<int> corners;       ///< indices into vertices
   std::vector<Loop> loops;
   std::vector<Facet> facets;
+
+  /// Calls visit(index into vertices) for each corner of a facet.
+  template <class Visit>
+  void for_each_corner(int facet, Visit&& visit) const {
+    const Facet& which = this->facets[static_cast<std::size_t>(facet)];
+    for (int l = which.begin; l < which.end; ++l) {
+      const Loop& loop = loops[static_cast<std::size_t>(l)];
+      for (int c = loop.begin; c < loop.end; ++c) visit(corners[static_cast<std::size_t>(c)]);
+    }
+  }
 };
 
 /// Planar polygons with the same points and area as `surface`.  A quadrilateral that is warped (a corner off

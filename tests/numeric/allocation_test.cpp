@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "numeric/motion/touch_point.hpp"
+#include "numeric/motion/free_flight.hpp"
 #include "numeric/stepping/contact_run.hpp"
 #include "tests/numeric/bodies.hpp"
 
@@ -37,12 +37,12 @@ long allocations_in_contact(Method method, const Ground& ground, const MotionSta
   long first = -1, last = -1;
   ContactControl control;
   control.evaluation_limit = 1'000'000;
-  control.observe = [&](const ContactInstant&) {
+  const auto count = [&](const ContactInstant&) {
     last = allocations;
     if (first < 0) first = last;
     return true;
   };
-  const ContactResult result = run.run(touch, touch_point(body, touch), control);
+  const ContactResult result = run.run(touch, touch_point(body, touch), control, count);
   BOOST_REQUIRE((result.ending == ContactEnding::lift_off));
   return last - first;
 }

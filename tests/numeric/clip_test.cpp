@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "numeric/contact/clip.hpp"
+#include "numeric/contact/contact_polygon.hpp"
 
 #include <boost/test/unit_test.hpp>
 
 #include <array>
 #include <cmath>
 #include <vector>
-
-#include "numeric/contact/patch_integrals.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <random>
 #include <string>
 
-#include "numeric/stepping/friction_log.hpp"
+#include "numeric/stepping/friction_phases.hpp"
 #include "tests/numeric/bodies.hpp"
 #include "tests/numeric/support.hpp"
 

@@ -6,9 +6,7 @@
 #include <stdexcept>
 
 #include "numeric/contact/contact_system.hpp"
-#include "numeric/motion/euler_parameters.hpp"
-#include "numeric/motion/lagrange_system.hpp"
-#include "numeric/motion/newton_euler.hpp"
+#include "numeric/motion/equations_of_motion.hpp"
 #include "tests/numeric/bodies.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "numeric/motion/touch_point.hpp"
+#include "numeric/motion/free_flight.hpp"
 #include "numeric/stepping/contact_run.hpp"
 #include "tests/numeric/bodies.hpp"
 
@@ -105,11 +105,11 @@ BOOST_AUTO_TEST_CASE(the_euler_parameters_stay_of_unit_norm_over_a_million_steps
   ContactControl control;
   control.steps.step = 1e-3;
   control.evaluation_limit = 100'000'000;
-  control.observe = [&](const ContactInstant& at) {
+  const auto count = [&](const ContactInstant& at) {
     worst = std::max(worst, std::fabs(euler_parameters(at.state).norm() - 1));
     return ++steps < many_steps;
   };
-  const ContactResult result = ContactRun(system, *stepper).run(touch, touch_point(body, touch), control);
+  const ContactResult result = ContactRun(system, *stepper).run(touch, touch_point(body, touch), control, count);
   BOOST_TEST(static_cast<int>(result.ending) == static_cast<int>(ContactEnding::interrupted));
   BOOST_TEST(steps == many_steps);
   BOOST_TEST(worst <= 1e-15);

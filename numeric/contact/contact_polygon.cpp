@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "numeric/contact/patch_integrals.hpp"
+#include "numeric/contact/contact_polygon.hpp"
 
 namespace clatter::numeric {
 namespace {
