@@ -8,7 +8,7 @@
 #include "numeric/surface/facets.hpp"
 #include "numeric/surface/hierarchy.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline body {
 
 /// Which ends of the body touched during an impact: by the sign of x′ of the vertices that went into the ground.
 enum class ContactEnd { a, b, both, middle };
@@ -56,4 +56,4 @@ class Body {
   Hierarchy hierarchy_;
 };
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline body

@@ -7,10 +7,9 @@
 #include <sstream>
 
 #include "numeric/base/errors.hpp"
-#include "numeric/base/require.hpp"
 #include "numeric/mesh/element_geometry.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline body {
 namespace {
 
 /// Moments of one element about its own centre, axes of the mesh.
@@ -74,7 +73,7 @@ Matrix3 inertia_of(const Matrix3& p) {
   return inertia;
 }
 
-/// Of the tetrahedra between the triangles and `apex`: mass, ∫ρ u dV and ∫ρ u uᵀ dV with u from the apex.
+/// The tetrahedra between the triangles and `apex` have together: mass, ∫ρ u dV and ∫ρ u uᵀ dV with u from the apex.
 Moments moments_about(const Surface& surface, const Vector3& apex, double density) {
   Sum<1, 1> mass;
   Sum<3, 1> first;
@@ -161,4 +160,4 @@ Matrix3 inverse_inertia(const Matrix3& inertia) {
   return scaled(scaled(inertia, -exponent).inverse(), -exponent);
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline body

@@ -2,10 +2,13 @@
 #include "numeric/contact/contact_load.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline contact {
 namespace {
+
+constexpr double clip_rounding = 1e-15;  ///< of the largest depth: how far above the ground clipping may put a corner
 
 /// Slip velocity of the body's points: `value` at the origin, and its rates of change over the body, per metre.
 struct BodySlip {
@@ -164,6 +167,8 @@ void ContactLoader::add_loop(const FacetView& facet, const Loop& loop, Sums& sum
 }
 
 void ContactLoader::add_below(const ContactPolygon& below, const FacetView& facet, Sums& sums) {
+  assert(std::none_of(below.corners, below.corners + below.count,
+                      [&](const ContactCorner& corner) { return corner.depth < -clip_rounding * sums.load.deepest; }));
   const double k = ground_.stiffness, c = ground_.damping;
   const auto pressure = [&](const ContactCorner& corner) { return k + c * corner.rate; };
   const auto presses = [&](const ContactCorner& corner) { return pressure(corner) > 0; };
@@ -237,4 +242,4 @@ void ContactLoader::add_slip(const ContactPolygon& polygon, double weight, Sums&
   add_force(here.north, moment(here.north, here.north_x, here.north_y), weight, view.north, load.slip_north, load);
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline contact

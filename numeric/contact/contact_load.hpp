@@ -10,7 +10,7 @@
 #include "numeric/contact/ground.hpp"
 #include "numeric/contact/slip_integrals.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline contact {
 
 /// How the body lies over the ground and moves, seen from the body frame.  Height above the ground of the body's
 /// point u: (reference.normal·u + reference.offset) + (turn·u + sink); the second part is the small change since
@@ -117,4 +117,4 @@ class ContactLoader {
   std::vector<PlanePoint> plane_;    ///< polygon in its facet's plane
 };
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline contact

@@ -3,9 +3,11 @@
 // rate and position are linear over their plane.
 #pragma once
 
+#include <cassert>
+
 #include "numeric/base/linear_algebra.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline contact {
 
 /// A corner of a contact polygon.
 struct ContactCorner {
@@ -43,6 +45,7 @@ int clip(const ContactCorner* in, int count, ContactCorner* out, Value&& value) 
     }
     at_previous = at;
   }
+  assert(size <= 2 * count);
   return size;
 }
 
@@ -94,4 +97,4 @@ struct DepthIntegrals {
 };
 [[nodiscard]] DepthIntegrals depth_integrals(const ContactPolygon& polygon);
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline contact

@@ -2,12 +2,13 @@
 #include "numeric/contact/contact_system.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
 #include "numeric/motion/equations_of_motion.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline contact {
 
 /// All that is known at an instant but the friction force.
 struct ContactSystem::Instant {
@@ -56,6 +57,8 @@ struct ContactSystem::Friction {
 };
 
 namespace {
+
+constexpr double unit_rounding = 1e-9;  ///< of the square of an attitude's norm: what users may have rounded
 
 /// (Aᵀ − 1) v for the rotation A of Euler parameters (b; e): no cancellation when it is small.
 Vector3 back_turned_change(double b, const Vector3& e, const Vector3& v) {
@@ -111,6 +114,7 @@ ContactSystem::ContactSystem(const Body& body, const Ground& ground, double grav
       loader_(body, ground) {}
 
 void ContactSystem::begin(const MotionState& touch) {
+  assert(std::fabs(touch.attitude.squaredNorm() - 1) <= unit_rounding);
   touch_ = touch;
   const Eigen::Quaterniond back = touch.attitude.conjugate();
   plane_ = {back * Vector3::UnitZ(), touch.centre.z()};
@@ -360,4 +364,4 @@ AlongGround ContactSystem::stick(const Instant& at) const {
   return solve(by_east, per_force({0, 1}), free * -1);
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline contact

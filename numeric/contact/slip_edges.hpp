@@ -2,7 +2,7 @@
 // Friction of slip in varying directions: integrals along the edges of a contact polygon.
 #pragma once
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline contact {
 
 /// A point, or a vector, of a facet's plane [m].
 struct PlanePoint {
@@ -86,4 +86,4 @@ void add_point(const SlipPatch& patch, const PlanePoint& p, double weight, SlipI
 /// cancel.
 [[nodiscard]] SlipIntegrals one_way_slip_integrals(const SlipPatch& patch);
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline contact

@@ -2,13 +2,14 @@
 #include "numeric/contact/slip_integrals.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "numeric/contact/gauss_rules.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline contact {
 namespace {
 
 double cross(const PlanePoint& a, const PlanePoint& b) { return a.x * b.y - a.y * b.x; }
@@ -153,7 +154,7 @@ class Strips {
     }
   }
 
-  /// Of the function across: its singularities are where the slip and v_r vanish together at an end, or on the way
+  /// Bernstein ellipse of the function across, whose singularities are where the slip and v_r vanish together at an end, or on the way
   /// between ends on different sides of the least slip.
   [[nodiscard]] double part_ellipse(const Strip& strip, double low, double high) const {
     const double middle = (low + high) / 2, left = strip.left.along(middle), right = strip.right.along(middle);
@@ -279,6 +280,7 @@ SlipIntegrals add_up_edges(const SlipPatch& patch, const PlanePoint& fixed) {
 }  // namespace
 
 SlipIntegrals slip_integrals(const SlipPatch& patch) {
+  assert(!(patch.rounding < 0));
   if (patch.count < 3) return {};
   const SlipSurvey s = survey(patch);
   if (!(s.fastest > 0) || !(s.size > 0)) return {};
@@ -298,4 +300,4 @@ SlipIntegrals rough_slip_integrals(const SlipPatch& patch) {
   return add_up_fan(rounded, rough_order);
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline contact

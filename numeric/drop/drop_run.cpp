@@ -2,6 +2,7 @@
 #include "numeric/drop/drop_run.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -11,7 +12,7 @@
 #include "numeric/motion/free_flight.hpp"
 #include "numeric/stepping/contact_run.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline drop {
 namespace {
 
 /// Turns instants of contacts and flights into history samples.
@@ -143,6 +144,7 @@ class Run {
     const FreeFlight flight(body_, state_, world_.gravity, world_.planar);
     const TouchDown down = next_touch_down(body_, flight);
     result_.root_evaluations += down.evaluations;
+    assert(down.time >= 0);
     if (down.kind == TouchDown::Kind::undecided) return end(Outcome::flight_undecided);
     if (down.kind == TouchDown::Kind::never) return end(Outcome::no_further_impact);
     if (static_cast<int>(result_.impacts.size()) == request_.impacts) return end(Outcome::impact_limit);
@@ -168,6 +170,7 @@ class Run {
     if (!lifts && contact.ending != ContactEnding::at_rest && contact.ending != ContactEnding::sustained_contact) {
       return end(outcome_of(contact.ending));
     }
+    assert(contact.duration > 0 && contact.touches >= 1);
     if (!(contact.scales.depth > least_depth * placement_)) return end(Outcome::not_representable);
     result_.impacts.push_back(record(contact, point));
     if (request_.amplification) note_growth(contact);
@@ -257,4 +260,4 @@ DropRun run_drop(const Body& body, const World& world, const MotionState& start,
   return Run(body, world, start, request, integration, observer).run();
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline drop

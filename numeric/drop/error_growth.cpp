@@ -7,7 +7,7 @@
 #include "numeric/motion/equations_of_motion.hpp"
 #include "numeric/motion/free_flight.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline drop {
 namespace {
 
 constexpr double radians_per_step = 0.1;
@@ -151,4 +151,4 @@ void ErrorGrowth::touch(ContactRun& run, const ContactControl& control, const Mo
   take(between(here, there) / size);
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline drop

@@ -2,11 +2,12 @@
 #include "numeric/motion/free_flight.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <vector>
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline motion {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -123,6 +124,7 @@ TouchDown next_touch_down(const Body& body, const FreeFlight& flight, long evalu
       result.kind = TouchDown::Kind::never;
       return result;
     }
+    assert(step >= 0);
     // A step below the resolution of time cannot lead on: the vertex is as near as numbers tell.
     const double next = result.time + step;
     result.time = next > result.time ? next : std::nextafter(result.time, std::numeric_limits<double>::infinity());
@@ -169,6 +171,7 @@ std::vector<int> touching_vertices(const Body& body, const MotionState& state) {
 
 Vector3 touch_point(const Body& body, const MotionState& state) {
   const std::vector<int> touching = touching_vertices(body, state);
+  assert(!touching.empty());
   Vector3 sum = Vector3::Zero();
   for (const int vertex : touching) sum += body.facets().vertices[static_cast<std::size_t>(vertex)];
   return sum / static_cast<double>(touching.size());
@@ -187,4 +190,4 @@ FirstTouch first_touch(const Body& body, const MotionState& state) {
   return touch;
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline motion

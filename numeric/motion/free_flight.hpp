@@ -6,7 +6,7 @@
 #include "numeric/motion/free_rotation.hpp"
 #include "numeric/motion/motion_state.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline motion {
 
 /// A parabola of the centre of mass and a torque-free rotation about it.
 class FreeFlight {
@@ -64,4 +64,4 @@ struct FirstTouch {
   return state.velocity + state.attitude * state.angular_velocity.cross(u);
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline motion

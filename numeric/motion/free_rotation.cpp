@@ -3,13 +3,14 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline motion {
 namespace {
 
 // Quadrature over a fine mesh leaves this much, relative to the largest moment.
@@ -112,6 +113,7 @@ Matrix3 turned(const Matrix3& frame, double psi) {
 EllipticRotation::Constants EllipticRotation::constants(const PrincipalAxes& principal,
                                                         const Vector3& angular_velocity) {
   const double a = principal.moments[0], b = principal.moments[1], c = principal.moments[2];
+  assert(0 < a && a < b && b < c);
   const Vector3 along = principal.axes.transpose() * angular_velocity;
   const bool circles_largest = c * (c - b) * along[2] * along[2] >= a * (b - a) * along[0] * along[0];
 
@@ -225,7 +227,7 @@ Rotation scaled(const Rotation& start, double rate) {
   return {Eigen::Quaterniond(start.attitude.coeffs() / norm), start.angular_velocity / rate};
 }
 
-/// Of a body whose moments other than `distinct` are equal.  The precession is the momentum divided
+/// Rotation of a body whose moments other than `distinct` are equal.  The precession is the momentum divided
 /// by their moment: as ω − σ s it would lose what a thin rod's fast spin leaves of it.
 SteadyPrecession symmetric(const PrincipalAxes& body, const Rotation& start, int distinct) {
   const double across = (body.moments.sum() - body.moments[distinct]) / 2;
@@ -272,4 +274,4 @@ double FreeRotation::largest_acceleration() const {
          std::visit([](const auto& rotation) { return rotation.largest_acceleration(); }, rotation_);
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline motion

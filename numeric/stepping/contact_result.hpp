@@ -5,7 +5,7 @@
 #include "numeric/body/body.hpp"
 #include "numeric/motion/motion_state.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline stepping {
 
 /// How friction acted during an impact: its phases in their order.
 enum class FrictionMode {
@@ -60,4 +60,4 @@ struct ContactResult {
   double step = 0;  ///< fixed step used [s]; 0: adaptive
 };
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline stepping

@@ -2,12 +2,14 @@
 #include "numeric/stepping/contact_run.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline stepping {
 namespace {
 
+constexpr double unit_rounding = 1e-14;     ///< of the Euler parameters, which each step makes unit again
 constexpr int most_switches = 8;            ///< of friction without a step between them
 constexpr double least_depth_seen = 1e-14;  ///< of the body's radius: shallower contacts are rounding
 
@@ -180,6 +182,8 @@ bool ContactRun::handle_friction_event(double h) {
 }
 
 void ContactRun::accept(const ContactInstant& next) {
+  assert(next.time >= now_.time);
+  assert(std::fabs(euler_parameters(next.state).norm() - 1) <= unit_rounding);
   touches_.update(step_.submerged());
   result_.submerged = result_.submerged || system_.is_submerged(next.state);
   const ContactInstant* peak = peak_.look(now_, next);
@@ -203,4 +207,4 @@ void ContactRun::collect() {
   result_.end = contact_end(touches_.touched_a(), touches_.touched_b());
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline stepping

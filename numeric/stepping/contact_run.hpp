@@ -13,7 +13,7 @@
 #include "numeric/stepping/stepper.hpp"
 #include "numeric/stepping/touch_counter.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline stepping {
 
 /// How a contact is run.
 struct ContactControl {
@@ -72,4 +72,4 @@ class ContactRun {
   ContactResult result_;
 };
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline stepping

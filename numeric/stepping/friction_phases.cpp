@@ -2,9 +2,10 @@
 #include "numeric/stepping/friction_phases.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline stepping {
 namespace {
 
 using Kind = FrictionPhase::Kind;
@@ -53,6 +54,8 @@ namespace {
 
 using Kind = FrictionPhase::Kind;
 
+constexpr double direction_rounding = 1e-14;  ///< of its unit length
+
 /// Slip slower than this part, times √tolerance, of the contact's speed keeps its direction: across it friction is a
 /// damper that stiffens like 1/|v|, which explicit steps could not follow.
 constexpr double slow_part = 0.1;
@@ -88,6 +91,7 @@ void FrictionPhases::begin(const MotionState& touch, const Vector3& point, const
 }
 
 void FrictionPhases::start(Kind kind, const AlongGround& direction, const ContactInstant& now) {
+  assert(kind != Kind::slip || std::fabs(direction.norm() - 1) <= direction_rounding);
   log_.open(sums(now));
   stopping_speed_ = 0;
   FrictionPhase phase{.kind = kind,
@@ -127,6 +131,7 @@ double FrictionPhases::stick_reserve(const ContactInstant& at) const {
 }
 
 double FrictionPhases::reserve(const ContactInstant& at) const {
+  assert(can_end());
   return system_.phase().kind == Kind::slip ? slip_forward(at) : stick_reserve(at);
 }
 
@@ -139,6 +144,7 @@ bool FrictionPhases::is_over(const ContactInstant& at) const {
 }
 
 void FrictionPhases::change(const ContactInstant& at, ContactInstant& now) {
+  assert(can_end());
   const Kind kind = system_.phase().kind;
   log_.close(system_.phase(), sums(now));
   const AlongGround hold = kind == Kind::stick ? at.diagnosis.hold : system_.sticking_force(at.state);
@@ -214,4 +220,4 @@ FrictionMode FrictionPhases::end(const ContactInstant& now) {
   return ground.friction == FrictionLaw::local ? FrictionMode::local : log_.mode();
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline stepping

@@ -8,7 +8,7 @@
 #include "numeric/stepping/contact_result.hpp"
 #include "numeric/stepping/stepper.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline stepping {
 
 /// Notes the phases of slip and stick that mattered: slip by its work or its part of the normal impulse, stick by its
 /// time.  (A sticking end slips for an instant when the force on it fades; such a phase names nothing.)
@@ -26,7 +26,7 @@ class FrictionLog {
   void open(const Sums& sums) { start_ = sums; }
   /// Notes the phase that was opened last, if it mattered.
   void close(const FrictionPhase& phase, const Sums& sums);
-  /// Of a contact with Coulomb friction.  Slip that turns back at once is reverse_slip, whatever else there is.
+  /// Name of what happened in a contact with Coulomb friction.  Slip that turns back at once is reverse_slip, whatever else there is.
   [[nodiscard]] FrictionMode mode() const;
 
  private:
@@ -97,4 +97,4 @@ class FrictionPhases {
   double stopping_speed_ = 0;  ///< slip at which the slip phase ends [m/s]
 };
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline stepping

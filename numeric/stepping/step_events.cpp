@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
+#include <cassert>
 #include <cmath>
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline stepping {
 
 double EventLocator::fall(const std::function<double(const ContactInstant&)>& indicator, const ContactInstant& now,
                           double h, ContactInstant& at_root) {
@@ -22,6 +23,7 @@ double EventLocator::fall(const std::function<double(const ContactInstant&)>& in
       boost::math::tools::toms748_solve(
           value, 0.0, h, at_start, at_end, [&](double a, double b) { return b - a <= resolution; }, iterations)
           .second;
+  assert(high > 0 && high <= h);
   if (!step_.take(now, high, trial_)) return h;
   at_root = trial_;
   return high;
@@ -73,4 +75,4 @@ const ContactInstant* ForcePeak::look(const ContactInstant& now, const ContactIn
   return inside_.time == time_ ? &inside_ : nullptr;
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline stepping

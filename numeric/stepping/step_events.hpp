@@ -7,7 +7,7 @@
 #include "numeric/stepping/contact_result.hpp"
 #include "numeric/stepping/stepper.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline stepping {
 
 /// Events are roots of the numerical solution: the step is repeated with the length that ends on the event.
 class EventLocator {
@@ -53,4 +53,4 @@ class ForcePeak {
   double force_ = 0, time_ = 0;
 };
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline stepping

@@ -3,10 +3,11 @@
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
+#include <cassert>
 #include <new>
 #include <stdexcept>
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline stepping {
 namespace {
 
 /// Integrates Eq. 3 of Shan et al. (2005) as they did: third-order total-variation-diminishing Runge–Kutta method of
@@ -89,6 +90,7 @@ ContactStep::ContactStep(ContactSystem& system, Stepper& stepper) : system_(syst
 }
 
 bool ContactStep::take(const ContactInstant& from, double h, ContactInstant& to) {
+  assert(h > 0);
   if (!stepper_.step(system_, from.state, from.rate, h, to.state, error_)) return false;
   euler_parameters(to.state).normalize();
   to.time = from.time + h;
@@ -97,4 +99,4 @@ bool ContactStep::take(const ContactInstant& from, double h, ContactInstant& to)
   return to.rate.allFinite();
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline stepping

@@ -3,12 +3,13 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <tuple>
 #include <vector>
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline surface {
 
 /// One polygon's side of the edge between the nodes low < high.
 struct EdgeSide {
@@ -27,15 +28,12 @@ class Edges {
   }
 
   /// Sorts by edge, sides of one edge by owner.
-  void sort() {
-    std::sort(sides_.begin(), sides_.end(), [](const EdgeSide& a, const EdgeSide& b) {
-      return std::tie(a.low, a.high, a.owner) < std::tie(b.low, b.high, b.owner);
-    });
-  }
+  void sort() { std::sort(sides_.begin(), sides_.end(), is_before); }
 
   /// Calls visit(std::span<const EdgeSide>) once for each edge.  Call sort() first.
   template <typename Visit>
   void for_each(Visit visit) const {
+    assert(std::is_sorted(sides_.begin(), sides_.end(), is_before));
     for (std::size_t begin = 0, end = 0; begin < sides_.size(); begin = end) {
       while (end < sides_.size() && sides_[end].low == sides_[begin].low && sides_[end].high == sides_[begin].high) {
         ++end;
@@ -45,6 +43,10 @@ class Edges {
   }
 
  private:
+  static bool is_before(const EdgeSide& a, const EdgeSide& b) {
+    return std::tie(a.low, a.high, a.owner) < std::tie(b.low, b.high, b.owner);
+  }
+
   std::vector<EdgeSide> sides_;
 };
 
@@ -53,4 +55,4 @@ class Edges {
   return sides.size() == 2 && sides[0].reversed != sides[1].reversed;
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline surface

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "numeric/base/require.hpp"
+#include "numeric/base/errors.hpp"
 
 #include <cmath>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 
-namespace clatter::numeric::detail {
+namespace clatter::numeric::inline base::detail {
 
 void require(bool condition, const char* field, double value, const char* allowed) {
   if (condition && std::isfinite(value)) return;
@@ -24,4 +23,4 @@ void require_at_least(const char* field, int value, int least) {
   require(value >= least, field, value, allowed.c_str());
 }
 
-}  // namespace clatter::numeric::detail
+}  // namespace clatter::numeric::inline base::detail
