@@ -11,8 +11,8 @@
 #include <limits>
 #include <sstream>
 
+#include "numeric/body/mass_properties.hpp"
 #include "numeric/errors.hpp"
-#include "numeric/mass_properties.hpp"
 #include "tests/numeric/support.hpp"
 
 /// Gmsh's library loses memory when it refuses a file; AddressSanitizer asks this function.

@@ -16,7 +16,7 @@ using namespace clatter::numeric::test;
 Simulation rod_at_45(double mu, double stiffness = 1e11, bool planar = false, HistoryRecorder* history = nullptr) {
   static const Body body = rod();
   const Ground ground{.stiffness = stiffness, .static_friction = mu, .sliding_friction = mu};
-  return drop(body, weightless(ground, planar), 45 * degree, 1, {.digits = 8}, {.history = history});
+  return dropped(body, weightless(ground, planar), 45 * degree, 1, {.digits = 8}, {.history = history});
 }
 
 double ratio(const ImpactNumbers& n) { return n.impulse.x() / n.impulse.z(); }
@@ -50,7 +50,7 @@ BOOST_AUTO_TEST_CASE(slip_in_one_direction_has_the_impulse_ratio_mu) {
 BOOST_AUTO_TEST_CASE(a_body_that_slides_feels_the_sliding_friction_alone) {
   const double sliding = 0.3;
   const Ground tilted{.stiffness = 1e11, .static_friction = 0.5, .sliding_friction = sliding};  // 0.586 would stick
-  const Simulation rod_run = drop(rod(), weightless(tilted), 45 * degree, 1);
+  const Simulation rod_run = dropped(rod(), weightless(tilted), 45 * degree, 1);
   BOOST_TEST((rod_run.impacts[0].mode == FrictionMode::slip));
   BOOST_TEST(std::fabs(ratio(rod_run.impacts[0].value)) == sliding, boost::test_tools::tolerance(1e-9));
   // A plate that slides at 10 m/s, by a law over its whole patch: (v_r/v)²/2 below the coefficient.
@@ -149,7 +149,7 @@ BOOST_AUTO_TEST_CASE(friction_knows_no_direction_of_the_ground) {
 BOOST_AUTO_TEST_CASE(the_regularised_law_tends_to_coulombs) {
   const Body body = rod();
   const auto impulse = [&](const Ground& ground) {
-    return drop(body, weightless(ground), 45 * degree, 1).impacts[0].value.impulse;
+    return dropped(body, weightless(ground), 45 * degree, 1).impacts[0].value.impulse;
   };
   const Vector3 coulomb = impulse({.stiffness = 1e11, .static_friction = 0.3, .sliding_friction = 0.3});
   double previous = 1;

@@ -22,7 +22,7 @@ class Random {
   Eigen::Quaterniond attitude() {
     return Eigen::Quaterniond(number(), number(), number(), 1 + number() / 2).normalized();
   }
-  /// Of a cloud of eight points about their centre.
+  /// Inertia of a cloud of eight points about their centre.
   BodyInertia body() {
     Vector3 points[8], centre = Vector3::Zero();
     for (Vector3& point : points) centre += (point = vector()) / 8;

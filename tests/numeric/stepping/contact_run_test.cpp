@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(a_flat_or_upright_landing_with_friction_is_the_plain_reboun
             Finite history;
             const Ground ground{.stiffness = 1e9, .static_friction = mu, .sliding_friction = mu};
             const Simulation run =
-                drop(body, weightless(ground, planar), angle * degree, 2, {.method = method}, {.history = &history});
+                dropped(body, weightless(ground, planar), angle * degree, 2, {.method = method}, {.history = &history});
             BOOST_TEST_CONTEXT("angle " << angle << " mu " << mu << " method " << static_cast<int>(method)) {
               BOOST_REQUIRE(run.impacts.size() == 1);
               const ImpactNumbers& n = run.impacts[0].value;
@@ -164,7 +164,7 @@ BOOST_AUTO_TEST_CASE(sticking_never_takes_more_than_the_static_friction_gives_an
         Bound bound;
         bound.mu = mu;
         const Ground ground{.stiffness = 1e9, .static_friction = mu, .sliding_friction = mu / 2};
-        static_cast<void>(drop(body, weightless(ground), angle * degree, 1, {}, {.history = &bound}));
+        static_cast<void>(dropped(body, weightless(ground), angle * degree, 1, {}, {.history = &bound}));
         BOOST_TEST(bound.beyond == 0);
         BOOST_TEST(bound.held_at_the_bound == 0);
       }
@@ -255,7 +255,7 @@ BOOST_AUTO_TEST_CASE(a_body_that_sinks_wholly_is_flagged_and_no_other) {
   const double speed = thickness * std::sqrt(stiffness * area / mass);
   for (const double part : {0.5, 0.98, 1.02, 3.0}) {
     const Simulation run =
-        drop(body, weightless({.stiffness = stiffness, .area = AreaMeasure::projected}), 0, part * speed);
+        dropped(body, weightless({.stiffness = stiffness, .area = AreaMeasure::projected}), 0, part * speed);
     BOOST_REQUIRE(run.impacts.size() == 1);
     BOOST_TEST(run.impacts[0].submerged == (part > 1));
   }
@@ -263,7 +263,7 @@ BOOST_AUTO_TEST_CASE(a_body_that_sinks_wholly_is_flagged_and_no_other) {
 
 BOOST_AUTO_TEST_CASE(two_feet_that_land_at_once_are_two_touches_and_a_face_is_one) {
   const auto touches = [](const Body& body) {
-    const Simulation run = drop(body, weightless({.stiffness = 1e9}), 0, 1);
+    const Simulation run = dropped(body, weightless({.stiffness = 1e9}), 0, 1);
     return run.impacts.empty() ? 0 : run.impacts[0].touches;
   };
   BOOST_TEST(touches(two_feet()) == 2);

@@ -5,8 +5,8 @@
 #include <boost/test/unit_test.hpp>
 #include <limits>
 
+#include "numeric/body/mass_properties.hpp"
 #include "numeric/errors.hpp"
-#include "numeric/mass_properties.hpp"
 #include "numeric/mesh/generators.hpp"
 #include "tests/numeric/support.hpp"
 

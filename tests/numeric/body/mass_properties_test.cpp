@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "numeric/mass_properties.hpp"
+#include "numeric/body/mass_properties.hpp"
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>

@@ -50,7 +50,7 @@ AreaMoments moments(const Facets& facets) {
   return sum;
 }
 
-/// Of the surface's own elements, which must be planar.
+/// Moments of the surface's own elements, which must be planar.
 AreaMoments moments(const Surface& surface) {
   AreaMoments sum;
   for (const SurfaceElement& element : surface.elements) {

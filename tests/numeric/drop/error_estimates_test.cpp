@@ -59,7 +59,7 @@ class Coverage {
   }
   [[nodiscard]] int count() const { return count_; }
   [[nodiscard]] double covered() const { return static_cast<double>(covered_) / count_; }
-  /// Of bar over error.
+  /// Quantile of the ratio of bar to error.
   [[nodiscard]] double quantile(double part) {
     const auto place = ratios_.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(ratios_.size() - 1));
     std::nth_element(ratios_.begin(), place, ratios_.end());
