@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "numeric/base/errors.hpp"
-#include "numeric/base/require.hpp"
 #include "numeric/drop/drop_run.hpp"
 #include "numeric/drop/error_estimates.hpp"
 #include "numeric/motion/free_flight.hpp"

@@ -5,10 +5,9 @@
 #include <cmath>
 
 #include "numeric/base/errors.hpp"
-#include "numeric/base/require.hpp"
-#include "numeric/body/inertia.hpp"
+#include "numeric/body/mass_properties.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline body {
 namespace {
 
 /// Products of lengths that leave the range of doubles give no normals.
@@ -53,4 +52,4 @@ void Body::find_outline(const MassProperties& properties, const Surface& surface
   }
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline body

@@ -8,7 +8,14 @@
 #include "numeric/surface/facets.hpp"
 #include "numeric/surface/hierarchy.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline body {
+
+/// Which ends of the body touched during an impact: by the sign of x′ of the vertices that went into the ground.
+enum class ContactEnd { a, b, both, middle };
+[[nodiscard]] constexpr ContactEnd contact_end(bool a, bool b) {
+  if (a && b) return ContactEnd::both;
+  return a ? ContactEnd::a : b ? ContactEnd::b : ContactEnd::middle;
+}
 
 /// Body frame: axes of the mesh, origin at the centre of mass.
 class Body {
@@ -49,4 +56,4 @@ class Body {
   Hierarchy hierarchy_;
 };
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline body

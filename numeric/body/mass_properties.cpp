@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "numeric/body/mass_properties.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <cmath>
 #include <sstream>
 
 #include "numeric/base/errors.hpp"
-#include "numeric/base/require.hpp"
 #include "numeric/mesh/element_geometry.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline body {
 namespace {
 
 /// Moments of one element about its own centre, axes of the mesh.
@@ -72,7 +73,7 @@ Matrix3 inertia_of(const Matrix3& p) {
   return inertia;
 }
 
-/// Of the tetrahedra between the triangles and `apex`: mass, ∫ρ u dV and ∫ρ u uᵀ dV with u from the apex.
+/// The tetrahedra between the triangles and `apex` have together: mass, ∫ρ u dV and ∫ρ u uᵀ dV with u from the apex.
 Moments moments_about(const Surface& surface, const Vector3& apex, double density) {
   Sum<1, 1> mass;
   Sum<3, 1> first;
@@ -141,4 +142,22 @@ MassProperties mass_properties(const Mesh& mesh) {
   return body;
 }
 
-}  // namespace clatter::numeric
+void check_inertia(const Matrix3& inertia) {
+  using detail::require;
+  require(inertia.allFinite(), "inertia", inertia.sum(), "finite");
+  const Vector3 moments = Eigen::SelfAdjointEigenSolver<Matrix3>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
+  require(moments[0] > 0, "smallest principal moment of inertia", moments[0], "greater than 0");
+  require(moments[2] <= (moments[0] + moments[1]) * (1 + 1e-9), "largest principal moment of inertia", moments[2],
+          "at most the sum of the other two");
+}
+
+Matrix3 inverse_inertia(const Matrix3& inertia) {
+  // By a power of two, which rounds nothing: the determinant of a large body's inertia overflows.
+  const int exponent = std::ilogb(inertia.trace());
+  const auto scaled = [](const Matrix3& m, int power) {
+    return Matrix3(m.unaryExpr([&](double x) { return std::scalbn(x, power); }));
+  };
+  return scaled(scaled(inertia, -exponent).inverse(), -exponent);
+}
+
+}  // namespace clatter::numeric::inline body

@@ -2,10 +2,11 @@
 // Mass, centre of mass and inertia of a body.
 #pragma once
 
+#include "numeric/base/linear_algebra.hpp"
 #include "numeric/mesh/mesh.hpp"
 #include "numeric/surface/surface.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline body {
 
 struct MassProperties {
   double mass = 0;                    ///< [kg]
@@ -30,4 +31,12 @@ struct MassProperties {
 ///         element with four corners.  NumericalError if a result overflows or vanishes.
 [[nodiscard]] MassProperties mass_properties(const Surface& surface, double density);
 
-}  // namespace clatter::numeric
+/// Principal moments of a real body are positive and none exceeds the sum of the others.
+/// @throws std::domain_error naming the moment that breaks this, or an inertia that is not finite.
+void check_inertia(const Matrix3& inertia);
+
+/// I⁻¹ [1/(kg·m²)] of a checked inertia, symmetric [kg·m²].  Accuracy: some eps times the ratio of the largest to the
+/// smallest moment.
+[[nodiscard]] Matrix3 inverse_inertia(const Matrix3& inertia);
+
+}  // namespace clatter::numeric::inline body

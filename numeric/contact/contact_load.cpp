@@ -2,11 +2,70 @@
 #include "numeric/contact/contact_load.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
-#include "numeric/contact/slip_quadrature.hpp"
+namespace clatter::numeric::inline contact {
+namespace {
 
-namespace clatter::numeric {
+constexpr double clip_rounding = 1e-15;  ///< of the largest depth: how far above the ground clipping may put a corner
+
+/// Slip velocity of the body's points: `value` at the origin, and its rates of change over the body, per metre.
+struct BodySlip {
+  double east = 0, north = 0;
+  Vector3 east_slope, north_slope;
+};
+
+BodySlip body_slip(const Vector3& origin, const GroundView& view, const SlipField& field) {
+  if (field.kind == SlipField::Kind::turning) {
+    const Vector3 away = origin - field.centre;
+    const Vector3 east_slope = -field.spin * view.north, north_slope = field.spin * view.east;
+    return {field.east + east_slope.dot(away), field.north + north_slope.dot(away), east_slope, north_slope};
+  }
+  // a·(ω × u) = (a × ω)·u
+  const Vector3 east_slope = view.east.cross(view.angular_velocity),
+                north_slope = view.north.cross(view.angular_velocity);
+  return {view.east_speed + field.east + east_slope.dot(origin),
+          view.north_speed + field.north + north_slope.dot(origin), east_slope, north_slope};
+}
+
+void add_force(double east, const Vector3& east_moment, double weight, const Vector3& direction, double& sum,
+               ContactLoad& load) {
+  sum -= weight * east;
+  load.slip_moment -= weight * east_moment.cross(direction);
+}
+
+/// One direction of slip: the part of the polygon that slips forward, less the part that slips back.  `room` has twice
+/// the polygon's corners.
+void add_split(const ContactPolygon& polygon, double weight, const GroundView& view, const Ground& ground,
+               const BodySlip& slip, ContactCorner* room, ContactLoad& load) {
+  ContactPolygon part = polygon;
+  part.corners = room;
+  for (const double side : {1.0, -1.0}) {
+    part.count = clip(polygon.corners, polygon.count, room, [&](const ContactCorner& corner) {
+      return side * (slip.east + slip.east_slope.dot(corner.position));
+    });
+    if (part.count < 3) continue;
+    const LoadIntegrals here = load_integrals(part);
+    const double k = ground.stiffness, c = ground.damping;
+    add_force(k * here.depth + c * here.depth_rate, k * here.depth_position + c * here.depth_rate_position,
+              side * weight, view.east, load.slip_east, load);
+  }
+}
+
+/// Widens the load's range of slip by the polygon's, which is returned.
+SlipRange widen(const BodySlip& slip, const ContactPolygon& polygon, bool planar, ContactLoad& load) {
+  SlipRange range;
+  for (int i = 0; i < polygon.count; ++i) {
+    const Vector3& u = polygon.corners[i].position;
+    const double east = slip.east + slip.east_slope.dot(u), north = planar ? 0 : slip.north + slip.north_slope.dot(u);
+    range.add(east, north);
+    load.slip_range.add(east, north);
+  }
+  return range;
+}
+
+}  // namespace
 
 void SlipRange::add(double east, double north) {
   low_east = std::min(low_east, east);
@@ -51,9 +110,8 @@ ContactLoader::ContactLoader(const Body& body, const Ground& ground) : body_(bod
   whole_.resize(longest);
   below_.resize(2 * longest);
   part_.resize(4 * longest);
-  scratch_ = std::make_shared<SlipScratch>();
-  scratch_->corners.resize(4 * longest);
-  scratch_->part.resize(8 * longest);
+  side_.resize(8 * longest);
+  plane_.resize(4 * longest);
 }
 
 ContactLoad ContactLoader::load(const GroundView& view, const SlipField& slip, LoadRates* rates,
@@ -109,6 +167,8 @@ void ContactLoader::add_loop(const FacetView& facet, const Loop& loop, Sums& sum
 }
 
 void ContactLoader::add_below(const ContactPolygon& below, const FacetView& facet, Sums& sums) {
+  assert(std::none_of(below.corners, below.corners + below.count,
+                      [&](const ContactCorner& corner) { return corner.depth < -clip_rounding * sums.load.deepest; }));
   const double k = ground_.stiffness, c = ground_.damping;
   const auto pressure = [&](const ContactCorner& corner) { return k + c * corner.rate; };
   const auto presses = [&](const ContactCorner& corner) { return pressure(corner) > 0; };
@@ -136,7 +196,7 @@ double ContactLoader::add_pressing(const ContactPolygon& pressing, const FacetVi
   const LoadIntegrals here = load_integrals(pressing);
   sums.pressing.add(here, facet.weight);
   if (sums.slip.kind != SlipField::Kind::none) {
-    add_slip(pressing, friction_weight(facet.weight, sums.slip), sums.view, ground_, sums.slip, *scratch_, sums.load);
+    add_slip(pressing, friction_weight(facet.weight, sums.slip), sums);
   }
   if (!sums.rates) return here.depth_squared;
   sums.rates->rates.add(rate_integrals(pressing), facet.weight);
@@ -146,4 +206,40 @@ double ContactLoader::add_pressing(const ContactPolygon& pressing, const FacetVi
   return here.depth_squared;
 }
 
-}  // namespace clatter::numeric
+void ContactLoader::add_slip(const ContactPolygon& polygon, double weight, Sums& sums) {
+  const GroundView& view = sums.view;
+  const SlipField& field = sums.slip;
+  ContactLoad& load = sums.load;
+  const BodySlip slip = body_slip(polygon.origin, view, field);
+  const SlipRange range = widen(slip, polygon, field.planar, load);
+  const double rounding = range.width() > SlipField::alike * field.floor ? field.regularisation
+                                                                         : std::max(field.regularisation, field.floor);
+  if (field.planar && rounding == 0) {
+    return add_split(polygon, weight, view, ground_, slip, side_.data(), load);
+  }
+  const Vector3 along = polygon.normal.unitOrthogonal(), across = polygon.normal.cross(along);
+  for (int i = 0; i < polygon.count; ++i) {
+    const Vector3& u = polygon.corners[i].position;
+    plane_[static_cast<std::size_t>(i)] = {along.dot(u), across.dot(u)};
+  }
+  const auto over_plane = [&](double value, const Vector3& slope) {
+    return PlaneLinear{value, slope.dot(along), slope.dot(across)};
+  };
+  const double rate = -(view.vertical_speed + sums.rate_slope.dot(polygon.origin));
+  SlipPatch patch{plane_.data(),
+                  polygon.count,
+                  over_plane(-view.height(polygon.origin), -sums.normal),
+                  over_plane(ground_.stiffness + ground_.damping * rate, -ground_.damping * sums.rate_slope),
+                  over_plane(slip.east, slip.east_slope),
+                  over_plane(slip.north, slip.north_slope),
+                  rounding};
+  if (field.planar) patch.north = {};
+  const SlipIntegrals here = field.rough ? rough_slip_integrals(patch) : slip_integrals(patch);
+  const auto moment = [&](double value, double x, double y) -> Vector3 {
+    return value * polygon.origin + x * along + y * across;
+  };
+  add_force(here.east, moment(here.east, here.east_x, here.east_y), weight, view.east, load.slip_east, load);
+  add_force(here.north, moment(here.north, here.north_x, here.north_y), weight, view.north, load.slip_north, load);
+}
+
+}  // namespace clatter::numeric::inline contact

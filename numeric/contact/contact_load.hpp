@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The ground's load on a body: normal force, its moment, powers and stored energy.
+// The ground's load on a body: normal force, its moment, powers and stored energy, and friction over the patch.
 #pragma once
 
 #include <limits>
-#include <memory>
 #include <vector>
 
 #include "numeric/body/body.hpp"
+#include "numeric/contact/contact_polygon.hpp"
 #include "numeric/contact/ground.hpp"
-#include "numeric/contact/patch_integrals.hpp"
+#include "numeric/contact/slip_integrals.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline contact {
 
 /// How the body lies over the ground and moves, seen from the body frame.  Height above the ground of the body's
 /// point u: (reference.normal·u + reference.offset) + (turn·u + sink); the second part is the small change since
@@ -42,8 +42,8 @@ struct SlipField {
   bool planar = false;        ///< v has no part to the north
   bool rough = false;         ///< for an estimate, right to some per cent
   double regularisation = 0;  ///< v_r; 0: −v/|v| [m/s]
-  /// The v_r of a facet whose points slip alike, within `alike` of it: one that lies flat would else reverse the
-  /// friction of all its area at once [m/s].
+  /// The v_r of a facet whose points slip alike, within `alike` times this [m/s].  A facet that lies flat slips as one:
+  /// without it the friction of its whole area would reverse at once.
   double floor = 0;
   static constexpr double alike = 1e4;
   Vector3 centre = Vector3::Zero();  ///< of pressure, body frame [m]
@@ -86,8 +86,6 @@ struct LoadRates {
   Vector3 first_moment_by_area = Vector3::Zero();
 };
 
-struct SlipScratch;
-
 /// Sums the load over the facets near the ground.  Holds the scratch memory; one per thread.
 class ContactLoader {
  public:
@@ -107,11 +105,16 @@ class ContactLoader {
   void add_below(const ContactPolygon& below, const FacetView& facet, Sums& sums);
   /// @return ∫δ², not weighted.
   double add_pressing(const ContactPolygon& pressing, const FacetView& facet, Sums& sums);
+  /// Adds weight × the integrals of f_n = (k_G + c_G δ̇) δ against the slip direction over the polygon: by
+  /// slip_integrals, right to rounding; in the plane exactly, by the polygon's parts on the two sides of the line of no
+  /// slip.
+  void add_slip(const ContactPolygon& polygon, double weight, Sums& sums);
 
   const Body& body_;
   const Ground& ground_;
   std::vector<ContactCorner> whole_, below_, part_;
-  std::shared_ptr<SlipScratch> scratch_;
+  std::vector<ContactCorner> side_;  ///< part of a polygon that slips one way
+  std::vector<PlanePoint> plane_;    ///< polygon in its facet's plane
 };
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline contact

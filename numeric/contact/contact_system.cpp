@@ -2,14 +2,63 @@
 #include "numeric/contact/contact_system.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
-#include "numeric/contact/contact_instant.hpp"
-#include "numeric/motion/euler_parameters.hpp"
+#include "numeric/motion/equations_of_motion.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline contact {
+
+/// All that is known at an instant but the friction force.
+struct ContactSystem::Instant {
+  const FrictionPhase& phase;
+  const GroundView& view;
+  const ContactLoad& load;
+  const LoadRates& rates;
+  Vector3 normal;
+  Vector3 centre;    ///< of pressure
+  Vector3 moment;    ///< of the normal load, body frame
+  double rise;       ///< vertical acceleration of the centre of mass
+  AlongGround slip;  ///< velocity of the pressure centre
+
+  struct Changes {
+    double force;  ///< dF_n/dt
+    Vector3 first_moment;
+  };
+  /// Rates of F_n and ∫f_n u for an angular acceleration, by δ̈ = −(V̇_z + h·u).
+  [[nodiscard]] Changes changes(const Ground& ground, const Vector3& acceleration) const {
+    const Vector3& omega = view.angular_velocity;
+    const Vector3 h = normal.cross(acceleration) + normal.dot(omega) * omega - omega.squaredNorm() * normal;
+    const double k = ground.stiffness, c = ground.damping;
+    const LoadIntegrals& l = rates.load;
+    const RateIntegrals& r = rates.rates;
+    return {k * r.rate + c * (r.rate_squared - rise * l.depth - h.dot(l.depth_position)) + rates.force_by_area,
+            k * r.rate_position +
+                c * (r.rate_squared_position - rise * l.depth_position - r.depth_position_squared * h) +
+                rates.first_moment_by_area};
+  }
+  /// What an angular acceleration adds to them, by the dampers alone.
+  [[nodiscard]] Changes response(const Ground& ground, const Vector3& acceleration) const {
+    const Vector3 h = normal.cross(acceleration);
+    return {-ground.damping * h.dot(rates.load.depth_position),
+            -ground.damping * (rates.rates.depth_position_squared * h)};
+  }
+  /// F_n ċ, ċ being the velocity at which the pressure centre runs over the body: finite where F_n fades.
+  [[nodiscard]] Vector3 wander(const Changes& change) const { return change.first_moment - centre * change.force; }
+};
+
+/// Friction's resultant, its moment about the centre of mass (body frame) and the power that it dissipates.
+struct ContactSystem::Friction {
+  AlongGround force;
+  Vector3 moment = Vector3::Zero();
+  double power = 0;
+  AlongGround hold;  ///< see ContactDiagnosis
+};
+
 namespace {
+
+constexpr double unit_rounding = 1e-9;  ///< of the square of an attitude's norm: what users may have rounded
 
 /// (Aᵀ − 1) v for the rotation A of Euler parameters (b; e): no cancellation when it is small.
 Vector3 back_turned_change(double b, const Vector3& e, const Vector3& v) {
@@ -22,6 +71,40 @@ AlongGround slip_at(const GroundView& view, const Vector3& u) {
   return {view.east_speed + view.east.dot(turning), view.north_speed + view.north.dot(turning)};
 }
 
+Vector3 along(const GroundView& view, const AlongGround& vector) {
+  return vector.east * view.east + vector.north * view.north;
+}
+
+/// Slip that is slow leans to the direction that it had when the phase began: rounding must not choose one.  Beyond the
+/// instant where slip ends, where the step is only a trial, it has the old direction alone, which keeps it smooth.
+AlongGround leaning_slip(const AlongGround& slip, const FrictionPhase& phase) {
+  const AlongGround lean = phase.direction * std::max(phase.slow, std::numeric_limits<double>::min());
+  if (!(slip.dot(phase.direction) > 0)) return lean;
+  return {slip.east + lean.east, slip.north + lean.north};
+}
+
+AlongGround bounded(const AlongGround& force, double limit) {
+  const double size = force.norm();
+  if (size <= limit) return force;
+  return std::isfinite(size) ? force * (limit / size) : AlongGround{};
+}
+
+/// Root x of D x = b for D = (by_east, by_north); 0 if D is singular.
+AlongGround solve(const AlongGround& by_east, const AlongGround& by_north, const AlongGround& b) {
+  const double size = std::max(by_east.norm(), by_north.norm());
+  const AlongGround p = by_east * (1 / size), q = by_north * (1 / size);
+  const double determinant = p.east * q.north - q.east * p.north;
+  if (!(std::fabs(determinant) > 0)) return {};
+  return AlongGround{b.east * q.north - b.north * q.east, b.north * p.east - b.east * p.north} *
+         (1 / (size * determinant));
+}
+
+AlongGround unit_slip(const AlongGround& slip, const FrictionPhase& phase, bool planar) {
+  if (planar) return phase.direction;
+  const AlongGround leaning = leaning_slip(slip, phase);
+  return leaning * (1 / leaning.norm());
+}
+
 }  // namespace
 
 double AlongGround::norm() const { return std::hypot(east, north); }
@@ -31,6 +114,7 @@ ContactSystem::ContactSystem(const Body& body, const Ground& ground, double grav
       loader_(body, ground) {}
 
 void ContactSystem::begin(const MotionState& touch) {
+  assert(std::fabs(touch.attitude.squaredNorm() - 1) <= unit_rounding);
   touch_ = touch;
   const Eigen::Quaterniond back = touch.attitude.conjugate();
   plane_ = {back * Vector3::UnitZ(), touch.centre.z()};
@@ -77,34 +161,37 @@ Vector3 ContactSystem::response(const Vector3& moment) const {
   return planar_ ? equations_.response_about(north_, moment) : equations_.response(moment);
 }
 
-void ContactSystem::derivative(const ContactState& y, ContactState& rate) { evaluate(y, rate, nullptr, nullptr); }
+void ContactSystem::derivative(const ContactState& y, ContactState& rate) {
+  evaluate(y, phase_, rate, nullptr, nullptr);
+}
 
 ContactDiagnosis ContactSystem::diagnose(const ContactState& y, ContactState& rate, std::vector<int>* submerged) {
   ContactDiagnosis diagnosis;
-  evaluate(y, rate, &diagnosis, submerged);
+  evaluate(y, phase_, rate, &diagnosis, submerged);
   return diagnosis;
 }
 
-SlipField ContactSystem::slip_field() const {
+SlipField ContactSystem::slip_field(const FrictionPhase& phase) const {
   using Kind = FrictionPhase::Kind;
   SlipField field;
-  if (phase_.kind != Kind::regularised && phase_.kind != Kind::local) return field;
+  if (phase.kind != Kind::regularised && phase.kind != Kind::local) return field;
   field.kind = SlipField::Kind::points;
   field.planar = planar_;
-  if (phase_.kind == Kind::regularised) field.regularisation = ground_.regularisation_speed;
-  else field.floor = phase_.floor;
+  if (phase.kind == Kind::regularised) field.regularisation = ground_.regularisation_speed;
+  else field.floor = phase.floor;
   return field;
 }
 
-void ContactSystem::evaluate(const ContactState& y, ContactState& rate, ContactDiagnosis* diagnosis,
-                             std::vector<int>* submerged) {
+void ContactSystem::evaluate(const ContactState& y, const FrictionPhase& phase, ContactState& rate,
+                             ContactDiagnosis* diagnosis, std::vector<int>* submerged) {
   ++evaluations_;
   const GroundView view = this->view(y);
   LoadRates rates;
-  const bool wants_rates = diagnosis || phase_.kind == FrictionPhase::Kind::stick;
-  const ContactLoad load = loader_.load(view, slip_field(), wants_rates ? &rates : nullptr, submerged);
+  const bool wants_rates = diagnosis || phase.kind == FrictionPhase::Kind::stick;
+  const ContactLoad load = loader_.load(view, slip_field(phase), wants_rates ? &rates : nullptr, submerged);
   const bool presses = load.force > 0;
-  Instant at{view,
+  Instant at{phase,
+             view,
              load,
              rates,
              view.normal(),
@@ -136,12 +223,10 @@ void ContactSystem::evaluate(const ContactState& y, ContactState& rate, ContactD
 }
 
 AlongGround ContactSystem::sticking_force(const ContactState& y) {
-  const FrictionPhase before = phase_;
-  phase_ = {.kind = FrictionPhase::Kind::stick, .direction = {}};
   ContactState rate;
-  const AlongGround force = diagnose(y, rate).hold;
-  phase_ = before;
-  return force;
+  ContactDiagnosis diagnosis;
+  evaluate(y, {.kind = FrictionPhase::Kind::stick, .direction = {}}, rate, &diagnosis, nullptr);
+  return diagnosis.hold;
 }
 
 SlipRange ContactSystem::slip_range(const ContactState& y) {
@@ -207,4 +292,76 @@ bool ContactSystem::is_submerged(const ContactState& y) const {
   return std::all_of(vertices.begin(), vertices.end(), [&](const Vector3& u) { return at.height(u) < 0; });
 }
 
-}  // namespace clatter::numeric
+ContactSystem::Friction ContactSystem::friction(const Instant& at) {
+  using Kind = FrictionPhase::Kind;
+  const double mu = ground_.sliding_friction;
+  switch (at.phase.kind) {
+    case Kind::none: return {};
+    case Kind::regularised:
+    case Kind::local: return over_patch(at, at.load);
+    case Kind::stick: return in_stick(at);
+    case Kind::slip: break;
+  }
+  if (!at.phase.varies) return at_centre(at, unit_slip(at.slip, at.phase, planar_) * (-mu * at.load.force));
+  SlipField field{
+      .kind = SlipField::Kind::turning, .centre = at.centre, .spin = at.normal.dot(at.view.angular_velocity)};
+  const AlongGround slip = leaning_slip(at.slip, at.phase);
+  field.east = slip.east;
+  field.north = slip.north;
+  return over_patch(at, loader_.load(at.view, field));
+}
+
+ContactSystem::Friction ContactSystem::at_centre(const Instant& at, const AlongGround& force) const {
+  return {force, at.centre.cross(along(at.view, force)), -force.dot(at.slip), {}};
+}
+
+/// A point at rest takes no work: where a remaining slip would give some back, none is booked.
+ContactSystem::Friction ContactSystem::in_stick(const Instant& at) const {
+  const AlongGround hold = stick(at);
+  const double bound = stick_coefficient(at.phase) * at.load.force;
+  Friction friction = at_centre(at, bounded(hold, bound));
+  friction.power = std::max(friction.power, 0.0);
+  friction.hold = bounded(hold, 2 * bound);
+  return friction;
+}
+
+/// Only the resultant at the pressure centre and the moment about the vertical are real of a patch taken as flat; so
+/// their power, −∫f·v over the flat patch, is never negative.
+ContactSystem::Friction ContactSystem::over_patch(const Instant& at, const ContactLoad& load) const {
+  const double mu = ground_.sliding_friction;
+  const AlongGround force{mu * load.slip_east, planar_ ? 0 : mu * load.slip_north};
+  Friction friction{force, mu * load.slip_moment, 0, {}};
+  if (at.phase.kind == FrictionPhase::Kind::slip) {
+    const Vector3 at_centre = at.centre.cross(along(at.view, force));
+    friction.moment = at_centre + at.normal * at.normal.dot(friction.moment - at_centre);
+  }
+  friction.power =
+      -friction.force.dot({at.view.east_speed, at.view.north_speed}) - friction.moment.dot(at.view.angular_velocity);
+  return friction;
+}
+
+/// F_n times the condition of stick is linear in F_t:
+///     F_n [F_t/m + α(F_t) × c]_t + [ω × F_n ċ(F_t)]_t = −F_n [α₀ × c + ω × (ω × c) + fading v]_t − [ω × F_n ċ₀]_t,
+/// α₀ and ċ₀ being those without friction.  Both sides vanish with F_n, so that neither is divided by F_n.
+AlongGround ContactSystem::stick(const Instant& at) const {
+  const GroundView& view = at.view;
+  const Vector3& omega = view.angular_velocity;
+  const double normal = at.load.force;
+  const auto along_ground = [&](const Vector3& point, const AlongGround& rest) {
+    return AlongGround{view.east.dot(point) + normal * rest.east, view.north.dot(point) + normal * rest.north};
+  };
+  const auto per_force = [&](const AlongGround& unit) {
+    const Vector3 alpha = response(at.centre.cross(along(view, unit)));
+    const Vector3 wander = at.wander(at.response(ground_, alpha));
+    return along_ground(normal * alpha.cross(at.centre) + omega.cross(wander), unit * (1 / body_.mass()));
+  };
+  const Vector3 alpha = angular_acceleration(at.moment, omega);
+  const Vector3 wander = at.wander(at.changes(ground_, alpha));
+  const Vector3 turning = alpha.cross(at.centre) + omega.cross(omega.cross(at.centre));
+  const AlongGround free = along_ground(normal * turning + omega.cross(wander), at.slip * at.phase.fading);
+  const AlongGround by_east = per_force({1, 0});
+  if (planar_) return by_east.east != 0 ? AlongGround{-free.east / by_east.east, 0} : AlongGround{};
+  return solve(by_east, per_force({0, 1}), free * -1);
+}
+
+}  // namespace clatter::numeric::inline contact

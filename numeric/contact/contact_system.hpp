@@ -1,13 +1,49 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The equations of motion of a body in contact with the ground: the right side of Eq. 3 of Shan et al. (2005).
+// The equations of motion of a body in contact with the ground: state and right side of Eq. 3 of Shan et al. (2005).
 #pragma once
 
-#include "numeric/contact/contact_load.hpp"
-#include "numeric/contact/contact_state.hpp"
-#include "numeric/motion/motion_state.hpp"
-#include "numeric/motion/newton_euler.hpp"
+#include <Eigen/Core>
 
-namespace clatter::numeric {
+#include "numeric/contact/contact_load.hpp"
+#include "numeric/motion/equations_of_motion.hpp"
+#include "numeric/motion/motion_state.hpp"
+
+namespace clatter::numeric::inline contact {
+
+/// State of a contact.  Everything is relative to the touch-down, so that depths of a billionth of the body's size
+/// keep their digits.
+///     r       displacement of the centre of mass, world [m]
+///     β       Euler parameters of the rotation since touch-down
+///     V       velocity of the centre of mass, world [m/s]
+///     ω′      angular velocity, body frame [rad/s]
+///     W_d, W_r, W_f   energy dissipated by dampers, released by the clamp, dissipated by friction [J]
+using ContactState = Eigen::Matrix<double, 16, 1>;
+
+template <class State>
+auto displacement(State& y) {
+  return y.template head<3>();
+}
+template <class State>
+auto euler_parameters(State& y) {
+  return y.template segment<4>(3);
+}
+template <class State>
+auto velocity(State& y) {
+  return y.template segment<3>(7);
+}
+/// ω′.
+template <class State>
+auto angular_velocity(State& y) {
+  return y.template segment<3>(10);
+}
+/// W_d, W_r, W_f.
+template <class State>
+auto works(State& y) {
+  return y.template tail<3>();
+}
+[[nodiscard]] inline double damping_work(const ContactState& y) { return works(y)[0]; }
+[[nodiscard]] inline double released_work(const ContactState& y) { return works(y)[1]; }
+[[nodiscard]] inline double friction_work(const ContactState& y) { return works(y)[2]; }
 
 /// A vector along the ground: world x and y.
 struct AlongGround {
@@ -75,9 +111,7 @@ class ContactSystem {
   [[nodiscard]] MotionState motion(const ContactState& y) const;
 
   /// μ_s, or μ_k where nothing is at rest.
-  [[nodiscard]] double stick_coefficient() const {
-    return phase_.turns ? ground_.sliding_friction : ground_.static_friction;
-  }
+  [[nodiscard]] double stick_coefficient() const { return stick_coefficient(phase_); }
   /// Angular velocity about the vertical [rad/s].
   [[nodiscard]] double vertical_spin(const ContactState& y) const;
 
@@ -116,9 +150,13 @@ class ContactSystem {
  private:
   struct Instant;
   struct Friction;
-  /// Where the present friction acts: at a patch as a whole, or at each of its points.
-  [[nodiscard]] SlipField slip_field() const;
-  void evaluate(const ContactState& y, ContactState& rate, ContactDiagnosis* diagnosis, std::vector<int>* submerged);
+  [[nodiscard]] double stick_coefficient(const FrictionPhase& phase) const {
+    return phase.turns ? ground_.sliding_friction : ground_.static_friction;
+  }
+  /// Where friction of the phase acts: at a patch as a whole, or at each of its points.
+  [[nodiscard]] SlipField slip_field(const FrictionPhase& phase) const;
+  void evaluate(const ContactState& y, const FrictionPhase& phase, ContactState& rate, ContactDiagnosis* diagnosis,
+                std::vector<int>* submerged);
   [[nodiscard]] GroundView view(const ContactState& y) const;
   [[nodiscard]] Vector3 angular_acceleration(const Vector3& moment, const Vector3& omega) const;
   [[nodiscard]] Vector3 response(const Vector3& moment) const;
@@ -141,4 +179,4 @@ class ContactSystem {
   long evaluations_ = 0;
 };
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline contact

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline contact {
 namespace {
 
 using Rule = std::array<GaussNode, most_gauss_nodes>;
@@ -51,6 +52,7 @@ std::array<Rule, most_gauss_nodes + 1> make_rules() {
 }  // namespace
 
 std::span<const GaussNode> gauss_rule(int n) {
+  assert(1 <= n && n <= most_gauss_nodes);
   static const std::array<Rule, most_gauss_nodes + 1> rules = make_rules();
   return {rules[static_cast<std::size_t>(n)].data(), static_cast<std::size_t>(n)};
 }
@@ -62,4 +64,4 @@ int gauss_order(double ellipse) {
   return wanted < most_gauss_nodes ? std::max(static_cast<int>(wanted), for_polynomial + 1) : most_gauss_nodes;
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline contact

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "numeric/contact/ground.hpp"
 
-#include "numeric/base/require.hpp"
+#include "numeric/base/errors.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline contact {
 
 void Ground::validate() const {
   using detail::require;
@@ -15,4 +15,4 @@ void Ground::validate() const {
   require(regularisation_speed > 0, "ground.regularisation_speed", regularisation_speed, "finite and greater than 0");
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline contact

@@ -2,44 +2,9 @@
 // Friction over a contact polygon whose points slip in different directions.
 #pragma once
 
-namespace clatter::numeric {
+#include "numeric/contact/slip_edges.hpp"
 
-/// A point, or a vector, of a facet's plane [m].
-struct PlanePoint {
-  double x = 0, y = 0;
-};
-
-/// A function that is linear over a facet's plane.
-struct PlaneLinear {
-  double value = 0;     ///< at the origin
-  double x = 0, y = 0;  ///< its slopes
-  [[nodiscard]] double at(const PlanePoint& p) const { return value + (x * p.x + y * p.y); }
-  [[nodiscard]] double along(const PlanePoint& p) const { return x * p.x + y * p.y; }
-};
-
-/// A polygon of a facet, what presses on it and how it slips.
-struct SlipPatch {
-  const PlanePoint* corners = nullptr;  ///< counter-clockwise: positive; the origin is one of them or near
-  int count = 0;
-  PlaneLinear depth, stiffness;  ///< pressure q = depth × stiffness, stiffness = k_G + c_G δ̇
-  PlaneLinear east, north;       ///< slip velocity v [m/s]
-  double rounding = 0;           ///< v_r: the direction is v/√(|v|² + v_r²) [m/s], >= 0
-};
-
-/// ∫q s and ∫q s p over the polygon, s = v/√(|v|² + v_r²); s = 0 where the root is.
-struct SlipIntegrals {
-  double east = 0, north = 0;
-  double east_x = 0, east_y = 0, north_x = 0, north_y = 0;  ///< times a coordinate of the plane
-
-  void add(const SlipIntegrals& other, double weight) {
-    east += weight * other.east;
-    north += weight * other.north;
-    east_x += weight * other.east_x;
-    east_y += weight * other.east_y;
-    north_x += weight * other.north_x;
-    north_y += weight * other.north_y;
-  }
-};
+namespace clatter::numeric::inline contact {
 
 /// The integrals, whatever the polygon's cut and the slopes of the slip.  With p₀ the point of no slip (v_r = 0):
 /// - No slip to the north, as in the plane: a sum over the edges in closed form (one_way_slip_integrals).
@@ -62,4 +27,4 @@ struct SlipIntegrals {
 /// The same for estimates: right to some per cent, at a cost that does not depend on the slip.
 [[nodiscard]] SlipIntegrals rough_slip_integrals(const SlipPatch& patch);
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline contact

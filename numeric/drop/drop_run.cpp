@@ -2,18 +2,72 @@
 #include "numeric/drop/drop_run.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <memory>
 
 #include "numeric/drop/error_growth.hpp"
-#include "numeric/drop/history_writer.hpp"
+#include "numeric/drop/history.hpp"
 #include "numeric/motion/free_flight.hpp"
-#include "numeric/motion/touch_point.hpp"
 #include "numeric/stepping/contact_run.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline drop {
 namespace {
+
+/// Turns instants of contacts and flights into history samples.
+class HistoryWriter {
+ public:
+  /// `recorder` may be null: then nothing is done.
+  HistoryWriter(const Body& body, double gravity, HistoryRecorder* recorder)
+      : body_(body), gravity_(gravity), recorder_(recorder) {}
+
+  /// An instant of the contact that began at `start` [s].
+  void contact(const ContactSystem& system, const ContactInstant& at, double start);
+  /// Points of the flight that began at `start` and lasts `duration` [s], its ends left to the contacts.
+  void flight(const FreeFlight& flight, double start, double duration);
+
+ private:
+  [[nodiscard]] HistorySample sample(double time, const MotionState& state) const;
+
+  const Body& body_;
+  double gravity_;
+  HistoryRecorder* recorder_;
+};
+
+HistorySample HistoryWriter::sample(double time, const MotionState& state) const {
+  const Vector3& omega = state.angular_velocity;
+  HistorySample sample;
+  sample.time = time;
+  sample.state = state;
+  sample.energy_translation = 0.5 * body_.mass() * state.velocity.squaredNorm();
+  sample.energy_rotation = 0.5 * omega.dot(body_.inertia() * omega);
+  sample.energy_potential = body_.mass() * gravity_ * state.centre.z();
+  return sample;
+}
+
+void HistoryWriter::contact(const ContactSystem& system, const ContactInstant& at, double start) {
+  if (!recorder_) return;
+  HistorySample row = sample(start + at.time, system.motion(at.state));
+  const ContactLoad& load = at.diagnosis.load;
+  row.in_contact = true;
+  row.force = Vector3(at.diagnosis.friction.east, at.diagnosis.friction.north, load.force);
+  row.energy_ground = load.energy;
+  row.point_velocity = point_velocity(row.state, load.force > 0 ? at.diagnosis.centre : touch_point(body_, row.state));
+  recorder_->record(row);
+}
+
+void HistoryWriter::flight(const FreeFlight& flight, double start, double duration) {
+  if (!recorder_) return;
+  const double turn = flight.at(0).angular_velocity.norm() * duration;
+  const int parts = static_cast<int>(std::clamp(turn * 8, 20.0, 2000.0));
+  for (int i = 1; i < parts; ++i) {
+    const double time = duration * i / parts;
+    HistorySample row = sample(start + time, flight.at(time));
+    row.point_velocity = point_velocity(row.state, touch_point(body_, row.state));
+    recorder_->record(row);
+  }
+}
 
 /// Rounding errors of double precision, so grown, spoil the second digit.
 constexpr double predictable_growth = 0.01 / std::numeric_limits<double>::epsilon();
@@ -67,7 +121,7 @@ class Run {
         request.error_estimates && world.ground.has_friction() && world.ground.friction == FrictionLaw::coulomb;
     control_.point_friction = world.point_friction;
     if (observer.history || observer.progress) {
-      control_.observe = [this](const ContactInstant& at) { return observe(at); };
+      observe_ = [this](const ContactInstant& at) { return observe(at); };
     }
   }
 
@@ -90,6 +144,7 @@ class Run {
     const FreeFlight flight(body_, state_, world_.gravity, world_.planar);
     const TouchDown down = next_touch_down(body_, flight);
     result_.root_evaluations += down.evaluations;
+    assert(down.time >= 0);
     if (down.kind == TouchDown::Kind::undecided) return end(Outcome::flight_undecided);
     if (down.kind == TouchDown::Kind::never) return end(Outcome::no_further_impact);
     if (static_cast<int>(result_.impacts.size()) == request_.impacts) return end(Outcome::impact_limit);
@@ -109,12 +164,13 @@ class Run {
   /// The contact; false if it did not end in a lift-off.
   bool strike() {
     const Vector3 point = touch_point(body_, state_);
-    const ContactResult contact = contact_.run(state_, point, control_);
+    const ContactResult contact = contact_.run(state_, point, control_, observe_);
     result_.step = contact.step;
     const bool lifts = contact.ending == ContactEnding::lift_off;
     if (!lifts && contact.ending != ContactEnding::at_rest && contact.ending != ContactEnding::sustained_contact) {
       return end(outcome_of(contact.ending));
     }
+    assert(contact.duration > 0 && contact.touches >= 1);
     if (!(contact.scales.depth > least_depth * placement_)) return end(Outcome::not_representable);
     result_.impacts.push_back(record(contact, point));
     if (request_.amplification) note_growth(contact);
@@ -160,13 +216,7 @@ class Run {
   }
 
   void note_growth(const ContactResult& contact) {
-    const std::function<bool(const ContactInstant&)> observe = std::move(control_.observe);
-    const bool estimates_local_slip = control_.estimate_local_slip;
-    control_.observe = nullptr;
-    control_.estimate_local_slip = false;
     growth_.touch(contact_, control_, state_, contact);
-    control_.observe = observe;
-    control_.estimate_local_slip = estimates_local_slip;
     ImpactRecord& row = result_.impacts.back();
     row.amplification = growth_.factor();
     row.predictable = row.amplification < predictable_growth;
@@ -187,6 +237,7 @@ class Run {
   std::unique_ptr<Stepper> stepper_;
   ContactRun contact_;
   ContactControl control_;
+  ContactObserver observe_;
   MotionState state_;
   ErrorGrowth growth_;
   HistoryWriter history_;
@@ -209,4 +260,4 @@ DropRun run_drop(const Body& body, const World& world, const MotionState& start,
   return Run(body, world, start, request, integration, observer).run();
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline drop

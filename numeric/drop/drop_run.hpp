@@ -9,7 +9,7 @@
 #include "numeric/drop/settings.hpp"
 #include "numeric/stepping/step_control.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline drop {
 
 /// How finely a run is computed: an Accuracy put in figures.
 struct Integration {
@@ -29,12 +29,12 @@ struct DropRun {
   MotionState final_state;
 };
 
-/// Of `request` the number of impacts and the amplification; with error estimates also ImpactRecord::local_slip, which
-/// is a part of them.
+/// Takes from `request` the number of impacts and the amplification; with error estimates also
+/// ImpactRecord::local_slip, which is a part of them.
 [[nodiscard]] DropRun run_drop(const Body& body, const World& world, const MotionState& start, const Request& request,
                                const Integration& integration, const Observer& observer);
 
 /// Translational + rotational + potential (m g z) energy [J].
 [[nodiscard]] double mechanical_energy(const Body& body, const MotionState& state, double gravity);
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline drop

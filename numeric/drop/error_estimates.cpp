@@ -2,10 +2,11 @@
 #include "numeric/drop/error_estimates.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline drop {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -13,7 +14,7 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 constexpr double finer = 0.1;   ///< tolerance of the second run, over that of the main one
 constexpr double coarser = 10;  ///< the same where a finer one is not to be had
-/// Of the longest step, over that of the main run: where steps are as long as they may be, the tolerance changes
+/// Longest step of the second run, over that of the main one: where steps are as long as they may be, the tolerance changes
 /// nothing.
 constexpr double shorter_steps = 0.7;
 /// Errors of single numbers scatter about the power of the tolerance: of random drops 95 of 100 lie within these.
@@ -80,7 +81,7 @@ void add_rounding(const Body& body, const ImpactRecord& row, ImpactNumbers& erro
     add(*work, n.energy_before);
   }
   for (double* angle : {&error.inclination, &error.contact_angle}) add(*angle, 1);  // from direction cosines
-  // Of a point of the body: what V and ω × u leave, about as large as afterwards.
+  // The velocity of a point of the body is what V and ω × u leave, about as large as afterwards.
   add(error.approach_speed, n.velocity_after.norm() + body.radius() * n.angular_velocity_after.norm());
   // Heights are known to the rounding of the body's size, and touch-down and lift-off to that over the speed.
   const double separation = n.approach_speed * (n.restitution > 0 ? std::min(n.restitution, 1.0) : 1);
@@ -113,6 +114,7 @@ SecondRun second_run(const Integration& main, double used_step) {
 
 void estimate_errors(const Body& body, double error_per_distance, std::vector<ImpactRecord>& rows,
                      const std::vector<ImpactRecord>& second) {
+  assert(error_per_distance > 0);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     ImpactRecord& row = rows[i];
     const bool same_kind = i < second.size() && second[i].end == row.end && second[i].touches == row.touches;
@@ -132,4 +134,4 @@ void forget_errors(std::vector<ImpactRecord>& rows) {
   }
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline drop

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "numeric/motion/newton_euler.hpp"
-#include "numeric/motion/touch_point.hpp"
+#include "numeric/motion/equations_of_motion.hpp"
+#include "numeric/motion/free_flight.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline drop {
 namespace {
 
 constexpr double radians_per_step = 0.1;
@@ -140,6 +140,7 @@ void ErrorGrowth::touch(ContactRun& run, const ContactControl& control, const Mo
   if (down.kind != TouchDown::Kind::touch) return;
   const MotionState start = approach_flight.at(down.time);
   ContactControl rough = control;
+  rough.estimate_local_slip = false;
   rough.steps.tolerance = std::max(control.steps.tolerance, 0.02 * size);
   const ContactResult result = run.run(start, touch_point(body_, start), rough);
   if (result.ending != ContactEnding::lift_off) return;
@@ -150,4 +151,4 @@ void ErrorGrowth::touch(ContactRun& run, const ContactControl& control, const Mo
   take(between(here, there) / size);
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline drop

@@ -5,7 +5,7 @@
 #include "numeric/motion/free_flight.hpp"
 #include "numeric/stepping/contact_run.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline drop {
 
 /// Carries one small deviation along a drop: through flights by the linearised equations, through contacts by a
 /// neighbouring run, rescaled after each, so that a growth beyond 1/ε still shows.  Deviations are measured in
@@ -40,4 +40,4 @@ class ErrorGrowth {
   double factor_ = 1;
 };
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline drop

@@ -4,7 +4,7 @@
 
 #include "numeric/motion/motion_state.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline drop {
 
 /// One instant.
 struct HistorySample {
@@ -18,7 +18,7 @@ struct HistorySample {
   double energy_ground = 0;                  ///< stored in the ground's springs [J]
   bool in_contact = false;
 
-  /// Of body and ground together [J]; only dampers, friction and release change it.
+  /// Energy of body and ground together [J]; only dampers, friction and release change it.
   [[nodiscard]] double energy_total() const {
     return energy_translation + energy_rotation + energy_potential + energy_ground;
   }
@@ -32,4 +32,4 @@ class HistoryRecorder {
   virtual void record(const HistorySample& sample) = 0;
 };
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline drop

@@ -5,10 +5,10 @@
 #include <Eigen/Geometry>
 
 #include "numeric/base/linear_algebra.hpp"
-#include "numeric/body/contact_end.hpp"
-#include "numeric/stepping/friction_mode.hpp"
+#include "numeric/body/body.hpp"
+#include "numeric/stepping/contact_result.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline drop {
 
 /// The numbers of an impact.  The same struct holds their error estimates.
 struct ImpactNumbers {
@@ -67,4 +67,4 @@ enum class Outcome {
   interrupted,        ///< by `progress`
 };
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline drop

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "numeric/drop/settings.hpp"
 
-#include "numeric/base/require.hpp"
+#include "numeric/base/errors.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline drop {
 
 using detail::require;
 
@@ -28,4 +28,4 @@ void Accuracy::validate() const {
   }
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline drop

@@ -6,9 +6,9 @@
 
 #include "numeric/contact/ground.hpp"
 #include "numeric/drop/history.hpp"
-#include "numeric/stepping/method.hpp"
+#include "numeric/stepping/stepper.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline drop {
 
 /// What is simulated: the laws that hold around the body.
 struct World {
@@ -45,7 +45,7 @@ struct Accuracy {
   Method method = Method::automatic;
   int digits = 6;   ///< significant digits wanted, 2 to 12
   double step = 0;  ///< of tvd_rk3 [s]; 0: chosen from `digits` and the estimated contact time
-  /// Of an adaptive method: local error <= tolerance × size, per step, from 5e-14 to 0.1; 0: 10^(−digits − 4).
+  /// An adaptive method holds local error <= tolerance × size, per step; from 5e-14 to 0.1, 0: 10^(−digits − 4).
   double tolerance = 0;
   long evaluation_limit = 3'000'000;  ///< of the contact forces, in the main run; then the run ends
 
@@ -60,4 +60,4 @@ struct Observer {
   std::function<bool(int, long)> progress = nullptr;
 };
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline drop

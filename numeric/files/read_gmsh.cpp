@@ -10,11 +10,10 @@
 #include <unordered_map>
 
 #include "numeric/base/errors.hpp"
-#include "numeric/base/require.hpp"
 #include "numeric/files/import.hpp"
 #include "numeric/mesh/element_geometry.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline files {
 namespace {
 
 namespace mesh_api = gmsh::model::mesh;
@@ -176,4 +175,4 @@ Mesh read_gmsh(const std::string& path, double density, double unit) {
   }
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline files

@@ -11,10 +11,9 @@
 #include <unordered_map>
 
 #include "numeric/base/errors.hpp"
-#include "numeric/base/require.hpp"
 #include "numeric/files/import.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline files {
 namespace {
 
 constexpr std::size_t header_size = 84;    // 80 bytes of comment, then the number of triangles
@@ -225,4 +224,4 @@ Surface read_stl(const std::string& path, double unit) {
   return builder.surface();
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline files

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "numeric/base/require.hpp"
+#include "numeric/base/errors.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline mesh {
 namespace {
 
 /// Point i of n + 1 equidistant ones from −half to half, symmetric to the bit.
@@ -159,4 +159,4 @@ Mesh box_mesh(const BoxMesh& box) {
   return mesh;
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline mesh

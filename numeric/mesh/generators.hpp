@@ -4,7 +4,7 @@
 
 #include "numeric/mesh/mesh.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline mesh {
 
 /// A solid cylinder along x, centred at the origin.  Its faceted mesh has less volume than the round
 /// cylinder; the density is scaled so that the mass is `mass`.
@@ -30,4 +30,4 @@ struct BoxMesh {
 [[nodiscard]] Mesh rod_mesh(const RodMesh& rod);
 [[nodiscard]] Mesh box_mesh(const BoxMesh& box);
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline mesh

@@ -2,10 +2,12 @@
 #include "numeric/motion/free_flight.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
+#include <vector>
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline motion {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -43,13 +45,7 @@ double safe_time(const Approach& at) {
 template <class Visit>
 void for_each_vertex(const Body& body, int facet, Visit&& visit) {
   const Facets& facets = body.facets();
-  const Facet& which = facets.facets[static_cast<std::size_t>(facet)];
-  for (int l = which.begin; l < which.end; ++l) {
-    const Loop& loop = facets.loops[static_cast<std::size_t>(l)];
-    for (int c = loop.begin; c < loop.end; ++c) {
-      visit(facets.vertices[static_cast<std::size_t>(facets.corners[static_cast<std::size_t>(c)])]);
-    }
-  }
+  facets.for_each_corner(facet, [&](int vertex) { visit(facets.vertices[static_cast<std::size_t>(vertex)]); });
 }
 
 /// The smallest safe time of all vertices, and whether one of them touches now.
@@ -128,6 +124,7 @@ TouchDown next_touch_down(const Body& body, const FreeFlight& flight, long evalu
       result.kind = TouchDown::Kind::never;
       return result;
     }
+    assert(step >= 0);
     // A step below the resolution of time cannot lead on: the vertex is as near as numbers tell.
     const double next = result.time + step;
     result.time = next > result.time ? next : std::nextafter(result.time, std::numeric_limits<double>::infinity());
@@ -149,4 +146,48 @@ double lowest_height(const Body& body, const MotionState& state) {
   return lowest;
 }
 
-}  // namespace clatter::numeric
+namespace {
+
+/// The lowest vertices, each once.
+std::vector<int> touching_vertices(const Body& body, const MotionState& state) {
+  // Heights over the centre of mass: over the ground those of a high flight would lose the body's size.
+  MotionState level_with_centre = state;
+  level_with_centre.centre.setZero();
+  const double level = lowest_height(body, level_with_centre) + 1e-11 * body.radius();
+  const GroundPlane plane{state.attitude.conjugate() * Vector3::UnitZ(), 0};
+  const Facets& facets = body.facets();
+  std::vector<int> touching;
+  body.hierarchy().visit_below(plane, level, [&](int facet) {
+    facets.for_each_corner(facet, [&](int vertex) {
+      if (plane.height(facets.vertices[static_cast<std::size_t>(vertex)]) <= level) touching.push_back(vertex);
+    });
+  });
+  std::sort(touching.begin(), touching.end());
+  touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
+  return touching;
+}
+
+}  // namespace
+
+Vector3 touch_point(const Body& body, const MotionState& state) {
+  const std::vector<int> touching = touching_vertices(body, state);
+  assert(!touching.empty());
+  Vector3 sum = Vector3::Zero();
+  for (const int vertex : touching) sum += body.facets().vertices[static_cast<std::size_t>(vertex)];
+  return sum / static_cast<double>(touching.size());
+}
+
+FirstTouch first_touch(const Body& body, const MotionState& state) {
+  FirstTouch touch{.approach_speed = -std::numeric_limits<double>::infinity()};
+  bool a = false, b = false;
+  for (const int vertex : touching_vertices(body, state)) {
+    const Vector3& u = body.facets().vertices[static_cast<std::size_t>(vertex)];
+    a = a || u.x() < -1e-9 * body.half_length();
+    b = b || u.x() > 1e-9 * body.half_length();
+    touch.approach_speed = std::max(touch.approach_speed, -point_velocity(state, u).z());
+  }
+  touch.end = contact_end(a, b);
+  return touch;
+}
+
+}  // namespace clatter::numeric::inline motion

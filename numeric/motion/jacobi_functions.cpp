@@ -3,10 +3,11 @@
 
 #include <boost/math/special_functions/ellint_rf.hpp>
 #include <boost/math/special_functions/ellint_rj.hpp>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline motion {
 namespace {
 
 using Policy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
@@ -14,6 +15,7 @@ using Policy = boost::math::policies::policy<boost::math::policies::promote_doub
 }  // namespace
 
 JacobiFunctions::JacobiFunctions(double complementary_parameter) : complement_(complementary_parameter) {
+  assert(complement_ >= 1e-200 && complement_ <= 1);
   // The means agree to eps one step after they agree to its square root.
   constexpr double agreement = 1e-8;
   arithmetic_[0] = 1;
@@ -55,4 +57,4 @@ double JacobiFunctions::remaining_integral(const Values& values, double h) const
          boost::math::ellint_rj(sn * sn, 1.0, dn * dn / complement_, (1 + h * sn * sn) / (1 + h), Policy());
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline motion

@@ -4,7 +4,7 @@
 
 #include "numeric/base/linear_algebra.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline motion {
 
 /// World frame: x right, y into the page, z up, ground at z = 0.  Body frame: axes of the mesh, origin at the
 /// centre of mass.  `attitude` holds the Euler parameters (β₀; β₁, β₂, β₃) as (w; x, y, z) of a unit quaternion and
@@ -16,4 +16,10 @@ struct MotionState {
   Vector3 angular_velocity = Vector3::Zero();                    ///< body frame [rad/s]
 };
 
-}  // namespace clatter::numeric
+/// Attitude and body-frame angular velocity at an instant.
+struct Rotation {
+  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  ///< body → world, unit
+  Vector3 angular_velocity = Vector3::Zero();                    ///< body frame [rad/s]
+};
+
+}  // namespace clatter::numeric::inline motion

@@ -1,14 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a contact has come to.
+// What a contact is expected to be, and what it has come to.
 #pragma once
 
-#include "numeric/body/contact_end.hpp"
+#include "numeric/body/body.hpp"
 #include "numeric/motion/motion_state.hpp"
-#include "numeric/stepping/contact_scales.hpp"
-#include "numeric/stepping/friction_mode.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline stepping {
 
+/// How friction acted during an impact: its phases in their order.
+enum class FrictionMode {
+  frictionless,
+  slip,  ///< from beginning to end, in one direction
+  stick,
+  slip_stick,
+  stick_slip,       ///< stick gives way
+  slip_stick_slip,  ///< slip stops, sticks and is let go again
+  stick_slip_stick,
+  alternating,   ///< more phases than three
+  reverse_slip,  ///< slip stops and goes on the other way at once
+  regularised,
+  local,  ///< each place slips for itself
+};
+
+/// Sizes that a contact is expected to have, right to a factor of two or so; they scale tolerances and first steps.
+struct ContactScales {
+  double depth = 0;   ///< [m]
+  double speed = 0;   ///< [m/s]
+  double time = 0;    ///< of the contact [s]
+  double energy = 0;  ///< [J]
+};
+
+/// Why a contact's run ended.
 enum class ContactEnding {
   lift_off,
   at_rest,
@@ -38,4 +60,4 @@ struct ContactResult {
   double step = 0;  ///< fixed step used [s]; 0: adaptive
 };
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline stepping

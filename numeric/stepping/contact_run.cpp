@@ -2,21 +2,89 @@
 #include "numeric/stepping/contact_run.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <limits>
 
-#include "numeric/stepping/contact_scales.hpp"
-#include "numeric/stepping/resting.hpp"
-
-namespace clatter::numeric {
+namespace clatter::numeric::inline stepping {
 namespace {
 
+constexpr double unit_rounding = 1e-14;     ///< of the Euler parameters, which each step makes unit again
 constexpr int most_switches = 8;            ///< of friction without a step between them
 constexpr double least_depth_seen = 1e-14;  ///< of the body's radius: shallower contacts are rounding
 
-ContactEnd end_of(const TouchCounter& touches) {
-  if (touches.touched_a() && touches.touched_b()) return ContactEnd::both;
-  if (touches.touched_a()) return ContactEnd::a;
-  return touches.touched_b() ? ContactEnd::b : ContactEnd::middle;
+/// Mass that the touching point seems to have for a vertical push.
+double effective_mass(const Body& body, const MotionState& touch, const Vector3& point) {
+  const Vector3 arm = point.cross(touch.attitude.conjugate() * Vector3::UnitZ());
+  return 1 / (1 / body.mass() + arm.dot(body.inverse_inertia() * arm));
+}
+
+/// From the depth to which the body, pushed straight down at its touch-down attitude, takes up the energy that its
+/// touching point `point` (body frame) brings:
+///     (1 + c_G v/k_G) U(depth) = ½ m_eff v² + m g depth.
+/// `system` has begun with `touch`.  Not finite if there is no such depth.
+ContactScales contact_scales(ContactSystem& system, const MotionState& touch, const Vector3& point) {
+  const Body& body = system.body();
+  const Ground& ground = system.ground();
+  const double g = system.gravity();
+  const double fall = -(touch.velocity + touch.attitude * touch.angular_velocity.cross(point)).z();
+  const double speed = std::max(fall, 0.0);
+  const double kinetic = 0.5 * effective_mass(body, touch, point) * speed * speed;
+  const double stiffening = 1 + ground.damping * speed / ground.stiffness;
+  const auto takes_it_up = [&](double depth) {
+    return stiffening * system.pressed(depth).energy >= kinetic + body.mass() * g * depth;
+  };
+  double high = 1e-4 * body.radius();
+  while (!takes_it_up(high) && high < 1e150 * body.radius()) high *= 4;
+  double low = high / 4;
+  while (takes_it_up(low) && low > 1e-17 * body.radius()) low /= 4;
+  high = 4 * low;
+  for (int i = 0; i < 3; ++i) {
+    const double middle = std::sqrt(low * high);
+    (takes_it_up(middle) ? high : low) = middle;
+  }
+  ContactScales scales;
+  scales.depth = high;
+  scales.speed = std::sqrt(speed * speed + 2 * g * high);
+  scales.time = scales.speed > 0 ? 3 * high / scales.speed : std::numeric_limits<double>::infinity();
+  scales.energy = kinetic + body.mass() * g * high;
+  return scales;
+}
+
+/// Part of the speed and acceleration of a fall below which a body lies still, and how many times the tolerance the
+/// errors of steps keep up, so that a rough run ends too.
+constexpr double least_rest = 1e-6, largest_rest = 1e-5, noise_per_tolerance = 300;
+
+bool is_steady(const ContactSystem& system, const ContactInstant& at, double kept_up) {
+  const double g = system.gravity();
+  const double depth = at.diagnosis.load.deepest;
+  if (!(g > 0) || !(depth > 0)) return false;
+  const double radius = system.body().radius(), fall = std::sqrt(g * depth);
+  const double part = std::clamp(kept_up / fall, least_rest, largest_rest);
+  const double turning = angular_velocity(at.state).norm(), spin = at.diagnosis.spin;
+  const double tipping = std::sqrt(std::max(turning * turning - spin * spin, 0.0));
+  return std::fabs(velocity(at.state).z()) <= part * fall &&
+         radius * tipping <= part * fall + 1e-7 * radius * turning && velocity(at.rate).norm() <= part * g &&
+         radius * angular_velocity(at.rate).norm() <= part * g;
+}
+
+/// Sliding without friction, or spinning about a pressure centre that sticks, which this law does not resist.
+bool goes_on_for_ever(const ContactSystem& system) {
+  return system.ground().sliding_friction == 0 || system.phase().kind == FrictionPhase::Kind::stick;
+}
+
+/// At rest, or in a steady motion that no friction will ever stop; nothing where the contact goes on.  A motion is
+/// steady if only sliding along the ground and spinning about the vertical are left, neither with an acceleration: to a
+/// millionth of what a fall into this contact would have, or to `kept_up` [m/s].
+std::optional<ContactEnding> ending_on_the_ground(const ContactSystem& system, const ContactInstant& at,
+                                                  double kept_up) {
+  if (!is_steady(system, at, kept_up)) return std::nullopt;
+  const double speed = least_rest * std::sqrt(system.gravity() * at.diagnosis.load.deepest);
+  const double sliding = std::hypot(velocity(at.state).x(), velocity(at.state).y());
+  const double turning = system.body().radius() * std::fabs(at.diagnosis.spin);
+  if (sliding <= speed && turning <= speed) return ContactEnding::at_rest;
+  if (goes_on_for_ever(system)) return ContactEnding::sustained_contact;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -25,8 +93,10 @@ ContactRun::ContactRun(ContactSystem& system, Stepper& stepper)
     : system_(system), step_(system, stepper), steps_(step_), events_(step_), peak_(step_), friction_(system),
       touches_(system.body()) {}
 
-ContactResult ContactRun::run(const MotionState& touch, const Vector3& point, const ContactControl& control) {
+ContactResult ContactRun::run(const MotionState& touch, const Vector3& point, const ContactControl& control,
+                              const ContactObserver& observer) {
   control_ = &control;
+  observer_ = &observer;
   system_.begin(touch);
   result_ = {};
   result_.scales = contact_scales(system_, touch, point);
@@ -36,8 +106,11 @@ ContactResult ContactRun::run(const MotionState& touch, const Vector3& point, co
   }
   begin(touch, point);
   result_.ending = ContactEnding::interrupted;
-  if (control.observe && !control.observe(now_)) return result_;
-  result_.ending = step_to_the_end();
+  if (observer && !observer(now_)) return result_;
+  result_.step = steps_.fixed();
+  std::optional<ContactEnding> ending;
+  while (!ending) ending = advance();
+  result_.ending = *ending;
   collect();
   return result_;
 }
@@ -60,13 +133,6 @@ void ContactRun::begin(const MotionState& touch, const Vector3& point) {
   now_.diagnosis = system_.diagnose(now_.state, now_.rate);
 }
 
-ContactEnding ContactRun::step_to_the_end() {
-  result_.step = steps_.fixed();
-  for (;;) {
-    if (const std::optional<ContactEnding> ending = advance()) return *ending;
-  }
-}
-
 /// One accepted step, cut short where an event lies in it; the ending if that ends the contact.
 std::optional<ContactEnding> ContactRun::advance() {
   if (const auto ending = steps_.find(now_, touches_, trial_)) return ending;
@@ -74,19 +140,24 @@ std::optional<ContactEnding> ContactRun::advance() {
   bool lifts = !(trial_.diagnosis.load.deepest > 0);
   if (lifts && now_.diagnosis.load.deepest > 0) h = events_.lift_off(now_, h, trial_);
   const double began = now_.time;
-  if (handle_friction_event(h)) lifts = false;
-  else accept(trial_);
+  if (handle_friction_event(h)) {
+    lifts = false;
+  } else {
+    accept(trial_);
+    switches_ = 0;
+  }
   if (control_->estimate_local_slip) local_slip_.advance(system_, trial_.state, trial_.diagnosis, now_.time - began);
   if (!lifts) friction_.choose_local_slip(now_);
-  const bool goes_on = !control_->observe || control_->observe(now_);
+  const bool goes_on = !*observer_ || (*observer_)(now_);
   if (lifts) return ContactEnding::lift_off;
-  if (const auto ending = ending_on_the_ground(system_, now_, kept_up())) return ending;
+  if (const auto ending = ending_on_the_ground(system_, now_, kept_up_speed())) return ending;
   if (!goes_on) return ContactEnding::interrupted;
   return std::nullopt;
 }
 
-double ContactRun::kept_up() const {
-  return step_.error_order() > 0 ? kept_up_speed(control_->steps.tolerance, result_.scales.speed) : 0;
+/// Speed that the errors of steps keep up in a body that ought to lie still [m/s].
+double ContactRun::kept_up_speed() const {
+  return step_.error_order() > 0 ? noise_per_tolerance * control_->steps.tolerance * result_.scales.speed : 0;
 }
 
 /// If slip ends or stick gives way within the step that led to trial_, moves there and changes the phase.  A step that
@@ -101,24 +172,23 @@ bool ContactRun::handle_friction_event(double h) {
     if (!friction_.is_over(trial_)) trial_ = faint_;
   }
   if (!friction_.is_over(trial_) || ++switches_ > most_switches) return false;
-  const int switches = switches_;
   const auto reserve = [this](const ContactInstant& at) { return friction_.reserve(at); };
   if (friction_.reserve(now_) > 0) {
     static_cast<void>(events_.fall(reserve, now_, h, trial_));
     accept(trial_);
   }
-  switches_ = switches;
   friction_.change(trial_, now_);
   return true;
 }
 
 void ContactRun::accept(const ContactInstant& next) {
+  assert(next.time >= now_.time);
+  assert(std::fabs(euler_parameters(next.state).norm() - 1) <= unit_rounding);
   touches_.update(step_.submerged());
   result_.submerged = result_.submerged || system_.is_submerged(next.state);
   const ContactInstant* peak = peak_.look(now_, next);
-  if (peak && control_->observe) control_->observe(*peak);
+  if (peak && *observer_) (*observer_)(*peak);
   now_ = next;
-  switches_ = 0;
   friction_.follow(now_);
 }
 
@@ -134,7 +204,7 @@ void ContactRun::collect() {
   result_.mode = friction_.end(now_);
   result_.local_slip = local_slip_.impulse();
   result_.touches = std::max(touches_.touches(), 1);
-  result_.end = end_of(touches_);
+  result_.end = contact_end(touches_.touched_a(), touches_.touched_b());
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline stepping

@@ -3,17 +3,17 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "numeric/stepping/contact_result.hpp"
-#include "numeric/stepping/contact_step.hpp"
-#include "numeric/stepping/event_locator.hpp"
-#include "numeric/stepping/force_peak.hpp"
 #include "numeric/stepping/friction_phases.hpp"
 #include "numeric/stepping/local_slip.hpp"
 #include "numeric/stepping/step_control.hpp"
+#include "numeric/stepping/step_events.hpp"
+#include "numeric/stepping/stepper.hpp"
 #include "numeric/stepping/touch_counter.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline stepping {
 
 /// How a contact is run.
 struct ContactControl {
@@ -21,9 +21,10 @@ struct ContactControl {
   long evaluation_limit = 0;         ///< of the system's count, at which the run stops
   bool estimate_local_slip = false;  ///< see ContactResult::local_slip
   bool point_friction = false;       ///< see World
-  /// Called after every accepted step, and before that with a peak of the force inside it; return false to stop.
-  std::function<bool(const ContactInstant&)> observe = nullptr;
 };
+
+/// Called after every accepted step, and before that with a peak of the force inside it; returns false to stop.
+using ContactObserver = std::function<bool(const ContactInstant&)>;
 
 /// Integrates Eq. 3 of Shan et al. (2005), U̇ = R(U), over a contact:
 ///
@@ -44,15 +45,15 @@ class ContactRun {
   ContactRun(ContactSystem& system, Stepper& stepper);
 
   /// `touch` has its lowest vertices on the ground or in it, `point` (body frame) is their mean.
-  [[nodiscard]] ContactResult run(const MotionState& touch, const Vector3& point, const ContactControl& control);
+  [[nodiscard]] ContactResult run(const MotionState& touch, const Vector3& point, const ContactControl& control,
+                                  const ContactObserver& observe = nullptr);
 
  private:
   void begin(const MotionState& touch, const Vector3& point);
-  [[nodiscard]] ContactEnding step_to_the_end();
   [[nodiscard]] std::optional<ContactEnding> advance();
   bool handle_friction_event(double h);
   void accept(const ContactInstant& next);
-  [[nodiscard]] double kept_up() const;
+  [[nodiscard]] double kept_up_speed() const;
   void collect();
 
   ContactSystem& system_;
@@ -64,10 +65,11 @@ class ContactRun {
   TouchCounter touches_;
   LocalSlipEstimate local_slip_;
 
-  const ContactControl* control_ = nullptr;
+  const ContactControl* control_ = nullptr;    ///< of the present run
+  const ContactObserver* observer_ = nullptr;  ///< of the present run
   ContactInstant now_, trial_, faint_;
-  int switches_ = 0;  ///< of friction since the last accepted step
+  int switches_ = 0;  ///< of friction since the last step without one
   ContactResult result_;
 };
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline stepping

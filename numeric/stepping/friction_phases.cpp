@@ -2,12 +2,59 @@
 #include "numeric/stepping/friction_phases.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline stepping {
 namespace {
 
 using Kind = FrictionPhase::Kind;
+
+constexpr double minor_part = 1e-6;             ///< of energy or time: a phase below it does not name the mode
+constexpr double minor_part_of_impulse = 0.01;  ///< slip without work, by μ_k = 0, counts from this part on
+constexpr std::size_t most_entries = 64;
+
+}  // namespace
+
+FrictionLog::FrictionLog() { entries_.reserve(most_entries); }
+
+void FrictionLog::begin(const ContactScales& scales, double mass) {
+  entries_.clear();
+  least_work_ = minor_part * scales.energy;
+  least_impulse_ = minor_part_of_impulse * mass * scales.speed;
+  least_time_ = minor_part * scales.time;
+}
+
+void FrictionLog::close(const FrictionPhase& phase, const Sums& sums) {
+  const bool slips = phase.kind == Kind::slip;
+  const bool matters = slips ? sums.work - start_.work > least_work_ || sums.impulse - start_.impulse > least_impulse_
+                             : sums.time - start_.time > least_time_;
+  if (!matters || entries_.size() == most_entries) return;
+  const bool goes_on = !entries_.empty() && entries_.back().kind == phase.kind &&
+                       !(slips && entries_.back().direction.dot(phase.direction) < 0);
+  if (!goes_on) entries_.push_back({phase.kind, phase.direction});
+}
+
+FrictionMode FrictionLog::mode() const {
+  if (entries_.empty()) return FrictionMode::stick;
+  const auto turns_back = [](const Entry& one, const Entry& next) { return one.kind == next.kind; };
+  if (std::adjacent_find(entries_.begin(), entries_.end(), turns_back) != entries_.end()) {
+    return FrictionMode::reverse_slip;
+  }
+  const bool slips_first = entries_.front().kind == Kind::slip;
+  switch (entries_.size()) {
+    case 1: return slips_first ? FrictionMode::slip : FrictionMode::stick;
+    case 2: return slips_first ? FrictionMode::slip_stick : FrictionMode::stick_slip;
+    case 3: return slips_first ? FrictionMode::slip_stick_slip : FrictionMode::stick_slip_stick;
+    default: return FrictionMode::alternating;
+  }
+}
+
+namespace {
+
+using Kind = FrictionPhase::Kind;
+
+constexpr double direction_rounding = 1e-14;  ///< of its unit length
 
 /// Slip slower than this part, times √tolerance, of the contact's speed keeps its direction: across it friction is a
 /// damper that stiffens like 1/|v|, which explicit steps could not follow.
@@ -44,6 +91,7 @@ void FrictionPhases::begin(const MotionState& touch, const Vector3& point, const
 }
 
 void FrictionPhases::start(Kind kind, const AlongGround& direction, const ContactInstant& now) {
+  assert(kind != Kind::slip || std::fabs(direction.norm() - 1) <= direction_rounding);
   log_.open(sums(now));
   stopping_speed_ = 0;
   FrictionPhase phase{.kind = kind,
@@ -83,6 +131,7 @@ double FrictionPhases::stick_reserve(const ContactInstant& at) const {
 }
 
 double FrictionPhases::reserve(const ContactInstant& at) const {
+  assert(can_end());
   return system_.phase().kind == Kind::slip ? slip_forward(at) : stick_reserve(at);
 }
 
@@ -95,6 +144,7 @@ bool FrictionPhases::is_over(const ContactInstant& at) const {
 }
 
 void FrictionPhases::change(const ContactInstant& at, ContactInstant& now) {
+  assert(can_end());
   const Kind kind = system_.phase().kind;
   log_.close(system_.phase(), sums(now));
   const AlongGround hold = kind == Kind::stick ? at.diagnosis.hold : system_.sticking_force(at.state);
@@ -170,4 +220,4 @@ FrictionMode FrictionPhases::end(const ContactInstant& now) {
   return ground.friction == FrictionLaw::local ? FrictionMode::local : log_.mode();
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline stepping

@@ -2,10 +2,43 @@
 // The phases of friction along a contact: stick and slip, Eqs. 5 and 6 of Shan et al. (2005).
 #pragma once
 
-#include "numeric/stepping/contact_step.hpp"
-#include "numeric/stepping/friction_log.hpp"
+#include <vector>
 
-namespace clatter::numeric {
+#include "numeric/contact/contact_system.hpp"
+#include "numeric/stepping/contact_result.hpp"
+#include "numeric/stepping/stepper.hpp"
+
+namespace clatter::numeric::inline stepping {
+
+/// Notes the phases of slip and stick that mattered: slip by its work or its part of the normal impulse, stick by its
+/// time.  (A sticking end slips for an instant when the force on it fades; such a phase names nothing.)
+class FrictionLog {
+ public:
+  /// What has summed up since touch-down.
+  struct Sums {
+    double time = 0;     ///< [s]
+    double work = 0;     ///< of friction [J]
+    double impulse = 0;  ///< normal [N·s]
+  };
+
+  FrictionLog();
+  void begin(const ContactScales& scales, double mass);
+  void open(const Sums& sums) { start_ = sums; }
+  /// Notes the phase that was opened last, if it mattered.
+  void close(const FrictionPhase& phase, const Sums& sums);
+  /// Name of what happened in a contact with Coulomb friction.  Slip that turns back at once is reverse_slip, whatever else there is.
+  [[nodiscard]] FrictionMode mode() const;
+
+ private:
+  struct Entry {
+    FrictionPhase::Kind kind;
+    AlongGround direction;  ///< of slip when it began
+  };
+
+  std::vector<Entry> entries_;  ///< neighbours differ in kind or in the direction of slip
+  Sums start_;                  ///< of the current phase
+  double least_work_ = 0, least_impulse_ = 0, least_time_ = 0;
+};
 
 /// With Coulomb's law one of two laws holds for the resultant F_t at the pressure centre, whose slip is v:
 ///     stick   |F_t| <= μ_s F_n,   F_t such that v = 0                    (Eq. 5)
@@ -64,4 +97,4 @@ class FrictionPhases {
   double stopping_speed_ = 0;  ///< slip at which the slip phase ends [m/s]
 };
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline stepping

@@ -2,10 +2,11 @@
 #include "numeric/stepping/local_slip.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline stepping {
 namespace {
 
 constexpr double enough = 1e-9;  ///< of the bound of friction: a difference of the laws that needs no solving
@@ -58,6 +59,7 @@ void LocalSlipEstimate::begin() {
 void LocalSlipEstimate::advance(ContactSystem& system, const ContactState& y, const ContactDiagnosis& at, double h) {
   const AlongGround from = std::isfinite(last_.east) ? last_ : at.slip, to = at.slip;
   last_ = to;
+  assert(h >= 0);
   if (!(at.load.force > 0 && h > 0)) return;
   // Friction passes through its range in a part of the step: at its end the slip may just have come to rest.
   const AlongGround back{from.east - to.east, from.north - to.north};
@@ -100,4 +102,4 @@ void LocalSlipEstimate::part_of_step(ContactSystem& system, const ContactState& 
   impulse_.north += needed.north;
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline stepping

@@ -2,9 +2,10 @@
 #include "numeric/stepping/step_control.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline stepping {
 namespace {
 
 constexpr double adaptive_first_steps = 20;  ///< first step: this part of the expected contact time
@@ -16,6 +17,7 @@ constexpr double least_over_touches = 1e-9;  ///< of that time: steps this short
 }  // namespace
 
 void StepControl::begin(const StepSettings& settings, const ContactScales& scales, long evaluation_limit) {
+  assert(scales.depth > 0 && scales.speed > 0 && scales.time > 0);
   settings_ = settings;
   scales_ = scales;
   evaluation_limit_ = evaluation_limit;
@@ -72,6 +74,7 @@ std::optional<ContactEnding> StepControl::find(const ContactInstant& now, const 
     } else if (stepped_over(now, touches, trial) && h > least_over_touches * scales_.time) {
       h /= 2;
     } else {
+      assert(trial.time > now.time);
       taken_ = h;
       next_ = order > 0 ? h * std::clamp(growth, 0.2, 4.0) : fixed_;
       return std::nullopt;
@@ -79,4 +82,4 @@ std::optional<ContactEnding> StepControl::find(const ContactInstant& now, const 
   }
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline stepping

@@ -2,9 +2,10 @@
 #include "numeric/stepping/touch_counter.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline stepping {
 
 TouchCounter::TouchCounter(const Body& body) : body_(body) {
   const std::size_t vertices = body.facets().vertices.size();
@@ -85,6 +86,7 @@ void TouchCounter::update(const std::vector<int>& submerged) {
     if (vertex < 0) continue;
     corners_.push_back(vertex);
     int& stamp = stamps_[static_cast<std::size_t>(vertex)];
+    assert(stamp <= now_);
     if (stamp == now_) continue;
     before_[static_cast<std::size_t>(vertex)] = stamp;
     if (stamp != previous) {
@@ -140,4 +142,4 @@ bool TouchCounter::joins_old(int seed) {
   return joins;
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline stepping

@@ -2,11 +2,14 @@
 // The edges of polygons that share nodes.
 #pragma once
 
+#include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline surface {
 
 /// One polygon's side of the edge between the nodes low < high.
 struct EdgeSide {
@@ -20,14 +23,17 @@ struct EdgeSide {
 class Edges {
  public:
   void reserve(std::size_t sides) { sides_.reserve(sides); }
-  void add(int from, int to, int owner);
+  void add(int from, int to, int owner) {
+    sides_.push_back({std::min(from, to), std::max(from, to), owner, from > to});
+  }
 
   /// Sorts by edge, sides of one edge by owner.
-  void sort();
+  void sort() { std::sort(sides_.begin(), sides_.end(), is_before); }
 
   /// Calls visit(std::span<const EdgeSide>) once for each edge.  Call sort() first.
   template <typename Visit>
   void for_each(Visit visit) const {
+    assert(std::is_sorted(sides_.begin(), sides_.end(), is_before));
     for (std::size_t begin = 0, end = 0; begin < sides_.size(); begin = end) {
       while (end < sides_.size() && sides_[end].low == sides_[begin].low && sides_[end].high == sides_[begin].high) {
         ++end;
@@ -37,10 +43,16 @@ class Edges {
   }
 
  private:
+  static bool is_before(const EdgeSide& a, const EdgeSide& b) {
+    return std::tie(a.low, a.high, a.owner) < std::tie(b.low, b.high, b.owner);
+  }
+
   std::vector<EdgeSide> sides_;
 };
 
 /// Whether exactly two polygons share the edge, and run along it in opposite directions.
-[[nodiscard]] bool is_manifold(std::span<const EdgeSide> sides);
+[[nodiscard]] inline bool is_manifold(std::span<const EdgeSide> sides) {
+  return sides.size() == 2 && sides[0].reversed != sides[1].reversed;
+}
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline surface

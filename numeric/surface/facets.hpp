@@ -7,7 +7,7 @@
 
 #include "numeric/surface/surface.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline surface {
 
 /// A closed polygon of a facet: corners[begin] … corners[end − 1].  Outer loops run counter-clockwise seen from
 /// outside the body, holes clockwise, so that signed areas add up.
@@ -28,6 +28,16 @@ struct Facets {
   std::vector<int> corners;       ///< indices into vertices
   std::vector<Loop> loops;
   std::vector<Facet> facets;
+
+  /// Calls visit(index into vertices) for each corner of a facet.
+  template <class Visit>
+  void for_each_corner(int facet, Visit&& visit) const {
+    const Facet& which = this->facets[static_cast<std::size_t>(facet)];
+    for (int l = which.begin; l < which.end; ++l) {
+      const Loop& loop = loops[static_cast<std::size_t>(l)];
+      for (int c = loop.begin; c < loop.end; ++c) visit(corners[static_cast<std::size_t>(c)]);
+    }
+  }
 };
 
 /// Planar polygons with the same points and area as `surface`.  A quadrilateral that is warped (a corner off
@@ -38,4 +48,4 @@ struct Facets {
 /// only two facets share are dropped.  Vertices that no corner uses are dropped.
 [[nodiscard]] Facets planar_facets(const Surface& surface, bool merge = true);
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline surface

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline surface {
 namespace {
 
 constexpr int leaf_size = 4;
@@ -15,13 +15,8 @@ Hierarchy::Hierarchy(const Facets& facets) {
   std::vector<Node> boxes(facets.facets.size());
   for (std::size_t f = 0; f < boxes.size(); ++f) {
     Eigen::AlignedBox3d box;
-    const Facet& facet = facets.facets[f];
-    for (int l = facet.begin; l < facet.end; ++l) {
-      const Loop& loop = facets.loops[static_cast<std::size_t>(l)];
-      for (int c = loop.begin; c < loop.end; ++c) {
-        box.extend(facets.vertices[static_cast<std::size_t>(facets.corners[static_cast<std::size_t>(c)])]);
-      }
-    }
+    facets.for_each_corner(static_cast<int>(f),
+                           [&](int vertex) { box.extend(facets.vertices[static_cast<std::size_t>(vertex)]); });
     boxes[f].centre = box.center();
     boxes[f].half = box.sizes() / 2;
   }
@@ -55,4 +50,4 @@ int Hierarchy::build(const std::vector<Node>& boxes, int begin, int end) {
   return index;
 }
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline surface

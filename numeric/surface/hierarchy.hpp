@@ -2,11 +2,12 @@
 // A bounding-volume hierarchy over the facets, so that only those near the ground are visited.
 #pragma once
 
+#include <cassert>
 #include <vector>
 
 #include "numeric/surface/facets.hpp"
 
-namespace clatter::numeric {
+namespace clatter::numeric::inline surface {
 
 /// The half-space below the ground in body coordinates: height(u) = normal·u + offset < 0.
 struct GroundPlane {
@@ -53,6 +54,7 @@ class Hierarchy {
     int top = 0;
     stack[top++] = 0;
     while (top > 0) {
+      assert(top + 1 < 64);
       const int index = stack[--top];
       const Node& node = nodes_[static_cast<std::size_t>(index)];
       if (!wanted(node)) continue;
@@ -69,4 +71,4 @@ class Hierarchy {
   std::vector<int> order_;
 };
 
-}  // namespace clatter::numeric
+}  // namespace clatter::numeric::inline surface

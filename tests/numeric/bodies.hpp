@@ -37,8 +37,8 @@ inline World weightless(const Ground& ground, bool planar = false) {
   return {.ground = ground, .gravity = 0, .planar = planar};
 }
 
-inline Simulation drop(const Body& body, const World& world, double angle, double speed, const Accuracy& accuracy = {},
-                       const Observer& observer = {}) {
+inline Simulation dropped(const Body& body, const World& world, double angle, double speed,
+                          const Accuracy& accuracy = {}, const Observer& observer = {}) {
   return simulate(body, world, touching_state(body, {.inclination = angle, .velocity = {0, 0, -speed}}), plain,
                   accuracy, observer);
 }

@@ -46,7 +46,7 @@ double restitution(double speed_number) {
 BOOST_AUTO_TEST_CASE(a_flat_landing_is_half_a_sine) {
   const double stiffness = 1e8, speed = 3;
   const Ground ground{.stiffness = stiffness, .area = AreaMeasure::projected};
-  const Simulation run = drop(box_body({0.3, 0.2, 0.1}, 2), weightless(ground), 0, speed);
+  const Simulation run = dropped(box_body({0.3, 0.2, 0.1}, 2), weightless(ground), 0, speed);
   check_half_sine(run, 2, 0.06, stiffness, speed);
   BOOST_TEST((run.impacts[0].end == ContactEnd::both));
 }
@@ -56,7 +56,7 @@ BOOST_AUTO_TEST_CASE(a_flat_landing_is_half_a_sine) {
 BOOST_AUTO_TEST_CASE(a_flat_landing_under_gravity_has_its_closed_form) {
   const double stiffness = 1e5, speed = 0.3, mass = 2, area = 0.06, g = 9.81;
   const World world{.ground = {.stiffness = stiffness, .area = AreaMeasure::projected}, .gravity = g};
-  const Simulation run = drop(box_body({0.3, 0.2, 0.1}, mass), world, 0, speed);
+  const Simulation run = dropped(box_body({0.3, 0.2, 0.1}, mass), world, 0, speed);
   BOOST_REQUIRE(run.impacts.size() == 1);
   const ImpactNumbers& n = run.impacts[0].value;
   const double frequency = std::sqrt(stiffness * area / mass);
@@ -71,7 +71,7 @@ BOOST_AUTO_TEST_CASE(a_flat_landing_under_gravity_has_its_closed_form) {
 BOOST_AUTO_TEST_CASE(an_upright_landing_is_half_a_sine) {
   const double stiffness = 1e10, r = 0.01;
   const Ground ground{.stiffness = stiffness, .area = AreaMeasure::projected};
-  const Simulation run = drop(rod(), weightless(ground), 90 * degree, 1);
+  const Simulation run = dropped(rod(), weightless(ground), 90 * degree, 1);
   check_half_sine(run, 1, 8 * r * r * std::sin(std::numbers::pi / 8), stiffness, 1);
   BOOST_TEST((run.impacts[0].end == ContactEnd::a));
 }
@@ -99,7 +99,7 @@ BOOST_AUTO_TEST_CASE(a_damped_flat_landing_has_the_restitution_of_lamberts_funct
   const double stiffness = 1e8, speed = 2;
   for (const double s : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.3, 1.0, 3.0, 10.0}) {
     const Ground ground{.stiffness = stiffness, .damping = s * stiffness / speed, .area = AreaMeasure::projected};
-    const Simulation run = drop(body, weightless(ground), 0, speed);
+    const Simulation run = dropped(body, weightless(ground), 0, speed);
     BOOST_REQUIRE(run.impacts.size() == 1);
     BOOST_TEST(run.impacts[0].value.restitution == restitution(s), boost::test_tools::tolerance(promised));
   }
@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(a_damped_flat_landing_has_the_restitution_of_lamberts_funct
 BOOST_AUTO_TEST_CASE(a_flat_drop_of_any_mesh_starts_no_spin) {
   for (const bool merge : {true, false}) {
     for (const Body& body : {phone(1, 1, 1, merge), phone(7, 5, 3, merge), Body(rod_mesh({.sectors = 12}), merge)}) {
-      const Simulation run = drop(body, weightless({.stiffness = 1e8, .damping = 1e6}), 0, 4);
+      const Simulation run = dropped(body, weightless({.stiffness = 1e8, .damping = 1e6}), 0, 4);
       BOOST_REQUIRE(run.impacts.size() == 1);
       BOOST_TEST(run.impacts[0].value.angular_velocity_after.norm() <= 1e-12 * 4 / body.radius());
     }

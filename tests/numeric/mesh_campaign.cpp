@@ -112,7 +112,7 @@ Fine fine_run(const Scene& scene, const Limits& limits, bool with_estimates) {
   }
 }
 
-/// Of all scenes so far.
+/// Counts over all scenes so far.
 struct Totals {
   int scenes = 0, within = 0, within_one_bar = 0, halved = 0;
   int numbers = 0, numbers_within = 0, unknown = 0;

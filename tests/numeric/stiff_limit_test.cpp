@@ -17,7 +17,7 @@ using namespace clatter::numeric::test;
 double rigid_velocity(double mass, double inertia, double arm) { return -1 + 2 / (1 + mass * arm * arm / inertia); }
 
 double velocity_after(const Body& body, double angle, double stiffness) {
-  const Simulation run = drop(body, weightless({.stiffness = stiffness}), angle, 1, {.digits = 12});
+  const Simulation run = dropped(body, weightless({.stiffness = stiffness}), angle, 1, {.digits = 12});
   BOOST_REQUIRE(run.impacts.size() == 1);
   return run.impacts[0].value.velocity_after.z();
 }

@@ -18,7 +18,7 @@ using numeric::Simulation;
 
 constexpr int digits_asked = 6;
 constexpr double promised = 1e-6;
-/// Estimates of errors are right to about this factor (tests/numeric/estimates_test.cpp).
+/// Estimates of errors are right to about this factor (tests/numeric/drop/error_estimates_test.cpp).
 constexpr double estimate_factor = 10;
 /// Shares of the cell's time after which the run and the oracle's run are ended; its estimates take as long as it.
 constexpr double run_share = 0.35, oracle_share = 0.9;

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "numeric/motion/rotation.hpp"
+#include "numeric/motion/motion_state.hpp"
 #include "validation/oracles/free_top.hpp"
 
 namespace clatter::validation::inline extremes {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "numeric/stepping/method.hpp"
+#include "numeric/stepping/stepper.hpp"
 
 namespace clatter::validation::inline plan {
 

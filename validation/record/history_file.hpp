@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "numeric/history.hpp"
+#include "numeric/drop/history.hpp"
 #include "validation/output/report.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/record/time_window.hpp"

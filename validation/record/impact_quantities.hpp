@@ -11,7 +11,7 @@
 
 #include "analytic/sequence.hpp"
 #include "analytic/space/sequence.hpp"
-#include "numeric/impact_record.hpp"
+#include "numeric/drop/impact_record.hpp"
 
 namespace clatter::validation::inline record {
 

@@ -4,7 +4,7 @@
 
 #include "analytic/sequence.hpp"
 #include "analytic/space/impact.hpp"
-#include "numeric/impact_record.hpp"
+#include "numeric/drop/impact_record.hpp"
 
 namespace clatter::validation::inline record {
 

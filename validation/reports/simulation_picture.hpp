@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "numeric/body.hpp"
-#include "numeric/history.hpp"
+#include "numeric/drop/history.hpp"
 #include "validation/figures/picture.hpp"
 #include "validation/record/time_window.hpp"
 #include "validation/reports/simulation_report.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "numeric/mass_properties.hpp"
+#include "numeric/body/mass_properties.hpp"
 #include "validation/output/value.hpp"
 #include "validation/scene/scene.hpp"
 

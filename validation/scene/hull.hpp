@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "numeric/linear_algebra.hpp"
+#include "numeric/base/linear_algebra.hpp"
 
 namespace clatter::validation::inline scene {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "numeric/linear_algebra.hpp"
+#include "numeric/base/linear_algebra.hpp"
 
 namespace clatter::validation::inline scene {
 

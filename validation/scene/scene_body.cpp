@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "numeric/motion/free_flight.hpp"
-#include "numeric/motion/touch_point.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/record/names.hpp"

@@ -6,9 +6,7 @@
 #include <cmath>
 
 #include "analytic/impact_law.hpp"
-#include "numeric/motion/euler_parameters.hpp"
-#include "numeric/motion/lagrange_system.hpp"
-#include "numeric/motion/newton_euler.hpp"
+#include "numeric/motion/equations_of_motion.hpp"
 #include "validation/oracles/event_oracle.hpp"
 #include "validation/output/number.hpp"
 #include "validation/verify/check.hpp"

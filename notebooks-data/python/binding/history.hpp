@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "numeric/history.hpp"
+#include "numeric/drop/history.hpp"
 
 namespace clatter::python {
 

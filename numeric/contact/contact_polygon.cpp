@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "numeric/contact/contact_polygon.hpp"
+
+namespace clatter::numeric::inline contact {
+namespace {
+
+/// Corners of a triangle of the fan.
+struct Triangle {
+  const ContactCorner& p;
+  const ContactCorner& q;
+  const ContactCorner& r;
+};
+
+template <class Use>
+void for_each_triangle(const ContactPolygon& polygon, Use&& use) {
+  const ContactCorner* corners = polygon.corners;
+  for (int i = 2; i < polygon.count; ++i) {
+    const Triangle t{corners[0], corners[i - 1], corners[i]};
+    const Vector3 along = t.q.position - t.p.position;
+    const double area = 0.5 * polygon.normal.dot(along.cross(t.r.position - t.p.position));
+    if (area != 0) use(t, area);
+  }
+}
+
+/// Values of a linear function at the corners, with their sum.
+struct Values {
+  double p, q, r;
+  double sum = p + q + r;
+};
+
+Values depths(const Triangle& t) { return {t.p.depth, t.q.depth, t.r.depth}; }
+Values rates(const Triangle& t) { return {t.p.rate, t.q.rate, t.r.rate}; }
+Values times(const Values& a, const Values& b) { return {a.p * b.p, a.q * b.q, a.r * b.r}; }
+
+Vector3 weighted(const Values& a, const Triangle& t) {
+  return a.p * t.p.position + a.q * t.q.position + a.r * t.r.position;
+}
+
+double integral(const Values& a, const Values& b) { return (a.sum * b.sum + times(a, b).sum) / 12; }
+
+/// ∫ab² over the area.
+double integral_of_square(const Values& a, const Values& b) {
+  const Values ab = times(a, b);
+  return (a.sum * b.sum * b.sum + a.sum * times(b, b).sum + 2 * b.sum * ab.sum + 2 * times(ab, b).sum) / 60;
+}
+
+Vector3 moment(const Values& a, const Triangle& t, const Vector3& position_sum) {
+  return (a.sum * position_sum + weighted(a, t)) / 12;
+}
+
+Vector3 moment(const Values& a, const Values& b, const Triangle& t, const Vector3& position_sum) {
+  const Values ab = times(a, b);
+  return ((a.sum * b.sum + ab.sum) * position_sum + a.sum * weighted(b, t) + b.sum * weighted(a, t) +
+          2 * weighted(ab, t)) /
+         60;
+}
+
+}  // namespace
+
+void LoadIntegrals::add(const LoadIntegrals& other, double weight) {
+  depth += weight * other.depth;
+  depth_rate += weight * other.depth_rate;
+  depth_squared += weight * other.depth_squared;
+  depth_rate_squared += weight * other.depth_rate_squared;
+  depth_position += weight * other.depth_position;
+  depth_rate_position += weight * other.depth_rate_position;
+}
+
+void RateIntegrals::add(const RateIntegrals& other, double weight) {
+  rate += weight * other.rate;
+  rate_squared += weight * other.rate_squared;
+  rate_position += weight * other.rate_position;
+  rate_squared_position += weight * other.rate_squared_position;
+  depth_position_squared += weight * other.depth_position_squared;
+}
+
+LoadIntegrals load_integrals(const ContactPolygon& polygon) {
+  LoadIntegrals sums;
+  for_each_triangle(polygon, [&](const Triangle& t, double area) {
+    const Values depth = depths(t), rate = rates(t);
+    const Vector3 positions = t.p.position + t.q.position + t.r.position;
+    sums.depth += area * depth.sum / 3;
+    sums.depth_rate += area * integral(depth, rate);
+    sums.depth_squared += area * integral(depth, depth);
+    sums.depth_rate_squared += area * integral_of_square(depth, rate);
+    sums.depth_position += area * moment(depth, t, positions);
+    sums.depth_rate_position += area * moment(depth, rate, t, positions);
+  });
+  sums.depth_position += sums.depth * polygon.origin;
+  sums.depth_rate_position += sums.depth_rate * polygon.origin;
+  return sums;
+}
+
+RateIntegrals rate_integrals(const ContactPolygon& polygon) {
+  RateIntegrals sums;
+  double depth_sum = 0;
+  Vector3 depth_position = Vector3::Zero();
+  for_each_triangle(polygon, [&](const Triangle& t, double area) {
+    const Values depth = depths(t), rate = rates(t);
+    const Vector3 positions = t.p.position + t.q.position + t.r.position;
+    sums.rate += area * rate.sum / 3;
+    sums.rate_squared += area * integral(rate, rate);
+    sums.rate_position += area * moment(rate, t, positions);
+    sums.rate_squared_position += area * moment(rate, rate, t, positions);
+    depth_sum += area * depth.sum / 3;
+    depth_position += area * moment(depth, t, positions);
+    const auto outer = [&](const ContactCorner& corner) {
+      return (depth.sum + 2 * corner.depth) * (corner.position * corner.position.transpose());
+    };
+    const Matrix3 mixed = weighted(depth, t) * positions.transpose();
+    sums.depth_position_squared += area / 60 *
+                                   (depth.sum * (positions * positions.transpose()) + mixed + mixed.transpose() +
+                                    outer(t.p) + outer(t.q) + outer(t.r));
+  });
+  const Matrix3 shift = polygon.origin * depth_position.transpose();
+  sums.rate_position += sums.rate * polygon.origin;
+  sums.rate_squared_position += sums.rate_squared * polygon.origin;
+  sums.depth_position_squared += shift + shift.transpose() + depth_sum * (polygon.origin * polygon.origin.transpose());
+  return sums;
+}
+
+DepthIntegrals depth_integrals(const ContactPolygon& polygon) {
+  DepthIntegrals sums;
+  for_each_triangle(polygon, [&](const Triangle& t, double area) {
+    const Values depth = depths(t);
+    sums.depth_squared += area * integral(depth, depth);
+    sums.depth_rate += area * integral(depth, rates(t));
+  });
+  return sums;
+}
+
+}  // namespace clatter::numeric::inline contact

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Error estimates, amplification, the choice of method, and records of whole drops.
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "numeric/drop/error_estimates.hpp"
+#include "tests/numeric/bodies.hpp"
+
+namespace {
+
+using namespace clatter::numeric;
+using namespace clatter::numeric::test;
+
+MotionState dropped(const Body& body, double angle, double tilt = 0) {
+  return touching_state(body,
+                        {.inclination = angle * degree, .velocity = {0, 0, -4}, .out_of_plane_tilt = tilt * degree});
+}
+
+#ifdef CLATTER_TEST_SLOW_BUILD
+constexpr int random_drops = 8;
+#else
+constexpr int random_drops = 120;
+#endif
+
+/// A random drop of the phone or the rod, with friction or without.
+struct RandomDrop {
+  RandomDrop(const Body& of, std::mt19937_64& random, int i) : body(of) {
+    const auto between = [&](double low, double high) {
+      return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    const double friction = i % 3 == 0 ? 0 : between(0, 0.8);
+    world.ground = {.stiffness = std::pow(10, between(7, 11)),
+                    .damping = i % 4 == 0 ? 0 : std::pow(10, between(5, 8)),
+                    .static_friction = friction,
+                    .sliding_friction = friction};
+    start = dropped(body, between(1, 80), i % 5 == 0 ? between(0, 20) : 0);
+  }
+  [[nodiscard]] Simulation run(const Request& request, const Accuracy& accuracy) const {
+    return simulate(body, world, start, request, accuracy);
+  }
+
+  const Body& body;
+  World world;
+  MotionState start;
+};
+
+/// Error bars over the errors against a run whose tolerance is at least a hundred times tighter.
+class Coverage {
+ public:
+  void take(const std::vector<ImpactRecord>& rows, const std::vector<ImpactRecord>& fine) {
+    for (std::size_t k = 0; k < std::min(rows.size(), fine.size()); ++k) {
+      if (rows[k].touches != fine[k].touches || !rows[k].predictable || std::isnan(rows[k].error.start)) continue;
+      take(rows[k].value, fine[k].value, rows[k].error);
+    }
+  }
+  [[nodiscard]] int count() const { return count_; }
+  [[nodiscard]] double covered() const { return static_cast<double>(covered_) / count_; }
+  /// Quantile of the ratio of bar to error.
+  [[nodiscard]] double quantile(double part) {
+    const auto place = ratios_.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(ratios_.size() - 1));
+    std::nth_element(ratios_.begin(), place, ratios_.end());
+    return *place;
+  }
+
+ private:
+  void take(const ImpactNumbers& value, const ImpactNumbers& exact, const ImpactNumbers& bar) {
+    const auto judge = [&](double a, double b, double error) {
+      ++count_;
+      covered_ += std::fabs(a - b) <= error ? 1 : 0;
+      // Errors of the size of rounding say nothing about how tight a bar is.
+      if (std::fabs(a - b) > 1e-13 * std::fabs(b)) ratios_.push_back(error / std::fabs(a - b));
+    };
+    using Numbers = ImpactNumbers;
+    for (const auto number :
+         {&Numbers::duration, &Numbers::peak_force, &Numbers::energy_after, &Numbers::energy_loss}) {
+      judge(value.*number, exact.*number, bar.*number);
+    }
+    judge(value.impulse.x(), exact.impulse.x(), bar.impulse.x());
+    judge(value.impulse.z(), exact.impulse.z(), bar.impulse.z());
+    judge(value.velocity_after.z(), exact.velocity_after.z(), bar.velocity_after.z());
+    judge(value.angular_velocity_after.y(), exact.angular_velocity_after.y(), bar.angular_velocity_after.y());
+  }
+
+  int count_ = 0, covered_ = 0;
+  std::vector<double> ratios_;
+};
+
+void check_coverage(Coverage& coverage) {
+  BOOST_TEST_MESSAGE("covered " << coverage.covered() << " of " << coverage.count() << ", bar over error: median "
+                                << coverage.quantile(0.5) << ", widest twentieth " << coverage.quantile(0.95));
+  BOOST_TEST(coverage.count() > 4 * random_drops);
+  BOOST_TEST(coverage.covered() >= 0.95);
+  BOOST_TEST(coverage.quantile(0.5) <= 10);
+  BOOST_TEST(coverage.quantile(0.95) <= 100);
+}
+
+/// Truth is a run of the same drop with rk8pd at a tolerance of 1e-13.
+void check_bars(int impacts, const std::vector<Accuracy>& settings) {
+  std::mt19937_64 random(11);
+  const Body bodies[] = {phone(), rod()};
+  Coverage coverage;
+  for (int i = 0; i < random_drops; ++i) {
+    const RandomDrop drop(bodies[i % 2], random, i);
+    const Accuracy& accuracy = settings[static_cast<std::size_t>(i) % settings.size()];
+    const Simulation truth = drop.run(plain_impacts(impacts), {.method = Method::rk8pd, .tolerance = 1e-13});
+    coverage.take(drop.run({.impacts = impacts}, accuracy).impacts, truth.impacts);
+  }
+  check_coverage(coverage);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(error_bars_cover_95_of_100_errors_and_are_at_most_ten_times_them_in_the_median) {
+  std::vector<Accuracy> settings;
+  for (const Method method : {Method::rkck, Method::rk8pd}) {
+    for (const double tolerance : {1e-6, 1e-8, 1e-10, 3e-12}) {
+      settings.push_back({.method = method, .tolerance = tolerance});
+    }
+  }
+  check_bars(2, settings);
+}
+
+/// Components out of the plane of motion, 0 in both runs, stay known.
+BOOST_AUTO_TEST_CASE(a_number_in_which_two_runs_agree_by_chance_is_not_taken_for_exact) {
+  constexpr double distance = 1e-3, rounding = 1e-12;
+  ImpactRecord row;
+  row.value.duration = 0.1;
+  row.value.approach_speed = row.value.restitution = row.value.peak_force = 1;
+  row.value.energy_before = row.value.work_friction = 1;
+  row.value.impulse = row.value.velocity_after = row.value.angular_velocity_after = Vector3(1, 0, 2);
+  std::vector<ImpactRecord> rows{row}, second{row};
+  for (const auto vector :
+       {&ImpactNumbers::impulse, &ImpactNumbers::velocity_after, &ImpactNumbers::angular_velocity_after}) {
+    (second[0].value.*vector).z() += distance;
+  }
+  estimate_errors(phone(), 1, rows, second);
+  const ImpactNumbers& error = rows[0].error;
+  BOOST_TEST(error.impulse.x() > distance / 100);
+  BOOST_TEST(error.velocity_after.x() > distance / 100);
+  BOOST_TEST(error.angular_velocity_after.x() > distance / 100);
+  BOOST_TEST(error.impulse.y() < rounding);
+  BOOST_TEST(error.impulse.z() > distance / 2);
+  BOOST_TEST(error.duration > 0.1 * distance / 100);
+  BOOST_TEST(error.peak_force > distance / 100);
+  BOOST_TEST(error.work_friction > distance / 100);
+  BOOST_TEST(error.work_damping < rounding);  // 0 in both runs: nothing damps
+}
+
+/// Steps are then as long as they may be, whatever the tolerance: a second run at a tenth of it alone would be the same
+/// run.
+BOOST_AUTO_TEST_CASE(error_bars_cover_where_the_tolerance_is_too_loose_to_shorten_a_step) {
+  std::vector<Accuracy> settings;
+  for (const Method method : {Method::rkck, Method::rk8pd}) {
+    for (const double tolerance : {1e-3, 1e-2, 1e-1}) {
+      settings.push_back({.method = method, .tolerance = tolerance});
+    }
+  }
+  check_bars(1, settings);
+}
+
+BOOST_AUTO_TEST_CASE(error_bars_of_the_fixed_step_method_do_so_too) {
+  std::vector<Accuracy> settings;
+  for (const int digits : {3, 4, 5}) settings.push_back({.method = Method::tvd_rk3, .digits = digits});
+  check_bars(2, settings);
+}
+
+BOOST_AUTO_TEST_CASE(where_no_finer_run_is_to_be_had_a_coarser_one_gives_bars_that_cover) {
+  std::mt19937_64 random(12);
+  const Body bodies[] = {phone(), rod()};
+  Coverage coverage;
+  for (int i = 0; i < random_drops; ++i) {
+    const RandomDrop drop(bodies[i % 2], random, i);
+    const Request request{.impacts = 2};
+    coverage.take(drop.run(request, {.digits = 12, .tolerance = 4e-13}).impacts,
+                  drop.run(request, {.digits = 12, .tolerance = least_tolerance}).impacts);
+  }
+  BOOST_TEST(coverage.covered() >= 0.95);
+}
+
+/// The phone turns about its unstable axis: out of the plane an error grows like exp(∫λ dt),
+/// λ = ω √((I₃ − I₂)(I₂ − I₁)/(I₁ I₃)); a nudge out of the plane of 1e-6 is far out of it at impact 3.
+BOOST_AUTO_TEST_CASE(the_amplification_is_that_of_a_neighbouring_drop) {
+  const Body body = phone();
+  const World world{.ground = {.stiffness = 1e8, .damping = 1e7}};
+  const MotionState start = dropped(body, 10);
+  const auto run = [&](const MotionState& from) { return simulate(body, world, from, {.impacts = 2}, {.digits = 10}); };
+  const Simulation drop = run(start);
+  MotionState nudged = start;
+  const double nudge = 1e-7;
+  nudged.angular_velocity.y() += nudge * 4 / body.radius();
+  const Simulation other = run(nudged);
+  BOOST_REQUIRE(drop.impacts.size() == 2 && other.impacts.size() == 2);
+  const double growth =
+      (other.impacts[1].value.angular_velocity_after - drop.impacts[1].value.angular_velocity_after).norm() *
+      body.radius() / 4 / nudge;
+  BOOST_TEST(drop.impacts[1].amplification >= 0.1 * growth);
+  BOOST_TEST(drop.impacts[1].amplification <= 100 * growth);
+}
+
+BOOST_AUTO_TEST_CASE(in_space_the_elastic_phone_is_unpredictable_after_impact_2_and_in_its_plane_it_is_not) {
+  const Body body = phone();
+  World world{.ground = {.stiffness = 1e8}};
+  const Simulation space = simulate(body, world, dropped(body, 10), {.impacts = 4});
+  BOOST_REQUIRE(space.impacts.size() == 4);
+  BOOST_TEST(space.impacts[1].predictable);
+  BOOST_TEST(!space.impacts[2].predictable);
+  world.planar = true;
+  const Simulation plane = simulate(body, world, dropped(body, 10), {.impacts = 4});
+  for (const ImpactRecord& row : plane.impacts) {
+    BOOST_TEST(row.predictable);
+    BOOST_TEST(row.value.angular_velocity_after.x() == 0);
+    BOOST_TEST(row.value.velocity_after.y() == 0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_method_is_chosen_from_step_and_digits) {
+  const Body body = phone();
+  const auto method = [&](const Accuracy& accuracy) {
+    return simulate(body, {.ground = {.stiffness = 1e8}}, dropped(body, 10), {.impacts = 1}, accuracy).method;
+  };
+  BOOST_TEST((method({.digits = 6}) == Method::rk8pd));
+  BOOST_TEST((method({.digits = 3}) == Method::rkck));
+  BOOST_TEST((method({.digits = 3, .step = 1e-5}) == Method::tvd_rk3));
+}
+
+/// A numbering of nodes and elements is a matter of the mesh, not of the body.
+BOOST_AUTO_TEST_CASE(the_numbering_of_nodes_and_elements_changes_nothing_beyond_rounding) {
+  const Mesh mesh = box_mesh({.size = phone_size(), .mass = phone_mass, .nx = 4, .ny = 3, .nz = 2});
+  Mesh shuffled = mesh;
+  std::mt19937_64 random(5);
+  std::vector<int> order(mesh.nodes.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
+  std::shuffle(order.begin(), order.end(), random);
+  for (std::size_t i = 0; i < order.size(); ++i) shuffled.nodes[static_cast<std::size_t>(order[i])] = mesh.nodes[i];
+  for (Element& element : shuffled.elements) {
+    for (int& node : element.nodes) node = order[static_cast<std::size_t>(node)];
+  }
+  std::shuffle(shuffled.elements.begin(), shuffled.elements.end(), random);
+  for (const bool merge : {true, false}) {
+    const auto impulse = [&](const Mesh& m) {
+      const Body body(m, merge);
+      const World world{.ground = {.stiffness = 1e8, .damping = 1e6}};
+      return simulate(body, world, dropped(body, 10, 5), {.impacts = 1}, {.digits = 12}).impacts.at(0).value.impulse;
+    };
+    const Vector3 a = impulse(mesh), b = impulse(shuffled);
+    BOOST_TEST((a - b).norm() <= 1e-12 * a.norm());  // 1e-13 of the load, over the steps
+  }
+}
+
+/// Bouncing flat on an undamped ground without friction: the time between touch-downs is that of the flight 2v/g and
+/// of the contact, and no energy is lost.
+BOOST_AUTO_TEST_CASE(an_elastic_body_bounces_flat_for_ever) {
+  const Body body = box_body({0.3, 0.2, 0.1}, 1);
+  const double speed = 1;
+  const MotionState start = touching_state(body, {.velocity = {0, 0, -speed}});
+  const Simulation run = simulate(body, {.ground = {.stiffness = 1e8, .area = AreaMeasure::projected}}, start,
+                                  {.impacts = 5}, {.digits = 8});
+  BOOST_REQUIRE(run.impacts.size() == 5);
+  for (std::size_t i = 1; i < run.impacts.size(); ++i) {
+    const ImpactNumbers &before = run.impacts[i - 1].value, &n = run.impacts[i].value;
+    BOOST_TEST(n.start - before.start - before.duration == 2 * speed / 9.81, boost::test_tools::tolerance(1e-8));
+    BOOST_TEST(n.approach_speed == speed, boost::test_tools::tolerance(1e-8));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_damped_body_comes_to_rest_where_the_ground_bears_its_weight) {
+  const Body body = box_body({0.3, 0.2, 0.1}, 1);
+  const double k = 1e6, area = 0.06;
+  const Ground ground{.stiffness = k, .damping = 1e7, .area = AreaMeasure::projected};
+  const Simulation run =
+      simulate(body, {.ground = ground}, touching_state(body, {.velocity = {0, 0, -0.5}}), plain_impacts(100));
+  BOOST_REQUIRE((run.outcome == Outcome::at_rest));
+  BOOST_TEST(0.05 - run.final_state.centre.z() == 9.81 / (k * area), boost::test_tools::tolerance(1e-4));
+  BOOST_TEST(run.impacts.back().energy_stored > 0);
+}

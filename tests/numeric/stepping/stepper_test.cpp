@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Observed orders of the time integration.
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "numeric/motion/free_flight.hpp"
+#include "numeric/stepping/contact_run.hpp"
+#include "tests/numeric/bodies.hpp"
+
+namespace {
+
+using namespace clatter::numeric;
+using namespace clatter::numeric::test;
+
+#ifdef CLATTER_TEST_SLOW_BUILD
+constexpr int halvings = 4;
+constexpr long many_steps = 50'000;
+constexpr double phases[] = {0.37};
+#else
+constexpr int halvings = 6;
+constexpr long many_steps = 1'000'000;
+constexpr double phases[] = {1.0, 0.71, 0.37, 0.05};
+#endif
+
+struct Scene {
+  Body body;
+  Ground ground;
+  MotionState touch;
+};
+
+Scene scene(const Body& body, const Ground& ground, double angle, double tilt) {
+  return {body, ground,
+          touching_state(body,
+                         {.inclination = angle * degree, .velocity = {0, 0, -1}, .out_of_plane_tilt = tilt * degree})};
+}
+
+std::vector<Scene> scenes() {
+  return {scene(phone(), {.stiffness = 1e8}, 10, 0), scene(phone(), {.stiffness = 1e8, .damping = 1e7}, 10, 0),
+          scene(phone(), {.stiffness = 1e8, .damping = 1e7, .area = AreaMeasure::projected}, 20, 15),
+          scene(phone(), {.stiffness = 1e8, .damping = 1e7, .area = AreaMeasure::projected}, 0, 0),
+          scene(rod(), {.stiffness = 1e11, .damping = 1e9}, 45, 0)};
+}
+
+ContactResult run(const Scene& s, Method method, const ContactControl& how) {
+  ContactSystem system(s.body, s.ground, 0, false);
+  const auto stepper = make_stepper(method);
+  ContactControl control = how;
+  control.evaluation_limit = 100'000'000;
+  return ContactRun(system, *stepper).run(s.touch, touch_point(s.body, s.touch), control);
+}
+
+double distance(const Scene& s, const ContactResult& a, const ContactResult& b) {
+  return (a.after.velocity - b.after.velocity).norm() +
+         s.body.radius() * (a.after.angular_velocity - b.after.angular_velocity).norm();
+}
+
+}  // namespace
+
+/// The reference is the eighth-order method at its finest; its own error is below 1e-14.
+BOOST_AUTO_TEST_CASE(tvd_rk3_has_order_three_whatever_the_phase_of_its_first_step) {
+  for (const Scene& s : scenes()) {
+    const ContactResult reference = run(s, Method::rk8pd, {.steps = {.tolerance = 3e-15}});
+    for (const double phase : phases) {
+      double previous = 0;
+      for (int halving = 0; halving <= halvings; ++halving) {
+        const double step = reference.duration / 40 / std::pow(2.0, halving);
+        const ContactResult result = run(s, Method::tvd_rk3, {.steps = {.step = step, .first_step = phase * step}});
+        const double error = distance(s, result, reference);
+        if (halving > 0) BOOST_TEST(std::fabs(std::log2(previous / error) - 3) <= 0.1);
+        previous = error;
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_error_of_adaptive_methods_follows_the_tolerance_over_six_decades) {
+  for (const Scene& s : scenes()) {
+    const ContactResult reference = run(s, Method::rk8pd, {.steps = {.tolerance = 3e-15}});
+    for (const Method method : {Method::rk8pd, Method::rkf45, Method::rkck, Method::rk4}) {
+      const double finest = 1e-11;
+      for (double tolerance = 1e-5; tolerance >= finest; tolerance /= 10) {
+        const ContactResult result = run(s, method, {.steps = {.tolerance = tolerance}});
+        BOOST_TEST(distance(s, result, reference) <= 100 * tolerance);
+      }
+      const double coarse = distance(s, run(s, method, {.steps = {.tolerance = 1e-5}}), reference);
+      const double fine = distance(s, run(s, method, {.steps = {.tolerance = finest}}), reference);
+      BOOST_TEST(fine <= 1e-3 * coarse + 1e-12);
+    }
+  }
+}
+
+/// A box that tumbles while it sinks into a ground too soft to bear it, so that the contact never ends.
+BOOST_AUTO_TEST_CASE(the_euler_parameters_stay_of_unit_norm_over_a_million_steps) {
+  const Body body = box_body({0.3, 0.2, 0.1}, 1);
+  const Ground ground{.stiffness = 1e3, .area = AreaMeasure::projected};
+  const MotionState touch =
+      touching_state(body, {.inclination = 0.3, .velocity = {0, 0, -0.1}, .spin = -1, .out_of_plane_tilt = 0.2});
+  ContactSystem system(body, ground, 9.81, false);
+  const auto stepper = make_stepper(Method::tvd_rk3);
+  long steps = 0;
+  double worst = 0;
+  ContactControl control;
+  control.steps.step = 1e-3;
+  control.evaluation_limit = 100'000'000;
+  const auto count = [&](const ContactInstant& at) {
+    worst = std::max(worst, std::fabs(euler_parameters(at.state).norm() - 1));
+    return ++steps < many_steps;
+  };
+  const ContactResult result = ContactRun(system, *stepper).run(touch, touch_point(body, touch), control, count);
+  BOOST_TEST(static_cast<int>(result.ending) == static_cast<int>(ContactEnding::interrupted));
+  BOOST_TEST(steps == many_steps);
+  BOOST_TEST(worst <= 1e-15);
+}
+
+BOOST_AUTO_TEST_CASE(peak_force_and_duration_converge_with_the_state) {
+  for (const Scene& s : scenes()) {
+    const ContactResult reference = run(s, Method::rk8pd, {.steps = {.tolerance = 3e-15}});
+    const ContactResult result = run(s, Method::rk8pd, {.steps = {.tolerance = 1e-11}});
+    BOOST_TEST(result.peak_force == reference.peak_force, boost::test_tools::tolerance(1e-8));
+    BOOST_TEST(result.duration == reference.duration, boost::test_tools::tolerance(1e-9));
+  }
+}
