@@ -12,7 +12,7 @@
 #include "validation/output/sink.hpp"
 #include "validation/reports/verification_page.hpp"
 #include "validation/reports/verify_report.hpp"
-#include "validation/verify/selection.hpp"
+#include "validation/verify/check.hpp"
 
 namespace clatter::validation::inline cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/verify/verification.hpp"
+#include "validation/verify/check.hpp"
 
 namespace clatter::validation::inline reports {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "validation/output/report.hpp"
-#include "validation/verify/verification.hpp"
+#include "validation/verify/check.hpp"
 
 namespace clatter::validation::inline reports {
 
