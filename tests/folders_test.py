@@ -1,8 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Includes between the folders of a room point one way: a file includes from its own folder and from those below it."""
+"""Includes point one way: a file includes from its own folder and from those below it, and no components include each
+other in a circle.  A component is a header and the source of its name."""
 
 import re
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -39,6 +41,48 @@ def upward(root, room, order):
         if folder in order and (below not in order or order.index(below) > order.index(folder)):
             faults.append(f"{path} includes {header}")
     return faults
+
+
+def component_includes(root, rooms):
+    """Component → the other components that its header or its source includes."""
+    includes = {}
+    for path in sorted(path for room in rooms for path in (root / room).rglob("*.[ch]pp")):
+        of = includes.setdefault(path.relative_to(root).with_suffix("").as_posix(), set())
+        of.update(header.removesuffix(".hpp") for header, *_ in INCLUDE.findall(path.read_text(encoding="utf-8")))
+    return {of: to & includes.keys() - {of} for of, to in includes.items()}
+
+
+def reached(includes, start):
+    """What a component includes, directly or by way of others."""
+    found, waiting = set(), [start]
+    while waiting:
+        new = includes[waiting.pop()] - found
+        found |= new
+        waiting.extend(new)
+    return found
+
+
+def circles(includes):
+    """Groups of components each of which includes all the others, directly or by way of others."""
+    reach = {of: reached(includes, of) for of in includes}
+    groups = {frozenset(to for to in reach[of] if of in reach[to]) for of in includes if of in reach[of]}
+    return sorted(sorted(group) for group in groups)
+
+
+class Components(unittest.TestCase):
+    maxDiff = None  # a failure names every circle
+
+    def test_no_components_include_each_other_in_a_circle(self):
+        self.assertEqual(circles(component_includes(ROOT, ORDERS)), [])
+
+    def test_a_circle_is_found_through_headers_and_sources_of_one_name(self):
+        files = {"a/one.hpp": "a/two.hpp", "a/two.cpp": "a/three.hpp", "a/two.hpp": "", "a/three.hpp": "a/one.hpp",
+                 "a/apart.cpp": "a/one.hpp", "a/four.hpp": "", "a/four.cpp": "a/four.hpp"}
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "a").mkdir()
+            for name, included in files.items():
+                (Path(folder) / name).write_text(f'#include "{included}"\n' if included else "", encoding="utf-8")
+            self.assertEqual(circles(component_includes(Path(folder), ["a"])), [["a/one", "a/three", "a/two"]])
 
 
 class Folders(unittest.TestCase):

@@ -5,8 +5,7 @@
 import csv
 import unittest
 
-from space_folder import BOX, INERTIA, SIZE, SpaceFolder, product, turn, words
-from space_sequence_test import l_shape
+from space_folder import BOX, INERTIA, SpaceFolder, l_shape, product, turn, words
 
 QUANTITIES = ["start", "contact_angle_deg", "impulse_x", "impulse_y", "impulse_z", "velocity_after_x", "velocity_after_y",
               "velocity_after_z", "angular_velocity_after_x", "angular_velocity_after_y", "angular_velocity_after_z"]

@@ -6,14 +6,12 @@ import os
 import resource
 import signal
 import subprocess
-import sys
 import threading
 import unittest
 
 from run_folder import CASES, PROGRAM, Folder
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from waiting import sizes, until  # noqa: E402
+from waiting import sizes, until
 
 LONG_RUN = ["angles", "--count", "50000000", "--format", "csv"]
 

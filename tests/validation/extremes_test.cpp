@@ -9,10 +9,8 @@
 #include <stdexcept>
 
 #include "numeric/motion/free_rotation.hpp"
-#include "validation/extremes/exact_rod.hpp"
 #include "validation/extremes/extremes.hpp"
-#include "validation/extremes/retrace.hpp"
-#include "validation/extremes/spin.hpp"
+#include "validation/extremes/oracles.hpp"
 #include "validation/reports/extremes_report.hpp"
 
 namespace {

@@ -6,17 +6,17 @@ import csv
 import json
 import os
 import re
-import subprocess
 import tempfile
 import unittest
 import xml.etree.ElementTree
 
-PROGRAM = os.environ["CLATTER_PROGRAM"]
+from run_folder import run
+
 PATIENCE = ["--seconds", "600"]  # so that no test depends on a time
 
 
 def extremes(*arguments):
-    return subprocess.run([PROGRAM, "extremes", *arguments], capture_output=True, text=True, timeout=3000)
+    return run("extremes", *arguments)
 
 
 class Extremes(unittest.TestCase):

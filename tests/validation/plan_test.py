@@ -6,21 +6,12 @@ import os
 import re
 import shlex
 import shutil
-import subprocess
 import tempfile
 import unittest
 
-PROGRAM = os.environ["CLATTER_PROGRAM"]
-CASES = os.path.join(os.environ["CLATTER_ROOT"], "validation", "cases")
+from run_folder import CASES, case, run
+
 SCENES = ("rod-10", "rod-45", "rod-friction-03", "rod-damped", "phone-elastic", "phone-damped", "phone-corner", "box-flat")
-
-
-def case(name):
-    return os.path.join(CASES, name + ".toml")
-
-
-def run(*arguments):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True)
 
 
 def parsed(*arguments):

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """--plot and --plot-script: the pictures, the scripts that draw them, and what is refused."""
 
-import csv
-import io
 import json
 import math
 import os
@@ -11,21 +9,11 @@ import shutil
 import signal
 import struct
 import subprocess
-import sys
-import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from waiting import sizes, until  # noqa: E402
-
-PROGRAM = os.environ["CLATTER_PROGRAM"]
-CASES = os.path.join(os.environ["CLATTER_ROOT"], "validation", "cases")
-
-
-def case(name):
-    return os.path.join(CASES, name + ".toml")
-
+from run_folder import PROGRAM, EmptyFolder, case, records, run
+from waiting import sizes, until
 
 # For each command: arguments, axis names, legends.
 COMMANDS = {
@@ -59,10 +47,6 @@ COMMANDS = {
 QUICK = [name for name in COMMANDS if name != "tradeoff"]  # which measures for seconds, and prints what it has measured
 
 
-def run(*arguments, **options):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=3000, **options)
-
-
 def blocks(script):
     """The data blocks of a script: name -> rows of numbers."""
     found = {}
@@ -72,23 +56,7 @@ def blocks(script):
     return found
 
 
-def csv_rows(text):
-    return list(csv.DictReader(io.StringIO("".join(line for line in text.splitlines(True) if line[0] != "#"))))
-
-
-class InFolder(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def read(self, name):
-        with open(self.path(name), encoding="utf-8") as file:
-            return file.read()
-
+class InFolder(EmptyFolder):
     def plotted(self, *arguments, status=0):
         """What a run prints, and the data that its script draws."""
         done = run(*arguments, "--plot", self.path("p.svg"), "--plot-script")
@@ -202,7 +170,7 @@ class Data(InFolder):
 
     def test_angles_draws_the_rows_that_it_prints(self):
         out, drawn = self.plotted(*COMMANDS["angles"][0], "--format", "csv")
-        rows = csv_rows(out)
+        rows = records(out)
         for block, column in (("panel1_0", "beta_deg"), ("panel1_1", "gamma_deg"), ("panel2_0", "P1"), ("panel2_1", "P2"),
                               ("panel2_2", "P3")):
             expected = [[float(row["theta_deg"]), float(row[column])] for row in rows if row[column]]
@@ -212,12 +180,12 @@ class Data(InFolder):
     def test_angles_draws_both_printed_forms(self):
         out, drawn = self.plotted("angles", "--step", "5", "--gravity-number", "0.5", "--as-printed", "--format", "csv")
         for i, column in enumerate(("beta_deg", "beta_printed_deg", "beta_printed_negative_g_deg")):
-            expected = [[float(row["theta_deg"]), float(row[column])] for row in csv_rows(out) if row[column]]
+            expected = [[float(row["theta_deg"]), float(row[column])] for row in records(out) if row[column]]
             self.assertEqual(drawn[f"panel1_{i}"], expected)
 
     def test_of_very_many_angles_some_thousand_are_drawn_and_the_ends_of_branches_stay(self):
         out, drawn = self.plotted("angles", "--count", "100001", "--gravity-number", "0.5", "--format", "csv")
-        rows = [(float(row["theta_deg"]), row) for row in csv_rows(out)]
+        rows = [(float(row["theta_deg"]), row) for row in records(out)]
         for block, column in (("panel1_0", "beta_deg"), ("panel1_1", "gamma_deg")):
             self.assertLess(len(drawn[block]), 5000)
             self.assertGreater(len(drawn[block]), 1000)
@@ -252,7 +220,7 @@ class Data(InFolder):
         peaks = [[i["start"] + i["peak_time"], i["peak_force"]] for i in json.loads(out)["impacts"]]
         for time, force in peaks:
             self.assertTrue(any(abs(t - time) <= 1e-15 and f == force for t, f in drawn["panel2_0"]), (time, force))
-        history = [row for row in csv_rows(self.read("h.csv")) if float(row["t"]) >= 0]
+        history = [row for row in records(self.read("h.csv")) if float(row["t"]) >= 0]
         for block, column in (("panel1_0", "z"), ("panel2_0", "fz"), ("panel3_0", "energy_translation"),
                               ("panel3_1", "energy_rotation"), ("panel3_2", "energy_potential"),
                               ("panel3_3", "energy_ground"), ("panel3_4", "energy_total")):
@@ -264,7 +232,7 @@ class Data(InFolder):
     def test_a_long_history_is_thinned_and_keeps_its_peaks(self):
         out, drawn = self.plotted("simulate", case("rod-10"), "--method", "tvd-rk3", "--step", "2e-7", "--history",
                                   self.path("h.csv"), "--format", "json")
-        history = [(float(row["t"]), float(row["fz"])) for row in csv_rows(self.read("h.csv"))]
+        history = [(float(row["t"]), float(row["fz"])) for row in records(self.read("h.csv"))]
         peaks = [(i["start"] + i["peak_time"], i["peak_force"]) for i in json.loads(out)["impacts"]]
         shown = [tuple(point) for point in drawn["panel2_0"]]
         self.assertGreater(len(history), 10_000)
@@ -275,7 +243,7 @@ class Data(InFolder):
 
     def test_swept_simulate_draws_the_first_impacts(self):
         out, drawn = self.plotted(*COMMANDS["simulate, swept"][0], "--format", "csv")
-        rows = [row for row in csv_rows(out) if row["n"] == "1"]
+        rows = [row for row in records(out) if row["n"] == "1"]
         for i, column in enumerate(("velocity_after_z", "angular_velocity_after_y", "impulse_normal", "energy_loss")):
             self.assertEqual(drawn[f"panel{i + 1}_0"], [[float(row["sliding_friction"]), float(row[column])] for row in rows])
 

@@ -12,15 +12,13 @@ import re
 import shutil
 import signal
 import subprocess
-import sys
 import tempfile
 import unittest
 from decimal import Decimal
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from waiting import sizes, until  # noqa: E402
+from run_folder import PROGRAM, ROOT, run
+from waiting import sizes, until
 
-PROGRAM = os.environ["CLATTER_PROGRAM"]
 
 NUMBER_OPTIONS = {
     "sequence": ["--angle", "--speed", "--height", "--tangential-velocity", "--spin", "--gravity",
@@ -38,10 +36,6 @@ NEGATIVE_REFUSED = {"--angle", "--speed", "--height", "--gravity", "--restitutio
 ZERO_REFUSED = {"--speed", "--height", "--mass", "--length", "--impacts", "--digits", "--step", "--count"}
 TOO_LARGE = {"--angle": "90.0000001", "--restitution": "1.0000001", "--impacts": "1000001", "--digits": "18",
              "--from": "91", "--to": "90.5", "--mass": "1e201", "--length": "1e309"}
-
-
-def run(*arguments, **options):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=3000, **options)
 
 
 class BadInput(unittest.TestCase):
@@ -248,7 +242,7 @@ class Output(unittest.TestCase):
                 self.assertLessEqual(len(field.replace("-", "").replace(".", "").split("e")[0].strip("0")), digits)
 
     def test_the_errors_of_angles_cover_those_against_30_digit_references_and_are_small(self):
-        folder = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "analytic", "reference")
+        folder = os.path.join(ROOT, "tests", "analytic", "reference")
         compared = 0
         for name in ("rod_sequence_no_gravity.csv", "rod_sequence_gravity.csv"):
             with open(os.path.join(folder, name), encoding="utf-8") as file:
@@ -345,7 +339,7 @@ class Manners(unittest.TestCase):
             self.skipTest("no groff or no help2man here")
         with tempfile.TemporaryDirectory() as folder:
             pages = os.path.join(folder, "man")
-            script = os.path.join(os.path.dirname(__file__), "..", "..", "validation", "cli", "man_pages")
+            script = os.path.join(ROOT, "validation", "cli", "man_pages")
             subprocess.run(["sh", script, PROGRAM, pages], check=True)
             commands = re.findall(r"^  (\w+) ", run("--help").stdout.split("Subcommands:")[1].split("\n\n")[0], re.M)
             self.assertEqual(sorted(os.listdir(pages)),

@@ -2,17 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Forms of output: every command that prints rows prints them as table, CSV, JSON, Markdown and LaTeX."""
 
-import csv
-import io
 import json
 import os
 import re
-import subprocess
 import tempfile
 import unittest
 
-PROGRAM = os.environ["CLATTER_PROGRAM"]
-CASES = os.path.join(os.environ["CLATTER_ROOT"], "validation", "cases")
+from run_folder import CASES, records, run
+
 SQUARES = os.path.join(os.environ["CLATTER_ROOT"], "validation", "measured", "square-drops.csv")
 PHONE = os.path.join(CASES, "phone-damped.toml")
 FORMS = ("table", "csv", "json", "markdown", "latex")
@@ -36,16 +33,8 @@ COMMANDS = {
 }
 
 
-def run(*arguments):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=3000, check=False)
-
-
 def lines_of(text):
     return text.splitlines(True)
-
-
-def records(text):
-    return list(csv.DictReader(io.StringIO("".join(line for line in lines_of(text) if not line.startswith("#")))))
 
 
 class Forms(unittest.TestCase):

@@ -2,17 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """[sweep] of scene files: lists, grids by count and ratio, every impact shown; windows of pictures and histories."""
 
-import csv
-import io
 import json
 import os
 import re
 import shutil
-import subprocess
 import tempfile
 import unittest
 
-PROGRAM = os.environ["CLATTER_PROGRAM"]
+from run_folder import EmptyFolder, records, run
+
 SCENE = """
 [drop]
 speed = 1
@@ -34,25 +32,9 @@ digits = 4
 """
 
 
-def run(*arguments):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False)
-
-
-def rows_of(text):
-    return list(csv.DictReader(line for line in io.StringIO(text) if not line.startswith("#")))
-
-
-class WithScenes(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
+class WithScenes(EmptyFolder):
     def scene(self, sweep, drop="", ground=""):
-        path = os.path.join(self.folder, "scene.toml")
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(SCENE.format(sweep=sweep, drop=drop, ground=ground))
-        return path
+        return self.write("scene.toml", SCENE.format(sweep=sweep, drop=drop, ground=ground))
 
     def swept(self, *scene, **parts):
         done = run("simulate", self.scene(*scene, **parts), "--format", "json")
@@ -105,7 +87,7 @@ class Sweeps(WithScenes):
 
     def test_the_table_of_a_sweep_shows_every_impact_of_every_value(self):
         path = self.scene("angle_deg = [5, 10, 70]")
-        rows = rows_of(run("simulate", path, "--format", "csv").stdout)
+        rows = records(run("simulate", path, "--format", "csv").stdout)
         table = run("simulate", path, "--format", "markdown").stdout
         shown = [[cell.strip() for cell in line.split("|")[1:-1]] for line in table.splitlines() if line.startswith("| ")][1:]
         self.assertGreater(len(rows), 3)
@@ -175,9 +157,9 @@ class Windows(unittest.TestCase):
             self.assertEqual(run(*command, whole).returncode, 0)
             self.assertEqual(run(*command, part, "--window", "0.001:0.01").returncode, 0)
             with open(whole, encoding="utf-8") as file:
-                rows = rows_of(file.read())
+                rows = records(file.read())
             with open(part, encoding="utf-8") as file:
-                cut = rows_of(file.read())
+                cut = records(file.read())
         expected = [row for row in rows if 0.001 <= float(row["t"]) <= 0.01]
         self.assertEqual(cut, expected)
         self.assertTrue(0 < len(cut) < len(rows))

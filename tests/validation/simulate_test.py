@@ -10,16 +10,11 @@ import math
 import os
 import signal
 import subprocess
-import sys
-import tempfile
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from stl_text import stl  # noqa: E402
-from waiting import until  # noqa: E402
-
-PROGRAM = os.environ["CLATTER_PROGRAM"]
-CASES = os.environ["CLATTER_CASES"]
+from run_folder import CASES, PROGRAM, EmptyFolder, run
+from stl_text import stl
+from waiting import until
 
 SCENE = """
 [drop]
@@ -117,26 +112,16 @@ def box_stl(size, attitude, centre):
     return stl(triangles)
 
 
-def run(*arguments, **options):
-    return subprocess.run([PROGRAM, "simulate", *arguments], capture_output=True, text=True, timeout=3000, **options)
+def simulate(*arguments, **options):
+    return run("simulate", *arguments, **options)
 
 
-class Folder(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
+class Folder(EmptyFolder):
     def scene(self, text=SCENE, name="scene.toml"):
-        with open(self.path(name), "w", encoding="utf-8") as file:
-            file.write(text)
-        return self.path(name)
+        return self.write(name, text)
 
     def json(self, *arguments):
-        result = run(*arguments, "--format", "json")
+        result = simulate(*arguments, "--format", "json")
         self.assertEqual(result.returncode, 0, result.stderr)
         return json.loads(result.stdout)
 
@@ -144,7 +129,7 @@ class Folder(unittest.TestCase):
 class BadInput(Folder):
     def refuse(self, *arguments):
         before = sorted(os.listdir(self.folder))
-        result = run(*arguments, "--output", self.path("out"))
+        result = simulate(*arguments, "--output", self.path("out"))
         self.assertEqual(result.returncode, 2, (arguments, result.stderr))
         self.assertEqual(result.stdout, "")
         self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
@@ -178,8 +163,8 @@ class BadInput(Folder):
 
     def test_the_scene_file_is_not_written_over(self):
         path = self.scene()
-        self.assertEqual(run(path, "--output", path).returncode, 2)
-        self.assertEqual(run(path, "--history", path).returncode, 2)
+        self.assertEqual(simulate(path, "--output", path).returncode, 2)
+        self.assertEqual(simulate(path, "--history", path).returncode, 2)
         with open(path, encoding="utf-8") as file:
             self.assertEqual(file.read(), SCENE)
 
@@ -245,7 +230,7 @@ class Output(Folder):
                 self.assertIn(key, row)
             self.assertEqual(len(row["velocity_after"]), 3)
         self.assertAlmostEqual(run_json["total_normal_impulse"], sum(r["impulse_normal"] for r in run_json["impacts"]))
-        self.assertNotIn("nan", run(self.scene(), "--format", "json").stdout.lower())
+        self.assertNotIn("nan", simulate(self.scene(), "--format", "json").stdout.lower())
 
     def test_the_angles_of_the_json_are_degrees(self):
         first = self.json(self.scene(), "--impacts", "1")["impacts"][0]
@@ -255,7 +240,7 @@ class Output(Folder):
     def test_csv_and_json_hold_the_same_numbers(self):
         path = self.scene()
         rows = self.json(path)["impacts"]
-        lines = [l for l in run(path, "--format", "csv").stdout.splitlines() if not l.startswith("#")]
+        lines = [l for l in simulate(path, "--format", "csv").stdout.splitlines() if not l.startswith("#")]
         for row, line in zip(rows, csv.DictReader(io.StringIO("\n".join(lines)))):
             for key in ("start", "duration", "impulse_normal", "peak_force", "energy_loss"):
                 self.assertEqual(float(line[key]), row[key])
@@ -263,10 +248,10 @@ class Output(Folder):
 
     def test_tables_fit_80_columns(self):
         for path in sorted(glob.glob(os.path.join(CASES, "*.toml"))):
-            result = run(path)
+            result = simulate(path)
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertLessEqual(max(map(len, result.stdout.splitlines())), 80, path)
-            self.assertTrue(run(path, "--ascii").stdout.isascii())
+            self.assertTrue(simulate(path, "--ascii").stdout.isascii())
 
     GROUND = "[ground]\nstiffness = 1e8\ndamping = 1e7\n"
 
@@ -313,7 +298,7 @@ class Output(Folder):
         scene = "[ground]\nstiffness = 1e8\n[drop]\nangle_deg = 10\nspeed = 4\n[run]\nimpacts = 1\n[body]\nmass = 0.08814\n"
         path = self.scene(scene + "shape = 'mesh'\nmesh = { file = 'box.msh' }\n")
         # Gmsh's library itself leaks a little.
-        result = run(path, "--format", "json", env={**os.environ, "ASAN_OPTIONS": "detect_leaks=0"})
+        result = simulate(path, "--format", "json", env={**os.environ, "ASAN_OPTIONS": "detect_leaks=0"})
         if "no Gmsh" in result.stderr:
             self.skipTest("this build reads no Gmsh files")
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -323,13 +308,13 @@ class Output(Folder):
 
     def test_an_output_file_holds_what_stdout_would(self):
         path = self.scene()
-        self.assertEqual(run(path, "--output", self.path("out")).stdout, "")
+        self.assertEqual(simulate(path, "--output", self.path("out")).stdout, "")
         with open(self.path("out"), encoding="utf-8") as file:
-            self.assertEqual(file.read(), run(path).stdout)
+            self.assertEqual(file.read(), simulate(path).stdout)
 
     def test_a_run_that_gets_nowhere_says_so_with_status_3(self):
         path = self.scene(SCENE + "evaluation_limit = 10\n")
-        result = run(path)
+        result = simulate(path)
         self.assertEqual(result.returncode, 3)
         self.assertIn("evaluation-limit", result.stderr)
         self.assertIn("evaluation-limit", result.stdout)
@@ -360,7 +345,7 @@ class Output(Folder):
 class History(Folder):
     def history(self, *arguments):
         path = self.path("history.csv")
-        self.assertEqual(run(*arguments, "--history", path).returncode, 0)
+        self.assertEqual(simulate(*arguments, "--history", path).returncode, 0)
         with open(path, encoding="utf-8") as file:
             rows = [l for l in file if not l.startswith("#")]
         return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(rows)]
@@ -399,7 +384,7 @@ class History(Folder):
         self.assertAlmostEqual(impulse / self.json(path, "--impacts", "1")["impacts"][0]["impulse_normal"], 1, delta=1e-5)
 
     def test_a_refused_scene_leaves_no_history(self):
-        self.assertEqual(run(self.scene(), "--history", self.path("h.csv"), "--angle", "91").returncode, 2)
+        self.assertEqual(simulate(self.scene(), "--history", self.path("h.csv"), "--angle", "91").returncode, 2)
         self.assertNotIn("h.csv", os.listdir(self.folder))
 
 
@@ -447,7 +432,7 @@ class Friction(Folder):
         for case in ("rod-10", "phone-corner"):
             for angle in ("0", "90"):
                 for method in ("auto", "tvd-rk3", "rk8pd"):
-                    result = run(os.path.join(CASES, case + ".toml"), "--angle", angle, "--tilt", "0", "--method", method,
+                    result = simulate(os.path.join(CASES, case + ".toml"), "--angle", angle, "--tilt", "0", "--method", method,
                                  "--planar", "--speed", "1", "--damping", "0", *friction, "--format", "json", "--history",
                                  self.path("h.csv"))
                     self.assertEqual((result.returncode, result.stderr), (0, ""), (case, angle, method))
@@ -464,13 +449,13 @@ class Friction(Folder):
         for command in ("simulate", "compare", "tradeoff"):
             result = subprocess.run([PROGRAM, command, case, "--spin", "50"], capture_output=True, text=True, timeout=3000)
             self.assertEqual((result.returncode, result.stdout, result.stderr), (2, "", sequence.stderr), command)
-        self.assertEqual(run(case, "--spin", "1", "--impacts", "1").returncode, 0)
+        self.assertEqual(simulate(case, "--spin", "1", "--impacts", "1").returncode, 0)
 
     def test_a_tilted_body_kept_in_its_plane_is_warned_of(self):
         case = os.path.join(CASES, "phone-elastic.toml")
         for tilt, warned in (("20", True), ("0", False), ("90", False)):
             for form in ("table", "json"):
-                result = run(case, "--planar", "--tilt", tilt, "--impacts", "1", "--format", form)
+                result = simulate(case, "--planar", "--tilt", tilt, "--impacts", "1", "--format", form)
                 self.assertEqual(result.returncode, 0)
                 self.assertEqual("its own mirror image" in result.stderr, warned, (tilt, form))
                 self.assertEqual("mirror image" in " ".join(result.stdout.split()), warned, (tilt, form))
@@ -478,7 +463,7 @@ class Friction(Folder):
     def test_a_body_that_sinks_wholly_is_marked_in_its_row(self):
         case = os.path.join(CASES, "phone-elastic.toml")
         for stiffness, sinks in (("1e4", True), ("1e8", False)):
-            result = run(case, "--stiffness", stiffness, "--impacts", "1")
+            result = simulate(case, "--stiffness", stiffness, "--impacts", "1")
             self.assertEqual("1!" in result.stdout, sinks)
             self.assertEqual("sinks below the ground in impact 1" in result.stderr, sinks)
             rows = self.json(case, "--stiffness", stiffness, "--impacts", "1")

@@ -7,24 +7,11 @@ import math
 import random
 import unittest
 
-from space_folder import BOX, CENTRE, INERTIA, MASS, SIZE, SpaceFolder, box_moments, cross, rotated, times, words
-from stl_text import stl
+from space_folder import (CENTRE, INERTIA, MASS, SIZE, VERTICES, SpaceFolder, box_moments, cross, l_shape, rotated, times,
+                          words)
 
 PHONE = ["--body", "box", "--size", "x".join(map(str, SIZE)), "--mass", str(MASS)]
 CORNER = [*PHONE, "--angle", "40", "--tilt", "25"]
-VERTICES = [(0, 0, 0), (0.1, 0, 0), (0.1, 0.03, 0), (0.03, 0.03, 0), (0.03, 0.08, 0), (0, 0.08, 0)]  # of an L
-
-
-def l_shape(height):
-    """An L of this height as the triangles of an STL file, outward."""
-    low, high = ([(x, y, z) for x, y, _ in VERTICES] for z in (0, height))
-    faces = []
-    for i, j, k in ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5)):
-        faces += [(low[i], low[k], low[j]), (high[i], high[j], high[k])]
-    for i in range(6):
-        j = (i + 1) % 6
-        faces += [(low[i], low[j], high[j]), (low[i], high[j], high[i])]
-    return stl(faces)
 
 
 class Sequence(SpaceFolder):

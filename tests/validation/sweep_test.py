@@ -2,21 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter sweep` as its users meet it: the same file however it came about, rows as the other commands have them."""
 
-import csv
-import io
 import os
 import signal
 import subprocess
-import sys
-import tempfile
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from stl_text import stl  # noqa: E402
-from waiting import until  # noqa: E402
+from run_folder import CASES, PROGRAM, EmptyFolder, records, run
+from stl_text import stl
+from waiting import until
 
-PROGRAM = os.environ["CLATTER_PROGRAM"]
-CASES = os.path.join(os.environ["CLATTER_ROOT"], "validation", "cases")
 MPIEXEC = os.environ.get("CLATTER_MPIEXEC", "")
 
 THIN_ROD = "[drop]\nangle_deg = 10\n[world]\ngravity = 9.81\n[body]\nradius = 0\n[run]\nimpacts = 4\n"
@@ -70,11 +64,6 @@ BAD_OPTIONS = {
 }
 
 
-def records(text):
-    """Rows of a CSV text without its head."""
-    return list(csv.DictReader(io.StringIO("".join(l for l in text.splitlines(True) if not l.startswith("#")))))
-
-
 def octahedron_stl(side):
     """The middles of the faces of a cube about the origin."""
     half = side / 2
@@ -97,27 +86,17 @@ def box_stl(side):
     return stl(triangles)
 
 
-class Folder(unittest.TestCase):
+class Folder(EmptyFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        super().setUp()
         self.scene = self.write("rod.toml", THIN_ROD)
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def write(self, name, text):
-        with open(self.path(name), "w", encoding="utf-8") as file:
-            file.write(text)
-        return self.path(name)
 
     def read(self, name):
         with open(self.path(name), "rb") as file:
             return file.read()
 
     def run_program(self, *arguments, **options):
-        return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=3000, **options)
+        return run(*arguments, **options)
 
     def sweep(self, *arguments):
         result = self.run_program("sweep", *arguments)

@@ -8,12 +8,11 @@ import json
 import os
 import re
 import shutil
-import subprocess
 import tempfile
 import unittest
 
-PROGRAM = os.environ["CLATTER_PROGRAM"]
-ROOT = os.environ["CLATTER_ROOT"]
+from run_folder import run
+
 TERMINAL = 80  # columns
 
 # Commands that print rows, with tables of all kinds: long texts, many columns, vectors.
@@ -29,10 +28,6 @@ COMMANDS = [
     ["measured", "fit", "square-drops"], ["measured", "predict", "square-drops"], ["measured", "score", "square-drops"],
     ["benchmark", "list"], ["benchmark", "truth", "corner"], ["keys"], ["columns"],
 ]
-
-
-def run(*arguments, folder=None):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, cwd=folder, check=False)
 
 
 def printed(*arguments, statuses=(0,)):
@@ -143,7 +138,7 @@ class Help(unittest.TestCase):
                 if name == "benchmark":
                     with open(os.path.join(folder, words[2]), "w", encoding="utf-8") as file:
                         file.write("# problem: rod-10\n" + printed("benchmark", "truth", "rod-10", "--format", "csv", "--bare"))
-                result = run(*words, folder=folder)
+                result = run(*words, cwd=folder)
                 self.assertEqual(result.returncode, 0, (words, result.stderr))
                 done += 1
         self.assertGreater(done, 12)

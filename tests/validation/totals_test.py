@@ -2,24 +2,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sums and their errors: what is printed of them, what CSV and JSON carry, and when a run falls short (exit status 3)."""
 
-import csv
-import io
 import json
 import math
 import os
 import re
 import signal
 import subprocess
-import sys
 import tempfile
 import unittest
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from waiting import until  # noqa: E402
+from run_folder import CASES, PROGRAM, records, run
+from waiting import until
 
-PROGRAM = os.environ["CLATTER_PROGRAM"]
-CASES = os.path.join(os.environ["CLATTER_ROOT"], "validation", "cases")
 PHONE = os.path.join(CASES, "phone-damped.toml")
 TUMBLING = os.path.join(CASES, "phone-elastic.toml")  # in space nothing after impact 2 can be predicted
 # An elastic box under gravity strikes again and again, and errors grow by each impact.
@@ -27,14 +21,6 @@ CHAOS = ["sequence", "--angle", "33", "--gravity", "9.81", "--body", "box", "--s
 QUICK = ["--set", "run.impacts=2", "--set", "run.digits=4"]
 # So much damping that explicit steps get nowhere in the second contact.
 OVERDAMPED = ["--damping", "1e13", "--impacts", "3"]
-
-
-def run(*arguments):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=3000, check=False)
-
-
-def records(text):
-    return list(csv.DictReader(io.StringIO("".join(l for l in text.splitlines(True) if not l.startswith("#")))))
 
 
 def printed_sum(text):

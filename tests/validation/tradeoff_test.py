@@ -4,17 +4,15 @@
 
 import json
 import os
-import subprocess
 import tempfile
-import unittest
 
-PROGRAM = os.environ["CLATTER_PROGRAM"]
-CASES = os.path.join(os.environ["CLATTER_ROOT"], "validation", "cases")
+from run_folder import case, run
+
+import unittest
 
 
 def tradeoff(name, *arguments):
-    return subprocess.run([PROGRAM, "tradeoff", os.path.join(CASES, name + ".toml"), *arguments], capture_output=True,
-                          text=True, timeout=3000)
+    return run("tradeoff", case(name), *arguments)
 
 
 class Tradeoff(unittest.TestCase):

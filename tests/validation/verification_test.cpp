@@ -7,7 +7,7 @@
 
 #include "validation/figures/figure.hpp"
 #include "validation/reports/verify_report.hpp"
-#include "validation/verify/verification.hpp"
+#include "validation/verify/check.hpp"
 
 namespace {
 

@@ -11,26 +11,17 @@ import subprocess
 import tempfile
 import unittest
 
-PROGRAM = os.environ["CLATTER_PROGRAM"]
-ROOT = os.environ["CLATTER_ROOT"]
-CASES = os.path.join(ROOT, "validation", "cases")
+from run_folder import CASES, PROGRAM, ROOT, case, run
+
 FIGURES = os.path.join(ROOT, "notebooks-data", "figures")
 # Under the sanitizers, which cost a factor of ten, other tests run the same code.
 UNLESS_SLOW = unittest.skipIf(os.environ.get("CLATTER_SLOW") == "1", "takes long in this build")
 NUMBERS = [7, 8, 9, 10, 11, 12, 14, 15, 16, 17, 19, 20, 21, 22, 23, 24]
 
 
-def clatter(*arguments):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=3000)
-
-
-def case(name):
-    return os.path.join(CASES, name + ".toml")
-
-
 class Compare(unittest.TestCase):
     def test_the_rows_are_aligned_and_the_limits_land(self):
-        run = clatter("compare", case("phone-damped"), "--format", "json")
+        run = run("compare", case("phone-damped"), "--format", "json")
         self.assertEqual(run.returncode, 0, run.stderr)
         result = json.loads(run.stdout)
         self.assertTrue(result["agrees"])
@@ -44,7 +35,7 @@ class Compare(unittest.TestCase):
         self.assertAlmostEqual(first["predicted"], sum(parts), delta=1e-15)
 
     def test_a_row_that_cannot_be_compared_says_why(self):
-        run = clatter("compare", case("phone-elastic"), "--angle", "3", "--impacts", "1", "--format", "json")
+        run = run("compare", case("phone-elastic"), "--angle", "3", "--impacts", "1", "--format", "json")
         impact = json.loads(run.stdout)["impacts"][0]
         self.assertFalse(impact["comparable"])
         self.assertIn("another place touches", impact["reason"])
@@ -52,16 +43,16 @@ class Compare(unittest.TestCase):
 
     def test_tables_fit_a_terminal(self):
         for name in ("phone-damped", "rod-45", "rod-from-2m", "every-key"):
-            for line in clatter("compare", case(name)).stdout.splitlines():
+            for line in run("compare", case(name)).stdout.splitlines():
                 self.assertLessEqual(len(line), 80, line)
 
     @UNLESS_SLOW
     def test_every_scene_file_agrees(self):
         for file in sorted(os.listdir(CASES)):
-            self.assertEqual(clatter("compare", os.path.join(CASES, file)).returncode, 0, file)
+            self.assertEqual(run("compare", os.path.join(CASES, file)).returncode, 0, file)
 
     def test_a_sweep_has_a_row_for_each_value(self):
-        run = clatter("compare", case("rod-friction-sweep"), "--format", "csv")
+        run = run("compare", case("rod-friction-sweep"), "--format", "csv")
         rows = list(csv.DictReader(line for line in run.stdout.splitlines() if not line.startswith("#")))
         self.assertEqual(len(rows), 17 * 7)
         self.assertEqual(float(rows[-1]["sliding_friction"]), 0.8)
@@ -73,18 +64,18 @@ class Compare(unittest.TestCase):
             scene = os.path.join(folder, "creeping.toml")
             with open(scene, "w") as file:
                 file.write(creeping)
-            run = clatter("compare", scene)
+            run = run("compare", scene)
         self.assertEqual((run.returncode, run.stdout), (4, ""))
         self.assertEqual(len(run.stderr.splitlines()), 1)
 
     def test_the_scene_file_is_not_written_over(self):
-        self.assertEqual(clatter("compare", case("rod-45"), "--output", case("rod-45")).returncode, 2)
+        self.assertEqual(run("compare", case("rod-45"), "--output", case("rod-45")).returncode, 2)
 
 
 class Verify(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.quick = clatter("verify", "--quick", "--format", "json")
+        cls.quick = run("verify", "--quick", "--format", "json")
 
     def test_the_quick_set_passes_and_answers_every_claim_and_erratum(self):
         self.assertEqual(self.quick.returncode, 0, self.quick.stdout)
@@ -99,14 +90,14 @@ class Verify(unittest.TestCase):
             self.assertLessEqual(check["tolerance"], 5.000001 * check["seen"])
 
     def test_the_table_fits_a_terminal(self):
-        lines = clatter("verify", "--only", "C1", "C5", "E8", "F24", "M10").stdout.splitlines()
+        lines = run("verify", "--only", "C1", "C5", "E8", "F24", "M10").stdout.splitlines()
         self.assertEqual(sum(1 for line in lines if line.startswith(("  C", "  E", "  F", "  M"))), 5)
         for line in lines:
             self.assertLessEqual(len(line), 80, line)
 
     @UNLESS_SLOW
     def test_every_command_in_the_table_runs(self):
-        checks = json.loads(clatter("verify", "--only", "X1", "--format", "json").stdout)["checks"]
+        checks = json.loads(run("verify", "--only", "X1", "--format", "json").stdout)["checks"]
         self.assertEqual([check["id"] for check in checks], ["X1"])
         everything = json.loads(self.quick.stdout)["checks"]
         with tempfile.TemporaryDirectory() as folder:
@@ -120,10 +111,10 @@ class Verify(unittest.TestCase):
     def test_bad_arguments_have_one_line_and_status_2(self):
         for arguments in (["--only", "C21"], ["--only"], ["--quick", "--only", "C1"], ["--html", "/no/such/folder/x.html"],
                           ["--only", "C1", ""], ["--fast"]):
-            run = clatter("verify", *arguments)
+            run = run("verify", *arguments)
             self.assertEqual((run.returncode, run.stdout), (2, ""), arguments)
             self.assertEqual(len(run.stderr.splitlines()), 1, run.stderr)
-        self.assertIn("C2", clatter("verify", "--only", "C21").stderr)
+        self.assertIn("C2", run("verify", "--only", "C21").stderr)
 
     def test_without_gnuplot_the_page_is_refused_and_nothing_is_written(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -147,7 +138,7 @@ class Figures(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
-        cls.run_result = clatter("figures", "--output", os.path.join(cls.folder.name, "new", "folder"))
+        cls.run_result = run("figures", "--output", os.path.join(cls.folder.name, "new", "folder"))
 
     @classmethod
     def tearDownClass(cls):
@@ -174,7 +165,7 @@ class Figures(unittest.TestCase):
 
     def test_the_head_and_json_say_how_each_panel_is_drawn_curve_by_curve(self):
         with tempfile.TemporaryDirectory() as folder:
-            self.assertEqual(clatter("figures", "--only", "17", "24", "--output", folder, "--format", "json").returncode, 0)
+            self.assertEqual(run("figures", "--only", "17", "24", "--output", folder, "--format", "json").returncode, 0)
             for number, where in ((17, {"variant": {1, 2}}), (24, {"touches": {1, 2}})):
                 head, names, rows = read_figure(self.path(number))
                 plots = [json.loads(line.removeprefix("# plot: ")) for line in head if line.startswith("# plot: ")]
@@ -209,7 +200,7 @@ class Figures(unittest.TestCase):
     def test_bad_arguments_have_status_2(self):
         for arguments in ([], ["--output"], ["--output", self.path(7)], ["--output", self.folder.name, "--only", "13"],
                           ["--output", self.folder.name, "--only", "x"]):
-            run = clatter("figures", *arguments)
+            run = run("figures", *arguments)
             self.assertEqual((run.returncode, run.stdout), (2, ""), arguments)
             self.assertEqual(len(run.stderr.splitlines()), 1)
 

@@ -36,7 +36,7 @@ struct ImpactSearch {
   std::size_t most = 0;      ///< impacts to find
 };
 
-/// Impacts of a motion, by velocity jumps that free flight does not explain (step_impulses.hpp).  Jumps of the same
+/// Impacts of a motion, by velocity jumps that free flight does not explain.  Jumps of the same
 /// points in neighbouring steps are one impact, unless these points left the ground and came down in between.
 [[nodiscard]] std::vector<FoundImpact> find_impacts(const Motion& motion, const Reference& reference,
                                                     const ImpactSearch& search);

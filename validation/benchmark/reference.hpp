@@ -77,4 +77,10 @@ struct Reference {
 /// @throws as the discrete model does; BadInput for a scene that has no impact.
 [[nodiscard]] Reference reference_of(const Scene& scene);
 
+/// The state right after the points strike by `law`: the impact laws of the discrete model in space, or Moreau's.
+/// A point that does not approach gets no impulse.
+/// @throws as analytic::space::strike()
+[[nodiscard]] analytic::space::State exact_map(const Reference& reference, const DeclaredLaw& law,
+                                               const analytic::space::State& before, const std::vector<int>& points);
+
 }  // namespace clatter::validation::inline benchmark

@@ -11,7 +11,7 @@
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/tables/csv_line.hpp"
+#include "validation/tables/numeric_table.hpp"
 
 namespace clatter::validation::inline benchmark {
 namespace {

@@ -15,7 +15,6 @@
 #include "validation/reports/measured_report.hpp"
 #include "validation/reports/plan_report.hpp"
 #include "validation/reports/regimes_report.hpp"
-#include "validation/reports/score_report.hpp"
 #include "validation/reports/sequence_report.hpp"
 #include "validation/reports/simulation_report.hpp"
 #include "validation/reports/tradeoff_report.hpp"

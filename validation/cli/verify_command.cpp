@@ -10,9 +10,8 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/sink.hpp"
-#include "validation/reports/verification_page.hpp"
 #include "validation/reports/verify_report.hpp"
-#include "validation/verify/selection.hpp"
+#include "validation/verify/check.hpp"
 
 namespace clatter::validation::inline cli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One cell of the map of extremes: a model at one value of one quantity.
+// The quantities that the map of extremes sweeps, up to both ends, and one cell of it: a model at one value of one.
 #pragma once
 
 #include <chrono>
@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "validation/plan/model_hierarchy.hpp"
 
@@ -14,6 +15,24 @@ namespace clatter::validation::inline extremes {
 
 inline constexpr double eps = std::numeric_limits<double>::epsilon();
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
+
+struct AxisValue {
+  double value = 0;
+  std::string label;  ///< for a reader, at most eight characters
+};
+
+struct MapAxis {
+  std::string name;    ///< of --only, csv and json
+  std::string symbol;  ///< in the table, at most six characters
+  std::string what;    ///< one line, with the unit
+  std::vector<AxisValue> values;
+};
+
+/// angle, stiffness, damping, restitution, ratio, friction, speed, gravity, size, mass, turns, impacts, squares, cubes;
+/// long has no values of its own.
+[[nodiscard]] const std::vector<MapAxis>& map_axes();
+/// @throws std::out_of_range if there is none of that name.
+[[nodiscard]] const MapAxis& map_axis(const std::string& name);
 
 /// What became of a cell.
 enum class CellVerdict {
@@ -87,6 +106,10 @@ struct ExtremeCase {
   std::function<CellMeasure(const CellClock&)> work;
   bool long_run = false;
 };
+
+/// Adds one case of `model` at each value of the axis; `work` is given the value.
+void add_cases(std::vector<ExtremeCase>& cases, const MapAxis& axis, ModelLevel model,
+               const std::function<CellMeasure(double, const CellClock&)>& work);
 
 /// Runs an extreme case and puts whatever comes of it into a cell; throws nothing that `work` throws.
 [[nodiscard]] ExtremeCell fill_cell(const ExtremeCase& extreme, double seconds);

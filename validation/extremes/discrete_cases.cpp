@@ -7,9 +7,8 @@
 
 #include "analytic/sequence.hpp"
 #include "validation/extremes/cell.hpp"
-#include "validation/extremes/exact_rod.hpp"
 #include "validation/extremes/extreme_cases.hpp"
-#include "validation/extremes/retrace.hpp"
+#include "validation/extremes/oracles.hpp"
 #include "validation/record/names.hpp"
 
 namespace clatter::validation::inline extremes {
@@ -69,15 +68,6 @@ Drop rod_drop(double angle_deg, double gravity) {
           .velocity = {.normal = -1, .tangential = 0, .angular = 0},
           .gravity = gravity,
           .law = {}};
-}
-
-Sequence timed_sequence(const Drop& drop, int impacts, CellMeasure& measure) {
-  Sequence sequence;
-  measure.seconds =
-      timed([&] { sequence = whole_sequence(drop, {.impacts = impacts, .digits = 6, .amplification = false}); });
-  measure.outcome = outcome_name(sequence.outcome);
-  measure.evaluations = sequence.root_evaluations;
-  return sequence;
 }
 
 CellMeasure by_laws(const Drop& drop) {
@@ -177,19 +167,14 @@ std::vector<ExtremeCase> discrete_cases(const MapAxis& axis) {
   std::vector<ExtremeCase> cases;
   RodStart any;
   if (rod_on_axis(axis.name, 1, any)) {
-    for (const AxisValue& at : axis.values) {
-      cases.push_back({axis.name, at.value, at.label, ModelLevel::closed_form,
-                       [name = axis.name, value = at.value](const CellClock&) {
-                         RodStart start;
-                         rod_on_axis(name, value, start);
-                         return closed_form(start);
-                       }});
-    }
+    add_cases(cases, axis, ModelLevel::closed_form, [name = axis.name](double value, const CellClock&) {
+      RodStart start;
+      rod_on_axis(name, value, start);
+      return closed_form(start);
+    });
   }
-  for (const AxisValue& at : axis.values) {
-    cases.push_back({axis.name, at.value, at.label, ModelLevel::discrete,
-                     [name = axis.name, value = at.value](const CellClock&) { return discrete_cell(name, value); }});
-  }
+  add_cases(cases, axis, ModelLevel::discrete,
+            [name = axis.name](double value, const CellClock&) { return discrete_cell(name, value); });
   return cases;
 }
 

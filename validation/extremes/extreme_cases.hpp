@@ -1,35 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What each cell of the map runs, and how its number is judged.
+// What the cells of the discrete model, those of very many turns, the tracked drops and the long runs compute, and how
+// each number is judged.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "analytic/errors.hpp"
 #include "analytic/sequence.hpp"
-#include "validation/extremes/axes.hpp"
 #include "validation/extremes/cell.hpp"
 
 namespace clatter::validation::inline extremes {
 
-/// The sequence of a drop.  @throws analytic::NumericalError if a number of it could not be computed, OutsideModelError
-/// if an impact jams.
-[[nodiscard]] inline analytic::Sequence whole_sequence(const analytic::Drop& drop,
-                                                       const analytic::SequenceOptions& options) {
-  analytic::Sequence sequence = impact_sequence(drop, options);
-  if (sequence.outcome == analytic::Outcome::not_computed) throw analytic::NumericalError(sequence.message);
-  if (sequence.outcome == analytic::Outcome::outside_model) throw analytic::OutsideModelError(sequence.message);
-  return sequence;
-}
+/// The sequence of a drop, without amplification; its outcome, time and evaluations go to `measure`.
+/// @throws analytic::NumericalError if a number of it could not be computed, OutsideModelError if an impact jams.
+[[nodiscard]] analytic::Sequence timed_sequence(const analytic::Drop& drop, int impacts, CellMeasure& measure);
 
 /// Cells of the closed form and of the discrete model on an axis; none if it has no such quantity.
 [[nodiscard]] std::vector<ExtremeCase> discrete_cases(const MapAxis& axis);
-/// Cells of the continuous model, planar and spatial.
-[[nodiscard]] std::vector<ExtremeCase> continuous_cases(const MapAxis& axis);
 /// All models' cells on the axis "turns".
 [[nodiscard]] std::vector<ExtremeCase> turn_cases(const MapAxis& axis);
 
-/// The axes "squares" and "cubes": predictions held against the tracked drops that the program carries.
+/// The axes "squares" and "cubes": predictions held against the tracked drops that the program carries, to see where a
+/// rigid body that strikes with one corner stops describing them.
 [[nodiscard]] std::vector<ExtremeCase> measured_cases(const MapAxis& axis);
 
 /// Runs longer than a second, one cell each.

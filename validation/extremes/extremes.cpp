@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "validation/extremes/continuous_cases.hpp"
 #include "validation/output/interrupt.hpp"
 
 namespace clatter::validation::inline extremes {

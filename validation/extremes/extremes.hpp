@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "validation/extremes/axes.hpp"
 #include "validation/extremes/cell.hpp"
 #include "validation/extremes/extreme_cases.hpp"
 

@@ -14,9 +14,9 @@
 #include "numeric/errors.hpp"
 #include "numeric/mesh/generators.hpp"
 #include "numeric/simulate.hpp"
-#include "validation/extremes/continuous.hpp"
+#include "validation/extremes/continuous_cases.hpp"
 #include "validation/extremes/extreme_cases.hpp"
-#include "validation/extremes/retrace.hpp"
+#include "validation/extremes/oracles.hpp"
 #include "validation/record/names.hpp"
 #include "validation/sweep/counter_random.hpp"
 
@@ -206,25 +206,15 @@ CellMeasure run_scenes(int count, double bound, const std::function<bool()>& goe
   return measure;
 }
 
-/// 10⁴ impacts of the elastic phone: more than a second's work.
-CellMeasure marathon(bool planar, int impacts, const std::function<bool()>& goes_on) {
-  ContinuousCase scene;
-  scene.impacts = impacts;
-  scene.gravity = 9.81;
-  scene.evaluation_limit = 2000L * impacts;
-  CellMeasure measure{.bound = drift_per_impact * impacts, .oracle = "energy kept", .outcome = {}};
-  const numeric::Simulation run = require_case(scene, {.planar = planar, .estimates = false}, goes_on, measure);
-  measure.error = worst_energy_drift(run);
-  return measure;
-}
-
 }  // namespace
 
 std::vector<ExtremeCase> long_cases(const LongRuns& runs, const std::function<bool()>& goes_on) {
   std::vector<ExtremeCase> cases;
   for (const ModelLevel model : {ModelLevel::planar, ModelLevel::spatial}) {
     cases.push_back({"long", static_cast<double>(runs.impacts), count_label(runs.impacts) + " hits", model,
-                     [=](const CellClock&) { return marathon(model == ModelLevel::planar, runs.impacts, goes_on); },
+                     [=](const CellClock&) {
+                       return kept_energy(runs.impacts, 2000L * runs.impacts, model == ModelLevel::planar, goes_on);
+                     },
                      true});
   }
   cases.push_back({"long", static_cast<double>(runs.discrete_scenes), count_label(runs.discrete_scenes) + " sc",

@@ -2,17 +2,48 @@
 // The thin rod at and between its impacts, from the balances of momentum and free flight, at any precision.
 //
 // The unit rod (m = L = 1, I = 1/12) has its ends at d = ±(cos α, sin α)/2 from the centre of mass; α > 0 means that
-// end a, at −, is lower; dα/dt = −Ω.  `Number` is Real, or Dual<Real> to carry a derivative.
+// end a, at −, is lower; dα/dt = −Ω.  `Number` is Real, or Dual<Real> to carry a derivative, so that
+// condition numbers are known at any precision.
 #pragma once
+
+#include <boost/math/constants/constants.hpp>
 
 #include <cmath>
 #include <limits>
 
-#include <boost/math/constants/constants.hpp>
-
-#include "validation/oracles/dual.hpp"
-
 namespace clatter::oracle {
+
+/// A value and its derivative with respect to one parameter.
+template <class Real>
+struct Dual {
+  Real value = 0;
+  Real slope = 0;
+
+  Dual() = default;
+  Dual(const Real& constant) : value(constant) {}  // NOLINT: constants mix freely with duals
+  Dual(const Real& v, const Real& s) : value(v), slope(s) {}
+
+  friend Dual operator+(const Dual& a, const Dual& b) { return {a.value + b.value, a.slope + b.slope}; }
+  friend Dual operator-(const Dual& a, const Dual& b) { return {a.value - b.value, a.slope - b.slope}; }
+  friend Dual operator-(const Dual& a) { return {-a.value, -a.slope}; }
+  friend Dual operator*(const Dual& a, const Dual& b) {
+    return {a.value * b.value, a.slope * b.value + a.value * b.slope};
+  }
+  friend Dual operator/(const Dual& a, const Dual& b) {
+    const Real quotient = a.value / b.value;
+    return {quotient, (a.slope - quotient * b.slope) / b.value};
+  }
+  friend Dual sin(const Dual& a) {
+    using std::cos;
+    using std::sin;
+    return {sin(a.value), cos(a.value) * a.slope};
+  }
+  friend Dual cos(const Dual& a) {
+    using std::cos;
+    using std::sin;
+    return {cos(a.value), -sin(a.value) * a.slope};
+  }
+};
 
 template <class Real>
 struct RodCase {

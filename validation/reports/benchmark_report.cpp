@@ -5,12 +5,14 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 
 #include "validation/benchmark/reference.hpp"
 #include "validation/benchmark/score.hpp"
 #include "validation/output/number.hpp"
-#include "validation/reports/score_report.hpp"
+#include "validation/scene/body_properties.hpp"
+#include "validation/scene/option_values.hpp"
 #include "validation/scene/scene_value.hpp"
 
 namespace clatter::validation::inline reports {
@@ -181,6 +183,100 @@ std::string error_words(const Problem& problem) {
       shortest(problem.tolerances[3]));
 }
 
+Value impact_value(const ImpactScore& one, int n) {
+  Value value;
+  value["n"] = n;
+  value["place"] = one.place;
+  value["true_place"] = text_or_nothing(one.true_place);
+  value["t"] = one.time;
+  value["time_error"] = one.time_error;
+  value["law_error"] = one.law_error;
+  value["velocity_error"] = one.velocity_error;
+  value["angular_velocity_error"] = one.angular_error;
+  value["energy_error"] = one.energy_error;
+  value["impulse_normal"] = one.impulse_normal;
+  value["impulse_tangential"] = one.impulse_tangential;
+  value["velocity_after"] = parts(one.after.velocity);
+  value["angular_velocity_after"] = parts(one.after.angular_velocity);
+  return value;
+}
+
+Cell step_cell(const std::optional<double>& step) { return step ? Cell(*step, 4) : Cell(); }
+
+Cell error_cell(double error) { return std::isfinite(error) ? Cell(error, 2) : Cell(Value(), "?"); }
+
+Row submission_row(const Submission& one) {
+  const Score& score = one.score;
+  return {Cell(one.path, std::filesystem::path(one.path).filename().string()),
+          Cell(text_or_nothing(one.head.problem)),
+          Cell(one.problem_version > 0 ? Value(one.problem_version) : Value()),
+          Cell(text_or_nothing(one.head.engine)),
+          Cell(text_or_nothing(one.head.version)),
+          Cell(text_or_nothing(one.head.settings)),
+          Cell(score.law),
+          Cell(score.law_is_declared),
+          step_cell(one.head.step),
+          Cell(static_cast<long long>(score.found)),
+          Cell(static_cast<long long>(score.expected)),
+          Cell(score.order_is_right),
+          error_cell(score.law_error),
+          error_cell(score.velocity_error),
+          error_cell(score.angular_error),
+          error_cell(score.time_error),
+          error_cell(score.energy_error),
+          one.is_list ? Cell() : error_cell(score.flight_error),
+          one.is_list ? Cell() : error_cell(score.start_error),
+          error_cell(score.error()),
+          Cell(verdict_name(one.verdict)),
+          Cell(text_or_nothing(score.findings.empty() ? std::string() : score.findings.front()))};
+}
+
+Value submission_value(const std::vector<Column>& columns, const Submission& one) {
+  Value value = row_object(columns, submission_row(one));
+  value["findings"] = one.score.findings;
+  Value impacts{Value::List{}};
+  int n = 0;
+  for (const ImpactScore& impact : one.score.impacts) impacts.push_back(impact_value(impact, ++n));
+  value["impact_scores"] = std::move(impacts);
+  return value;
+}
+
+Value group_value(const SubmissionGroup& group) {
+  Value value;
+  value["problem"] = text_or_nothing(group.head.problem);
+  value["engine"] = text_or_nothing(group.head.engine);
+  value["version"] = text_or_nothing(group.head.version);
+  value["settings"] = text_or_nothing(group.head.settings);
+  value["law"] = text_or_nothing(group.head.law);
+  value["verdict"] = verdict_name(group.verdict);
+  value["order"] = group.order ? Value(*group.order) : Value();
+  for (const SubmissionGroup::Step& step : group.steps) {
+    Value one;
+    one["step"] = step.step ? Value(*step.step) : Value();
+    one["files"] = static_cast<long long>(step.files);
+    one["motion_error"] = step.motion_error;
+    one["law_error"] = step.law_error;
+    one["error"] = step.error;
+    value["steps"].push_back(std::move(one));
+  }
+  return value;
+}
+
+std::string group_words(const SubmissionGroup& group) {
+  std::string name;
+  for (const std::string& part : {group.head.problem, group.head.engine, group.head.version, group.head.settings}) {
+    if (!part.empty()) name += (name.empty() ? "" : ", ") + part;
+  }
+  std::string words = (name.empty() ? "all files" : name) + ": " + verdict_name(group.verdict);
+  for (const SubmissionGroup::Step& step : group.steps) {
+    if (step.files < 2 && group.steps.size() < 2) continue;
+    words += fmt::format("; {}worst of {}: {}", step.step ? "step " + significant(*step.step, 3) + " s, " : "",
+                         step.files, std::isfinite(step.error) ? significant(step.error, 2) : "?");
+  }
+  if (group.order) words += fmt::format("; order {:.2f} in the step", *group.order);
+  return words;
+}
+
 }  // namespace
 
 std::vector<Column> benchmark_list_columns() {
@@ -287,6 +383,86 @@ Report benchmark_truth_report(const Problem& problem, const std::string& law) {
   report.fields["oracle"] = oracle_of(problem);
   report.fields["impacts"] = row_objects(report.grid);
   report.fields["digits"] = digits_value(problem, law);
+  return report;
+}
+
+std::vector<double> parts(const analytic::space::Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
+std::vector<Column> score_columns() {
+  return {
+      word_column("file", "file", "that was judged"),
+      Column{"problem", "problem", "", "from its line # problem:", true, true},
+      Column{"problem_version", "", "", "of the problem", false},
+      Column{"engine", "", "", "from its line # engine:", false, true},
+      Column{"engine_version", "", "", "from its line # version:", false, true},
+      Column{"settings", "", "", "from its line # settings:", false, true},
+      Column{"law", "", "", "that the impacts are judged by; any: the laws agree", false, true},
+      Column{"law_declared", "", "", "whether the file says so; otherwise the law that fits best", false},
+      {"step", "step", "s", "from its line # step:"},
+      {"found", "found", "", "impacts found"},
+      {"expected", "of", "", "impacts of the truth"},
+      Column{"order_right", "", "", "whether number and places are right, in their order", false},
+      {"law_error", "law", "", "largest distance of an impact from the exact map at the code's own state, relative"},
+      {"velocity_error", "V", "", "largest error of V after an impact, over the sequence's largest"},
+      {"angular_velocity_error", "Ω", "", "the same of Ω"},
+      {"time_error", "t", "", "largest error of an impact's time, over that of the last impact"},
+      {"energy_error", "energy", "", "largest error of energy after impacts, or drift between them, over the start's"},
+      Column{"flight_error", "", "", "way between impacts that free flight does not explain, over the body's reach",
+             false},
+      Column{"start_error", "", "", "distance of the state at the first touch from the problem's", false},
+      Column{"error", "", "", "the largest of all", false},
+      word_column("verdict", "verdict", "class of tolerance: exact, sharp, good, coarse, fails"),
+      Column{"finding", "", "", "what is wrong, the first", false, true}};
+}
+
+Report score_report(const std::string& command, const std::vector<Submission>& submissions) {
+  Report report = begun_report(command, "answers of others against the truth");
+  report.grid.columns = score_columns();
+  Value files{Value::List{}}, problems{Value::List{}};
+  Verdict worst = Verdict::exact;
+  for (const Submission& one : submissions) {
+    report.grid.rows.push_back(submission_row(one));
+    files.push_back(submission_value(report.grid.columns, one));
+    worst = std::max(worst, one.verdict);
+    const std::string name = std::filesystem::path(one.path).filename().string();
+    if (!one.remark.empty()) report.notes.push_back(name + ": " + one.remark);
+    for (const std::string& finding : one.score.findings) report.notes.push_back(name + ": " + finding);
+    if (!one.score.law_is_declared && one.score.law != "any") {
+      report.notes.push_back(name + ": declares no law; judged by the one that fits best, " + one.score.law);
+    }
+  }
+  for (const SubmissionGroup& group : group_submissions(submissions)) {
+    problems.push_back(group_value(group));
+    report.notes.push_back(group_words(group));
+  }
+  report.fields["verdict"] = verdict_name(worst);
+  report.fields["files"] = std::move(files);
+  report.fields["problems"] = std::move(problems);
+  return report;
+}
+
+bool Requirement::is_met(const Submission& submission) const {
+  if (verdict && !(submission.verdict <= *verdict)) return false;
+  return !error || submission.score.error() <= *error;
+}
+
+Requirement read_requirement(const std::optional<std::string>& text) {
+  if (!text) return {};
+  double error = 0;
+  if (read_number(*text, error)) {
+    return {.verdict = {}, .error = read_number_option("--require", *text, {0, 1e300, true, "greater than 0"})};
+  }
+  std::vector<std::string> names = verdict_names();
+  names.pop_back();
+  return {.verdict = static_cast<Verdict>(read_name_option("--require", *text, names)), .error = {}};
+}
+
+Report against_report(const Scene& scene, const Reference& reference, const std::vector<Submission>& submissions) {
+  Report report = score_report("compare", submissions);
+  report.head = scene_head(scene, Model::discrete);
+  report.fields["scene"] = scene_value(scene, Model::discrete);
+  report.fields["message"] = text_or_nothing(reference.remark);
+  if (!reference.remark.empty()) report.notes.push_back(reference.remark);
   return report;
 }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reports of `clatter benchmark list`, `show` and `truth`.
+// Reports of `clatter benchmark list`, `show` and `truth`, and on others' answers: of `clatter benchmark score` and
+// `clatter compare --against`.
 #pragma once
 
 #include "validation/benchmark/problem.hpp"
+#include "validation/benchmark/submission.hpp"
 #include "validation/output/report.hpp"
+#include "validation/scene/scene.hpp"
 
 namespace clatter::validation::inline reports {
 
@@ -20,5 +23,26 @@ namespace clatter::validation::inline reports {
 [[nodiscard]] Report markdown_statement(const Problem& problem);
 /// The truth by `law`, in columns that `clatter benchmark score` reads.
 [[nodiscard]] Report benchmark_truth_report(const Problem& problem, const std::string& law);
+
+[[nodiscard]] std::vector<Column> score_columns();
+
+/// One row per file; groups with their worst phase and order in words and JSON.
+[[nodiscard]] Report score_report(const std::string& command, const std::vector<Submission>& submissions);
+
+/// The same of runs of a scene that has no certified answers: they are judged by the discrete model.
+[[nodiscard]] Report against_report(const Scene& scene, const Reference& reference,
+                                    const std::vector<Submission>& submissions);
+
+/// A vector as a list of its parts.
+[[nodiscard]] std::vector<double> parts(const analytic::space::Vector3& v);
+
+/// What is asked of each file: a class, "good", or a largest error, "1e-3".
+struct Requirement {
+  std::optional<Verdict> verdict;
+  std::optional<double> error;
+  [[nodiscard]] bool is_met(const Submission& submission) const;
+};
+/// @throws BadInput
+[[nodiscard]] Requirement read_requirement(const std::optional<std::string>& text);
 
 }  // namespace clatter::validation::inline reports

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What `clatter verify` says.
+// What `clatter verify` says: its table, and the results as one HTML page that needs nothing beside it.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "validation/output/report.hpp"
-#include "validation/verify/verification.hpp"
+#include "validation/verify/check.hpp"
 
 namespace clatter::validation::inline reports {
 
@@ -24,5 +24,11 @@ struct VerifySummary {
 [[nodiscard]] std::vector<Column> verify_columns();
 /// A row for each check.
 [[nodiscard]] Report verify_report(const std::vector<CheckResult>& results, const std::string& selection);
+
+/// The page: verdicts, and the figures that the checks belong to, redrawn from `case_runs` as inline SVG with the
+/// command that reproduces each.  No script, no request to anywhere.
+/// @throws std::runtime_error if gnuplot is not there or fails.
+[[nodiscard]] std::string verify_page(const std::vector<CheckResult>& results, const std::string& selection,
+                                      CaseRuns& case_runs);
 
 }  // namespace clatter::validation::inline reports

@@ -98,4 +98,10 @@ class NumericTable {
   std::vector<Start> starts_;
 };
 
+/// Without blanks at either end.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
+/// A field as an error shows it: on one line, printable, short.
+[[nodiscard]] std::string shown_field(std::string_view field);
+
 }  // namespace clatter::validation::inline tables

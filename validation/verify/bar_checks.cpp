@@ -107,9 +107,6 @@ Measured bars_of_the_discrete_model(CaseRuns& case_runs) {
 
 }  // namespace
 
-void add_bar_measures(Measures& measures) {
-  measures["B1"] = bars_of_the_discrete_model;
-  measures["B2"] = bars_of_the_simulator;
-}
+Measures bar_measures() { return {{"B1", bars_of_the_discrete_model}, {"B2", bars_of_the_simulator}}; }
 
 }  // namespace clatter::validation::inline verify

@@ -2,12 +2,21 @@
 #include "validation/verify/check.hpp"
 
 #include <fmt/format.h>
-
 #include <toml++/toml.h>
+
+#include <algorithm>
+#include <atomic>
+#include <ctime>
+#include <exception>
+#include <mutex>
 #include <set>
 #include <stdexcept>
+#include <thread>
 
 #include "validation/embedded/embedded.hpp"
+#include "validation/output/bad_input.hpp"
+#include "validation/output/number.hpp"
+#include "validation/scene/option_values.hpp"
 
 namespace clatter::validation::inline verify {
 namespace {
@@ -52,6 +61,18 @@ Check check_of(const toml::table& row) {
   return check;
 }
 
+const Measures& all_measures() {
+  static const Measures measures = [] {
+    Measures all;
+    for (const auto& group : {claim_measures, erratum_measures, exact_measures, figure_measures, model_measures,
+                              bar_measures, space_measures}) {
+      all.merge(group());
+    }
+    return all;
+  }();
+  return measures;
+}
+
 std::vector<Check> read_checks() {
   const toml::table table = toml::parse(embedded_text("validation/verify/checks.toml"));
   std::vector<Check> checks;
@@ -65,6 +86,37 @@ std::vector<Check> read_checks() {
     if (!ids.contains(id)) unsound(id, "is measured but not in the table");
   }
   return checks;
+}
+
+double thread_seconds() {
+  std::timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+std::string judge(const Check& check, const Measured& measured) {
+  if (!(measured.error <= check.tolerance)) {
+    return fmt::format("the error {} is not within {}", significant(measured.error, 3), shortest(check.tolerance));
+  }
+  if (measured.answer != check.answer) {
+    return fmt::format("the answer is {}, expected was {}", answer_name(measured.answer), answer_name(check.answer));
+  }
+  return "";
+}
+
+CheckResult run(const Check& check, CaseRuns& case_runs) {
+  CheckResult result{.check = &check, .measured = {}, .failure = {}, .done = true};
+  const double begin = thread_seconds();
+  try {
+    result.measured = all_measures().at(check.id)(case_runs);
+    result.failure = judge(check, result.measured);
+  } catch (const CaseRuns::Interrupted&) {
+    result.done = false;
+  } catch (const std::exception& error) {
+    result.failure = error.what();
+  }
+  result.seconds = thread_seconds() - begin;
+  return result;
 }
 
 }  // namespace
@@ -83,21 +135,46 @@ const std::vector<Check>& all_checks() {
   return checks;
 }
 
-const Measures& all_measures() {
-  static const Measures measures = [] {
-    Measures all;
-    add_exact_measures(all);
-    add_angle_claim_measures(all);
-    add_claim_measures(all);
-    add_erratum_measures(all);
-    add_figure_measures(all);
-    add_model_measures(all);
-    add_bar_measures(all);
-    add_space_measures(all);
-    add_measured_measures(all);
-    return all;
-  }();
-  return measures;
+CheckSelection select_checks(bool quick, const std::vector<std::string>& only) {
+  if (quick && !only.empty()) throw BadInput("--quick: excludes --only; give one of them, not both");
+  std::vector<std::string> ids;
+  for (const Check& check : all_checks()) ids.push_back(check.id);
+  for (const std::string& id : only) static_cast<void>(read_name_option("--only", id, ids));
+  CheckSelection selection;
+  for (const Check& check : all_checks()) {
+    const bool named = std::find(only.begin(), only.end(), check.id) != only.end();
+    if (only.empty() ? check.quick || !quick : named) selection.checks.push_back(&check);
+  }
+  const std::size_t count = selection.checks.size();
+  selection.words = only.empty() ? fmt::format("{} set: {} checks of {}", quick ? "quick" : "full", count, ids.size())
+                                 : fmt::format("{} checks by name", count);
+  return selection;
+}
+
+std::vector<CheckResult> verify_checks(
+    const std::vector<const Check*>& checks, CaseRuns& case_runs,
+    const std::function<bool(std::size_t, std::size_t, const std::string&)>& progress) {
+  std::vector<CheckResult> results(checks.size());
+  for (std::size_t i = 0; i < checks.size(); ++i) results[i].check = checks[i];
+  std::atomic<std::size_t> next = 0;
+  std::atomic<bool> go_on = true;
+  std::mutex mutex;
+  std::size_t done = 0;
+  const auto work = [&] {
+    for (std::size_t i; go_on && (i = next++) < checks.size();) {
+      // The last in the table take longest, so they come first.
+      const std::size_t place = checks.size() - 1 - i;
+      CheckResult result = run(*checks[place], case_runs);
+      const std::lock_guard lock(mutex);
+      results[place] = std::move(result);
+      if (!progress(++done, checks.size(), checks[place]->id)) go_on = false;
+    }
+  };
+  std::vector<std::jthread> threads;
+  const std::size_t count = std::min<std::size_t>(std::max(1U, std::thread::hardware_concurrency()), checks.size());
+  for (std::size_t i = 0; i < count; ++i) threads.emplace_back(work);
+  threads.clear();
+  return results;
 }
 
 }  // namespace clatter::validation::inline verify

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Checks: what is claimed, who judges it, and how far the two may be apart.
+// Checks: what is claimed, who judges it, how far the two may be apart; which of them run, and what comes of it.
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,13 +21,13 @@ enum class Answer {
   ambiguous,  ///< the text leaves open what it means; the number says what each reading gives
 };
 [[nodiscard]] const char* answer_name(Answer answer);
-/// Of a claim in words: whether the inequality that it states does hold.
+/// The answer to a claim in words, given whether the inequality that it states holds.
 [[nodiscard]] inline Answer holds_if(bool claim) { return claim ? Answer::holds : Answer::refuted; }
-/// Of a claim that prints a number: whether `value` rounds to `printed`, given with `unit` of its last digit.
+/// The answer to a claim that prints a number: `value` must round to `printed`, whose last digit counts `unit`.
 [[nodiscard]] inline Answer rounds_to(double value, double printed, double unit) {
   return holds_if(std::fabs(value - printed) <= unit / 2);
 }
-/// A number of what was found.
+/// A number as the words on a finding show it, to `digits` significant digits.
 [[nodiscard]] inline std::string number(double value, int digits = 5) { return significant(value, digits); }
 
 /// One row of validation/verify/checks.toml.
@@ -59,21 +60,45 @@ struct Measured {
   std::string found;  ///< in words, with further numbers
 };
 
-using Measure = Measured (*)(CaseRuns&);
+using Measure = std::function<Measured(CaseRuns&)>;
+/// The measurement of each check, by its id.
 using Measures = std::map<std::string, Measure>;
 
-/// The measurement of each check, by its id.
-[[nodiscard]] const Measures& all_measures();
+/// Those of a group: claims C, errata E, exact results and tracked drops X, figures F, scenes M and R, error bars B,
+/// the discrete model in space S.
+[[nodiscard]] Measures claim_measures();
+[[nodiscard]] Measures erratum_measures();
+[[nodiscard]] Measures exact_measures();
+[[nodiscard]] Measures figure_measures();
+[[nodiscard]] Measures model_measures();
+[[nodiscard]] Measures bar_measures();
+[[nodiscard]] Measures space_measures();
 
-/// Each group adds its own.
-void add_exact_measures(Measures& measures);
-void add_angle_claim_measures(Measures& measures);
-void add_claim_measures(Measures& measures);
-void add_erratum_measures(Measures& measures);
-void add_figure_measures(Measures& measures);
-void add_model_measures(Measures& measures);
-void add_bar_measures(Measures& measures);
-void add_space_measures(Measures& measures);
-void add_measured_measures(Measures& measures);
+/// Checks that were chosen.
+struct CheckSelection {
+  std::vector<const Check*> checks;  ///< in the order of the table
+  std::string words;                 ///< "quick set: 77 checks of 78"
+};
+
+/// All checks; `quick`: without those that take long; or those named in `only`.
+/// @throws BadInput for an unknown name, with the nearest, or if both are given.
+[[nodiscard]] CheckSelection select_checks(bool quick, const std::vector<std::string>& only);
+
+/// What became of a check.
+struct CheckResult {
+  const Check* check = nullptr;
+  Measured measured;
+  double seconds = 0;   ///< processor time of the thread [s]; work shared with other checks falls to the first
+  std::string failure;  ///< why it failed; empty: passed
+  bool done = false;    ///< false: an interrupt came first
+  [[nodiscard]] bool passed() const { return done && failure.empty(); }
+};
+
+/// Runs `checks` with as many threads as the machine has; results in the order of the checks.
+/// A check passes if its error is within the tolerance and the answer is the one that the table expects.
+/// @param progress called with (done, of, id), from any thread but never at once; return false to end early.
+[[nodiscard]] std::vector<CheckResult> verify_checks(
+    const std::vector<const Check*>& checks, CaseRuns& case_runs,
+    const std::function<bool(std::size_t, std::size_t, const std::string&)>& progress);
 
 }  // namespace clatter::validation::inline verify

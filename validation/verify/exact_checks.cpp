@@ -64,8 +64,9 @@ Measured against_table(ReferenceTable table) {
   return {static_cast<double>(count), worst.error, Answer::holds, "worst: " + worst.where};
 }
 
-Measured table_without_gravity(CaseRuns&) { return against_table(ReferenceTable::no_gravity); }
-Measured table_with_gravity(CaseRuns&) { return against_table(ReferenceTable::gravity); }
+Measure table(ReferenceTable of) {
+  return [=](CaseRuns&) { return against_table(of); };
+}
 
 Measured small_angle_coefficient(CaseRuns&) {
   const double theta = 1e-3;
@@ -232,21 +233,21 @@ Measured contact_time_powers(CaseRuns&) {
 
 }  // namespace
 
-void add_exact_measures(Measures& measures) {
-  measures["X1"] = table_without_gravity;
-  measures["X2"] = table_with_gravity;
-  measures["X3"] = small_angle_coefficient;
-  measures["X4"] = largest_second_impulse;
-  measures["X5"] = bouncing_end;
-  measures["X6"] = restitution_map;
-  measures["X7"] = half_sine;
-  measures["X8"] = damped_landing;
-  measures["X9"] = elastic_energy;
-  measures["X10"] = energy_ledger;
-  measures["X11"] = runge_kutta_order;
-  measures["X12"] = free_rotation;
-  measures["X13"] = hydrostatic_force;
-  measures["X14"] = contact_time_powers;
+Measures exact_measures() {
+  return {{"X1", table(ReferenceTable::no_gravity)},
+          {"X2", table(ReferenceTable::gravity)},
+          {"X3", small_angle_coefficient},
+          {"X4", largest_second_impulse},
+          {"X5", bouncing_end},
+          {"X6", restitution_map},
+          {"X7", half_sine},
+          {"X8", damped_landing},
+          {"X9", elastic_energy},
+          {"X10", energy_ledger},
+          {"X11", runge_kutta_order},
+          {"X12", free_rotation},
+          {"X13", hydrostatic_force},
+          {"X14", contact_time_powers}};
 }
 
 }  // namespace clatter::validation::inline verify

@@ -18,8 +18,7 @@ using numeric::Simulation;
 
 /// Worst distance of the points of the continuous model from the lines of the discrete one, over the largest value of
 /// each column; infinite where one model has an impact and the other has not.
-Measured points_on_lines(int figure_number, CaseRuns& case_runs) {
-  const Figure figure = make_figure(figure_number, case_runs);
+Measured distance_of_points(const Figure& figure) {
   double worst = 0;
   int points = 0;
   for (std::size_t column = 1; column + 1 < figure.columns.size(); column += 2) {
@@ -37,11 +36,9 @@ Measured points_on_lines(int figure_number, CaseRuns& case_runs) {
           fmt::format("points on lines; worst {} of the range off", number(worst, 2))};
 }
 
-Measured figure_7(CaseRuns& case_runs) { return points_on_lines(7, case_runs); }
-Measured figure_9(CaseRuns& case_runs) { return points_on_lines(9, case_runs); }
-Measured figure_10(CaseRuns& case_runs) { return points_on_lines(10, case_runs); }
-Measured figure_11(CaseRuns& case_runs) { return points_on_lines(11, case_runs); }
-Measured figure_12(CaseRuns& case_runs) { return points_on_lines(12, case_runs); }
+Measure points_on_lines(int number_of_figure) {
+  return [=](CaseRuns& case_runs) { return distance_of_points(make_figure(number_of_figure, case_runs)); };
+}
 
 /// V² + Ω²/12 is 1 at every instant, before and after the second impact; at that impact end b is on the ground, and at
 /// all instants both ends are on it or above.
@@ -63,6 +60,12 @@ Measured figure_8(CaseRuns& case_runs) {
           fmt::format("the centre moves up after impact 1 at 56.5°, with {} |vₙ| down at 45°", number(-least, 4))};
 }
 
+/// ½mV² + ½IΩ² after the first impact [J].
+double kinetic_energy_after(const numeric::Body& body, const ImpactNumbers& n) {
+  const double omega = n.angular_velocity_after.y();
+  return (body.mass() * n.velocity_after.squaredNorm() + body.inertia()(1, 1) * omega * omega) / 2;
+}
+
 /// ½mV² + ½IΩ² after the impact is ½mv² before it: from the velocities alone.
 Measured figure_14(CaseRuns& case_runs) {
   const Scene scene = scene_of_case("rod-sweep", {});
@@ -70,9 +73,8 @@ Measured figure_14(CaseRuns& case_runs) {
   double worst = 0, least = 1;
   for (const SweptSimulation& swept : case_runs.sweep("rod-sweep")) {
     const ImpactNumbers& n = swept.run.impacts.at(0).value;
-    const double omega = n.angular_velocity_after.y();
-    const double after = body.mass() * n.velocity_after.squaredNorm() + body.inertia()(1, 1) * omega * omega;
-    worst = std::max(worst, std::fabs(after / (body.mass() * scene.speed * scene.speed) - 1));
+    const double before = body.mass() * scene.speed * scene.speed / 2;
+    worst = std::max(worst, std::fabs(kinetic_energy_after(body, n) / before - 1));
     least = std::min(least, n.velocity_after.z());
   }
   return {least, worst, Answer::holds, "least Vₙ over the angle; 91 angles"};
@@ -85,10 +87,8 @@ Measured figure_15(CaseRuns& case_runs) {
   double worst = 0, most = 0;
   for (const SweptSimulation& swept : case_runs.sweep("rod-friction-sweep")) {
     const ImpactNumbers& n = swept.run.impacts.at(0).value;
-    const double omega = n.angular_velocity_after.y();
-    const double after = (body.mass() * n.velocity_after.squaredNorm() + body.inertia()(1, 1) * omega * omega) / 2;
-    const double lost = body.mass() * scene.speed * scene.speed / 2 - after;
-    worst = std::max(worst, std::fabs(lost - n.work_friction) / (body.mass() * scene.speed * scene.speed / 2));
+    const double before = body.mass() * scene.speed * scene.speed / 2, lost = before - kinetic_energy_after(body, n);
+    worst = std::max(worst, std::fabs(lost - n.work_friction) / before);
     most = std::max(most, lost);
   }
   return {most, worst, Answer::holds, "largest loss over friction; friction's own work accounts for it"};
@@ -179,23 +179,15 @@ Measured figure_24(CaseRuns& case_runs) {
 
 }  // namespace
 
-void add_figure_measures(Measures& measures) {
-  measures["F7"] = figure_7;
-  measures["F8"] = figure_8;
-  measures["F9"] = figure_9;
-  measures["F10"] = figure_10;
-  measures["F11"] = figure_11;
-  measures["F12"] = figure_12;
-  measures["F14"] = figure_14;
-  measures["F15"] = figure_15;
-  measures["F16"] = figure_16;
-  measures["F17"] = figure_17;
-  measures["F19"] = figure_19;
-  measures["F20"] = figure_20;
-  measures["F21"] = figure_21;
-  measures["F22"] = figure_22;
-  measures["F23"] = figure_23;
-  measures["F24"] = figure_24;
+Measures figure_measures() {
+  return {{"F7", points_on_lines(7)},   {"F8", figure_8},
+          {"F9", points_on_lines(9)},   {"F10", points_on_lines(10)},
+          {"F11", points_on_lines(11)}, {"F12", points_on_lines(12)},
+          {"F14", figure_14},           {"F15", figure_15},
+          {"F16", figure_16},           {"F17", figure_17},
+          {"F19", figure_19},           {"F20", figure_20},
+          {"F21", figure_21},           {"F22", figure_22},
+          {"F23", figure_23},           {"F24", figure_24}};
 }
 
 }  // namespace clatter::validation::inline verify

@@ -267,13 +267,9 @@ Measured planar_model(CaseRuns&) {
 
 }  // namespace
 
-void add_space_measures(Measures& measures) {
-  measures["S1"] = against_scenes;
-  measures["S2"] = rocking_block;
-  measures["S3"] = kept_by_an_impact;
-  measures["S4"] = symmetries;
-  measures["S5"] = path_of_friction;
-  measures["S6"] = planar_model;
+Measures space_measures() {
+  return {{"S1", against_scenes}, {"S2", rocking_block},    {"S3", kept_by_an_impact},
+          {"S4", symmetries},     {"S5", path_of_friction}, {"S6", planar_model}};
 }
 
 }  // namespace clatter::validation::inline verify

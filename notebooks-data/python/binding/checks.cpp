@@ -7,7 +7,7 @@
 #include "report.hpp"
 #include "runs.hpp"
 #include "validation/reports/verify_report.hpp"
-#include "validation/verify/selection.hpp"
+#include "validation/verify/check.hpp"
 
 namespace clatter::python {
 namespace {

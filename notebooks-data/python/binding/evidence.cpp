@@ -16,7 +16,6 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/reports/benchmark_report.hpp"
 #include "validation/reports/extremes_report.hpp"
-#include "validation/reports/score_report.hpp"
 #include "validation/scene/named_texts.hpp"
 
 namespace clatter::python {

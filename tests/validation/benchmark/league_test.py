@@ -2,7 +2,6 @@
 """How the league makes runs of problems, reads adapters' reports and puts phases together; no engine is needed."""
 
 import argparse
-import math
 import os
 import sys
 import tempfile

@@ -3,7 +3,6 @@
 """Answers of others: what is read, how it is scored, what is refused."""
 import json
 import math
-import os
 import pathlib
 import random
 import shutil

@@ -7,7 +7,6 @@
 #include "analytic/sequence.hpp"
 #include "analytic/space/sequence.hpp"
 #include "numeric/simulate.hpp"
-#include "validation/benchmark/exact_map.hpp"
 #include "validation/benchmark/reference.hpp"
 #include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/discrete_scene.hpp"

@@ -10,14 +10,11 @@ import os
 import select
 import signal
 import socket
-import sys
 import unittest
-from pathlib import Path
 
 from running_demo import Demo, WithServer, free_port, printed, received
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
-from waiting import until  # noqa: E402
+from waiting import until
 
 # A step so short that the contact would take for ever; the limit of force evaluations ends it after many seconds.
 LONG = {"case": "rod-45", "method": "tvd-rk3", "step": 1e-12, "sectors": 128}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A drop of the continuous model and how far its numbers are from others.
+// The cells of the continuous model: a drop, how far its numbers are from others, and what each cell runs.
 #pragma once
 
 #include <functional>
@@ -30,10 +30,6 @@ struct ContinuousRun {
   bool estimates = true;  ///< of the errors, by a second run
 };
 
-/// What the elastic energy may drift by in each impact: 10⁻⁴ of the digits asked for is the tolerance of a step, and a
-/// contact takes tens of steps.
-inline constexpr double drift_per_impact = 1e-8;
-
 /// Asked now and then during a run; false ends it.
 using GoesOn = std::function<bool()>;
 
@@ -63,7 +59,11 @@ struct RunDistance {
 
 /// Energy that the ledger of an impact has lost or found, over the first energy: the largest.
 [[nodiscard]] double worst_ledger_gap(const numeric::Simulation& run);
-/// The energy after an impact against the first, over the first: the largest.  For an elastic drop.
-[[nodiscard]] double worst_energy_drift(const numeric::Simulation& run);
+/// An elastic drop of the phone under gravity through many impacts: the energy after an impact against the first, the
+/// largest difference over the first.  @throws as require_case()
+[[nodiscard]] CellMeasure kept_energy(int impacts, long evaluation_limit, bool planar, const GoesOn& goes_on);
+
+/// Cells of the continuous model, planar and spatial, on an axis; none if it has no such quantity.
+[[nodiscard]] std::vector<ExtremeCase> continuous_cases(const MapAxis& axis);
 
 }  // namespace clatter::validation::inline extremes

@@ -1,19 +1,37 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/extremes/extreme_cases.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 
-#include "analytic/sequence.hpp"
+#include "analytic/errors.hpp"
 #include "numeric/mesh/generators.hpp"
 #include "numeric/motion/free_flight.hpp"
-#include "validation/extremes/cell.hpp"
-#include "validation/extremes/extreme_cases.hpp"
-#include "validation/extremes/retrace.hpp"
-#include "validation/extremes/spin.hpp"
+#include "validation/extremes/oracles.hpp"
+#include "validation/measured/kept_tracks.hpp"
 #include "validation/record/names.hpp"
 
 namespace clatter::validation::inline extremes {
 namespace {
+
+/// The drops whose arm at impact 1 is inclined from `low` on.
+CellMeasure residual(const CrossedScores& scores, double low) {
+  const auto bin = std::find_if(scores.bins.begin(), scores.bins.end(),
+                                [&](const ResidualBin& one) { return one.quantity == "angle" && one.low == low; });
+  if (bin == scores.bins.end()) throw analytic::OutsideModelError("none of the tracked drops strikes at this angle");
+  if (2 * bin->points < bin->impacts) {
+    throw analytic::OutsideModelError("most of the tracked drops strike with more than one corner within a frame");
+  }
+  return {.error = bin->error,
+          .bound = scores.flat_rebound,
+          .oracle = "tracked drops, each predicted with what the other half fits; the bound is a flat rebound's error",
+          .outcome = fmt::format("{} of {} are point impacts", bin->points, bin->impacts)};
+}
 
 constexpr double turn = 2 * std::numbers::pi;
 /// A few eps for each radian (free_rotation.hpp).
@@ -32,11 +50,7 @@ CellMeasure discrete_turns(double turns) {
   // Elastic and as fast as this, the rod rises at 0.577 |Ω| L and turns 2 V |Ω|/g until it is back.
   drop.velocity.angular = -std::sqrt(turn * turns * drop.gravity / (2 * 0.577));
   CellMeasure measure{.oracle = retrace_oracle, .outcome = {}};
-  analytic::Sequence sequence;
-  measure.seconds =
-      timed([&] { sequence = whole_sequence(drop, {.impacts = 2, .digits = 6, .amplification = false}); });
-  measure.outcome = outcome_name(sequence.outcome);
-  measure.evaluations = sequence.root_evaluations;
+  const analytic::Sequence sequence = timed_sequence(drop, 2, measure);
   const Retrace found = retrace(drop, sequence);
   measure.error = found.placement;
   double turned = 0;
@@ -97,16 +111,33 @@ CellMeasure continuous_turns(double turns, bool planar) {
 
 }  // namespace
 
+analytic::Sequence timed_sequence(const analytic::Drop& drop, int impacts, CellMeasure& measure) {
+  analytic::Sequence sequence;
+  measure.seconds =
+      timed([&] { sequence = impact_sequence(drop, {.impacts = impacts, .digits = 6, .amplification = false}); });
+  if (sequence.outcome == analytic::Outcome::not_computed) throw analytic::NumericalError(sequence.message);
+  if (sequence.outcome == analytic::Outcome::outside_model) throw analytic::OutsideModelError(sequence.message);
+  measure.outcome = outcome_name(sequence.outcome);
+  measure.evaluations = sequence.root_evaluations;
+  return sequence;
+}
+
+std::vector<ExtremeCase> measured_cases(const MapAxis& axis) {
+  const bool squares = axis.name == "squares";
+  const auto scores = std::make_shared<const CrossedScores>(crossed_scores(squares ? "square-drops" : "cube-tosses"));
+  std::vector<ExtremeCase> cases;
+  add_cases(cases, axis, squares ? ModelLevel::discrete : ModelLevel::discrete_in_space,
+            [scores](double low, const CellClock&) { return residual(*scores, low); });
+  return cases;
+}
+
 std::vector<ExtremeCase> turn_cases(const MapAxis& axis) {
   std::vector<ExtremeCase> cases;
-  for (const ModelLevel model : {ModelLevel::discrete, ModelLevel::planar, ModelLevel::spatial}) {
-    for (const AxisValue& at : axis.values) {
-      cases.push_back({axis.name, at.value, at.label, model, [model, value = at.value](const CellClock&) {
-                         return model == ModelLevel::discrete ? discrete_turns(value)
-                                                              : continuous_turns(value, model == ModelLevel::planar);
-                       }});
-    }
-  }
+  add_cases(cases, axis, ModelLevel::discrete, [](double turns, const CellClock&) { return discrete_turns(turns); });
+  add_cases(cases, axis, ModelLevel::planar,
+            [](double turns, const CellClock&) { return continuous_turns(turns, true); });
+  add_cases(cases, axis, ModelLevel::spatial,
+            [](double turns, const CellClock&) { return continuous_turns(turns, false); });
   return cases;
 }
 

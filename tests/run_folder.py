@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A folder with a scene and its mesh, in which the program runs.  CLATTER_PROGRAM is the program, CLATTER_ROOT the source tree."""
+"""Runs of the program, also in a folder of their own.  CLATTER_PROGRAM is the program, CLATTER_ROOT the source tree."""
 
+import csv
 import os
 import subprocess
 import tempfile
 import unittest
 
 PROGRAM = os.environ["CLATTER_PROGRAM"]
-CASES = os.path.join(os.environ["CLATTER_ROOT"], "validation", "cases")
+ROOT = os.environ["CLATTER_ROOT"]
+CASES = os.path.join(ROOT, "validation", "cases")
 TETRAHEDRON = """solid t
 facet normal 0 0 0 outer loop vertex 0 0 0 vertex 0 1 0 vertex 1 0 0 endloop endfacet
 facet normal 0 0 0 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 0 1 endloop endfacet
@@ -19,13 +21,24 @@ MESHED = ("[drop]\nangle_deg = 10\n[body]\nshape = 'mesh'\nmass = 1\ninertia = [
           "mesh = { file = 'body.stl' }\n[ground]\nstiffness = 1e8\n[run]\nimpacts = 1\ndigits = 3\n")
 
 
-class Folder(unittest.TestCase):
+def case(name):
+    return os.path.join(CASES, name + ".toml")
+
+
+def run(*arguments, **options):
+    return subprocess.run([PROGRAM, *arguments], **{"capture_output": True, "text": True, "timeout": 3000, **options})
+
+
+def records(text):
+    """Rows of a CSV text, without the comments above them."""
+    return list(csv.DictReader(line for line in text.splitlines(True) if not line.startswith("#")))
+
+
+class EmptyFolder(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = folder.name
-        self.write("scene.toml", MESHED)
-        self.write("body.stl", TETRAHEDRON)
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -33,10 +46,20 @@ class Folder(unittest.TestCase):
     def write(self, name, text):
         with open(self.path(name), "w", encoding="utf-8") as file:
             file.write(text)
+        return self.path(name)
 
     def read(self, name):
         with open(self.path(name), encoding="utf-8") as file:
             return file.read()
+
+
+class Folder(EmptyFolder):
+    """With a scene and its mesh, in which the program runs."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("scene.toml", MESHED)
+        self.write("body.stl", TETRAHEDRON)
 
     def contents(self):
         """Names with what is below them: a link's target, a file's text."""
@@ -48,8 +71,7 @@ class Folder(unittest.TestCase):
         return found
 
     def run_program(self, *arguments, **options):
-        return subprocess.run([PROGRAM, *arguments], **{"capture_output": True, "text": True, "timeout": 3000, "cwd": self.folder,
-                                                       **options})
+        return run(*arguments, **{"cwd": self.folder, **options})
 
     def refused(self, words, *arguments, status=2, **options):
         """One line that says so, and nothing has changed."""
