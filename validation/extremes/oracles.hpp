@@ -8,7 +8,7 @@
 
 #include "analytic/contact_angles.hpp"
 #include "analytic/sequence.hpp"
-#include "numeric/motion/rotation.hpp"
+#include "numeric/motion/motion_state.hpp"
 #include "validation/oracles/free_top.hpp"
 
 namespace clatter::validation::inline extremes {
