@@ -211,12 +211,16 @@ Value body_value(const Scene& scene, Model model) {
                        {"inertia", std::vector<double>{i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2)}}};
 }
 
-std::vector<std::string> scene_head(const Scene& scene, Model model) {
+std::vector<std::string> scene_head(const Scene& scene, Model model, const KeyNames& unsettled) {
+  std::vector<std::string> head = scene.summary(model, unsettled);
+  if (std::any_of(unsettled.begin(), unsettled.end(),
+                  [](const std::string& key) { return key.starts_with("body."); })) {
+    return head;
+  }
   const BodyProperties body = body_properties(scene, model);
   const auto three = [&](const Vector3& v, const char* between) {
     return fmt::format("{1}{0}{2}{0}{3}", between, short_text(v.x()), short_text(v.y()), short_text(v.z()));
   };
-  std::vector<std::string> head = scene.summary(model);
   head.insert(head.begin() + 1,
               fmt::format("body: mass {} kg, extents {} m, centre of mass ({}) m, principal inertia {} kg·m²",
                           short_text(body.mass), three(body.extents, " × "), three(body.centre, ", "),

@@ -44,7 +44,9 @@ struct SolidBody {
 
 /// "mass", "extents", "centre", "principal_inertia" (ascending), "inertia" (xx, yy, zz, xy, xz, yz), SI.
 [[nodiscard]] Value body_value(const Scene& scene, Model model = Model::continuous);
-/// The scene's summary and a line with the same numbers for a reader: the head of a table.
-[[nodiscard]] std::vector<std::string> scene_head(const Scene& scene, Model model = Model::continuous);
+/// The scene's summary and a line with the same numbers for a reader: the head of a table.  It leaves out what
+/// `unsettled` keys say, and the numbers where they are not those of one body.
+[[nodiscard]] std::vector<std::string> scene_head(const Scene& scene, Model model = Model::continuous,
+                                                  const KeyNames& unsettled = {});
 
 }  // namespace clatter::validation::inline scene
