@@ -4,6 +4,7 @@
 
 import csv
 import itertools
+import json
 import math
 import unittest
 
@@ -83,6 +84,170 @@ class Sweep(SpaceFolder):
                  for n in ("1", "3")}
         self.assertEqual(len(texts), 1)
         self.assertFalse(any(math.isnan(float(line.split(",")[4])) for line in texts.pop().splitlines() if line[0].isdigit()))
+
+    def test_26_attitudes_are_the_orientations_of_the_box_in_their_order(self):
+        swept = {"--set": ["drop.attitude=26", "impact.restitution=0.5:1:0.5"]}
+        rows = self.swept(*[part for value in swept["--set"] for part in ("--set", value)])
+        numbered = self.swept("--set", "drop.orientation=1:26:1", "--set", "impact.restitution=0.5:1:0.5")
+        self.assertEqual(len(rows), 52)
+        for row, expected in zip(rows, numbered):
+            result = {name: value for name, value in row.items() if not name.startswith("drop.attitude")}
+            number = expected.pop("drop.orientation")
+            self.assertEqual(result, expected, number)
+        self.refused("the attitudes depend on the size; give drop.orientation=1:26:1", "sweep", "box.toml", "--set", "drop.attitude=26",
+                     "--set", "body.size.length=1:2:1")
+        lowest = set()
+        for row in rows[::2]:  # the part that points down has the corners that are lowest then
+            q = [float(row[f"drop.attitude_q{i}"]) for i in range(4)]
+            heights = {signs: rotated(q, [s * x / 2 for s, x in zip(signs, SIZE)])[2] for signs in itertools.product((-1, 1), repeat=3)}
+            lowest.add(frozenset(signs for signs, z in heights.items() if z - min(heights.values()) < 1e-12))
+        self.assertEqual(sorted(map(len, lowest)), [1] * 8 + [2] * 12 + [4] * 6)
+
+    def test_a_list_of_attitudes_in_brackets_or_in_a_file_is_each_of_them_by_itself(self):
+        listed = [(0.9, 0.3, -0.2, 0.1), (0.1, 0.7, 0.7, 0.1), (0.5, 0.5, 0.5, 0.5)]
+        listed = [tuple(x / math.hypot(*q) for x in q) for q in listed]
+        self.write("list.csv", "# three\nq1,q2,q3,q0\n" + "".join(f"{b!r},{c!r},{d!r},{a!r}\n" for a, b, c, d in listed))
+        in_brackets = ",".join("[" + ",".join(map(repr, q)) + "]" for q in listed)
+        rows = self.swept("--set", "drop.attitude=" + in_brackets, "--rows", "impact")
+        self.assertEqual(rows, self.swept("--set", "drop.attitude=@list.csv", "--rows", "impact"))
+        for n, q in enumerate(listed):
+            own = self.sequence("--attitude", ",".join(map(repr, q)))
+            of_it = [row for row in rows if row["index"] == str(n)]
+            self.assertEqual([float(of_it[0][f"drop.attitude_q{i}"]) for i in range(4)], list(q))
+            self.assertEqual(len(of_it), len(own))
+            for row, expected in zip(of_it, own):
+                self.assertEqual({name: row[name] for name in expected}, expected)
+
+    def test_a_file_of_attitudes_is_refused_at_its_line_read_only_and_known_by_its_digest(self):
+        def refused(words, *arguments):
+            done = self.run_program("sweep", "box.toml", "--set", "drop.attitude=@list.csv", *arguments)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
+            self.assertIn(words, done.stderr)
+
+        self.write("list.csv", "q0,q1,q2,q3\n1,0,0,0\n1,0.2,0,0\n")
+        refused("list.csv:3:1: q0 = 1: must be four numbers")
+        self.write("list.csv", "a,b\n1,0\n")
+        refused("list.csv:1")
+        self.write("list.csv", "q0,q1,q2,q3\n1,0,0,0\n")
+        refused("list.csv", "--output", "list.csv")
+        heads = set()
+        for attitude in ("1,0,0,0", "0,1,0,0"):
+            self.write("list.csv", "q0,q1,q2,q3\n" + attitude + "\n")
+            text = self.run_program("sweep", "box.toml", "--set", "drop.attitude=@list.csv").stdout
+            heads.add(text[:text.index("index,")])
+        self.assertEqual(len(heads), 2)
+
+    def test_random_attitudes_are_the_same_by_any_number_of_threads_and_of_scenes(self):
+        arguments = ["--set", "drop.attitude=uniform", "--set", "drop.speed=1:3", "--seed", "3", "--columns", "hardest,hardest_corners"]
+        texts = {self.run_program("sweep", "box.toml", "--model", "discrete", *arguments, "--random", "300", "--threads", n).stdout
+                 for n in ("1", "3")}
+        self.assertEqual(len(texts), 1)
+        many = self.swept(*arguments, "--random", "300")
+        self.assertEqual(self.swept(*arguments, "--random", "7"), many[:7])
+        for row in many:
+            q = [float(row[f"drop.attitude_q{i}"]) for i in range(4)]
+            self.assertAlmostEqual(math.hypot(*q), 1, delta=1e-15)
+            own = self.sequence("--attitude", ",".join(row[f"drop.attitude_q{i}"] for i in range(4)), "--speed", row["drop.speed"])
+            if row["index"] in ("0", "17"):
+                total = sum(float(impact["impulse_normal"]) for impact in own)
+                self.assertAlmostEqual(float(row["total_normal_impulse"]), total, delta=1e-14)
+            if row["index"] == "17":
+                break
+
+    def test_columns_asked_for_are_the_cells_of_rows_of_impacts_and_empty_where_a_scene_has_fewer(self):
+        attitudes = ["--set", "drop.attitude=uniform", "--random", "40"]
+        some = ["corners", "place_z", "attitude_q2", "start", "impulse_normal", "velocity_after_x", "mode", "predictable", "n"]
+        names = ["hardest", "hardest_corners", "hardest_impulse_normal", "hardest_start"] + [f"{name}_{n}" for name in some for n in (1, 3)]
+        scenes = self.swept(*attitudes, "--columns", ",".join(names + ["energy_loss"]))
+        impacts = self.swept(*attitudes, "--rows", "impact")
+        hardest_seen, fewer = set(), 0
+        for scene in scenes:
+            own = [row for row in impacts if row["index"] == scene["index"] and row["n"].isdigit()]
+            hardest = max(own, key=lambda row: float(row["impulse_normal"]))
+            hardest_seen.add(hardest["n"])
+            self.assertEqual([scene[f"hardest{part}"] for part in ("", "_corners", "_impulse_normal", "_start", "_start_error")],
+                             [hardest[name] for name in ("n", "corners", "impulse_normal", "start", "start_error")])
+            fewer += len(own) < 3
+            for name in (*some, "energy_loss"):
+                for n in (1, 2, 3) if name == "energy_loss" else (1, 3):
+                    expected = own[n - 1] if n <= len(own) else {}
+                    self.assertEqual(scene[f"{name}_{n}"], expected.get(name, ""), (name, n))
+                    if name + "_error" in impacts[0]:
+                        self.assertEqual(scene[f"{name}_{n}_error"], expected.get(name + "_error", ""), (name, n))
+                    else:
+                        self.assertNotIn(f"{name}_{n}_error", scene)
+        self.assertGreater(len(hardest_seen), 1)
+        self.assertGreater(fewer, 0)
+
+    def test_columns_asked_for_of_the_plane_and_of_the_continuous_model_are_those_of_their_impacts(self):
+        asked = ["--columns", "impulse_normal,hardest,hardest_end", "--set", "drop.angle_deg=20:40:20", "--set", "run.impacts=2"]
+        ground = ["--set", "ground.stiffness=1e7", "--set", "run.digits=3", "--model", "continuous"]
+        for model in ([], ground):
+            arguments = [*asked[2:], *model]
+            scenes, impacts = self.swept(*asked, *model), self.swept(*arguments, "--rows", "impact")
+            for scene in scenes:
+                own = [row for row in impacts if row["index"] == scene["index"]]
+                self.assertEqual([scene["impulse_normal_1"], scene["impulse_normal_2"], scene["impulse_normal_2_error"]],
+                                 [own[0]["impulse_normal"], own[1]["impulse_normal"], own[1]["impulse_normal_error"]])
+                hardest = max(own, key=lambda row: float(row["impulse_normal"]))
+                self.assertEqual((scene["hardest"], scene["hardest_end"]), (hardest["n"], hardest["end"]))
+
+    def test_a_sweep_that_asked_for_columns_goes_on_only_with_the_same_ones(self):
+        arguments = ["sweep", "box.toml", "--set", "drop.attitude=uniform", "--random", "5", "--output", "rows.csv"]
+        self.assertEqual(self.run_program(*arguments, "--columns", "hardest").returncode, 0)
+        text = self.read("rows.csv")
+        self.assertIn("# columns: hardest\n", text)
+        self.write("rows.csv.part", text)
+        done = self.run_program(*arguments, "--columns", "hardest_start")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("is of another sweep", done.stderr)
+
+    def test_the_head_of_a_sweep_says_nothing_of_the_keys_that_are_swept(self):
+        def head(*arguments):
+            text = self.run_program("sweep", "box.toml", *arguments, "--format", "table").stdout
+            return text[:text.index("index")]
+
+        self.assertIn("drop: 35° at 2 m/s,", head("--set", "drop.spin=0:0.1:0.1"))
+        self.assertNotIn("spin", head("--set", "drop.spin=0:0.1:0.1"))
+        self.assertIn("drop: at 2 m/s,", head("--set", "drop.angle_deg=5:85:40"))
+        self.assertIn("drop: at 2 m/s,", head("--set", "drop.attitude=26"))
+        self.assertIn("drop: at 2 m/s,", head("--set", "drop.orientation=1:26:5"))
+        self.assertIn("drop: 35°, tangential", head("--set", "drop.height=1:2:1"))
+        self.assertIn("drop: 35° from 1 m,", head("--set", "drop.height=1", "--set", "impact.restitution=0.5:1:0.5"))
+        self.assertNotIn("e =", head("--set", "impact.restitution=0.5:1:0.5"))
+        self.assertIn("box, 0.08814 kg\n".replace(",", ""), head("--set", "body.size.length=0.1:0.2:0.1"))
+        self.assertNotIn("gravity", head("--set", "world.gravity=1:2:1"))
+        data = json.loads(self.run_program("sweep", "box.toml", "--set", "drop.angle_deg=5:85:40", "--set", "drop.speed=1:2:1",
+                                           "--format", "json").stdout)
+        self.assertEqual((data["scene"]["drop"]["angle_deg"], data["scene"]["drop"]["speed"]), (None, None))
+
+    def test_every_orientation_has_the_same_corners_by_either_model_and_its_name_among_the_keys(self):
+        self.write("box.toml", FALLING.replace("angle_deg = 35\n", "orientation = 1\n") + "[ground]\nstiffness = 1e7\n")
+        arguments = ["--set", "drop.orientation=1:26:1", "--set", "run.impacts=1", "--rows", "impact"]
+        discrete = self.swept(*arguments)
+        continuous = self.swept(*arguments, "--model", "continuous", "--no-errors")
+        keys = json.loads(self.run_program("keys", "--format", "json").stdout)["orientations"]
+        self.assertEqual([one["orientation"] for one in keys], list(range(1, 27)))
+        seen = set()
+        for one, row, other in zip(keys, discrete, continuous):
+            signs = {axis: sign for sign, axis in zip(one["down"][::2], one["down"][1::2])}
+            corners = {f"{x}x{y}y{z}z" for x in signs.get("x", "-+") for y in signs.get("y", "-+") for z in signs.get("z", "-+")}
+            self.assertEqual(set(other["corners"].split()), corners, one)
+            if row["corners"]:  # a drop that stays in its plane has none
+                self.assertEqual(set(row["corners"].split()), corners, one)
+                seen.add(one["part"])
+            self.assertEqual(one["part"], {4: "face", 2: "edge", 1: "corner"}[len(corners)])
+        self.assertEqual(seen, {"face", "edge", "corner"})
+        text = self.run_program("keys").stdout
+        for one in keys:
+            self.assertIn(f"{one['orientation']} {one['down']}", text)
+        self.assertLessEqual(max(map(len, text.splitlines())), 80)
+
+    def test_simulate_in_space_names_the_corners_that_touch(self):
+        done = self.run_program("simulate", "phone-corner", "--impacts", "2", "--digits", "3").stdout
+        lines = done.splitlines()
+        self.assertIn("corner", next(line for line in lines if line.strip().startswith("n ")).split())
+        self.assertEqual([line.split()[1] for line in lines if line[:3].strip().isdigit()][0], "-x-y-z")
 
 
 if __name__ == "__main__":

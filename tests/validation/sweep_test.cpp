@@ -13,6 +13,7 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -20,7 +21,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/sweep/counter_random.hpp"
-#include "validation/sweep/grid.hpp"
+#include "validation/sweep/points.hpp"
 #include "validation/sweep/sweep_file.hpp"
 #include "validation/sweep/sweep_run.hpp"
 
@@ -106,6 +107,8 @@ BOOST_AUTO_TEST_CASE(random_numbers_begin_with_the_known_answer_of_the_authors_o
   // Counter 0 and key 0 give 6627e8d5 e169c58d bc57ac4c 9b00dbd8; a number is made of the first 53 bits.
   BOOST_TEST(uniform_at(0, 0, 0) == static_cast<double>(0x6627e8d5e169c58dULL >> 11) * 0x1p-53);
   BOOST_TEST(uniform_at(0, 0, 1) != uniform_at(0, 0, 0));
+  BOOST_TEST(uniform_at(0, 0, 0, 1) != uniform_at(0, 0, 0));
+  BOOST_TEST(uniform_at(0, 0, 0, 1) != uniform_at(0, 0, 1));
   BOOST_TEST(uniform_at(0, 1ULL << 32, 0) != uniform_at(0, 0, 0));
   BOOST_TEST(uniform_at(1ULL << 32, 0, 0) != uniform_at(0, 0, 0));
 }
@@ -233,6 +236,84 @@ BOOST_AUTO_TEST_CASE(random_values_fill_their_ranges_evenly) {
   BOOST_TEST(std::fabs(mean - 1) <= 4 * allowed);
   BOOST_TEST(std::fabs(mean_of_log) <= 6 * allowed);
   BOOST_TEST(std::fabs(product) <= 4 * 6 * allowed);  // the axes do not know of each other
+}
+
+/// The largest distance of the values' distribution from the one on [0, 1], times √n: Kolmogorov's statistic.
+double kolmogorov(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto n = static_cast<double>(values.size());
+  double distance = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto before = static_cast<double>(i);
+    distance = std::max({distance, values[i] - before / n, (before + 1) / n - values[i]});
+  }
+  return distance * std::sqrt(n);
+}
+
+/// Of rotations that are uniform, one in 10⁶ samples has a larger statistic: 2 exp(−2 D²) = 1e-6.
+const double allowed_statistic = std::sqrt(std::log(2e6) / 2);
+
+BOOST_AUTO_TEST_CASE(attitudes_drawn_over_all_rotations_have_the_angles_and_axes_of_uniform_ones) {
+  constexpr int n = 100'000;
+  SweepAxis attitudes{.key = "drop.attitude", .any_attitude = true};
+  const SweepPoints points({read_random_axis("a", "-1:3", false), attitudes}, n, 1);
+  std::vector<double> angles(n), turns(n), heights(n), azimuths(n);
+  std::vector<double> values;
+  for (int i = 0; i < n; ++i) {
+    points.at(i, values);
+    BOOST_REQUIRE(values.size() == 5u);
+    const double w = values[1], x = values[2], y = values[3], z = values[4];
+    BOOST_REQUIRE(std::fabs(w * w + x * x + y * y + z * z - 1) <= 1e-15 * 8);
+    BOOST_REQUIRE(w >= 0);
+    const double angle = 2 * std::atan2(std::hypot(x, y, z), w);
+    const auto place = static_cast<std::size_t>(i);
+    angles[place] = (angle - std::sin(angle)) / std::numbers::pi;  // of the density (1 − cos θ)/π
+    turns[place] = (std::atan2(y, x) / std::numbers::pi + 1) / 2;  // about which axis
+    // Where the body's x axis points: its height is uniform on a sphere, as Archimedes knew.
+    heights[place] = (2 * (x * z - w * y) + 1) / 2;
+    azimuths[place] = (std::atan2(2 * (x * y + w * z), 1 - 2 * (y * y + z * z)) / std::numbers::pi + 1) / 2;
+  }
+  for (const std::vector<double>* sample : {&angles, &turns, &heights, &azimuths}) {
+    BOOST_TEST(kolmogorov(*sample) <= allowed_statistic);
+  }
+  // Angles uniform in [0, π] are what drawing an axis and an angle would give: the test sees them.
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    const double angle = uniform_at(1, i, 0) * std::numbers::pi;
+    angles[i] = (angle - std::sin(angle)) / std::numbers::pi;
+  }
+  BOOST_TEST(kolmogorov(angles) > 10 * allowed_statistic);
+}
+
+BOOST_AUTO_TEST_CASE(attitudes_drawn_depend_on_seed_and_scene_alone_and_leave_other_keys_as_they_are) {
+  const SweepAxis angle = read_random_axis("a", "-1:3", false), any{.key = "drop.attitude", .any_attitude = true};
+  const SweepPoints many({angle, any}, 1000, 7), few({angle, any}, 10, 7), other({angle, any}, 1000, 8);
+  const SweepPoints numbers({angle, angle}, 1000, 7);
+  BOOST_TEST(values_of(many, 5) == values_of(few, 5));
+  BOOST_TEST(values_of(many, 5) != values_of(other, 5));
+  BOOST_TEST(values_of(many, 5)[0] == values_of(numbers, 5)[0]);
+}
+
+BOOST_AUTO_TEST_CASE(a_list_of_attitudes_is_an_axis_whose_values_are_four_numbers) {
+  const SweepAxis list = read_attitude_axis("drop.attitude", "[1,0,0,0],[0.5,-0.5,0.5,-5e-1]");
+  BOOST_TEST(list.count == 2);
+  const std::vector<std::string> names{"drop.attitude_q0", "drop.attitude_q1", "drop.attitude_q2", "drop.attitude_q3"};
+  BOOST_TEST(list.names() == names);
+  const SweepPoints points({list, read_grid_axis("b", "1:2:1", false)});
+  BOOST_TEST(points.count() == 4);
+  BOOST_TEST(values_of(points, 1) == (std::vector<double>{1, 0, 0, 0, 2}));
+  BOOST_TEST(values_of(points, 2) == (std::vector<double>{0.5, -0.5, 0.5, -0.5, 1}));
+  const auto refused = [](const char* text, const char* why) {
+    BOOST_CHECK_EXCEPTION(static_cast<void>(read_attitude_axis("key", text)), BadInput, says(why));
+  };
+  refused("[1,0,0,0],[1,0,0]", "attitude 2, '[1,0,0]'");
+  refused("[1,0,0,0,0]", "attitude 1, '[1,0,0,0,0]'");
+  refused("[1,0,0,0", "attitude 1, '[1,0,0,0'");
+  refused("[1,0,0,0],", "attitude 1");
+  refused("[1,0,0,0][1,0,0,0]", "attitude 1");
+  refused("[1,0,0,1]", "length 1");
+  refused("[nan,0,0,1]", "length 1");
+  refused("[]", "attitude 1, '[]'");
+  refused("@/no/such/file", "/no/such/file: cannot be read");
 }
 
 /// What a number put into a scene does is what the reader does with the same number in the file.

@@ -36,12 +36,6 @@ struct ColumnsOf {
   std::vector<Column> (*columns)();
 };
 
-SweepPlan sweep_of(Model model) {
-  SweepPlan plan;
-  plan.model = model;
-  return plan;
-}
-
 std::vector<Column> angles_all() {
   AnglesRequest request;
   request.as_printed = true;
@@ -56,7 +50,7 @@ std::vector<Column> sequence_all() {
   }
   return all;
 }
-std::vector<Column> sweep_all() { return sweep_columns(sweep_of(Model::continuous)); }
+std::vector<Column> sweep_all() { return sweep_columns({.model = Model::continuous}); }
 
 const std::vector<ColumnsOf>& all_columns() {
   static const std::vector<ColumnsOf> all{{"sequence", sequence_all},

@@ -10,6 +10,7 @@
 #include "validation/output/number.hpp"
 #include "validation/output/symbols.hpp"
 #include "validation/scene/keys.hpp"
+#include "validation/scene/orientation.hpp"
 
 namespace clatter::validation::inline cli {
 namespace {
@@ -44,6 +45,40 @@ std::string meaning(const Key& key) {
   return fmt::format("{}{}; {}", key.help, unit, key.allowed());
 }
 
+/// "face", "edge" or "corner".
+const char* part_name(int orientation) {
+  const std::size_t axes = orientation_name(orientation).size() / 2;
+  return axes == 1 ? "face" : axes == 2 ? "edge" : "corner";
+}
+
+/// Lines of "7 -x-y" from one orientation to another.
+std::string orientation_lines(int first, int last, int in_a_line) {
+  std::string text;
+  for (int n = first; n <= last; ++n) {
+    const bool begins = (n - first) % in_a_line == 0;
+    if (begins) text += fmt::format("\n    {:<6}", n == first ? part_name(n) : "");
+    text += fmt::format("  {:>2} {}", n, orientation_name(n));
+  }
+  return text;
+}
+
+/// What the numbers of drop.orientation mean, as a table.
+std::string orientations_text() {
+  return "\nOrientations: which face, edge or corner of a box points down" + orientation_lines(1, 6, 6) +
+         orientation_lines(7, 18, 6) + orientation_lines(19, 26, 4) + "\n";
+}
+
+void add_orientations(Report& report) {
+  report.fields["orientations"] = Value::List{};
+  std::string words = "drop.orientation, what points down:";
+  for (int n = 1; n <= orientation_count; ++n) {
+    report.fields["orientations"].push_back(
+        Value::Fields{{"orientation", n}, {"part", part_name(n)}, {"down", orientation_name(n)}});
+    words += fmt::format("{} {} {}", n == 1 ? "" : ",", n, orientation_name(n));
+  }
+  report.notes.push_back(words);
+}
+
 Report keys_report() {
   Report report = begun_report("keys", "the language of scenes");
   for (const auto& [name, meaning] : {std::pair{"key", "in scene files"},
@@ -59,6 +94,7 @@ Report keys_report() {
                                 Cell(key.unit), Cell(key.allowed()), Cell(key.help)});
   }
   report.fields["keys"] = row_objects(report.grid);
+  add_orientations(report);
   return report;
 }
 
@@ -73,6 +109,7 @@ std::string keys_text(bool ascii) {
                                               : fmt::format("  ({})", given));
     text += wrapped("    " + meaning(key), 79, "    ") + "\n";
   }
+  text += orientations_text();
   return ascii ? to_ascii(text) : text;
 }
 

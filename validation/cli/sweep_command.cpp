@@ -16,11 +16,10 @@
 #include "validation/output/interrupt.hpp"
 #include "validation/output/message.hpp"
 #include "validation/output/sink.hpp"
-#include "validation/sweep/ranks.hpp"
 #include "validation/sweep/rows.hpp"
-#include "validation/sweep/scene_runner.hpp"
 #include "validation/sweep/sweep_file.hpp"
 #include "validation/sweep/sweep_plan.hpp"
+#include "validation/sweep/sweep_run.hpp"
 
 namespace clatter::validation::inline cli {
 namespace {
@@ -91,7 +90,7 @@ bool writes_file(const SweepInput& input) {
 /// all rows are there.
 class SweepOutput {
  public:
-  SweepOutput(const SweepInput& input, const SweepPlan& plan) : shortfalls_(plan) {
+  SweepOutput(const SweepInput& input, const SweepPlan& plan) : shortfalls_(plan.layout) {
     report_ = plan.report();
     style_ = style_of(input);
     const std::string head = csv_head(report_, style_.bare);
@@ -155,7 +154,9 @@ void check_output(const SweepInput& input, const SweepPlan& plan) {
   if (writes_file(input)) {
     std::vector<RunFile> written = SweepFile::files_beside(*input.output);
     written.insert(written.begin(), {"--output", *input.output});
-    refuse_shared_files(written, files_of(plan.scene));
+    std::vector<RunFile> read = files_of(plan.scene);
+    read.insert(read.end(), plan.attitude_files.begin(), plan.attitude_files.end());
+    refuse_shared_files(written, read);
   } else if (input.restart) {
     throw BadInput("--restart: needs a file as --output, there is nothing to go on with");
   }
@@ -207,7 +208,7 @@ int run_command(const SweepInput& input, Ranks& ranks) {
   const int threads = read_threads(input, ranks);
   check_output(input, plan);
   // A body that cannot be made is bad input, but a row's where it is swept.
-  const SweepBody body = plan.body_axes.empty() ? make_sweep_body(plan, plan.scene) : SweepBody{};
+  const SweepBody body = plan.body_values.empty() ? make_sweep_body(plan, plan.scene) : SweepBody{};
   return ranks.writes() ? run_sweep(input, plan, body, threads, ranks) : serve(plan, body, ranks);
 }
 
@@ -233,12 +234,17 @@ Command sweep_command() {
   command.add({.name = "--set",
                .target = &request.sets,
                .type = "KEY=VALUE|A,B,...|FROM:TO:STEP|FROM:TO:log:COUNT",
-               .help = "values of a key of the scene file; may be repeated, the last varies fastest",
+               .help =
+                   "values of a key of the scene file; may be repeated, the last varies fastest; drop.attitude takes "
+                   "uniform (with --random), 26 or [Q0,Q1,Q2,Q3],[...] or @FILE",
                .repeats = true});
   command.add_text("--random", request.random, "N", "N scenes with random values, --set KEY=LOW:HIGH or LOW:HIGH:log");
   command.add_text("--seed", request.seed, "S", "of the random values (1)");
   command.add_text("--model", request.model, "discrete|continuous", "(continuous if the scene has a ground)");
   command.add_text("--rows", request.rows, "scene|impact", "one row per scene or per impact (scene)");
+  command.add_text(
+      "--columns", request.columns, "NAME,...",
+      "more columns of rows of scenes: QUANTITY_N of impact N, QUANTITY of each, hardest, hardest_QUANTITY");
   command.add_text("--output", input->output, "FILE", "write there; until it is complete the rows are in FILE.part");
   command.add_text("--format", input->form.format, "table|csv|json|markdown|latex",
                    "form of the output (csv); others are written at the end, and not taken up again");
@@ -251,6 +257,12 @@ Command sweep_command() {
   command.footer =
       "Example: clatter sweep phone-damped --set drop.angle_deg=5:85:5 "
       "--set ground.damping=0:2e7:1e6 --set run.impacts=2 --output phone.csv\n"
+      "Example: clatter sweep phone-corner --set drop.attitude=uniform --random 1000 "
+      "--columns hardest,hardest_corners,impulse_normal_1,impulse_normal_2\n"
+      "drop.attitude=26 has a box fall on each face, edge and corner (clatter keys numbers them); @FILE is a CSV file\n"
+      "with columns q0, q1, q2, q3. Columns asked for are quantities that rows of impacts have; the hardest impact "
+      "has\n"
+      "the largest normal impulse.\n"
       "An interrupted sweep goes on when the same command is given again. The discrete model takes the impact.* keys.\n"
       "Continuous scenes are planned for run.digits. Each number has a column with its error, empty where that is not "
       "known.\n"

@@ -34,6 +34,7 @@ struct SpaceRow {
 struct ContinuousRow {
   const numeric::ImpactRecord& row;
   int n = 1;
+  std::string corners{};  ///< which corners of the body touch first; empty: they have no names
 };
 
 using EntryVector = std::array<double, 3>;      ///< x, y, z

@@ -12,8 +12,10 @@
 #include "validation/record/totals.hpp"
 #include "validation/reports/swept_column.hpp"
 #include "validation/scene/body_properties.hpp"
+#include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/scene_value.hpp"
 #include "validation/scene/shortfall.hpp"
+#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation::inline reports {
 namespace {
@@ -123,10 +125,15 @@ bool has_friction(const Scene& scene) {
   return swept || scene.world.ground.has_friction();
 }
 
+/// Whether a table names the corners that touch instead of the ends of the body.
+bool names_corners(const Scene& scene) {
+  return scene.body.shape == BodyScene::Shape::box && !reason_in_space(scene).empty();
+}
+
 std::vector<Column> columns_of(const Scene& scene) {
   const bool friction = has_friction(scene);
   std::vector<std::string> shown{"n",
-                                 "end",
+                                 names_corners(scene) ? "corners" : "end",
                                  "start",
                                  "duration",
                                  "contact_angle_deg",
@@ -142,11 +149,10 @@ std::vector<Column> columns_of(const Scene& scene) {
 std::vector<Row> rows_of(const Scene& scene, const PlannedRun& planned) {
   std::vector<Row> rows;
   const std::size_t trust = trusted_impacts(scene, planned.run);
-  for (const ImpactRecord& record : planned.run.impacts) {
-    const int n = static_cast<int>(rows.size()) + 1;
+  for (const ContinuousRow& impact : continuous_rows(scene, planned.run)) {
     const bool trusted = rows.size() < trust;
-    rows.push_back(impact_row(ContinuousRow{record, n}, digits_of(scene, planned, trusted)));
-    rows.back()[0].shown = fmt::format("{}{}{}", n, trusted ? "" : "?", record.submerged ? "!" : "");
+    rows.push_back(impact_row(impact, digits_of(scene, planned, trusted)));
+    rows.back()[0].shown = fmt::format("{}{}{}", impact.n, trusted ? "" : "?", impact.row.submerged ? "!" : "");
   }
   return rows;
 }

@@ -203,6 +203,20 @@ std::vector<Eigen::Vector2d> places_of(const analytic::PlanarBody& body) {
   return places;
 }
 
+/// A place from the centre of mass as one from the geometric centre of a rod or box.
+Vector3 from_geometric_centre(const Scene& scene, const Vector3& place) {
+  const std::vector<double>& centre = scene.body.centre;
+  const bool is_moved = !centre.empty() && scene.body.shape != BodyScene::Shape::mesh;
+  return is_moved ? Vector3(place + vector_of(centre)) : place;
+}
+
+/// Name of the corner of a box, or of the end of a rod, on one side of the geometric centre along each axis.
+std::string side_name(BodyScene::Shape shape, const Vector3& side) {
+  if (shape == BodyScene::Shape::rod) return side.x() < 0 ? "a" : "b";
+  const auto sign = [](double coordinate) { return coordinate < 0 ? '-' : '+'; };
+  return fmt::format("{}x{}y{}z", sign(side.x()), sign(side.y()), sign(side.z()));
+}
+
 const char* source_name(LawSource source, const char* of_ground) {
   switch (source) {
     case LawSource::standard: return "default";
@@ -420,10 +434,20 @@ Scene read_discrete_scene(const SceneValues& values, const std::vector<SceneOver
   return scene;
 }
 
-std::string law_words(const Scene& scene, std::optional<double> approach) {
+std::string law_words(const Scene& scene, std::optional<double> approach, const KeyNames& unsettled) {
+  const auto is_settled = [&](std::initializer_list<std::string_view> keys) {
+    return std::none_of(unsettled.begin(), unsettled.end(), [&](const std::string& name) {
+      return std::find(keys.begin(), keys.end(), std::string_view(name)) != keys.end();
+    });
+  };
   const DiscreteLaw law = discrete_law(scene);
-  return fmt::format("{}{} {}", restitution_words(law, approach), law.restitution_from == LawSource::ground ? ";" : ",",
-                     law_friction_words(scene, law));
+  const bool of_ground = law.restitution_from == LawSource::ground;
+  std::string words;
+  if (is_settled({"impact.restitution", "ground.damping", "ground.stiffness"})) words = restitution_words(law, approach);
+  if (is_settled({"impact.friction", "impact.impulse_ratio", "ground.static_friction", "ground.sliding_friction"})) {
+    words += (words.empty() ? "" : of_ground ? "; " : ", ") + law_friction_words(scene, law);
+  }
+  return words.empty() ? "as swept" : words;
 }
 
 Value law_fields(const Scene& scene, std::optional<double> approach) {
@@ -447,17 +471,25 @@ Value law_fields(const Scene& scene, std::optional<double> approach) {
 }
 
 std::string corner_name(const Scene& scene, const space::Corner& corner) {
-  const std::vector<double>& centre = scene.body.centre;
-  const bool is_moved = !centre.empty() && scene.body.shape != BodyScene::Shape::mesh;
-  const double x = corner.place.x() + (is_moved ? centre[0] : 0), y = corner.place.y() + (is_moved ? centre[1] : 0),
-               z = corner.place.z() + (is_moved ? centre[2] : 0);
-  const auto sign = [](double coordinate) { return coordinate < 0 ? '-' : '+'; };
-  switch (scene.body.shape) {
-    case BodyScene::Shape::rod: return x < 0 ? "a" : "b";
-    case BodyScene::Shape::box: return fmt::format("{}x{}y{}z", sign(x), sign(y), sign(z));
-    case BodyScene::Shape::mesh: break;
+  if (scene.body.shape == BodyScene::Shape::mesh) return std::to_string(corner.index + 1);
+  return side_name(scene.body.shape, from_geometric_centre(scene, corner.place));
+}
+
+std::string corner_names(const Scene& scene, const Vector3& place) {
+  constexpr double middle = 1e-9;  // of the size: below it the mean is that of corners on both sides
+  const BodyScene& body = scene.body;
+  if (body.shape == BodyScene::Shape::mesh) return "";
+  const bool is_rod = body.shape == BodyScene::Shape::rod;
+  const Vector3 mean = from_geometric_centre(scene, place), size = is_rod ? Vector3(body.length, 0, 0) : body.size;
+  std::string names;
+  for (int corner = 0; corner < 8; corner += is_rod ? 4 : 1) {
+    const auto sign = [&](int bit) { return (corner & bit) != 0 ? 1.0 : -1.0; };
+    const Vector3 side(sign(4), sign(2), sign(1));
+    const Vector3 beyond = side.cwiseProduct(mean) + middle * size;
+    if (beyond.x() < 0 || (!is_rod && beyond.minCoeff() < 0)) continue;
+    names += (names.empty() ? "" : " ") + side_name(body.shape, side);
   }
-  return std::to_string(corner.index + 1);
+  return names;
 }
 
 std::string tilt_words(const space::OutcomeSet& set) {
@@ -485,6 +517,14 @@ std::vector<SpaceRow> space_rows(const Scene& scene, const space::Sequence& sequ
     const Vector3 place = row.corners.front().place + centre;
     named.place = {place.x(), place.y(), place.z()};
     rows.push_back(named);
+  }
+  return rows;
+}
+
+std::vector<ContinuousRow> continuous_rows(const Scene& scene, const numeric::Simulation& run) {
+  std::vector<ContinuousRow> rows;
+  for (const numeric::ImpactRecord& row : run.impacts) {
+    rows.push_back({row, static_cast<int>(rows.size()) + 1, corner_names(scene, row.place)});
   }
   return rows;
 }

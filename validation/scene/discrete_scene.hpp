@@ -12,6 +12,7 @@
 #include "analytic/sequence.hpp"
 #include "analytic/space/sequence.hpp"
 #include "numeric/body.hpp"
+#include "numeric/simulate.hpp"
 #include "validation/record/impact_quantities.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/scene.hpp"
@@ -101,7 +102,8 @@ class DiscreteBody {
 
 /// "e = 0.770 at 4.33 m/s, from the ground's damping; Coulomb friction μ = 0.075, from the ground".
 /// @param approach  of the first contact [m/s]; none: e is told by c_G/k_G
-[[nodiscard]] std::string law_words(const Scene& scene, std::optional<double> approach);
+/// @param unsettled  keys of which nothing is to be said
+[[nodiscard]] std::string law_words(const Scene& scene, std::optional<double> approach, const KeyNames& unsettled = {});
 /// The same as fields: "law", "restitution" (at "approach_speed"), "restitution_from", "friction_law", "friction",
 /// "friction_from".
 [[nodiscard]] Value law_fields(const Scene& scene, std::optional<double> approach);
@@ -109,6 +111,9 @@ class DiscreteBody {
 /// Name of a corner of the body: the signs of the coordinates of a box's corner ("+x-y+z"), "a" and "b" of a rod's
 /// ends, otherwise its number from 1.
 [[nodiscard]] std::string corner_name(const Scene& scene, const analytic::space::Corner& corner);
+/// Names of the corners whose mean is `place` [m], from the centre of mass, as of those that touch at once; empty for a
+/// mesh, whose corners have numbers that depend on all of them.
+[[nodiscard]] std::string corner_names(const Scene& scene, const numeric::Vector3& place);
 /// What small tilts make of corners that land at once: how many outcomes and how far apart; of a level rim, which has
 /// one for each direction, how far apart.
 [[nodiscard]] std::string tilt_words(const analytic::space::OutcomeSet& set);
@@ -118,5 +123,8 @@ class DiscreteBody {
 /// @param centre  of mass, in the body's frame [m]
 [[nodiscard]] std::vector<SpaceRow> space_rows(const Scene& scene, const analytic::space::Sequence& sequence,
                                                const numeric::Vector3& centre);
+
+/// The rows of a run of the continuous model, with the names of the corners that touch first.
+[[nodiscard]] std::vector<ContinuousRow> continuous_rows(const Scene& scene, const numeric::Simulation& run);
 
 }  // namespace clatter::validation::inline scene

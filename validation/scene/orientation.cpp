@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace clatter::validation::inline scene {
 namespace {
 
 using Signs = std::array<int, 3>;
+
+constexpr double attitude_rounding = 0.01;  // numbers typed with two digits are meant to have the length 1
 
 int parts_of(const Signs& signs) {
   return static_cast<int>(std::count_if(signs.begin(), signs.end(), [](int sign) { return sign != 0; }));
@@ -39,6 +42,15 @@ Signs orientation_signs(int orientation) {
   return all.at(static_cast<std::size_t>(orientation - 1));
 }
 
+std::string orientation_name(int orientation) {
+  std::string name;
+  const Signs signs = orientation_signs(orientation);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (signs[axis] != 0) name += {signs[axis] < 0 ? '-' : '+', "xyz"[axis]};
+  }
+  return name;
+}
+
 std::vector<double> orientation_attitude(int orientation, const numeric::Vector3& size) {
   const Signs signs = orientation_signs(orientation);
   const numeric::Vector3 down =
@@ -49,6 +61,11 @@ std::vector<double> orientation_attitude(int orientation, const numeric::Vector3
   const double half = std::atan2(across, -down.z()) / 2;
   const double part = std::sin(half) / across;
   return {std::cos(half), -down.y() * part, down.x() * part, 0};
+}
+
+bool is_attitude(std::span<const double> parameters) {
+  const double square = std::inner_product(parameters.begin(), parameters.end(), parameters.begin(), 0.0);
+  return parameters.size() == 4 && std::fabs(std::sqrt(square) - 1) <= attitude_rounding;
 }
 
 }  // namespace clatter::validation::inline scene

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
-#include <numeric>
 
 #include "validation/embedded/embedded.hpp"
 #include "validation/output/bad_input.hpp"
@@ -21,7 +20,6 @@
 namespace clatter::validation::inline scene {
 namespace {
 
-constexpr double attitude_rounding = 0.01;  // numbers typed with two digits are meant to have the length 1
 
 void only_for(const SceneValues& values, const std::vector<std::string>& keys, const std::string& what) {
   for (const std::string& key : keys) {
@@ -108,10 +106,7 @@ void check_drop(const SceneValues& values, Scene& scene) {
   const bool swept = scene.sweep && scene.sweep->quantity == SceneSweep::Quantity::angle_deg;
   scene.settle();
   if (!scene.attitude.empty()) {
-    const std::vector<double>& q = scene.attitude;
-    const double length = std::sqrt(std::inner_product(q.begin(), q.end(), q.begin(), 0.0));
-    if (!(std::fabs(length - 1) <= attitude_rounding))
-      values.refuse("drop.attitude", key_named("drop.attitude").allowed());
+    if (!is_attitude(scene.attitude)) values.refuse("drop.attitude", key_named("drop.attitude").allowed());
   } else if (!swept) {
     values.require("drop.angle_deg", "the inclination at the first impact");
   }

@@ -76,6 +76,9 @@ struct SceneSweep {
 /// The model that a scene is read for.  The discrete one needs no ground.
 enum class Model { discrete, continuous };
 
+/// Names of keys of which nothing is to be said, since their values are not those of every scene of a sweep.
+using KeyNames = std::vector<std::string>;
+
 /// A checked scene.
 struct Scene {
   std::string path;
@@ -125,10 +128,10 @@ struct Scene {
   [[nodiscard]] Json json(Model model = Model::continuous) const;
   /// Whether attitude, velocity or angular velocity are given as vectors.
   [[nodiscard]] bool has_vectors() const;
-  /// How the body comes to the ground, for a reader, without what is zero.
-  [[nodiscard]] std::string drop_words() const;
-  /// The scene for a reader: a few lines, without the discrete model's law.
-  [[nodiscard]] std::vector<std::string> summary(Model model = Model::continuous) const;
+  /// How the body comes to the ground, for a reader, without what is zero and without what `unsettled` keys say.
+  [[nodiscard]] std::string drop_words(const KeyNames& unsettled = {}) const;
+  /// The scene for a reader: a few lines, without the discrete model's law and without what `unsettled` keys say.
+  [[nodiscard]] std::vector<std::string> summary(Model model = Model::continuous, const KeyNames& unsettled = {}) const;
 };
 
 /// The values of a scene file, of a case that comes with the program (by its name, "phone-damped"), or of neither ("":

@@ -21,7 +21,8 @@ namespace clatter::validation::inline scene {
 [[nodiscard]] std::string scene_line(const Scene& scene, Model model = Model::continuous);
 
 /// The head of a table: the scene's summary, a line of body_words(), and one of law_words() where scene_value has them.
+/// It leaves out what `unsettled` keys say, and the body's numbers where they are not those of one body.
 [[nodiscard]] std::vector<std::string> scene_head(const Scene& scene, Model model = Model::continuous,
-                                                  std::optional<double> approach = {});
+                                                  std::optional<double> approach = {}, const KeyNames& unsettled = {});
 
 }  // namespace clatter::validation::inline scene

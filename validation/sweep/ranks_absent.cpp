@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A build without MPI: always one process.
-#include "validation/sweep/ranks.hpp"
+#include "validation/sweep/sweep_run.hpp"
 
 namespace clatter::validation::inline sweep {
 

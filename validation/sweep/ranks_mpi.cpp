@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "validation/sweep/ranks.hpp"
+#include "validation/sweep/sweep_run.hpp"
 
 namespace clatter::validation::inline sweep {
 namespace {

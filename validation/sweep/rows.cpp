@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/sweep/rows.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <limits>
 #include <string_view>
 
+#include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/record/impact_rows.hpp"
 #include "validation/record/names.hpp"
@@ -46,38 +50,174 @@ Column outcome_column() {
   return {.name = "outcome", .heading = "outcome", .unit = "", .meaning = "how the scene ended"};
 }
 
-std::vector<Column> scene_columns(Model model) {
-  std::vector<Column> columns{{"impacts", "impacts", "", "impacts listed"}, outcome_column()};
-  for_each_number(model, [&](const SceneNumber& n) { columns.push_back({n.name, n.name, n.unit, n.meaning}); });
-  columns.push_back({"predictable", "predictable", "", "whether each impact can be predicted"});
-  for_each_number(model, [&](const SceneNumber& n) {
-    const std::string name = std::string(n.name) + "_error";
-    columns.push_back(
-        {.name = name, .heading = name, .unit = n.unit, .meaning = std::string("error of ") + n.name, .shown = false});
-  });
-  return columns;
+/// The error of a column in a row of a scene, which in JSON, too, is a field of its own.
+Column error_beside(const Column& number) {
+  const std::string name = number.name + "_error";
+  return {.name = name, .heading = name, .unit = number.unit, .meaning = "error of " + number.name, .shown = false};
 }
 
 const std::vector<std::string> shown_of_impacts{
     "n", "end", "start", "contact_angle_deg", "impulse_normal", "velocity_after_z", "angular_velocity_after_y"};
 
-/// What decides on the columns.
-struct Kind {
-  Model model;
-  RowKind rows;
-  bool in_space;
-};
+/// Calls use(impact) with a null pointer to the kind of rows that the impacts of a layout have.
+template <class Use>
+auto with_kind(const RowLayout& layout, Use&& use) {
+  if (layout.model == Model::continuous) return use(static_cast<const ContinuousRow*>(nullptr));
+  if (layout.in_space) return use(static_cast<const SpaceRow*>(nullptr));
+  return use(static_cast<const DiscreteRow*>(nullptr));
+}
 
-std::vector<Column> result_columns(const Kind& kind) {
-  const auto& [model, rows, in_space] = kind;
-  std::vector<Column> columns = rows == RowKind::scene       ? scene_columns(model)
-                                : model == Model::continuous ? impact_columns<ContinuousRow>(shown_of_impacts)
-                                : in_space                   ? impact_columns<SpaceRow>(shown_of_impacts)
-                                                             : impact_columns<DiscreteRow>(shown_of_impacts);
-  if (rows == RowKind::impact) columns.push_back(outcome_column());
+std::vector<Column> columns_of_impacts(const RowLayout& layout) {
+  return with_kind(layout,
+                   [](auto* kind) { return impact_columns<std::remove_cvref_t<decltype(*kind)>>(shown_of_impacts); });
+}
+
+bool has_error(const ImpactQuantity& quantity, const RowLayout& layout) {
+  return with_kind(layout,
+                   [&](auto* kind) { return quantity.of<std::remove_cvref_t<decltype(*kind)>>().error != nullptr; });
+}
+
+std::vector<Column> scene_columns(const RowLayout& layout) {
+  std::vector<Column> columns{{"impacts", "impacts", "", "impacts listed"}, outcome_column()}, errors;
+  const auto add = [&](const Column& number) {
+    columns.push_back(number);
+    errors.push_back(error_beside(number));
+  };
+  for_each_number(layout.model, [&](const SceneNumber& n) { add({n.name, n.name, n.unit, n.meaning}); });
+  columns.push_back({"predictable", "predictable", "", "whether each impact can be predicted"});
+  for (const ImpactColumn& asked : layout.asked) {
+    if (has_error(*asked.quantity, layout)) add(asked.column);
+    else columns.push_back(asked.column);
+  }
+  columns.insert(columns.end(), errors.begin(), errors.end());
+  return columns;
+}
+
+std::vector<Column> result_columns(const RowLayout& layout) {
+  const bool of_impacts = layout.rows == RowKind::impact;
+  std::vector<Column> columns = of_impacts ? columns_of_impacts(layout) : scene_columns(layout);
+  if (of_impacts) columns.push_back(outcome_column());
   columns.push_back(
       word_column("reason", "reason", "why it has no numbers, or fewer impacts or digits than asked for"));
   return columns;
+}
+
+/// The names of the quantities of impacts, each with its place; made once for all names that are read.
+class AskedColumns {
+ public:
+  AskedColumns(const RowLayout& layout, int impacts) : impacts_(impacts), columns_(columns_of_impacts(layout)) {
+    std::erase_if(columns_, [](const Column& column) { return column.object == "error_estimate"; });
+    for (const Column& column : columns_) names_.push_back(column.name);
+  }
+
+  void add(const std::string& name) {
+    const std::string_view prefix = "hardest_";
+    const std::size_t cut = name.rfind('_');
+    long long number = 0;
+    if (name == "hardest") return add(name, find("n"), 0);
+    if (name.starts_with(prefix) && has(name.substr(prefix.size()))) {
+      return add(name, find(name.substr(prefix.size())), 0);
+    }
+    if (has(name)) {
+      for (int n = 1; n <= impacts_; ++n) add(fmt::format("{}_{}", name, n), find(name), n);
+      return;
+    }
+    if (cut != std::string::npos && has(name.substr(0, cut)) && read_integer(name.substr(cut + 1), number)) {
+      if (number >= 1 && number <= impacts_) {
+        return add(fmt::format("{}_{}", name.substr(0, cut), number), find(name.substr(0, cut)),
+                   static_cast<int>(number));
+      }
+      throw BadInput(fmt::format("--columns {}: the impact must be from 1 to {}, as run.impacts says", name, impacts_));
+    }
+    throw BadInput(
+        fmt::format("--columns '{}': must be hardest, hardest_QUANTITY, QUANTITY or QUANTITY_N with N from 1 "
+                    "to {}; did you mean {}?",
+                    name, impacts_, nearest_name(name, names_)));
+  }
+
+  std::vector<ImpactColumn> taken() && { return std::move(asked_); }
+
+ private:
+  [[nodiscard]] bool has(const std::string& name) const {
+    return std::find(names_.begin(), names_.end(), name) != names_.end();
+  }
+  [[nodiscard]] const Column& find(const std::string& name) const {
+    return *std::find_if(columns_.begin(), columns_.end(), [&](const Column& column) { return column.name == name; });
+  }
+
+  /// @param impact 0: the hardest
+  void add(const std::string& name, const Column& quantity, int impact) {
+    for (const ImpactColumn& other : asked_) {
+      if (other.column.name == name) throw BadInput(fmt::format("--columns {}: asked for twice", name));
+    }
+    if (asked_.size() == most_columns) throw BadInput(fmt::format("--columns: more than {} columns", most_columns));
+    const std::string which =
+        impact == 0 ? "the impact with the largest normal impulse" : fmt::format("impact {}", impact);
+    ImpactColumn asked{.column = {name, name, quantity.unit, fmt::format("of {}: {}", which, quantity.meaning)},
+                       .impact = impact};
+    const auto quantities = impact_quantities();
+    asked.quantity = &*std::find_if(quantities.begin(), quantities.end(),
+                                    [&](const ImpactQuantity& one) { return one.name == quantity.json_key(); });
+    while (columns_[asked.part].json_key() != quantity.json_key()) ++asked.part;
+    asked.part = static_cast<std::size_t>(&quantity - columns_.data()) - asked.part;
+    asked_.push_back(asked);
+  }
+
+  static constexpr std::size_t most_columns = 10'000;
+
+  int impacts_;
+  std::vector<Column> columns_;
+  std::vector<std::string> names_;
+  std::vector<ImpactColumn> asked_;
+};
+
+/// Appends one cell: the part of an entry, empty where there is none.
+void append_part_of(std::string& out, const Entry& entry, std::size_t part) {
+  const auto append = [&](const auto& content) {
+    using Content = std::decay_t<decltype(content)>;
+    if constexpr (std::is_same_v<Content, EntryVector> || std::is_same_v<Content, EntryParameters>) {
+      append_number(out, content[part]);
+    } else if constexpr (std::is_same_v<Content, double>) append_number(out, content);
+    else if constexpr (std::is_same_v<Content, bool>) out += content ? "true" : "false";
+    else if constexpr (std::is_same_v<Content, int>) out += std::to_string(content);
+    else if constexpr (std::is_same_v<Content, std::string>) out += content;
+  };
+  out += ',';
+  std::visit(append, entry);
+}
+
+/// Place of the impact with the largest normal impulse, the first of equal ones.
+template <class Impact>
+std::size_t hardest_of(const std::vector<Impact>& impacts) {
+  static const ImpactQuantity& impulse = *std::ranges::find_if(
+      impact_quantities(), [](const ImpactQuantity& one) { return one.name == std::string_view("impulse_normal"); });
+  std::size_t hardest = 0;
+  double largest = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < impacts.size(); ++i) {
+    const double value = std::get<double>(impulse.of<Impact>().value(impacts[i]));
+    if (!(value > largest)) continue;
+    largest = value;
+    hardest = i;
+  }
+  return hardest;
+}
+
+/// Appends the cells of the columns asked for, of their values or of their errors; empty where the scene has no such
+/// impact, or the impact no such quantity.
+template <class Impact>
+void append_asked(const RowForm& form, const std::vector<Impact>& impacts, bool of_errors) {
+  if (form.layout.asked.empty()) return;
+  const std::size_t hardest = hardest_of(impacts);
+  for (const ImpactColumn& asked : form.layout.asked) {
+    if (of_errors && !has_error(*asked.quantity, form.layout)) continue;
+    const std::size_t place = asked.impact == 0 ? hardest : static_cast<std::size_t>(asked.impact - 1);
+    const Getter<Impact>& get = asked.quantity->template of<Impact>();
+    const bool is_known = of_errors ? form.errors && get.error
+                                    : form.predictions || asked.quantity->name != std::string_view("predictable");
+    const auto entry = of_errors ? get.error : get.value;
+    if (place < impacts.size() && entry && is_known) append_part_of(form.out, entry(impacts[place]), asked.part);
+    else form.out += ',';
+  }
 }
 
 /// Ends a row of an impact.
@@ -87,10 +227,10 @@ void append_ending(const RowForm& form, const char* outcome) {
   form.out += '\n';
 }
 
-void append_empty_row(const RowForm& form, Model model, std::string_view impacts, const char* outcome) {
-  const std::size_t columns = result_columns({model, form.rows, form.in_space}).size();
+void append_empty_row(const RowForm& form, std::string_view impacts, const char* outcome) {
+  const std::size_t columns = result_columns(form.layout).size();
   form.out += form.prefix;
-  if (form.rows == RowKind::impact) {
+  if (form.layout.rows == RowKind::impact) {
     form.out.append(columns - 2, ',');
     return append_ending(form, outcome);
   }
@@ -102,28 +242,43 @@ void append_empty_row(const RowForm& form, Model model, std::string_view impacts
 }
 
 /// The one row of a scene with its sums.
-void append_scene_row(const RowForm& form, const Totals& sums, Model model, const char* outcome) {
+template <class Impact>
+void append_scene_row(const RowForm& form, const Totals& sums, const std::vector<Impact>& impacts,
+                      const char* outcome) {
+  const Model model = form.layout.model;
   form.out += form.prefix;
   append_cell(form.out, std::to_string(sums.impacts));
   append_cell(form.out, outcome);
   for_each_number(model, [&](const SceneNumber& n) { append_cell(form.out, (sums.*n.sum).value); });
   append_cell(form.out, !form.predictions ? "" : sums.predictable ? "true" : "false");
+  append_asked(form, impacts, false);
   for_each_number(model, [&](const SceneNumber& n) {
     if (form.errors) append_cell(form.out, (sums.*n.sum).error);
     else form.out += ',';
   });
+  append_asked(form, impacts, true);
   append_cell(form.out, csv_text(form.reason));
   form.out += '\n';
 }
 
 }  // namespace
 
-std::vector<Column> sweep_columns(const SweepPlan& plan) {
-  std::vector<Column> columns{{"index", "index", "", "number of the scene, from 0"}};
-  for (const SweepAxis& axis : plan.points.axes()) {
-    columns.push_back({axis.key, axis.key, "", "swept key; clatter keys explains it"});
+std::vector<ImpactColumn> read_impact_columns(const std::string& names, const RowLayout& layout, int impacts) {
+  AskedColumns asked(layout, impacts);
+  for (std::size_t begin = 0; begin <= names.size();) {
+    const std::size_t end = std::min(names.find(',', begin), names.size());
+    asked.add(names.substr(begin, end - begin));
+    begin = end + 1;
   }
-  const std::vector<Column> results = result_columns({plan.model, plan.rows, plan.in_space});
+  return std::move(asked).taken();
+}
+
+std::vector<Column> sweep_columns(const RowLayout& layout) {
+  std::vector<Column> columns{{"index", "index", "", "number of the scene, from 0"}};
+  for (const std::string& key : layout.swept) {
+    columns.push_back({key, key, "", "swept key; clatter keys explains it"});
+  }
+  const std::vector<Column> results = result_columns(layout);
   columns.insert(columns.end(), results.begin(), results.end());
   return columns;
 }
@@ -136,25 +291,27 @@ std::string row_prefix(long long index, const std::vector<double>& values) {
 
 void append_rows(const RowForm& form, const analytic::Sequence& sequence, double drop_deg) {
   const char* const outcome = outcome_name(sequence.outcome);
-  if (form.rows == RowKind::scene) return append_scene_row(form, totals(sequence), Model::discrete, outcome);
-  int n = 0;
+  std::vector<DiscreteRow> impacts;
   for (const analytic::ImpactRow& row : sequence.rows) {
+    impacts.push_back({row, static_cast<int>(impacts.size()) + 1, drop_deg});
+  }
+  if (form.layout.rows == RowKind::scene) return append_scene_row(form, totals(sequence), impacts, outcome);
+  for (const DiscreteRow& impact : impacts) {
     form.out += form.prefix;
-    const DiscreteRow impact{row, ++n, drop_deg};
-    if (form.in_space) append_impact<SpaceRow>(form.out, impact, form.errors);
+    if (form.layout.in_space) append_impact<SpaceRow>(form.out, impact, form.errors);
     else append_impact<DiscreteRow>(form.out, impact, form.errors);
     append_ending(form, outcome);
   }
   if (!sequence.tail) return;
   form.out += form.prefix;
-  if (form.in_space) append_tail<SpaceRow>(form.out, *sequence.tail, form.errors);
+  if (form.layout.in_space) append_tail<SpaceRow>(form.out, *sequence.tail, form.errors);
   else append_tail<DiscreteRow>(form.out, *sequence.tail, form.errors);
   append_ending(form, outcome);
 }
 
 void append_rows(const RowForm& form, const analytic::space::Sequence& sequence, const std::vector<SpaceRow>& rows) {
   const char* const outcome = outcome_name(sequence.outcome);
-  if (form.rows == RowKind::scene) return append_scene_row(form, totals(sequence), Model::discrete, outcome);
+  if (form.layout.rows == RowKind::scene) return append_scene_row(form, totals(sequence), rows, outcome);
   for (const SpaceRow& row : rows) {
     form.out += form.prefix;
     append_impact<SpaceRow>(form.out, row, form.errors);
@@ -166,24 +323,21 @@ void append_rows(const RowForm& form, const analytic::space::Sequence& sequence,
   append_ending(form, outcome);
 }
 
-void append_rows(const RowForm& form, const numeric::Simulation& run) {
+void append_rows(const RowForm& form, const numeric::Simulation& run, const std::vector<ContinuousRow>& rows) {
   const char* const outcome = outcome_name(run.outcome);
-  if (run.impacts.empty()) return append_empty_row(form, Model::continuous, "0", outcome);
-  if (form.rows == RowKind::scene) return append_scene_row(form, totals(run), Model::continuous, outcome);
-  int n = 0;
-  for (const numeric::ImpactRecord& row : run.impacts) {
+  if (run.impacts.empty()) return append_empty_row(form, "0", outcome);
+  if (form.layout.rows == RowKind::scene) return append_scene_row(form, totals(run), rows, outcome);
+  for (const ContinuousRow& row : rows) {
     form.out += form.prefix;
-    append_impact<ContinuousRow>(form.out, ContinuousRow{row, ++n}, true);  // empty where none were asked for
+    append_impact<ContinuousRow>(form.out, row, true);  // empty where none were asked for
     append_ending(form, outcome);
   }
 }
 
-void append_failure(const RowForm& form, Model model, const char* outcome) {
-  append_empty_row(form, model, "", outcome);
-}
+void append_failure(const RowForm& form, const char* outcome) { append_empty_row(form, "", outcome); }
 
-ShortfallCount::ShortfallCount(const SweepPlan& plan) {
-  const std::vector<Column> columns = sweep_columns(plan);
+ShortfallCount::ShortfallCount(const RowLayout& layout) {
+  const std::vector<Column> columns = sweep_columns(layout);
   while (columns.at(outcome_).name != "outcome") ++outcome_;
 }
 

@@ -4,26 +4,53 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "analytic/sequence.hpp"
 #include "analytic/space/sequence.hpp"
 #include "numeric/simulate.hpp"
 #include "validation/output/report.hpp"
 #include "validation/record/impact_quantities.hpp"
+#include "validation/scene/scene.hpp"
 #include "validation/scene/shortfall.hpp"
-#include "validation/sweep/sweep_plan.hpp"
 
 namespace clatter::validation::inline sweep {
 
+enum class RowKind { scene, impact };
+
+/// A column in rows of scenes that is a quantity of one impact.
+struct ImpactColumn {
+  Column column;
+  const ImpactQuantity* quantity = nullptr;
+  std::size_t part = 0;  ///< of a vector or of Euler parameters
+  int impact = 0;        ///< its number, from 1; 0: the hardest, which has the largest normal impulse
+};
+
+/// What the rows of a sweep hold.
+struct RowLayout {
+  Model model = Model::discrete;
+  RowKind rows = RowKind::scene;
+  bool in_space = false;  ///< whether a scene may leave its plane
+  std::vector<std::string> swept{};
+  std::vector<ImpactColumn> asked{};  ///< with rows of scenes
+};
+
+/// The columns that a list of names asks for, separated by commas: QUANTITY_N of impact N, QUANTITY of each impact up
+/// to `impacts`, hardest (its number) and hardest_QUANTITY of the impact with the largest normal impulse; QUANTITY is a
+/// column of rows of impacts.  A row with fewer impacts leaves its cells empty.
+/// @throws BadInput naming what was given and the nearest name
+[[nodiscard]] std::vector<ImpactColumn> read_impact_columns(const std::string& names, const RowLayout& layout,
+                                                            int impacts);
+
 /// Index and swept keys, then per scene
 ///     impacts, outcome, total_normal_impulse [N·s], first_peak_force, largest_peak_force [N] (continuous model),
-///     energy_loss [J] and last_start [s] over the impacts listed, predictable, the error of each of these numbers,
-///     reason;
+///     energy_loss [J] and last_start [s] over the impacts listed, predictable, the columns asked for, the error of
+///     each of these numbers, reason;
 /// or per impact what `clatter sequence` and `clatter simulate` write as CSV, the scene's outcome and reason; where
 /// scenes may leave their plane, what `clatter sequence` writes in space.
 /// The reason says why a scene has no numbers, fewer impacts than asked for or fewer digits than required; else it is
 /// empty.  Errors and predictable are empty where no errors were asked for, an error alone where it is not known.
-[[nodiscard]] std::vector<Column> sweep_columns(const SweepPlan& plan);
+[[nodiscard]] std::vector<Column> sweep_columns(const RowLayout& layout);
 
 /// What all rows of a scene begin with.
 [[nodiscard]] std::string row_prefix(long long index, const std::vector<double>& values);
@@ -32,8 +59,7 @@ namespace clatter::validation::inline sweep {
 struct RowForm {
   std::string& out;
   const std::string& prefix;
-  RowKind rows = RowKind::scene;
-  bool in_space = false;    ///< SweepPlan::in_space
+  const RowLayout& layout;
   bool errors = true;       ///< whether errors were asked for
   bool predictions = true;  ///< whether their growth was
   std::string reason;
@@ -41,15 +67,15 @@ struct RowForm {
 /// Appends the rows of one scene.  @param drop_deg its inclination [°]
 void append_rows(const RowForm& form, const analytic::Sequence& sequence, double drop_deg);
 void append_rows(const RowForm& form, const analytic::space::Sequence& sequence, const std::vector<SpaceRow>& rows);
-void append_rows(const RowForm& form, const numeric::Simulation& run);
+void append_rows(const RowForm& form, const numeric::Simulation& run, const std::vector<ContinuousRow>& rows);
 /// The one row of a scene without numbers.
-void append_failure(const RowForm& form, Model model, const char* outcome);
+void append_failure(const RowForm& form, const char* outcome);
 
 /// Counts the scenes that fall short of what was asked: those with a reason that were neither refused nor outside the
 /// model.
 class ShortfallCount {
  public:
-  explicit ShortfallCount(const SweepPlan& plan);
+  explicit ShortfallCount(const RowLayout& layout);
 
   /// Takes whole rows; lines of a head are skipped.
   void add(std::string_view rows);

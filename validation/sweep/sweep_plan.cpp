@@ -12,8 +12,8 @@
 #include "validation/output/number.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/discrete_scene.hpp"
+#include "validation/scene/orientation.hpp"
 #include "validation/scene/scene_value.hpp"
-#include "validation/sweep/rows.hpp"
 
 namespace clatter::validation::inline sweep {
 namespace {
@@ -21,6 +21,9 @@ namespace {
 const char* const static_friction = "ground.static_friction";
 const char* const sliding_friction = "ground.sliding_friction";
 const char* const box_size = "body.size";
+const char* const attitude_key = "drop.attitude";
+const char* const any_attitude = "uniform";
+const char* const numbered_attitudes = "26";
 const std::vector<std::string> box_sides{"body.size.length", "body.size.width", "body.size.thickness"};
 
 /// The sides of the box, each a number where the file has one list.
@@ -68,6 +71,23 @@ bool is_list(const std::string& name) {
                      [&](const Key& key) { return key.name == name && std::holds_alternative<ListValue>(key.value); });
 }
 
+/// The attitudes that a --set drop.attitude=TEXT asks for; none if that is a single one.  Numbered ones wait for the
+/// size of the box.
+std::optional<SweepAxis> read_attitudes(const std::string& text, bool random) {
+  const bool any = text == any_attitude,
+             listed = text == numbered_attitudes || text.starts_with('[') || text.starts_with('@');
+  if (any && !random) throw BadInput(fmt::format("--set {}={}: needs --random N", attitude_key, text));
+  if (listed && random) {
+    throw BadInput(
+        fmt::format("--set {}={}: must be {} or one attitude with --random", attitude_key, text, any_attitude));
+  }
+  if (any) return SweepAxis{.key = attitude_key, .any_attitude = true};
+  if (text == numbered_attitudes)
+    return SweepAxis{.key = attitude_key, .count = orientation_count, .attitudes = {{1, 0, 0, 0}}};
+  if (listed) return read_attitude_axis(attitude_key, text);
+  return {};
+}
+
 Setting read_setting(const std::string& given, bool random) {
   const std::size_t equal = given.find('=');
   if (equal == std::string::npos)
@@ -79,6 +99,10 @@ Setting read_setting(const std::string& given, bool random) {
         fmt::format("--set {}: unknown key; did you mean {}?", setting.key, nearest_name(setting.key, keys)));
   }
   if (setting.text.empty()) throw BadInput(fmt::format("--set {}: the value is empty", setting.key));
+  if (setting.key == attitude_key) {
+    setting.axis = read_attitudes(setting.text, random);
+    if (setting.axis) return setting;
+  }
   setting.number = find_number_key(setting.key);
   if (setting.text.find(':') != std::string::npos && is_list(setting.key)) {
     throw BadInput(fmt::format("--set {}={}: a list cannot be swept; give one value", setting.key, setting.text));
@@ -108,8 +132,13 @@ std::vector<Setting> read_settings(const std::vector<std::string>& given, bool r
   return settings;
 }
 
-std::string end_text(const SweepAxis& axis, double value) {
-  return axis.whole ? fmt::format("{:.0f}", value) : shortest(value);
+/// The text of a scene's key at one end of the axis.
+std::string end_text(const SweepAxis& axis, double SweepAxis::*end) {
+  if (axis.any_attitude) return "1,0,0,0";
+  if (!axis.is_attitude()) return axis.whole ? fmt::format("{:.0f}", axis.*end) : shortest(axis.*end);
+  std::string text;
+  for (const double parameter : axis.attitudes.front()) text += (text.empty() ? "" : ",") + shortest(parameter);
+  return text;
 }
 
 /// The sides of the box as one value of body.size; those that are not set are the file's.
@@ -129,7 +158,7 @@ std::vector<SceneOverride> overrides_at(const SceneValues& values, const std::ve
   std::vector<SceneOverride> overrides;
   std::array<std::string, 3> sides;
   for (const Setting& setting : settings) {
-    const std::string text = setting.axis ? end_text(*setting.axis, *setting.axis.*end) : setting.text;
+    const std::string text = setting.axis ? end_text(*setting.axis, end) : setting.text;
     const auto side = std::find(box_sides.begin(), box_sides.end(), setting.key);
     if (side == box_sides.end()) overrides.push_back({setting.key, "--set " + setting.key, text});
     else sides[static_cast<std::size_t>(side - box_sides.begin())] = text;
@@ -162,12 +191,33 @@ Model read_model(const SweepRequest& request, const SceneValues& values, const s
   return ground ? Model::continuous : Model::discrete;
 }
 
-void read_scene(const SweepRequest& request, const std::vector<Setting>& settings, SceneValues& values,
-                SweepPlan& plan) {
+/// Gives the numbered attitudes those of the scene's box.
+void number_attitudes(const Scene& scene, std::vector<Setting>& settings) {
+  const auto is_numbered = [](const Setting& one) { return one.key == attitude_key && one.text == numbered_attitudes; };
+  const auto setting = std::find_if(settings.begin(), settings.end(), is_numbered);
+  if (setting == settings.end()) return;
+  if (scene.body.shape != BodyScene::Shape::box) {
+    throw BadInput(fmt::format("--set {}={}: is for a box", attitude_key, numbered_attitudes));
+  }
+  for (const Setting& other : settings) {
+    if (!other.axis || !other.key.starts_with(box_size)) continue;
+    throw BadInput(
+        fmt::format("--set {}={} and --set {}={}: the attitudes depend on the size; give drop.orientation=1:26:1",
+                    attitude_key, numbered_attitudes, other.key, other.text));
+  }
+  std::vector<SweptAttitude>& attitudes = setting->axis->attitudes;
+  attitudes.resize(orientation_count);
+  for (int n = 1; n <= orientation_count; ++n) {
+    std::ranges::copy(orientation_attitude(n, scene.body.size), attitudes[static_cast<std::size_t>(n - 1)].begin());
+  }
+}
+
+void read_scene(const SweepRequest& request, std::vector<Setting>& settings, SceneValues& values, SweepPlan& plan) {
   make_room(values, settings);
-  plan.model = read_model(request, values, settings);
-  plan.scene = read_scene(values, overrides_at(values, settings, &SweepAxis::first), plan.model);
-  static_cast<void>(read_scene(values, overrides_at(values, settings, &SweepAxis::last), plan.model));
+  const Model model = plan.layout.model = read_model(request, values, settings);
+  plan.scene = read_scene(values, overrides_at(values, settings, &SweepAxis::first), model);
+  static_cast<void>(read_scene(values, overrides_at(values, settings, &SweepAxis::last), model));
+  number_attitudes(plan.scene, settings);
   if (plan.scene.sweep) {
     throw BadInput(
         fmt::format("{}: sweep: must be left out here; give --set drop.angle_deg=FROM:TO:STEP", request.file));
@@ -181,7 +231,9 @@ void read_scene(const SweepRequest& request, const std::vector<Setting>& setting
 void read_points(const SweepRequest& request, const std::vector<Setting>& settings, SweepPlan& plan) {
   std::vector<SweepAxis> axes;
   for (const Setting& setting : settings) {
-    if (setting.axis) axes.push_back(*setting.axis);
+    if (!setting.axis) continue;
+    axes.push_back(*setting.axis);
+    for (const std::string& name : setting.axis->names()) plan.layout.swept.push_back(name);
   }
   if (!request.random) {
     if (request.seed) throw BadInput(fmt::format("--seed {}: is for --random N", *request.seed));
@@ -196,16 +248,32 @@ void read_points(const SweepRequest& request, const std::vector<Setting>& settin
   plan.words.push_back(fmt::format("scenes: {} random ones, seed {}", count, seed));
 }
 
+void put_attitude(Scene& scene, std::span<const double> parameters) {
+  scene.attitude.assign(parameters.begin(), parameters.end());
+  scene.settle();
+}
+
 void choose_setters(const SceneValues& values, const std::vector<Setting>& settings, SweepPlan& plan) {
+  std::size_t place = 0;
+  if (plan.scene.height) plan.unsettled.emplace_back("drop.speed");  // of the fall: each scene's own
   for (const Setting& setting : settings) {
     if (!setting.axis) continue;
-    if (setting.number->is_of_body()) plan.body_axes.push_back(plan.put.size());
-    if (is_both_frictions(setting, values, settings)) plan.put.emplace_back(put_both_frictions);
-    else
-      plan.put.emplace_back([key = setting.number](Scene& scene, double value) {
-        key->put_number(scene, value);
+    plan.unsettled.push_back(setting.key);
+    if (setting.key.starts_with("body.")) plan.body_values.push_back(place);
+    place += setting.axis->width();
+    if (setting.axis->is_attitude()) {
+      plan.put.emplace_back(put_attitude);
+      if (setting.text.starts_with('@'))
+        plan.attitude_files.push_back({"--set " + setting.key, setting.text.substr(1)});
+    } else if (is_both_frictions(setting, values, settings)) {
+      plan.unsettled.insert(plan.unsettled.end(), {static_friction, sliding_friction});
+      plan.put.emplace_back([](Scene& scene, std::span<const double> value) { put_both_frictions(scene, value[0]); });
+    } else {
+      plan.put.emplace_back([key = setting.number](Scene& scene, std::span<const double> value) {
+        key->put_number(scene, value[0]);
         scene.settle();
       });
+    }
   }
 }
 
@@ -213,8 +281,34 @@ bool may_leave_its_plane(const SweepPlan& plan) {
   if (plan.scene.body.shape == BodyScene::Shape::mesh || !reason_in_space(plan.scene).empty()) return true;
   const std::vector<SweepAxis>& axes = plan.points.axes();
   return std::any_of(axes.begin(), axes.end(), [](const SweepAxis& axis) {
-    return axis.key == "drop.tilt_deg" || axis.key == "drop.orientation";
+    return axis.key == "drop.tilt_deg" || axis.key == "drop.orientation" || axis.is_attitude();
   });
+}
+
+void choose_columns(const SweepRequest& request, SweepPlan& plan) {
+  RowLayout& layout = plan.layout;
+  if (request.rows) layout.rows = static_cast<RowKind>(read_name_option("--rows", *request.rows, row_names));
+  layout.in_space = layout.model == Model::discrete && may_leave_its_plane(plan);
+  if (!request.columns) return;
+  if (layout.rows == RowKind::impact) {
+    throw BadInput(
+        fmt::format("--columns {}: is for --rows scene; rows of impacts have every column", *request.columns));
+  }
+  int impacts = plan.scene.request.impacts;
+  for (const SweepAxis& axis : plan.points.axes()) {
+    if (axis.key == "run.impacts") impacts = static_cast<int>(std::max(axis.first, axis.last));
+  }
+  layout.asked = read_impact_columns(*request.columns, layout, impacts);
+  plan.words.push_back(fmt::format("columns: {}", *request.columns));
+}
+
+/// Nothing in the place of each key.
+void forget(const std::vector<std::string>& keys, Value& scene) {
+  for (const std::string& key : keys) {
+    const std::string name = key.starts_with(box_size) ? box_size : key;
+    const std::size_t dot = name.find('.');
+    scene[name.substr(0, dot)][name.substr(dot + 1)] = nullptr;
+  }
 }
 
 }  // namespace
@@ -226,30 +320,43 @@ SweepPlan read_sweep_plan(const SweepRequest& request) {
   std::vector<std::string> sets = request.sets;
   if (request.no_errors) sets.emplace_back("run.errors=false");
   if (request.require_digits) sets.emplace_back("run.require_digits=true");
-  const std::vector<Setting> settings = read_settings(sets, request.random.has_value());
-  if (request.rows) plan.rows = static_cast<RowKind>(read_name_option("--rows", *request.rows, row_names));
+  std::vector<Setting> settings = read_settings(sets, request.random.has_value());
   read_scene(request, settings, values, plan);
   for (const Setting& setting : settings) plan.words.push_back(fmt::format("set: {} = {}", setting.key, setting.text));
   read_points(request, settings, plan);
   choose_setters(values, settings, plan);
-  plan.in_space = plan.model == Model::discrete && may_leave_its_plane(plan);
+  choose_columns(request, plan);
   return plan;
 }
 
+void SweepPlan::put_point(const std::vector<double>& values, Scene& into) const {
+  std::span<const double> rest(values);
+  for (std::size_t i = 0; i < put.size(); ++i) {
+    const std::size_t width = points.axes()[i].width();
+    put[i](into, rest.first(width));
+    rest = rest.subspan(width);
+  }
+}
+
 Report SweepPlan::report() const {
+  const Model model = layout.model;
   const std::string& name = model_names[static_cast<std::size_t>(model)];
-  Report report =
-      begun_report("sweep", fmt::format("{} model, one row per {}", name, row_names[static_cast<std::size_t>(rows)]));
-  report.head = body_axes.empty() ? scene_head(scene, model) : scene.summary(model);
+  Report report = begun_report(
+      "sweep", fmt::format("{} model, one row per {}", name, row_names[static_cast<std::size_t>(layout.rows)]));
+  report.head = scene_head(scene, model, {}, unsettled);
   report.fields["model"] = name;
   report.fields["scene"] = scene_value(scene);
-  if (body_axes.empty()) report.fields["body"] = body_value(scene, model);
+  forget(unsettled, report.fields["scene"]);
+  if (body_values.empty()) report.fields["body"] = body_value(scene, model);
   report.fields["sweep"] = words;
   if (!scene.body.file.empty()) {
     report.remarks.push_back(fmt::format("mesh: CRC-64/XZ {:016x}", file_digest(scene.body.file)));
   }
+  for (const RunFile& file : attitude_files) {
+    report.remarks.push_back(fmt::format("attitudes: CRC-64/XZ {:016x}", file_digest(file.path)));
+  }
   report.remarks.insert(report.remarks.end(), words.begin(), words.end());
-  report.grid.columns = sweep_columns(*this);
+  report.grid.columns = sweep_columns(layout);
   return report;
 }
 

@@ -4,13 +4,16 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "validation/output/report.hpp"
+#include "validation/output/run_files.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/scene/scene.hpp"
-#include "validation/sweep/grid.hpp"
+#include "validation/sweep/points.hpp"
+#include "validation/sweep/rows.hpp"
 
 namespace clatter::validation::inline sweep {
 
@@ -19,28 +22,29 @@ struct SweepRequest {
   std::string file;
   std::optional<std::string> text;  ///< of the scene that `file` then only names in messages
   std::vector<std::string> sets;
-  std::optional<std::string> random, seed, model, rows;
+  std::optional<std::string> random, seed, model, rows, columns;
   bool no_errors = false;       ///< as --set run.errors=false
   bool require_digits = false;  ///< as --set run.require_digits=true
 };
 
-enum class RowKind { scene, impact };
-
 struct SweepPlan {
   Scene scene;  ///< the swept keys have their first values
-  Model model = Model::discrete;
-  RowKind rows = RowKind::scene;
-  /// Whether a scene may leave its plane: by the first scene, by a swept tilt or orientation, or a mesh.
-  bool in_space = false;
+  RowLayout layout;
   SweepPoints points;
   /// What puts the value of each axis into a scene.
-  std::vector<std::function<void(Scene&, double)>> put;
-  /// Axes that make the body another one.
-  std::vector<std::size_t> body_axes;
+  std::vector<std::function<void(Scene&, std::span<const double>)>> put;
+  /// Places, among the numbers of a point, of those that make the body another one.
+  std::vector<std::size_t> body_values;
   /// How it was asked for: the values set, and how many scenes there are.
   std::vector<std::string> words;
+  std::vector<RunFile> attitude_files;  ///< lists that it was read from
+  /// Keys of which a head says nothing: the swept ones and what follows from them.
+  std::vector<std::string> unsettled;
 
-  /// The report without rows.  Equal for equal sweeps; a body's mesh is in it by a digest of its file.
+  /// Puts the numbers of a point into a scene.
+  void put_point(const std::vector<double>& values, Scene& into) const;
+  /// The report without rows.  Equal for equal sweeps; a mesh and lists of attitudes are in it by digests of their
+  /// files.  What it says of the scene leaves out the swept keys.
   [[nodiscard]] Report report() const;
 };
 

@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scenes handed out to whoever computes them, and their rows put back in order.
+// How a sweep is run: its scenes one after the other, handed out to threads and processes, their rows put back in
+// order.
 #pragma once
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "numeric/body.hpp"
+#include "validation/scene/discrete_scene.hpp"
+#include "validation/sweep/sweep_plan.hpp"
 
 namespace clatter::validation::inline sweep {
 
@@ -62,5 +69,72 @@ using MakeCompute = std::function<ComputeRange(std::function<bool()> stop)>;
 
 /// Computes all ranges on `threads` threads.  What write() or a computation throws ends the run and is thrown on.
 void run_on_threads(RangeQueue& queue, int threads, const MakeCompute& make, const SweepHooks& hooks);
+
+/// The body as the sweep's model wants it.
+struct SweepBody {
+  std::optional<DiscreteBody> discrete;
+  std::shared_ptr<const numeric::Body> solid;
+};
+/// The body of one scene of the plan, swept sizes and all.  @throws as Scene::make_body and DiscreteBody.
+[[nodiscard]] SweepBody make_sweep_body(const SweepPlan& plan, const Scene& scene);
+
+/// One thread's part in a sweep.  A scene that the model refuses or cannot compute is a row whose outcome is "refused"
+/// (speed and spin do not bring the contact down, a size is out of range, ...), "outside-model" (jamming, ...) or
+/// "not-computed".
+class SceneRunner {
+ public:
+  /// @param body of all scenes, where no key of the body is swept
+  /// @param stop ends the run when it returns true; asked before each scene and during long ones
+  SceneRunner(const SweepPlan& plan, const SweepBody& body, std::function<bool()> stop);
+  SceneRunner(const SceneRunner&) = delete;
+  SceneRunner& operator=(const SceneRunner&) = delete;
+
+  [[nodiscard]] RangeRows operator()(const SceneRange& range);
+
+ private:
+  /// False if it was stopped; then nothing is appended.
+  bool append_scene(long long index, std::string& out);
+  bool append_result(RowForm& form);
+  void append_sequence(RowForm& form);
+  [[nodiscard]] RowForm form_of(const std::string& prefix, std::string& out) const;
+  void renew_body();
+
+  const SweepPlan& plan_;
+  std::function<bool()> stop_;
+  Scene scene_;
+  SweepBody body_;
+  std::vector<double> values_;
+  std::vector<double> body_values_;  ///< those numbers of the point that body_ was made with
+};
+
+/// A runner for each thread.
+[[nodiscard]] MakeCompute runners_of(const SweepPlan& plan, const SweepBody& body);
+/// Scenes handed out at a time: some milliseconds' work.
+[[nodiscard]] long long range_size(const SweepPlan& plan);
+
+/// This process among those that share a sweep: one, or those that mpirun started (CMake option CLATTER_MPI).  Process
+/// 0 writes; the others compute what it hands out to them, one thread each. Whatever ends process 0 early lets the
+/// others end, too.
+class Ranks {
+ public:
+  Ranks();
+  ~Ranks();
+  Ranks(const Ranks&) = delete;
+  Ranks& operator=(const Ranks&) = delete;
+
+  [[nodiscard]] bool several() const { return count_ > 1; }
+  [[nodiscard]] bool writes() const { return rank_ == 0; }
+
+  /// Process 0 of several: hands out all ranges, takes their rows.
+  /// @throws std::runtime_error if the others end before.
+  void hand_out(RangeQueue& queue, const SweepHooks& hooks);
+  /// Lets any other process compute until process 0 has nothing more to hand out.
+  void serve(const ComputeRange& compute);
+
+ private:
+  int count_ = 1, rank_ = 0;
+  int working_ = 0;        ///< known to process 0: others that have not ended
+  std::vector<int> idle_;  ///< likewise: those of them that wait for a range
+};
 
 }  // namespace clatter::validation::inline sweep

@@ -13,7 +13,7 @@
 #include "validation/reports/tradeoff_report.hpp"
 #include "validation/scene/named_texts.hpp"
 #include "validation/sweep/rows.hpp"
-#include "validation/sweep/scene_runner.hpp"
+#include "validation/sweep/sweep_run.hpp"
 
 namespace clatter::python {
 namespace {
@@ -73,7 +73,7 @@ py::tuple tradeoff(const std::string& name, const std::optional<std::string>& te
 /// All rows on all cores.
 std::string rows_of(const validation::SweepPlan& plan, const Watch& watch) {
   const validation::SweepBody body =
-      plan.body_axes.empty() ? make_sweep_body(plan, plan.scene) : validation::SweepBody{};
+      plan.body_values.empty() ? make_sweep_body(plan, plan.scene) : validation::SweepBody{};
   validation::RangeQueue queue({0, plan.points.count()}, range_size(plan));
   std::string rows;
   std::size_t done = 0;
@@ -104,9 +104,10 @@ py::tuple sweep(const std::string& name, const std::optional<std::string>& text,
                                                                   .random = option("random"),
                                                                   .seed = option("seed"),
                                                                   .model = option("model"),
-                                                                  .rows = option("rows")});
+                                                                  .rows = option("rows"),
+                                                                  .columns = option("columns")});
   const std::string rows = run_interruptible([&](const Watch& watch) { return rows_of(plan, watch); }, progress);
-  validation::ShortfallCount shortfalls(plan);
+  validation::ShortfallCount shortfalls(plan.layout);
   shortfalls.add(rows);
   const auto report = std::make_shared<validation::Report>(plan.report());
   report->grid.rows = validation::read_csv_rows(rows);

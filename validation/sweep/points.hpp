@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The values of the swept keys: a grid, or numbers drawn from ranges.
+// The values of the swept keys: a grid, a list, or random ones that depend on their place instead of on their turn.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -11,7 +12,13 @@ namespace clatter::validation::inline sweep {
 /// Most scenes of a sweep.
 inline constexpr long long most_scenes = 1'000'000'000;
 
-/// The values that one key takes.
+/// Euler parameters, body to world, scalar first.
+using SweptAttitude = std::array<double, 4>;
+/// Uniform over all rotations if the three parts are independent and uniform in [0, 1); of the two signs that mean one
+/// rotation the one with q₀ >= 0.  Source: Shoemake, Uniform random rotations, Graphics Gems III, 1992.
+[[nodiscard]] SweptAttitude uniform_attitude(const std::array<double, 3>& parts);
+
+/// The values that one key takes: numbers or attitudes.
 struct SweepAxis {
   std::string key;
   double first = 0, last = 0;    ///< of the grid, both taken; or the ends of the range
@@ -20,6 +27,14 @@ struct SweepAxis {
   bool logarithmic = false;      ///< a grid with equal ratios, or a range whose logarithm is uniform
   bool whole = false;            ///< only whole numbers
   std::vector<double> listed{};  ///< the values themselves, where they were listed
+
+  std::vector<SweptAttitude> attitudes{};  ///< likewise, of a key whose values are attitudes
+  bool any_attitude = false;               ///< attitudes drawn uniformly over all rotations
+
+  [[nodiscard]] bool is_attitude() const { return any_attitude || !attitudes.empty(); }
+  /// Columns that a value takes, and so their numbers.
+  [[nodiscard]] std::vector<std::string> names() const;
+  [[nodiscard]] std::size_t width() const { return is_attitude() ? 4 : 1; }
 
   /// Value i of the grid, i from 0; rounded to 15 digits, so that steps that are decimal fractions give clean decimals.
   [[nodiscard]] double at(long long i) const;
@@ -34,6 +49,10 @@ struct SweepAxis {
 /// LOW:HIGH or LOW:HIGH:log.  @throws BadInput likewise.
 [[nodiscard]] SweepAxis read_random_axis(const std::string& key, const std::string& text, bool whole);
 
+/// "[q0,q1,q2,q3],[...]": these attitudes.  "@FILE": those of a CSV file with columns q0, q1, q2 and q3.
+/// @throws BadInput naming the attitude, or the file and its line, where that is not of length 1 to within 0.01.
+[[nodiscard]] SweepAxis read_attitude_axis(const std::string& key, const std::string& text);
+
 /// The points of a sweep, counted from 0.
 class SweepPoints {
  public:
@@ -46,10 +65,12 @@ class SweepPoints {
 
   [[nodiscard]] long long count() const { return count_; }
   [[nodiscard]] const std::vector<SweepAxis>& axes() const { return axes_; }
-  /// Puts the values of a point into `values`, one for each axis.
+  /// Puts the numbers of a point into `values`, axis by axis.
   void at(long long point, std::vector<double>& values) const;
 
  private:
+  void draw(long long point, std::size_t axis, double* values) const;
+
   std::vector<SweepAxis> axes_;
   long long count_ = 1;
   bool random_ = false;

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "validation/sweep/grid.hpp"
+#include "validation/sweep/points.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
+#include "validation/scene/keys.hpp"
+#include "validation/scene/orientation.hpp"
 #include "validation/sweep/counter_random.hpp"
+#include "validation/tables/numeric_table.hpp"
 
 namespace clatter::validation::inline sweep {
 namespace {
@@ -72,7 +76,77 @@ SweepAxis read_ratio_axis(const AxisText& given, const std::string& key, bool wh
   return axis;
 }
 
+/// What a file or a list of attitudes must have.
+std::string attitude_words() { return key_named("drop.attitude").allowed(); }
+
+constexpr const char* parameter_names[] = {"q0", "q1", "q2", "q3"};
+
+std::vector<SweptAttitude> attitudes_of_file(const std::string& path) {
+  TableRequest request;
+  request.required.assign(std::begin(parameter_names), std::end(parameter_names));
+  const NumericTable table = NumericTable::read(path, request);
+  std::vector<SweptAttitude> attitudes(table.rows());
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    for (std::size_t i = 0; i < 4; ++i) attitudes[row][i] = table.at(row, *table.column(parameter_names[i]));
+    if (!is_attitude(attitudes[row])) table.refuse(row, "q0", attitude_words());
+  }
+  return attitudes;
+}
+
+/// The number that a text is; NaN: none.
+double number_in(const std::string& text) {
+  double number = 0;
+  return read_number(text, number) ? number : std::nan("");
+}
+
+/// "q0,q1,q2,q3", without its brackets.
+SweptAttitude read_attitude(const std::string& text) {
+  SweptAttitude q{};
+  std::size_t begin = 0;
+  for (double& parameter : q) {
+    const bool is_last = &parameter == &q.back();
+    const std::size_t end = is_last ? text.size() : std::min(text.find(',', begin), text.size());
+    parameter = number_in(text.substr(std::min(begin, text.size()), end - std::min(begin, text.size())));
+    begin = end + 1;
+  }
+  return q;
+}
+
+std::vector<SweptAttitude> attitudes_in_brackets(const std::string& key, const std::string& text) {
+  std::vector<SweptAttitude> attitudes;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(']', begin), text.size());
+    const std::string given = text.substr(begin, std::min(end + 1, text.size()) - begin);
+    const bool is_closed = given.size() > 2 && given.front() == '[' && given.back() == ']';
+    const SweptAttitude q = is_closed ? read_attitude(given.substr(1, given.size() - 2)) : SweptAttitude{};
+    const std::size_t next = std::min(end + 1, text.size());
+    const bool goes_on = next + 1 < text.size() && text[next] == ',';
+    if (!is_attitude(q) || (next < text.size() && !goes_on)) {
+      throw BadInput(fmt::format("--set {}: attitude {}, '{}': must be [q0,q1,q2,q3], {}", key, attitudes.size() + 1,
+                                 given, attitude_words()));
+    }
+    attitudes.push_back(q);
+    begin = next + 1;
+  }
+  return attitudes;
+}
+
 }  // namespace
+
+SweptAttitude uniform_attitude(const std::array<double, 3>& parts) {
+  const double first = std::sqrt(1 - parts[0]), second = std::sqrt(parts[0]);
+  const double one = 2 * std::numbers::pi * parts[1], other = 2 * std::numbers::pi * parts[2];
+  SweptAttitude q{second * std::cos(other), first * std::sin(one), first * std::cos(one), second * std::sin(other)};
+  if (q[0] < 0) std::for_each(q.begin(), q.end(), [](double& parameter) { parameter = -parameter; });
+  return q;
+}
+
+std::vector<std::string> SweepAxis::names() const {
+  if (!is_attitude()) return {key};
+  std::vector<std::string> columns;
+  for (const char* const parameter : parameter_names) columns.push_back(fmt::format("{}_{}", key, parameter));
+  return columns;
+}
 
 double SweepAxis::at(long long i) const {
   if (!listed.empty()) return listed[static_cast<std::size_t>(i)];
@@ -124,6 +198,13 @@ SweepAxis read_random_axis(const std::string& key, const std::string& text, bool
   return axis;
 }
 
+SweepAxis read_attitude_axis(const std::string& key, const std::string& text) {
+  SweepAxis axis{.key = key};
+  axis.attitudes = text.starts_with('@') ? attitudes_of_file(text.substr(1)) : attitudes_in_brackets(key, text);
+  axis.count = static_cast<long long>(axis.attitudes.size());
+  return axis;
+}
+
 SweepPoints::SweepPoints(std::vector<SweepAxis> grid) : axes_(std::move(grid)) {
   for (const SweepAxis& axis : axes_) {
     if (axis.count > most_scenes / count_) throw BadInput(fmt::format("--set {}: {} in all", axis.key, too_many()));
@@ -134,15 +215,28 @@ SweepPoints::SweepPoints(std::vector<SweepAxis> grid) : axes_(std::move(grid)) {
 SweepPoints::SweepPoints(std::vector<SweepAxis> ranges, long long count, std::uint64_t seed)
     : axes_(std::move(ranges)), count_(count), random_(true), seed_(seed) {}
 
+void SweepPoints::draw(long long point, std::size_t axis, double* values) const {
+  const auto part = [&](std::uint32_t draw) {
+    return uniform_at(seed_, static_cast<std::uint64_t>(point), static_cast<std::uint32_t>(axis), draw);
+  };
+  if (axes_[axis].any_attitude) std::ranges::copy(uniform_attitude({part(0), part(1), part(2)}), values);
+  else *values = axes_[axis].drawn(part(0));
+}
+
 void SweepPoints::at(long long point, std::vector<double>& values) const {
-  values.resize(axes_.size());
+  std::size_t end = 0;
+  for (const SweepAxis& axis : axes_) end += axis.width();
+  values.resize(end);
   for (std::size_t i = axes_.size(); i-- > 0;) {
     const SweepAxis& axis = axes_[i];
+    double* const place = values.data() + (end -= axis.width());
     if (random_) {
-      values[i] = axis.drawn(uniform_at(seed_, static_cast<std::uint64_t>(point), static_cast<std::uint32_t>(i)));
+      draw(point, i, place);
       continue;
     }
-    values[i] = axis.at(point % axis.count);
+    const long long value = point % axis.count;
+    if (axis.is_attitude()) std::ranges::copy(axis.attitudes[static_cast<std::size_t>(value)], place);
+    else *place = axis.at(value);
     point /= axis.count;
   }
 }
