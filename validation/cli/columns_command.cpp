@@ -108,7 +108,7 @@ int run_columns(const ColumnsInput& input) {
     for (const ColumnsOf& of : all_columns()) names.emplace_back(of.command);
     static_cast<void>(read_name_option("--only", *input.command, names));
   }
-  check_files(choice, {});
+  check_files(choice);
   write_report(choice, columns_report(input.command.value_or("")));
   return 0;
 }

@@ -7,6 +7,7 @@
 
 #include "validation/cli/commands.hpp"
 #include "validation/cli/options.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/symbols.hpp"
 #include "validation/scene/keys.hpp"
@@ -104,9 +105,17 @@ std::string scene_file() {
   return text;
 }
 
+/// A scene that somebody wrote is worth more than the one to begin with.
+void require_new(const std::string& path) {
+  if (path.empty()) return;
+  const Destination destination = destination_of({"--output", path});
+  if (!destination.is_stream && destination.mode)
+    throw BadInput(fmt::format("--output {}: is there already; init writes new files alone", path));
+}
+
 int run_keys(const OutputTexts& texts) {
   const OutputChoice choice = read_output(texts);
-  check_files(choice, {});
+  check_files(choice);
   if (choice.style.format == Format::table) write_out(choice, keys_text(choice.style.ascii));
   else write_report(choice, keys_report());
   return 0;
@@ -130,7 +139,8 @@ Command init_command() {
   command.footer = "Example: clatter init --output scene.toml";
   command.run = [file] {
     const OutputChoice choice{.style = {}, .path = file->value_or("")};
-    check_files(choice, {});
+    require_new(choice.path);
+    check_files(choice);
     write_out(choice, scene_file());
     return 0;
   };

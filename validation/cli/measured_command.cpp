@@ -44,11 +44,10 @@ std::pair<Action, std::string> read_words(const MeasuredInput& input) {
 int run_measured(const MeasuredInput& input) {
   const auto [action, path] = read_words(input);
   const OutputChoice choice = read_output(input.output);
-  std::vector<RunFile> read{{"the tracks", path}};
-  if (input.request.fit_from) read.push_back({"--fit-from", *input.request.fit_from});
-  check_files(choice, plot_files(input.plot), read);
+  check_files(choice, plot_files(input.plot));
   if (action == Action::fit && (input.plot.plot || input.drop))
     throw BadInput("--plot: predict and score draw a picture, fit does not");
+  if (input.drop && !input.plot.plot) throw BadInput(fmt::format("--drop {}: needs --plot FILE", *input.drop));
   PlotFile plot(input.plot);
   MeasuredRequest request = input.request;
   request.file = path;

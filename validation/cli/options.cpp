@@ -4,6 +4,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/sink.hpp"
+#include "validation/output/symbols.hpp"
 
 namespace clatter::validation::inline cli {
 
@@ -26,16 +27,16 @@ OutputChoice read_output(const OutputTexts& texts) {
   return choice;
 }
 
-void check_files(const OutputChoice& choice, std::vector<RunFile> written, const std::vector<RunFile>& read) {
+void check_files(const OutputChoice& choice, const std::vector<RunFile>& written) {
   const RunFile output{"--output", choice.path};
-  written.insert(written.begin(), output);
-  refuse_shared_files(written, read);
+  note_written(output);
+  for (const RunFile& file : written) note_written(file);
   require_writable(output);  // or a run would end in vain
 }
 
 void write_out(const OutputChoice& choice, const std::string& text) {
   Sink sink(choice.path);
-  sink.write(text);
+  sink.write(printable(text, Lines::kept));
   sink.commit();
 }
 

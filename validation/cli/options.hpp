@@ -8,7 +8,7 @@
 
 #include "validation/cli/command.hpp"
 #include "validation/output/report.hpp"
-#include "validation/output/run_files.hpp"
+#include "validation/output/sink.hpp"
 #include "validation/scene/option_values.hpp"
 #include "validation/scene/swept_range.hpp"
 
@@ -30,10 +30,11 @@ void add_output_options(Command& command, OutputTexts& texts);
 
 [[nodiscard]] OutputChoice read_output(const OutputTexts& texts);
 
-/// What a run writes besides --output.  @throws as refuse_shared_files and require_writable.
-void check_files(const OutputChoice& choice, std::vector<RunFile> written, const std::vector<RunFile>& read = {});
+/// Makes sure before a run that what it writes, besides --output, is no input and that the output can be written.
+/// @throws as note_written and require_writable.
+void check_files(const OutputChoice& choice, const std::vector<RunFile>& written = {});
 
-/// Writes a finished text whole.
+/// Writes a finished text whole, foreign characters printable.
 void write_out(const OutputChoice& choice, const std::string& text);
 
 /// Writes the report in the form that was asked for.

@@ -4,7 +4,7 @@
 #include "validation/cli/commands.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/scene_flags.hpp"
-#include "validation/output/message.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/reports/plan_report.hpp"
 #include "validation/scene/failure.hpp"
 
@@ -22,7 +22,7 @@ int run_plan(const PlanInput& input) {
   const OutputChoice choice = read_output(input.output);
   const auto is_typed = [&](const std::string& name) { return is_given(input.scene, "--" + name); };
   const PlanTarget target = plan_target(scene, {input.within, is_typed});
-  check_files(choice, {}, files_of(scene));
+  check_files(choice);
   const Plan plan = make_plan(scene, target);
   write_report(choice, plan_report(scene, plan));
   const std::string shortfall = plan_shortfall(plan);

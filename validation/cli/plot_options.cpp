@@ -8,7 +8,7 @@
 #include "validation/cli/options.hpp"
 #include "validation/figures/gnuplot.hpp"
 #include "validation/output/bad_input.hpp"
-#include "validation/output/message.hpp"
+#include "validation/output/symbols.hpp"
 #include "validation/scene/scene_value.hpp"
 
 namespace clatter::validation::inline cli {
@@ -68,7 +68,7 @@ void PlotFile::write(const Picture& picture, const std::vector<std::string>& hea
   picture_->write(run_gnuplot(picture_script(picture, format_, "")));
   if (script_) {
     std::string text;
-    for (const std::string& line : head) text += "# " + line + "\n";
+    for (const std::string& line : head) text += "# " + printable(line) + "\n";
     const std::string name = path(path_).filename().string();
     text +=
         fmt::format("# `gnuplot {}` in this folder writes {} again.\n", path(script_path_).filename().string(), name);

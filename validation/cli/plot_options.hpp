@@ -8,7 +8,6 @@
 
 #include "validation/cli/command.hpp"
 #include "validation/figures/picture.hpp"
-#include "validation/output/run_files.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/scene/scene.hpp"
 

@@ -58,8 +58,4 @@ Scene read_scene_flags(const SceneFlags& given) {
 
 bool is_given(const SceneFlags& given, const std::string& name) { return given.texts.at(name).has_value(); }
 
-std::vector<RunFile> files_of(const Scene& scene) {
-  return {{"the scene file", scene.path}, {"the mesh file", scene.body.file}};
-}
-
 }  // namespace clatter::validation::inline cli

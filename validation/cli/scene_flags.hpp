@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "validation/cli/command.hpp"
-#include "validation/output/run_files.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation::inline cli {
@@ -29,7 +28,5 @@ void add_scene_flags(Command& command, SceneFlags& flags, Model model = Model::c
 [[nodiscard]] Scene read_scene_flags(const SceneFlags& flags);
 /// Whether the flag ("--history") was typed.
 [[nodiscard]] bool is_given(const SceneFlags& flags, const std::string& name);
-/// What a run of the scene reads: the scene's file and its mesh's.
-[[nodiscard]] std::vector<RunFile> files_of(const Scene& scene);
 
 }  // namespace clatter::validation::inline cli

@@ -14,13 +14,13 @@
 #include "validation/cli/scene_flags.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
-#include "validation/output/message.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/sweep/ranks.hpp"
 #include "validation/sweep/rows.hpp"
 #include "validation/sweep/scene_runner.hpp"
 #include "validation/sweep/sweep_file.hpp"
 #include "validation/sweep/sweep_plan.hpp"
+#include "validation/tables/csv_line.hpp"
 
 namespace clatter::validation::inline cli {
 namespace {
@@ -151,11 +151,10 @@ int read_threads(const SweepInput& input, const Ranks& ranks) {
   throw BadInput(fmt::format("--threads {}: must be left out under mpirun, where each process is one thread", threads));
 }
 
-void check_output(const SweepInput& input, const SweepPlan& plan) {
+void check_output(const SweepInput& input) {
   if (writes_file(input)) {
-    std::vector<RunFile> written = SweepFile::files_beside(*input.output);
-    written.insert(written.begin(), {"--output", *input.output});
-    refuse_shared_files(written, files_of(plan.scene));
+    note_written({"--output", *input.output});
+    for (const RunFile& file : SweepFile::files_beside(*input.output)) note_written(file);
   } else if (input.restart) {
     throw BadInput("--restart: needs a file as --output, there is nothing to go on with");
   }
@@ -205,7 +204,7 @@ int serve(const SweepPlan& plan, const SweepBody& body, Ranks& ranks) {
 int run_command(const SweepInput& input, Ranks& ranks) {
   const SweepPlan plan = read_sweep_plan(input.request);
   const int threads = read_threads(input, ranks);
-  check_output(input, plan);
+  check_output(input);
   // A body that cannot be made is bad input, but a row's where it is swept.
   const SweepBody body = plan.body_axes.empty() ? make_sweep_body(plan, plan.scene) : SweepBody{};
   return ranks.writes() ? run_sweep(input, plan, body, threads, ranks) : serve(plan, body, ranks);

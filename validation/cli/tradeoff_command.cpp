@@ -10,7 +10,6 @@
 #include "validation/cli/scene_flags.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
-#include "validation/output/message.hpp"
 #include "validation/reports/tradeoff_report.hpp"
 #include "validation/scene/failure.hpp"
 
@@ -26,7 +25,7 @@ struct TradeoffInput {
 int run_tradeoff(const TradeoffInput& input) {
   const Scene scene = read_scene_flags(input.scene);
   const OutputChoice choice = read_output(input.output);
-  check_files(choice, plot_files(input.plot), files_of(scene));
+  check_files(choice, plot_files(input.plot));
   if (scene.sweep)
     throw BadInput(fmt::format("{}: a sweep has no tradeoff; give --angle or leave out [sweep]", scene.path));
   PlotFile plot(input.plot);

@@ -108,7 +108,7 @@ Figure figure_rod_over_angle(CaseRuns& case_runs) {
   const std::string name = "rod-sweep";
   Figure figure{.number = 14,
                 .title = "first impact of the rod over the contact angle, no friction",
-                .scene = "validation/cases/rod-sweep.toml",
+                .scene = "rod-sweep",
                 .columns = {{"theta", "deg", "contact angle"}}};
   const std::vector<ShownRodNumber> numbers{normal_velocity, angular_velocity, impulse, loss};
   add_panels(figure, numbers,
@@ -137,7 +137,7 @@ Figure figure_rod_over_friction(CaseRuns& case_runs) {
   const std::string name = "rod-friction-sweep";
   Figure figure{.number = 15,
                 .title = "first impact of the rod at 45 degrees over friction",
-                .scene = "validation/cases/rod-friction-sweep.toml",
+                .scene = "rod-friction-sweep",
                 .columns = {{"mu", "1", "friction coefficient; impulse ratio of Eq. 9"}}};
   const std::vector<ShownRodNumber> numbers{normal_velocity, tangential_velocity, angular_velocity, impulse, loss};
   add_panels(figure, numbers,
@@ -164,7 +164,7 @@ Figure figure_rod_over_friction(CaseRuns& case_runs) {
 Figure figure_rod_contact(CaseRuns& case_runs) {
   Figure figure{.number = 16,
                 .title = "course of the rod's first contact at 45 degrees for four frictions",
-                .scene = "validation/cases/rod-friction-01.toml, -03, -05, -07",
+                .scene = "rod-friction-01, -03, -05, -07",
                 .columns = {{"mu", "1", "friction coefficient"},
                             {"time", "s", "since touch-down"},
                             {"point_vn", "m/s", "normal velocity of the contact point"},
@@ -195,7 +195,7 @@ Figure figure_rod_contact(CaseRuns& case_runs) {
 Figure figure_rod_sequence(CaseRuns& case_runs) {
   Figure figure{.number = 17,
                 .title = "several impacts of the damped rod with friction, by the text and by the caption",
-                .scene = "validation/cases/rod-at-1ms.toml (text, v_n = -1), rod-from-2m.toml (caption, z_c = 2)",
+                .scene = "rod-at-1ms (text, v_n = -1), rod-from-2m (caption, z_c = 2)",
                 .columns = {{"variant", "1", "1: the text's 1 m/s; 2: the caption's drop from 2 m"}}};
   add_history_columns(figure);
   double variant = 1;

@@ -252,7 +252,6 @@ Report comparison_report(const Scene& scene, const Comparison& comparison) {
   for (const std::string& words : {comparison.shortfall, limit_words(comparison), verdict_words(comparison)}) {
     if (!words.empty()) report.notes.push_back(words);
   }
-  fit_columns(report, 6, {3});
   return report;
 }
 

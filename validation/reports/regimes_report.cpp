@@ -38,7 +38,7 @@ const std::vector<Quantity>& all_quantities() {
                                           "gravity number G = g L/vₙ²",
                                           &RodParameters::gravity_number,
                                           {0, 0.001, 0.01, 0.1, 1, 10},
-                                          {0, 1e300, false, "at least 0"}},
+                                          {0, 1e300, false, "from 0 to 1e300"}},
                                          {"restitution",
                                           "e",
                                           "coefficient of restitution e",
@@ -50,7 +50,7 @@ const std::vector<Quantity>& all_quantities() {
                                           "impulse ratio μᵢ",
                                           &RodParameters::impulse_ratio,
                                           {-0.2, -0.1, 0, 0.1, 0.2, 0.3},
-                                          {-1e300, 1e300, false, "a finite number"}}};
+                                          {-1e300, 1e300, false, "from -1e300 to 1e300"}}};
   return all;
 }
 

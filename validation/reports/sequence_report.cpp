@@ -98,7 +98,6 @@ Report sequence_report(const Scene& scene, const Sequence& sequence) {
     report.grid.rows.push_back(tail_row(*sequence.tail, digits));
     report.grid.rows.back()[0].shown = "…";
   }
-  fit_columns(report, scene.accuracy.digits, {5, 2});
   return report;
 }
 

@@ -3,7 +3,26 @@
 
 #include <algorithm>
 
+#include "validation/output/number.hpp"
+
 namespace clatter::validation::inline tables {
+
+namespace {
+
+Cell read_cell(const CsvField& field) {
+  const std::string text(field.text);
+  double number = 0;
+  if (field.quoted) return Cell(text);
+  if (read_number(text, number)) {
+    Cell cell(number, 6);
+    if (is_short_whole(number)) cell.shown = text;
+    return cell;
+  }
+  if (text == "true" || text == "false") return Cell(Value(text == "true"));
+  return Cell(text_or_nothing(text));
+}
+
+}  // namespace
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blanks = " \t\r";
@@ -34,7 +53,7 @@ bool CsvLine::next(CsvField& field) {
     return true;
   }
   const std::size_t end = std::min(line_.find(separator_, at_), line_.size());
-  field = {at_ + 1, trimmed(line_.substr(at_, end - at_)), true};
+  field = {at_ + 1, trimmed(line_.substr(at_, end - at_)), false, true};
   at_ = end + 1;
   return true;
 }
@@ -49,8 +68,22 @@ void CsvLine::read_quoted(std::size_t start, CsvField& field) {
   }
   const std::size_t end = std::min(line_.find(separator_, i), line_.size());
   const bool closed = i < line_.size() && trimmed(line_.substr(i + 1, end - i - 1)).empty();
-  field = {start + 1, trimmed(unquoted_), closed};
+  field = {start + 1, trimmed(unquoted_), true, closed};
   at_ = end + 1;
+}
+
+std::vector<Row> read_csv_rows(const std::string& text) {
+  std::vector<Row> rows;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view line = std::string_view(text).substr(begin, end - begin);
+    begin = end + 1;
+    if (line.starts_with("#")) continue;
+    Row& row = rows.emplace_back();
+    CsvLine fields(line, ',');
+    for (CsvField field; fields.next(field);) row.push_back(read_cell(field));
+  }
+  return rows;
 }
 
 }  // namespace clatter::validation::inline tables

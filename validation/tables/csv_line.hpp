@@ -4,6 +4,9 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "validation/output/report.hpp"
 
 namespace clatter::validation::inline tables {
 
@@ -20,7 +23,8 @@ namespace clatter::validation::inline tables {
 struct CsvField {
   std::size_t column = 1;  ///< of its first byte, from 1
   std::string_view text;   ///< valid until the next field is read
-  bool closed = true;      ///< a quoted field has its second quote, and nothing after it
+  bool quoted = false;
+  bool closed = true;  ///< a quoted field has its second quote, and nothing after it
 };
 
 /// Cuts a line into fields.
@@ -38,5 +42,8 @@ class CsvLine {
   std::size_t at_ = 0;
   std::string unquoted_;  ///< a quoted field, put together
 };
+
+/// Rows that the program's own CSV holds, read back: numbers, truths and texts.
+[[nodiscard]] std::vector<Row> read_csv_rows(const std::string& text);
 
 }  // namespace clatter::validation::inline tables

@@ -15,6 +15,7 @@
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
+#include "validation/output/sink.hpp"
 #include "validation/tables/csv_line.hpp"
 
 namespace clatter::validation::inline tables {
@@ -83,8 +84,8 @@ class NumericTable::Parser {
     known.insert(known.end(), request_.words.begin(), request_.words.end());
     for (const auto& [name, column] : request_.names) {
       if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-      throw BadInput(fmt::format("{}: unknown column {}; did you mean {}?", request_.names_option, shown_field(name),
-                                 nearest_name(name, known)));
+      throw BadInput(
+          fmt::format("--columns: unknown column {}; did you mean {}?", shown_field(name), nearest_name(name, known)));
     }
   }
 
@@ -146,8 +147,8 @@ class NumericTable::Parser {
     const auto place = std::find(header.begin(), header.end(), wanted);
     if (place != header.end()) return static_cast<std::size_t>(place - header.begin());
     if (!needed) return std::nullopt;
-    fail(1, fmt::format("no column {}; there are {} ({} NAME=COLUMN maps names)", shown_field(wanted),
-                        shown_field(fmt::format("{}", fmt::join(header, " "))), request_.names_option));
+    fail(1, fmt::format("no column {}; there are {} ({})", shown_field(wanted),
+                        shown_field(fmt::format("{}", fmt::join(header, " "))), request_.renaming));
   }
 
   void take_row(std::string_view line, std::size_t offset) {
@@ -187,6 +188,7 @@ std::string NumericTable::text_of(const std::string& path) {
   if (std::filesystem::is_directory(path, error)) throw BadInput(path + ": is a directory, must be a CSV file");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw BadInput(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+  note_read(path);
   std::string text;
   std::vector<char> part(std::size_t{1} << 20);
   while (file.read(part.data(), static_cast<std::streamsize>(part.size())) || file.gcount() > 0) {

@@ -25,11 +25,11 @@ using ColumnNames = std::map<std::string, std::string>;
 
 /// What is wanted of a file.  Other columns are counted, not read.
 struct TableRequest {
-  std::vector<std::string> required;  ///< columns of numbers
-  std::vector<std::string> optional;  ///< likewise, read where the file has them
-  std::vector<std::string> words;     ///< columns of texts that are not empty, required
-  ColumnNames names;                  ///< of columns that are named otherwise in the file
-  std::string names_option = "--columns";
+  std::vector<std::string> required;                          ///< columns of numbers
+  std::vector<std::string> optional;                          ///< likewise, read where the file has them
+  std::vector<std::string> words;                             ///< columns of texts that are not empty, required
+  ColumnNames names;                                          ///< of columns that are named otherwise in the file
+  std::string renaming = "--columns NAME=COLUMN maps names";  ///< how to say what a column is called, for errors
 };
 
 /// A file's rows.  Errors are one line, "FILE:LINE:COLUMN: ...", COLUMN counted in bytes from 1.
