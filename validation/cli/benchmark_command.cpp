@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "validation/cli/commands.hpp"
+#include "validation/cli/command.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/reports/benchmark_report.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/cli/program.hpp"
 
-#include "validation/cli/commands.hpp"
+#include "validation/cli/command.hpp"
 #include "validation/cli/parser.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/sink.hpp"

@@ -3,10 +3,8 @@
 
 #include <memory>
 
-#include "validation/cli/commands.hpp"
+#include "validation/cli/command.hpp"
 #include "validation/cli/options.hpp"
-#include "validation/cli/plot_options.hpp"
-#include "validation/cli/scene_flags.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/plan/sequence_method.hpp"
 #include "validation/reports/sequence_picture.hpp"

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "analytic/contact_angles.hpp"
-#include "validation/measured/arm_angles.hpp"
+#include "validation/measured/tracked_body.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation::inline extremes {

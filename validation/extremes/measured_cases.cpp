@@ -7,7 +7,7 @@
 
 #include "validation/extremes/cell.hpp"
 #include "validation/extremes/extreme_cases.hpp"
-#include "validation/measured/kept_tracks.hpp"
+#include "validation/measured/score.hpp"
 
 namespace clatter::validation::inline extremes {
 namespace {

@@ -289,11 +289,10 @@ PicturePanel space_impulse_panel(const Scene& scene, const SpaceSequence& sequen
     panel.plot.curves.push_back(
         {.x = "time", .y = panel.columns.back().name, .legend = legend, .style = Style::sticks});
   }
-  const auto add = [&](double time, const std::string& legend, double impulse) {
+  const auto add = [&](double time, const std::string& legend, double normal) {
     auto& numbers = panel.rows.emplace_back(panel.columns.size(), no_number);
     numbers[0] = time;
-    numbers[1 + static_cast<std::size_t>(std::find(legends.begin(), legends.end(), legend) - legends.begin())] =
-        impulse;
+    numbers[1 + static_cast<std::size_t>(std::find(legends.begin(), legends.end(), legend) - legends.begin())] = normal;
   };
   for (std::size_t i = 0; i < names.size(); ++i)
     add(sequence.rows[i].start, names[i], sequence.rows[i].impact.impulse.z());

@@ -25,4 +25,12 @@ struct VerifySummary {
 /// A row for each check.
 [[nodiscard]] Report verify_report(const std::vector<CheckResult>& results, const std::string& selection);
 
+// The results as one HTML page that needs nothing beside it.
+
+/// Verdicts, and the figures that the checks belong to, redrawn from `case_runs` as inline SVG with the command that
+/// reproduces each.  No script, no request to anywhere.
+/// @throws std::runtime_error if gnuplot is not there or fails.
+[[nodiscard]] std::string verify_page(const std::vector<CheckResult>& results, const std::string& selection,
+                                      CaseRuns& case_runs);
+
 }  // namespace clatter::validation::inline reports

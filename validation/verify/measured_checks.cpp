@@ -2,7 +2,7 @@
 // Predictions held against drops that cameras tracked.
 #include <fmt/format.h>
 
-#include "validation/measured/kept_tracks.hpp"
+#include "validation/measured/score.hpp"
 #include "validation/output/number.hpp"
 #include "validation/verify/check.hpp"
 
