@@ -6,8 +6,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "validation/output/report.hpp"
-
 namespace clatter::validation::inline output {
 namespace {
 
@@ -122,23 +120,6 @@ std::string compact_json(const Value& value) {
   Writer writer(false);
   writer.write(value, "");
   return writer.text();
-}
-
-Value row_object(const std::vector<Column>& columns, const Row& row) {
-  Value object(Fields{});
-  for (std::size_t i = 0; i < columns.size() && i < row.size(); ++i) {
-    const Column& column = columns[i];
-    Value& place = (column.object.empty() ? object : object[column.object])[column.json_key()];
-    if (column.listed) place.push_back(row[i].value);
-    else place = row[i].value;
-  }
-  return object;
-}
-
-Value row_objects(const Grid& grid) {
-  List rows;
-  for (const Row& row : grid.rows) rows.push_back(row_object(grid.columns, row));
-  return rows;
 }
 
 }  // namespace clatter::validation::inline output

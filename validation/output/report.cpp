@@ -410,6 +410,23 @@ std::string csv_rows(const std::vector<Row>& rows) {
 
 std::string csv_text(const Report& report, bool bare) { return csv_head(report, bare) + csv_rows(report.grid.rows); }
 
+Value row_object(const std::vector<Column>& columns, const Row& row) {
+  Value object(Value::Fields{});
+  for (std::size_t i = 0; i < columns.size() && i < row.size(); ++i) {
+    const Column& column = columns[i];
+    Value& place = (column.object.empty() ? object : object[column.object])[column.json_key()];
+    if (column.listed) place.push_back(row[i].value);
+    else place = row[i].value;
+  }
+  return object;
+}
+
+Value row_objects(const Grid& grid) {
+  Value::List rows;
+  for (const Row& row : grid.rows) rows.push_back(row_object(grid.columns, row));
+  return rows;
+}
+
 std::string report_text(const Report& report, const TextStyle& style) {
   if (style.format == Format::json) return json_text(report.fields);
   if (style.format == Format::csv) return csv_text(report, style.bare);
