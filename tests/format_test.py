@@ -10,7 +10,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 ROOMS = ("analytic", "numeric", "validation", "tests", "notebooks-data")
-FILE_LINES = 300
+FILE_LINES = 600
 FUNCTION_LINES = 40
 
 

@@ -19,8 +19,8 @@
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
-#include "validation/output/symbols.hpp"
 #include "validation/output/number.hpp"
+#include "validation/output/symbols.hpp"
 
 namespace clatter::validation::inline figures {
 
