@@ -36,8 +36,12 @@ Workspace& workspace() {
   return space;
 }
 
-[[noreturn]] void give_up(const char* why, int status) {
-  throw NumericalError(std::string("root-finder: ") + why + " (" + gsl_strerror(status) + ")");
+/// @param value the function's last one
+[[noreturn]] void give_up(int status, double value) {
+  const std::string why = status != GSL_SUCCESS  ? gsl_strerror(status)
+                          : std::isfinite(value) ? "after " + std::to_string(budget) + " steps"
+                                                 : "the function is not finite";
+  throw NumericalError("root-finder: no convergence (" + why + ")");
 }
 
 /// What GSL calls: evaluates, counts and remembers the last sample.
@@ -117,7 +121,7 @@ Root bracketed_root(FunctionView f, Bracket bracket, double guess, bool rising) 
       previous_step = 0;
     }
   }
-  give_up("no convergence", status);
+  give_up(status, evaluated.last.value);
 }
 
 }  // namespace clatter::analytic::detail

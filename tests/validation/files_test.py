@@ -9,6 +9,8 @@ import unittest
 
 from run_folder import CASES, PROGRAM, Folder
 
+MEASURED = os.path.join(os.environ["CLATTER_ROOT"], "validation", "measured")
+
 
 class Overwriting(Folder):
     def spellings(self, name):
@@ -21,11 +23,35 @@ class Overwriting(Folder):
                 ".//" + name, "hard." + name, "soft." + name, "twice." + name]
 
     def test_no_spelling_of_an_output_overwrites_the_scene_or_its_mesh(self):
-        for name, words in (("scene.toml", "the scene file"), ("body.stl", "the mesh file")):
+        for name in ("scene.toml", "body.stl"):
+            words = f"must be another file than {name}, which is read"
             for spelling in self.spellings(name):
-                for command in ("simulate", "compare", "tradeoff", "plan", "sweep"):
-                    self.refused("must be another file than " + words, command, "scene.toml", "--output", spelling)
-                self.refused("must be another file than " + words, "simulate", "scene.toml", "--history", spelling)
+                for command in (["simulate"], ["compare"], ["tradeoff"], ["plan"], ["sweep"], ["sequence"], ["explain", "1"]):
+                    self.refused(words, *command, "scene.toml", "--output", spelling)
+                self.refused(words, "simulate", "scene.toml", "--history", spelling)
+
+    def test_no_output_overwrites_tracks_or_what_was_tracked(self):
+        for name in ("sq.csv", "sq.toml", "other.toml"):
+            shutil.copy(os.path.join(MEASURED, "square-drops" + os.path.splitext(name)[1]), self.path(name))
+        for spelling in self.spellings("sq.toml") + ["sq.csv"]:
+            self.refused("which is read", "measured", "fit", "sq.csv", "--output", spelling)
+        self.refused("which is read", "measured", "fit", "sq.csv", "--body", "other.toml", "--output", "other.toml")
+        shutil.copy(self.path("sq.csv"), self.path("more.csv"))
+        self.refused("which is read", "measured", "score", "sq.csv", "--fit-from", "more.csv", "--output", "more.csv")
+
+    def test_no_output_overwrites_a_file_to_score(self):
+        self.write("run.csv", "# problem: rod-10\nt,place,Pn,Pt,V,Omega\n0,a,0.5,0,0,1\n")
+        shutil.copy(os.path.join(CASES, "rod-10.toml"), self.path("rod.toml"))
+        for spelling in self.spellings("run.csv"):
+            self.refused("must be another file than run.csv, which is read", "benchmark", "score", "run.csv", "--output", spelling)
+            self.refused("must be another file than run.csv, which is read", "compare", "rod.toml", "--against", "run.csv", "--output", spelling)
+
+    def test_a_scene_to_begin_with_takes_the_place_of_no_file(self):
+        for name in ("scene.toml", "body.stl"):
+            for spelling in self.spellings(name):
+                self.refused("is there already", "init", "--output", spelling)
+        self.assertEqual(self.run_program("init", "--output", "new.toml").returncode, 0)
+        self.assertEqual(self.run_program("init", "--output", "/dev/stdout").stdout, self.read("new.toml"))
 
     def test_no_spelling_of_a_picture_overwrites_the_scene(self):
         os.rename(self.path("scene.toml"), self.path("scene.svg"))
@@ -33,9 +59,9 @@ class Overwriting(Folder):
             if not spelling.endswith(".svg"):
                 continue
             for command in ("simulate", "compare", "tradeoff"):
-                self.refused("must be another file than the scene file", command, "scene.svg", "--plot", spelling)
+                self.refused("must be another file than scene.svg, which is read", command, "scene.svg", "--plot", spelling)
         os.link(self.path("scene.svg"), self.path("p.gnuplot"))
-        self.refused("--plot-script p.gnuplot: must be another file than the scene file", "simulate", "scene.svg", "--plot", "p.svg",
+        self.refused("--plot-script p.gnuplot: must be another file than scene.svg, which is read", "simulate", "scene.svg", "--plot", "p.svg",
                      "--plot-script")
 
     def test_no_two_outputs_are_one_file_that_is_there_or_is_not(self):
@@ -62,8 +88,8 @@ class Overwriting(Folder):
     def test_the_part_of_a_sweep_does_not_overwrite_the_scene(self):
         for ending in (".part", ".part.digests"):
             shutil.copy(self.path("scene.toml"), self.path("s" + ending))
-            self.refused("must be another file than the scene file", "sweep", "s" + ending, "--output", "s")
-            self.refused("must be another file than the scene file", "sweep", "s" + ending, "--output", "./s")
+            self.refused("which is read", "sweep", "s" + ending, "--output", "s")
+            self.refused("which is read", "sweep", "s" + ending, "--output", "./s")
 
     def test_an_output_that_cannot_be_written_is_found_before_anything_is(self):
         self.refused("--output no/out", "simulate", "scene.toml", "--history", "h.csv", "--output", "no/out")

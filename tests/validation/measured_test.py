@@ -101,17 +101,21 @@ class Measured(Folder):
         self.refused("--body takes a file or one of", "measured", "fit", self.path("body.stl"))
         shutil.copy(SQUARES, self.path("a.csv"))
         self.refused("--body round: neither", "measured", "fit", self.path("a.csv"), "--body", "round")
-        self.refused("no column toss", "measured", "fit", self.path("a.csv"), "--body", "cube-tosses")
+        self.refused("no column toss; there are drop sample x_m z_m angle_rad (track.drop, track.x and so on in "
+                     "validation/measured/cube-tosses.toml name them)", "measured", "fit", self.path("a.csv"), "--body", "cube-tosses")
         self.refused("no drop is called 2", "measured", "fit", SQUARES, "--fit-on", "1,2")
         self.refused("point impacts among the drops to fit on", "measured", "fit", SQUARES, "--fit-on", "1,31,81", status=3)
         self.refused("excludes", "measured", "fit", SQUARES, "--fit-on", "1,11,21", "--seed", "3")
         self.refused("--share", "measured", "fit", SQUARES, "--share", "1.5")
         self.refused("--drop x", "measured", "score", SQUARES, "--drop", "x", "--plot", self.path("p.svg"))
+        self.refused("--drop 999: needs --plot", "measured", "score", SQUARES, "--drop", "999")
         self.refused("--plot", "measured", "fit", SQUARES, "--plot", self.path("p.svg"))
         self.write("b.csv", "drop,sample,x_m,z_m,angle_rad\n1,0,0,1,0\n1,0,0,1,0\n")
         self.refused("b.csv:3:", "measured", "fit", self.path("b.csv"), "--body", "square-drops")
         self.write("b.toml", "[body]\nsize = [1, 1, 1]\n[track]\nmotion = 'plane'\nrate = 0\n")
         self.refused("track.rate", "measured", "fit", self.path("b.csv"))
+        self.write("b.toml", self.read("b.toml").replace("rate = 0", "rate = 1e300"))
+        self.refused("track.rate = 1e+300: must be a number, greater than 0, at most 1e100", "measured", "fit", self.path("b.csv"))
 
     @unittest.skipUnless(shutil.which("gnuplot"), "gnuplot is not installed")
     def test_the_picture_has_the_track_beside_the_prediction(self):

@@ -4,12 +4,15 @@
 #include <cstdlib>
 #include <cstring>
 #include <random>
+#include <sstream>
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/estimated.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/report.hpp"
+#include "validation/output/symbols.hpp"
+#include "validation/tables/csv_line.hpp"
 
 using namespace clatter::validation;
 
@@ -135,4 +138,39 @@ BOOST_AUTO_TEST_CASE(a_number_that_is_zero_within_its_error_is_shown_as_zero_and
 
 BOOST_AUTO_TEST_CASE(the_nearest_name_is_the_one_with_fewest_changes) {
   BOOST_TEST(nearest_name("sequnce", {"angles", "sequence", "explain"}) == "sequence");
+}
+
+BOOST_AUTO_TEST_CASE(a_foreign_text_moves_no_cursor_and_stays_readable) {
+  BOOST_TEST(printable("a\x1b[2Jb\x7f") == "a\\x1b[2Jb\\x7f");
+  BOOST_TEST(printable("\xc2\x9b"
+                       "2J \x9b") == "\\xc2\\x9b2J \\x9b");  // C1 in UTF-8, and a byte that is none
+  BOOST_TEST(printable("a\nb\r") == "a\\x0ab\\x0d");
+  BOOST_TEST(printable("a\nb\r", Lines::kept) == "a\nb\\x0d");
+  for (const char* text : {"Ω ≤ 90°, “é” 字 😀", ""}) BOOST_TEST(printable(text) == text);
+  Report report = two_rows();
+  report.head = report.notes = {"\x1b]0;title\x07"};
+  report.grid.rows[0][1] = Cell("\x1b[31m");
+  report.fields["text"] = "\x1b\x7f\xc2\x9b";
+  for (const Format format : {Format::table, Format::csv, Format::json, Format::markdown, Format::latex}) {
+    for (const char c : report_text(report, {format})) BOOST_TEST((c == '\n' || (c >= 0 && c < ' ') == false));
+    BOOST_TEST(report_text(report, {format}).find_first_of("\x1b\x07\x7f\x9b") == std::string::npos);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_table_too_wide_for_a_terminal_keeps_its_digits_in_blocks_of_like_width) {
+  Report report;
+  report.grid.columns = {{"n", "n", ""}};
+  report.grid.rows = {{Cell(1)}, {Cell(2)}};
+  for (int i = 0; i < 7; ++i) {
+    report.grid.columns.push_back({"c", "c" + std::to_string(i), "m"});
+    for (Row& row : report.grid.rows) row.push_back(Cell(1 / 3.0, 12));
+  }
+  const std::string text = report_text(report, {Format::table});
+  std::size_t blocks = 0, digits = 0;
+  for (std::size_t at = 0; (at = text.find("  n  ", at)) != std::string::npos; ++at) ++blocks;
+  for (std::size_t at = 0; (at = text.find("0.333333333333", at)) != std::string::npos; ++at) ++digits;
+  BOOST_TEST(blocks == 2u);
+  BOOST_TEST(digits == 14u);
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) BOOST_TEST(display_width(line) <= 67u);  // four columns and n
 }

@@ -306,11 +306,24 @@ class Refused(InFolder):
         for command in ("simulate", "compare", "tradeoff"):
             for scene in ("scene.svg", "scene.gnuplot"):
                 shutil.copy(case("rod-45"), self.path(scene))
-                self.refused([command, scene, "--plot", "scene.svg", "--plot-script"], "must be another file than the scene file")
+                self.refused([command, scene, "--plot", "scene.svg", "--plot-script"], "which is read")
                 os.remove(self.path(scene))
         for history in ("p.svg", "p.gnuplot"):
             self.refused(["simulate", case("rod-45"), "--plot", "p.svg", "--plot-script", "--history", history],
                          "must be another file than --history")
+
+
+class InSpace(InFolder):
+    def test_a_sequence_in_space_draws_its_impulses_corner_by_corner_above_nothing_below_the_floor(self):
+        out, drawn = self.plotted("sequence", "phone-corner", "--impacts", "6", "--format", "json")
+        impacts = json.loads(out)["impacts"]
+        sticks = sorted((t, impulse) for name, rows in drawn.items() if name.startswith("panel2") for t, impulse in rows)
+        self.assertEqual(sticks, sorted((i["start"], i["impulse_normal"]) for i in impacts))
+        centre, lowest = drawn["panel1_0"], drawn["panel1_1"]
+        size = max(height for _, height in centre)
+        for time in (i["start"] for i in impacts):
+            self.assertLess(min(height for t, height in lowest if t == time), 1e-9 * size)
+        self.assertTrue(all(0 <= low <= high for (_, low), (_, high) in zip(lowest, centre)))
 
 
 class WithoutPicture(InFolder):

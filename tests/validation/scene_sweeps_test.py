@@ -140,12 +140,12 @@ class Pictures(WithScenes):
                     self.assertGreater(len(times), 3)
                     self.assertEqual((times[0], times[-1]), (0.01, 0.02))  # curves reach the frame
 
-    def test_a_window_without_a_sample_has_no_picture_and_says_so(self):
+    def test_a_window_without_a_sample_is_refused(self):
         picture = os.path.join(self.folder, "run.svg")
-        for command in (["sequence", "--angle", "10"], ["simulate", "phone-damped", "--impacts", "1"]):
+        for command in (["sequence", "--angle", "10"], ["sequence", "phone-corner"], ["simulate", "phone-damped", "--impacts", "1"]):
             done = run(*command, "--plot", picture, "--window", "500:600")
-            self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertIn("no picture", done.stderr)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+            self.assertRegex(done.stderr, r"\Aclatter: --window 500:600: must hold times[^\n]+\n\Z")
             self.assertFalse(os.path.exists(picture))
 
 

@@ -82,6 +82,20 @@ class Tables(unittest.TestCase):
 
 
 class Version(unittest.TestCase):
+    def test_every_digit_that_was_asked_for_and_is_known_is_printed(self):
+        for command, quantity in ((["sequence", "phone-corner", "--impacts", "2", "--digits", "12"], "impulse_normal"),
+                                  (["sequence", "--angle", "10", "--restitution", "0.8", "--impulse-ratio", "0.1", "--digits", "12"],
+                                   "impulse_normal"),
+                                  (["simulate", "phone-corner", "--impacts", "2", "--digits", "6"], "impulse_normal")):
+            result = json.loads(printed(*command, "--format", "json"))
+            table = printed(*command)
+            digits = int(command[-1])
+            for impact in result["impacts"]:
+                if not impact["error_estimate"][quantity] <= 0.04 * 10 ** -digits * impact[quantity]:
+                    continue
+                self.assertIn(f"{impact[quantity]:.{digits - 1}e}".split("e")[0].replace(".", ""),
+                              table.replace("0.", "").replace(".", ""), (command, quantity))
+
     def test_csv_and_json_of_every_command_carry_the_version_that_their_names_follow(self):
         for command in [*COMMANDS, ["benchmark", "show", "rod-10"]]:
             with self.subTest(command=command):
@@ -120,6 +134,40 @@ class Help(unittest.TestCase):
         texts["man"] += printed("man")
         for name, text in texts.items():
             self.assertNotRegex(text, r"\b(validation|notebooks-data|tests|analytic|numeric)/", name)
+
+    def test_a_plan_and_the_verification_name_commands_that_run_in_any_folder(self):
+        line = re.search(r"Run it: clatter (.*)", re.sub(r"\n +", " ", printed("plan", "phone-damped", "--impacts", "1"))).group(1)
+        checks = re.findall(r'^command = "clatter (.*)"', open(os.path.join(ROOT, "validation", "verify", "checks.toml"),
+                                                               encoding="utf-8").read(), re.M)
+        self.assertGreater(len(checks), 40)
+        for command in [line, *checks]:
+            self.assertNotRegex(command, r"[.]toml|/cases/")
+        with tempfile.TemporaryDirectory() as folder:
+            done = run(*line.split(), folder=folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_no_foreign_text_reaches_a_terminal_as_a_command(self):
+        """Engines name themselves, bodies their source, columns their header, files their path."""
+        with tempfile.TemporaryDirectory() as folder:
+            evil = "\x1b]0;owned\x07\x1b[2J"
+            def write(name, text):
+                with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                    file.write(text)
+            write("run.csv", f"# problem: rod-10\n# engine: {evil}\nt,place,Pn,Pt,V,Omega\n0,a,0.5,0,0,1\n")
+            write("head.csv", f"# problem: rod-10\nt{evil},place{evil}\n0,a\n")
+            write(f"s{evil}.toml", "[drop]\nangle_deg = 10\n[sweep]\n")
+            write("sq.toml", "[source]\ntext = \"" + evil.replace("\x1b", "\\u001b").replace("\x07", "\\u0007") + "\"\nlicence = 'x'\n" +
+                  open(os.path.join(ROOT, "validation", "measured", "square-drops.toml"), encoding="utf-8").read().split("[source]")[0])
+            shutil.copy(os.path.join(ROOT, "validation", "measured", "square-drops.csv"), os.path.join(folder, "sq.csv"))
+            write("mesh.toml", f"[drop]\nangle_deg = 10\n[body]\nshape = 'mesh'\nmass = 1\nmesh = {{ file = 'no\\u001b[2J.stl' }}\n"
+                  .replace("'no\\u001b[2J.stl'", '"no\\u001b[2J.stl"'))
+            for command in (["benchmark", "score", "run.csv"], ["benchmark", "score", "head.csv"], ["measured", "fit", "sq.csv"],
+                            ["sequence", f"s{evil}.toml"], ["simulate", f"s{evil}.toml"], ["plan", f"s{evil}.toml"], ["sequence", "mesh.toml"],
+                            ["sequence", evil], ["sequence", f"--{evil}"], [evil]):
+                for form in ("table", "csv", "json", "markdown", "latex"):
+                    done = run(*command, "--format", form, folder=folder)
+                    for text in (done.stdout, done.stderr):
+                        self.assertNotRegex(text, "[\x00-\x09\x0b-\x1f\x7f-\x9f]", (command, form))
 
     def test_every_example_of_the_help_works_in_an_empty_folder(self):
         slow = {"verify", "tradeoff", "extremes", "demo"}  # the same commands run in tests of their own

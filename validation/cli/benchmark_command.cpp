@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "validation/cli/commands.hpp"
+#include "validation/cli/command.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/reports/benchmark_report.hpp"
@@ -81,11 +81,7 @@ int run_benchmark(const BenchmarkInput& input) {
   only_for(input.columns, "--columns", "score", action == 3);
   only_for(input.problem, "--problem", "score", action == 3);
   only_for(input.require, "--require", "score", action == 3);
-  std::vector<RunFile> read;
-  if (action == 3) {
-    for (const std::string& file : input.names) read.push_back({"a file to score", file});
-  }
-  check_files(choice, {}, read);
+  check_files(choice);
   switch (action) {
     case 0: return run_list(input, choice);
     case 1: return run_show(input, choice);

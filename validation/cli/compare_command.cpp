@@ -4,14 +4,11 @@
 #include <algorithm>
 #include <memory>
 
-#include "validation/cli/commands.hpp"
+#include "validation/cli/command.hpp"
 #include "validation/cli/options.hpp"
-#include "validation/cli/plot_options.hpp"
 #include "validation/cli/progress.hpp"
-#include "validation/cli/scene_flags.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
-#include "validation/output/message.hpp"
 #include "validation/output/number.hpp"
 #include "validation/reports/benchmark_report.hpp"
 #include "validation/reports/comparison_picture.hpp"
@@ -42,9 +39,7 @@ int compare_foreign(const CompareInput& input) {
   if (input.plot.plot) throw BadInput("--plot: not with --against");
   const Requirement requirement = read_requirement(input.require);
   const ColumnNames names = input.columns ? read_column_names("--columns", *input.columns) : ColumnNames{};
-  std::vector<RunFile> read = files_of(scene);
-  for (const std::string& file : input.against) read.push_back({"a file to score", file});
-  check_files(choice, {}, read);
+  check_files(choice);
   const Reference reference = reference_of(scene);
   std::vector<Submission> submissions;
   bool is_met = true;
@@ -112,7 +107,7 @@ int run_compare(const CompareInput& input) {
   const Scene scene = read_scene_flags(input.scene);
   const OutputChoice choice = read_output(input.output);
   if (is_given(input.scene, "--history")) throw BadInput("--history: compare writes none; clatter simulate does");
-  check_files(choice, plot_files(input.plot), files_of(scene));
+  check_files(choice, plot_files(input.plot));
   PlotFile plot(input.plot);
   return scene.sweep ? compare_swept(scene, choice, plot) : compare_one(scene, choice, plot);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `clatter demo` of a build that could not make the page.
-#include "validation/cli/commands.hpp"
+#include "validation/cli/command.hpp"
 #include "validation/output/bad_input.hpp"
 
 namespace clatter::validation::inline cli {

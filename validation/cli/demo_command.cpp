@@ -6,10 +6,9 @@
 #include <cmath>
 #include <memory>
 
-#include "validation/cli/commands.hpp"
+#include "validation/cli/command.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/progress.hpp"
-#include "validation/cli/scene_flags.hpp"
 #include "validation/demo/offline_page.hpp"
 #include "validation/demo/page.hpp"
 #include "validation/demo/page_address.hpp"

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <memory>
 
-#include "validation/cli/commands.hpp"
+#include "validation/cli/command.hpp"
 #include "validation/cli/options.hpp"
-#include "validation/cli/scene_flags.hpp"
-#include "validation/output/message.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/reports/explanation_report.hpp"
 
 namespace clatter::validation::inline cli {
@@ -20,7 +19,7 @@ int run_explain(const ExplainInput& input) {
   const int n = read_integer_option("explain N", input.number, 1, 1000000);
   const Scene scene = read_scene_flags(input.scene);
   const OutputChoice choice = read_output(input.output);
-  check_files(choice, {});
+  check_files(choice);
   const Explanation explanation = explain_impact(scene, n);
   for (const std::string& warning : explanation.warnings) say(warning);
   write_out(choice, explanation_text(explanation, choice.style));

@@ -1,9 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/cli/options.hpp"
 
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "validation/figures/gnuplot.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/sink.hpp"
+#include "validation/output/symbols.hpp"
+#include "validation/scene/discrete_scene.hpp"
+#include "validation/scene/keys.hpp"
+#include "validation/scene/scene_value.hpp"
 
 namespace clatter::validation::inline cli {
 
@@ -26,16 +35,16 @@ OutputChoice read_output(const OutputTexts& texts) {
   return choice;
 }
 
-void check_files(const OutputChoice& choice, std::vector<RunFile> written, const std::vector<RunFile>& read) {
+void check_files(const OutputChoice& choice, const std::vector<RunFile>& written) {
   const RunFile output{"--output", choice.path};
-  written.insert(written.begin(), output);
-  refuse_shared_files(written, read);
+  note_written(output);
+  for (const RunFile& file : written) note_written(file);
   require_writable(output);  // or a run would end in vain
 }
 
 void write_out(const OutputChoice& choice, const std::string& text) {
   Sink sink(choice.path);
-  sink.write(text);
+  sink.write(printable(text, Lines::kept));
   sink.commit();
 }
 
@@ -48,6 +57,140 @@ void add_sweep_options(Command& command, SweepTexts& t, const std::string& what)
   command.add_text("--to", t.to, "X", "last " + what, "Range");
   command.add_text("--step", t.step, "X", "step from one to the next", "Range");
   command.add_text("--count", t.count, "N", "or the number of values, both ends included", "Range");
+}
+
+namespace {
+
+/// Keys that a flag overrides.
+std::vector<const Key*> flag_keys(Model model) {
+  std::vector<const Key*> keys;
+  for (const Key& key : all_keys()) {
+    if (key.flag[0] != '\0' && key.is_for(model)) keys.push_back(&key);
+  }
+  return keys;
+}
+
+std::vector<SceneOverride> overrides_of(const SceneFlags& given) {
+  std::vector<SceneOverride> overrides;
+  for (const Key* key : flag_keys(given.model)) {
+    const std::string flag = key->flag;
+    if (!key->is_truth()) {
+      if (const auto& text = given.texts.at(flag)) overrides.push_back({key->name, flag, *text});
+    } else if (given.truths.at(flag)) {
+      overrides.push_back({key->name, flag, flag.starts_with("--no-") ? "false" : "true"});
+    }
+  }
+  return overrides;
+}
+
+}  // namespace
+
+void add_scene_argument(Command& command, std::string& source, bool required) {
+  command.add({.name = "SCENE",
+               .target = &source,
+               .type = "FILE",
+               .help = "scene file (TOML), or the name of a case",
+               .required = required});
+}
+
+void add_scene_flags(Command& command, SceneFlags& given, Model model) {
+  const char* const group = "Scene (alone, or each in place of its key in SCENE)";
+  given.model = model;
+  add_scene_argument(command, given.source, false);
+  for (const Key* key : flag_keys(model)) {
+    if (key->is_truth()) command.add_flag(key->flag, given.truths[key->flag], key->help, group);
+    else command.add_text(key->flag, given.texts[key->flag], key->type, key->help, group);
+  }
+}
+
+Scene read_scene_flags(const SceneFlags& given) {
+  const SceneValues values = scene_values(given.source);
+  if (given.model == Model::discrete) return read_discrete_scene(values, overrides_of(given));
+  return read_scene(values, overrides_of(given), given.model);
+}
+
+bool is_given(const SceneFlags& given, const std::string& name) { return given.texts.at(name).has_value(); }
+
+namespace {
+
+using std::filesystem::path;
+
+const char* const script_option = "--plot-script";
+
+PictureFormat format_of(const std::string& file) {
+  const std::string extension = path(file).extension().string();
+  if (extension == ".svg") return PictureFormat::svg;
+  if (extension == ".png") return PictureFormat::png;
+  throw BadInput(fmt::format("--plot {}: the name must end in .svg or .png", file));
+}
+
+}  // namespace
+
+void add_plot_options(Command& command, PlotTexts& texts) {
+  command.add_text("--plot", texts.plot, "FILE", "also a picture, .svg or .png (needs gnuplot)", "Output");
+  command.add_flag(script_option, texts.script, "and beside it the gnuplot script that draws it", "Output");
+}
+
+std::vector<std::string> run_words(const std::string& command, const std::string& what, const Scene& scene,
+                                   Model model) {
+  return {headline(command, what), scene_line(scene, model)};
+}
+
+void add_window_option(Command& command, std::optional<std::string>& text, const std::string& of) {
+  command.add_text("--window", text, "FROM:TO", "times " + of + ", in s after the first touch-down", "Output");
+}
+
+std::vector<RunFile> plot_files(const PlotTexts& texts) {
+  if (!texts.plot) {
+    if (texts.script)
+      throw BadInput(fmt::format("{}: needs --plot FILE, beside which the script is kept", script_option));
+    return {};
+  }
+  std::vector<RunFile> files{{"--plot", *texts.plot}};
+  if (texts.script) files.push_back({script_option, path(*texts.plot).replace_extension(".gnuplot").string()});
+  return files;
+}
+
+PlotFile::PlotFile(const PlotTexts& texts) {
+  const std::vector<RunFile> files = plot_files(texts);
+  if (files.empty()) return;
+  path_ = files[0].path;
+  format_ = format_of(path_);
+  if (texts.script) script_path_ = files[1].path;
+  picture_.emplace(path_, "--plot");
+  if (texts.script) script_.emplace(script_path_, script_option);
+  require_gnuplot("--plot " + path_, terminal_name(format_));
+}
+
+void PlotFile::write(const Picture& picture, const std::vector<std::string>& head) {
+  if (!picture_) return;
+  picture_->write(run_gnuplot(picture_script(picture, format_, "")));
+  if (script_) {
+    std::string text;
+    for (const std::string& line : head) text += "# " + printable(line) + "\n";
+    const std::string name = path(path_).filename().string();
+    text +=
+        fmt::format("# `gnuplot {}` in this folder writes {} again.\n", path(script_path_).filename().string(), name);
+    script_->write(text + picture_script(picture, format_, name));
+    script_->commit();
+  }
+  picture_->commit();
+}
+
+void PlotFile::leave_out(const std::string& reason) const {
+  if (picture_) say(fmt::format("--plot {}: no picture: {}", path_, reason));
+}
+
+void add_rod_options(Command& command, RodTexts& t) {
+  const auto add = [&](const char* name, std::optional<std::string>& text, const char* type, const char* help) {
+    command.add_text(name, text, type, help, "Rod");
+  };
+  add("--gravity-number", t.gravity_number, "G", "G = g L/v_n^2 (0)");
+  add("--gravity", t.gravity, "M/S2", "or gravity, with --length and --speed (0)");
+  add("--length", t.length, "M", "of the rod, for --gravity (1)");
+  add("--speed", t.speed, "M/S", "|v_n| at the first impact, for --gravity (1)");
+  add("--restitution", t.restitution, "E", "coefficient of restitution, 0 to 1 (1)");
+  add("--impulse-ratio", t.impulse_ratio, "MU_I", "Eq. 8's ratio of tangential to normal impulse (0)");
 }
 
 }  // namespace clatter::validation::inline cli

@@ -1,15 +1,145 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/cli/parser.hpp"
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
-#include <algorithm>
 
-#include "validation/cli/arguments.hpp"
+#include <algorithm>
+#include <set>
+
 #include "validation/output/bad_input.hpp"
 #include "validation/output/version.hpp"
 
 namespace clatter::validation::inline cli {
+
 namespace {
+
+/// What stands before a command: the program's own options.
+const Command& program_options() {
+  static bool version = false;  // the parser has the target that counts
+  static const Command options = [] {
+    Command program;
+    program.add_flag("--version", version, "");
+    return program;
+  }();
+  return options;
+}
+
+const Command& find_command(const std::vector<Command>& commands, const std::string& name) {
+  std::vector<std::string> names;
+  for (const Command& command : commands) {
+    if (command.name == name) return command;
+    names.push_back(command.name);
+  }
+  throw BadInput(fmt::format("command '{}': unknown; did you mean {}?", name, nearest_name(name, names)));
+}
+
+/// The argument of that name; none for --help, which every command has.
+const Argument* find_option(const Command& command, const std::string& name) {
+  if (name == "--help") return nullptr;
+  for (const Argument& argument : command.arguments) {
+    if (argument.name == name && argument.is_option()) return &argument;
+  }
+  static const std::set<std::string> of_simulator{"--tolerance", "--step", "--history"};
+  if (command.name == "sequence" && of_simulator.contains(name)) {
+    throw BadInput(fmt::format("{}: the discrete model takes no time steps and has no such option", name));
+  }
+  throw BadInput(fmt::format("option {}: unknown{}; did you mean {}?", name,
+                             command.name.empty() ? "" : " for " + command.name,
+                             nearest_name(name, command.option_names())));
+}
+
+/// Takes one command's arguments apart.
+class Scan {
+ public:
+  Scan(const Command& command, std::vector<std::string>& out) : command_(command), out_(out) {}
+
+  void option(const std::string& argument, const std::string* next, bool& used_next) {
+    const std::size_t equal = argument.find('=');
+    const std::string name = argument.substr(0, equal);
+    const Argument* option = find_option(command_, name);
+    const bool may_repeat = option && option->repeats;
+    if (!seen_.insert(name).second && !may_repeat) throw BadInput(fmt::format("{}: given twice", name));
+    list_ = option && option->is_list() ? name : "";
+    if (!option || option->is_flag()) {
+      if (equal != std::string::npos) throw BadInput(fmt::format("{}: takes no value", name));
+      out_.push_back(name);
+      return;
+    }
+    used_next = equal == std::string::npos;
+    if (used_next && (next == nullptr || next->starts_with("--"))) {
+      throw BadInput(fmt::format("{}: needs a value", name));
+    }
+    const std::string value = used_next ? *next : argument.substr(equal + 1);
+    if (value.empty()) throw BadInput(fmt::format("{} '': the value is empty", name));
+    out_.push_back(name + "=" + value);
+  }
+
+  /// A value of the list before it, or an argument of its own.
+  void positional(const std::string& argument) {
+    if (!list_.empty()) {
+      if (argument.empty()) throw BadInput(fmt::format("{} '': the value is empty", list_));
+      out_.push_back(list_ + "=" + argument);
+      return;
+    }
+    std::size_t allowed = 0;
+    bool takes_many = false;
+    for (const Argument& one : command_.arguments) {
+      allowed += one.is_option() ? 0 : 1;
+      takes_many = takes_many || (!one.is_option() && one.is_list());
+    }
+    if (++positionals_ > allowed && !takes_many) {
+      throw BadInput(fmt::format("'{}': unexpected argument for {}", argument, command_.name));
+    }
+    out_.push_back(argument);
+  }
+
+ private:
+  const Command& command_;
+  std::vector<std::string>& out_;
+  std::set<std::string> seen_;
+  std::size_t positionals_ = 0;
+  std::string list_;  ///< option whose values may go on; empty: none
+};
+
+/// "-5" is a value that stands alone; "-x" is no option of this program.
+bool is_short_option(const std::string& argument) {
+  return argument.size() > 1 && argument[0] == '-' && argument[1] != '-' &&
+         std::isalpha(static_cast<unsigned char>(argument[1])) != 0;
+}
+
+/// Checks the arguments against the commands and joins each option with its value as "--name=value", so that a value
+/// may begin with a minus sign.
+/// @throws BadInput with one line.
+std::vector<std::string> checked_arguments(const std::vector<Command>& commands,
+                                           const std::vector<std::string>& arguments) {
+  std::vector<std::string> out;
+  if (arguments.empty()) throw BadInput("a command is required; clatter --help lists them");
+  const Command* command = &program_options();
+  std::size_t begin = 0;
+  if (!arguments[0].starts_with('-')) {
+    command = &find_command(commands, arguments[0]);
+    out.push_back(arguments[0]);
+    begin = 1;
+  }
+  Scan scan(*command, out);
+  for (std::size_t i = begin; i < arguments.size(); ++i) {
+    const std::string& argument = arguments[i];
+    bool used_next = false;
+    if (argument == "-h") out.push_back("--help");
+    else if (argument.starts_with("--") && argument.size() > 2) {
+      scan.option(argument, i + 1 < arguments.size() ? &arguments[i + 1] : nullptr, used_next);
+    } else if (is_short_option(argument)) {
+      throw BadInput(fmt::format("option {}: unknown; options begin with two dashes", argument));
+    } else if (begin == 0) {
+      throw BadInput(fmt::format("'{}': a command comes before its options", argument));
+    } else {
+      scan.positional(argument);
+    }
+    if (used_next) ++i;
+  }
+  return out;
+}
 
 CLI::Option* add_value(CLI::App& app, const Argument& argument) {
   if (bool* const* truth = std::get_if<bool*>(&argument.target))

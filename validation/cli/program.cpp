@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/cli/program.hpp"
 
-#include "validation/cli/commands.hpp"
+#include "validation/cli/command.hpp"
 #include "validation/cli/parser.hpp"
-#include "validation/output/message.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/scene/failure.hpp"
 
@@ -34,6 +34,7 @@ int guarded(const std::function<int()>& run) {
 }
 
 int run_program(const std::vector<std::string>& arguments) {
+  const NotedFiles noted;
   return guarded([&] { return parse_and_run(arguments); });
 }
 

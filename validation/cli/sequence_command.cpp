@@ -3,12 +3,9 @@
 
 #include <memory>
 
-#include "validation/cli/commands.hpp"
+#include "validation/cli/command.hpp"
 #include "validation/cli/options.hpp"
-#include "validation/cli/plot_options.hpp"
-#include "validation/cli/scene_flags.hpp"
 #include "validation/output/bad_input.hpp"
-#include "validation/output/message.hpp"
 #include "validation/plan/sequence_method.hpp"
 #include "validation/reports/sequence_picture.hpp"
 #include "validation/reports/sequence_report.hpp"
@@ -33,27 +30,30 @@ int status_of(const Scene& scene, const Sequence& sequence) {
   return shortfall_status(sequence.outcome);
 }
 
-void draw(const Scene& scene, const DiscreteRun& run, const TimeWindow& window, PlotFile& plot) {
-  if (!run.planar()) return plot.leave_out("a sequence in space has no picture");
-  const Picture picture = sequence_picture(scene, *run.planar(), window);
-  if (picture.panels.front().rows.size() < 2) return plot.leave_out("the sequence has no such times");
-  plot.write(picture, run_words("sequence", "impact sequence, discrete model", scene, Model::discrete));
+/// @throws BadInput if the window holds none of the sequence's times.
+Picture picture_of(const Scene& scene, const DiscreteRun& run, const std::optional<std::string>& window) {
+  const Picture picture = sequence_picture(scene, run, read_window(window));
+  if (picture.panels.front().rows.size() < 2)
+    throw BadInput(fmt::format("--window {}: must hold times of the sequence", *window));
+  return picture;
 }
 
 int run_sequence(const SequenceInput& input) {
   const Scene scene = read_scene_flags(input.scene);
   const OutputChoice choice = read_output(input.output);
   const SequenceMethod method = read_sequence_method(input.method.value_or("auto"));
-  const TimeWindow window = read_window(input.window);
+  static_cast<void>(read_window(input.window));
   if (input.window && !input.plot.plot) {
     throw BadInput(fmt::format("--window {}: needs --plot FILE", *input.window));
   }
-  check_files(choice, plot_files(input.plot), files_of(scene));
+  check_files(choice, plot_files(input.plot));
   PlotFile plot(input.plot);
   const DiscreteRun run = run_discrete(scene, method);
   for (const std::string& warning : run.warnings()) say(warning);
+  std::optional<Picture> picture;
+  if (plot.is_wanted()) picture = picture_of(scene, run, input.window);
   write_report(choice, sequence_report(scene, run));
-  if (plot.is_wanted()) draw(scene, run, window, plot);
+  if (picture) plot.write(*picture, run_words("sequence", "impact sequence, discrete model", scene, Model::discrete));
   return std::visit([&](const auto& sequence) { return status_of(scene, sequence); }, run.sequence);
 }
 

@@ -5,15 +5,12 @@
 #include <memory>
 #include <optional>
 
-#include "validation/cli/commands.hpp"
+#include "validation/cli/command.hpp"
 #include "validation/cli/options.hpp"
-#include "validation/cli/plot_options.hpp"
 #include "validation/cli/progress.hpp"
-#include "validation/cli/scene_flags.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/json.hpp"
-#include "validation/output/message.hpp"
 #include "validation/output/number.hpp"
 #include "validation/plan/planned_run.hpp"
 #include "validation/record/history_file.hpp"
@@ -79,12 +76,18 @@ int status_of(const std::vector<SweptRun>& runs) {
   return shortfalls.status(static_cast<long long>(runs.size()), "values");
 }
 
-/// The history's picture, unless there is none to draw.
+/// @throws BadInput if the picture that is wanted has none of the run's times.
+void check_times(const Simulation& run, const PictureHistory& history, const std::optional<std::string>& window) {
+  if (run.outcome == Outcome::interrupted || run.impacts.empty() || !window) return;
+  if (clipped(history.rows(), read_window(window)).size() < 2)
+    throw BadInput(fmt::format("--window {}: must hold times of the run", *window));
+}
+
+/// The history's picture, unless there is none to draw: a run that ends early, whose status tells so.
 void draw(const Scene& scene, const Simulation& run, const PictureHistory& history, const TimeWindow& window,
           PlotFile& plot) {
   if (run.outcome == Outcome::interrupted) plot.leave_out("interrupted");
   else if (run.impacts.empty()) plot.leave_out("no impact was computed");
-  else if (plot.is_wanted() && clipped(history.rows(), window).size() < 2) plot.leave_out("the run has no such times");
   else if (plot.is_wanted())
     plot.write(simulation_picture(scene, history, window),
                run_words("simulate", "impact sequence, continuous contact", scene));
@@ -114,6 +117,7 @@ int run_single(const Scene& scene, const numeric::Body& body, const SimulateInpu
     };
     planned = run_scene(scene, body, interrupt, show, recorders.is_empty() ? nullptr : &recorders);
   }
+  if (plot.is_wanted()) check_times(planned.run, picture, input.window);
   if (history) history->commit();
   write_report(read_output(input.output), simulation_report(scene, planned));
   draw(scene, planned.run, picture, window, plot);
@@ -161,7 +165,7 @@ int run_simulate(const SimulateInput& input) {
   check_window(input, scene);
   std::vector<RunFile> written = plot_files(input.plot);
   written.insert(written.begin(), {"--history", scene.history});
-  check_files(choice, std::move(written), files_of(scene));
+  check_files(choice, written);
   PlotFile plot(input.plot);
   const numeric::Body body = scene.make_body();
   return scene.sweep ? run_sweep(scene, body, choice, plot) : run_single(scene, body, input, plot);

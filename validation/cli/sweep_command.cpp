@@ -8,18 +8,17 @@
 #include <optional>
 #include <thread>
 
-#include "validation/cli/commands.hpp"
+#include "validation/cli/command.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/progress.hpp"
-#include "validation/cli/scene_flags.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
-#include "validation/output/message.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/sweep/rows.hpp"
 #include "validation/sweep/sweep_file.hpp"
 #include "validation/sweep/sweep_plan.hpp"
 #include "validation/sweep/sweep_run.hpp"
+#include "validation/tables/csv_line.hpp"
 
 namespace clatter::validation::inline cli {
 namespace {
@@ -150,13 +149,10 @@ int read_threads(const SweepInput& input, const Ranks& ranks) {
   throw BadInput(fmt::format("--threads {}: must be left out under mpirun, where each process is one thread", threads));
 }
 
-void check_output(const SweepInput& input, const SweepPlan& plan) {
+void check_output(const SweepInput& input) {
   if (writes_file(input)) {
-    std::vector<RunFile> written = SweepFile::files_beside(*input.output);
-    written.insert(written.begin(), {"--output", *input.output});
-    std::vector<RunFile> read = files_of(plan.scene);
-    read.insert(read.end(), plan.attitude_files.begin(), plan.attitude_files.end());
-    refuse_shared_files(written, read);
+    note_written({"--output", *input.output});
+    for (const RunFile& file : SweepFile::files_beside(*input.output)) note_written(file);
   } else if (input.restart) {
     throw BadInput("--restart: needs a file as --output, there is nothing to go on with");
   }
@@ -206,7 +202,7 @@ int serve(const SweepPlan& plan, const SweepBody& body, Ranks& ranks) {
 int run_command(const SweepInput& input, Ranks& ranks) {
   const SweepPlan plan = read_sweep_plan(input.request);
   const int threads = read_threads(input, ranks);
-  check_output(input, plan);
+  check_output(input);
   // A body that cannot be made is bad input, but a row's where it is swept.
   const SweepBody body = plan.body_values.empty() ? make_sweep_body(plan, plan.scene) : SweepBody{};
   return ranks.writes() ? run_sweep(input, plan, body, threads, ranks) : serve(plan, body, ranks);

@@ -11,7 +11,7 @@
 #include "analytic/contact_angles.hpp"
 #include "analytic/errors.hpp"
 #include "numeric/errors.hpp"
-#include "validation/measured/arm_angles.hpp"
+#include "validation/measured/tracked_body.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation::inline extremes {

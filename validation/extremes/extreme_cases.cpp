@@ -13,7 +13,7 @@
 #include "numeric/mesh/generators.hpp"
 #include "numeric/motion/free_flight.hpp"
 #include "validation/extremes/oracles.hpp"
-#include "validation/measured/kept_tracks.hpp"
+#include "validation/measured/score.hpp"
 #include "validation/record/names.hpp"
 
 namespace clatter::validation::inline extremes {

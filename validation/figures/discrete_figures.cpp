@@ -8,7 +8,7 @@
 #include <set>
 
 #include "analytic/contact_angles.hpp"
-#include "validation/figures/figures.hpp"
+#include "validation/figures/figure.hpp"
 
 namespace clatter::validation::inline figures {
 namespace {

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "analytic/sequence.hpp"
-#include "validation/figures/figures.hpp"
+#include "validation/figures/figure.hpp"
 #include "validation/figures/history_panels.hpp"
 #include "validation/scene/discrete_scene.hpp"
 
@@ -22,9 +22,9 @@ struct PhoneCase {
 };
 
 PhoneCase phone_case(bool damped) {
-  if (damped) return {"phone-damped", "validation/cases/phone-damped.toml", {.digits = 9}};
+  if (damped) return {"phone-damped", "phone-damped", {.digits = 9}};
   return {"phone-elastic",
-          "validation/cases/phone-elastic.toml --planar (in space it is not predictable after impact 2)",
+          "phone-elastic --planar (in space it is not predictable after impact 2)",
           {.digits = 9, .planar = true}};
 }
 
@@ -136,7 +136,7 @@ Figure figure_phone_impacts(CaseRuns& case_runs, bool damped) {
 Figure figure_phone_energies(CaseRuns& case_runs) {
   Figure figure{.number = 23,
                 .title = "energies of the damped phone in its first two impacts",
-                .scene = "validation/cases/phone-damped.toml",
+                .scene = "phone-damped",
                 .columns = {{"time", "s", "since the first touch-down"},
                             {"E", "J", "total energy"},
                             {"E_translation", "J", "translational kinetic energy"},
@@ -161,7 +161,7 @@ Figure figure_phone_over_angle(CaseRuns& case_runs) {
   const std::string name = "phone-sweep";
   Figure figure{.number = 24,
                 .title = "first impact of the damped phone over the contact angle",
-                .scene = "validation/cases/phone-sweep.toml",
+                .scene = "phone-sweep",
                 .columns = over_angle_columns};
   const Scene scene = scene_of_case(name, {});
   for (const SweptSimulation& swept : case_runs.sweep(name)) {

@@ -31,4 +31,10 @@ enum class PictureFormat { svg, png };
 /// @param output file that the script writes; empty: to standard output, byte for byte the same.
 [[nodiscard]] std::string picture_script(const Picture& picture, PictureFormat format, const std::string& output);
 
+// The paper's figures as SVG, drawn by gnuplot.
+
+/// One SVG element per plot of the figure, a zoom after its plot, ready to stand in an HTML page.
+/// @throws as run_gnuplot.
+[[nodiscard]] std::vector<std::string> draw(const Figure& figure);
+
 }  // namespace clatter::validation::inline figures

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/measured/calibration.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-
-#include "analytic/space/principal_axes.hpp"
 
 namespace clatter::validation::inline measured {
 namespace {
@@ -13,16 +12,11 @@ constexpr double least_ground_error = 1e-6;  // [m]
 constexpr std::size_t enough = 3;            // resting poses to calibrate on
 constexpr Eigen::Index enough_points = 5;    // impacts, likewise
 
-/// The shortest x with N x = right, N symmetric and positive semidefinite: 0 in directions that N leaves open.
+/// The shortest x with N x = right: 0 in directions that N leaves open.
 Vector3 least_solution(const Matrix3& N, const Vector3& right) {
-  const analytic::space::PrincipalAxes principal(N);
-  Vector3 solution = Vector3::Zero();
-  for (int k = 0; k < 3; ++k) {
-    const auto value = static_cast<double>(principal.moments[static_cast<std::size_t>(k)]);
-    const Vector3 axis = principal.axes.col(k).cast<double>();
-    if (value > 1e-9 * static_cast<double>(principal.moments[2])) solution += axis.dot(right) / value * axis;
-  }
-  return solution;
+  Eigen::CompleteOrthogonalDecomposition<Matrix3> factors;
+  factors.setThreshold(1e-9);
+  return factors.compute(N).solve(right);
 }
 
 /// The body's true axes: a small turn δ for which each resting face's normal n looks straight down,

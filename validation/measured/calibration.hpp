@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "validation/measured/meetings.hpp"
 #include "validation/measured/robust_fit.hpp"
-#include "validation/measured/track_impacts.hpp"
 
 namespace clatter::validation::inline measured {
 

@@ -1,10 +1,189 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/measured/flights.hpp"
 
+#include <Eigen/Cholesky>
+
 #include <algorithm>
 #include <cmath>
 
 namespace clatter::validation::inline measured {
+
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Matrix3d;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+constexpr double huber = 2.5;  // standard deviations beyond which a frame counts less
+constexpr int reweightings = 4;
+constexpr int gauss_newton_steps = 12;
+constexpr double settled = 1e-11;  // change of the rotation [rad]
+
+/// Weight of a residual that is `size` expected ones long.
+double weight_of(double size) { return size > huber ? huber / size : 1; }
+
+/// Left Jacobian of the rotation exp(v): exp(v + δ) = exp(J δ) exp(v) to first order.
+Matrix3d left_jacobian(const Vector3& v) {
+  const double angle = v.norm();
+  const Matrix3d k = cross_matrix(v);
+  if (angle < 1e-4) return Matrix3d::Identity() + k / 2 + k * k / 6;
+  const double square = angle * angle;
+  return Matrix3d::Identity() + (1 - std::cos(angle)) / square * k +
+         (angle - std::sin(angle)) / (square * angle) * k * k;
+}
+
+/// The median of the turns from frame to frame as a first angular velocity.
+Vector3 first_angular_velocity(std::span<const Frame> frames) {
+  std::vector<double> parts[3];
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    const Vector3 turn = rotation_vector(frames[i].attitude * frames[i - 1].attitude.conjugate());
+    for (int axis = 0; axis < 3; ++axis) parts[axis].push_back(turn[axis] / (frames[i].time - frames[i - 1].time));
+  }
+  return {median(parts[0]), median(parts[1]), median(parts[2])};
+}
+
+}  // namespace
+
+FlightFit::FlightFit(std::span<const Frame> frames, const FlightModel& model)
+    : noise_(model.noise), frames_(static_cast<int>(frames.size())), planar_(model.planar) {
+  first_ = frames.front().time;
+  last_ = frames.back().time;
+  middle_ = (first_ + last_) / 2;
+  fit_position(frames, model);
+  fit_rotation(frames, model);
+  settle_misfit(frames);
+}
+
+void FlightFit::fit_position(std::span<const Frame> frames, const FlightModel& model) {
+  std::vector<double> weights(frames.size(), 1);
+  const double per_noise = 1 / (noise_.position * noise_.position);
+  for (int pass = 0; pass < reweightings; ++pass) {
+    Matrix2d level = Matrix2d::Zero();
+    Matrix3d fall = Matrix3d::Zero();
+    Eigen::Matrix2d level_right = Matrix2d::Zero();  // columns: x, y
+    Vector3 fall_right = Vector3::Zero();
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const double t = frames[i].time - middle_, w = weights[i] * per_noise;
+      const Eigen::Vector2d row(1, t);
+      const Vector3 fall_row(1, t, -t * t / 2);
+      level += w * row * row.transpose();
+      level_right += w * row * frames[i].position.head<2>().transpose();
+      fall += w * fall_row * fall_row.transpose();
+      fall_right += w * fall_row * frames[i].position.z();
+    }
+    const double prior = 1 / (model.gravity.spread * model.gravity.spread);
+    fall(2, 2) += prior;
+    fall_right.z() += prior * model.gravity.mean;
+    const Matrix2d level_inverse = level.inverse();
+    const Matrix3d fall_inverse = fall.llt().solve(Matrix3d::Identity());
+    const Matrix2d xy = level_inverse * level_right;
+    const Vector3 z = fall_inverse * fall_right;
+    state_.position = {xy(0, 0), xy(0, 1), z.x()};
+    state_.velocity = {xy(1, 0), xy(1, 1), z.y()};
+    gravity_ = z.z();
+    position_covariance_.topLeftCorner<2, 2>() = level_inverse;
+    position_covariance_.bottomRightCorner<3, 3>() = fall_inverse;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const Vector3 off = frames[i].position - state_at(frames[i].time).position;
+      weights[i] = weight_of(off.cwiseAbs().maxCoeff() / noise_.position);
+    }
+  }
+}
+
+void FlightFit::fit_rotation(std::span<const Frame> frames, const FlightModel& model) {
+  state_.angular_velocity = first_angular_velocity(frames);
+  const Frame& central = frames[frames.size() / 2];
+  state_.attitude = rotation_of((middle_ - central.time) * state_.angular_velocity) * central.attitude;
+  const double per_noise = 1 / (model.noise.rotation * model.noise.rotation);
+  for (int step = 0; step < gauss_newton_steps; ++step) {
+    Matrix6 normal = Matrix6::Zero();
+    Vector6 right = Vector6::Zero();
+    for (const Frame& frame : frames) {
+      const double t = frame.time - middle_;
+      const Vector3 turned = t * state_.angular_velocity;
+      const Quaternion turn = rotation_of(turned);
+      const Vector3 off = rotation_vector(frame.attitude * (turn * state_.attitude).conjugate());
+      Eigen::Matrix<double, 3, 6> row;
+      row.leftCols<3>() = turn.toRotationMatrix();
+      row.rightCols<3>() = t * left_jacobian(turned);
+      const double w = weight_of(off.cwiseAbs().maxCoeff() / noise_.rotation) * per_noise;
+      normal += w * row.transpose() * row;
+      right += w * row.transpose() * off;
+    }
+    rotation_covariance_ = normal.ldlt().solve(Matrix6::Identity());
+    const Vector6 change = rotation_covariance_ * right;
+    state_.attitude = (rotation_of(change.head<3>()) * state_.attitude).normalized();
+    state_.angular_velocity += change.tail<3>();
+    if (change.head<3>().norm() + change.tail<3>().norm() * (last_ - first_) < settled) break;
+  }
+}
+
+void FlightFit::settle_misfit(std::span<const Frame> frames) {
+  double sum = 0;
+  for (const Frame& frame : frames) {
+    const double size = residuals(frame).head<6>().norm();
+    sum += std::min(size * size, 6 * huber * huber);
+  }
+  const double per_frame = planar_ ? 3 : 6, parameters = planar_ ? 6 : 12;
+  const double freedom = per_frame * frames_ - parameters;
+  misfit_ = freedom > 0 ? std::sqrt(sum / freedom) : 1;
+  // Residuals beyond what chance leaves say that the noise is larger here.
+  const double chance = freedom > 0 ? 1 + 2 / std::sqrt(2 * freedom) : misfit_;
+  const double scale = misfit_ > chance ? misfit_ * misfit_ : 1;
+  position_covariance_ *= scale;
+  rotation_covariance_ *= scale;
+}
+
+analytic::space::State FlightFit::state_at(double time) const {
+  const double t = time - middle_;
+  analytic::space::State state = state_;
+  state.position += t * state_.velocity - gravity_ * t * t / 2 * Vector3::UnitZ();
+  state.velocity.z() -= gravity_ * t;
+  state.attitude = (rotation_of(t * state_.angular_velocity) * state_.attitude).normalized();
+  return state;
+}
+
+MeasuredState FlightFit::at(double time) const {
+  const double t = time - middle_;
+
+  // Parameters: x, v_x, y, v_y, z, v_z, g, attitude, ω.
+  Eigen::Matrix<double, 12, 13> whole = Eigen::Matrix<double, 12, 13>::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    whole(axis, 2 * axis) = 1;
+    whole(axis, 2 * axis + 1) = t;
+    whole(6 + axis, 2 * axis + 1) = 1;
+  }
+  whole(2, 6) = -t * t / 2;
+  whole(8, 6) = -t;
+  const Vector3 turned = t * state_.angular_velocity;
+  whole.block<3, 3>(3, 7) = rotation_of(turned).toRotationMatrix();
+  whole.block<3, 3>(3, 10) = t * left_jacobian(turned);
+  whole.block<3, 3>(9, 10) = Matrix3d::Identity();
+  Eigen::Matrix<double, 13, 13> parameters = Eigen::Matrix<double, 13, 13>::Zero();
+  parameters.block<2, 2>(0, 0) = parameters.block<2, 2>(2, 2) = position_covariance_.topLeftCorner<2, 2>();
+  parameters.block<3, 3>(4, 4) = position_covariance_.bottomRightCorner<3, 3>();
+  parameters.block<6, 6>(7, 7) = rotation_covariance_;
+  MeasuredState measured{state_at(time), whole * parameters * whole.transpose()};
+  if (planar_) {
+    for (const int still : {1, 3, 5, 7, 9, 11}) {
+      measured.covariance.row(still).setZero();
+      measured.covariance.col(still).setZero();
+    }
+  }
+  return measured;
+}
+
+StateVector FlightFit::residuals(const Frame& frame) const {
+  const analytic::space::State state = state_at(frame.time);
+  StateVector off = StateVector::Zero();
+  off.head<3>() = (frame.position - state.position) / noise_.position;
+  off.segment<3>(3) = rotation_vector(frame.attitude * state.attitude.conjugate()) / noise_.rotation;
+  return off;
+}
+
+double FlightFit::residual(const Frame& frame) const { return residuals(frame).cwiseAbs().maxCoeff(); }
+
 namespace {
 
 constexpr double explained = 5;  // standard deviations

@@ -1,12 +1,85 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A track taken apart: the flights between its impacts, and the frames that belong to none.
+// A free flight fitted to tracked poses: a parabola and a rotation with constant angular velocity, robust, with
+// covariance.
+//
+// Position   x(t) = x₀ + v t − g t²/2 z,                                                           (1)
+// attitude   A(t) = exp(ω t) A₀,   t from the middle of the flight.                                (2)
+// (2) holds for bodies whose moments of inertia are alike, and for a rotation about a principal axis.  Errors of the
+// pose are independent from frame to frame.  Frames far off count less (Huber's weights); gravity g comes with what
+// other flights say of it, since walls may slow the fall.
 #pragma once
 
+#include <Eigen/Core>
+
+#include <span>
 #include <vector>
 
-#include "validation/measured/flight_fit.hpp"
+#include "validation/measured/track.hpp"
 
 namespace clatter::validation::inline measured {
+
+/// Covariance of a state: position [m], attitude (rotation vector in the world frame) [rad], velocity [m/s], angular
+/// velocity [rad/s], world frame, in this order.
+using StateCovariance = Eigen::Matrix<double, 12, 12>;
+using StateVector = Eigen::Matrix<double, 12, 1>;
+
+/// The fall's acceleration as it is known before a flight is fitted.
+struct FallGravity {
+  double mean = 9.81;   ///< [m/s²]
+  double spread = 0.5;  ///< standard deviation between flights [m/s²]
+};
+
+struct MeasuredState {
+  analytic::space::State state;
+  StateCovariance covariance = StateCovariance::Zero();
+};
+
+/// What a flight is fitted with.
+struct FlightModel {
+  PoseNoise noise;
+  FallGravity gravity;
+  bool planar = false;
+};
+
+class FlightFit {
+ public:
+  /// Fits the frames.  @pre two frames at least
+  FlightFit(std::span<const Frame> frames, const FlightModel& model);
+
+  /// The motion at a time of the file's clock, with covariance.
+  [[nodiscard]] MeasuredState at(double time) const;
+  [[nodiscard]] analytic::space::State state_at(double time) const;
+  [[nodiscard]] double gravity() const { return gravity_; }
+  [[nodiscard]] double gravity_error() const { return std::sqrt(position_covariance_(4, 4)); }
+  [[nodiscard]] double first() const { return first_; }
+  [[nodiscard]] double last() const { return last_; }
+  [[nodiscard]] int frames() const { return frames_; }
+  /// Root of the mean square residual over its expectation; 1: noise alone.
+  [[nodiscard]] double misfit() const { return misfit_; }
+  /// Residual of a frame, position and rotation vector, in standard deviations of the noise.
+  [[nodiscard]] Eigen::Matrix<double, 6, 1> standard_residual(const Frame& frame) const {
+    return residuals(frame).head<6>();
+  }
+  /// Largest component of a frame's residual, in standard deviations.
+  [[nodiscard]] double residual(const Frame& frame) const;
+
+ private:
+  void fit_position(std::span<const Frame> frames, const FlightModel& model);
+  void fit_rotation(std::span<const Frame> frames, const FlightModel& model);
+  void settle_misfit(std::span<const Frame> frames);
+  [[nodiscard]] StateVector residuals(const Frame& frame) const;
+
+  PoseNoise noise_;
+  double middle_ = 0, first_ = 0, last_ = 0, gravity_ = 0, misfit_ = 0;
+  int frames_ = 0;
+  analytic::space::State state_;  ///< at middle_
+  /// Of a horizontal coordinate and its velocity, both alike; of height, its velocity and gravity.
+  Eigen::Matrix<double, 5, 5> position_covariance_ = Eigen::Matrix<double, 5, 5>::Zero();
+  Eigen::Matrix<double, 6, 6> rotation_covariance_ = Eigen::Matrix<double, 6, 6>::Zero();
+  bool planar_ = false;
+};
+
+// A track taken apart: the flights between its impacts, and the frames that belong to none.
 
 /// Indices of a track's frames that one flight explains, in order.
 using FlightFrames = std::vector<std::size_t>;

@@ -22,6 +22,7 @@ constexpr double third_difference = 20;  // variance of (1, −3, 3, −1) of in
 
 TableRequest request_for(const TrackDescription& d) {
   TableRequest request;
+  request.renaming = fmt::format("track.drop, track.x and so on in {} name them", d.path);
   request.names = {{"drop", d.drop}, {"sample", d.sample}, {"x", d.x}, {"z", d.z}};
   request.required = {"drop", "sample", "x", "z"};
   if (d.is_planar()) {

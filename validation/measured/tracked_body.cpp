@@ -16,10 +16,10 @@ namespace {
 
 using analytic::space::Body;
 
-constexpr Range any{-1e100, 1e100, false, "a finite number"};
-constexpr Range positive{0, 1e100, true, "greater than 0"};
+constexpr Range any{-1e100, 1e100, false, "from -1e100 to 1e100"};
+constexpr Range positive{0, 1e100, true, "greater than 0, at most 1e100"};
 constexpr Range from_0_to_1{0, 1, false, "from 0 to 1"};
-constexpr Range not_negative{0, 1e100, false, "at least 0"};
+constexpr Range not_negative{0, 1e100, false, "from 0 to 1e100"};
 
 const std::string folder = "validation/measured/", ending = ".toml";
 
@@ -92,8 +92,8 @@ TrackDescription described(const SceneValues& values) {
   d.gravity = values.number("world.gravity", 9.81, positive);
   d.lever_tolerance = values.number("impact.lever_tolerance", 0.1, from_0_to_1);
   if (values.has_table("published")) {
-    values.require("published.restitution", "from 0 to 1");
-    values.require("published.friction", "at least 0");
+    values.require("published.restitution", from_0_to_1.words);
+    values.require("published.friction", not_negative.words);
     d.published = StatedLaw{values.number("published.restitution", 0, from_0_to_1),
                             values.number("published.friction", 0, not_negative)};
   }

@@ -109,4 +109,7 @@ class TrackedBody {
   double gyration_square_ = 1, reach_ = 1;
 };
 
+/// Ends of the ranges of the angle between arm and vertical [°] by which scores and extremes list measured drops.
+inline constexpr double arm_angle_edges[] = {0, 10, 20, 25, 30, 35, 40, 60};
+
 }  // namespace clatter::validation::inline measured

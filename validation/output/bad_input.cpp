@@ -2,7 +2,10 @@
 #include "validation/output/bad_input.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <numeric>
+
+#include "validation/output/symbols.hpp"
 
 namespace clatter::validation::inline output {
 namespace {
@@ -29,6 +32,13 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
       candidates.begin(), candidates.end(),
       [&](const std::string& a, const std::string& b) { return edit_distance(name, a) < edit_distance(name, b); });
   return nearest == candidates.end() ? std::string() : *nearest;
+}
+
+void say(const std::string& words) {
+  std::string line = words;
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  line = "clatter: " + printable(line) + "\n";
+  std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
 }  // namespace clatter::validation::inline output

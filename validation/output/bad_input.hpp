@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the user gave and cannot be used: one line, exit status 2.
+// Words to the user, on stderr; what was given and cannot be used: one line, exit status 2.
 #pragma once
 
 #include <stdexcept>
@@ -15,5 +15,9 @@ class BadInput : public std::runtime_error {
 
 /// The candidate nearest to `name` by edit distance.
 [[nodiscard]] std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates);
+
+/// Writes "clatter: WORDS" as one line, foreign characters printable.  Nobody may be there to read (stderr closed, full
+/// or hung up), which changes neither the run nor its status.
+void say(const std::string& words);
 
 }  // namespace clatter::validation::inline output

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/output/json.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
-
-#include "validation/output/report.hpp"
 
 namespace clatter::validation::inline output {
 namespace {
@@ -12,8 +12,20 @@ namespace {
 using List = Value::List;
 using Fields = Value::Fields;
 
-/// As JSON writes it; bytes that are no UTF-8 become U+FFFD.
-std::string quoted(const std::string& text) { return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace); }
+/// As JSON writes it, DEL and C1, which JSON lets pass, as escapes like other control characters; bytes that are no
+/// UTF-8 become U+FFFD.
+std::string quoted(const std::string& text) {
+  const std::string dumped = Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string out;
+  for (std::size_t i = 0; i < dumped.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(dumped[i]);
+    const bool is_c1 = byte == 0xC2 && static_cast<unsigned char>(dumped[i + 1]) < 0xA0;
+    if (byte == 0x7F) out += "\\u007f";
+    else if (is_c1) out += fmt::format("\\u{:04x}", static_cast<unsigned char>(dumped[++i]));
+    else out += dumped[i];
+  }
+  return out;
+}
 
 bool is_structured(const Value& value) {
   return std::holds_alternative<List>(value.content()) || std::holds_alternative<Fields>(value.content());
@@ -108,23 +120,6 @@ std::string compact_json(const Value& value) {
   Writer writer(false);
   writer.write(value, "");
   return writer.text();
-}
-
-Value row_object(const std::vector<Column>& columns, const Row& row) {
-  Value object(Fields{});
-  for (std::size_t i = 0; i < columns.size() && i < row.size(); ++i) {
-    const Column& column = columns[i];
-    Value& place = (column.object.empty() ? object : object[column.object])[column.json_key()];
-    if (column.listed) place.push_back(row[i].value);
-    else place = row[i].value;
-  }
-  return object;
-}
-
-Value row_objects(const Grid& grid) {
-  List rows;
-  for (const Row& row : grid.rows) rows.push_back(row_object(grid.columns, row));
-  return rows;
 }
 
 }  // namespace clatter::validation::inline output

@@ -83,16 +83,15 @@ struct TextStyle {
 [[nodiscard]] Report begun_report(const std::string& command, const std::string& what);
 
 /// The report in any format.  CSV follows RFC 4180; numbers there are shortest round-trip, and what else the report
-/// says comes before the names of the columns, in lines that begin with "# ".
+/// says comes before the names of the columns, in lines that begin with "# ".  A table takes 80 columns: what is wider
+/// stands in several blocks, with all known digits.  Foreign texts are printable, except in JSON, which escapes them.
 [[nodiscard]] std::string report_text(const Report& report, const TextStyle& style);
 /// The part of its CSV before the rows.
 [[nodiscard]] std::string csv_head(const Report& report, bool bare);
 [[nodiscard]] std::string csv_text(const Report& report, bool bare);
 [[nodiscard]] std::string csv_rows(const std::vector<Row>& rows);
-/// A text as a field of CSV: on one line, in quotes where it needs them.
+/// A text as a field of CSV: printable, on one line, in quotes where it needs them.
 [[nodiscard]] std::string csv_text(const std::string& text);
-/// Rows that a CSV holds, read back: numbers, truths and texts.
-[[nodiscard]] std::vector<Row> read_csv_rows(const std::string& text);
 
 /// The columns as fields of an object for each row.
 [[nodiscard]] Value row_objects(const Grid& grid);
@@ -100,10 +99,6 @@ struct TextStyle {
 
 /// What a reader sees of a cell.
 [[nodiscard]] std::string shown_text(const Cell& cell);
-
-/// Fewer digits, first in the columns from starts[0] on, then from starts[1] on, …, until the report fits 80 columns
-/// as a table; all digits again if three are still too many.
-void fit_columns(Report& report, int digits, const std::vector<std::size_t>& starts);
 
 /// Width of a UTF-8 text in columns of a terminal.
 [[nodiscard]] std::size_t display_width(const std::string& text);

@@ -1,15 +1,56 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where output goes: stdout, a device, or a file that appears whole or not at all.
+// The files of a run: where output goes (stdout, a device, or a file that appears whole or not at all), where names
+// lead, and that no output is an input.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstdio>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
-#include "validation/output/run_files.hpp"
-
 namespace clatter::validation::inline output {
+
+/// A file that a run writes; an empty path: none.
+struct RunFile {
+  std::string option;  ///< that names the file, for messages
+  std::string path;
+};
+
+/// Where an output goes, once symbolic links are followed.
+struct Destination {
+  std::string path;                 ///< a file to replace or to make; of a stream the path as given
+  bool is_stream = false;           ///< device, FIFO or open file: written in place, from one end to the other
+  int open_file = -1;               ///< the descriptor that -, /dev/stdout, /dev/fd/N or /proc/self/fd/N means
+  std::optional<mode_t> mode = {};  ///< permissions of a file that is there
+};
+
+/// @throws BadInput naming option and path if no file of this name can be written: a folder, a name too long, a folder
+/// that is not there.
+[[nodiscard]] Destination destination_of(const RunFile& file);
+
+/// Makes sure that a file can be written before a run begins, and leaves everything as it was.  @throws BadInput
+void require_writable(const RunFile& file);
+
+/// Keeps inputs from being written over, in one run of the program: each file is noted where it is opened, so that a
+/// command that reads one more needs no rule of its own.  Files are compared by device and inode, those that are not
+/// there yet by their folder and name, so that neither spelling nor links hide one.  Character devices hold nothing
+/// that could be lost and are never refused.  Nothing is noted where no run is under way, as in a server or a library
+/// whose caller may read what was written before.
+class NotedFiles {
+ public:
+  NotedFiles();
+  ~NotedFiles();
+  NotedFiles(const NotedFiles&) = delete;
+  NotedFiles& operator=(const NotedFiles&) = delete;
+};
+
+/// The run that is under way reads this file, or is about to.  @throws BadInput if it writes it.
+void note_read(const std::string& path);
+/// It writes this file, as each Sink does.  @throws BadInput if it reads the file, or writes it under another name.
+void note_written(const RunFile& file);
 
 /// Nobody reads any more what is written to a pipe: the end of the run, but no failure.
 class ReaderGone : public std::runtime_error {

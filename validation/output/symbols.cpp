@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/output/symbols.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <span>
 #include <string_view>
@@ -46,6 +48,23 @@ std::string replaced(std::string_view text, std::span<const std::string_view> ta
   return out;
 }
 
+/// Bytes of the character at the text's beginning; 0 where they are no UTF-8.
+std::size_t character_length(std::string_view text) {
+  const auto lead = static_cast<unsigned char>(text[0]);
+  const std::size_t length = lead < 0x80 ? 1 : lead >= 0xC2 && lead < 0xE0 ? 2 : lead >= 0xE0 && lead < 0xF0 ? 3 : 4;
+  if ((lead >= 0x80 && lead < 0xC2) || lead >= 0xF5 || length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((text[i] & 0xC0) != 0x80) return 0;
+  }
+  return length;
+}
+
+/// C0, DEL and, in UTF-8, C1.
+bool is_control(std::string_view character) {
+  const auto lead = static_cast<unsigned char>(character[0]);
+  return lead < 0x20 || lead == 0x7F || (lead == 0xC2 && static_cast<unsigned char>(character[1]) < 0xA0);
+}
+
 }  // namespace
 
 std::string to_latex(const std::string& text) {
@@ -53,5 +72,19 @@ std::string to_latex(const std::string& text) {
   return replaced(text, table);
 }
 std::string to_ascii(const std::string& text) { return replaced(text, ascii); }
+
+std::string printable(std::string_view text, Lines lines) {
+  std::string out;
+  while (!text.empty()) {
+    const std::size_t known = character_length(text), length = std::max<std::size_t>(known, 1);
+    const std::string_view character = text.substr(0, length);
+    text.remove_prefix(length);
+    const bool stays = known > 0 && (!is_control(character) || (lines == Lines::kept && character == "\n"));
+    if (stays) out += character;
+    else
+      for (const char byte : character) out += fmt::format("\\x{:02x}", static_cast<unsigned char>(byte));
+  }
+  return out;
+}
 
 }  // namespace clatter::validation::inline output

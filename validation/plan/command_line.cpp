@@ -24,8 +24,8 @@ std::string quoted(const std::string& name) {
 
 std::string command_line(const Plan& plan) {
   const Scene& scene = plan.scene;
-  std::string line =
-      fmt::format("clatter {} {}", is_continuous(plan.choice.level) ? "simulate" : "compare", quoted(scene.path));
+  std::string line = fmt::format("clatter {} {}", is_continuous(plan.choice.level) ? "simulate" : "compare",
+                                 quoted(name_of_source(scene.path)));
   if (!is_continuous(plan.choice.level)) return line;
   line += fmt::format(" --method {} --tolerance {}", method_name(plan.choice.method), shortest(plan.choice.tolerance));
   if (plan.choice.level == ModelLevel::planar && !scene.world.planar) line += " --planar";

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analytic/contact_angles.hpp"
+#include "validation/figures/picture.hpp"
 #include "validation/output/report.hpp"
 #include "validation/scene/named_texts.hpp"
 
@@ -39,5 +40,11 @@ using AnglesRow = std::array<double, 19>;
 [[nodiscard]] Report angles_report(const AnglesRequest& request);
 /// CSV of the rows from `begin` up to `end`; empty fields for what does not happen, and for errors that are not known.
 [[nodiscard]] std::string angles_csv_rows(const AnglesRequest& request, long long begin, long long end);
+
+// Contact angles and impulses over θ as a picture.
+
+/// β and γ (or β beside its printed forms) and the impulses over θ.  Of more than 4000 rows every n-th is drawn, and
+/// both rows between which an impact begins or ceases to happen, so that the branches end where they do.
+[[nodiscard]] Picture angles_picture(const AnglesRequest& request);
 
 }  // namespace clatter::validation::inline reports

@@ -450,7 +450,7 @@ Requirement read_requirement(const std::optional<std::string>& text) {
   if (!text) return {};
   double error = 0;
   if (read_number(*text, error)) {
-    return {.verdict = {}, .error = read_number_option("--require", *text, {0, 1e300, true, "greater than 0"})};
+    return {.verdict = {}, .error = read_number_option("--require", *text, positive_number)};
   }
   std::vector<std::string> names = verdict_names();
   names.pop_back();

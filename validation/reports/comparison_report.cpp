@@ -287,7 +287,6 @@ Report comparison_report(const Scene& scene, const Comparison& comparison) {
        {comparison.shortfall, mesh_words(comparison), limit_words(comparison), verdict_words(comparison)}) {
     if (!words.empty()) report.notes.push_back(words);
   }
-  fit_columns(report, 6, {3});
   return report;
 }
 

@@ -12,6 +12,7 @@
 #include "validation/output/version.hpp"
 
 namespace clatter::validation::inline reports {
+
 namespace {
 
 const char* const extremes_summary = "the map of what holds, to both ends of every quantity";

@@ -3,13 +3,127 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/reports/measured_notes.hpp"
+#include "validation/output/version.hpp"
 
 namespace clatter::validation::inline reports {
+
 namespace {
+
+std::string mm(double metres) { return significant(1e3 * metres, 3); }
+
+std::vector<std::string> tracks_head(const MeasuredRun& run) {
+  const TrackDescription& d = run.file.file.description;
+  std::vector<std::string> head{
+      fmt::format("{}: {} drops, {} frames at {} Hz, motion in {}", run.file.file.path, run.file.file.tracks.size(),
+                  run.file.file.frames, shortest(d.rate), d.is_planar() ? "a plane" : "space"),
+      fmt::format("body: box {} × {} × {} m, {} kg", shortest(d.size.x()), shortest(d.size.y()), shortest(d.size.z()),
+                  shortest(d.mass)),
+      run.split_words};
+  if (!d.source.empty()) head.push_back(fmt::format("data: {} ({})", d.source, d.licence));
+  return head;
+}
+
+struct TrackCounts {
+  std::size_t torn = 0, missing = 0, skipped = 0, disturbed = 0, impacts = 0, at_rest = 0, without = 0;
+};
+
+TrackCounts count_tracks(const MeasuredFile& file) {
+  TrackCounts counts;
+  for (const MeasuredTrack& track : file.tracks) {
+    counts.torn += track.flights.torn.size();
+    counts.missing += static_cast<std::size_t>(track.missing);
+    counts.impacts += track.meetings.size();
+    if (track.rest) ++counts.at_rest;
+    if (track.meetings.empty()) ++counts.without;
+    for (const Meeting& change : track.other_changes)
+      ++(change.change == Change::skipped ? counts.skipped : counts.disturbed);
+  }
+  return counts;
+}
+
+Value calibration_value(const CalibrationResult& c) {
+  const Vector3& turn = c.calibration.turn;
+  return Value::Fields{{"turn", std::vector<double>{turn.x(), turn.y(), turn.z()}},
+                       {"turn_error", c.turn_error},
+                       {"resting", c.resting},
+                       {"ground", c.calibration.ground},
+                       {"ground_spread", c.ground_spread},
+                       {"inertia_factor", c.calibration.inertia_factor},
+                       {"inertia_half_width", c.inertia_half_width},
+                       {"rounding", c.calibration.rounding},
+                       {"rounding_half_width", c.rounding_half_width},
+                       {"turning_unexplained_before", c.lever_before},
+                       {"turning_unexplained", c.lever_after}};
+}
+
+/// What the frames and flights say of themselves.
+std::vector<std::string> track_notes(const MeasuredRun& run) {
+  const FlightModel& model = run.file.model;
+  const TrackCounts counts = count_tracks(run.file);
+  return {
+      fmt::format("frames: noise {} mm and {} mrad; {} torn, {} missing; {} times a flight goes on after samples that "
+                  "are not counted, {} times it is disturbed away from the ground",
+                  mm(model.noise.position), significant(1e3 * model.noise.rotation, 2), counts.torn, counts.missing,
+                  counts.skipped, counts.disturbed),
+      fmt::format("flights: {} impacts found; {} drops end at rest, {} have no impact; gravity along the fall {} ± {} "
+                  "m/s² between drops",
+                  counts.impacts, counts.at_rest, counts.without, significant(model.gravity.mean, 3),
+                  significant(model.gravity.spread, 2))};
+}
+
+/// The calibration in words.
+std::string calibration_note(const MeasuredRun& run) {
+  const CalibrationResult& c = run.fit.calibration;
+  return fmt::format(
+      "calibration on the fitted drops: body axes turned by ({}, {}, {}) mrad ± {} ({} resting poses); ground at {} ± "
+      "{} "
+      "mm; inertia {} ± {} of the uniform body's; corners rounded by {} ± {} mm; turning unexplained {} → {}",
+      significant(1e3 * c.calibration.turn.x(), 3), significant(1e3 * c.calibration.turn.y(), 3),
+      significant(1e3 * c.calibration.turn.z(), 3), significant(1e3 * c.turn_error, 2), c.resting,
+      mm(c.calibration.ground), mm(c.ground_spread), significant(c.calibration.inertia_factor, 3),
+      significant(c.inertia_half_width, 2), mm(c.calibration.rounding), mm(c.rounding_half_width),
+      significant(c.lever_before, 2), significant(c.lever_after, 2));
+}
+
+/// A report with what every one of a run carries: its head, the data, the split, the calibration.
+Report begun(const MeasuredRun& run, const std::string& action, const std::string& what) {
+  Report report = begun_report("measured " + action, what);
+  report.head = tracks_head(run);
+  report.fields["model"] = "measured";
+  const TrackDescription& d = run.file.file.description;
+  const TrackCounts counts = count_tracks(run.file);
+  report.fields["data"] = Value::Fields{{"file", run.file.file.path},
+                                        {"description", d.path},
+                                        {"source", text_or_nothing(d.source)},
+                                        {"licence", text_or_nothing(d.licence)},
+                                        {"drops", run.file.file.tracks.size()},
+                                        {"frames", run.file.file.frames},
+                                        {"torn", counts.torn},
+                                        {"missing", counts.missing},
+                                        {"skipped", counts.skipped},
+                                        {"disturbed", counts.disturbed},
+                                        {"impacts", counts.impacts},
+                                        {"noise_position", run.file.model.noise.position},
+                                        {"noise_rotation", run.file.model.noise.rotation},
+                                        {"gravity", run.file.model.gravity.mean},
+                                        {"gravity_spread", run.file.model.gravity.spread}};
+  report.fields["split"] = run.split_words;
+  report.fields["fitted"] = run.split.fitted.size();
+  report.fields["scored"] = run.split.scored.size();
+  report.fields["calibration"] = calibration_value(run.fit.calibration);
+  return report;
+}
+
+/// "poisson, e = 0.47, μ = 0.097".
+std::string law_words(const FittedLaw& law) {
+  return fmt::format("{}, e = {}, μ = {}", fitted_law_name(law.law), significant(law.restitution, 3),
+                     significant(law.friction, 3));
+}
 
 /// "+-+": the signs of a corner's coordinates in the body's axes.
 std::string corner_name(const TrackedBody& body, int corner) {
@@ -167,6 +281,210 @@ Report measured_predict_report(const MeasuredRun& run, const Scores& scores) {
   report.fields["drops"] = row_objects(report.grid);
   report.fields["law"] = law_words(model.law);
   return report;
+}
+
+namespace {
+
+/// 95 % interval of a share (Wilson).
+std::pair<double, double> share_interval(const Share& share) {
+  constexpr double z = 1.96;
+  const double n = share.of, p = share.value(), middle = (p + z * z / (2 * n)) / (1 + z * z / n);
+  const double half = z / (1 + z * z / n) * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
+  return {std::fmax(middle - half, 0), std::fmin(middle + half, 1)};  // rounding must not leave what a share can be
+}
+
+Row error_row(const std::string& group, const std::string& name, const std::vector<double>& errors) {
+  const auto percent = [&](double share) { return Cell(100 * quantile(errors, share), 3); };
+  return {Cell(group), Cell(name), percent(0.5), percent(0.25), percent(0.75), percent(0.9), Cell(errors.size())};
+}
+
+Row share_row(const std::string& group, const std::string& name, const Share& share) {
+  const auto [low, high] = share_interval(share);
+  return {Cell(group),   Cell(name),    Cell(100 * share.value(), 3), Cell(100 * low, 3), Cell(100 * high, 3),
+          Cell(Value()), Cell(share.of)};
+}
+
+void add_score_rows(const Scores& scores, Report& report) {
+  auto& rows = report.grid.rows;
+  for (const ErrorRow& row : scores.rows) rows.push_back(error_row("velocity", row.name, row.errors));
+  rows.push_back(error_row("impact 2", "time", scores.time_errors));
+  rows.push_back(error_row("impact 2", "P2/P1", scores.ratio_errors));
+  const auto put = [&](const std::string& name, const Share& share) {
+    if (share.of > 0) rows.push_back(share_row("right", name, share));
+  };
+  put("point impacts", scores.points);
+  put("first corner", scores.first_corner);
+  put("second corner", scores.second_corner);
+  put("… the start leaves no doubt", scores.second_corner_sure);
+  put("… nor does the law's scatter", scores.second_corner_clear);
+  put("… from V and Ω as measured", scores.second_corner_flown);
+  put("inside 90 % intervals", scores.inside);
+  put("face at rest", scores.face);
+  put("… by published parameters", scores.published_face);
+  put("number of impacts within 1", scores.count);
+  for (const ResidualBin& bin : scores.bins) {
+    rows.push_back({Cell("by " + bin.quantity),
+                    Cell(fmt::format("{} to {} {}", shortest(bin.low), shortest(bin.high), bin.unit)),
+                    Cell(100 * bin.error, 3), Cell(Value()), Cell(Value()), Cell(Value()), Cell(bin.points)});
+  }
+}
+
+Value bins_value(const Scores& scores) {
+  Value bins = Value::List{};
+  for (const ResidualBin& bin : scores.bins) {
+    bins.push_back(Value::Fields{{"quantity", bin.quantity},
+                                 {"unit", bin.unit},
+                                 {"from", bin.low},
+                                 {"to", bin.high},
+                                 {"impacts", bin.impacts},
+                                 {"points", bin.points},
+                                 {"error", bin.error},
+                                 {"lever_miss", bin.lever},
+                                 {"restitution", bin.restitution}});
+  }
+  return bins;
+}
+
+std::string bin_words(const Scores& scores) {
+  std::string words = "point impacts by angle between arm and vertical:";
+  for (const ResidualBin& bin : scores.bins) {
+    if (bin.quantity != "angle") continue;
+    words += fmt::format(" {}–{}° {} of {}, e {};", shortest(bin.low), shortest(bin.high), bin.points, bin.impacts,
+                         bin.points > 0 ? significant(bin.restitution, 2) : "–");
+  }
+  words.back() = '.';
+  return words;
+}
+
+}  // namespace
+
+std::vector<Column> measured_score_columns() {
+  return {word_column("group", "of", "what is scored"),
+          word_column("quantity", "quantity", "the model or the number"),
+          {"value", "middle", "%", "median of the relative errors, or the share that is right"},
+          {"low", "from", "%", "lower quartile of the errors, or lower end of the share's 95 % interval"},
+          {"high", "to", "%", "upper quartile, or upper end"},
+          {"ninety", "90 %", "%", "ninetieth percentile of the errors"},
+          {"drops", "drops", "", "that were counted"}};
+}
+
+Report measured_score_report(const MeasuredRun& run, const Scores& scores) {
+  Report report = begun(run, "score", "predictions held against drops that were not fitted to");
+  report.grid.columns = measured_score_columns();
+  add_score_rows(scores, report);
+  report.notes = {
+      "law as fitted: " + law_words(run.fit.laws[run.fit.best].law),
+      "velocity: error of (V, k Ω) after impact 1 over its size before, k² = I/m of the uniform body; point "
+      "impacts alone; floor: the best impulse inside the friction cone",
+      bin_words(scores), calibration_note(run)};
+  for (const std::string& note : track_notes(run)) report.notes.push_back(note);
+  report.fields["scores"] = row_objects(report.grid);
+  report.fields["residuals"] = bins_value(scores);
+  report.fields["law"] = law_words(run.fit.laws[run.fit.best].law);
+  return report;
+}
+
+namespace {
+
+constexpr int points_of_a_flight = 40;
+constexpr double predicted = 1, measured = 0;
+
+const ScoredDrop& chosen_drop(const Scores& scores, const std::string& name) {
+  const auto found = std::find_if(scores.drops.begin(), scores.drops.end(), [&](const ScoredDrop& drop) {
+    return name.empty() ? drop.measured.is_point : drop.name == name;
+  });
+  if (found != scores.drops.end()) return *found;
+  throw BadInput(name.empty() ? "--plot: no point impact was scored"
+                              : fmt::format("--drop {}: not among those scored", name));
+}
+
+PicturePanel track_panel(const MeasuredRun& run, const ScoredDrop& drop) {
+  const ForecastModel model = forecast_model(run.file, run.fit);
+  PicturePanel panel{
+      .columns = {{"time", "s", "since impact 1"},
+                  {"height", "m", "of the centre"},
+                  {"kind", "1", "0 measured, 1 predicted"}},
+      .rows = {},
+      .plot = {
+          .title = "",
+          .x_label = "t [s]",
+          .y_label = "height of the centre [m]",
+          .curves = {
+              {.x = "time",
+               .y = "height",
+               .legend = "drop " + drop.name + ", measured",
+               .style = FigureCurve::Style::points,
+               .where = {{"kind", measured}}},
+              {.x = "time", .y = "height", .legend = "predicted from impact 1 on", .where = {{"kind", predicted}}}}}};
+  const auto track = std::find_if(run.file.file.tracks.begin(), run.file.file.tracks.end(),
+                                  [&](const Track& t) { return t.name == drop.name; });
+  const double ground = run.fit.calibration.calibration.ground;
+  double last = 0;
+  for (const Frame& frame : track->frames) {
+    last = frame.time - drop.measured.time;
+    panel.rows.push_back({last, frame.position.z() - ground, measured});
+  }
+  for (const HeightAt& at : predicted_heights(model, drop.measured, last, points_of_a_flight))
+    panel.rows.push_back({at.time, at.height, predicted});
+  return panel;
+}
+
+PicturePanel residual_panel(const Scores& scores) {
+  PicturePanel panel{.columns = {{"angle", "deg", "between the corner's arm and the vertical"},
+                                 {"error", "%", "of the motion after impact 1"},
+                                 {"point", "1", "1: a point impact"}},
+                     .rows = {},
+                     .plot = {.title = "",
+                              .x_label = "angle between the corner's arm and the vertical [°]",
+                              .y_label = "error [%]",
+                              .curves = {{.x = "angle",
+                                          .y = "error",
+                                          .legend = "point impacts",
+                                          .style = FigureCurve::Style::points,
+                                          .where = {{"point", 1.0}}},
+                                         {.x = "angle",
+                                          .y = "error",
+                                          .legend = "others",
+                                          .style = FigureCurve::Style::points,
+                                          .where = {{"point", 0.0}}}}}};
+  for (const ScoredDrop& drop : scores.drops)
+    panel.rows.push_back({drop.measured.angle_degrees(), 100 * drop.error, drop.measured.is_point ? 1.0 : 0.0});
+  return panel;
+}
+
+PicturePanel coverage_panel(const MeasuredRun& run, const Scores& scores) {
+  PicturePanel panel{
+      .columns = {{"width", "1", "over that of the 90 % interval"}, {"share", "%", "of the numbers within"}},
+      .rows = {},
+      .plot = {.title = "",
+               .x_label = "distance over half the 90 % interval",
+               .y_label = "numbers within [%]",
+               .curves = {{.x = "width", .y = "share", .legend = "velocities after impact 1; 90 % belong at 1"}}}};
+  const TrackedBody body(run.file.file.description, run.fit.calibration.calibration);
+  std::vector<double> ratios;
+  for (const ScoredDrop& drop : scores.drops) {
+    if (!drop.measured.is_point) continue;
+    const MotionParts off = motion_parts(body, drop.measured.after.state) - motion_parts(body, drop.predicted.after);
+    for (const int part : active_parts(run.file.file.description))
+      ratios.push_back(std::fabs(off[part]) / drop.predicted.half_width[part]);
+  }
+  std::sort(ratios.begin(), ratios.end());
+  for (std::size_t i = 0; i < ratios.size(); ++i)
+    panel.rows.push_back({ratios[i], 100 * static_cast<double>(i + 1) / static_cast<double>(ratios.size())});
+  return panel;
+}
+
+}  // namespace
+
+Picture measured_picture(const MeasuredRun& run, const Scores& scores, const std::string& drop) {
+  return {.what = "Predictions held against measured drops",
+          .scene = {run.file.file.description.source, run.split_words},
+          .panels = {track_panel(run, chosen_drop(scores, drop)), residual_panel(scores), coverage_panel(run, scores)}};
+}
+
+std::vector<std::string> measured_words(const MeasuredRun& run) {
+  return {fmt::format("clatter {}, measured: {}", version, run.file.file.path), run.split_words,
+          run.file.file.description.source};
 }
 
 }  // namespace clatter::validation::inline reports

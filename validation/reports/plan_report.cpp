@@ -166,7 +166,7 @@ std::string plan_shortfall(const Plan& plan) {
 PlanTarget plan_target(const Scene& scene, const PlanRequest& request) {
   PlanTarget target{.digits = scene.accuracy.digits};
   if (request.within) {
-    target.within_ms = read_number_option("--within", *request.within, {0, 1e9, true, "greater than 0"});
+    target.within_ms = read_number_option("--within", *request.within, {0, 1e9, true, "greater than 0, at most 1e9"});
     target.most_accurate = !request.is_given("digits");
   }
   for (const char* name : {"method", "tolerance", "step"}) {

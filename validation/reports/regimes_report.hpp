@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What `clatter regimes` says.
+// What `clatter regimes` says, in words and as a picture: how many impacts happen, over a parameter of the rod.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "analytic/contact_angles.hpp"
+#include "validation/figures/picture.hpp"
 #include "validation/output/report.hpp"
-#include "validation/reports/regimes_picture.hpp"
 #include "validation/scene/named_texts.hpp"
 #include "validation/scene/rod_parameters.hpp"
 #include "validation/scene/swept_range.hpp"
@@ -20,6 +21,12 @@ struct RegimesTexts {
   SweepTexts sweep;
   bool logarithmic = false;
   RodTexts rod;
+};
+
+/// One value of the parameter.
+struct Regimes {
+  double value;
+  analytic::RegimeBoundary second, third;
 };
 
 /// The regimes over the values of a quantity.
@@ -41,5 +48,13 @@ struct FoundRegimes {
 /// From the flags of `clatter regimes` by name: over, from, to, step, count, log, gravity_number, …, digits.
 /// @throws BadInput as the command.
 [[nodiscard]] Report regimes_report(const NamedTexts& given);
+
+struct RegimesAxis {
+  std::string name, words;  ///< in JSON; for readers
+  bool logarithmic;         ///< a value that is not positive is then left out, and the axis says so
+};
+
+/// θ₂ and θ₃ over the parameter, and the areas of one, two and three impacts.
+[[nodiscard]] Picture regimes_picture(const std::vector<Regimes>& all, const RegimesAxis& axis, const std::string& rod);
 
 }  // namespace clatter::validation::inline reports

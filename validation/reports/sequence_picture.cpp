@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
+#include "analytic/space/free_flight.hpp"
 #include "validation/output/number.hpp"
+#include "validation/scene/body_properties.hpp"
 #include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation::inline reports {
@@ -195,6 +198,110 @@ PicturePanel impulse_panel(const Scene& scene, const Sequence& sequence) {
   return panel;
 }
 
+// ---- in space
+
+using SpaceSequence = analytic::space::Sequence;
+
+/// From the first impact to the last, with a fifth of that after it.
+double shown_time(const SpaceSequence& sequence, const analytic::space::Body& body) {
+  const double last = sequence.tail ? sequence.tail->end_time : sequence.rows.back().start;
+  const analytic::space::Impact& impact = sequence.rows.back().impact;
+  const double reach = body.reach();
+  const double speed = std::max(impact.velocity_after.norm(), reach * impact.angular_velocity_after.norm());
+  return last > 0 ? 1.2 * last : 5 * reach / speed;
+}
+
+/// Height of the hull's lowest point [m].
+double lowest_point(const analytic::space::Body& body, const analytic::space::State& state) {
+  double lowest = std::numeric_limits<double>::infinity();
+  const auto height = [&](const analytic::space::Vector3& place) { return (state.attitude * place).z(); };
+  for (const auto& vertex : body.vertices) lowest = std::min(lowest, height(vertex));
+  for (const auto& rim : body.rims)
+    lowest =
+        std::min(lowest, height(rim.centre) - rim.radius * std::sqrt(std::max(0.0, 1 - std::pow(height(rim.axis), 2))));
+  return state.position.z() + lowest;
+}
+
+/// Rows of time, height of the centre of mass, height of the lowest point.
+std::vector<std::vector<double>> space_heights(const analytic::space::Drop& drop, const SpaceSequence& sequence) {
+  const analytic::space::PrincipalAxes principal(drop.body.inertia);
+  const double end = shown_time(sequence, drop.body), depth = 1e-9 * drop.body.reach();  // of what is still rounding
+  std::vector<std::vector<double>> samples;
+  for (std::size_t i = 0; i < sequence.rows.size(); ++i) {
+    const analytic::space::ImpactRow& row = sequence.rows[i];
+    const bool is_last = i + 1 == sequence.rows.size();
+    const double duration = (is_last ? end : sequence.rows[i + 1].start) - row.start;
+    analytic::space::State after = row.before;
+    after.velocity = row.impact.velocity_after;
+    after.angular_velocity = row.impact.angular_velocity_after;
+    const analytic::space::FreeFlight flight(principal, after, drop.gravity);
+    const double turns = after.angular_velocity.norm() * duration / 6;
+    const int count = static_cast<int>(std::clamp(1000 * duration / end, 6.0, 60.0) + std::min(24 * turns, 3000.0));
+    for (int k = 0; k <= count; ++k) {
+      const analytic::space::State state = flight.at(duration * k / count);
+      const double low = lowest_point(drop.body, state);
+      if (is_last && k > 0 && low < -depth) return samples;
+      samples.push_back({row.start + duration * k / count, state.position.z(), std::max(low, 0.0)});
+    }
+  }
+  return samples;
+}
+
+PicturePanel space_height_panel(const analytic::space::Drop& drop, const SpaceSequence& sequence,
+                                const TimeWindow& window) {
+  return {.columns = {{"time", "s", "time since the first impact"},
+                      {"centre", "m", "height of the centre of mass"},
+                      {"lowest", "m", "height of the lowest point"}},
+          .rows = clipped(space_heights(drop, sequence), window),
+          .plot = {.title = "",
+                   .x_label = "",
+                   .y_label = "height [m]",
+                   .curves = {{.x = "time", .y = "centre", .legend = "centre of mass"},
+                              {.x = "time", .y = "lowest", .legend = "lowest point"}},
+                   .x = {},
+                   .y = {0, no_number}}};
+}
+
+/// Who strikes in each impact, and where there are more than a legend takes, that somebody does.
+std::vector<std::string> striking_corners(const Scene& scene, const SpaceSequence& sequence) {
+  constexpr std::size_t most = 8;
+  std::vector<std::string> names;
+  for (const SpaceRow& row : space_rows(scene, sequence, body_properties(scene, Model::discrete).centre))
+    names.push_back(row.row.corners.size() > 1 ? "several corners" : "corner " + row.corners);
+  if (std::set<std::string>(names.begin(), names.end()).size() > most) names.assign(names.size(), "a corner");
+  return names;
+}
+
+PicturePanel space_impulse_panel(const Scene& scene, const SpaceSequence& sequence) {
+  PicturePanel panel{.columns = {{"time", "s", "time since the first impact"}},
+                     .rows = {},
+                     .plot = {.title = "",
+                              .x_label = "time since the first impact [s]",
+                              .y_label = "normal impulse [N·s]",
+                              .curves = {},
+                              .x = {},
+                              .y = {0, no_number}}};
+  const std::vector<std::string> names = striking_corners(scene, sequence);
+  std::vector<std::string> legends(names);
+  std::sort(legends.begin(), legends.end());
+  legends.erase(std::unique(legends.begin(), legends.end()), legends.end());
+  if (sequence.tail) legends.emplace_back("all further impacts");
+  for (const std::string& legend : legends) {
+    panel.columns.push_back({fmt::format("impulse_{}", panel.columns.size()), "N·s", "normal impulse: " + legend});
+    panel.plot.curves.push_back(
+        {.x = "time", .y = panel.columns.back().name, .legend = legend, .style = Style::sticks});
+  }
+  const auto add = [&](double time, const std::string& legend, double normal) {
+    auto& numbers = panel.rows.emplace_back(panel.columns.size(), no_number);
+    numbers[0] = time;
+    numbers[1 + static_cast<std::size_t>(std::find(legends.begin(), legends.end(), legend) - legends.begin())] = normal;
+  };
+  for (std::size_t i = 0; i < names.size(); ++i)
+    add(sequence.rows[i].start, names[i], sequence.rows[i].impact.impulse.z());
+  if (sequence.tail) add(sequence.tail->end_time, legends.back(), sequence.tail->normal_impulse);
+  return panel;
+}
+
 /// Body, drop and impact, without what is zero.
 std::vector<std::string> words_of(const Scene& scene) {
   std::string drop = fmt::format("{}° at {} m/s", shortest(scene.angle_deg), shortest(scene.speed));
@@ -205,27 +312,40 @@ std::vector<std::string> words_of(const Scene& scene) {
   return {scene.summary(Model::discrete).front(), drop, law_words(scene, {})};
 }
 
-}  // namespace
+/// No impulse may fall into the window; its axis has a range all the same.
+void show_window(Picture& picture, const TimeWindow& window) {
+  for (PicturePanel& panel : picture.panels) panel.plot.x = {window.from, window.to};
+  double largest = 0;
+  for (const auto& row : picture.panels[1].rows)
+    for (std::size_t i = 1; i < row.size(); ++i) largest = std::fmax(largest, row[i]);
+  picture.panels[1].plot.y = {0, 1.05 * largest};
+}
 
-Picture sequence_picture(const Scene& scene, const Sequence& sequence, const TimeWindow& window) {
-  Picture picture{.what = "Impact sequence, discrete model",
-                  .scene = words_of(scene),
-                  .panels = {height_panel(scene, sequence, window), impulse_panel(scene, sequence)}};
-  if (!window.is_all()) {
-    for (PicturePanel& panel : picture.panels) panel.plot.x = {window.from, window.to};
-    // No impulse may fall into the window; its axis has a range all the same.
-    double largest = 0;
-    for (const ImpactRow& row : sequence.rows) largest = std::max(largest, row.impact.normal_impulse);
-    picture.panels[1].plot.y = {0, 1.05 * largest};
-    return picture;
-  }
+/// The last impact, or the end of infinitely many, is not on the frame.
+void show_all(Picture& picture, double end) {
   const auto& samples = picture.panels[0].rows;
   const auto [first, last] = std::minmax_element(samples.begin(), samples.end(),
                                                  [](const auto& one, const auto& other) { return one[0] < other[0]; });
-  // The last impact, or the end of infinitely many, is not on the frame.
-  const double end = sequence.tail ? sequence.tail->end_time : sequence.rows.back().start;
   const double room = 0.02 * ((*last)[0] - (*first)[0]);
   for (PicturePanel& panel : picture.panels) panel.plot.x = {(*first)[0], std::max((*last)[0], end + room)};
+}
+
+}  // namespace
+
+Picture sequence_picture(const Scene& scene, const DiscreteRun& run, const TimeWindow& window) {
+  Picture picture{.what = "Impact sequence, discrete model", .scene = words_of(scene), .panels = {}};
+  double last = 0;
+  if (const Sequence* const sequence = run.planar()) {
+    picture.panels = {height_panel(scene, *sequence, window), impulse_panel(scene, *sequence)};
+    last = sequence->tail ? sequence->tail->end_time : sequence->rows.back().start;
+  } else {
+    const auto& in_space = std::get<SpaceSequence>(run.sequence);
+    picture.panels = {space_height_panel(std::get<analytic::space::Drop>(run.drop), in_space, window),
+                      space_impulse_panel(scene, in_space)};
+    last = in_space.tail ? in_space.tail->end_time : in_space.rows.back().start;
+  }
+  if (window.is_all()) show_all(picture, last);
+  else show_window(picture, window);
   return picture;
 }
 

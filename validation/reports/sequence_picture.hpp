@@ -2,16 +2,16 @@
 // An impact sequence as a picture.
 #pragma once
 
-#include "analytic/sequence.hpp"
 #include "validation/figures/picture.hpp"
+#include "validation/plan/sequence_method.hpp"
 #include "validation/record/time_window.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation::inline reports {
 
-/// Heights of both ends over time, each flight in closed form, and the normal impulse of each impact at its time, as
-/// far as the window goes.
-[[nodiscard]] Picture sequence_picture(const Scene& scene, const analytic::Sequence& sequence,
-                                       const TimeWindow& window);
+/// Heights over time, each flight in closed form, and the normal impulse of each impact at its time, as far as the
+/// window goes: in the plane the heights of both ends and the impulses at each, in space those of the centre of mass
+/// and the lowest point, and the impulses at each corner.
+[[nodiscard]] Picture sequence_picture(const Scene& scene, const DiscreteRun& run, const TimeWindow& window);
 
 }  // namespace clatter::validation::inline reports

@@ -96,7 +96,6 @@ Report sequence_report(const Scene& scene, const analytic::Drop& drop, const Seq
     report.grid.rows.push_back(tail_row(*sequence.tail, digits));
     report.grid.rows.back()[0].shown = "…";
   }
-  fit_columns(report, scene.accuracy.digits, {5, 2});
   return report;
 }
 

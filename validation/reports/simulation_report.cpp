@@ -232,7 +232,6 @@ Report simulation_report(const Scene& scene, const PlannedRun& planned) {
   report.fields["impacts"] = row_objects(report.grid);
   add_results(scene, planned, report.fields);
   shorten_durations(scene, report.grid);
-  fit_columns(report, scene.accuracy.digits, {2});
   return report;
 }
 
@@ -253,7 +252,6 @@ Report sweep_report(const Scene& scene, const std::vector<SweptRun>& runs) {
   if (!runs.empty()) report.notes.push_back(method_words(runs.back().planned.run) + " (the last row's)");
   add_interruption(*scene.sweep, runs.size(), report);
   shorten_durations(scene, *report.digest);
-  fit_columns(report, scene.accuracy.digits, {2});
   return report;
 }
 

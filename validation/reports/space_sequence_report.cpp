@@ -99,7 +99,6 @@ Report sequence_report(const Scene& scene, const analytic::space::Drop& drop, co
   for (const SpaceRow& row : space_rows(scene, sequence, centre)) add_impact_row(report, row, digits);
   report.fields["impacts"] = row_objects(report.grid);
   add_results(scene, sequence, tail_fields(sequence.tail), sequence.evaluations, report.fields);
-  fit_columns(report, scene.accuracy.digits, {3, 2});
   return report;
 }
 

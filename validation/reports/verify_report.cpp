@@ -6,8 +6,8 @@
 #include <set>
 #include <utility>
 
-#include "validation/figures/drawing.hpp"
 #include "validation/figures/figure.hpp"
+#include "validation/figures/picture.hpp"
 #include "validation/output/html.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/number.hpp"
@@ -15,6 +15,7 @@
 #include "validation/scene/failure.hpp"
 
 namespace clatter::validation::inline reports {
+
 namespace {
 
 const char* const verify_summary = "every claim, its oracle, tolerance and measured error";

@@ -3,16 +3,26 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation::inline scene {
 
+bool Range::holds(double value) const {
+  return std::isfinite(value) && value >= low && value <= high && !(low_open && value == low);
+}
+
+std::string Range::allowed() const {
+  const bool has_end = high < largest_number || low == -largest_number;
+  return has_end ? words : fmt::format("{}, finite", words);
+}
+
 double read_number_option(const std::string& option, const std::string& text, const Range& range) {
   double value = 0;
-  const bool inside =
-      read_number(text, value) && value >= range.low && value <= range.high && !(range.low_open && value == range.low);
-  if (!inside) throw BadInput(fmt::format("{} '{}': must be {}", option, text, range.words));
+  if (!read_number(text, value) || !range.holds(value))
+    throw BadInput(fmt::format("{} '{}': must be {}", option, text, range.allowed()));
   return value;
 }
 

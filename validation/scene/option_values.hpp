@@ -13,6 +13,10 @@ struct Range {
   double low, high;
   bool low_open = false;  ///< low itself is not allowed
   const char* words;      ///< what is allowed, in words
+
+  [[nodiscard]] bool holds(double value) const;
+  /// The words as an error has them: where only a double's range is the end, that the number must be finite.
+  [[nodiscard]] std::string allowed() const;
 };
 
 inline constexpr double largest_number = std::numeric_limits<double>::max();

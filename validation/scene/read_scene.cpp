@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 
 #include "validation/embedded/embedded.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/body_properties.hpp"
+#include "validation/output/sink.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/scene/orientation.hpp"
 #include "validation/scene/scene.hpp"
@@ -41,6 +44,7 @@ void check_mesh(const SceneValues& values, BodyScene& body) {
   const std::filesystem::path file = body.file;
   body.mesh_file = unread_mesh();
   body.file = (file.is_absolute() ? file : std::filesystem::path(values.path()).parent_path() / file).string();
+  note_read(body.file);
   if (body.is_stl() && !body.density) {
     values.require("body.mass", "or body.mesh.density: an STL surface has neither");
   }
@@ -232,6 +236,15 @@ SceneValues scene_values(const std::string& source) {
     return {case_path(source), case_text(source), scene_keys()};
   }
   throw BadInput(fmt::format("{}: neither a file nor a case; did you mean {}?", source, nearest_name(source, names)));
+}
+
+std::string name_of_source(const std::string& path) {
+  const std::string name = std::filesystem::path(path).stem().string();
+  const std::vector<std::string> names = case_names();
+  if (path != case_path(name) || std::find(names.begin(), names.end(), name) == names.end()) return path;
+  std::ifstream file(path);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  return !file.is_open() || text == case_text(name) ? name : path;
 }
 
 Scene read_scene(const SceneValues& values, const std::vector<SceneOverride>& overrides, Model model) {

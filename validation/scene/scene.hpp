@@ -147,6 +147,8 @@ struct Scene {
 [[nodiscard]] std::vector<std::string> case_names();
 /// The text of a case.  @throws BadInput if there is none of this name, with the nearest.
 [[nodiscard]] std::string_view case_text(const std::string& name);
+/// What to type for the scene whose path this is, in any folder: the name of a case, or the path of any other file.
+[[nodiscard]] std::string name_of_source(const std::string& path);
 /// The scene of a case.  @throws as case_text
 [[nodiscard]] Scene case_scene(const std::string& name, const std::vector<SceneOverride>& overrides = {});
 

@@ -47,7 +47,7 @@ SceneSweep read_grid(const SceneValues& values, const std::string& table, const 
   }
   values.require(table + ".step", forms);
   if (values.has(table + ".scale")) values.refuse(table + ".scale", "left out with step; give count");
-  sweep.step = values.number(table + ".step", 1, {0, 1e300, true, "greater than 0"});
+  sweep.step = values.number(table + ".step", 1, positive_number);
   if (!((sweep.to - sweep.from) / sweep.step <= most_values)) {
     values.refuse(table + ".step", fmt::format("at most {} values", most_values));
   }

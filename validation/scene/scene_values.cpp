@@ -11,6 +11,7 @@
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
+#include "validation/output/sink.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/scene/option_values.hpp"
 
@@ -30,10 +31,6 @@ std::string as_given(const Node& node) {
   return line;
 }
 
-bool inside(double value, const Range& range) {
-  return std::isfinite(value) && value >= range.low && value <= range.high && !(range.low_open && value == range.low);
-}
-
 toml::table parse(const std::string& path, std::string_view text) {
   try {
     return toml::parse(text, path);
@@ -46,6 +43,7 @@ toml::table parse(const std::string& path) {
   if (std::error_code error; !std::filesystem::is_regular_file(path, error) && !std::filesystem::is_fifo(path, error)) {
     throw BadInput(fmt::format("{}: {}", path, std::filesystem::exists(path, error) ? "not a file" : "cannot be read"));
   }
+  note_read(path);
   try {
     return toml::parse_file(path);
   } catch (const toml::parse_error& error) {
@@ -181,7 +179,7 @@ double SceneValues::number(const std::string& key, double fallback, const Range&
   double value = std::nan("");
   if (const auto* real = std::get_if<double>(&entry.value)) value = *real;
   if (const auto* whole = std::get_if<long long>(&entry.value)) value = static_cast<double>(*whole);
-  if (!inside(value, range)) refuse(key, fmt::format("a number, {}", range.words));
+  if (!range.holds(value)) refuse(key, fmt::format("a number, {}", range.allowed()));
   return value;
 }
 
@@ -227,9 +225,9 @@ std::size_t SceneValues::name(const std::string& key, std::size_t fallback,
 
 std::vector<double> SceneValues::number_list(const std::string& key, const Range& range) const {
   const auto* const list = std::get_if<std::vector<double>>(&at(key).value);
-  const auto fits = [&](double value) { return inside(value, range); };
+  const auto fits = [&](double value) { return range.holds(value); };
   if (!list || list->empty() || !std::all_of(list->begin(), list->end(), fits)) {
-    refuse(key, fmt::format("a list of numbers, each {}", range.words));
+    refuse(key, fmt::format("a list of numbers, each {}", range.allowed()));
   }
   return *list;
 }
@@ -250,7 +248,7 @@ std::vector<double> SceneValues::numbers(const std::string& key, const std::vect
     }
   }
   const bool right = std::find(sizes.begin(), sizes.end(), numbers.size()) != sizes.end() &&
-                     std::all_of(numbers.begin(), numbers.end(), [&](double value) { return inside(value, range); });
+                     std::all_of(numbers.begin(), numbers.end(), [&](double value) { return range.holds(value); });
   if (!right) refuse(key, words);
   return numbers;
 }

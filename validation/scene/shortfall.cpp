@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "validation/output/message.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/record/names.hpp"
 #include "validation/scene/failure.hpp"
 

@@ -34,8 +34,7 @@ Sweep read_sweep(const SweepTexts& texts, const SweepDefault& fallback, const Ra
     if (sweep.count == 1) sweep.to = sweep.from;
     return sweep;
   }
-  sweep.step =
-      texts.step ? read_number_option("--step", *texts.step, {0, 1e300, true, "greater than 0"}) : fallback.step;
+  sweep.step = texts.step ? read_number_option("--step", *texts.step, positive_number) : fallback.step;
   const double steps = (sweep.to - sweep.from) / sweep.step;
   if (!(steps < 1e8)) throw BadInput(fmt::format("--step {}: more than 100000000 values", sweep.step));
   sweep.count = count_of_steps(steps);

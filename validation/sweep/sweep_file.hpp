@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "validation/output/digest.hpp"
-#include "validation/output/run_files.hpp"
+#include "validation/output/sink.hpp"
 
 namespace clatter::validation::inline sweep {
 
@@ -33,7 +33,7 @@ class SweepFile {
   SweepFile(const SweepFile&) = delete;
   SweepFile& operator=(const SweepFile&) = delete;
 
-  /// The files beside FILE, for refuse_shared_files.
+  /// The files beside FILE, for note_written.
   [[nodiscard]] static std::vector<RunFile> files_beside(const std::string& path);
 
   /// Scenes that the part held already: the next row is that of scene number scenes().

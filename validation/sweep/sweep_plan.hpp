@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "validation/output/report.hpp"
-#include "validation/output/run_files.hpp"
+#include "validation/output/sink.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/scene/scene.hpp"
 #include "validation/sweep/points.hpp"

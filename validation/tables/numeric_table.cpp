@@ -15,62 +15,11 @@
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
+#include "validation/output/sink.hpp"
+#include "validation/tables/csv_line.hpp"
 
 namespace clatter::validation::inline tables {
 namespace {
-
-/// The separator of a header: the first of , ; tab in it, or a comma.
-char separator_of(std::string_view header) {
-  const std::size_t at = header.find_first_of(",;\t");
-  return at == std::string_view::npos ? ',' : header[at];
-}
-
-/// A field of a line: where it is and what it says, without quotes.
-struct CsvField {
-  std::size_t column = 1;  ///< of its first byte, from 1
-  std::string_view text;   ///< valid until the next field is read
-  bool closed = true;      ///< a quoted field has its second quote, and nothing after it
-};
-
-/// Cuts a line into fields.
-class CsvLine {
- public:
-  CsvLine(std::string_view line, char separator) : line_(line), separator_(separator) {}
-
-  /// Reads the next field; false after the last one.
-  bool next(CsvField& field) {
-    if (at_ > line_.size()) return false;
-    const std::size_t start = std::min(line_.find_first_not_of(' ', at_), line_.size());
-    if (start < line_.size() && line_[start] == '"') {
-      read_quoted(start, field);
-      return true;
-    }
-    const std::size_t end = std::min(line_.find(separator_, at_), line_.size());
-    field = {at_ + 1, trimmed(line_.substr(at_, end - at_)), true};
-    at_ = end + 1;
-    return true;
-  }
-
- private:
-  void read_quoted(std::size_t start, CsvField& field) {
-    unquoted_.clear();
-    std::size_t i = start + 1;
-    for (; i < line_.size(); ++i) {
-      if (line_[i] == '"' && !(i + 1 < line_.size() && line_[i + 1] == '"')) break;
-      if (line_[i] == '"') ++i;
-      unquoted_ += line_[i];
-    }
-    const std::size_t end = std::min(line_.find(separator_, i), line_.size());
-    const bool closed = i < line_.size() && trimmed(line_.substr(i + 1, end - i - 1)).empty();
-    field = {start + 1, trimmed(unquoted_), closed};
-    at_ = end + 1;
-  }
-
-  std::string_view line_;
-  char separator_;
-  std::size_t at_ = 0;
-  std::string unquoted_;  ///< a quoted field, put together
-};
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
@@ -135,8 +84,8 @@ class NumericTable::Parser {
     known.insert(known.end(), request_.words.begin(), request_.words.end());
     for (const auto& [name, column] : request_.names) {
       if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-      throw BadInput(fmt::format("{}: unknown column {}; did you mean {}?", request_.names_option, shown_field(name),
-                                 nearest_name(name, known)));
+      throw BadInput(
+          fmt::format("--columns: unknown column {}; did you mean {}?", shown_field(name), nearest_name(name, known)));
     }
   }
 
@@ -198,8 +147,8 @@ class NumericTable::Parser {
     const auto place = std::find(header.begin(), header.end(), wanted);
     if (place != header.end()) return static_cast<std::size_t>(place - header.begin());
     if (!needed) return std::nullopt;
-    fail(1, fmt::format("no column {}; there are {} ({} NAME=COLUMN maps names)", shown_field(wanted),
-                        shown_field(fmt::format("{}", fmt::join(header, " "))), request_.names_option));
+    fail(1, fmt::format("no column {}; there are {} ({})", shown_field(wanted),
+                        shown_field(fmt::format("{}", fmt::join(header, " "))), request_.renaming));
   }
 
   void take_row(std::string_view line, std::size_t offset) {
@@ -239,6 +188,7 @@ std::string NumericTable::text_of(const std::string& path) {
   if (std::filesystem::is_directory(path, error)) throw BadInput(path + ": is a directory, must be a CSV file");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw BadInput(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+  note_read(path);
   std::string text;
   std::vector<char> part(std::size_t{1} << 20);
   while (file.read(part.data(), static_cast<std::streamsize>(part.size())) || file.gcount() > 0) {
@@ -313,22 +263,6 @@ void NumericTable::refuse(std::size_t row, std::string_view column, const std::s
   const auto [place, field] = locate(row, column);
   throw BadInput(
       fmt::format("{}:{}:{}: {} = {}: must be {}", path_, line(row), place, column, shown_field(field), allowed));
-}
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-std::string shown_field(std::string_view field) {
-  constexpr std::size_t longest = 40;
-  std::string text(field.substr(0, longest));
-  for (char& c : text) {
-    if (c < ' ' || c > '~') c = '?';
-  }
-  return text.empty() ? "(empty)" : text + (field.size() > longest ? "..." : "");
 }
 
 }  // namespace clatter::validation::inline tables

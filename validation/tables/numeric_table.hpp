@@ -15,6 +15,8 @@
 #include <string_view>
 #include <vector>
 
+#include "validation/tables/csv_line.hpp"
+
 namespace clatter::validation::inline tables {
 
 /// Name that the reader knows → name in the file's header.
@@ -25,11 +27,11 @@ using ColumnNames = std::map<std::string, std::string>;
 
 /// What is wanted of a file.  Other columns are counted, not read.
 struct TableRequest {
-  std::vector<std::string> required;  ///< columns of numbers
-  std::vector<std::string> optional;  ///< likewise, read where the file has them
-  std::vector<std::string> words;     ///< columns of texts that are not empty, required
-  ColumnNames names;                  ///< of columns that are named otherwise in the file
-  std::string names_option = "--columns";
+  std::vector<std::string> required;                          ///< columns of numbers
+  std::vector<std::string> optional;                          ///< likewise, read where the file has them
+  std::vector<std::string> words;                             ///< columns of texts that are not empty, required
+  ColumnNames names;                                          ///< of columns that are named otherwise in the file
+  std::string renaming = "--columns NAME=COLUMN maps names";  ///< how to say what a column is called, for errors
 };
 
 /// A file's rows.  Errors are one line, "FILE:LINE:COLUMN: ...", COLUMN counted in bytes from 1.
@@ -97,11 +99,5 @@ class NumericTable {
   std::vector<std::string> texts_;
   std::vector<Start> starts_;
 };
-
-/// Without blanks at either end.
-[[nodiscard]] std::string_view trimmed(std::string_view text);
-
-/// A field as an error shows it: on one line, printable, short.
-[[nodiscard]] std::string shown_field(std::string_view field);
 
 }  // namespace clatter::validation::inline tables

@@ -7,7 +7,7 @@
 
 #include "validation/compare/random_scenes.hpp"
 #include "validation/compare/random_space_scenes.hpp"
-#include "validation/measured/kept_tracks.hpp"
+#include "validation/measured/score.hpp"
 #include "validation/output/number.hpp"
 #include "validation/verify/check.hpp"
 

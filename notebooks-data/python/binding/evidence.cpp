@@ -11,7 +11,7 @@
 #include "report.hpp"
 #include "runs.hpp"
 #include "scene_source.hpp"
-#include "validation/cli/measured_run.hpp"
+#include "validation/cli/measured_command.hpp"
 #include "validation/figures/figure.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/reports/benchmark_report.hpp"

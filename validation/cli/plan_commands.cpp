@@ -1,20 +1,57 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// `clatter plan` and `clatter tradeoff`: what accuracy costs.
 #include <fmt/format.h>
 
 #include <memory>
 
-#include "validation/cli/commands.hpp"
+#include "validation/cli/command.hpp"
 #include "validation/cli/options.hpp"
-#include "validation/cli/plot_options.hpp"
 #include "validation/cli/progress.hpp"
-#include "validation/cli/scene_flags.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
-#include "validation/output/message.hpp"
+#include "validation/reports/plan_report.hpp"
 #include "validation/reports/tradeoff_report.hpp"
 #include "validation/scene/failure.hpp"
 
 namespace clatter::validation::inline cli {
+
+namespace {
+
+struct PlanInput {
+  SceneFlags scene;
+  std::optional<std::string> within;
+  OutputTexts output;
+};
+
+int run_plan(const PlanInput& input) {
+  const Scene scene = read_scene_flags(input.scene);
+  const OutputChoice choice = read_output(input.output);
+  const auto is_typed = [&](const std::string& name) { return is_given(input.scene, "--" + name); };
+  const PlanTarget target = plan_target(scene, {input.within, is_typed});
+  check_files(choice);
+  const Plan plan = make_plan(scene, target);
+  write_report(choice, plan_report(scene, plan));
+  const std::string shortfall = plan_shortfall(plan);
+  if (shortfall.empty()) return 0;
+  say(shortfall);
+  return exit_status(FailureKind::not_computed);
+}
+
+}  // namespace
+
+Command plan_command() {
+  auto input = std::make_shared<PlanInput>();
+  Command command{.name = "plan", .help = "the smallest model that serves, and its cost"};
+  add_scene_flags(command, input->scene);
+  command.add_text("--within", input->within, "MS", "that the run may take; alone: as accurate as fits");
+  add_output_options(command, input->output);
+  command.footer =
+      "Example: clatter plan phone-damped --digits 4\n"
+      "Exit status 3 if no model gives the digits; the best is shown all the same.";
+  command.run = [input] { return run_plan(*input); };
+  return command;
+}
+
 namespace {
 
 struct TradeoffInput {
@@ -26,7 +63,7 @@ struct TradeoffInput {
 int run_tradeoff(const TradeoffInput& input) {
   const Scene scene = read_scene_flags(input.scene);
   const OutputChoice choice = read_output(input.output);
-  check_files(choice, plot_files(input.plot), files_of(scene));
+  check_files(choice, plot_files(input.plot));
   if (scene.sweep)
     throw BadInput(fmt::format("{}: a sweep has no tradeoff; give --angle or leave out [sweep]", scene.path));
   PlotFile plot(input.plot);

@@ -1,0 +1,470 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the program says of itself: `clatter keys` and `clatter init`, the language of scenes and a scene file to begin
+// with; `clatter columns`, every column of CSV and JSON; shell completion and the man page.
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <memory>
+#include <sstream>
+
+#include "validation/cli/command.hpp"
+#include "validation/cli/options.hpp"
+#include "validation/cli/parser.hpp"
+#include "validation/output/bad_input.hpp"
+#include "validation/output/number.hpp"
+#include "validation/output/sink.hpp"
+#include "validation/output/symbols.hpp"
+#include "validation/output/version.hpp"
+#include "validation/record/history_file.hpp"
+#include "validation/record/impact_rows.hpp"
+#include "validation/reports/angles_report.hpp"
+#include "validation/reports/benchmark_report.hpp"
+#include "validation/reports/comparison_report.hpp"
+#include "validation/reports/explanation_report.hpp"
+#include "validation/reports/extremes_report.hpp"
+#include "validation/reports/measured_report.hpp"
+#include "validation/reports/plan_report.hpp"
+#include "validation/reports/regimes_report.hpp"
+#include "validation/reports/sequence_report.hpp"
+#include "validation/reports/simulation_report.hpp"
+#include "validation/reports/tradeoff_report.hpp"
+#include "validation/reports/verify_report.hpp"
+#include "validation/scene/keys.hpp"
+#include "validation/scene/orientation.hpp"
+#include "validation/scene/option_values.hpp"
+#include "validation/sweep/rows.hpp"
+
+namespace clatter::validation::inline cli {
+
+namespace {
+
+/// A scene of the shape, with what each needs to be run.
+Scene begun_scene(BodyScene::Shape shape) {
+  Scene scene;
+  scene.angle_deg = 10;
+  scene.world.gravity = 9.81;
+  scene.world.ground.stiffness = 1e9;
+  scene.body.shape = shape;
+  return scene;
+}
+
+std::string value_words(const Json& value) {
+  return value.is_number_float() ? shortest(value.get<double>()) : value.dump();
+}
+
+/// "required", or the value that a scene file has without the key; empty: none.
+std::string default_words(const Key& key) {
+  if (key.is_required) return "required";
+  if (std::holds_alternative<ListValue>(key.value)) return "";
+  for (const auto shape : {BodyScene::Shape::rod, BodyScene::Shape::box, BodyScene::Shape::mesh}) {
+    const Json value = key.get(begun_scene(shape));
+    if (!value.is_null() && value != Json("")) return value_words(value);
+  }
+  return "";
+}
+
+std::string meaning(const Key& key) {
+  const std::string unit = *key.unit == '\0' ? "" : fmt::format(" [{}]", key.unit);
+  return fmt::format("{}{}; {}", key.help, unit, key.allowed());
+}
+
+/// "face", "edge" or "corner".
+const char* part_name(int orientation) {
+  const std::size_t axes = orientation_name(orientation).size() / 2;
+  return axes == 1 ? "face" : axes == 2 ? "edge" : "corner";
+}
+
+/// Lines of "7 -x-y" from one orientation to another.
+std::string orientation_lines(int first, int last, int in_a_line) {
+  std::string text;
+  for (int n = first; n <= last; ++n) {
+    const bool begins = (n - first) % in_a_line == 0;
+    if (begins) text += fmt::format("\n    {:<6}", n == first ? part_name(n) : "");
+    text += fmt::format("  {:>2} {}", n, orientation_name(n));
+  }
+  return text;
+}
+
+/// What the numbers of drop.orientation mean, as a table.
+std::string orientations_text() {
+  return "\nOrientations: which face, edge or corner of a box points down" + orientation_lines(1, 6, 6) +
+         orientation_lines(7, 18, 6) + orientation_lines(19, 26, 4) + "\n";
+}
+
+void add_orientations(Report& report) {
+  report.fields["orientations"] = Value::List{};
+  std::string words = "drop.orientation, what points down:";
+  for (int n = 1; n <= orientation_count; ++n) {
+    report.fields["orientations"].push_back(
+        Value::Fields{{"orientation", n}, {"part", part_name(n)}, {"down", orientation_name(n)}});
+    words += fmt::format("{} {} {}", n == 1 ? "" : ",", n, orientation_name(n));
+  }
+  report.notes.push_back(words);
+}
+
+Report keys_report() {
+  Report report = begun_report("keys", "the language of scenes");
+  for (const auto& [name, meaning] : {std::pair{"key", "in scene files"},
+                                      {"flag", "that overrides it"},
+                                      {"default", "without the key"},
+                                      {"unit", "of the value"},
+                                      {"allowed", "values"},
+                                      {"meaning", "of the value"}}) {
+    report.grid.columns.push_back(word_column(name, name, meaning));
+  }
+  for (const Key& key : all_keys()) {
+    report.grid.rows.push_back({Cell(key.name), Cell(text_or_nothing(key.flag)), Cell(default_words(key)),
+                                Cell(key.unit), Cell(key.allowed()), Cell(key.help)});
+  }
+  report.fields["keys"] = row_objects(report.grid);
+  add_orientations(report);
+  return report;
+}
+
+/// Two lines a key, since a table of all columns is wider than a terminal.
+std::string keys_text(bool ascii) {
+  std::string text = headline("keys", "the language of scenes: keys of files, flags of commands") + "\n";
+  for (const Key& key : all_keys()) {
+    const std::string given = default_words(key);
+    text += fmt::format("\n{}{}{}\n", key.name, *key.flag ? fmt::format("  {}", key.flag) : "",
+                        given.empty()         ? ""
+                        : given == "required" ? "  (required)"
+                                              : fmt::format("  ({})", given));
+    text += wrapped("    " + meaning(key), 79, "    ") + "\n";
+  }
+  text += orientations_text();
+  return ascii ? to_ascii(text) : text;
+}
+
+/// A value to begin with, for a key that has none by itself.
+std::string example(const Key& key) {
+  if (const auto* list = std::get_if<ListValue>(&key.value)) return list->example;
+  if (std::holds_alternative<TextValue>(key.value)) return "\"name\"";
+  return std::holds_alternative<NumberValue>(key.value) ? "1e-6" : "1";
+}
+
+/// A scene file with every key: those of the rod are given, the others are comments.
+std::string scene_file() {
+  const Scene scene = begun_scene(BodyScene::Shape::rod);
+  std::string text =
+      "# A scene: clatter simulate FILE, sequence FILE, compare FILE.  clatter keys explains the keys.\n";
+  std::string table;
+  for (const Key& key : all_keys()) {
+    const std::string name = key.name;
+    const std::size_t dot = name.find('.');
+    if (name.substr(0, dot) != table) {
+      table = name.substr(0, dot);
+      text += fmt::format("\n[{}]\n", table);
+    }
+    const Json value = key.get(scene);
+    const std::string setting = fmt::format("{}{} = {}", value.is_null() ? "# " : "", name.substr(dot + 1),
+                                            value.is_null() ? example(key) : value_words(value));
+    text += fmt::format("{:<34} # {}\n", setting, meaning(key));
+  }
+  return text;
+}
+
+/// A scene that somebody wrote is worth more than the one to begin with.
+void require_new(const std::string& path) {
+  if (path.empty()) return;
+  const Destination destination = destination_of({"--output", path});
+  if (!destination.is_stream && destination.mode)
+    throw BadInput(fmt::format("--output {}: is there already; init writes new files alone", path));
+}
+
+int run_keys(const OutputTexts& texts) {
+  const OutputChoice choice = read_output(texts);
+  check_files(choice);
+  if (choice.style.format == Format::table) write_out(choice, keys_text(choice.style.ascii));
+  else write_report(choice, keys_report());
+  return 0;
+}
+
+}  // namespace
+
+Command keys_command() {
+  auto output = std::make_shared<OutputTexts>();
+  Command command{.name = "keys", .help = "every key of scenes, its flag and default"};
+  add_output_options(command, *output);
+  command.footer = "Example: clatter keys --format markdown";
+  command.run = [output] { return run_keys(*output); };
+  return command;
+}
+
+Command init_command() {
+  auto file = std::make_shared<std::optional<std::string>>();
+  Command command{.name = "init", .help = "a commented scene file to begin with"};
+  command.add_text("--output", *file, "FILE", "write there, whole or not at all");
+  command.footer = "Example: clatter init --output scene.toml";
+  command.run = [file] {
+    const OutputChoice choice{.style = {}, .path = file->value_or("")};
+    require_new(choice.path);
+    check_files(choice);
+    write_out(choice, scene_file());
+    return 0;
+  };
+  return command;
+}
+
+// `clatter columns`: every column of CSV and JSON, by command.
+
+namespace {
+
+struct ColumnsInput {
+  std::optional<std::string> command;
+  OutputTexts output;
+};
+
+/// A command and what asks for its columns.
+struct ColumnsOf {
+  const char* command;
+  std::vector<Column> (*columns)();
+};
+
+std::vector<Column> angles_all() {
+  AnglesRequest request;
+  request.as_printed = true;
+  return angles_frame(request).grid.columns;
+}
+/// In the plane, and what comes to them in space.
+std::vector<Column> sequence_all() {
+  std::vector<Column> all = sequence_columns();
+  for (const Column& column : impact_columns<SpaceRow>({})) {
+    const auto is_it = [&](const Column& other) { return other.name == column.name; };
+    if (std::none_of(all.begin(), all.end(), is_it)) all.push_back(column);
+  }
+  return all;
+}
+std::vector<Column> sweep_all() { return sweep_columns({.model = Model::continuous}); }
+
+const std::vector<ColumnsOf>& all_columns() {
+  static const std::vector<ColumnsOf> all{{"sequence", sequence_all},
+                                          {"angles", angles_all},
+                                          {"regimes", regimes_columns},
+                                          {"explain", explain_columns},
+                                          {"simulate", simulation_columns},
+                                          {"history", history_columns},
+                                          {"compare", comparison_columns},
+                                          {"sweep", sweep_all},
+                                          {"verify", verify_columns},
+                                          {"plan", plan_columns},
+                                          {"tradeoff", tradeoff_columns},
+                                          {"extremes", extremes_columns},
+                                          {"benchmark-list", benchmark_list_columns},
+                                          {"benchmark-truth", benchmark_truth_columns},
+                                          {"benchmark-score", score_columns},
+                                          {"measured-fit", measured_fit_columns},
+                                          {"measured-predict", measured_predict_columns},
+                                          {"measured-score", measured_score_columns}};
+  return all;
+}
+
+Report columns_report(const std::string& command) {
+  Report report = begun_report("columns", "the columns of CSV, which are the names in JSON");
+  report.grid.columns = {word_column("command", "command", "that writes the column"),
+                         word_column("column", "column", "its name"), word_column("unit", "unit", "its unit"),
+                         word_column("meaning", "meaning", "what its numbers are")};
+  for (const ColumnsOf& of : all_columns()) {
+    if (!command.empty() && command != of.command) continue;
+    for (const Column& column : of.columns()) {
+      report.grid.rows.push_back({Cell(of.command), Cell(column.name), Cell(column.unit), Cell(column.meaning)});
+    }
+  }
+  report.notes = {
+      "history: of simulate --history.  sweep: one row per scene; with --rows impact the columns of sequence or "
+      "simulate.  Before them come the swept keys, which clatter keys explains.  The files of figures explain theirs.",
+      "corners, place, attitude and touches of a sequence are those of a drop in space; in the plane they are left "
+      "out."};
+  report.fields["columns"] = row_objects(report.grid);
+  return report;
+}
+
+int run_columns(const ColumnsInput& input) {
+  const OutputChoice choice = read_output(input.output);
+  if (input.command) {
+    std::vector<std::string> names;
+    for (const ColumnsOf& of : all_columns()) names.emplace_back(of.command);
+    static_cast<void>(read_name_option("--only", *input.command, names));
+  }
+  check_files(choice);
+  write_report(choice, columns_report(input.command.value_or("")));
+  return 0;
+}
+
+}  // namespace
+
+Command columns_command() {
+  auto input = std::make_shared<ColumnsInput>();
+  Command command{.name = "columns", .help = "every column of CSV and JSON, its unit and meaning"};
+  command.add_text("--only", input->command, "COMMAND", "the columns of this one alone");
+  add_output_options(command, input->output);
+  command.footer = "Example: clatter columns --only sequence --format markdown";
+  command.run = [input] { return run_columns(*input); };
+  return command;
+}
+
+// Shell completion, made from the descriptions of the commands, and the man page, made from their --help.
+
+namespace {
+
+constexpr const char* file_type = "FILE";
+const Argument help_option{
+    .name = "--help", .target = static_cast<bool*>(nullptr), .type = "", .help = "print this help and exit"};
+
+/// The options of a command as shells complete them, --help first.
+std::vector<const Argument*> options_of(const Command& command) {
+  std::vector<const Argument*> options{&help_option};
+  for (const Argument& argument : command.arguments) {
+    if (argument.is_option()) options.push_back(&argument);
+  }
+  return options;
+}
+
+/// Options of any command that take a file, each once.
+std::vector<std::string> file_options() {
+  std::vector<std::string> names;
+  for (const Command& command : all_commands()) {
+    for (const Argument& argument : command.arguments) {
+      const bool known = std::find(names.begin(), names.end(), argument.name) != names.end();
+      if (argument.is_option() && argument.type == file_type && !known) names.push_back(argument.name);
+    }
+  }
+  return names;
+}
+
+std::string command_words() {
+  std::vector<std::string> names;
+  for (const Command& command : all_commands()) names.push_back(command.name);
+  return fmt::format("{}", fmt::join(names, " "));
+}
+
+std::string bash_completion() {
+  std::string out =
+      "# bash completion for clatter\n_clatter() {\n"
+      "  local word=\"${COMP_WORDS[COMP_CWORD]}\" previous=\"${COMP_WORDS[COMP_CWORD-1]}\" list=\"\"\n"
+      "  case \"$previous\" in\n";
+  std::vector<std::string> done;
+  for (const Command& command : all_commands()) {
+    for (const Argument* option : options_of(command)) {
+      const auto list = option->choices();
+      if (list.empty() || std::find(done.begin(), done.end(), option->name) != done.end()) continue;
+      done.push_back(option->name);
+      out += fmt::format("    {}) COMPREPLY=($(compgen -W \"{}\" -- \"$word\")); return ;;\n", option->name,
+                         fmt::join(list, " "));
+    }
+  }
+  out += fmt::format("    {}) COMPREPLY=($(compgen -f -- \"$word\")); return ;;\n  esac\n",
+                     fmt::join(file_options(), "|"));
+  out += fmt::format(
+      "  if ((COMP_CWORD == 1)); then list=\"{} --help --version\"; else\n"
+      "    case \"${{COMP_WORDS[1]}}\" in\n",
+      command_words());
+  for (const Command& command : all_commands()) {
+    const std::string extra = command.name == "completion" ? " bash zsh fish" : "";
+    out += fmt::format("      {}) list=\"{}{}\" ;;\n", command.name, fmt::join(command.option_names(), " "), extra);
+  }
+  return out +
+         "    esac\n  fi\n  COMPREPLY=($(compgen -W \"$list\" -- \"$word\"))\n}\n"
+         "complete -F _clatter clatter\n";
+}
+
+/// Text inside single quotes of a shell, without what zsh's specs give a meaning.
+std::string plain(std::string text) {
+  std::erase_if(text, [](char c) { return c == '\'' || c == '[' || c == ']' || c == ':'; });
+  return text;
+}
+
+std::string zsh_completion() {
+  std::string out = "#compdef clatter\n_clatter() {\n  local -a commands\n  commands=(\n";
+  for (const Command& command : all_commands()) {
+    out += fmt::format("    '{}:{}'\n", command.name, plain(command.help));
+  }
+  out +=
+      "  )\n  if ((CURRENT == 2)); then _describe command commands; return; fi\n"
+      "  case $words[2] in\n";
+  for (const Command& command : all_commands()) {
+    out += fmt::format("    {}) _arguments", command.name);
+    for (const Argument* option : options_of(command)) {
+      const auto list = option->choices();
+      const std::string value = option->is_flag() ? ""
+                                : list.empty()    ? (option->type == file_type ? ":file:_files" : ":value: ")
+                                                  : fmt::format(":value:({})", fmt::join(list, " "));
+      out += fmt::format(" \\\n      '{}[{}]{}'", option->name, plain(option->help), value);
+    }
+    out += " ;;\n";
+  }
+  return out + "  esac\n}\n_clatter \"$@\"\n";
+}
+
+std::string fish_completion() {
+  std::string out = "# fish completion for clatter\n";
+  for (const Command& command : all_commands()) {
+    out += fmt::format("complete -c clatter -f -n __fish_use_subcommand -a {} -d '{}'\n", command.name,
+                       plain(command.help));
+    for (const Argument* option : options_of(command)) {
+      const auto list = option->choices();
+      const std::string value = option->is_flag() ? ""
+                                : list.empty()    ? (option->type == file_type ? " -r -F" : " -x")
+                                                  : fmt::format(" -x -a '{}'", fmt::join(list, " "));
+      out += fmt::format("complete -c clatter -n '__fish_seen_subcommand_from {}' -l {}{} -d '{}'\n", command.name,
+                         option->name.substr(2), value, plain(option->help));
+    }
+  }
+  return out;
+}
+
+/// Text that roff takes as it is, with its breaks of lines.
+std::string roff(const std::string& text) {
+  std::string out = "\\&";
+  for (const char c : text) out += c == '-' ? "\\-" : c == '\\' ? "\\e" : c == '\n' ? "\n.br\n\\&" : std::string(1, c);
+  return out + "\n";
+}
+
+std::string man_page() {
+  std::string page =
+      fmt::format(".TH CLATTER 1 \"\" \"clatter {}\" \"User Commands\"\n.SH NAME\nclatter \\- {}\n.SH DESCRIPTION\n{}",
+                  version, program_summary, roff(program_notes));
+  for (const Command& command : all_commands()) {
+    page += ".SH clatter " + command.name + "\n" + roff(command.help);
+    for (const Argument& argument : command.arguments) {
+      page += ".TP\n" + roff(argument.name + " " + argument.type) + roff(argument.help);
+    }
+    page += ".PP\n" + roff(command.footer);
+  }
+  return page;
+}
+
+int print(const std::string& text) {
+  Sink sink("");
+  sink.write(text);
+  sink.commit();
+  return 0;
+}
+
+}  // namespace
+
+Command completion_command() {
+  auto shell = std::make_shared<std::string>();
+  Command command{.name = "completion", .help = "print the completion script of a shell"};
+  command.add({.name = "SHELL", .target = shell.get(), .type = "", .help = "bash, zsh or fish", .required = true});
+  command.footer = "Example: clatter completion bash > ~/.local/share/bash-completion/completions/clatter";
+  command.run = [shell] {
+    switch (read_name_option("completion", *shell, {"bash", "zsh", "fish"})) {
+      case 0: return print(bash_completion());
+      case 1: return print(zsh_completion());
+      default: return print(fish_completion());
+    }
+  };
+  return command;
+}
+
+Command man_command() {
+  Command command{.name = "man", .help = "print the manual page (roff)"};
+  command.footer = "Example: clatter man | man -l -";
+  command.run = [] { return print(man_page()); };
+  return command;
+}
+
+}  // namespace clatter::validation::inline cli

@@ -1,0 +1,445 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/output/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <sstream>
+#include <utility>
+
+#include "validation/output/json.hpp"
+#include "validation/output/number.hpp"
+#include "validation/output/symbols.hpp"
+#include "validation/output/version.hpp"
+
+namespace clatter::validation::inline output {
+namespace {
+
+constexpr std::size_t table_width = 80;   // of a terminal
+constexpr std::size_t gap = 2;            // before each column
+constexpr std::size_t least_folded = 20;  // narrower texts are not folded
+
+/// A shown column: its texts, and how wide they stand.
+struct TableColumn {
+  std::string heading, unit;
+  bool words = false;
+  std::vector<std::string> cells;
+  std::size_t width = 0;
+
+  [[nodiscard]] std::size_t least_width() const {
+    return std::min(width, std::max({least_folded, display_width(heading), display_width(unit)}));
+  }
+};
+using TableColumns = std::vector<TableColumn>;
+
+TableColumns table_columns(const Grid& grid) {
+  TableColumns columns;
+  for (std::size_t i = 0; i < grid.columns.size(); ++i) {
+    const Column& column = grid.columns[i];
+    if (!column.shown) continue;
+    TableColumn shown{column.heading, column.unit, column.words, {}};
+    shown.width = std::max(display_width(shown.heading), display_width(shown.unit));
+    for (const Row& row : grid.rows) {
+      shown.cells.push_back(i < row.size() ? shown_text(row[i]) : "");
+      shown.width = std::max(shown.width, display_width(shown.cells.back()));
+    }
+    columns.push_back(std::move(shown));
+  }
+  return columns;
+}
+
+std::size_t total_width(const TableColumns& columns) {
+  std::size_t total = 0;
+  for (const TableColumn& column : columns) total += column.width + gap;
+  return total;
+}
+
+/// Takes what is too wide from the columns of words, the widest first.
+void fold_words(TableColumns& columns) {
+  std::vector<TableColumn*> words;
+  for (TableColumn& column : columns) {
+    if (column.words) words.push_back(&column);
+  }
+  std::stable_sort(words.begin(), words.end(),
+                   [](const TableColumn* one, const TableColumn* other) { return one->width > other->width; });
+  for (TableColumn* const column : words) {
+    const std::size_t total = total_width(columns);
+    if (total <= table_width) return;
+    const std::size_t excess = total - table_width;
+    column->width -= std::min(excess, column->width - column->least_width());
+  }
+}
+
+/// As many columns beside each other as `width` holds, at least one after the leading ones.
+std::vector<TableColumns> blocks_within(std::size_t width, const TableColumns& columns, std::size_t leading) {
+  const auto first = columns.begin() + static_cast<std::ptrdiff_t>(std::min(leading, columns.size()));
+  const TableColumns keys(columns.begin(), first);
+  std::vector<TableColumns> blocks;
+  for (auto column = first; column != columns.end();) {
+    TableColumns block = keys;
+    do {
+      block.push_back(*column++);
+    } while (column != columns.end() && total_width(block) + gap + column->width <= width);
+    const std::size_t total = total_width(block);
+    if (total > table_width) {  // one column alone
+      TableColumn& wide = block.back();
+      wide.width -= std::min(total - table_width, wide.width - wide.least_width());
+    }
+    blocks.push_back(std::move(block));
+  }
+  return blocks;
+}
+
+/// The fewest blocks that a terminal holds, the widest of them as narrow as it can be: none is left with a last column.
+std::vector<TableColumns> blocks_of(const TableColumns& columns, std::size_t leading) {
+  std::vector<TableColumns> blocks = blocks_within(table_width, columns, leading);
+  for (std::size_t width = table_width - 1; width > 0; --width) {
+    std::vector<TableColumns> narrower = blocks_within(width, columns, leading);
+    if (narrower.size() > blocks.size()) break;
+    blocks = std::move(narrower);
+  }
+  return blocks;
+}
+
+/// The first `width` columns of a text, and what is left of it.
+std::string cut_off(std::string& text, std::size_t width) {
+  std::size_t end = 0;
+  for (std::size_t seen = 0; end < text.size(); ++end) {
+    if ((text[end] & 0xC0) != 0x80 && seen++ == width) break;
+  }
+  std::string head = text.substr(0, end);
+  text.erase(0, end);
+  return head;
+}
+
+/// A text on lines of at most `width` columns; words that are longer are cut.
+std::vector<std::string> folded(const std::string& text, std::size_t width) {
+  if (display_width(text) <= width) return {text};
+  std::vector<std::string> lines;
+  std::istringstream broken(wrapped(text, width, ""));
+  for (std::string line; std::getline(broken, line);) {
+    while (display_width(line) > width) lines.push_back(cut_off(line, width));
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+std::string padded(const std::string& text, std::size_t width, bool words) {
+  const std::string blanks(width - display_width(text), ' ');
+  return words ? text + blanks : blanks + text;
+}
+
+/// One row of cells, on as many lines as the highest of them needs.
+std::string row_text(const TableColumns& columns, const std::vector<std::string>& cells) {
+  std::vector<std::vector<std::string>> lines;
+  std::size_t height = 1;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    lines.push_back(folded(cells[i], columns[i].width));
+    height = std::max(height, lines.back().size());
+  }
+  std::string out;
+  for (std::size_t k = 0; k < height; ++k) {
+    std::string line;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      line +=
+          std::string(gap, ' ') + padded(k < lines[i].size() ? lines[i][k] : "", columns[i].width, columns[i].words);
+    }
+    out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return out;
+}
+
+std::string block_text(const TableColumns& columns, std::size_t rows) {
+  std::vector<std::string> headings, units;
+  for (const TableColumn& column : columns) {
+    headings.push_back(column.heading);
+    units.push_back(column.unit);
+  }
+  std::string out = row_text(columns, headings) + row_text(columns, units) + std::string(gap, ' ');
+  for (std::size_t i = gap; i < total_width(columns); ++i) out += "─";
+  out += "\n";
+  for (std::size_t row = 0; row < rows; ++row) {
+    std::vector<std::string> cells;
+    for (const TableColumn& column : columns) cells.push_back(column.cells[row]);
+    out += row_text(columns, cells);
+  }
+  return out;
+}
+
+/// Heading, unit, a rule, and a line for each row.  Where that is wider than `table_width`, texts are folded at blanks;
+/// if columns still do not fit beside each other, the rest of them follow in further blocks, each of which begins with
+/// the grid's leading columns again.
+std::string aligned_grid(const Grid& grid) {
+  TableColumns columns = table_columns(grid);
+  fold_words(columns);
+  if (total_width(columns) <= table_width) return block_text(columns, grid.rows.size());
+  std::string out;
+  for (const TableColumns& block : blocks_of(table_columns(grid), grid.leading)) {
+    out += (out.empty() ? "" : "\n") + block_text(block, grid.rows.size());
+  }
+  return out;
+}
+
+using Texts = std::vector<std::vector<std::string>>;
+
+std::vector<std::size_t> shown_columns(const Grid& grid) {
+  std::vector<std::size_t> shown;
+  for (std::size_t i = 0; i < grid.columns.size(); ++i) {
+    if (grid.columns[i].shown) shown.push_back(i);
+  }
+  return shown;
+}
+
+/// Heading, unit and cell texts of the shown columns.
+Texts shown_texts(const Grid& grid, const std::vector<std::size_t>& shown) {
+  Texts texts(2);
+  for (const std::size_t i : shown) {
+    texts[0].push_back(grid.columns[i].heading);
+    texts[1].push_back(grid.columns[i].unit);
+  }
+  for (const Row& row : grid.rows) {
+    auto& line = texts.emplace_back();
+    for (const std::size_t i : shown) line.push_back(i < row.size() ? shown_text(row[i]) : "");
+  }
+  return texts;
+}
+
+std::vector<std::string> head_lines(const Report& report) {
+  std::vector<std::string> lines{report.title};
+  lines.insert(lines.end(), report.head.begin(), report.head.end());
+  return lines;
+}
+
+std::string aligned(const Report& report) {
+  std::string out;
+  for (const auto& line : head_lines(report)) out += wrapped(line) + "\n";
+  out += aligned_grid(report.table());
+  for (const auto& line : report.notes) out += wrapped(line) + "\n";
+  return out;
+}
+
+/// What stands in a table of the report, each text as `written` makes it.
+Report shown_report(const Report& report, const std::function<std::string(const std::string&)>& written) {
+  Report shown;
+  shown.title = written(report.title);
+  shown.head = report.head;
+  shown.notes = report.notes;
+  shown.grid = report.table();
+  for (auto* lines : {&shown.head, &shown.notes}) {
+    for (auto& line : *lines) line = written(line);
+  }
+  for (Column& column : shown.grid.columns) {
+    column.heading = written(column.heading);
+    column.unit = written(column.unit);
+  }
+  for (Row& row : shown.grid.rows) {
+    for (Cell& cell : row) cell.shown = written(shown_text(cell));
+  }
+  return shown;
+}
+
+std::string markdown(const Report& report) {
+  const Grid& grid = report.table();
+  const std::vector<std::size_t> columns = shown_columns(grid);
+  const Texts texts = shown_texts(grid, columns);
+  std::string out;
+  for (const auto& line : head_lines(report)) out += line + "\n";
+  out += "\n|";
+  for (std::size_t i = 0; i < texts[0].size(); ++i) {
+    out += " " + texts[0][i] + (texts[1][i].empty() ? "" : " [" + texts[1][i] + "]") + " |";
+  }
+  out += "\n|";
+  for (const std::size_t column : columns) out += grid.columns[column].words ? ":---|" : "---:|";
+  out += "\n";
+  for (std::size_t row = 2; row < texts.size(); ++row) {
+    out += "|";
+    for (const auto& cell : texts[row]) out += " " + cell + " |";
+    out += "\n";
+  }
+  out += "\n";
+  for (const auto& line : report.notes) out += line + "\n";
+  return out;
+}
+
+std::string latex(const Report& report) {
+  const Grid& grid = report.table();
+  const Texts texts = shown_texts(grid, shown_columns(grid));
+  std::string out;
+  for (const auto& line : head_lines(report)) out += "% " + line + "\n";
+  out += "\\begin{tabular}{";
+  for (const std::size_t column : shown_columns(grid)) out += grid.columns[column].words ? 'l' : 'r';
+  out += "}\n\\hline\n";
+  for (std::size_t row = 0; row < texts.size(); ++row) {
+    for (std::size_t i = 0; i < texts[row].size(); ++i) out += (i ? " & " : "") + to_latex(texts[row][i]);
+    out += row == 1 ? " \\\\\n\\hline\n" : " \\\\\n";
+  }
+  out += "\\hline\n\\end{tabular}\n";
+  for (const auto& line : report.notes) out += "% " + line + "\n";
+  return out;
+}
+
+/// "NAME [UNIT]: MEANING".
+std::string explanation(const Column& column) {
+  return column.name + " [" + (column.unit.empty() ? "1" : column.unit) + "]: " + column.meaning;
+}
+
+/// "units: start, duration [s]; …"; an error has the unit of its number.  Empty without units.
+std::string units_line(const std::vector<Column>& columns) {
+  std::vector<std::string> units;
+  std::vector<std::string> names;
+  for (const Column& column : columns) {
+    if (column.unit.empty() || column.name.ends_with("_error")) continue;
+    std::size_t place = 0;
+    while (place < units.size() && units[place] != column.unit) ++place;
+    if (place == units.size()) {
+      units.push_back(column.unit);
+      names.emplace_back();
+    }
+    names[place] += (names[place].empty() ? "" : ", ") + column.name;
+  }
+  std::string line;
+  for (std::size_t i = 0; i < units.size(); ++i) line += (i == 0 ? "units: " : "; ") + names[i] + " [" + units[i] + "]";
+  return line;
+}
+
+}  // namespace
+
+std::string headline(const std::string& command, const std::string& what) {
+  return fmt::format("clatter {}, {}: {}", version, command, what);
+}
+
+Report begun_report(const std::string& command, const std::string& what) {
+  Report report;
+  report.title = headline(command, what);
+  report.fields = Value::Fields{{"clatter", version}};
+  return report;
+}
+
+std::string shown_text(const Cell& cell) {
+  if (cell.shown) return *cell.shown;
+  if (!cell.value.number()) return cell.value.text();
+  return cell.digits > 0 ? significant(*cell.value.number(), cell.digits) : "?";
+}
+
+std::size_t display_width(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+std::string wrapped(const std::string& text, std::size_t width, const std::string& indent) {
+  const std::size_t lead = text.find_first_not_of(' ');
+  if (lead == std::string::npos || display_width(text) <= width) return text;
+  std::istringstream words(text);
+  std::string out, word, line(lead, ' ');
+  bool first = true;
+  while (words >> word) {
+    if (!first && display_width(line) + 1 + display_width(word) > width) {
+      out += line + "\n";
+      line = std::string(lead, ' ') + indent;
+      first = true;
+    }
+    line += (first ? "" : " ") + word;
+    first = false;
+  }
+  return out + line;
+}
+
+std::string csv_text(const std::string& given) {
+  const std::string text = printable(given, Lines::kept);
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c == '\n' ? ' ' : c;
+  }
+  return out + "\"";
+}
+
+Column word_column(const std::string& name, const std::string& heading, const std::string& meaning) {
+  return {.name = name, .heading = heading, .unit = "", .meaning = meaning, .words = true};
+}
+
+Column error_column(const Column& number) {
+  Column column = number;
+  column.name += "_error";
+  column.key = number.json_key();
+  column.object = "error_estimate";
+  column.meaning = "error of " + number.name;
+  column.shown = false;
+  return column;
+}
+
+std::string csv_head(const Report& report, bool bare) {
+  std::string out;
+  const auto comment = [&](const std::string& line) {
+    if (!bare && !line.empty()) out += "# " + printable(line) + "\n";
+  };
+  comment(report.title);
+  for (const char* name : {"scene", "body", "parameters"}) {
+    const Value* const asked = report.fields.find(name);
+    if (asked && std::holds_alternative<Value::Fields>(asked->content()))
+      comment(std::string(name) + ": " + compact_json(*asked));
+  }
+  for (const auto* lines : {&report.remarks, &report.notes}) {
+    for (const std::string& line : *lines) comment(line);
+  }
+  for (const Column& column : report.grid.columns) {
+    if (report.explains_columns) comment(explanation(column));
+  }
+  if (!report.explains_columns) comment(units_line(report.grid.columns));
+  for (std::size_t i = 0; i < report.grid.columns.size(); ++i) {
+    out += (i ? "," : "") + csv_text(report.grid.columns[i].name);
+  }
+  return out + "\n";
+}
+
+std::string csv_rows(const std::vector<Row>& rows) {
+  std::string out;
+  for (const Row& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const auto* text = std::get_if<std::string>(&row[i].value.content());
+      if (i > 0) out += ',';
+      if (text) out += csv_text(*text);
+      else if (const double* number = row[i].value.number()) append_number(out, *number);
+      else out += row[i].value.text();
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+std::string csv_text(const Report& report, bool bare) { return csv_head(report, bare) + csv_rows(report.grid.rows); }
+
+Value row_object(const std::vector<Column>& columns, const Row& row) {
+  Value object(Value::Fields{});
+  for (std::size_t i = 0; i < columns.size() && i < row.size(); ++i) {
+    const Column& column = columns[i];
+    Value& place = (column.object.empty() ? object : object[column.object])[column.json_key()];
+    if (column.listed) place.push_back(row[i].value);
+    else place = row[i].value;
+  }
+  return object;
+}
+
+Value row_objects(const Grid& grid) {
+  Value::List rows;
+  for (const Row& row : grid.rows) rows.push_back(row_object(grid.columns, row));
+  return rows;
+}
+
+std::string report_text(const Report& report, const TextStyle& style) {
+  if (style.format == Format::json) return json_text(report.fields);
+  if (style.format == Format::csv) return csv_text(report, style.bare);
+  const bool ascii = style.ascii && style.format == Format::table;
+  const Report shown = shown_report(report, [&](const std::string& text) {
+    const std::string clean = printable(text);
+    return ascii ? to_ascii(clean) : clean;
+  });
+  switch (style.format) {
+    case Format::markdown: return markdown(shown);
+    case Format::latex: return latex(shown);
+    default: return ascii ? to_ascii(aligned(shown)) : aligned(shown);
+  }
+}
+
+}  // namespace clatter::validation::inline output
