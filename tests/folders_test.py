@@ -85,6 +85,13 @@ class Components(unittest.TestCase):
             self.assertEqual(circles(component_includes(Path(folder), ["a"])), [["a/one", "a/three", "a/two"]])
 
 
+class Tests(unittest.TestCase):
+    def test_every_test_of_validation_lies_in_the_folder_of_its_subject(self):
+        tests = ROOT / "tests" / "validation"
+        folders = {path.relative_to(tests).parent for path in tests.rglob("*") if path.is_file() and "__pycache__" not in path.parts}
+        self.assertEqual([str(folder) for folder in folders if folder == Path(".") or not (ROOT / "validation" / folder).is_dir()], [])
+
+
 class Folders(unittest.TestCase):
     def test_no_folder_includes_from_a_folder_above_it(self):
         for room, order in ORDERS.items():

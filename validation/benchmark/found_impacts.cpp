@@ -319,9 +319,6 @@ class Search {
     FoundImpact impact{.points = contact.points,
                        .place = reference_.place_name(contact.points),
                        .impulse = contact.impulse,
-                       .before = {},
-                       .after = {},
-                       .bookings = {},
                        .first_row = contact.first_row,
                        .last_row = contact.last_row};
     const bool alone = previous == nullptr && !overlap(i);
@@ -428,9 +425,7 @@ std::vector<FoundImpact> listed_impacts(const NumericTable& table, const Referen
         .place = reference.place_name(*points),
         .time = given - shift,
         .impulse = in_space ? vector(row, "Px", "Py", "Pz") : Vector3(number(row, "Pt"), 0, number(row, "Pn")),
-        .before = reference.flight(state).at(given - shift - (row == 0 ? 0 : time)),
-        .after = {},
-        .bookings = {}};
+        .before = reference.flight(state).at(given - shift - (row == 0 ? 0 : time))};
     time = impact.time;
     state = impact.before;
     state.velocity = in_space

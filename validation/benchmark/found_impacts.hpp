@@ -22,9 +22,9 @@ struct FoundImpact {
   std::string place;        ///< their names
   double time = 0;          ///< since the first touch [s]
   analytic::space::Vector3 impulse = analytic::space::Vector3::Zero();  ///< [N·s]
-  analytic::space::State before, after;                                 ///< of the flights, at `time`
+  analytic::space::State before{}, after{};                             ///< of the flights, at `time`
   /// States right before and after, as the code may have had them; the first is (before, after).
-  std::vector<Booking> bookings;
+  std::vector<Booking> bookings{};
   std::size_t first_row = 0, last_row = 0;  ///< of the motion, around it
 };
 

@@ -101,12 +101,7 @@ void find_missing(Score& score, const ReferenceSequence& sequence) {
 /// Scores 1 to 3 and the energies after impacts.
 Score score_impacts(const std::vector<FoundImpact>& impacts, const Reference& reference,
                     const ReferenceSequence& sequence) {
-  Score score{.law = sequence.law.name,
-              .impacts = {},
-              .expected = sequence.truth.size(),
-              .drift = {},
-              .stray = {},
-              .findings = {}};
+  Score score{.law = sequence.law.name, .expected = sequence.truth.size()};
   const Sizes sizes = sizes_of(reference, sequence);
   std::size_t kept = score.expected;
   if (impacts.size() > kept && reference.until && !reference.energy_alone && impacts[kept].time < *reference.until) {

@@ -43,13 +43,13 @@ struct Score {
 
   std::string law;  ///< that the run is judged by
   bool law_is_declared = false;
-  std::vector<ImpactScore> impacts;
+  std::vector<ImpactScore> impacts{};
   std::size_t found = 0, expected = 0;
   bool order_is_right = false;
   double law_error = 0, velocity_error = 0, angular_error = 0, time_error = 0, energy_error = 0, flight_error = 0,
          start_error = 0;
-  std::optional<std::size_t> drift, stray;  ///< after how many impacts energy or flight is worst
-  std::vector<std::string> findings;        ///< what is wrong, in words, the first first
+  std::optional<std::size_t> drift{}, stray{};  ///< after how many impacts energy or flight is worst
+  std::vector<std::string> findings{};          ///< what is wrong, in words, the first first
 
   /// V, Ω and t.
   [[nodiscard]] double motion_error() const;

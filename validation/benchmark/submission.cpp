@@ -65,14 +65,13 @@ SubmissionHead head_of(const NumericTable& table) {
                       .engine = text("engine"),
                       .version = text("version"),
                       .settings = text("settings"),
-                      .law = {},
                       .step = read_step(table)};
   if (table.comment("law")) head.law = read_law(place_of(table, "law"), text("law"));
   return head;
 }
 
 Submission judge(ReadFile file, const SubmissionHead& head, const Reference& reference) {
-  Submission submission{.path = file.table.path(), .head = head, .is_list = file.is_list, .remark = {}, .score = {}};
+  Submission submission{.path = file.table.path(), .head = head, .is_list = file.is_list};
   if (file.is_list) {
     if (is_counter_clockwise(file.table, reference)) submission.remark = "Omega is read as positive counter-clockwise";
     submission.score = score_list(listed_impacts(file.table, reference), reference, head.law);

@@ -14,7 +14,7 @@ namespace clatter::validation::inline benchmark {
 /// given.
 struct SubmissionHead {
   std::string problem, engine, version, settings;
-  std::string law;             ///< as DeclaredLaw::name; empty: not declared
+  std::string law{};           ///< as DeclaredLaw::name; empty: not declared
   std::optional<double> step;  ///< of the code [s]
 };
 
@@ -24,8 +24,8 @@ struct Submission {
   SubmissionHead head;
   int problem_version = 0;
   bool is_list = false;  ///< of impacts, not a motion
-  std::string remark;    ///< on how the file was read, for readers; empty: none
-  Score score;
+  std::string remark{};  ///< on how the file was read, for readers; empty: none
+  Score score{};
   Verdict verdict = Verdict::fails;
 };
 

@@ -216,8 +216,6 @@ ExtremeCell fill_cell(const ExtremeCase& extreme, double seconds) {
                    .value = extreme.value,
                    .label = extreme.label,
                    .model = extreme.model,
-                   .measure = {},
-                   .reason = {},
                    .long_run = extreme.long_run};
   const CellClock clock(seconds);
   run(extreme, clock, cell);

@@ -48,12 +48,12 @@ enum class CellVerdict {
 
 /// The numbers that a cell came to.
 struct CellMeasure {
-  double error = 0;      ///< worst relative error against the oracle
-  double bound = 0;      ///< what it may be at most
-  std::string oracle;    ///< what the number was held against
-  std::string outcome;   ///< how the run ended
-  long evaluations = 0;  ///< of contact forces, of height functions; 0: none to count
-  double seconds = 0;    ///< wall time of the model alone [s]
+  double error = 0;       ///< worst relative error against the oracle
+  double bound = 0;       ///< what it may be at most
+  std::string oracle{};   ///< what the number was held against
+  std::string outcome{};  ///< how the run ended
+  long evaluations = 0;   ///< of contact forces, of height functions; 0: none to count
+  double seconds = 0;     ///< wall time of the model alone [s]
 };
 
 struct ExtremeCell {
@@ -62,8 +62,8 @@ struct ExtremeCell {
   std::string label;  ///< the value for a reader
   ModelLevel model = ModelLevel::discrete;
   CellVerdict verdict = CellVerdict::broken;
-  CellMeasure measure;    ///< if there is a number; the outcome also if the run ended early
-  std::string reason;     ///< of a refusal, one line
+  CellMeasure measure{};  ///< if there is a number; the outcome also if the run ended early
+  std::string reason{};   ///< of a refusal, one line
   double seconds = 0;     ///< wall time of all of it, the oracle included [s]
   bool long_run = false;  ///< many scenes in one cell: no limit of a second
 

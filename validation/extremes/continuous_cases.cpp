@@ -44,7 +44,7 @@ double bound_of(const RunDistance& distance) { return std::clamp(estimate_factor
 
 /// Against another method at four digits more, on the scene in units of 1; the ledger of energy counts too.
 CellMeasure by_other_method(const ContinuousCase& unit, const UnitScale& scale, bool planar, const CellClock& clock) {
-  CellMeasure measure{.bound = promised, .oracle = "energy ledger", .outcome = {}};
+  CellMeasure measure{.bound = promised, .oracle = "energy ledger"};
   const Simulation run = require_case(scaled(unit, scale), {.planar = planar}, until(clock, run_share), measure);
   measure.error = worst_ledger_gap(run);
   const Simulation truth =
@@ -63,7 +63,7 @@ CellMeasure by_other_method(const ContinuousCase& unit, const UnitScale& scale, 
 /// Flat landing without damping: half a sine; with it: the exact restitution.  Speeds relative to that of approach.
 CellMeasure by_flat_landing(ContinuousCase scene, bool planar, const CellClock& clock) {
   scene.ground.area = numeric::AreaMeasure::projected;  // the sides of the box then bear nothing
-  CellMeasure measure{.oracle = "restitution's equation at 64 bits", .outcome = {}};
+  CellMeasure measure{.oracle = "restitution's equation at 64 bits"};
   const Simulation run = require_case(scene, {.planar = planar}, until(clock, run_share), measure);
   const numeric::ImpactRecord& row = run.impacts.at(0);
   const double speed = -scene.velocity.z();
@@ -255,7 +255,7 @@ double worst_ledger_gap(const Simulation& run) {
 
 CellMeasure kept_energy(int impacts, long evaluation_limit, bool planar, const GoesOn& goes_on) {
   const ContinuousCase scene{.gravity = 9.81, .impacts = impacts, .evaluation_limit = evaluation_limit};
-  CellMeasure measure{.bound = drift_per_impact * impacts, .oracle = "energy kept", .outcome = {}};
+  CellMeasure measure{.bound = drift_per_impact * impacts, .oracle = "energy kept"};
   const Simulation run = require_case(scene, {.planar = planar, .estimates = false}, goes_on, measure);
   measure.error = worst_of(
       run, [&](const numeric::ImpactRecord& row) { return std::fabs(row.value.energy_after / run.energy_start - 1); });

@@ -37,7 +37,7 @@ const double jamming_angle = std::atan(2.0) * analytic::degrees_per_radian;
 // --- closed form
 
 CellMeasure closed_form(const RodStart& start) {
-  CellMeasure measure{.oracle = exact_rod_oracle, .outcome = {}};
+  CellMeasure measure{.oracle = exact_rod_oracle};
   analytic::ContactAngles angles;
   measure.seconds = timed([&] { angles = contact_angles(Angle::from_degrees(start.angle_deg), start.parameters); });
   const RodError off = rod_error(start, rod_impacts(angles));
@@ -73,7 +73,7 @@ Drop rod_drop(double angle_deg, double gravity) {
 CellMeasure by_laws(const Drop& drop) {
   const double impulse = drop.body.mass * std::fabs(drop.velocity.normal);
   const double rounding = eps + std::numeric_limits<double>::denorm_min() / impulse;
-  CellMeasure measure{.bound = std::fmin(law_ulps * rounding, 1), .oracle = retrace_oracle, .outcome = {}};
+  CellMeasure measure{.bound = std::fmin(law_ulps * rounding, 1), .oracle = retrace_oracle};
   measure.error = retrace(drop, timed_sequence(drop, 6, measure)).residual;
   return measure;
 }
@@ -83,7 +83,7 @@ CellMeasure by_exact_rod(const RodStart& start) {
   Drop drop = rod_drop(start.angle_deg, start.parameters.gravity_number);
   drop.body.uniform_thin_rod = false;
   drop.law.restitution = start.parameters.restitution;
-  CellMeasure measure{.bound = law_ulps * eps, .oracle = retrace_oracle, .outcome = {}};
+  CellMeasure measure{.bound = law_ulps * eps, .oracle = retrace_oracle};
   const Sequence sequence = timed_sequence(drop, 3, measure);
   measure.error = retrace(drop, sequence).residual;
   const RodImpacts impacts = rod_impacts(sequence);
@@ -99,7 +99,7 @@ CellMeasure by_exact_rod(const RodStart& start) {
 CellMeasure by_restitution(double damping_per_stiffness) {
   Drop drop = rod_drop(20, 9.81);
   drop.law = {.law = analytic::RestitutionLaw::viscoelastic, .damping_per_stiffness = damping_per_stiffness};
-  CellMeasure measure{.bound = law_ulps * eps, .oracle = "restitution's equation at 64 bits", .outcome = {}};
+  CellMeasure measure{.bound = law_ulps * eps, .oracle = "restitution's equation at 64 bits"};
   const Sequence sequence = timed_sequence(drop, 3, measure);
   const analytic::Impact& first = sequence.rows.at(0).impact;
   const long double exact = exact_restitution(static_cast<long double>(damping_per_stiffness) * first.approach_speed);
@@ -111,7 +111,7 @@ CellMeasure by_restitution(double damping_per_stiffness) {
 /// Energy after n impacts.
 CellMeasure by_energy(int impacts) {
   Drop drop = rod_drop(20, 9.81);
-  CellMeasure measure{.bound = energy_ulps_per_impact * eps * impacts, .oracle = "energy kept", .outcome = {}};
+  CellMeasure measure{.bound = energy_ulps_per_impact * eps * impacts, .oracle = "energy kept"};
   const Retrace found = retrace(drop, timed_sequence(drop, impacts, measure));
   measure.error = std::max(found.energy_drift, found.momentum_drift);
   return measure;
@@ -149,7 +149,7 @@ bool drop_on_axis(const std::string& axis, double value, Drop& drop) {
 }
 
 CellMeasure discrete_cell(const std::string& axis, double value) {
-  if (axis == "angle") return by_exact_rod({.angle_deg = value, .parameters = {}});
+  if (axis == "angle") return by_exact_rod({.angle_deg = value});
   if (axis == "restitution") {
     return by_exact_rod({20, {.gravity_number = 9.81, .restitution = value, .impulse_ratio = 0}});
   }

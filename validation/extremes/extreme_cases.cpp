@@ -49,7 +49,7 @@ CellMeasure discrete_turns(double turns) {
                       .law = {}};
   // Elastic and as fast as this, the rod rises at 0.577 |Ω| L and turns 2 V |Ω|/g until it is back.
   drop.velocity.angular = -std::sqrt(turn * turns * drop.gravity / (2 * 0.577));
-  CellMeasure measure{.oracle = retrace_oracle, .outcome = {}};
+  CellMeasure measure{.oracle = retrace_oracle};
   const analytic::Sequence sequence = timed_sequence(drop, 2, measure);
   const Retrace found = retrace(drop, sequence);
   measure.error = found.placement;

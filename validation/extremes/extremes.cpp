@@ -63,7 +63,7 @@ std::vector<MapRegion> regions_of(const std::vector<ExtremeCell>& cells) {
 }
 
 ExtremesMap measure_extremes(const ExtremesOptions& options) {
-  ExtremesMap map{.cells = {}, .regions = {}, .cell_seconds = options.cell_seconds, .seed = options.runs.seed};
+  ExtremesMap map{.cell_seconds = options.cell_seconds, .seed = options.runs.seed};
   std::vector<ExtremeCase> cases;
   const auto goes_on = [&] { return !options.progress || options.progress(map.cells.size(), cases.size()); };
   for (const MapAxis& axis : map_axes()) {

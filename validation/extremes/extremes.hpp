@@ -19,8 +19,8 @@ struct MapRegion {
 };
 
 struct ExtremesMap {
-  std::vector<ExtremeCell> cells;  ///< axis by axis, model by model, in the order of the values
-  std::vector<MapRegion> regions;
+  std::vector<ExtremeCell> cells{};  ///< axis by axis, model by model, in the order of the values
+  std::vector<MapRegion> regions{};
   double cell_seconds = 1;  ///< that a cell may take
   std::uint64_t seed = 1;
   bool complete = true;  ///< false: interrupted

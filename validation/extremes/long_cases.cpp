@@ -194,7 +194,7 @@ void run_continuous(Draw draw, int index, Tally& tally) {
 template <class Run>
 CellMeasure run_scenes(int count, double bound, const std::function<bool()>& goes_on, const Run& run) {
   Tally tally;
-  CellMeasure measure{.bound = bound, .oracle = {}, .outcome = {}};
+  CellMeasure measure{.bound = bound};
   int done = 0;
   measure.seconds = timed([&] {
     for (; done < count && (done % 64 != 0 || goes_on()); ++done) run(done, tally);

@@ -19,7 +19,7 @@ inline constexpr const char* exact_rod_oracle = "momentum balances and flight in
 /// The rod of contact_angles.hpp: m = L = 1, v_n = −1, ω = 0.
 struct RodStart {
   double angle_deg = 0;
-  analytic::RodParameters parameters;
+  analytic::RodParameters parameters{};
 };
 
 /// Impacts as a model has them; the unit is that of contact_angles.hpp.

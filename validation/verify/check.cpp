@@ -105,7 +105,7 @@ std::string judge(const Check& check, const Measured& measured) {
 }
 
 CheckResult run(const Check& check, CaseRuns& case_runs) {
-  CheckResult result{.check = &check, .measured = {}, .failure = {}, .done = true};
+  CheckResult result{.check = &check, .done = true};
   const double begin = thread_seconds();
   try {
     result.measured = all_measures().at(check.id)(case_runs);

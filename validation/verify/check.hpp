@@ -87,10 +87,10 @@ struct CheckSelection {
 /// What became of a check.
 struct CheckResult {
   const Check* check = nullptr;
-  Measured measured;
-  double seconds = 0;   ///< processor time of the thread [s]; work shared with other checks falls to the first
-  std::string failure;  ///< why it failed; empty: passed
-  bool done = false;    ///< false: an interrupt came first
+  Measured measured{};
+  double seconds = 0;     ///< processor time of the thread [s]; work shared with other checks falls to the first
+  std::string failure{};  ///< why it failed; empty: passed
+  bool done = false;      ///< false: an interrupt came first
   [[nodiscard]] bool passed() const { return done && failure.empty(); }
 };
 

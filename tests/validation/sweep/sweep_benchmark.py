@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a million rods and a thousand phones take: tests/validation/sweep_benchmark.py PROGRAM"""
+"""What a million rods and a thousand phones take: tests/validation/sweep/sweep_benchmark.py PROGRAM"""
 
 import subprocess
 import sys
@@ -8,7 +8,7 @@ import tempfile
 import time
 from pathlib import Path
 
-CASES = Path(__file__).resolve().parents[2] / "validation" / "cases"
+CASES = Path(__file__).resolve().parents[3] / "validation" / "cases"
 SWEEPS = {
     "10^6 rods, discrete model": ["rod-45.toml", "--model", "discrete", "--random", "1000000", "--set", "drop.angle_deg=1:89",
                                   "--set", "impact.restitution=0.5:1", "--set", "run.impacts=3"],

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "tests/validation/planned_scene.hpp"
+#include "tests/validation/plan/planned_scene.hpp"
 #include "validation/plan/cost_table.hpp"
 #include "validation/plan/planned_run.hpp"
 #include "validation/reports/plan_report.hpp"

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "tests/validation/planned_scene.hpp"
+#include "tests/validation/plan/planned_scene.hpp"
 
 using namespace clatter::validation;
 
