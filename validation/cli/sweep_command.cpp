@@ -220,6 +220,23 @@ int run_processes(const SweepInput& input) {
   }
 }
 
+constexpr const char* sweep_footer =
+    "Example: clatter sweep phone-damped --set drop.angle_deg=5:85:5 "
+    "--set ground.damping=0:2e7:1e6 --set run.impacts=2 --output phone.csv\n"
+    "Example: clatter sweep phone-corner --set drop.attitude=uniform --random 1000 "
+    "--columns hardest,hardest_corners,impulse_normal_1,impulse_normal_2\n"
+    "drop.attitude=26 has a box fall on each face, edge and corner (clatter keys numbers them); @FILE is a CSV file\n"
+    "with columns q0, q1, q2, q3. Columns asked for are quantities that rows of impacts have; the hardest impact "
+    "has\n"
+    "the largest normal impulse.\n"
+    "An interrupted sweep goes on when the same command is given again. The discrete model takes the impact.* keys.\n"
+    "Continuous scenes are planned for run.digits. Each number has a column with its error, empty where that is not "
+    "known.\n"
+    "A scene that is refused or fails is a row with its outcome, refused, outside-model or not-computed, and "
+    "reason.\n"
+    "Exit status 3 if a number could not be computed, a limit left fewer impacts than asked for, or required digits\n"
+    "are not known, in any scene; its row says why.";
+
 }  // namespace
 
 Command sweep_command() {
@@ -250,22 +267,7 @@ Command sweep_command() {
   command.add_flag("--require-digits", request.require_digits, "a scene of which fewer digits are known falls short");
   command.add_flag("--restart", input->restart, "begin anew where FILE.part is there, instead of going on");
   command.add_text("--threads", input->threads, "N", "computing threads (all cores)");
-  command.footer =
-      "Example: clatter sweep phone-damped --set drop.angle_deg=5:85:5 "
-      "--set ground.damping=0:2e7:1e6 --set run.impacts=2 --output phone.csv\n"
-      "Example: clatter sweep phone-corner --set drop.attitude=uniform --random 1000 "
-      "--columns hardest,hardest_corners,impulse_normal_1,impulse_normal_2\n"
-      "drop.attitude=26 has a box fall on each face, edge and corner (clatter keys numbers them); @FILE is a CSV file\n"
-      "with columns q0, q1, q2, q3. Columns asked for are quantities that rows of impacts have; the hardest impact "
-      "has\n"
-      "the largest normal impulse.\n"
-      "An interrupted sweep goes on when the same command is given again. The discrete model takes the impact.* keys.\n"
-      "Continuous scenes are planned for run.digits. Each number has a column with its error, empty where that is not "
-      "known.\n"
-      "A scene that is refused or fails is a row with its outcome, refused, outside-model or not-computed, and "
-      "reason.\n"
-      "Exit status 3 if a number could not be computed, a limit left fewer impacts than asked for, or required digits\n"
-      "are not known, in any scene; its row says why.";
+  command.footer = sweep_footer;
   command.run = [input] { return run_processes(*input); };
   return command;
 }

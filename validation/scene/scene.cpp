@@ -160,10 +160,9 @@ Json Scene::json(Model model) const {
   Json json = Json::object();
   if (!path.empty()) json["file"] = text_json(path);
   json.update(keys_json(*this, model));
-  if (!sweep) return json;
-  json["sweep"][sweep->name()] = sweep->json();
-  if (sweep->quantity == SceneSweep::Quantity::angle_deg) json["drop"]["angle_deg"] = nullptr;
-  else json["ground"]["static_friction"] = json["ground"]["sliding_friction"] = nullptr;
+  if (sweep) {
+    json["sweep"][sweep->name()] = sweep->json();
+  }
   return json;
 }
 
