@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-SOURCES = ("CMakeLists.txt", "LICENSE", "README.md", "pyproject.toml", "analytic", "numeric", "validation",
+SOURCES = ("CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "pyproject.toml", "analytic", "numeric", "validation",
            "notebooks-data", "tests/packages.bash", "tests/analytic/reference")
 DATA_LICENCE = ROOT / "validation" / "measured" / "data-licence.txt"  # of the measured drops, which the module carries
 LEFT_OUT = {"__pycache__", "node_modules"}
@@ -76,15 +76,37 @@ def run(*command: str | Path) -> None:
         raise RuntimeError(f"{error}\nThe build needs Debian's packages:\n  apt-get install {needed_packages()}") from None
 
 
+def say(words: str) -> None:
+    """To who calls pip with -v, which shows what a build says; without it pip keeps that for a failure."""
+    print(f"clatter: {words}", file=sys.stderr, flush=True)
+
+
+def compile_in(work: Path, jobs: int) -> None:
+    """Compiles, and says at each tenth of the steps how far it is.  @raise RuntimeError: with what the compiler said."""
+    say(f"compiling with {jobs} jobs, some minutes; `pip install -v` shows how far it is")
+    command = ["cmake", "--build", str(work), "--parallel", str(jobs), "--target", "clatter_python"]
+    said, tenth = [], 0
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, encoding="utf-8", errors="replace",
+                          env=dict(os.environ, NINJA_STATUS="[%f/%t] ")) as build:
+        for line in build.stdout or ():
+            said.append(line)
+            counter = re.match(r"\[(\d+)/(\d+)\] ", line)
+            if counter and 10 * int(counter[1]) // int(counter[2]) > tenth:
+                tenth = 10 * int(counter[1]) // int(counter[2])
+                say(f"{counter[1]} of {counter[2]} steps")
+    if build.returncode:
+        raise RuntimeError("".join(said[-100:]) + "clatter: the build failed")
+
+
 def build_and_install(stage: Path, settings: Settings) -> None:
-    """The package, compiled for this interpreter, in stage/clatter."""
+    """The package, compiled for this interpreter as the launcher compiles the program, in stage/clatter."""
     work = Path(str((settings or {}).get("build-dir") or ROOT / "build" / f"wheel-{wheel_tag()}"))
     if not os.access(ROOT, os.W_OK) and not settings:
         work = stage.parent / "build"
-    jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL") or str(os.cpu_count() or 1)
-    run("cmake", "-S", ROOT, "-B", work, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCLATTER_PYTHON=ON", "-DCLATTER_DEMO=OFF",
+    jobs = int(os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL") or len(os.sched_getaffinity(0)))
+    run("cmake", "--preset", "release", "-S", ROOT, "-B", work, "-DCLATTER_PYTHON=ON", "-DCLATTER_DEMO=OFF",
         f"-DCLATTER_PYTHON_EXECUTABLE={sys.executable}", "-DCLATTER_PYTHON_DIR=.")
-    run("cmake", "--build", work, "--parallel", jobs, "--target", "clatter_python")
+    compile_in(work, jobs)
     run("cmake", "--install", work, "--prefix", stage, "--component", "python", "--strip")
 
 

@@ -8,7 +8,7 @@ import ast
 import json
 import os
 import re
-import signal
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -283,10 +283,6 @@ class Forms(unittest.TestCase):
         self.assertEqual(clatter.simulate(scene, impacts=1).scene["run"]["history"], scene["run"]["history"])
         self.assertFalse(Path(scene["run"]["history"]).exists())
 
-    def test_numpy_numbers_are_numbers(self):
-        self.assertEqual(clatter.sequence(np.float64(10), impacts=np.int64(2)).to_dict(),
-                         clatter.sequence(10, impacts=2).to_dict())
-
     def test_results_show_themselves(self):
         run = clatter.sequence(angle=10)
         self.assertEqual(repr(run) + "\n", run.to_text())
@@ -385,16 +381,6 @@ class LongCalls(unittest.TestCase):
             thread.join()
         self.assertEqual(results, [expected] * len(results))
 
-    def test_ctrl_c_ends_a_long_call(self):
-        script = ("import clatter\n"
-                  "try:\n  print('ready', flush=True)\n  clatter.simulate('rod-45', method='tvd-rk3', step=1e-12, evaluation_limit=10**12)\n"
-                  "except KeyboardInterrupt:\n  print('interrupted', flush=True)\n")
-        with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True) as child:
-            self.assertEqual(child.stdout.readline(), "ready\n")
-            until_it_computes(child)
-            child.send_signal(signal.SIGINT)
-            self.assertEqual(child.stdout.readline(), "interrupted\n")
-
 
 class Documentation(unittest.TestCase):
     def test_everything_public_is_documented(self):
@@ -402,11 +388,15 @@ class Documentation(unittest.TestCase):
             self.assertTrue((getattr(clatter, name).__doc__ or "").strip(), name)
 
     def test_types_are_sound(self):
-        folder = str(Path(clatter.__file__).resolve().parent.parent)
-        with tempfile.TemporaryDirectory() as cache:
-            done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", cache, "-p", "clatter"],
-                                  capture_output=True, text=True, cwd=cache, env=dict(os.environ, MYPYPATH=folder))
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        """With the stub that callers see, and without it, the functions themselves."""
+        package = Path(clatter.__file__).resolve().parent
+        with tempfile.TemporaryDirectory() as folder:
+            bare = Path(folder, "bare")
+            shutil.copytree(package, bare / "clatter", ignore=shutil.ignore_patterns("calls.pyi", "*.so"))
+            for path in (package.parent, bare):
+                done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", Path(folder, f"cache-{path.name}"),
+                                       "-p", "clatter"], capture_output=True, text=True, cwd=folder, env=dict(os.environ, MYPYPATH=path))
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_what_the_stub_promises_is_there(self):
         folder = str(Path(clatter.__file__).resolve().parent.parent)

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The discrete model: drops of any body, and the thin rod.
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 
 #include "analytic/sequence.hpp"
-#include "interruptible.hpp"
-#include "report.hpp"
-#include "runs.hpp"
-#include "scene_source.hpp"
+#include "binding.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/plan/sequence_method.hpp"
 #include "validation/reports/angles_report.hpp"
@@ -19,45 +16,43 @@
 #include "validation/reports/regimes_report.hpp"
 #include "validation/reports/sequence_report.hpp"
 #include "validation/scene/discrete_scene.hpp"
-#include "validation/scene/named_texts.hpp"
 
 namespace clatter::python {
 namespace {
 
 namespace py = pybind11;
 using validation::AnglesRequest;
+using validation::NamedTexts;
 using validation::Scene;
 
-using Given = validation::NamedTexts;
-Scene read_scene(const SceneSource& source, const Given& given) {
-  return validation::read_discrete_scene(source.values(), validation::scene_overrides(given));
+Scene read_discrete(const SceneSource& source) {
+  return validation::read_discrete_scene(source.values(), validation::scene_overrides(source.changes));
 }
 
-Report sequence(const std::string& name, const std::optional<std::string>& text, const Given& changes,
+Report sequence(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes,
                 const std::string& method) {
-  const Scene scene = read_scene({name, text}, changes);
-  const py::gil_scoped_release release;
-  const auto run = std::make_shared<const validation::DiscreteRun>(
-      validation::run_discrete(scene, validation::read_sequence_method(method)));
-  return {[scene, run] { return validation::sequence_report(scene, *run); }};
+  return run_interruptible([source = SceneSource{name, text, changes}, method](const Watch&) -> Report {
+    const Scene scene = read_discrete(source);
+    const auto run = std::make_shared<const validation::DiscreteRun>(
+        validation::run_discrete(scene, validation::read_sequence_method(method)));
+    return {[scene, run] { return validation::sequence_report(scene, *run); }};
+  });
 }
 
 /// (report, warnings)
-py::tuple explain(int impact, const std::string& name, const std::optional<std::string>& text, const Given& changes) {
+py::tuple explain(int impact, const std::string& name, const std::optional<std::string>& text,
+                  const NamedTexts& changes) {
   if (impact < 1) throw validation::BadInput(fmt::format("impact {}: must be at least 1", impact));
-  const Scene scene = read_scene({name, text}, changes);
-  const auto found = [&] {
-    const py::gil_scoped_release release;
-    return std::make_shared<const validation::Explanation>(validation::explain_impact(scene, impact));
-  }();
+  const auto found = run_interruptible([impact, source = SceneSource{name, text, changes}](const Watch&) {
+    return std::make_shared<const validation::Explanation>(validation::explain_impact(read_discrete(source), impact));
+  });
   return py::make_tuple(Report{[found] { return validation::explanation_report(*found); },
                                [found](const validation::TextStyle& style) { return explanation_text(*found, style); }},
                         found->warnings);
 }
 
-Report regimes(const Given& options) {
-  const auto report = std::make_shared<const validation::Report>(validation::regimes_report(options));
-  return {[report] { return *report; }};
+Report regimes(const NamedTexts& options) {
+  return kept(run_interruptible([options](const Watch&) { return validation::regimes_report(options); }));
 }
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -69,7 +64,7 @@ void check_angle(double theta) {
 }
 
 /// The range of `given`, or these angles.
-AnglesRequest request_of(const std::optional<Numbers>& theta, const Given& given) {
+AnglesRequest request_of(const std::optional<Numbers>& theta, const NamedTexts& given) {
   AnglesRequest request = validation::angles_request(given);
   if (!theta) return request;
   for (const char* const name : {"from", "to", "step", "count"}) {
@@ -84,8 +79,8 @@ AnglesRequest request_of(const std::optional<Numbers>& theta, const Given& given
 
 /// Row after row.
 std::vector<double> rows_of(const AnglesRequest& request, std::size_t width, const py::object& progress) {
-  const auto count = static_cast<std::size_t>(request.count);
-  const auto work = [&](const Watch& watch) {
+  const auto work = [request, width](const Watch& watch) {
+    const auto count = static_cast<std::size_t>(request.count);
     std::vector<double> rows(count * width);
     for (std::size_t i = 0; i < count && watch.tell(i, count); ++i) {
       const validation::AnglesRow row = validation::angles_row(request, static_cast<long long>(i));
@@ -98,7 +93,7 @@ std::vector<double> rows_of(const AnglesRequest& request, std::size_t width, con
 }
 
 /// (report, column name to array)
-py::tuple angles(const std::optional<Numbers>& theta, const Given& given, const py::object& progress) {
+py::tuple angles(const std::optional<Numbers>& theta, const NamedTexts& given, const py::object& progress) {
   const AnglesRequest request = request_of(theta, given);
   const std::vector<validation::Column> columns = validation::angles_columns(request);
   const std::vector<double> rows = rows_of(request, columns.size(), progress);

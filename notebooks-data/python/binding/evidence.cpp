@@ -5,18 +5,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 
-#include "interruptible.hpp"
-#include "report.hpp"
-#include "runs.hpp"
-#include "scene_source.hpp"
+#include "binding.hpp"
 #include "validation/cli/measured_command.hpp"
 #include "validation/figures/figure.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/reports/benchmark_report.hpp"
 #include "validation/reports/extremes_report.hpp"
-#include "validation/scene/named_texts.hpp"
+#include "validation/reports/verify_report.hpp"
+#include "validation/verify/check.hpp"
 
 namespace clatter::python {
 namespace {
@@ -24,14 +21,16 @@ namespace {
 namespace py = pybind11;
 using validation::NamedTexts;
 
-Report kept(validation::Report report) {
-  const auto made = std::make_shared<const validation::Report>(std::move(report));
-  return {[made] { return *made; }};
-}
-
-std::optional<std::string> given(const NamedTexts& options, const char* name) {
-  const auto found = options.find(name);
-  return found == options.end() ? std::nullopt : std::optional(found->second);
+Report verify(bool quick, const std::vector<std::string>& only, const py::object& progress) {
+  const auto work = [selection = validation::select_checks(quick, only)](const Watch& watch) -> Report {
+    validation::CaseRuns case_runs;
+    case_runs.goes_on = watch;
+    const auto tell = [&](std::size_t done, std::size_t of, const std::string&) { return watch.tell(done, of); };
+    auto checked = validation::verify_checks(selection.checks, case_runs, tell);
+    watch.tell(checked.size(), selection.checks.size());
+    return kept(validation::verify_report(checked, selection.words));
+  };
+  return run_interruptible(work, progress);
 }
 
 /// @param action  fit, predict or score
@@ -42,7 +41,7 @@ Report measured(const std::string& action, const std::string& file, const NamedT
                                             .share = given(options, "share"),
                                             .fit_on = given(options, "fit_on"),
                                             .fit_from = given(options, "fit_from")};
-  return run_interruptible([&](const Watch&) {
+  return run_interruptible([request, action](const Watch&) {
     const validation::MeasuredRun run = validation::read_measured_run(request);
     if (action == "fit") return kept(validation::measured_fit_report(run));
     const validation::Scores scores = score_measured(run.file, run.fit, run.split.scored, true);
@@ -50,64 +49,71 @@ Report measured(const std::string& action, const std::string& file, const NamedT
   });
 }
 
-Report benchmark_list() { return kept(validation::benchmark_list_report()); }
+Report benchmark_list() {
+  return kept(run_interruptible([](const Watch&) { return validation::benchmark_list_report(); }));
+}
 
 Report benchmark_show(const std::string& id) {
-  return kept(validation::benchmark_statement(validation::problem_named("problem", id)));
+  return kept(run_interruptible(
+      [id](const Watch&) { return validation::benchmark_statement(validation::problem_named("problem", id)); }));
 }
 
 Report benchmark_truth(const std::string& id, const std::optional<std::string>& law) {
-  const validation::Problem& problem = validation::problem_named("problem", id);
-  const std::string only = validation::truth_laws(problem).front();
-  const std::string asked = law ? validation::read_law("law", *law) : only;
-  return kept(benchmark_truth_report(problem, only == "any" ? only : asked));
+  return kept(run_interruptible([id, law](const Watch&) {
+    const validation::Problem& problem = validation::problem_named("problem", id);
+    const std::string only = validation::truth_laws(problem).front();
+    const std::string asked = law ? validation::read_law("law", *law) : only;
+    return benchmark_truth_report(problem, only == "any" ? only : asked);
+  }));
 }
 
 using Submissions = std::vector<validation::Submission>;
+using Judge = std::function<validation::Submission(const std::string& file, const validation::ColumnNames& names)>;
+using Tell = std::function<validation::Report(const Submissions& all)>;
 
 /// `judge` of each file.  @returns (report, whether all do what `require` asks)
-template <class Judge, class Tell>
-py::tuple judged(const std::vector<std::string>& files, const NamedTexts& options, const py::object& progress,
-                 const Judge& judge, const Tell& report_of) {
+std::pair<Report, bool> judged(const std::vector<std::string>& files, const NamedTexts& options, const Watch& watch,
+                               const Judge& judge, const Tell& report_of) {
   const validation::Requirement requirement = validation::read_requirement(given(options, "require"));
   const auto columns = given(options, "columns");
   const validation::ColumnNames names =
       columns ? validation::read_column_names("columns", *columns) : validation::ColumnNames{};
-  const auto work = [&](const Watch& watch) {
-    Submissions submissions;
-    for (const std::string& file : files) {
-      if (!watch.tell(submissions.size(), files.size())) break;
-      submissions.push_back(judge(file, names));
-    }
-    watch.tell(submissions.size(), files.size());
-    return submissions;
-  };
-  const Submissions submissions = run_interruptible(work, progress);
+  Submissions submissions;
+  for (const std::string& file : files) {
+    if (!watch.tell(submissions.size(), files.size())) break;
+    submissions.push_back(judge(file, names));
+  }
+  watch.tell(submissions.size(), files.size());
   const bool is_met =
       std::all_of(submissions.begin(), submissions.end(), [&](const auto& one) { return requirement.is_met(one); });
-  return py::make_tuple(kept(report_of(submissions)), is_met);
+  return {kept(report_of(submissions)), is_met};
 }
 
 py::tuple benchmark_score(const std::vector<std::string>& files, const NamedTexts& options,
                           const py::object& progress) {
-  const std::string problem = given(options, "problem").value_or("");
-  return judged(
-      files, options, progress,
-      [&](const std::string& file, const auto& names) { return validation::judge_file(file, problem, names); },
-      [](const Submissions& all) { return validation::score_report("benchmark", all); });
+  const auto work = [files, options](const Watch& watch) {
+    const std::string problem = given(options, "problem").value_or("");
+    return judged(
+        files, options, watch,
+        [&](const std::string& file, const auto& names) { return validation::judge_file(file, problem, names); },
+        [](const Submissions& all) { return validation::score_report("benchmark", all); });
+  };
+  return py::cast(run_interruptible(work, progress));
 }
 
 py::tuple compare_against(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes,
                           const std::vector<std::string>& files, const NamedTexts& options,
                           const py::object& progress) {
-  const validation::Scene scene =
-      read_scene(SceneSource{name, text}.values(), validation::scene_overrides(changes), validation::Model::discrete);
-  if (scene.sweep) throw validation::BadInput("sweep: runs of others are judged by a scene that sweeps nothing");
-  const validation::Reference reference = reference_of(scene);
-  return judged(
-      files, options, progress,
-      [&](const std::string& file, const auto& names) { return judge_file(file, reference, names); },
-      [&](const Submissions& all) { return against_report(scene, reference, all); });
+  const auto work = [source = SceneSource{name, text, changes}, files, options](const Watch& watch) {
+    const validation::Scene scene = source.read(validation::Model::discrete);
+    if (scene.sweep) throw validation::BadInput("sweep: runs of others are judged by a scene that sweeps nothing");
+    const validation::Reference reference = reference_of(scene);
+    return judged(
+        files, options, watch,
+        [&](const std::string& file, const auto& names) { return judge_file(file, reference, names); },
+        [&](const Submissions& all) { return against_report(scene, reference, all); });
+  };
+  return py::cast(run_interruptible(work, progress));
 }
 
 Report extremes(const std::vector<std::string>& only, bool quick, std::uint64_t seed, double seconds,
@@ -120,11 +126,12 @@ Report extremes(const std::vector<std::string>& only, bool quick, std::uint64_t 
   options.long_runs = !quick;
   options.runs.seed = seed;
   options.cell_seconds = seconds;
-  const auto work = [&](const Watch& watch) {
-    options.progress = [&](std::size_t done, std::size_t of) { return watch.tell(done, of); };
-    return measure_extremes(options);
+  const auto work = [options](const Watch& watch) {
+    validation::ExtremesOptions watched = options;
+    watched.progress = [&](std::size_t done, std::size_t of) { return watch.tell(done, of); };
+    return extremes_report(measure_extremes(watched));
   };
-  return kept(extremes_report(run_interruptible(work, progress)));
+  return kept(run_interruptible(work, progress));
 }
 
 Report figure(int number) {
@@ -132,7 +139,7 @@ Report figure(int number) {
   if (std::find(known.begin(), known.end(), number) == known.end()) {
     throw validation::BadInput(fmt::format("figure {}: there is none; there are {}", number, fmt::join(known, ", ")));
   }
-  return run_interruptible([&](const Watch& watch) {
+  return run_interruptible([number](const Watch& watch) {
     validation::CaseRuns case_runs;
     case_runs.goes_on = watch;
     return kept(figure_report(validation::make_figure(number, case_runs)));
@@ -142,6 +149,8 @@ Report figure(int number) {
 }  // namespace
 
 void add_evidence_functions(py::module_& module) {
+  module.def("verify", &verify, py::arg("quick"), py::arg("only"), py::arg("progress"),
+             "Every claim of the paper, checked.");
   module.def("measured", &measured, py::arg("action"), py::arg("file"), py::arg("options"),
              "Impact laws against tracked drops.");
   module.def("benchmark_list", &benchmark_list, "The problems with certified answers.");

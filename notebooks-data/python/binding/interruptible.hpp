@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Long work without Python's lock, which Ctrl-C can end and which tells how far it is.
+// Long work without Python's lock, which Ctrl-C ends at once and which tells how far it is.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -9,6 +9,8 @@
 #include <exception>
 #include <future>
 #include <memory>
+#include <thread>
+#include <utility>
 
 namespace clatter::python {
 
@@ -37,13 +39,35 @@ class Watch {
   std::shared_ptr<State> state_ = std::make_shared<State>();
 };
 
+/// One of the threads that work, while it lives.
+class WorkingThread {
+ public:
+  WorkingThread() { ++number(); }
+  ~WorkingThread() { --number(); }
+  WorkingThread(const WorkingThread&) = delete;
+  WorkingThread& operator=(const WorkingThread&) = delete;
+  /// How many there are.
+  static std::atomic<int>& number() {
+    static std::atomic<int> threads = 0;
+    return threads;
+  }
+};
+
+/// To be called when Python is about to end: threads that still work then must not outlive the data that C++ destroys
+/// at exit, so the process ends before that, with the same status.
+void end_before_destructors();
+
+/// The thread gives way to all others, and nobody waits for it.
+void leave_alone(std::thread& thread);
+
 /// Runs `work(watch)` on a thread of its own while other Python threads go on; `watch()` turns false when Python has a
-/// signal to handle, Ctrl-C say.
+/// signal to handle, Ctrl-C say.  Work that does not ask, or is not done soon after, goes on alone and its result is
+/// dropped: so it holds all that it reads, and nothing of Python's.
 /// @param progress  None, or a callable that gets (done, of) as often as they change, at most twenty times a second,
 ///                  and once at the end; what it raises ends the work.
 /// @throws what `work` throws, or Python's exception for the signal (KeyboardInterrupt) or from `progress`.
 template <class Work>
-auto run_interruptible(const Work& work, const pybind11::object& progress = pybind11::none()) {
+auto run_interruptible(Work work, const pybind11::object& progress = pybind11::none()) {
   namespace py = pybind11;
   const Watch watch;
   std::size_t told = 0;
@@ -61,15 +85,20 @@ auto run_interruptible(const Work& work, const pybind11::object& progress = pybi
       watch.end();
     }
   };
-  const py::gil_scoped_release release;
-  auto result = std::async(std::launch::async, work, watch);
+  std::packaged_task<decltype(work(watch))()> task([work = std::move(work), watch] { return work(watch); });
+  auto result = task.get_future();
   constexpr std::chrono::milliseconds poll{50};
-  while (result.wait_for(poll) != std::future_status::ready) {
-    if (!raised) look();
-  }
+  const py::gil_scoped_release release;
+  std::thread worker([given = std::move(task)]() mutable {
+    const WorkingThread counted;
+    auto owned = std::move(given);
+    owned();
+  });
+  while (!raised && result.wait_for(poll) != std::future_status::ready) look();
   if (!raised) look();
+  if (result.wait_for(poll) == std::future_status::ready) worker.join();
+  else leave_alone(worker);
   if (!raised) return result.get();
-  result.wait();
   std::rethrow_exception(raised);
 }
 

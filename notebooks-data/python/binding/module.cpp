@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The compiled part of the Python module: clatter._clatter.  What users see is in clatter/*.py.
-#include <pybind11/pybind11.h>
+#include <pthread.h>
+#include <unistd.h>
 
-#include "report.hpp"
-#include "runs.hpp"
+#include <cstdio>
+#include <cstdlib>
+
+#include "binding.hpp"
 #include "validation/output/version.hpp"
 #include "validation/scene/failure.hpp"
 
@@ -40,16 +43,30 @@ void translate(std::exception_ptr pointer) {
 
 }  // namespace
 
+void leave_alone(std::thread& thread) {
+  const sched_param idle{};
+  pthread_setschedparam(thread.native_handle(), SCHED_IDLE, &idle);
+  thread.detach();
+}
+
+void end_before_destructors() {
+  if (WorkingThread::number() == 0) return;
+  const auto end = [](int status, void*) {
+    std::fflush(nullptr);
+    _exit(status);
+  };
+  on_exit(end, nullptr);
+}
+
 PYBIND11_MODULE(_clatter, module) {
   module.doc() = "Compiled part of clatter.";
   module.attr("version") = validation::version;
   py::register_exception_translator(&translate);
-  add_report_class(module);
+  py::module_::import("atexit").attr("register")(py::cpp_function(&end_before_destructors));
+  add_reports(module);
   add_discrete_functions(module);
   add_scene_functions(module);
-  add_study_functions(module);
   add_evidence_functions(module);
-  add_verify_function(module);
 }
 
 }  // namespace clatter::python

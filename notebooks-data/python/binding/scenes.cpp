@@ -1,30 +1,91 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The continuous model, both models together, and studies of scenes.
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <map>
-#include <memory>
+#include <thread>
 
-#include "history.hpp"
-#include "interruptible.hpp"
-#include "report.hpp"
-#include "runs.hpp"
-#include "scene_source.hpp"
+#include "binding.hpp"
+#include "numeric/history.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/plan/planned_run.hpp"
 #include "validation/record/history_file.hpp"
+#include "validation/reports/plan_report.hpp"
 #include "validation/reports/simulation_report.hpp"
 #include "validation/reports/swept_comparison_report.hpp"
-#include "validation/scene/named_texts.hpp"
+#include "validation/reports/tradeoff_report.hpp"
+#include "validation/sweep/rows.hpp"
+#include "validation/sweep/scene_runner.hpp"
 
 namespace clatter::python {
 namespace {
 
 namespace py = pybind11;
+using numeric::HistorySample;
+using validation::Model;
 using validation::NamedTexts;
 using validation::PlannedRun;
 using validation::Scene;
+using Samples = std::vector<HistorySample>;
 
-Scene read_scene(const SceneSource& source, const NamedTexts& given) {
-  return read_scene(source.values(), validation::scene_overrides(given), validation::Model::continuous);
+/// A time history in memory.
+class History : public numeric::HistoryRecorder {
+ public:
+  void record(const HistorySample& sample) override { samples_.push_back(sample); }
+  [[nodiscard]] const Samples& samples() const { return samples_; }
+
+ private:
+  Samples samples_;
+};
+
+template <class Number, class Get>
+py::array_t<Number> column(const Samples& samples, const Get& get) {
+  py::array_t<Number> array(static_cast<py::ssize_t>(samples.size()));
+  auto values = array.template mutable_unchecked<1>();
+  for (std::size_t i = 0; i < samples.size(); ++i) values(static_cast<py::ssize_t>(i)) = get(samples[i]);
+  return array;
+}
+
+/// `get` gives a vector with operator[].
+template <int Size, class Get>
+py::array_t<double> columns(const Samples& samples, const Get& get) {
+  py::array_t<double> array({static_cast<py::ssize_t>(samples.size()), static_cast<py::ssize_t>(Size)});
+  auto values = array.mutable_unchecked<2>();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const auto vector = get(samples[i]);
+    for (int k = 0; k < Size; ++k) values(static_cast<py::ssize_t>(i), k) = vector[k];
+  }
+  return array;
+}
+
+Eigen::Vector4d euler_parameters(const HistorySample& sample) {
+  const Eigen::Quaterniond& beta = sample.state.attitude;
+  return {beta.w(), beta.x(), beta.y(), beta.z()};
+}
+
+numeric::Vector3 world_angular_velocity(const HistorySample& sample) {
+  return sample.state.attitude * sample.state.angular_velocity;
+}
+
+/// One array a quantity, (n) or (n, 3) or (n, 4); SI, world frame.
+py::dict arrays_of(const Samples& s) {
+  py::dict arrays;
+  arrays["time"] = column<double>(s, [](const HistorySample& at) { return at.time; });
+  arrays["centre"] = columns<3>(s, [](const HistorySample& at) { return at.state.centre; });
+  arrays["attitude"] = columns<4>(s, euler_parameters);
+  arrays["velocity"] = columns<3>(s, [](const HistorySample& at) { return at.state.velocity; });
+  arrays["angular_velocity"] = columns<3>(s, world_angular_velocity);
+  arrays["force"] = columns<3>(s, [](const HistorySample& at) { return at.force; });
+  arrays["point_velocity"] = columns<3>(s, [](const HistorySample& at) { return at.point_velocity; });
+  arrays["energy_translation"] = column<double>(s, [](const HistorySample& at) { return at.energy_translation; });
+  arrays["energy_rotation"] = column<double>(s, [](const HistorySample& at) { return at.energy_rotation; });
+  arrays["energy_potential"] = column<double>(s, [](const HistorySample& at) { return at.energy_potential; });
+  arrays["energy_ground"] = column<double>(s, [](const HistorySample& at) { return at.energy_ground; });
+  arrays["energy_total"] = column<double>(s, [](const HistorySample& at) { return at.energy_total(); });
+  arrays["in_contact"] = column<bool>(s, [](const HistorySample& at) { return at.in_contact; });
+  return arrays;
 }
 
 /// @param seen  is told the number of impacts that are done, and says whether to go on.
@@ -36,77 +97,133 @@ PlannedRun run_scene(const Scene& scene, const std::function<bool(int)>& seen, n
   return validation::run_to_digits(body, scene.world, start, scene.request, scene.accuracy, observer);
 }
 
-struct ContinuousRun {
-  Scene scene;
-  PlannedRun planned;
-};
-
-struct SweptRuns {
-  Scene scene;
-  std::vector<validation::SweptRun> runs;
-};
-
-Report single_report(Scene scene, PlannedRun planned) {
-  const auto run = std::make_shared<const ContinuousRun>(ContinuousRun{std::move(scene), std::move(planned)});
-  return {[run] { return validation::simulation_report(run->scene, run->planned); }};
+Report single_report(const Scene& scene, const Watch& watch, numeric::HistoryRecorder* history) {
+  const auto asked = static_cast<std::size_t>(scene.request.impacts);
+  const auto seen = [&](int impacts) { return watch.tell(static_cast<std::size_t>(impacts), asked); };
+  const auto run = std::make_shared<const PlannedRun>(run_scene(scene, seen, history));
+  watch.tell(run->run.impacts.size(), asked);
+  return {[scene, run] { return validation::simulation_report(scene, *run); }};
 }
 
 Report swept_report(const Scene& scene, const Watch& watch) {
-  SweptRuns swept{scene, {}};
+  std::vector<validation::SweptRun> runs;
   const std::vector<double> values = scene.sweep->values();
   for (const double value : values) {
-    if (!watch.tell(swept.runs.size(), values.size())) break;
+    if (!watch.tell(runs.size(), values.size())) break;
     const Scene one = scene.at(value);
-    swept.runs.push_back({value, one,
-                          run_scene(
-                              one, [&](int) { return watch(); }, nullptr)});
+    const auto seen = [&](int) { return watch(); };
+    runs.push_back({value, one, run_scene(one, seen, nullptr)});
   }
-  watch.tell(swept.runs.size(), values.size());
-  const auto run = std::make_shared<const SweptRuns>(std::move(swept));
-  return {[run] { return validation::sweep_report(run->scene, run->runs); }};
+  watch.tell(runs.size(), values.size());
+  const auto done = std::make_shared<const std::vector<validation::SweptRun>>(std::move(runs));
+  return {[scene, done] { return validation::sweep_report(scene, *done); }};
 }
 
 /// (report, history or None)
 py::tuple simulate(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes,
                    bool with_history, const py::object& progress) {
-  const Scene scene = read_scene({name, text}, changes);
-  History history;
-  const auto work = [&](const Watch& watch) {
-    if (scene.sweep) return swept_report(scene, watch);
-    const auto asked = static_cast<std::size_t>(scene.request.impacts);
-    const auto seen = [&](int impacts) { return watch.tell(static_cast<std::size_t>(impacts), asked); };
-    PlannedRun planned = run_scene(scene, seen, with_history ? &history : nullptr);
-    watch.tell(planned.run.impacts.size(), asked);
-    return single_report(scene, std::move(planned));
+  const auto history = with_history ? std::make_shared<History>() : nullptr;
+  const auto work = [source = SceneSource{name, text, changes}, history](const Watch& watch) {
+    const Scene scene = source.read(Model::continuous);
+    const bool sweeps = scene.sweep.has_value();
+    return std::pair(sweeps ? swept_report(scene, watch) : single_report(scene, watch, history.get()), sweeps);
   };
-  Report report = run_interruptible(work, progress);
-  return py::make_tuple(std::move(report), with_history && !scene.sweep ? py::object(history.arrays()) : py::none());
+  const auto [report, sweeps] = run_interruptible(work, progress);
+  return py::make_tuple(report, history && !sweeps ? py::object(arrays_of(history->samples())) : py::none());
 }
-
-struct ComparedScene {
-  Scene scene;
-  std::vector<validation::SweptComparison> values;  ///< one, or one per swept value
-};
 
 Report compare(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes,
                const py::object& progress) {
-  const Scene scene = read_scene({name, text}, changes);
-  ComparedScene compared{scene, {}};
-  const auto work = [&](const Watch& watch) {
+  const auto work = [source = SceneSource{name, text, changes}](const Watch& watch) -> Report {
+    const Scene scene = source.read(Model::continuous);
     const numeric::Body body = scene.make_body();
     const std::vector<double> values = scene.sweep ? scene.sweep->values() : std::vector<double>{0};
+    std::vector<validation::SweptComparison> compared;
     for (const double value : values) {
-      if (!watch.tell(compared.values.size(), values.size())) break;
-      compared.values.push_back({value, compare_models(scene.sweep ? scene.at(value) : scene, body)});
+      if (!watch.tell(compared.size(), values.size())) break;
+      compared.push_back({value, compare_models(scene.sweep ? scene.at(value) : scene, body)});
     }
-    return watch.tell(compared.values.size(), values.size());
+    watch.tell(compared.size(), values.size());
+    const auto run = std::make_shared<const std::vector<validation::SweptComparison>>(std::move(compared));
+    return {[scene, run] {
+      return scene.sweep ? validation::swept_comparison_report(scene, *run)
+                         : validation::comparison_report(scene, run->at(0).comparison);
+    }};
   };
-  run_interruptible(work, progress);
-  const auto run = std::make_shared<const ComparedScene>(std::move(compared));
-  return {[run] {
-    return run->scene.sweep ? validation::swept_comparison_report(run->scene, run->values)
-                            : validation::comparison_report(run->scene, run->values[0].comparison);
-  }};
+  return run_interruptible(work, progress);
+}
+
+/// (report, why it does not give what was asked, or "")
+py::tuple plan(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes,
+               const std::optional<std::string>& within) {
+  const auto work = [source = SceneSource{name, text, changes}, within](const Watch& watch) {
+    const Scene scene = source.read(Model::continuous);
+    const auto is_given = [&](const char* argument) { return source.changes.contains(argument); };
+    const validation::PlanTarget target = validation::plan_target(scene, {within, is_given});
+    const validation::Plan made = make_plan(scene, target, {.progress = [&](int, long) { return watch(); }});
+    return std::pair(kept(plan_report(scene, made)), plan_shortfall(made));
+  };
+  return py::cast(run_interruptible(work));
+}
+
+/// (report, why the reference falls short, or "")
+py::tuple tradeoff(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes,
+                   const py::object& progress) {
+  const auto work = [source = SceneSource{name, text, changes}](const Watch& watch) {
+    const Scene scene = source.read(Model::continuous);
+    if (scene.sweep) throw validation::BadInput("sweep: a sweep has no tradeoff; leave out [sweep]");
+    validation::TradeoffOptions options;
+    std::size_t all = 0;
+    options.progress = [&](std::size_t done, std::size_t of) { return watch.tell(done, all = of); };
+    const validation::Tradeoff measured = measure_tradeoff(scene, options);
+    watch.tell(all, all);
+    return std::pair(kept(tradeoff_report(scene, measured)), measured.shortfall);
+  };
+  return py::cast(run_interruptible(work, progress));
+}
+
+/// All rows on all cores.
+std::string swept_rows(const validation::SweepPlan& plan, const Watch& watch) {
+  const validation::SweepBody body =
+      plan.body_axes.empty() ? make_sweep_body(plan, plan.scene) : validation::SweepBody{};
+  validation::RangeQueue queue({0, plan.points.count()}, range_size(plan));
+  std::string rows;
+  std::size_t done = 0;
+  const auto count = static_cast<std::size_t>(plan.points.count());
+  validation::SweepHooks hooks;
+  hooks.write = [&](const validation::RangeRows& some) {
+    rows += some.text;
+    done += static_cast<std::size_t>(some.scenes);
+    watch.tell(done, count);
+  };
+  hooks.tick = [] {};
+  hooks.stop = [&] { return !watch(); };
+  const int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  run_on_threads(queue, threads, runners_of(plan, body), hooks);
+  return rows;
+}
+
+/// (report, how many scenes fall short and why the first, or "")
+py::tuple sweep(const std::string& name, const std::optional<std::string>& text, const std::vector<std::string>& sets,
+                const NamedTexts& options, const py::object& progress) {
+  const validation::SweepRequest request{.file = name,
+                                         .text = text,
+                                         .sets = sets,
+                                         .random = given(options, "random"),
+                                         .seed = given(options, "seed"),
+                                         .model = given(options, "model"),
+                                         .rows = given(options, "rows")};
+  const auto work = [request](const Watch& watch) {
+    const validation::SweepPlan plan = validation::read_sweep_plan(request);
+    const std::string rows = swept_rows(plan, watch);
+    validation::ShortfallCount shortfalls(plan);
+    shortfalls.add(rows);
+    validation::Report report = plan.report();
+    report.grid.rows = validation::read_csv_rows(rows);
+    report.fields["rows"] = row_objects(report.grid);
+    return std::pair(kept(std::move(report)), shortfalls.found().first());
+  };
+  return py::cast(run_interruptible(work, progress));
 }
 
 /// Name to text of the scene files that the program carries.
@@ -123,6 +240,12 @@ void add_scene_functions(py::module_& module) {
              py::arg("progress"), "Drop of any body, continuous contact.");
   module.def("compare", &compare, py::arg("name"), py::arg("text"), py::arg("changes"), py::arg("progress"),
              "Both models over the same scene.");
+  module.def("plan", &plan, py::arg("name"), py::arg("text"), py::arg("changes"), py::arg("within"),
+             "The smallest model that serves.");
+  module.def("tradeoff", &tradeoff, py::arg("name"), py::arg("text"), py::arg("changes"), py::arg("progress"),
+             "Cost against error.");
+  module.def("sweep", &sweep, py::arg("name"), py::arg("text"), py::arg("sets"), py::arg("options"),
+             py::arg("progress"), "Many scenes, a row each.");
   module.def("cases", &cases, "Texts of the scene files that the program carries, by name.");
 }
 

@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Contact angles of the thin rod as arrays."""
+"""The thin rod: contact angles as arrays, and how many impacts there are."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
 from clatter import _clatter
-from clatter.arrays import Array, numpy_for
-from clatter.scenes import Progress, called, texts_of
+from clatter.arguments import Progress, checked, is_list, is_number, plain, shown, texts_of
+from clatter.arrays import Array, frozen, numpy_for, same_arrays
+from clatter.errors import BadArgument
+from clatter.findings import Rows
+from clatter.results import Report
+from clatter.scenes import called
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -43,12 +47,20 @@ class Angles:
     beta_printed_deg: Array
     beta_printed_negative_g_deg: Array
 
-    def __init__(self, report: _clatter.Report, arrays: dict[str, Array]) -> None:
+    def __init__(self, report: Report, arrays: dict[str, Array]) -> None:
         self._report = report
         self._names = list(arrays)
         for name, array in arrays.items():
-            array.flags.writeable = False
-            setattr(self, name, array)
+            setattr(self, name, frozen(array))
+
+    def _arrays(self) -> dict[str, Array]:
+        return {name: self[name] for name in self._names}
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self._report, self._arrays())
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Angles) and same_arrays(self._arrays(), other._arrays())
 
     def __len__(self) -> int:
         return len(self.theta_deg)
@@ -63,6 +75,7 @@ class Angles:
         """The program's JSON as dicts and lists."""
         return self._report.data()
 
+    @checked
     def to_text(self, format: str = "table", *, ascii: bool = False) -> str:
         """What the program prints with --format `format`: table, csv, json, markdown or latex."""
         return self._report.text(format, ascii)
@@ -77,6 +90,7 @@ class Angles:
         return self._report.html() if len(self) <= _MOST_ROWS_SHOWN else f"<p>{self._summary()}</p>"
 
 
+@checked
 def angles(
     theta: ArrayLike | None = None,
     *,
@@ -109,5 +123,41 @@ def angles(
                       "gravity": gravity, "length": length, "speed": speed, "restitution": restitution,
                       "impulse_ratio": impulse_ratio, "digits": digits, "as_printed": as_printed})
     np = numpy_for("angles()")
-    values = None if theta is None else np.atleast_1d(np.asarray(theta, dtype=float)).ravel()
-    return Angles(*called(_clatter.angles, values, given, progress))
+    if theta is not None and not (is_number(plain(theta)) or is_list(theta)):
+        raise BadArgument(f"theta {shown(theta)}: must be a number or an array of numbers")
+    try:
+        values = None if theta is None else np.asarray(plain(theta) if is_number(plain(theta)) else list(plain(theta)), dtype=float).ravel()
+    except (TypeError, ValueError):
+        raise BadArgument(f"theta {shown(theta)}: must be a number or an array of numbers") from None
+    return Angles(*called(_clatter.angles, values, given, progress, renamed={"from": "start", "to": "stop"}))
+
+
+@checked
+def regimes(
+    over: str = "gravity-number",
+    *,
+    from_: float | None = None,
+    to: float | None = None,
+    step: float | None = None,
+    count: int | None = None,
+    log: bool = False,
+    gravity_number: float | None = None,
+    gravity: float | None = None,
+    length: float | None = None,
+    speed: float | None = None,
+    restitution: float | None = None,
+    impulse_ratio: float | None = None,
+    digits: int | None = None,
+) -> Rows:
+    """How many impacts the thin rod has, and the angles where that changes, over one of its parameters.
+
+    over: "gravity-number", "restitution" or "impulse-ratio"; from_, to and step or count of its values (log: in geometric
+    progression); the others as for angles().  digits: shown in the table (6).
+
+    >>> clatter.regimes("restitution", from_=0.5, to=1, step=0.5).column("restitution")
+    array([0.5, 1. ])
+    """
+    given = texts_of({"over": over, "from": from_, "to": to, "step": step, "count": count, "gravity_number": gravity_number,
+                      "gravity": gravity, "length": length, "speed": speed, "restitution": restitution,
+                      "impulse_ratio": impulse_ratio, "digits": digits, "log": True if log else None})
+    return Rows(called(_clatter.regimes, given, renamed={"from": "from_"}))

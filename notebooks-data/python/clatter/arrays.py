@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
@@ -42,3 +42,17 @@ def words(values: Iterable[Any]) -> Array:
         return list(values)  # type: ignore[return-value]
     array: Array = numpy.array(list(values))
     return array
+
+
+def frozen(array: Array) -> Array:
+    """Not to be changed by accident; without NumPy the list as it is."""
+    if hasattr(array, "flags"):
+        array.flags.writeable = False
+    return array
+
+
+def same_arrays(some: Mapping[str, Array], others: Mapping[str, Array]) -> bool:
+    """Whether both have the same values under the same names, NaN being equal to NaN."""
+    numpy = numpy_for("an array")
+    return some.keys() == others.keys() and all(
+        numpy.array_equal(array, others[name], equal_nan=array.dtype.kind == "f") for name, array in some.items())

@@ -10,6 +10,10 @@ class BadInput(Error, ValueError):
     """What was given cannot be used: which argument or key, its value, what is allowed (exit status 2)."""
 
 
+class BadArgument(BadInput, TypeError):
+    """An argument that a function does not have, or of a type that it has no use for."""
+
+
 class NotComputed(Error, ArithmeticError):
     """A number could not be computed (exit status 3)."""
 

@@ -1,24 +1,27 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What judges the models and the programs of others: measured drops, certified problems, the map of extremes, figures."""
 
+from __future__ import annotations
+
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 
 from clatter import _clatter
-from clatter.discrete import source_of
+from clatter.arguments import Path, Progress, checked, shown, texts_of
 from clatter.errors import BadInput
 from clatter.findings import Measured, Problem, Scored, Table
-from clatter.scenes import Path, Progress, Scene, Value, called, texts_of
+from clatter.results import Verification
+from clatter.scenes import called
 
 _MOST_SECONDS = 3600.0
 
 
-def _measured(action: str, tracks: Path, options: Mapping[str, Path | float | None]) -> Measured:
-    texts: dict[str, Value | None] = {
-        name: os.fspath(value) if isinstance(value, os.PathLike) else value for name, value in options.items()}
+def _measured(action: str, tracks: Path, options: dict[str, Path | float | None]) -> Measured:
+    texts = {name: os.fspath(value) if isinstance(value, os.PathLike) else value for name, value in options.items()}
     return Measured(called(_clatter.measured, action, os.fspath(tracks), texts_of(texts)))
 
 
+@checked
 def measured_fit(
     tracks: Path,
     *,
@@ -35,10 +38,11 @@ def measured_fit(
     seed (1), share (0.5): of the drops that are drawn to fit on; or fit_on: these, as in "1,3,10-20"; or fit_from:
     another file, all of which is fitted on.  Raises BadInput.
     """
-    options = {"body": body, "seed": seed, "share": share, "fit_on": fit_on, "fit_from": fit_from}
+    options: dict[str, Path | float | None] = {"body": body, "seed": seed, "share": share, "fit_on": fit_on, "fit_from": fit_from}
     return _measured("fit", tracks, options)
 
 
+@checked
 def measured_predict(
     tracks: Path,
     *,
@@ -49,10 +53,11 @@ def measured_predict(
     fit_from: Path | None = None,
 ) -> Measured:
     """The motion after the first impact of each drop that nothing was fitted to; arguments as for measured_fit()."""
-    options = {"body": body, "seed": seed, "share": share, "fit_on": fit_on, "fit_from": fit_from}
+    options: dict[str, Path | float | None] = {"body": body, "seed": seed, "share": share, "fit_on": fit_on, "fit_from": fit_from}
     return _measured("predict", tracks, options)
 
 
+@checked
 def measured_score(
     tracks: Path,
     *,
@@ -67,15 +72,17 @@ def measured_score(
     >>> next(row.value for row in clatter.measured_score("square-drops") if row.quantity == "as fitted") < 10
     True
     """
-    options = {"body": body, "seed": seed, "share": share, "fit_on": fit_on, "fit_from": fit_from}
+    options: dict[str, Path | float | None] = {"body": body, "seed": seed, "share": share, "fit_on": fit_on, "fit_from": fit_from}
     return _measured("score", tracks, options)
 
 
+@checked
 def benchmark_list() -> Table:
     """The problems with certified answers, a row each."""
     return Table(called(_clatter.benchmark_list))
 
 
+@checked
 def benchmark_show(problem: str) -> Problem:
     """The statement of a problem: data, starts, what is asked, tolerances, certified answer.
 
@@ -85,11 +92,13 @@ def benchmark_show(problem: str) -> Problem:
     return Problem(called(_clatter.benchmark_show, problem))
 
 
+@checked
 def benchmark_truth(problem: str, law: str | None = None) -> Table:
     """The certified answer, a row for each impact.  law: "newton", "poisson" or "stronge", then "routh" or "moreau"."""
     return Table(called(_clatter.benchmark_truth, problem, law))
 
 
+@checked
 def benchmark_score(
     files: Path | Iterable[Path],
     *,
@@ -104,32 +113,18 @@ def benchmark_score(
     require: "exact", "sharp", "good", "coarse" or a largest error, for is_met.  progress(done, of): of the files.
     """
     options = texts_of({"problem": problem, "columns": columns, "require": require})
-    return Scored(*called(_clatter.benchmark_score, _listed(files), options, progress))
+    return Scored(*called(_clatter.benchmark_score, listed(files), options, progress))
 
 
-def compare_against(
-    scene: Scene | float,
-    files: Path | Iterable[Path],
-    *,
-    columns: str | None = None,
-    require: str | float | None = None,
-    progress: Progress | None = None,
-    **changes: Value | None,
-) -> Scored:
-    """Scores others' runs of any scene by the discrete model, as benchmark_score() does; scene as for sequence()."""
-    source, angle = source_of(scene, None)
-    options = texts_of({"columns": columns, "require": require})
-    return Scored(*called(_clatter.compare_against, *source, texts_of({**changes, "angle": changes.get("angle", angle)}),
-                          _listed(files), options, progress))
-
-
-def _listed(files: Path | Iterable[Path]) -> list[str]:
+def listed(files: Path | Iterable[Path]) -> list[str]:
+    """Paths of one file or several."""
     names = [files] if isinstance(files, (str, os.PathLike)) else files
     return [os.fspath(name) for name in names]
 
 
+@checked
 def extremes(
-    only: Iterable[str] = (),
+    only: str | Iterable[str] = (),
     *,
     quick: bool = False,
     seed: int = 1,
@@ -141,16 +136,17 @@ def extremes(
     only: quantities such as ["angle", "speed"]; quick: without the long runs; seed: of the random scenes; seconds: that a
     cell may take.  progress(done, of): of the cells.  A minute or more for all.
     """
-    names = list(only)
+    names = [only] if isinstance(only, str) else list(only)
     if quick and names:
         raise BadInput("quick: excludes only; give one of them, not both")
     if not 0 < seconds <= _MOST_SECONDS:
-        raise BadInput(f"seconds {seconds!r}: must be greater than 0, at most {_MOST_SECONDS:g}")
+        raise BadInput(f"seconds {shown(seconds)}: must be greater than 0, at most {_MOST_SECONDS:g}")
     if not 0 <= seed < 2**31:
-        raise BadInput(f"seed {seed!r}: must be a whole number from 0 to {2**31 - 1}")
+        raise BadInput(f"seed {shown(seed)}: must be a whole number from 0 to {2**31 - 1}")
     return Table(called(_clatter.extremes, names, quick, seed, float(seconds), progress))
 
 
+@checked
 def figure(number: int) -> Table:
     """The data of a figure of the paper: 7 to 12, 14 to 17, 19 to 24.
 
@@ -158,3 +154,14 @@ def figure(number: int) -> Table:
     array([0. , 0.1, 0.2])
     """
     return Table(called(_clatter.figure, number))
+
+
+@checked
+def verify(only: str | Iterable[str] | None = None, *, quick: bool = False, progress: Progress | None = None) -> Verification:
+    """Every claim of the paper, its errata, figures and exact results, each against an independent oracle.
+
+    only: ids such as ["C1", "E2"]; quick: without the checks that take long.  progress(done, of): of the checks.  Some
+    minutes for all.
+    """
+    ids = [only] if isinstance(only, str) else list(only or [])
+    return Verification(called(_clatter.verify, quick, ids, progress))

@@ -4,10 +4,9 @@
 from collections.abc import Iterator
 from typing import Any
 
-from clatter._clatter import Report
 from clatter.arrays import Array
 from clatter.records import Record, as_array
-from clatter.results import Result
+from clatter.results import Report, Result
 
 
 class Explanation(Result):
@@ -132,6 +131,9 @@ class Scored(Table):
     def __init__(self, report: Report, is_met: bool) -> None:
         super().__init__(report)
         self.is_met = is_met
+
+    def _beside(self) -> tuple[Any, ...]:
+        return (self.is_met,)
 
 
 class Rows(Table):

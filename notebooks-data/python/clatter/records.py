@@ -4,7 +4,7 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from clatter.arrays import Array, numbers, words
+from clatter.arrays import Array, frozen, numbers, same_arrays, words
 
 JsonObject = Mapping[str, Any]
 
@@ -21,41 +21,61 @@ def as_array(values: list[Any]) -> Array:
 
 
 class Record(Mapping[str, Any]):
-    """Values by name, as `record.name` or `record["name"]`; vectors are arrays, what a model has no value for is None."""
+    """Values by name, as `record.name` or `record["name"]`; vectors are arrays, what a model has no value for is None.
+
+    A record cannot be changed; records of the same values are equal.
+    """
+
+    __slots__ = ("_raw", "_values")
+    _raw: dict[str, Any]
+    _values: dict[str, Any]
 
     def __init__(self, data: JsonObject) -> None:
-        self._data = {name: self._converted(value) for name, value in data.items()}
+        object.__setattr__(self, "_raw", dict(data))
+        object.__setattr__(self, "_values", {name: self._converted(value) for name, value in data.items()})
 
     @staticmethod
     def _converted(value: Any) -> Any:
         if isinstance(value, dict):
             return Record(value)
         if isinstance(value, list) and value and all(isinstance(item, (int, float)) for item in value):
-            return numbers(value)
+            return frozen(numbers(value))
         return value
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
             raise AttributeError(name)
         try:
-            return self._data[name]
+            return self._values[name]
         except KeyError:
-            raise AttributeError(f"no '{name}' here; there are {', '.join(self._data)}") from None
+            raise AttributeError(f"no '{name}' here; there are {', '.join(self._values)}") from None
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError(f"{name}: {type(self).__name__} cannot be changed")
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError(f"{name}: {type(self).__name__} cannot be changed")
 
     def __getitem__(self, name: str) -> Any:
-        return self._data[name]
+        return self._values[name]
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._data)
+        return iter(self._values)
 
     def __len__(self) -> int:
-        return len(self._data)
+        return len(self._values)
+
+    def __eq__(self, other: object) -> bool:
+        return self._raw == (other._raw if isinstance(other, Record) else other)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self._raw,)
 
     def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *self._data]
+        return [*super().__dir__(), *self._values]
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in self._data.items())})"
+        return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in self._values.items())})"
 
 
 class Impact(Record):
@@ -68,9 +88,13 @@ class Impact(Record):
     energy_stored, ledger_gap.  start counts from the first touch, peak_time from the impact's start.
     """
 
+    __slots__ = ()
+
     def __repr__(self) -> str:
-        return (f"Impact {self.n}: end {self.end} at {self.start:.6g} s, {self.contact_angle_deg:.6g}°, "
-                f"P = {self.impulse_normal:.6g} N·s")
+        return f"Impact {self.n}: end {self.end} at " + ", ".join(
+            [f"{self.start:.6g} s",
+             *([] if self.get("contact_angle_deg") is None else [f"{self.contact_angle_deg:.6g}°"]),
+             f"P = {self.impulse_normal:.6g} N·s"])
 
 
 class History:
@@ -98,8 +122,13 @@ class History:
 
     def __init__(self, arrays: Mapping[str, Array]) -> None:
         for name, array in arrays.items():
-            array.flags.writeable = False
-            setattr(self, name, array)
+            setattr(self, name, frozen(array))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (dict(vars(self)),)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, History) and same_arrays(vars(self), vars(other))
 
     def __len__(self) -> int:
         return len(self.time)

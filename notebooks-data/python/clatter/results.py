@@ -1,20 +1,82 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the functions of clatter return."""
 
-from collections.abc import Iterator
-from typing import Any, overload
+from __future__ import annotations
 
-from clatter._clatter import Report
+import copy
+import copyreg
+from collections.abc import Iterator, Mapping
+from typing import Any, Protocol, overload
+
+from clatter import _clatter
+from clatter.arguments import checked
 from clatter.arrays import Array
+from clatter.errors import BadInput
 from clatter.records import History, Impact, Record, as_array
+
+_FORMATS = ("table", "csv", "json", "markdown", "latex")
+
+
+class Report(Protocol):
+    """What a run came to, as the compiled part has it or as it was kept."""
+
+    def data(self) -> dict[str, Any]: ...
+    def rows(self) -> list[dict[str, Any]]: ...
+    def text(self, format: str, ascii: bool) -> str: ...
+    def html(self) -> str: ...
+
+
+class KeptReport:
+    """What a pickled report said: all of it, without the run."""
+
+    def __init__(self, data: dict[str, Any], rows: list[dict[str, Any]], texts: Mapping[tuple[str, bool], str], html: str) -> None:
+        self._data, self._rows, self._texts, self._html = data, rows, texts, html
+
+    def data(self) -> dict[str, Any]:
+        return copy.deepcopy(self._data)
+
+    def rows(self) -> list[dict[str, Any]]:
+        return copy.deepcopy(self._rows)
+
+    def text(self, format: str, ascii: bool) -> str:
+        if format not in _FORMATS:
+            raise BadInput(f"format '{format}': must be one of {', '.join(_FORMATS)}")
+        return self._texts.get((format, ascii), self._texts[format, False])
+
+    def html(self) -> str:
+        return self._html
+
+
+def _keep(report: _clatter.Report) -> tuple[Any, tuple[Any, ...]]:
+    texts = {(form, False): report.text(form, False) for form in _FORMATS}
+    plain = {(form, True): report.text(form, True) for form in _FORMATS}
+    texts |= {(form, ascii): text for (form, ascii), text in plain.items() if text != texts[form, False]}
+    return KeptReport, (report.data(), report.rows(), texts, report.html())
+
+
+copyreg.pickle(_clatter.Report, _keep)
 
 
 class Result:
-    """A result that shows itself as the program's table: as text, and in a notebook as HTML."""
+    """A result that shows itself as the program's table: as text, and in a notebook as HTML.
+
+    Results can be pickled and copied; those of the same content are equal.
+    """
 
     def __init__(self, report: Report) -> None:
         self._report = report
         self._data = report.data()
+
+    def _beside(self) -> tuple[Any, ...]:
+        """What it was made from beside the report."""
+        return ()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self._report, *self._beside())
+
+    def __eq__(self, other: object) -> bool:
+        return (isinstance(other, Result) and type(other) is type(self) and self._data == other._data
+                and self._beside() == other._beside())
 
     @property
     def scene(self) -> dict[str, Any]:
@@ -30,6 +92,7 @@ class Result:
         """The program's JSON as dicts and lists."""
         return self._report.data()
 
+    @checked
     def to_text(self, format: str = "table", *, ascii: bool = False) -> str:
         """What the program prints with --format `format`: table, csv, json, markdown or latex."""
         return self._report.text(format, ascii)
@@ -118,6 +181,9 @@ class Simulation(Run):
     def __init__(self, report: Report, history: History | None) -> None:
         super().__init__(report)
         self._history = history
+
+    def _beside(self) -> tuple[Any, ...]:
+        return (self._history,)
 
     @property
     def history(self) -> History:

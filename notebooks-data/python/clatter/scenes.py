@@ -1,59 +1,43 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scenes in the forms that Python has for them, and arguments as the texts that the program checks."""
+"""Scenes in the forms that Python has for them."""
+
+from __future__ import annotations
 
 import difflib
 import os
 import re
 import tomllib
-from collections.abc import Callable, Iterable, Mapping
-from numbers import Integral, Real
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple, TypeVar
 
 from clatter import _clatter
-from clatter.errors import BadInput
+from clatter.arguments import KEYS, Scene, checked, is_list, is_number, number_text, plain, shown, text_of
+from clatter.errors import BadArgument, BadInput
 
-Value = str | float | bool | Iterable[float]
-Scene = str | os.PathLike[str] | Mapping[str, Any]
-Path = str | os.PathLike[str]
-Progress = Callable[[int, int], object]  # called with (done, of) a few times a second; what it raises ends the work
 Returned = TypeVar("Returned")
 
+
 class SceneText(NamedTuple):
-    """A scene for the compiled part: a file's name, or a text with the name that messages call it."""
+    """A scene for the compiled part: a file's name, or a text with the name that messages call it, and what takes the
+    place of its keys."""
 
     name: str
     text: str | None
-
-
-def text_of(name: str, value: Any) -> str:
-    """The argument as it would be typed; numbers keep all their bits."""
-    if isinstance(value, str):
-        return value
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, Integral):
-        return str(int(value))
-    if isinstance(value, Real):
-        return repr(float(value))
-    if isinstance(value, Iterable):
-        return "x".join(repr(float(part)) for part in value)
-    raise BadInput(f"{name} {value!r}: must be a number, a text or a list of numbers")
-
-
-def texts_of(arguments: Mapping[str, Value | None]) -> dict[str, str]:
-    """Without those that were not given."""
-    return {name: text_of(name, value) for name, value in arguments.items() if value is not None}
+    changes: dict[str, str]
 
 
 def toml_value(key: str, value: Any) -> str:
     """A number, truth, text or list in TOML."""
+    value = plain(value)
     if isinstance(value, str):
         return '"' + "".join(c if c.isprintable() and c not in '"\\' else f"\\U{ord(c):08X}" for c in value) + '"'
-    if isinstance(value, (bool, Integral, Real)):
-        return text_of(key, value)
-    if isinstance(value, Iterable):
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if is_number(value):
+        return number_text(value)
+    if is_list(value):
         return "[" + ", ".join(toml_value(key, item) for item in value) + "]"
-    raise BadInput(f"{key} = {value!r}: must be a number, a truth, a text or a list")
+    raise BadArgument(f"{key} = {shown(value)}: must be a number, a truth, a text or a list")
 
 
 def toml_lines(table: Mapping[str, Any], prefix: str = "") -> list[str]:
@@ -70,18 +54,25 @@ def toml_lines(table: Mapping[str, Any], prefix: str = "") -> list[str]:
     return lines
 
 
-def scene_text(scene: Scene) -> SceneText:
-    """@raise BadInput: neither a file nor a case."""
+def scene_text(scene: Scene | float | None, changes: Mapping[str, Any]) -> SceneText:
+    """The scene, which may be an angle, and the keys that change.  @raise BadInput: neither a file nor a case."""
+    texts = {name: text_of(name, KEYS[name], value) for name, value in changes.items() if value is not None}
+    if scene is None:
+        return SceneText("", None, texts)
+    if is_number(scene):
+        if "angle" in texts:
+            raise BadInput(f"angle {shown(changes['angle'])}: given twice")
+        return SceneText("", None, texts | {"angle": number_text(scene)})
     if isinstance(scene, Mapping):
-        return SceneText("scene", "\n".join(toml_lines({k: v for k, v in scene.items() if k != "file"})))
-    name = os.fspath(scene)
+        return SceneText("scene", "\n".join(toml_lines({k: v for k, v in scene.items() if k != "file"})), texts)
+    name = os.fspath(scene)  # type: ignore[arg-type]
     known = _clatter.cases()
     if isinstance(scene, str) and name in known and not os.path.exists(name):
-        return SceneText(f"validation/cases/{name}.toml", known[name])
+        return SceneText(f"validation/cases/{name}.toml", known[name], texts)
     if os.sep not in name and not name.endswith(".toml") and not os.path.exists(name):
         near = difflib.get_close_matches(name, known, 1, 0)[0]
         raise BadInput(f"scene '{name}': neither a file nor a case; did you mean '{near}'?")
-    return SceneText(name, None)
+    return SceneText(name, None, texts)
 
 
 def cases() -> list[str]:
@@ -89,6 +80,7 @@ def cases() -> list[str]:
     return list(_clatter.cases())
 
 
+@checked
 def case(name: str) -> dict[str, Any]:
     """A scene that comes with clatter, as a dict to change and to give to simulate() or compare().
 
@@ -102,12 +94,12 @@ def case(name: str) -> dict[str, Any]:
     return tomllib.loads(known[name])
 
 
-def called(function: Callable[..., Returned], *arguments: Any) -> Returned:
-    """The compiled function's result, its complaints in the words of Python."""
+def called(function: Callable[..., Returned], *arguments: Any, renamed: Mapping[str, str] | None = None) -> Returned:
+    """The compiled function's result, its complaints in the words of Python; renamed: flags that have other names here."""
+    def name(flag: re.Match[str]) -> str:
+        return (renamed or {}).get(flag[1], flag[1].replace("-", "_"))
     try:
         return function(*arguments)
     except BadInput as error:
         words = re.sub(r"^scene(:\d+:\d+)?: ", "", str(error))
-        words = words.replace("--from ", "start ").replace("--to ", "stop ")
-        words = re.sub(r"--([a-z][a-z-]*)", lambda flag: flag[1].replace("-", "_"), words)
-        raise BadInput(words) from None
+        raise BadInput(re.sub(r"--([a-z][a-z-]*)", name, words)) from None

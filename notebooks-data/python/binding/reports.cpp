@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Reports and the language of scenes as Python objects.
+#include <pybind11/stl.h>
+
+#include <type_traits>
+#include <variant>
+
+#include "binding.hpp"
+#include "validation/output/html.hpp"
+#include "validation/scene/option_values.hpp"
+
+namespace clatter::python {
+namespace {
+
+namespace py = pybind11;
+using validation::Format;
+using validation::Key;
+using validation::Value;
+
+/// Lets Ctrl-C end what goes through very many values.
+void look_for_signals() {
+  constexpr unsigned values_a_look = 1024;
+  static unsigned seen = 0;  // under Python's lock
+  if (++seen % values_a_look == 0 && PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+/// Fields as dict, lists as list, nothing as None; numbers keep all their bits.
+py::object to_python(const Value& value) {
+  const auto python = [](const auto& content) -> py::object {
+    using Content = std::decay_t<decltype(content)>;
+    if constexpr (std::is_same_v<Content, std::nullptr_t>) {
+      return py::none();
+    } else if constexpr (std::is_same_v<Content, Value::List>) {
+      py::list list;
+      for (const Value& item : content) list.append(to_python(item));
+      return list;
+    } else if constexpr (std::is_same_v<Content, Value::Fields>) {
+      py::dict dict;
+      for (const validation::Field& field : content) dict[py::str(field.name)] = to_python(field.value);
+      return dict;
+    } else {
+      return py::cast(content);
+    }
+  };
+  look_for_signals();
+  return std::visit(python, value.content());
+}
+
+py::object data_of(const Report& report) {
+  return to_python(run_interruptible([made = report.made](const Watch&) { return made().fields; }));
+}
+
+py::object rows_of(const Report& report) {
+  return to_python(run_interruptible([made = report.made](const Watch&) { return row_objects(made().grid); }));
+}
+
+std::string html_of(const Report& report) {
+  return run_interruptible([made = report.made](const Watch&) { return validation::html_table(made()); });
+}
+
+/// @throws BadInput for a format that there is not.
+std::string text_of(const Report& report, const std::string& format, bool ascii) {
+  static const std::vector<std::string> names{"table", "csv", "json", "markdown", "latex"};
+  const auto chosen = static_cast<Format>(validation::read_name_option("format", format, names));
+  const validation::TextStyle style{chosen, ascii};
+  return run_interruptible([report, style](const Watch&) {
+    return report.text ? report.text(style) : validation::report_text(report.made(), style);
+  });
+}
+
+/// "number", "whole", "truth", "text", "name" or "list".
+const char* kind_of(const Key& key) {
+  if (key.is_truth()) return "truth";
+  if (key.is_whole() || key.allowed().starts_with("a whole number")) return "whole";
+  if (key.is_number()) return "number";
+  if (std::holds_alternative<validation::NameValue>(key.value)) return "name";
+  return std::holds_alternative<validation::ListValue>(key.value) ? "list" : "text";
+}
+
+/// The rows of the table of keys that are arguments here, in the order of the table.
+py::list keys() {
+  py::list rows;
+  for (const Key& key : validation::all_keys()) {
+    if (key.is_file()) continue;
+    const auto* const choice = std::get_if<validation::NameValue>(&key.value);
+    py::dict row;
+    row["argument"] = key.argument();
+    row["key"] = key.name;
+    row["kind"] = kind_of(key);
+    row["names"] = choice ? *choice->names : std::vector<std::string>{};
+    row["unit"] = key.unit;
+    row["allowed"] = key.allowed();
+    row["meaning"] = key.help;
+    row["is_discrete"] = key.is_for(validation::Model::discrete);
+    rows.append(row);
+  }
+  return rows;
+}
+
+}  // namespace
+
+void add_reports(py::module_& module) {
+  py::class_<Report>(module, "Report", "What a run came to.")
+      .def("data", &data_of, "The program's JSON as Python objects.")
+      .def("rows", &rows_of, "The rows of its CSV as Python objects.")
+      .def("text", &text_of, py::arg("format"), py::arg("ascii"), "What the program prints with --format.")
+      .def("html", &html_of, "The table as an element of an HTML page.");
+  module.def("keys", &keys, "The keys of scenes that are arguments: their names, kinds, units, what is allowed.");
+}
+
+}  // namespace clatter::python

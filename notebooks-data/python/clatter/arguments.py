@@ -1,0 +1,204 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Arguments: their names and types, checked, and as the texts that the program reads.
+
+The keys of scenes are keyword arguments; their names, types and what is allowed come from the program's table of keys.
+"""
+
+from __future__ import annotations
+
+import difflib
+import functools
+import inspect
+import os
+from collections.abc import Callable, Iterable, Mapping, Set
+from decimal import Decimal
+from numbers import Integral, Real
+from typing import Any, Literal, NamedTuple, ParamSpec, TypeVar
+
+from clatter import _clatter
+from clatter.errors import BadArgument, BadInput
+
+Value = str | float | bool | Iterable[float]
+Swept = str | float | bool | Iterable[str] | Iterable[float] | Iterable[Iterable[float]]
+Path = str | os.PathLike[str]
+Scene = str | os.PathLike[str] | Mapping[str, Any]
+Progress = Callable[[int, int], object]  # called with (done, of) a few times a second; what it raises ends the work
+
+_Arguments = ParamSpec("_Arguments")
+_Returned = TypeVar("_Returned")
+_MOST_SHOWN = 60  # characters of a value in a message
+
+
+class Key(NamedTuple):
+    """A key of scenes that is an argument."""
+
+    argument: str
+    key: str
+    kind: str  # "number", "whole", "truth", "text", "name" or "list"
+    names: list[str]
+    unit: str
+    allowed: str
+    meaning: str
+    is_discrete: bool
+
+    def type_name(self) -> str:
+        """As stubs have it."""
+        if self.kind == "name":
+            return f"Literal[{', '.join(map(repr, self.names))}]"
+        return {"number": "float", "whole": "int", "truth": "bool", "text": "str", "list": "Iterable[float]"}[self.kind]
+
+    def parameter(self) -> inspect.Parameter:
+        """In a signature."""
+        known = {"Literal": Literal, "Iterable": Iterable}
+        annotation = eval(f"{self.type_name()} | None", known)  # of the program's own names
+        return inspect.Parameter(self.argument, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
+
+    def requirement(self) -> str:
+        """What is allowed, in words."""
+        return {"number": f"a number, {self.allowed}", "truth": "True or False", "text": "a text"}.get(self.kind, self.allowed)
+
+
+KEYS = {key.argument: key for key in (Key(**row) for row in _clatter.keys())}
+_BY_NAME = {key.key: key for key in KEYS.values()}
+
+
+def shown(value: Any) -> str:
+    """A value on one line, in a message."""
+    text = " ".join(repr(value).split())
+    return text if len(text) <= _MOST_SHOWN else text[:_MOST_SHOWN - 3] + "..."
+
+
+def plain(value: Any) -> Any:
+    """Numbers of NumPy and the like as Python's, tables of data frames as arrays."""
+    if hasattr(value, "to_numpy"):
+        return value.to_numpy()
+    return value.item() if getattr(value, "ndim", None) == 0 and hasattr(value, "item") else value
+
+
+def is_number(value: Any) -> bool:
+    """Not a truth."""
+    return isinstance(value, (Real, Decimal)) and not isinstance(value, bool)
+
+
+def number_text(value: Any) -> str:
+    """With all its bits."""
+    return str(int(value)) if isinstance(value, Integral) else repr(float(value))
+
+
+def is_list(value: Any) -> bool:
+    """What stands for several values in an order."""
+    return isinstance(value, Iterable) and not isinstance(value, (str, bytes, Mapping, Set))
+
+
+def _vector(value: Any) -> list[str] | None:
+    """The numbers of a list; None if something else is in it."""
+    parts = [plain(part) for part in value] if is_list(value) else [None]
+    return [number_text(part) for part in parts] if all(map(is_number, parts)) else None
+
+
+def text_of(name: str, key: Key | None, value: Any) -> str:
+    """The value of a key as it would be typed, or of any argument of numbers and texts.  @raise BadArgument: its type."""
+    value = plain(value)
+    kind = key.kind if key else "any"
+    if isinstance(value, str):
+        return value
+    if isinstance(value, bool) and kind in ("truth", "any"):
+        return "true" if value else "false"
+    if is_number(value) and kind in ("number", "whole", "any"):
+        return number_text(value)
+    vector = _vector(value) if kind in ("list", "any") else None
+    if vector is None:
+        raise BadArgument(f"{name} {shown(value)}: must be {key.requirement() if key else 'a number, a text or a list of numbers'}")
+    return "x".join(vector)
+
+
+def texts_of(arguments: Mapping[str, Any]) -> dict[str, str]:
+    """Arguments that are no keys; without those that were not given."""
+    return {name: text_of(name, None, value) for name, value in arguments.items() if value is not None}
+
+
+
+def swept_text(name: str, values: Any) -> str:
+    """The value or the values of a key of a scene file in a sweep, as --set has them.  @raise BadInput: there is none."""
+    values, key = plain(values), _BY_NAME.get(name)
+    if not is_list(values):
+        return text_of(name, key, values)
+    parts = [plain(part) for part in values]
+    if not parts:
+        raise BadInput(f"{name} {shown(values)}: must have at least one value")
+    if key is not None and key.kind == "list":
+        if all(map(is_number, parts)):
+            return text_of(name, key, parts)
+        vectors = [text_of(name, key, part).split("x") for part in parts]
+        return ",".join(f"[{','.join(vector)}]" for vector in vectors)
+    texts = [text_of(name, key, part) for part in parts]
+    return f"{texts[0]}:{texts[0]}:1" if len(texts) == 1 and is_number(parts[0]) else ",".join(texts)
+
+
+# What an annotation of a function of clatter allows, and how that is called.
+_TYPES: dict[str, tuple[Callable[[Any], bool], str]] = {
+    "None": (lambda value: value is None, "None"),
+    "bool": (lambda value: isinstance(value, bool), "True or False"),
+    "int": (lambda value: isinstance(value, Integral) and not isinstance(value, bool), "a whole number"),
+    "float": (is_number, "a number"),
+    "str": (lambda value: isinstance(value, str), "a text"),
+    "Path": (lambda value: isinstance(value, (str, os.PathLike)), "the path of a file"),
+    "Scene": (lambda value: isinstance(value, (str, os.PathLike, Mapping)), "a scene (a file, the name of a case, a dict)"),
+    "Progress": (callable, "a function of (done, of)"),
+    "Iterable[str]": (lambda value: is_list(value) and all(isinstance(part, str) for part in value), "a list of texts"),
+    "Iterable[Path]": (lambda value: is_list(value) and all(isinstance(part, (str, os.PathLike)) for part in value), "a list of paths"),
+    "Mapping[str, Swept]": (lambda value: isinstance(value, Mapping) and all(isinstance(key, str) for key in value),
+                            "a dict of values by the keys of scenes"),
+}
+
+
+def _checked_value(name: str, value: Any, annotation: str) -> Any:
+    value = plain(value)
+    if is_list(value) and "Iterable" in annotation:
+        value = list(value)
+    types = [_TYPES[part] for part in annotation.split(" | ")]
+    if not any(allows(value) for allows, _ in types):
+        words = [words for _, words in types if words != "None"]
+        raise BadArgument(f"{name} {shown(value)}: must be {' or '.join(words)}")
+    return value
+
+
+def checked(function: Callable[_Arguments, _Returned]) -> Callable[_Arguments, _Returned]:
+    """The function, which refuses arguments of unknown names and wrong types on one line.
+
+    Where it takes **changes, these are keys of scenes, all or (DiscreteKey in the annotation) those of the discrete model,
+    and its signature and documentation list them.
+    """
+    own = dict(inspect.signature(function).parameters)
+    changes = own.pop("changes", None)
+    keys = [key for key in KEYS.values() if changes is not None and key.argument not in own
+            and (key.is_discrete or changes.annotation != "DiscreteKey")]
+    positional = [name for name, one in own.items() if one.kind is inspect.Parameter.POSITIONAL_OR_KEYWORD]
+    names = [*own, *(key.argument for key in keys)]
+    types = {name: one.annotation for name, one in own.items() if set(str(one.annotation).split(" | ")) <= _TYPES.keys()}
+    known = frozenset(names)
+
+    @functools.wraps(function)
+    def call(*arguments: Any, **named: Any) -> Any:
+        if not named.keys() <= known:
+            unknown = next(name for name in named if name not in known)
+            near = difflib.get_close_matches(unknown, names, 1, 0)
+            raise BadArgument(f"{unknown}: unknown argument of {function.__name__}(); did you mean {near[0]}?")
+        given = [_checked_value(name, value, types[name]) if name in types else value for name, value in zip(positional, arguments)]
+        for name in named.keys() & types.keys():
+            named[name] = _checked_value(name, named[name], types[name])
+        return function(*[*given, *arguments[len(given):]], **named)
+
+    if changes is not None:
+        parameters = [one for name, one in inspect.signature(function, eval_str=True).parameters.items() if name != "changes"]
+        returned = inspect.signature(function, eval_str=True).return_annotation
+        call.__signature__ = inspect.Signature(  # type: ignore[attr-defined]
+            [*parameters, *(key.parameter() for key in keys)], return_annotation=returned)
+        lines = [f"    {key.argument}{f' [{key.unit}]' if key.unit else ''}: {key.meaning}; {key.requirement()}" for key in keys]
+        call.__doc__ = "\n".join([inspect.cleandoc(function.__doc__ or ""), "", "Keys of the scene:", *lines])
+    return call
+
+
+# What **changes stand for: keys of scenes, in the second case those that the discrete model knows.
+AnyKey = Value | None
+DiscreteKey = Value | None

@@ -1,0 +1,192 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The functions that take a scene.  The keys of scenes are their keyword arguments (the stub beside lists them)."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterable, Mapping
+
+from clatter import _clatter
+from clatter.arguments import AnyKey, DiscreteKey, Path, Progress, Scene, Swept, checked, swept_text, texts_of
+from clatter.arrays import numpy_for
+from clatter.errors import ClatterWarning, NotComputed
+from clatter.evidence import listed
+from clatter.findings import Explanation, Plan, Rows, Scored, Tradeoff
+from clatter.records import History
+from clatter.results import Comparison, ComparisonSweep, Run, Sequence, Simulation, Sweep
+from clatter.scenes import called, scene_text
+
+# Outcomes after which rows are missing because a number could not be computed.
+_CUT_SHORT = {"evaluation-limit", "step-too-small", "not-representable", "flight-undecided", "not-computed", "outside-model"}
+
+
+def _warn(reservations: Iterable[str]) -> None:
+    """Of the line that calls a function of this file."""
+    for words in reservations:
+        warnings.warn(words, ClatterWarning, stacklevel=4)
+
+
+def _reservations(run: Run) -> list[str]:
+    """That rows are missing.  @raise NotComputed: all are, or required digits are not known."""
+    if run.shortfall is None:
+        return []
+    if run.outcome not in _CUT_SHORT or not run.impacts:
+        raise NotComputed(run.shortfall)
+    return [run.shortfall]
+
+
+@checked
+def sequence(scene: Scene | float | None = None, *, method: str = "auto", **changes: DiscreteKey) -> Sequence:
+    """Impact sequence of a drop by the discrete model: Eqs. 8 to 12, or in space where it leaves its plane.
+
+    scene: a scene file, the name of one of cases(), a dict like case(name), or the angle; what follows takes the place
+    of its keys.
+    method: "auto", "discrete" or "closed-form" (Eqs. 9 and 12).
+
+    Raises BadInput; OutsideModel at the jamming limit; NotComputed.  Warns of energy that an
+    impulse ratio creates, and of a sequence that ended early because a number could not be computed.
+
+    >>> clatter.sequence(angle=10)[1].impulse_normal
+    1.0028424649698549
+    """
+    result = Sequence(called(_clatter.sequence, *scene_text(scene, changes), method))
+    _warn([*_reservations(result), *result.to_dict().get("warnings", [])])
+    return result
+
+
+@checked
+def explain(impact: int, scene: Scene | float | None = None, **changes: DiscreteKey) -> Explanation:
+    """How an impact of a sequence came about: flight, contact, impulse and energy as equations with their numbers.
+
+    impact: its number, from 1.  scene and keys as for sequence().
+    Raises BadInput, OutsideModel, NotComputed; warns of energy that the impulse creates.
+
+    >>> clatter.explain(2, angle=10)["Eq. 8"]["P_n"]
+    1.0028424649698549
+    """
+    report, created = called(_clatter.explain, impact, *scene_text(scene, changes))
+    result = Explanation(report)
+    _warn(created)
+    if result.to_dict()["shortfall"] is not None:
+        raise NotComputed(str(result.to_dict()["shortfall"]))
+    return result
+
+
+@checked
+def simulate(scene: Scene, *, history: bool = False, progress: Progress | None = None, **changes: AnyKey) -> Simulation | Sweep:
+    """Drop of any body by the continuous model.
+
+    scene: a scene file, the name of one of cases(), or a dict like case(name); a file that the scene names for its
+    time history is not written.
+    history: keep the time history in memory.  A sweep keeps none.
+    progress(done, of): of the impacts, or of a sweep's values; called a few times a second, and what it raises ends the run.
+
+    A scene with a table [sweep] gives a Sweep.  Raises BadInput, and NotComputed if there is no impact at all because
+    of what the run met or required digits are not known; warns if it ended early with some.
+
+    >>> clatter.simulate("rod-45", stiffness=1e9, impacts=1)
+    """
+    if history:
+        numpy_for("history=True")
+    report, arrays = called(_clatter.simulate, *scene_text(scene, changes), history, progress)
+    if "runs" in report.data():
+        return Sweep(report)
+    run = Simulation(report, None if arrays is None else History(arrays))
+    _warn(_reservations(run))
+    return run
+
+
+@checked
+def compare(scene: Scene, *, progress: Progress | None = None, **changes: AnyKey) -> Comparison | ComparisonSweep:
+    """Both models over one scene, aligned by impact, with the limit of ever stiffer grounds.
+
+    scene and keys as for simulate().  A scene with a table [sweep] gives a ComparisonSweep, progress(done, of) its values.
+    Raises BadInput, and OutsideModel if the discrete model cannot represent the scene.
+
+    >>> clatter.compare("phone-damped", impacts=2).agrees
+    True
+    """
+    report = called(_clatter.compare, *scene_text(scene, changes), progress)
+    return ComparisonSweep(report) if "runs" in report.data() else Comparison(report)
+
+
+@checked
+def compare_against(
+    scene: Scene | float,
+    files: Path | Iterable[Path],
+    *,
+    columns: str | None = None,
+    require: str | float | None = None,
+    progress: Progress | None = None,
+    **changes: DiscreteKey,
+) -> Scored:
+    """Scores others' runs of any scene by the discrete model, as benchmark_score() does; scene as for sequence()."""
+    options = texts_of({"columns": columns, "require": require})
+    return Scored(*called(_clatter.compare_against, *scene_text(scene, changes), listed(files), options, progress))
+
+
+@checked
+def sweep(
+    scene: Scene,
+    values: Mapping[str, Swept],
+    *,
+    model: str | None = None,
+    rows: str = "scene",
+    random: int | None = None,
+    seed: int | None = None,
+    errors: bool = True,
+    require_digits: bool = False,
+    progress: Progress | None = None,
+) -> Rows:
+    """Many scenes that differ in the values of a few keys, computed on all cores.
+
+    scene: a scene file, the name of one of cases(), or a dict like case(name).
+    values: by the key of the scene file a value, a list or array of values (a row each where the value is a list itself,
+    as of drop.attitude), or a grid "FROM:TO:STEP", "FROM:TO:log:COUNT" or "A,B,..." ("LOW:HIGH" or "LOW:HIGH:log" with
+    random).
+    model: "discrete" or "continuous" (that if the scene has a ground).  rows: one per "scene" or per "impact".
+    random: so many scenes with values at random, which depend on seed (1).  errors: without them at half the cost.
+    progress(done, of): of the scenes.
+    Raises BadInput; NotComputed if require_digits and a scene has fewer; warns of scenes that fall short.  A scene that is
+    refused or outside the model is a row with its outcome and reason.
+
+    >>> clatter.sweep("phone-corner", {"drop.orientation": range(19, 27)}, model="discrete").column("impacts")
+    array([3., 3., 3., 3., 3., 3., 3., 3.])
+    """
+    sets = [f"{key}={swept_text(key, value)}" for key, value in values.items()]
+    sets += [] if errors else ["run.errors=false"]
+    sets += ["run.require_digits=true"] if require_digits else []
+    options = texts_of({"random": random, "seed": seed, "model": model, "rows": rows})
+    name, text, _ = scene_text(scene, {})
+    report, shortfall = called(_clatter.sweep, name, text, sets, options, progress)
+    if shortfall and require_digits:
+        raise NotComputed(shortfall)
+    _warn([shortfall] if shortfall else [])
+    return Rows(report)
+
+
+@checked
+def plan(scene: Scene, *, within: float | None = None, **changes: AnyKey) -> Plan:
+    """The smallest model that gives the digits asked for, with its setting and cost.
+
+    scene and keys as for simulate(); digits: asked for.  within: ms that the run may take; without digits the most
+    accurate that fits.  Raises BadInput; warns if no model gives the digits.
+
+    >>> clatter.plan("phone-corner", digits=3).choice.model
+    'spatial'
+    """
+    time = texts_of({"within": within}).get("within")
+    report, shortfall = called(_clatter.plan, *scene_text(scene, changes), time)
+    _warn([shortfall] if shortfall else [])
+    return Plan(report)
+
+
+@checked
+def tradeoff(scene: Scene, *, progress: Progress | None = None, **changes: AnyKey) -> Tradeoff:
+    """Cost against true error of every model and method on one scene; some seconds to a minute.
+
+    scene and keys as for simulate().  progress(done, of): of the runs.  Raises BadInput, NotComputed; warns if the reference falls short.
+    """
+    report, shortfall = called(_clatter.tradeoff, *scene_text(scene, changes), progress)
+    _warn([shortfall] if shortfall else [])
+    return Tradeoff(report)

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Writes the stub of clatter.calls, in which each key of scenes is a keyword argument.
+
+Usage: stubs.py FILE, with the built module in PYTHONPATH.
+"""
+
+import inspect
+import sys
+from pathlib import Path
+from typing import Any
+
+from clatter import calls
+from clatter.arguments import KEYS
+
+HEAD = '''# SPDX-License-Identifier: GPL-3.0-or-later
+"""Made from the keys of scenes when the module is built."""
+
+from collections.abc import Iterable, Mapping
+from typing import Literal
+
+from clatter.arguments import Path, Progress, Scene, Swept
+from clatter.findings import Explanation, Plan, Rows, Scored, Tradeoff
+from clatter.results import Comparison, ComparisonSweep, Sequence, Simulation, Sweep
+
+'''
+
+
+def declaration(name: str, function: Any) -> str:
+    """The function with its own parameters as they are written, and the keys."""
+    own = inspect.signature(function.__wrapped__)
+    parameters = []
+    for one in inspect.signature(function).parameters.values():
+        declared = own.parameters.get(one.name)
+        annotation = declared.annotation if declared else f"{KEYS[one.name].type_name()} | None"
+        if one.kind is one.KEYWORD_ONLY and "*" not in parameters:
+            parameters.append("*")
+        parameters.append(f"{one.name}: {annotation}" + ("" if one.default is one.empty else f" = {one.default!r}"))
+    return f"def {name}(\n    " + ",\n    ".join(parameters) + f",\n) -> {own.return_annotation}: ...\n"
+
+
+if __name__ == "__main__":
+    functions = {name: value for name, value in vars(calls).items()
+                 if inspect.isfunction(value) and value.__module__ == calls.__name__ and not name.startswith("_")}
+    Path(sys.argv[1]).write_text(HEAD + "".join(declaration(*item) for item in functions.items()), encoding="utf-8")

@@ -1,0 +1,355 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How the functions of the Python module are called: arrays, keyword arguments, Ctrl-C, what wrong arguments say; and what
+can be done with their results.
+
+PYTHONPATH holds the built package, CLATTER_ROOT the source tree.
+"""
+
+import copy
+import inspect
+import os
+import pickle
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+import warnings
+from decimal import Decimal
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+
+import clatter
+from clatter.arguments import KEYS, swept_text
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from waiting import until_it_computes  # noqa: E402
+
+ROOT = Path(os.environ["CLATTER_ROOT"])
+SCENE_CALLS = ("sequence", "explain", "simulate", "compare", "compare_against", "plan", "tradeoff")
+
+
+class Series:
+    """Numbers as pandas has them."""
+
+    def __init__(self, values):
+        self.values = np.asarray(values)
+
+    def to_numpy(self):
+        return self.values
+
+    def __iter__(self):
+        raise AssertionError("the array is there")
+
+
+class Lists(unittest.TestCase):
+    def rows(self, values, **options):
+        return clatter.sweep("rod-10", {"drop.angle_deg": values}, model="discrete", **options)
+
+    def test_whatever_holds_numbers_sweeps_them(self):
+        expected = self.rows("5.0,12.5,20.0")
+        self.assertEqual(len(expected), 3)
+        for values in (np.linspace(5, 20, 3), [5, 12.5, 20], (5.0, 12.5, 20.0), Series([5, 12.5, 20]), iter([5, 12.5, 20]),
+                       np.array([5, 12.5, 20], dtype=np.float32), [np.float64(5), Fraction(25, 2), Decimal(20)]):
+            with self.subTest(type=type(values)):
+                self.assertEqual([*self.rows(values)], [*expected])
+        self.assertEqual([*self.rows(range(5, 20, 5))], [*self.rows("5,10,15")])
+
+    def test_the_values_of_an_array_keep_all_their_bits(self):
+        values = np.random.default_rng(1).uniform(1, 80, 50)
+        np.testing.assert_array_equal(self.rows(values).column("drop.angle_deg"), values)
+
+    def test_an_array_of_one_value_is_an_axis_of_one_point(self):
+        one = self.rows(np.array([7.5]))
+        self.assertEqual(one.column("drop.angle_deg").tolist(), [7.5])
+        self.assertEqual(clatter.sweep("phone-corner", {"drop.orientation": [20]}, model="discrete").column("drop.orientation"), [20])
+        self.assertEqual(self.rows(np.float64(7.5)).column("impacts"), one.column("impacts"))
+        with self.assertRaisesRegex(clatter.BadInput, "drop.angle_deg.*at least one value"):
+            self.rows([])
+
+    def test_rows_of_an_array_are_the_attitudes_of_a_sweep(self):
+        for values in ([[1, 0, 0, 0], [0, 0.6, 0, 0.8]], np.array([[1, 0, 0, 0], [0, 0.6, 0, 0.8]]),
+                       (tuple(row) for row in np.array([[1, 0, 0, 0], [0, 0.6, 0, 0.8]]))):
+            text = swept_text("drop.attitude", values)
+            self.assertEqual(re.sub(r"\.0\b", "", text), "[1,0,0,0],[0,0.6,0,0.8]")
+        self.assertEqual(swept_text("drop.attitude", np.array([1, 0, 0, 0])), "1x0x0x0")
+
+    def test_vectors_of_a_scene_may_be_arrays(self):
+        size = (0.1, 0.05, 0.02)
+        expected = clatter.sequence(body="box", size=size, angle=10)
+        for value in (np.array(size), list(size), Series(size), iter(size)):
+            self.assertEqual(clatter.sequence(body="box", size=value, angle=10), expected)
+        self.assertEqual(clatter.sequence({"body": {"shape": "box", "size": np.array(size)}, "drop": {"angle_deg": np.float64(10)}},
+                                          gravity=0)[0].impulse_normal, expected[0].impulse_normal)
+
+    def test_numbers_of_all_kinds_are_numbers(self):
+        expected = clatter.sequence(12.5, impacts=2)
+        for angle in (np.float64(12.5), np.array(12.5), np.float32(12.5), Decimal("12.5"), Fraction(25, 2)):
+            self.assertEqual(clatter.sequence(angle, impacts=np.int64(2)), expected)
+            self.assertEqual(clatter.sequence(angle=angle, impacts=np.array(2)), expected)
+        self.assertEqual(clatter.simulate("rod-45", planar=np.bool_(True), impacts=1), clatter.simulate("rod-45", planar=True, impacts=1))
+        self.assertEqual(clatter.angles(Series([10, 20])), clatter.angles(range(10, 30, 10)))
+
+
+def all_results():
+    """One of each class, with what a run keeps beside its report."""
+    scene = clatter.case("rod-45") | {"sweep": {"angle_deg": [20, 30]}}
+    scene["drop"].pop("angle_deg")
+    return {
+        "Sequence": clatter.sequence(0, gravity=9.81, restitution=0.5), "in space": clatter.sequence("phone-corner"),
+        "Explanation": clatter.explain(1, 10), "Simulation": clatter.simulate("phone-damped", impacts=1),
+        "with a history": clatter.simulate("phone-damped", impacts=1, history=True), "Sweep": clatter.simulate(scene, impacts=1),
+        "Comparison": clatter.compare("rod-45", impacts=1), "ComparisonSweep": clatter.compare(scene, impacts=1),
+        "Rows": clatter.sweep("rod-10", {"drop.angle_deg": [5, 10]}, model="discrete"), "regimes": clatter.regimes(),
+        "Plan": clatter.plan("rod-10", digits=3), "Angles": clatter.angles(step=30), "Verification": clatter.verify("E1"),
+        "Measured": clatter.measured_fit("square-drops"), "Problem": clatter.benchmark_show("rod-10"),
+        "Table": clatter.benchmark_list(), "figure": clatter.figure(7),
+    }
+
+
+class Results(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", clatter.ClatterWarning)
+            cls.results = all_results()
+
+    def test_results_pickle_and_copy_and_are_equal_then(self):
+        ways = {"pickle": lambda one: pickle.loads(pickle.dumps(one)), "copy": copy.copy, "deepcopy": copy.deepcopy,
+                "twice": lambda one: pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(one))))}
+        for name, result in self.results.items():
+            for way, made in ways.items():
+                with self.subTest(result=name, way=way):
+                    again = made(result)
+                    self.assertIsNot(again, result)
+                    self.assertIs(type(again), type(result))
+                    self.assertEqual(again, result)
+                    self.assertEqual(again.to_dict(), result.to_dict())
+                    self.assertEqual(repr(again), repr(result))
+                    self.assertEqual(again._repr_html_(), result._repr_html_())
+                    for form in ("table", "csv", "json", "markdown", "latex"):
+                        for ascii in (False, True):
+                            self.assertEqual(again.to_text(form, ascii=ascii), result.to_text(form, ascii=ascii))
+                    with self.assertRaisesRegex(clatter.BadInput, "format 'xml': must be one of table"):
+                        again.to_text("xml")
+
+    def test_what_stands_beside_the_report_is_pickled_too(self):
+        run = self.results["with a history"]
+        again = pickle.loads(pickle.dumps(run))
+        self.assertEqual(again.history, run.history)
+        np.testing.assert_array_equal(again.history.force, run.history.force)
+        self.assertNotEqual(run, self.results["Simulation"])
+        with self.assertRaises(ValueError):
+            again.history.force[0] = 1
+        angles = copy.deepcopy(self.results["Angles"])
+        with self.assertRaises(ValueError):
+            angles.P1[0] = 1
+
+    def test_results_of_other_content_differ(self):
+        self.assertEqual(clatter.sequence(10), clatter.sequence(10))
+        self.assertNotEqual(clatter.sequence(10), clatter.sequence(11))
+        self.assertNotEqual(clatter.angles([10]), clatter.angles([11]))
+        self.assertNotEqual(clatter.sequence(10), 10)
+
+    def test_what_is_done_to_a_dict_of_a_result_does_not_change_it(self):
+        run = pickle.loads(pickle.dumps(self.results["Sequence"]))
+        run.to_dict()["impacts"].clear()
+        self.assertEqual(run, self.results["Sequence"])
+
+    def test_impacts_cannot_be_changed(self):
+        for impact in (clatter.sequence(10)[0], self.results["in space"][0], copy.deepcopy(clatter.sequence(10)[0])):
+            with self.assertRaisesRegex(AttributeError, "impulse_normal: Impact cannot be changed"):
+                impact.impulse_normal = 1
+            with self.assertRaises(AttributeError):
+                impact.anything = 1
+            with self.assertRaises(AttributeError):
+                del impact.end
+            with self.assertRaises(TypeError):
+                impact["n"] = 2
+            with self.assertRaises(ValueError):
+                impact.velocity_after[0] = 1
+
+    def test_impacts_pickle_are_equal_by_their_values_and_show_themselves(self):
+        impact = clatter.sequence(10)[1]
+        self.assertEqual(pickle.loads(pickle.dumps(impact)), impact)
+        self.assertEqual(copy.copy(impact), clatter.sequence(10)[1])
+        self.assertNotEqual(impact, clatter.sequence(10)[0])
+        self.assertEqual(impact, clatter.sequence(10).to_dict()["impacts"][1])
+        self.assertRegex(repr(impact), r"^Impact 2: end b at 0\.\d+ s, 5\.08198°, P = 1\.00284 N·s$")
+        self.assertRegex(repr(self.results["in space"][0]), r"^Impact 1: end \S+ at 0 s, .*P = \S+ N·s$")
+
+
+class Signatures(unittest.TestCase):
+    def test_the_keys_of_scenes_are_keyword_arguments(self):
+        for name in SCENE_CALLS:
+            parameters = inspect.signature(getattr(clatter, name)).parameters
+            continuous = name in ("simulate", "compare", "plan", "tradeoff")
+            for key in KEYS.values():
+                if key.argument == "method" and name == "sequence":
+                    continue  # its own
+                with self.subTest(function=name, key=key.key):
+                    self.assertEqual(key.argument in parameters, key.is_discrete or continuous)
+            self.assertFalse([one for one in parameters.values() if one.kind is one.VAR_KEYWORD])
+        parameters = inspect.signature(clatter.simulate).parameters
+        self.assertEqual(str(parameters["angle"]), "angle: float | None = None")
+        self.assertEqual(str(parameters["impacts"]), "impacts: int | None = None")
+        self.assertEqual(parameters["orientation"].annotation, int | None)
+        self.assertEqual(parameters["planar"].annotation, bool | None)
+        self.assertIn("'surface', 'projected'", str(parameters["area"]))
+
+    def test_the_stub_has_the_signatures_of_the_module(self):
+        folder = Path(clatter.__file__).resolve().parent
+        text = (folder / "calls.pyi").read_text(encoding="utf-8")
+        for name in (*SCENE_CALLS, "sweep"):
+            declared = re.search(rf"^def {name}\((.*?)^\)", text, re.DOTALL | re.MULTILINE)[1]
+            names = re.findall(r"^    (\w+):", declared, re.MULTILINE)
+            self.assertEqual(names, list(inspect.signature(getattr(clatter, name)).parameters))
+        with tempfile.TemporaryDirectory() as scratch:
+            done = subprocess.run(["stubtest", "clatter.calls", "--ignore-missing-stub"], capture_output=True, text=True,
+                                  cwd=scratch, env=dict(os.environ, MYPYPATH=str(folder.parent)))
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_documentation_tells_each_key_with_unit_and_range(self):
+        self.assertIn("    stiffness [N/m³]: k_G; a number, greater than 0\n", clatter.simulate.__doc__)
+        self.assertIn("    angle [°]: inclination at the first impact", clatter.sequence.__doc__)
+
+    def test_keyword_arguments_complete_in_a_notebook(self):
+        from IPython.core.completer import provisionalcompleter
+        from IPython.core.interactiveshell import InteractiveShell
+        shell = InteractiveShell()
+        shell.user_ns["clatter"] = clatter
+        for line, expected in (("clatter.sequence(ang", {"angle=", "angular_velocity="}), ('clatter.compare("rod-45", stiff', {"stiffness="})):
+            for use_jedi in (True, False):
+                shell.Completer.use_jedi = use_jedi
+                with self.subTest(line=line, jedi=use_jedi), provisionalcompleter():
+                    self.assertLessEqual(expected, {found.text for found in shell.Completer.completions(line, len(line))})
+
+
+class WrongArguments(unittest.TestCase):
+    def refused(self, words, function, *arguments, **named):
+        with self.assertRaises(TypeError) as caught:
+            function(*arguments, **named)
+        self.assertEqual(str(caught.exception), words)
+        self.assertIsInstance(caught.exception, clatter.BadInput)
+
+    def test_an_unknown_argument_gets_the_nearest_known_one(self):
+        self.refused("agnle: unknown argument of sequence(); did you mean angle?", clatter.sequence, agnle=10)
+        self.refused("stifness: unknown argument of simulate(); did you mean stiffness?", clatter.simulate, "rod-45", stifness=1)
+        self.refused("progess: unknown argument of angles(); did you mean progress?", clatter.angles, progess=print)
+        self.refused("qick: unknown argument of verify(); did you mean quick?", clatter.verify, qick=True)
+        self.refused("modle: unknown argument of sweep(); did you mean model?", clatter.sweep, "rod-10", {}, modle="discrete")
+
+    def test_a_wrong_type_is_told_with_the_key_the_value_and_what_is_allowed(self):
+        self.refused("angle [1, 2]: must be a number, from 0 to 90 degrees", clatter.sequence, angle=[1, 2])
+        self.refused("damping True: must be a number, at least 0", clatter.simulate, "rod-45", damping=True)
+        self.refused("planar 2: must be True or False", clatter.simulate, "rod-45", planar=2)
+        self.refused("body 3: must be one of rod, box, mesh", clatter.sequence, 10, body=3)
+        self.refused("size ['a', 2, 3]: must be three lengths in m greater than 0, as in [0.106, 0.044, 0.019]",
+                     clatter.sequence, 10, body="box", size=["a", 2, 3])
+        self.refused("orientation [[1]]: must be a whole number from 1 to 26", clatter.sequence, orientation=[[1]])
+        self.refused("drop.angle_deg None: must be a number, from 0 to 90 degrees", clatter.sweep, "rod-10", {"drop.angle_deg": None})
+        self.refused("drop.angle_deg = {1}: must be a number, a truth, a text or a list", clatter.simulate, {"drop": {"angle_deg": {1}}})
+        self.refused("values 3: must be a dict of values by the keys of scenes", clatter.sweep, "rod-10", 3)
+
+    def test_arguments_that_are_no_keys_are_told_so_too(self):
+        self.refused("impact 2.0: must be a whole number", clatter.explain, 2.0, 10)
+        self.refused("method 3: must be a text", clatter.sequence, 10, method=3)
+        self.refused("scene 3: must be a scene (a file, the name of a case, a dict)", clatter.simulate, 3)
+        self.refused("progress 3: must be a function of (done, of)", clatter.angles, progress=3)
+        self.refused("tracks 3: must be the path of a file", clatter.measured_fit, 3)
+        self.refused("seed '1': must be a whole number", clatter.extremes, seed="1")
+        self.refused("number '7': must be a whole number", clatter.figure, "7")
+        self.refused("format 3: must be a text", clatter.sequence(10).to_text, 3)
+        self.refused("only 3: must be a text or a list of texts", clatter.verify, 3)
+        self.refused("files [3]: must be the path of a file or a list of paths", clatter.benchmark_score, [3])
+        self.refused("name 3: must be a text", clatter.case, 3)
+        self.refused("theta 'x': must be a number or an array of numbers", clatter.angles, "x")
+
+    def test_a_value_of_many_lines_is_one_short_line(self):
+        with self.assertRaises(TypeError) as caught:
+            clatter.sequence(angle=np.arange(100).reshape(10, 10))
+        self.assertRegex(str(caught.exception), r"^angle array\(\[\[ 0, 1, .{25,50}\.\.\.: must be a number, from 0 to 90 degrees$")
+
+    def test_no_public_function_lets_the_compiled_part_refuse_a_type(self):
+        """Each argument of each function, given an object that nothing can be made of."""
+        class Nothing:
+            def __repr__(self):
+                return "nothing"
+        good = {"impact": 1, "scene": "rod-10", "values": {}, "files": [], "tracks": "square-drops", "problem": "rod-10", "number": 7,
+                "name": "rod-10"}
+        for name in clatter.__all__:
+            function = getattr(clatter, name)
+            if not inspect.isfunction(function):
+                continue
+            parameters = inspect.signature(function).parameters
+            required = {one: good[one] for one, what in parameters.items() if what.default is what.empty}
+            for argument in parameters:
+                with self.subTest(function=name, argument=argument), self.assertRaises(clatter.BadInput) as refused:
+                    function(**{**required, argument: Nothing()})
+                self.assertRegex(str(refused.exception), rf"^{argument} nothing: must be ")
+
+
+# Work that would take minutes at least, with what it needs before.
+ENDLESS = {
+    "sequence": "clatter.sequence(1, gravity=9.81, restitution=0.99999999, impacts=10**6)",
+    "explain": "clatter.explain(10**6, 1, gravity=9.81, restitution=0.99999999, impacts=10**6)",
+    "regimes": "clatter.regimes(from_=0, to=1, count=10**6)",
+    "angles": "clatter.angles(count=4 * 10**6)",
+    "text": "angles.to_text('csv')",
+    "simulate": "clatter.simulate('rod-45', method='tvd-rk3', step=1e-12, evaluation_limit=10**12)",
+    "simulate a sweep": "clatter.simulate(swept)",
+    "compare": "clatter.compare(swept)",
+    "sweep": "clatter.sweep('rod-10', {'drop.angle_deg': '1:80:0.000001'}, model='discrete')",
+    "plan": "clatter.plan('phone-damped', digits=12, impacts=1000)",
+    "tradeoff": "clatter.tradeoff('phone-corner')",
+    "verify": "clatter.verify()",
+    "extremes": "clatter.extremes()",
+    "benchmark_score": "clatter.benchmark_score([answer] * 10**6)",
+    "compare_against": "clatter.compare_against('rod-10', [answer] * 10**6, gravity=0)",
+    "measured_fit": "clatter.measured_fit(tracks, body='square-drops')",
+}
+BEFORE = {
+    "text": "angles = clatter.angles(count=2 * 10**6)",
+    "simulate a sweep": "swept = clatter.case('rod-sweep')\nswept['sweep'] = {'angle_deg': {'from': 1, 'to': 89, 'count': 99999}}",
+    "compare": "swept = clatter.case('rod-sweep')\nswept['sweep'] = {'angle_deg': {'from': 1, 'to': 89, 'count': 99999}}",
+}
+
+
+class CtrlC(unittest.TestCase):
+    def test_ctrl_c_ends_every_long_call(self):
+        with tempfile.TemporaryDirectory() as folder:
+            answer, tracks = Path(folder, "answer.csv"), Path(folder, "tracks.csv")
+            answer.write_text("# problem: rod-10\n" + clatter.benchmark_truth("rod-10").to_text("csv"), encoding="utf-8")
+            tracks.write_text(many_drops(), encoding="utf-8")
+            for name, call in ENDLESS.items():
+                with self.subTest(call=name):
+                    self.interrupt(f"answer, tracks = {str(answer)!r}, {str(tracks)!r}\n" + BEFORE.get(name, ""), call)
+
+    def interrupt(self, before, call):
+        """The call ends once it computes and a signal comes, and Python then ends as it does else."""
+        script = (f"import clatter\n{before}\ntry:\n  print('ready', flush=True)\n  {call}\n  print('done', flush=True)\n"
+                  "except KeyboardInterrupt:\n  print('interrupted', flush=True)\n")
+        with subprocess.Popen([sys.executable, "-B", "-W", "ignore", "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              text=True) as child:
+            self.assertEqual(child.stdout.readline(), "ready\n")
+            until_it_computes(child)
+            child.send_signal(signal.SIGINT)
+            self.assertEqual(child.communicate(), ("interrupted\n", ""))
+        self.assertEqual(child.returncode, 0)
+
+
+def many_drops():
+    """The measured drops of the square two hundred times over."""
+    lines = (ROOT / "validation" / "measured" / "square-drops.csv").read_text(encoding="utf-8").splitlines()
+    begin = next(i for i, line in enumerate(lines) if not line.startswith("#"))
+    rows = [line.split(",", 1) for line in lines[begin + 1:]]
+    step = 1 + max(int(drop) for drop, _ in rows)
+    copies = [f"{int(drop) + step * turn},{rest}" for turn in range(200) for drop, rest in rows]
+    return "\n".join([*lines[:begin + 1], *copies]) + "\n"
+
+
+if __name__ == "__main__":
+    unittest.main()
