@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "binding.hpp"
-#include "numeric/history.hpp"
+#include "numeric/drop/history.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/plan/planned_run.hpp"
 #include "validation/record/history_file.hpp"
@@ -17,7 +17,7 @@
 #include "validation/reports/swept_comparison_report.hpp"
 #include "validation/reports/tradeoff_report.hpp"
 #include "validation/sweep/rows.hpp"
-#include "validation/sweep/scene_runner.hpp"
+#include "validation/sweep/sweep_run.hpp"
 
 namespace clatter::python {
 namespace {
@@ -185,7 +185,7 @@ py::tuple tradeoff(const std::string& name, const std::optional<std::string>& te
 /// All rows on all cores.
 std::string swept_rows(const validation::SweepPlan& plan, const Watch& watch) {
   const validation::SweepBody body =
-      plan.body_axes.empty() ? make_sweep_body(plan, plan.scene) : validation::SweepBody{};
+      plan.body_values.empty() ? make_sweep_body(plan, plan.scene) : validation::SweepBody{};
   validation::RangeQueue queue({0, plan.points.count()}, range_size(plan));
   std::string rows;
   std::size_t done = 0;
@@ -212,11 +212,12 @@ py::tuple sweep(const std::string& name, const std::optional<std::string>& text,
                                          .random = given(options, "random"),
                                          .seed = given(options, "seed"),
                                          .model = given(options, "model"),
-                                         .rows = given(options, "rows")};
+                                         .rows = given(options, "rows"),
+                                         .columns = given(options, "columns")};
   const auto work = [request](const Watch& watch) {
     const validation::SweepPlan plan = validation::read_sweep_plan(request);
     const std::string rows = swept_rows(plan, watch);
-    validation::ShortfallCount shortfalls(plan);
+    validation::ShortfallCount shortfalls(plan.layout);
     shortfalls.add(rows);
     validation::Report report = plan.report();
     report.grid.rows = validation::read_csv_rows(rows);
