@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "analytic/errors.hpp"
-#include "analytic/sequence.hpp"
+#include "analytic/base/errors.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "analytic/space/sequence.hpp"
 #include "analytic/space/simultaneous.hpp"
 #include "validation/output/bad_input.hpp"

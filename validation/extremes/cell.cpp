@@ -8,8 +8,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "analytic/contact_angles.hpp"
-#include "analytic/errors.hpp"
+#include "analytic/base/errors.hpp"
+#include "analytic/plane/contact_angles.hpp"
 #include "numeric/errors.hpp"
 #include "validation/measured/tracked_body.hpp"
 #include "validation/output/number.hpp"

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "analytic/restitution_map.hpp"
+#include "analytic/law/viscoelastic.hpp"
 #include "numeric/mesh/generators.hpp"
 #include "validation/extremes/oracles.hpp"
 #include "validation/record/names.hpp"

@@ -9,7 +9,7 @@
 #include <memory>
 #include <numbers>
 
-#include "analytic/errors.hpp"
+#include "analytic/base/errors.hpp"
 #include "numeric/mesh/generators.hpp"
 #include "numeric/motion/free_flight.hpp"
 #include "validation/extremes/oracles.hpp"

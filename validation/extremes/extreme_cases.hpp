@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "analytic/sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "validation/extremes/cell.hpp"
 
 namespace clatter::validation::inline extremes {

@@ -6,8 +6,8 @@
 #include <array>
 #include <string>
 
-#include "analytic/contact_angles.hpp"
-#include "analytic/sequence.hpp"
+#include "analytic/plane/contact_angles.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "numeric/motion/motion_state.hpp"
 #include "validation/oracles/free_top.hpp"
 

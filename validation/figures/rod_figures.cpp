@@ -6,8 +6,8 @@
 #include <cmath>
 #include <tuple>
 
-#include "analytic/contact_angles.hpp"
-#include "analytic/sequence.hpp"
+#include "analytic/plane/contact_angles.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "validation/figures/figure.hpp"
 #include "validation/figures/history_panels.hpp"
 #include "validation/scene/discrete_scene.hpp"

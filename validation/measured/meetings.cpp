@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analytic/errors.hpp"
+#include "analytic/base/errors.hpp"
 #include "analytic/space/first_contact.hpp"
 
 namespace clatter::validation::inline measured {

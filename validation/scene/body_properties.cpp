@@ -10,7 +10,7 @@
 #include <optional>
 #include <tuple>
 
-#include "analytic/space/principal_axes.hpp"
+#include "analytic/space/body.hpp"
 #include "numeric/files/import.hpp"
 #include "numeric/mesh/generators.hpp"
 #include "validation/output/bad_input.hpp"

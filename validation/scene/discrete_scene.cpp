@@ -8,10 +8,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "analytic/body_motion.hpp"
-#include "analytic/errors.hpp"
-#include "analytic/restitution_map.hpp"
-#include "analytic/space/shapes.hpp"
+#include "analytic/base/errors.hpp"
+#include "analytic/law/viscoelastic.hpp"
+#include "analytic/plane/body_motion.hpp"
+#include "analytic/space/body.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/hull.hpp"
@@ -443,7 +443,8 @@ std::string law_words(const Scene& scene, std::optional<double> approach, const 
   const DiscreteLaw law = discrete_law(scene);
   const bool of_ground = law.restitution_from == LawSource::ground;
   std::string words;
-  if (is_settled({"impact.restitution", "ground.damping", "ground.stiffness"})) words = restitution_words(law, approach);
+  if (is_settled({"impact.restitution", "ground.damping", "ground.stiffness"}))
+    words = restitution_words(law, approach);
   if (is_settled({"impact.friction", "impact.impulse_ratio", "ground.static_friction", "ground.sliding_friction"})) {
     words += (words.empty() ? "" : of_ground ? "; " : ", ") + law_friction_words(scene, law);
   }

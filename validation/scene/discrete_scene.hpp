@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "analytic/sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "analytic/space/sequence.hpp"
 #include "numeric/body.hpp"
 #include "numeric/simulate.hpp"

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "analytic/sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "analytic/space/sequence.hpp"
 #include "numeric/simulate.hpp"
 #include "validation/output/report.hpp"

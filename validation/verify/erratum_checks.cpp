@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "analytic/impact_law.hpp"
+#include "analytic/plane/impact.hpp"
 #include "numeric/motion/equations_of_motion.hpp"
 #include "validation/oracles/event_oracle.hpp"
 #include "validation/output/number.hpp"

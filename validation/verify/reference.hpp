@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "analytic/contact_angles.hpp"
+#include "analytic/plane/contact_angles.hpp"
 #include "validation/oracles/reference_table.hpp"
 
 namespace clatter::validation::inline verify {

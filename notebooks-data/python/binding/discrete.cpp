@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "analytic/sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "binding.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/plan/sequence_method.hpp"

@@ -4,11 +4,10 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "analytic/sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "analytic/space/sequence.hpp"
 #include "numeric/simulate.hpp"
 #include "validation/benchmark/reference.hpp"
-#include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/discrete_scene.hpp"
 
 namespace {
