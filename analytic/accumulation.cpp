@@ -70,7 +70,8 @@ std::optional<Tail> bouncing_tail(const BodyMotion& motion, const ImpactLaw& law
 }
 
 bool may_accumulate(const ImpactLaw& law) {
-  return law.restitution < 1 || law.law == RestitutionLaw::viscoelastic || law.friction == FrictionKind::coulomb;
+  if (law.law == RestitutionLaw::viscoelastic) return false;
+  return law.restitution < 1 || law.friction == FrictionKind::coulomb;
 }
 
 bool Accumulation::repeats(int period) const {

@@ -17,7 +17,8 @@ namespace clatter::analytic {
 [[nodiscard]] std::optional<Tail> bouncing_tail(const BodyMotion& motion, const ImpactLaw& law, double gravity,
                                                 const BodyMotion::Strike& last);
 
-/// Whether impacts by this law can take energy away.
+/// Whether impacts by this law, however slow, take energy away in proportion to what there is.  Damped ground does not:
+/// e → 1 for slow contacts, so that the ratio of a series goes to 1 and no end can be extrapolated.
 [[nodiscard]] bool may_accumulate(const ImpactLaw& law);
 
 /// Recognises an accumulation from the flight times and impulses of the impacts so far.

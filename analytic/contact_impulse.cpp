@@ -68,7 +68,9 @@ PathEnd<Number> flat_impulse(const PathStart<Number>& start, const Number& turni
   const Number impulse = (1 + start.restitution) * start.approach_speed;
   const PathCoefficients<Number> path{
       .normal = 1, .normal_coupling = 0, .slip_drift = (1 + start.restitution) * turning / impulse, .tangential = 1};
-  return coulomb_path(path, start, law);
+  ImpactLaw whole = law;  // e, which slip does not change here, is already that of the pressure centre
+  if (law.law == RestitutionLaw::viscoelastic) whole.law = RestitutionLaw::newton;
+  return coulomb_path(path, start, whole);
 }
 
 template double restitution_at(const ImpactLaw&, const double&);

@@ -21,6 +21,15 @@ template <class Number>
 [[nodiscard]] PathEnd<Number> point_impulse(const PathCoefficients<Number>& path, const PathStart<Number>& start,
                                             const ImpactLaw& law);
 
+/// Approach speed of the pressure centre of a body that lands flat,
+///     u* = v + k² ω²/v,   v = −V_n > 0,
+/// where the pushes that reverse V_n and ω together have their resultant, friction aside: at d_t = −k² ω/v.  The motion
+/// of the face is that of a contact at this one point.
+template <class Number>
+[[nodiscard]] Number pressure_centre_speed(const Number& descent, const Number& turning, double gyration_square) {
+  return descent + gyration_square * (turning / descent * turning);
+}
+
 /// Impulse of a flat landing, per unit mass.  The body's turning, which reverses in step with the
 /// normal impulse, moves the face along the ground by ω d_n: a drift for the slip.
 /// @param turning ω d_n [m/s]

@@ -95,7 +95,7 @@ std::optional<Impact> strike_flat(const PlanarBody& body, const PlanarVelocity& 
   law.validate();
   if (!(normal_velocity(before, first) < 0 && normal_velocity(before, second) < 0)) return {};
   if (!(-before.normal > 0)) return {};
-  const double e = restitution_at(law, -before.normal);
+  const double e = restitution_at(law, pressure_centre_speed(-before.normal, before.angular, body.gyration_square));
   const double depth = first.normal;
   const PathStart<> start{.approach_speed = -before.normal, .slip = slip_velocity(before, first), .restitution = e};
   const PathEnd<> path = flat_impulse(start, before.angular * depth, law);

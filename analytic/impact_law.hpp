@@ -117,7 +117,8 @@ struct ContactVelocity {
 ///     V_n = −e v_n,   Ω = −e ω,                                                                 (2)
 /// so that every vertex of the group leaves at e times its approach speed, with the tangential impulse
 /// of the friction law acting at the ground, stopped where slip stops.  For ω = 0 this is Eq. 10 as
-/// printed.  The restitution laws agree here, since slip does not couple to the normal motion.
+/// printed.  The restitution laws agree here, since slip does not couple to the normal motion; the viscoelastic
+/// law takes e at the approach speed of the pressure centre, −v_n − k² ω²/v_n (contact_impulse.hpp).
 /// Returns nothing if one of the two impulses that (2) needs would have to pull: then the vertices
 /// strike one after the other, the faster approach first.
 [[nodiscard]] std::optional<Impact> strike_flat(const PlanarBody& body, const PlanarVelocity& before,

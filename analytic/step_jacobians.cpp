@@ -58,7 +58,8 @@ ImpactResponse flat_response(const StruckState& struck) {
   const ImpactDual turning = variable(at_turn, struck.before.angular);
   const ImpactDual normal = variable(at_normal, struck.contact.normal);
   const ImpactDual approach = -(normal + turning * d.tangential);
-  const ImpactDual e = restitution_at(struck.law, approach);
+  const ImpactDual e =
+      restitution_at(struck.law, pressure_centre_speed(approach, turning, struck.body.gyration_square));
   const PathEnd<ImpactDual> end = flat_impulse<ImpactDual>(
       {.approach_speed = approach, .slip = variable(at_slip, struck.contact.slip), .restitution = e},
       turning * d.normal, struck.law);

@@ -207,7 +207,7 @@ ContactImpulse face_impulse(const FaceContact& face, const Law& law) {
                   .velocity_scale = face.velocity_scale};
   contact.inverse_inertia.block<2, 1>(0, 2) = face.drift;
   Law whole = law;
-  whole.law = {.restitution = restitution_at(law.law, face.approach_speed),
+  whole.law = {.restitution = face.restitution,
                .law = RestitutionLaw::newton,
                .friction = law.law.friction,
                .friction_value = law.law.friction_value};

@@ -46,6 +46,7 @@ struct ContactImpulse {
 struct FaceContact {
   double mass = 1;                  ///< m [kg]
   double approach_speed = 1;        ///< −V_z > 0 [m/s]
+  double restitution = 1;           ///< e
   Vector2 slip = Vector2::Zero();   ///< velocity along the ground of the point below the centre of mass [m/s]
   Vector2 drift = Vector2::Zero();  ///< how the reversal of the body's turning moves that point [1/kg]
   double velocity_scale = 0;        ///< as in Contact

@@ -12,6 +12,9 @@
 //          elements.  Friction acts at the point below the centre of mass (FaceContact), as for a flat landing in the
 //          plane.  The pressure point (−N_y, N_x)/P_z from the centre of mass, N the moment of the normal impulses,
 //          must lie inside the polygon of the corners.                                                 (2)
+// The viscoelastic law takes e at the approach speed of the edge's point, and of the pressure point that a face has
+// without friction, −V_z + ω·Mω/(m (−V_z)) with M the inverse of the horizontal part of I⁻¹: there the landing is that
+// of one contact.
 // Otherwise corners strike one after the other, the fastest approach first; those equally fast to rounding strike as an
 // edge or a face if they can.  A corner whose approach is below the rounding of its velocity is at rest.
 //

@@ -8,6 +8,7 @@
 
 #include "analytic/errors.hpp"
 #include "analytic/rod_impact.hpp"
+#include "tests/analytic/oracle/viscoelastic_bounce.hpp"
 
 namespace {
 
@@ -171,6 +172,30 @@ BOOST_AUTO_TEST_CASE(a_flat_landing_with_spin_reverses_every_vertex_or_is_left_t
   BOOST_TEST(close(normal_velocity(flat->after, b), -0.6 * normal_velocity(slow, b), rounding));
   BOOST_TEST(close(flat->energy_loss, energy(rod, slow) - energy(rod, flat->after), rounding));
   BOOST_TEST(!strike_flat(rod, {.normal = -1, .angular = 5}, a, b, {}).has_value());  // one end recedes
+}
+
+BOOST_AUTO_TEST_CASE(a_flat_landing_on_damped_ground_bounces_as_a_mass_at_its_pressure_centre_does) {
+  constexpr double tolerance = 1e-9;  // integrated_restitution()
+  const double half = 0.5, height = 0.1, square = (1 + 4 * height * height) / 12, descent = 1.2;
+  const PlanarBody box = make_box({.length = 2 * half, .thickness = 2 * height});
+  for (const double damping : {0.05, 0.4, 1.5}) {
+    for (const double spin : {0.0, 0.6, -1.0}) {
+      for (const double friction : {0.0, 0.3}) {
+        const ImpactLaw law{.law = RestitutionLaw::viscoelastic,
+                            .friction = FrictionKind::coulomb,
+                            .friction_value = friction,
+                            .damping_per_stiffness = damping};
+        const PlanarVelocity before{.normal = -descent, .tangential = 0.4, .angular = spin};
+        const auto flat = strike_flat(box, before, {-half, -height}, {half, -height}, law);
+        BOOST_REQUIRE(flat.has_value());
+        // Pushes at the ends that reverse both motions: p_a + p_b = (1+e) V and (p_b − p_a) L/2 = (1+e) k² ω.
+        const double centre = half * (square * spin / half) / descent;
+        const double e = test::integrated_restitution(damping, -normal_velocity(before, {centre, -height}));
+        BOOST_TEST(std::fabs(flat->after.normal - e * descent) <= tolerance);
+        BOOST_TEST(std::fabs(flat->after.angular + e * spin) <= tolerance);
+      }
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(rouths_closed_form_agrees_with_stepping_along_the_impulse) {
