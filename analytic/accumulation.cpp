@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "analytic/restitution_map.hpp"
+
 namespace clatter::analytic {
 namespace {
 
@@ -69,9 +71,11 @@ std::optional<Tail> bouncing_tail(const BodyMotion& motion, const ImpactLaw& law
               .after_error = {}};
 }
 
-bool may_accumulate(const ImpactLaw& law) {
-  if (law.law == RestitutionLaw::viscoelastic) return false;
-  return law.restitution < 1 || law.friction == FrictionKind::coulomb;
+bool may_accumulate(const ImpactLaw& law) { return law.restitution < 1 || law.friction == FrictionKind::coulomb; }
+
+double damping_loss(const ImpactLaw& law, double approach_speed) {
+  const bool damped = law.law == RestitutionLaw::viscoelastic && approach_speed > 0;
+  return damped ? restitution_loss_of_damping(law.damping_per_stiffness * approach_speed) : 0;
 }
 
 bool Accumulation::repeats(int period) const {
@@ -110,6 +114,11 @@ std::optional<Tail> Accumulation::periodic(int period, const Tolerance& toleranc
   const auto impulse = shrinking_remainder(impulses);
   if (!time || !impulse || !(time->error <= std::fmax(tolerance.relative * time->value, tolerance.time)) ||
       !(impulse->error <= std::fmax(tolerance.relative * impulse->value, tolerance.impulse))) {
+    return {};
+  }
+  constexpr double damped_share = 0.01;  // of the shrinking, below which it no longer changes with the speed
+  if (!(block(period, blocks - 1, &Event::damping_loss) <=
+        damped_share * (1 - impulses[blocks - 1] / impulses[blocks - 2]))) {
     return {};
   }
   const double ratio = block(period, blocks - 1, &Event::tangential_impulse) / impulses[blocks - 1];

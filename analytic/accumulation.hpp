@@ -17,9 +17,12 @@ namespace clatter::analytic {
 [[nodiscard]] std::optional<Tail> bouncing_tail(const BodyMotion& motion, const ImpactLaw& law, double gravity,
                                                 const BodyMotion::Strike& last);
 
-/// Whether impacts by this law, however slow, take energy away in proportion to what there is.  Damped ground does not:
-/// e → 1 for slow contacts, so that the ratio of a series goes to 1 and no end can be extrapolated.
+/// Whether impacts by this law, however slow, take energy away in proportion to what there is.  Damped ground alone
+/// does not, since e → 1 for slow contacts: bouncing on it lasts for ever, ever more slowly.
 [[nodiscard]] bool may_accumulate(const ImpactLaw& law);
+
+/// Accumulation::Event::damping_loss of an impact with this approach speed.
+[[nodiscard]] double damping_loss(const ImpactLaw& law, double approach_speed);
 
 /// Recognises an accumulation from the flight times and impulses of the impacts so far.
 ///
@@ -28,6 +31,9 @@ namespace clatter::analytic {
 /// sums then shrink geometrically in the limit, Aitken's extrapolation gives their remainder, and what it changed last,
 /// summed over the changes still to come, its error.  A rattling that never becomes periodic is followed until all that
 /// remains is below the resolution of the sums that it would be added to.
+///
+/// On damped ground e → 1 for slow contacts, so that the ratio of a series that damping alone makes shrink goes to 1:
+/// its sum is infinite.  There a series counts as geometric once friction is what makes it shrink.
 class Accumulation {
  public:
   struct Event {
@@ -36,6 +42,7 @@ class Accumulation {
     double flight_time = 0;  ///< of the flight that led to this impact
     double normal_impulse = 0;
     double tangential_impulse = 0;
+    double damping_loss = 0;  ///< 1 − e of damped ground, which falls with the speed; 0 for a constant e
   };
   void add(const Event& event) { events_.push_back(event); }
 

@@ -135,7 +135,7 @@ class Run {
     result_.total_normal_impulse += row.impact.normal_impulse;
     if (may_accumulate(law_) && !result_.rows.empty()) {
       accumulation_.add({row.vertices, row.impact.mode, flight.arrival.time, row.impact.normal_impulse,
-                         row.impact.tangential_impulse});
+                         row.impact.tangential_impulse, damping_loss(law_, row.impact.approach_speed)});
     }
     warn_of_energy(row.impact);
     if (growth_) growth_->strike(motion_, law_, row);

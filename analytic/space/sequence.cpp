@@ -144,7 +144,7 @@ class Run {
     result_.total_normal_impulse += row.impact.impulse.z();
     warn_of_energy(row.impact);
     if (growth_) grow(row);
-    if (!result_.rows.empty()) accumulation_.add(row);
+    if (!result_.rows.empty()) accumulation_.add(row, damping_loss(drop_.law.law, row.approach_speed));
     result_.rows.push_back(std::move(row));
   }
 

@@ -52,10 +52,11 @@ std::optional<Tail> bouncing_tail(const Drop& drop, const ImpactRow& last) {
   return tail;
 }
 
-void SpaceAccumulation::add(const ImpactRow& row) {
+void SpaceAccumulation::add(const ImpactRow& row, double damping_loss) {
   Event event{.corners = {},
               .mode = mode_of(row.impact.path),
               .flight_time = row.flight.time,
+              .damping_loss = damping_loss,
               .impulse = row.impact.impulse,
               .moment = {}};
   for (const Corner& corner : row.corners) event.corners.push_back(corner.index);
@@ -91,7 +92,8 @@ std::optional<Tail> SpaceAccumulation::extrapolate(const Accumulation::Tolerance
       const auto at = std::find(labels.begin(), labels.end(), corner) - labels.begin();
       set = static_cast<VertexSet>(set | 1u << at);
     }
-    accumulation.add({set, event.mode, event.flight_time, event.impulse.z(), event.impulse.head<2>().norm()});
+    accumulation.add(
+        {set, event.mode, event.flight_time, event.impulse.z(), event.impulse.head<2>().norm(), event.damping_loss});
   }
   const auto planar = accumulation.extrapolate(tolerance);
   if (!planar) return {};

@@ -19,7 +19,8 @@ namespace clatter::analytic::space {
 /// repeat with a period, summed over each period, shrink geometrically in the limit.
 class SpaceAccumulation {
  public:
-  void add(const ImpactRow& row);
+  /// @param damping_loss as in Accumulation::Event
+  void add(const ImpactRow& row, double damping_loss);
   /// The tail, if it is known to the tolerance.  Its end_time counts from the last impact; tangential impulse and
   /// moment keep the ratio to the normal impulse that they had in the last period.
   [[nodiscard]] std::optional<Tail> extrapolate(const Accumulation::Tolerance& tolerance) const;
@@ -30,7 +31,7 @@ class SpaceAccumulation {
   struct Event {
     std::vector<int> corners;
     ImpactMode mode;
-    double flight_time;
+    double flight_time, damping_loss;
     Vector3 impulse, moment;
   };
   /// Impacts from the end backwards that involve at most eight corners, as many as accumulation.hpp tells apart.
