@@ -4,9 +4,9 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "analytic/contact_impulse.hpp"
-#include "analytic/detail/limits.hpp"
-#include "analytic/errors.hpp"
+#include "analytic/base/errors.hpp"
+#include "analytic/base/limits.hpp"
+#include "analytic/law/coulomb_path.hpp"
 #include "analytic/space/impulse_path.hpp"
 
 namespace clatter::analytic::space {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "analytic/errors.hpp"
+#include "analytic/base/errors.hpp"
 #include "validation/compare/comparison.hpp"
 #include "validation/compare/random_scenes.hpp"
 #include "validation/scene/discrete_scene.hpp"

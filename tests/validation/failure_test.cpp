@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "analytic/errors.hpp"
+#include "analytic/base/errors.hpp"
 #include "numeric/errors.hpp"
 #include "validation/cli/program.hpp"
 #include "validation/output/bad_input.hpp"

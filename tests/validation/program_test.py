@@ -198,7 +198,7 @@ class Output(unittest.TestCase):
     def test_the_regimes_of_the_json_are_the_known_folds_in_degrees(self):
         first = json.loads(run("regimes", "--format", "json").stdout)["rows"][0]
         self.assertEqual(first["gravity-number"], 0)
-        # The values of tests/analytic/regime_boundary_test.cpp, to the digits given there.
+        # The values of tests/analytic/plane/regime_boundary_test.cpp, to the digits given there.
         for kind, key, angle in [("second", "theta_deg", 58.488442288312), ("second", "beta_deg", 86.701384197437),
                                  ("third", "theta_deg", 27.577809606636), ("third", "gamma_deg", 63.128123330456)]:
             self.assertAlmostEqual(first[kind][key], angle, delta=1.2e-12)

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "analytic/errors.hpp"
+#include "analytic/base/errors.hpp"
 #include "analytic/space/simultaneous.hpp"
 
 namespace clatter::validation::inline benchmark {

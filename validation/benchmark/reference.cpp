@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analytic/sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "analytic/space/sequence.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"

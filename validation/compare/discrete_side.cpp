@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analytic/impact_limits.hpp"
+#include "analytic/law/impact_limits.hpp"
 #include "validation/compare/space_side.hpp"
 #include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/space_scene.hpp"

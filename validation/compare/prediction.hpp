@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "analytic/sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "validation/record/motion_numbers.hpp"
 
 namespace clatter::validation::inline compare {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analytic/restitution_map.hpp"
+#include "analytic/law/viscoelastic.hpp"
 #include "numeric/mesh/mesh.hpp"
 #include "validation/compare/number_pair.hpp"
 #include "validation/compare/uniform.hpp"

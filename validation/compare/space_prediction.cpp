@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "analytic/errors.hpp"
+#include "analytic/base/errors.hpp"
 #include "validation/output/estimated.hpp"
 
 namespace clatter::validation::inline compare {

@@ -7,7 +7,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "analytic/restitution_map.hpp"
+#include "analytic/law/viscoelastic.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/version.hpp"

@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "analytic/contact_angles.hpp"
+#include "analytic/plane/contact_angles.hpp"
 #include "validation/demo/page.hpp"
 #include "validation/demo/story_pictures.hpp"
 #include "validation/output/bad_input.hpp"

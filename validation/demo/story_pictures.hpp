@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "analytic/angle.hpp"
+#include "analytic/base/angle.hpp"
 
 namespace clatter::validation::inline demo {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "analytic/contact_angles.hpp"
+#include "analytic/plane/contact_angles.hpp"
 #include "validation/measured/arm_angles.hpp"
 #include "validation/output/number.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analytic/errors.hpp"
+#include "analytic/base/errors.hpp"
 #include "numeric/errors.hpp"
 #include "validation/output/number.hpp"
 

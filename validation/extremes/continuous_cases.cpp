@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "analytic/restitution_map.hpp"
+#include "analytic/law/viscoelastic.hpp"
 #include "validation/extremes/continuous.hpp"
 #include "validation/extremes/exact_rod.hpp"
 #include "validation/extremes/extreme_cases.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analytic/sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "validation/extremes/cell.hpp"
 #include "validation/extremes/exact_rod.hpp"
 #include "validation/extremes/extreme_cases.hpp"

@@ -2,8 +2,8 @@
 // The thin rod's first three impacts, solved again in 50 digits.
 #pragma once
 
-#include "analytic/contact_angles.hpp"
-#include "analytic/sequence.hpp"
+#include "analytic/plane/contact_angles.hpp"
+#include "analytic/plane/sequence.hpp"
 
 namespace clatter::validation::inline extremes {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "analytic/errors.hpp"
-#include "analytic/sequence.hpp"
+#include "analytic/base/errors.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "validation/extremes/axes.hpp"
 #include "validation/extremes/cell.hpp"
 

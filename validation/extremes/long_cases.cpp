@@ -9,8 +9,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "analytic/errors.hpp"
-#include "analytic/sequence.hpp"
+#include "analytic/base/errors.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "numeric/errors.hpp"
 #include "numeric/mesh/generators.hpp"
 #include "numeric/simulate.hpp"

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "analytic/sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 
 namespace clatter::validation::inline extremes {
 

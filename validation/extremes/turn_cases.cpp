@@ -3,7 +3,7 @@
 #include <limits>
 #include <numbers>
 
-#include "analytic/sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "numeric/mesh/generators.hpp"
 #include "numeric/motion/free_flight.hpp"
 #include "validation/extremes/cell.hpp"

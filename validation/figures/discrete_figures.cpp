@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "analytic/contact_angles.hpp"
+#include "analytic/plane/contact_angles.hpp"
 #include "validation/figures/figures.hpp"
 
 namespace clatter::validation::inline figures {

@@ -4,7 +4,7 @@
 
 #include <tuple>
 
-#include "analytic/sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "validation/figures/figures.hpp"
 #include "validation/figures/history_panels.hpp"
 #include "validation/scene/discrete_scene.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "analytic/sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "validation/figures/figures.hpp"
 #include "validation/figures/history_panels.hpp"
 #include "validation/scene/discrete_scene.hpp"

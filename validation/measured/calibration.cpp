@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analytic/space/principal_axes.hpp"
+#include "analytic/space/body.hpp"
 
 namespace clatter::validation::inline measured {
 namespace {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <map>
 
-#include "analytic/errors.hpp"
+#include "analytic/base/errors.hpp"
 #include "analytic/space/first_contact.hpp"
 #include "analytic/space/sequence.hpp"
 #include "validation/record/names.hpp"

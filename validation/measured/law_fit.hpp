@@ -5,7 +5,7 @@
 #include <array>
 #include <string>
 
-#include "analytic/impact_law.hpp"
+#include "analytic/plane/impact.hpp"
 #include "validation/measured/calibration.hpp"
 
 namespace clatter::validation::inline measured {

@@ -10,7 +10,7 @@
 #include <limits>
 #include <memory>
 
-#include "analytic/errors.hpp"
+#include "analytic/base/errors.hpp"
 
 namespace clatter::validation::inline measured {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analytic/errors.hpp"
+#include "analytic/base/errors.hpp"
 #include "analytic/space/first_contact.hpp"
 
 namespace clatter::validation::inline measured {

@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "analytic/space/body.hpp"
-#include "analytic/space/cross_matrix.hpp"
 
 namespace clatter::validation::inline measured {
 

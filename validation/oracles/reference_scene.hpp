@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "analytic/space/body.hpp"
 #include "analytic/space/sequence.hpp"
-#include "analytic/space/shapes.hpp"
 #include "validation/oracles/reference_table.hpp"
 
 namespace clatter::oracle {

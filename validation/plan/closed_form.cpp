@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analytic/contact_angles.hpp"
+#include "analytic/plane/contact_angles.hpp"
 
 namespace clatter::validation::inline plan {
 namespace {

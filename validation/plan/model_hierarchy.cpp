@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "analytic/errors.hpp"
+#include "analytic/base/errors.hpp"
 #include "validation/plan/closed_form.hpp"
 #include "validation/plan/symmetry.hpp"
 #include "validation/record/names.hpp"

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "analytic/errors.hpp"
+#include "analytic/base/errors.hpp"
 #include "validation/compare/prediction.hpp"
 #include "validation/compare/space_prediction.hpp"
 #include "validation/plan/cost_table.hpp"

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <variant>
 
-#include "analytic/sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "analytic/space/sequence.hpp"
 #include "numeric/impact_record.hpp"
 

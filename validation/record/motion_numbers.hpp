@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "analytic/sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "analytic/space/sequence.hpp"
 #include "numeric/simulate.hpp"
 

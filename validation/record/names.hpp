@@ -2,7 +2,7 @@
 // Names that the models' results have in tables, JSON and CSV.
 #pragma once
 
-#include "analytic/sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "analytic/space/impact.hpp"
 #include "numeric/impact_record.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "analytic/contact_angles.hpp"
+#include "analytic/plane/contact_angles.hpp"
 #include "validation/output/report.hpp"
 #include "validation/scene/named_texts.hpp"
 

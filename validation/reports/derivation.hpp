@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "analytic/sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "validation/output/value.hpp"
 #include "validation/reports/step_writer.hpp"
 #include "validation/scene/scene.hpp"

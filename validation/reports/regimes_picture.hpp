@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "analytic/contact_angles.hpp"
+#include "analytic/plane/contact_angles.hpp"
 #include "validation/figures/picture.hpp"
 
 namespace clatter::validation::inline reports {

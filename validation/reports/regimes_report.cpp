@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "analytic/contact_angles.hpp"
+#include "analytic/plane/contact_angles.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/estimated.hpp"
 #include "validation/output/number.hpp"

@@ -2,7 +2,7 @@
 // An impact sequence as a picture.
 #pragma once
 
-#include "analytic/sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "validation/figures/picture.hpp"
 #include "validation/record/time_window.hpp"
 #include "validation/scene/scene.hpp"

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "analytic/contact_impulse.hpp"
+#include "analytic/law/coulomb_path.hpp"
 #include "analytic/space/slip_field.hpp"
 #include "validation/output/number.hpp"
 #include "validation/record/names.hpp"

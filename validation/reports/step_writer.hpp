@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "analytic/sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 
 namespace clatter::validation::inline reports {
 

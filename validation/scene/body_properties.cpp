@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "analytic/space/principal_axes.hpp"
+#include "analytic/space/body.hpp"
 #include "numeric/files/import.hpp"
 #include "numeric/mesh/generators.hpp"
 #include "validation/output/bad_input.hpp"

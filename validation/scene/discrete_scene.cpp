@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "analytic/body_motion.hpp"
-#include "analytic/errors.hpp"
+#include "analytic/base/errors.hpp"
+#include "analytic/plane/body_motion.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/keys.hpp"

@@ -2,7 +2,7 @@
 // A scene as the discrete model sees it: by the real body and ground, or by sizes and the impact.* keys alone.
 #pragma once
 
-#include "analytic/sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "numeric/body.hpp"
 #include "validation/scene/scene.hpp"
 

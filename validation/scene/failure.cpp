@@ -4,7 +4,7 @@
 #include <new>
 #include <stdexcept>
 
-#include "analytic/errors.hpp"
+#include "analytic/base/errors.hpp"
 #include "numeric/errors.hpp"
 #include "validation/output/bad_input.hpp"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "analytic/contact_angles.hpp"
+#include "analytic/plane/contact_angles.hpp"
 #include "validation/output/value.hpp"
 
 namespace clatter::validation::inline scene {

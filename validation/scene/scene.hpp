@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "analytic/impact_law.hpp"
+#include "analytic/plane/impact.hpp"
 #include "numeric/simulate.hpp"
 #include "validation/output/json.hpp"
 #include "validation/scene/scene_values.hpp"

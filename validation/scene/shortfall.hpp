@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "analytic/sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "analytic/space/sequence.hpp"
 #include "validation/scene/scene.hpp"
 

@@ -8,8 +8,8 @@
 #include <limits>
 #include <optional>
 
-#include "analytic/errors.hpp"
-#include "analytic/space/shapes.hpp"
+#include "analytic/base/errors.hpp"
+#include "analytic/space/body.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/discrete_scene.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "analytic/sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "analytic/space/sequence.hpp"
 #include "numeric/simulate.hpp"
 #include "validation/output/report.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analytic/sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "validation/verify/check.hpp"
 #include "validation/verify/elastic_rod.hpp"
 

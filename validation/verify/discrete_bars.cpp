@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "analytic/errors.hpp"
+#include "analytic/base/errors.hpp"
 #include "validation/oracles/digits.hpp"
 #include "validation/oracles/event_oracle.hpp"
 

@@ -2,7 +2,7 @@
 // Contact angles of the elastic rod, of which many claims and errata speak.
 #pragma once
 
-#include "analytic/contact_angles.hpp"
+#include "analytic/plane/contact_angles.hpp"
 
 namespace clatter::validation::inline verify {
 

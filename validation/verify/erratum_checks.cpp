@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "analytic/impact_law.hpp"
+#include "analytic/plane/impact.hpp"
 #include "numeric/motion/euler_parameters.hpp"
 #include "numeric/motion/lagrange_system.hpp"
 #include "numeric/motion/newton_euler.hpp"

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analytic/contact_angles.hpp"
-#include "analytic/restitution_map.hpp"
-#include "analytic/sequence.hpp"
+#include "analytic/law/viscoelastic.hpp"
+#include "analytic/plane/contact_angles.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "numeric/contact/contact_load.hpp"
 #include "numeric/mesh/generators.hpp"
 #include "numeric/motion/free_rotation.hpp"

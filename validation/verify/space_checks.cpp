@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analytic/space/shapes.hpp"
+#include "analytic/space/body.hpp"
 #include "validation/compare/uniform.hpp"
 #include "validation/oracles/reference_scene.hpp"
 #include "validation/oracles/stepped_impact.hpp"

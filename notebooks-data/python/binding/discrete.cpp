@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "analytic/sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "interruptible.hpp"
 #include "report.hpp"
 #include "runs.hpp"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "analytic/space/body.hpp"
 #include "analytic/space/sequence.hpp"
-#include "analytic/space/shapes.hpp"
 #include "tests/analytic/oracle/viscoelastic_bounce.hpp"
 #include "tests/analytic/space/random_contact.hpp"
 

@@ -4,7 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "analytic/sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "analytic/space/sequence.hpp"
 #include "numeric/simulate.hpp"
 #include "validation/benchmark/exact_map.hpp"
