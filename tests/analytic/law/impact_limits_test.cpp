@@ -6,6 +6,7 @@
 #include <random>
 
 #include "analytic/base/angle.hpp"
+#include "analytic/plane/impact.hpp"
 
 namespace {
 

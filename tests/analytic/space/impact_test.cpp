@@ -7,6 +7,7 @@
 
 #include "analytic/base/errors.hpp"
 #include "analytic/law/impact_limits.hpp"
+#include "analytic/plane/impact.hpp"
 #include "analytic/space/slip_field.hpp"
 #include "tests/analytic/space/random_contact.hpp"
 

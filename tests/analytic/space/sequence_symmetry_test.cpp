@@ -4,6 +4,7 @@
 #include <random>
 
 #include "analytic/base/errors.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "analytic/space/body.hpp"
 #include "analytic/space/sequence.hpp"
 
