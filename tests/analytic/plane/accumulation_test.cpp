@@ -4,6 +4,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "analytic/plane/sequence.hpp"
+
 namespace {
 
 using namespace clatter::analytic;
