@@ -1,14 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analytic/space/body.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "analytic/detail/require.hpp"
-#include "analytic/space/principal_axes.hpp"
+#include "analytic/base/errors.hpp"
 
 namespace clatter::analytic::space {
+
+namespace {
+
+bool is_diagonal(const Matrix3& m) { return m(0, 1) == 0 && m(0, 2) == 0 && m(1, 2) == 0; }
+
+}  // namespace
+
+PrincipalAxes::PrincipalAxes(const Matrix3& inertia) {
+  if (is_diagonal(inertia)) {
+    std::array<int, 3> order{0, 1, 2};
+    std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return inertia(i, i) < inertia(j, j); });
+    for (int k = 0; k < 3; ++k) {
+      const int from = order[static_cast<std::size_t>(k)];
+      moments[static_cast<std::size_t>(k)] = inertia(from, from);
+      axes.col(k) = Matrix::Identity().col(from);
+    }
+  } else {
+    const Matrix symmetric = inertia.cast<long double>().selfadjointView<Eigen::Lower>();
+    const Eigen::SelfAdjointEigenSolver<Matrix> solver(symmetric);
+    for (int k = 0; k < 3; ++k) moments[static_cast<std::size_t>(k)] = solver.eigenvalues()[k];
+    axes = solver.eigenvectors();
+  }
+  if (axes.determinant() < 0) axes.col(1) = -axes.col(1);
+}
 
 using detail::require;
 namespace {
@@ -57,6 +81,51 @@ void Body::validate() const {
     require(rim.radius > 0 && std::isfinite(rim.radius), "radius of a rim", rim.radius, "above 0 and finite");
   }
   require(reach() > 0, "reach of the body", reach(), "above 0");
+}
+
+Body box(double mass, const Box& shape) {
+  Body body;
+  body.mass = mass;
+  for (int i = 0; i < 3; ++i) {
+    require(shape.size[i] > 0 && std::isfinite(shape.size[i]), "size of the box", shape.size[i], "above 0 and finite");
+  }
+  const Vector3 squares = shape.size.cwiseAbs2();
+  const Vector3 sums(squares[1] + squares[2], squares[0] + squares[2], squares[0] + squares[1]);
+  body.inertia = (mass / 12 * sums).asDiagonal();
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector3 side((corner & 4) != 0 ? 0.5 : -0.5, (corner & 2) != 0 ? 0.5 : -0.5, (corner & 1) != 0 ? 0.5 : -0.5);
+    body.vertices.push_back(side.cwiseProduct(shape.size) - shape.centre);
+  }
+  body.validate();
+  return body;
+}
+
+Body cylinder(double mass, const Cylinder& shape) {
+  require(shape.length > 0 && std::isfinite(shape.length), "length of the cylinder", shape.length,
+          "above 0 and finite");
+  require(shape.radius >= 0 && std::isfinite(shape.radius), "radius of the cylinder", shape.radius,
+          "at least 0 and finite");
+  const double square = shape.radius * shape.radius;
+  const double across = mass * (3 * square + shape.length * shape.length) / 12;
+  Body body;
+  body.mass = mass;
+  body.inertia = Vector3(shape.radius > 0 ? mass * square / 2 : across, across, across).asDiagonal();
+  for (const double side : {-0.5, 0.5}) {
+    const Vector3 end(side * shape.length, 0, 0);
+    if (shape.radius > 0) body.rims.push_back({.centre = end, .axis = Vector3::UnitX(), .radius = shape.radius});
+    else body.vertices.push_back(end);
+  }
+  body.validate();
+  return body;
+}
+
+Body polyhedron(const std::vector<Vector3>& vertices, const MassProperties& properties) {
+  Body body;
+  body.mass = properties.mass;
+  body.inertia = properties.inertia;
+  for (const Vector3& vertex : vertices) body.vertices.push_back(vertex - properties.centre);
+  body.validate();
+  return body;
 }
 
 }  // namespace clatter::analytic::space

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <vector>
 
 namespace clatter::analytic::space {
@@ -52,5 +53,63 @@ struct Corner {
   Vector3 place = Vector3::Zero();  ///< body frame, from the centre of mass; the centre of a level rim [m]
   double radius = 0;                ///< of a level rim; 0: a point [m]
 };
+
+// The vector product as a matrix.
+
+/// V×, such that (V×) a = V × a.
+inline Matrix3 cross_matrix(const Vector3& v) {
+  Matrix3 m;
+  m << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0;
+  return m;
+}
+
+// Principal moments and axes of a body's inertia, with more digits than a double has.
+
+/// Principal moments and axes of an inertia tensor.
+/// Accuracy: a few ulp of long double × the largest moment; a diagonal tensor keeps its entries as they are.
+struct PrincipalAxes {
+  using Matrix = Eigen::Matrix<long double, 3, 3>;
+
+  std::array<long double, 3> moments{};  ///< ascending [kg·m²]
+  Matrix axes = Matrix::Identity();      ///< columns, body frame, right-handed
+
+  explicit PrincipalAxes(const Matrix3& inertia);
+};
+
+// Bodies of simple shape.
+
+/// A box with faces parallel to the body axes.
+struct Box {
+  Vector3 size = Vector3::Ones();    ///< L, W, T along x, y, z [m]
+  Vector3 centre = Vector3::Zero();  ///< of mass, from the geometric centre [m]
+};
+
+/// A uniform box: I = m/12 diag(W² + T², L² + T², L² + W²), about the centre of mass also where that lies elsewhere.
+/// Vertex 4i + 2j + k is the one with x > 0 for i = 1, y > 0 for j = 1, z > 0 for k = 1.
+/// @throws std::domain_error for a size that is not above 0.
+[[nodiscard]] Body box(double mass, const Box& shape);
+
+/// A solid cylinder along x, the rod of the planar model with its real rim.
+struct Cylinder {
+  double length = 1;  ///< L [m]
+  double radius = 0;  ///< r >= 0 [m]; 0: a thin rod
+};
+
+/// A uniform cylinder: I = m diag(r²/2, (3r² + L²)/12, (3r² + L²)/12), two rims, no vertices; rim 0 is at −L/2.
+/// A thin rod has two vertices instead and no moment about its axis to speak of: no impulse turns it about that axis,
+/// so that the third moment takes the value of the others, which makes its free rotation that of a fixed axis.
+/// @throws std::domain_error for a length that is not above 0 or a radius below 0.
+[[nodiscard]] Body cylinder(double mass, const Cylinder& shape);
+
+/// Mass, centre and inertia of a polyhedron.
+struct MassProperties {
+  double mass = 1;
+  Vector3 centre = Vector3::Zero();       ///< of mass, in the frame of the vertices [m]
+  Matrix3 inertia = Matrix3::Identity();  ///< about the centre of mass, axes of the vertices' frame [kg·m²]
+};
+
+/// A polyhedron with these hull vertices; a vertex inside the hull would do no harm but cost time.
+/// @throws std::domain_error as Body::validate().
+[[nodiscard]] Body polyhedron(const std::vector<Vector3>& vertices, const MassProperties& properties);
 
 }  // namespace clatter::analytic::space

@@ -6,7 +6,7 @@
 #include <functional>
 #include <utility>
 
-#include "analytic/space/sequence.hpp"
+#include "analytic/space/impact_rows.hpp"
 
 namespace clatter::analytic::space {
 

@@ -2,17 +2,289 @@
 #include "analytic/space/first_contact.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
-#include "analytic/detail/limits.hpp"
-#include "analytic/errors.hpp"
-#include "analytic/space/point_search.hpp"
+#include "analytic/base/errors.hpp"
+#include "analytic/base/limits.hpp"
+#include "analytic/base/root_finder.hpp"
 
 namespace clatter::analytic::space {
 
 using detail::epsilon;
-using detail::never_happens;
+using detail::never;
+
+// Height of a point that has just left the ground, as a series in time.
+
+/// h(t) = t (u + t C(t)), with C from the Taylor series of e = Aᵀ z and ω at t = 0 (Euler's equations), so that a hop
+/// keeps its relative accuracy however small its speed u beside V_z.
+/// Domain: |ω| t <= 0.1, where 16 terms leave a few ulp.
+class Hop {
+ public:
+  static constexpr double largest_turn = 0.1;  ///< [rad]
+
+  /// Of the point at `place` (body frame), which leaves with the normal velocity `speed`.
+  Hop(const Body& body, const FreeFlight& flight, const Vector3& place, double speed);
+
+  struct Value {
+    double quotient = 0;  ///< h/t [m/s]
+    double slope = 0;     ///< its derivative [m/s²]
+  };
+  [[nodiscard]] Value at(double time) const;
+  /// h′ [m/s].
+  [[nodiscard]] double velocity(double time) const;
+
+ private:
+  static constexpr std::size_t terms = 16;
+  double speed_;
+  std::array<double, terms> bends_{};  ///< of C
+};
+
+/// The place whose height is that of the touching point during a hop: a vertex; the centre of a level rim that stays
+/// level, since the body turns about the vertical alone.  The lowest point of another rim is at no one place.
+[[nodiscard]] std::optional<Vector3> hopping_place(const Body& body, const FreeFlight& flight, int point);
+
+// The first root of the height of a body's point in a piece of a flight, certified by bounds of its second derivative.
+
+/// Looks at one point after another and keeps the earliest contact, and the nearest miss, of all that it has seen.
+class PointSearch {
+ public:
+  /// A moment of a point.
+  struct Node {
+    FlightMoment moment;
+    PointHeight point;
+  };
+
+  PointSearch(const Body& body, const FreeFlight& flight);
+
+  /// Looks for the point's first root in a piece, unless one before it is known.  True when one was found.
+  bool look(int point, const Node& a, const Node& b);
+  /// Takes the time as the point's contact, unless one before it is known; true.
+  bool take(int point, double time, detail::Bracket bracket);
+
+  [[nodiscard]] PointHeights& heights() { return heights_; }
+  [[nodiscard]] FirstContact& found() { return found_; }
+  /// Time of the earliest contact so far.
+  [[nodiscard]] double best() const { return best_; }
+  /// Clearances from here on are no near miss.
+  [[nodiscard]] double threshold() const { return threshold_; }
+  /// Normal velocity of the point that arrives first; of a small hop to relative accuracy, with that `error`.
+  /// @param first  the point at the contact
+  double arrival_velocity(const PointHeight& first, double& error) const;
+
+ private:
+  bool halves(int point, const Node& a, const Node& b);
+  /// A height that is not above the ground though the piece before has no root that could be told: at rounding.
+  bool solve_after(int point, const Node& a, const Node& node);
+  bool convex(int point, const Node& a, const Node& b);
+  bool solve(int point, const Node& a, const Node& b);
+  /// Root of h/t in (0, b].
+  bool solve_quotient(int point, const PointHeight& start, const Node& b);
+  Node at(int point, double time);
+
+  const Body& body_;
+  const FreeFlight& flight_;
+  PointHeights heights_;
+  FirstContact found_;
+  std::optional<Hop> hop_;
+  double hop_time_ = -1;
+  double best_ = detail::never, threshold_;
+};
+
+Hop::Hop(const Body& body, const FreeFlight& flight, const Vector3& place, double speed) : speed_(speed) {
+  const Matrix3& inertia = body.inertia;
+  const Matrix3 inverse = inertia.inverse();
+  std::array<Vector3, terms + 2> e, w, momentum;
+  e[0] = flight.rotation().vertical(0).direction;
+  w[0] = flight.rotation().angular_velocity(0);
+  momentum[0] = inertia * w[0];
+  for (std::size_t n = 0; n + 1 < e.size(); ++n) {
+    Vector3 turn = Vector3::Zero(), torque = Vector3::Zero();
+    for (std::size_t k = 0; k <= n; ++k) {
+      turn += e[k].cross(w[n - k]);
+      torque += momentum[k].cross(w[n - k]);
+    }
+    const double next = static_cast<double>(n + 1);
+    e[n + 1] = turn / next;
+    momentum[n + 1] = torque / next;
+    w[n + 1] = inverse * momentum[n + 1];
+  }
+  for (std::size_t k = 0; k < terms; ++k) bends_[k] = e[k + 2].dot(place);
+  bends_[0] -= flight.gravity() / 2;
+}
+
+Hop::Value Hop::at(double time) const {
+  double bend = 0, slope = 0;
+  for (std::size_t k = terms; k-- > 0;) {
+    slope = slope * time + bend;
+    bend = bend * time + bends_[k];
+  }
+  return {.quotient = speed_ + time * bend, .slope = bend + time * slope};
+}
+
+double Hop::velocity(double time) const {
+  const Value value = at(time);
+  return value.quotient + time * value.slope;
+}
+
+std::optional<Vector3> hopping_place(const Body& body, const FreeFlight& flight, int point) {
+  const auto index = static_cast<std::size_t>(point);
+  if (index < body.vertices.size()) return body.vertices[index];
+  const Corner corner = touching_corner(body, flight.start().attitude, point);
+  const Vector3& spin = flight.start().angular_velocity;
+  const bool stays_level = corner.radius > 0 && spin.head<2>().norm() <= 64 * detail::epsilon * std::fabs(spin.z());
+  return stays_level ? std::optional<Vector3>(corner.place) : std::nullopt;
+}
+
+namespace {
+
+constexpr int most_evaluations_of_a_flight = 1'000'000;
+
+}  // namespace
+
+PointSearch::PointSearch(const Body& body, const FreeFlight& flight)
+    : body_(body), flight_(flight), heights_(body, flight), threshold_(heights_.reach() / 20) {
+  found_.near_miss.clearance = never;
+}
+
+bool PointSearch::look(int point, const Node& a, const Node& b) {
+  if (a.point.time >= best_) return true;
+  const bool touching = a.point.time == 0 && a.point.height == 0;
+  const HeightBounds bounds = heights_.bounds(point, {a.moment, b.moment, a.point, b.point, touching});
+  if (bounds.lowest > (touching ? 0 : std::fmin(threshold_, found_.near_miss.clearance))) return false;
+  if (touching) {
+    // (h/t)′ = h″/2 somewhere before.
+    if (bounds.least_bend >= 0) return false;
+    if (bounds.largest_bend <= 0) return b.point.height < 0 ? solve_quotient(point, a.point, b) : false;
+  } else if (bounds.largest_bend <= 0) {
+    return b.point.height <= 0 ? solve(point, a, b) : false;
+  } else if (bounds.least_bend >= 0) {
+    return convex(point, a, b);
+  } else {
+    const double length = b.point.time - a.point.time;
+    if (a.point.velocity + bounds.largest_bend * length < 0) return b.point.height <= 0 ? solve(point, a, b) : false;
+    if (a.point.velocity + bounds.least_bend * length > 0) return false;
+  }
+  return halves(point, a, b);
+}
+
+bool PointSearch::halves(int point, const Node& a, const Node& b) {
+  const double middle = a.point.time + (b.point.time - a.point.time) / 2;
+  if (!(middle > a.point.time && middle < b.point.time) || b.point.time - a.point.time <= 8 * epsilon * b.point.time) {
+    if (b.point.height > 0) return false;
+    found_.within_margin = true;
+    return take(point, b.point.time, {a.point.time, b.point.time});
+  }
+  const Node node = at(point, middle);
+  if (look(point, a, node)) return true;
+  if (!(node.point.height > 0)) return solve_after(point, a, node);
+  return look(point, node, b);
+}
+
+bool PointSearch::solve_after(int point, const Node& a, const Node& node) {
+  found_.within_margin = true;
+  return take(point, node.point.time, {a.point.time, node.point.time});
+}
+
+bool PointSearch::convex(int point, const Node& a, const Node& b) {
+  if (b.point.height <= 0) return solve(point, a, b);
+  if (!(a.point.velocity < 0 && b.point.velocity > 0)) return false;
+  const auto sample = [&](double t) -> detail::Sample {
+    const PointHeight h = at(point, t).point;
+    return {h.velocity, h.acceleration, 0};
+  };
+  const double share = a.point.velocity / (a.point.velocity - b.point.velocity);
+  const detail::Root root = detail::bracketed_root(detail::FunctionView(sample), {a.point.time, b.point.time},
+                                                   a.point.time + share * (b.point.time - a.point.time), true);
+  const Node bottom = at(point, root.value);
+  const double margin = heights_.noise(root.value);
+  if (bottom.point.height > 0) {
+    if (bottom.point.height < found_.near_miss.clearance) {
+      found_.near_miss = {.clearance = bottom.point.height, .margin = margin, .time = root.value, .vertex = point};
+    }
+    return false;
+  }
+  const bool slight = -bottom.point.height <= margin;
+  if (slight && !(bottom.point.time > a.point.time)) return false;
+  if (!solve(point, a, bottom)) return false;
+  found_.within_margin = slight;
+  return true;
+}
+
+bool PointSearch::solve(int point, const Node& a, const Node& b) {
+  if (!(a.point.height > 0)) return false;
+  const double noise = epsilon * heights_.reach() / 4;
+  const auto sample = [&](double t) -> detail::Sample {
+    const PointHeight h = at(point, t).point;
+    return {h.height, h.velocity, noise};
+  };
+  const double share = a.point.height / (a.point.height - b.point.height);
+  const detail::Root root = detail::bracketed_root(detail::FunctionView(sample), {a.point.time, b.point.time},
+                                                   a.point.time + share * (b.point.time - a.point.time), false);
+  return take(point, root.value, {a.point.time, b.point.time});
+}
+
+bool PointSearch::solve_quotient(int point, const PointHeight& start, const Node& b) {
+  const Touch touch{.point = point, .normal_velocity = start.velocity};
+  const double turn = b.point.time * flight_.rotation().fastest();
+  const std::optional<Vector3> place = hopping_place(body_, flight_, point);
+  const double bend = start.acceleration;
+  const double guess = bend < 0 ? -2 * touch.normal_velocity / bend : b.point.time / 2;
+  if (place && turn <= Hop::largest_turn) {
+    hop_.emplace(body_, flight_, *place, touch.normal_velocity);
+    const auto sample = [&](double t) -> detail::Sample {
+      const Hop::Value value = hop_->at(t);
+      return {value.quotient, value.slope, epsilon / 4 * touch.normal_velocity};
+    };
+    const detail::Root root = detail::bracketed_root(detail::FunctionView(sample), {0, b.point.time}, guess, false);
+    hop_time_ = root.value;
+    return take(point, root.value, {0, b.point.time});
+  }
+  if (place && guess * flight_.rotation().fastest() < Hop::largest_turn / 2) {  // the root lies near: come nearer
+    const Node nearer = at(point, Hop::largest_turn * 0.99 / flight_.rotation().fastest());
+    if (nearer.point.height < 0) return solve_quotient(point, start, nearer);
+  }
+  // h/t >= u − max|h″| t/2 has no root before this.
+  const double bound = heights_.reach() * heights_.rate_bound(2) + flight_.gravity();
+  const double low = std::fmin(touch.normal_velocity / bound, b.point.time / 2);
+  const double noise = epsilon * heights_.reach() / 4;
+  const auto sample = [&](double t) -> detail::Sample {
+    const PointHeight h = at(point, t).point;
+    return {h.height / t, (h.velocity - h.height / t) / t, noise / t};
+  };
+  const bool inside = guess > low && guess < b.point.time;
+  const detail::Root root = detail::bracketed_root(detail::FunctionView(sample), {low, b.point.time},
+                                                   inside ? guess : (low + b.point.time) / 2, false);
+  return take(point, root.value, {low, b.point.time});
+}
+
+PointSearch::Node PointSearch::at(int point, double time) {
+  if (++found_.evaluations > most_evaluations_of_a_flight) {
+    throw NumericalError("no contact found nor excluded in a million evaluations of a flight's rotation");
+  }
+  const FlightMoment moment = heights_.moment(time);
+  return {moment, heights_.at(point, moment)};
+}
+
+bool PointSearch::take(int point, double time, detail::Bracket bracket) {
+  if (!(time < best_)) return true;
+  best_ = time;
+  found_.end = FlightEnd::contact;
+  found_.time = time;
+  found_.point = point;
+  found_.bracket_low = bracket.low;
+  found_.bracket_high = bracket.high;
+  return true;
+}
+
+double PointSearch::arrival_velocity(const PointHeight& first, double& error) const {
+  if (!(best_ > 0 && hop_ && hop_time_ == best_)) return first.velocity;
+  const double velocity = hop_->velocity(best_);
+  error = 4 * epsilon * std::fabs(velocity);
+  return velocity;
+}
 
 namespace {
 
@@ -72,7 +344,7 @@ class Search {
     const double deepest = *std::max_element(depths_.begin(), depths_.end());
     const double rises = flight_.rises_through(deepest), falls = flight_.falls_through(deepest);
     const double certain = flight_.falls_through(-heights_.reach());
-    const bool ever_falls = falls < never_happens;
+    const bool ever_falls = falls < never;
     if (!through(start, std::fmin(rises, certain))) return;
     if (!ever_falls || !(falls > start.time)) return;
     if (falls * epsilon * flight_.rotation().fastest() > 1e-3 || !(falls < falls * (1 + 4 * epsilon))) {
@@ -86,9 +358,9 @@ class Search {
   /// Looks through pieces from `start` to `end`; false when the first contact was found.  Leaves `start` at the end.
   bool through(FlightMoment& start, double end) {
     const double speed = flight_.rotation().fastest();
-    const bool periodic_hover = end == never_happens && flight_.gravity() == 0 && !(flight_.start().velocity.z() < 0);
+    const bool periodic_hover = end == never && flight_.gravity() == 0 && !(flight_.start().velocity.z() < 0);
     if (speed == 0) {
-      if (end < never_happens) return pieces(start, end, end);
+      if (end < never) return pieces(start, end, end);
       return true;  // a body that neither turns nor falls
     }
     if (periodic_hover && flight_.rotation().is_steady()) end = start.time + 2 * std::numbers::pi / speed;
@@ -97,7 +369,7 @@ class Search {
 
   /// Leaves out what is clear whatever the spin, so that many turns far above the ground cost little.
   bool stretch(FlightMoment& start, double end, double length) {
-    if (!(end - start.time > shortest_stretch * length) || end == never_happens) return pieces(start, end, length);
+    if (!(end - start.time > shortest_stretch * length) || end == never) return pieces(start, end, length);
     const FlightMoment last = heights_.moment(end);
     ++found_.evaluations;
     const double lowest = heights_.lowest_between(start, last);

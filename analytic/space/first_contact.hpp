@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "analytic/flight.hpp"
+#include "analytic/plane/flight.hpp"
 #include "analytic/space/point_height.hpp"
 
 namespace clatter::analytic::space {

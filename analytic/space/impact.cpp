@@ -7,21 +7,11 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "analytic/errors.hpp"
-#include "analytic/space/cross_matrix.hpp"
+#include "analytic/base/errors.hpp"
+#include "analytic/space/body.hpp"
 #include "analytic/space/impulse_path.hpp"
 
 namespace clatter::analytic::space {
-void Law::validate() const {
-  law.validate();
-  const double length = ratio_direction.norm();
-  if (!(std::fabs(length - 1) <= 8 * std::numeric_limits<double>::epsilon())) {
-    std::ostringstream text;
-    text.precision(17);
-    text << "length of the impulse ratio's direction = " << length << ": must be 1";
-    throw std::domain_error(text.str());
-  }
-}
 
 double Impact::restitution() const { return contact_before.z() < 0 ? -contact_after.z() / contact_before.z() : 0; }
 

@@ -8,30 +8,9 @@
 //     dv/dp = W (n − μ s)   (Keller 1986; Bhatt and Koechling 1995).                                 (2)
 #pragma once
 
-#include "analytic/impact_law.hpp"
-#include "analytic/space/body.hpp"
+#include "analytic/space/impulse_path.hpp"
 
 namespace clatter::analytic::space {
-
-/// How the corner moved along the ground during the impact.
-enum class PathKind {
-  frictionless,  ///< no tangential impulse asked for
-  slip,          ///< slips along one straight line throughout (also: an impulse ratio as given)
-  turning_slip,  ///< slips throughout, and the direction turns
-  stick,         ///< no slip from the start
-  slip_stick,    ///< slip stops, then sticks
-  slip_reslip,   ///< slip stops, then goes on along the one outgoing invariant direction
-};
-
-/// An impulse law in space: as in the plane, and the direction of a given impulse ratio.
-struct Law {
-  ImpactLaw law;
-  /// Unit horizontal direction in which P_t of FrictionKind::impulse_ratio acts: P_t = μ_i P_n · direction.
-  Vector2 ratio_direction = Vector2::UnitX();
-
-  /// @throws std::domain_error naming the field, its value and what is allowed.
-  void validate() const;
-};
 
 /// An impulse and what it did.
 struct Impact {

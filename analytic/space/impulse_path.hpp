@@ -3,7 +3,7 @@
 //
 // The path starts with slip or without, and has at most two parts:
 //   slip      along a straight line, if its direction is invariant (slip_field.hpp) to rounding; otherwise slip that
-//             turns (turning_slip.hpp)
+//             turns (impulse_path.hpp)
 //   after it  where slip has stopped, or was zero at the start: the corner sticks if |A⁻¹b| <= μ; otherwise slip goes
 //             on in the direction s = (μA + f)⁻¹ b, f > 0, which is the one invariant direction that leads outwards.
 // The normal impulse stays bounded for every μ: W is positive definite, so that dv_n/dp > μ f along an invariant
@@ -11,9 +11,30 @@
 // goes on along one of these.
 #pragma once
 
-#include "analytic/space/impact.hpp"
+#include "analytic/law/impact_law.hpp"
+#include "analytic/space/body.hpp"
 
 namespace clatter::analytic::space {
+
+/// How the corner moved along the ground during the impact.
+enum class PathKind {
+  frictionless,  ///< no tangential impulse asked for
+  slip,          ///< slips along one straight line throughout (also: an impulse ratio as given)
+  turning_slip,  ///< slips throughout, and the direction turns
+  stick,         ///< no slip from the start
+  slip_stick,    ///< slip stops, then sticks
+  slip_reslip,   ///< slip stops, then goes on along the one outgoing invariant direction
+};
+
+/// An impulse law in space: as in the plane, and the direction of a given impulse ratio.
+struct Law {
+  ImpactLaw law;
+  /// Unit horizontal direction in which P_t of FrictionKind::impulse_ratio acts: P_t = μ_i P_n · direction.
+  Vector2 ratio_direction = Vector2::UnitX();
+
+  /// @throws std::domain_error naming the field, its value and what is allowed.
+  void validate() const;
+};
 
 /// A corner as its impact sees it.
 struct Contact {
@@ -46,6 +67,7 @@ struct ContactImpulse {
 struct FaceContact {
   double mass = 1;                  ///< m [kg]
   double approach_speed = 1;        ///< −V_z > 0 [m/s]
+  double restitution = 1;           ///< e
   Vector2 slip = Vector2::Zero();   ///< velocity along the ground of the point below the centre of mass [m/s]
   Vector2 drift = Vector2::Zero();  ///< how the reversal of the body's turning moves that point [1/kg]
   double velocity_scale = 0;        ///< as in Contact

@@ -5,9 +5,10 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "analytic/detail/limits.hpp"
+#include "analytic/base/limits.hpp"
 
 namespace clatter::analytic::space {
+
 namespace {
 
 /// Rebounds slower than this part of the first approach are taken for a rolling rim.

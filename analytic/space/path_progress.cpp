@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "analytic/viscoelastic_contact.hpp"
+#include "analytic/law/viscoelastic.hpp"
 
 namespace clatter::analytic::space {
 

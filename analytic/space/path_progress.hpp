@@ -5,14 +5,14 @@
 //   Newton       ends where u = e first
 //   Poisson      ends at p = (1+e) p_c; were u < 0 there, the ground would go on pushing: until u = 0
 //   Stronge      ends where E = 0, dE = −u dp, E multiplied by e² at p_c
-//   viscoelastic ends where E = 0, dE = −u dp/(1 − τu), E left as it is at p_c (viscoelastic_contact.hpp)
+//   viscoelastic ends where E = 0, dE = −u dp/(1 − τu), E left as it is at p_c (viscoelastic.hpp)
 // p_c, the end of compression, is the first impulse at which u = 0.  Where u turns negative again after it (a second
 // compression; friction that reverses can do that), E grows again without a second loss, and p_c stays.
 #pragma once
 
 #include <limits>
 
-#include "analytic/impact_law.hpp"
+#include "analytic/law/impact_law.hpp"
 #include "analytic/space/body.hpp"
 
 namespace clatter::analytic::space {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "analytic/detail/limits.hpp"
+#include "analytic/base/limits.hpp"
 
 namespace clatter::analytic::space {
 

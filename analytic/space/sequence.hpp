@@ -2,93 +2,9 @@
 // Impact sequences of a body in space: strike, fly, strike, ... until it ends.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "analytic/sequence.hpp"
-#include "analytic/space/first_contact.hpp"
-#include "analytic/space/impact.hpp"
-#include "analytic/space/simultaneous.hpp"
+#include "analytic/space/impact_rows.hpp"
 
 namespace clatter::analytic::space {
-
-/// The body as it touches the ground for the first time; its lowest vertex or rim is put on z = 0, its centre of mass
-/// on x = y = 0.
-struct Drop {
-  Body body;
-  Quaternion attitude = Quaternion::Identity();  ///< body to world
-  Vector3 velocity = Vector3::Zero();            ///< of the centre of mass, world frame, before the first impact [m/s]
-  Vector3 angular_velocity = Vector3::Zero();    ///< world frame [rad/s]
-  double gravity = 0;                            ///< g >= 0 [m/s²]
-  Law law;
-
-  /// @throws std::domain_error naming the field, its value and what is allowed.
-  void validate() const;
-};
-
-/// Bounds on the errors of an impact's numbers, each in the unit of its number (of a vector: on the length of its
-/// error); infinite in a row that cannot be predicted.
-struct RowErrors {
-  bool predictable = false;  ///< errors have not grown so far that another sequence may follow
-  double start = 0;          ///< [s]
-  double attitude = 0;       ///< angle of the rotation between the attitude and the true one [rad]
-  double approach_speed = 0;
-  double impulse = 0;                 ///< [N·s]
-  double velocity_after = 0;          ///< [m/s]
-  double angular_velocity_after = 0;  ///< [rad/s]
-  double energy_before = 0;           ///< [J]
-  double energy_after = 0;            ///< [J]
-
-  [[nodiscard]] static RowErrors unknown();
-};
-
-/// One impact.
-struct ImpactRow {
-  double start = 0;             ///< time since the first impact [s]
-  std::vector<Corner> corners;  ///< that arrived; the first is the one that `impact` is of
-  State before;                 ///< height of the centre of mass in position.z
-  /// Of the corner, or of several corners or a level rim together: then the contact velocities are those of the first
-  /// corner, path and energy those of the group, p_c and what describes slip are not known (NaN).
-  Impact impact;
-  std::optional<GroupImpact> group;  ///< if several corners arrived, or all of a rim that lies level
-  double approach_speed = 0;         ///< of the corner; largest of the group [m/s]
-  double energy_before = 0;          ///< translational + rotational + potential (z = 0 at the ground) [J]
-  double energy_after = 0;
-  /// Relative change of this row's quantities (attitude in radians, time, impulse) per relative change of the drop's
-  /// velocities or change of its attitude: the largest.  NaN if the row cannot be predicted.
-  double amplification = 0;
-  RowErrors error;      ///< all unknown without SequenceOptions::amplification
-  FirstContact flight;  ///< that led here; empty for the first row
-};
-
-/// The remaining impacts after the last row: infinitely many in a finite time.
-struct Tail {
-  double end_time = 0;        ///< time since the first impact [s]
-  double end_time_error = 0;  ///< of the extrapolation; infinite where the last row cannot be predicted [s]
-  double normal_impulse = 0;  ///< sum over the remaining impacts [N·s]
-  double normal_impulse_error = 0;
-  Vector2 tangential_impulse = Vector2::Zero();  ///< likewise, world frame [N·s]
-  std::vector<int> corners;                      ///< that strike in turn (Corner::index)
-  bool closed_form = false;
-  Vector3 velocity_after = Vector3::Zero();          ///< of the centre of mass at the end [m/s]
-  Vector3 angular_velocity_after = Vector3::Zero();  ///< [rad/s]
-};
-
-struct Sequence {
-  std::vector<ImpactRow> rows;
-  Outcome outcome = Outcome::no_further_impact;
-  std::string message;                ///< why it ended, one sentence
-  std::vector<std::string> warnings;  ///< such as energy created by Newton's law with friction
-  std::optional<Tail> tail;
-  NearMiss near_miss;  ///< of the last flight, if no_further_impact
-  /// h″ of the corner that stays on the ground, if sustained_contact without a tail [m/s²].
-  double end_acceleration = 0;
-  double total_normal_impulse = 0;  ///< rows and tail [N·s]
-  /// Whether the outcome is certain, and not only that of one of the sequences that the errors leave open.
-  bool end_predictable = false;
-  int evaluations = 0;  ///< of the rotation, over all flights
-};
 
 /// Impact sequence of a drop in space.
 ///

@@ -12,6 +12,9 @@
 //          elements.  Friction acts at the point below the centre of mass (FaceContact), as for a flat landing in the
 //          plane.  The pressure point (−N_y, N_x)/P_z from the centre of mass, N the moment of the normal impulses,
 //          must lie inside the polygon of the corners.                                                 (2)
+// The viscoelastic law takes e at the approach speed of the edge's point, and of the pressure point that a face has
+// without friction, −V_z + ω·Mω/(m (−V_z)) with M the inverse of the horizontal part of I⁻¹: there the landing is that
+// of one contact.
 // Otherwise corners strike one after the other, the fastest approach first; those equally fast to rounding strike as an
 // edge or a face if they can.  A corner whose approach is below the rounding of its velocity is at rest.
 //
@@ -26,23 +29,9 @@
 #include <span>
 #include <vector>
 
-#include "analytic/space/impact.hpp"
+#include "analytic/space/striking_body.hpp"
 
 namespace clatter::analytic::space {
-
-/// Impulse on a body by several corners, and what it did.
-struct GroupImpact {
-  Vector3 impulse = Vector3::Zero();                 ///< P, world frame [N·s]
-  Vector3 moment = Vector3::Zero();                  ///< of the impulses about the centre of mass [N·m·s]
-  Vector3 velocity_after = Vector3::Zero();          ///< of the centre of mass, world frame [m/s]
-  Vector3 angular_velocity_after = Vector3::Zero();  ///< world frame [rad/s]
-  double approach_speed = 0;                         ///< largest of the corners [m/s]
-  double energy_loss = 0;                            ///< −[P·(V + V′) + M·(ω + ω′)]/2 [J]
-  bool is_whole = false;                             ///< the body rebounds as a whole, in one strike
-  /// Indices (Corner::index) of the corners of each strike, in order.
-  std::vector<std::vector<int>> order;
-  PathKind path = PathKind::frictionless;  ///< of the first strike
-};
 
 /// The rebound as a whole of the corners that approach; nothing if pushes alone cannot do it, or if none approaches.
 /// @param touching corners at one height; a single one strikes as in impact.hpp; a level rim touches alone
@@ -54,12 +43,6 @@ struct GroupImpact {
 /// @throws as strike(); NumericalError if 40 000 strikes do not end it
 [[nodiscard]] GroupImpact strike_together(const Body& body, const State& before, std::span<const Corner> touching,
                                           const Law& law);
-
-/// What a small tilt makes of it.
-struct TiltedOutcome {
-  double tilt_direction = 0;  ///< of one such tilt: the horizontal direction in which corners lie higher [rad]
-  GroupImpact impact;         ///< is_whole: one corner alone struck
-};
 
 struct OutcomeSet {
   std::vector<TiltedOutcome> outcomes;  ///< distinct to 1e-6 of the velocities

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "analytic/angle.hpp"
-#include "analytic/detail/limits.hpp"
+#include "analytic/base/angle.hpp"
+#include "analytic/base/limits.hpp"
 
 namespace clatter::analytic::space {
 

@@ -4,9 +4,9 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "analytic/contact_impulse.hpp"
-#include "analytic/detail/limits.hpp"
-#include "analytic/errors.hpp"
+#include "analytic/base/errors.hpp"
+#include "analytic/base/limits.hpp"
+#include "analytic/law/coulomb_path.hpp"
 #include "analytic/space/impulse_path.hpp"
 
 namespace clatter::analytic::space {
@@ -29,15 +29,19 @@ void StrikingBody::strike_at(const Vector3& place, const std::vector<int>& point
 std::optional<FaceRebound> StrikingBody::face_rebound(double depth) const {
   const double speed = -state_.velocity.z();
   if (!(speed > 0)) return {};
-  const double e = restitution_at(law_.law, speed);
-  const Vector2 turn = -(1 + e) * state_.angular_velocity.head<2>();
-  const Vector2 moment = inverse_inertia_.topLeftCorner<2, 2>().inverse() * turn;
+  const Matrix2 inertia = inverse_inertia_.topLeftCorner<2, 2>().inverse();  // that pushes upwards have to turn
+  const Vector2 turning = state_.angular_velocity.head<2>();
+  const double at_pressure_centre = speed + turning.dot(inertia * turning) / (body_.mass * speed);
+  const double e = restitution_at(law_.law, at_pressure_centre);
+  const Vector2 turn = -(1 + e) * turning;
+  const Vector2 moment = inertia * turn;
   const double normal = (1 + e) * body_.mass * speed;
   const Vector3 below(0, 0, -depth);
   const Vector3 slip = velocity(below);
   const ContactImpulse whole =
       face_impulse({.mass = body_.mass,
                     .approach_speed = speed,
+                    .restitution = e,
                     .slip = slip.head<2>(),
                     .drift = Vector2(-depth * turn.y(), depth * turn.x()) / normal,
                     .velocity_scale = state_.velocity.norm() + state_.angular_velocity.norm() * depth},

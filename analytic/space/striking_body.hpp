@@ -5,9 +5,29 @@
 #include <optional>
 #include <vector>
 
-#include "analytic/space/simultaneous.hpp"
+#include "analytic/space/impact.hpp"
 
 namespace clatter::analytic::space {
+
+/// Impulse on a body by several corners, and what it did.
+struct GroupImpact {
+  Vector3 impulse = Vector3::Zero();                 ///< P, world frame [N·s]
+  Vector3 moment = Vector3::Zero();                  ///< of the impulses about the centre of mass [N·m·s]
+  Vector3 velocity_after = Vector3::Zero();          ///< of the centre of mass, world frame [m/s]
+  Vector3 angular_velocity_after = Vector3::Zero();  ///< world frame [rad/s]
+  double approach_speed = 0;                         ///< largest of the corners [m/s]
+  double energy_loss = 0;                            ///< −[P·(V + V′) + M·(ω + ω′)]/2 [J]
+  bool is_whole = false;                             ///< the body rebounds as a whole, in one strike
+  /// Indices (Corner::index) of the corners of each strike, in order.
+  std::vector<std::vector<int>> order;
+  PathKind path = PathKind::frictionless;  ///< of the first strike
+};
+
+/// What a small tilt makes of it.
+struct TiltedOutcome {
+  double tilt_direction = 0;  ///< of one such tilt: the horizontal direction in which corners lie higher [rad]
+  GroupImpact impact;         ///< is_whole: one corner alone struck
+};
 
 /// The impulse of a face that rebounds as a whole, and where its pushes act.
 struct FaceRebound {

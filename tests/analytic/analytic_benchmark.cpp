@@ -8,10 +8,10 @@
 #include <cmath>
 #include <vector>
 
-#include "analytic/contact_angles.hpp"
-#include "analytic/sequence.hpp"
+#include "analytic/plane/contact_angles.hpp"
+#include "analytic/plane/sequence.hpp"
+#include "analytic/space/body.hpp"
 #include "analytic/space/sequence.hpp"
-#include "analytic/space/shapes.hpp"
 #include "tests/analytic/space/random_contact.hpp"
 
 namespace {

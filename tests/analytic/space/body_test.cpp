@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "analytic/space/shapes.hpp"
+#include "analytic/space/body.hpp"
 
 namespace {
 

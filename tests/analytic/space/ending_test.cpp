@@ -4,9 +4,10 @@
 #include <numbers>
 #include <random>
 
-#include "analytic/errors.hpp"
+#include "analytic/base/errors.hpp"
+#include "analytic/plane/sequence.hpp"
+#include "analytic/space/body.hpp"
 #include "analytic/space/sequence.hpp"
-#include "analytic/space/shapes.hpp"
 
 namespace {
 
@@ -40,6 +41,21 @@ BOOST_AUTO_TEST_CASE(a_flat_landing_ends_after_the_time_and_impulse_of_a_geometr
   BOOST_TEST(std::fabs(s.tail->end_time - 2 * w / (g * (1 - e))) <= 1e-15);
   // All of the momentum that gravity brings until then, and that at the start.
   BOOST_TEST(std::fabs(s.total_normal_impulse - (1 + g * s.tail->end_time)) <= 1e-14);
+}
+
+BOOST_AUTO_TEST_CASE(a_slab_on_damped_ground_never_comes_to_rest_since_slow_contacts_lose_nothing) {
+  for (const Quaternion& attitude : {Quaternion::Identity(), turn(0.05, {1, 0, 0}) * turn(0.2, {0, 1, 0})}) {
+    for (const double damping : {0.01, 0.3, 10.0}) {
+      space::Drop drop = slab(attitude, 1);
+      drop.law.law.law = RestitutionLaw::viscoelastic;
+      drop.law.law.damping_per_stiffness = damping;
+      const space::Sequence s = space::impact_sequence(drop, {.impacts = 200, .digits = 1});
+      BOOST_TEST_CONTEXT(damping << " s/m: " << s.message) {
+        BOOST_CHECK(s.outcome == Outcome::impact_limit);
+        BOOST_TEST(!s.tail);
+      }
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_slab_that_bounces_on_one_corner_is_seen_to_end_with_its_momentum_balance) {

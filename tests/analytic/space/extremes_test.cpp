@@ -2,9 +2,9 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "analytic/errors.hpp"
+#include "analytic/base/errors.hpp"
+#include "analytic/space/body.hpp"
 #include "analytic/space/sequence.hpp"
-#include "analytic/space/shapes.hpp"
 #include "tests/analytic/space/random_contact.hpp"
 
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <random>
 
-#include "analytic/space/shapes.hpp"
+#include "analytic/space/body.hpp"
 #include "validation/oracles/free_top.hpp"
 
 namespace {

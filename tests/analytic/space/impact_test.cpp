@@ -5,8 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "analytic/errors.hpp"
-#include "analytic/impact_limits.hpp"
+#include "analytic/base/errors.hpp"
+#include "analytic/law/impact_limits.hpp"
+#include "analytic/plane/impact.hpp"
 #include "analytic/space/slip_field.hpp"
 #include "tests/analytic/space/random_contact.hpp"
 

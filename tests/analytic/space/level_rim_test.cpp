@@ -5,8 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "analytic/space/body.hpp"
 #include "analytic/space/sequence.hpp"
-#include "analytic/space/shapes.hpp"
+#include "tests/analytic/oracle/viscoelastic_bounce.hpp"
 #include "tests/analytic/space/random_contact.hpp"
 
 namespace {
@@ -87,6 +88,25 @@ Quaternion upright(double tilt = 0) {
 }
 
 }  // namespace
+
+BOOST_AUTO_TEST_CASE(a_level_rim_on_damped_ground_bounces_as_a_mass_at_its_pressure_centre_does) {
+  constexpr double tolerance = 1e-9;  // integrated_restitution()
+  Upright can = cylinder_on_its_end(0.4, 0.6);
+  can.before.velocity = {0.3, -0.2, -1.3};
+  can.before.angular_velocity = {0.5, -0.7, 2};
+  Law law = law_of(1, 0);
+  law.law.law = RestitutionLaw::viscoelastic;
+  law.law.damping_per_stiffness = 0.6;
+  const auto whole = LevelRim(can.body, can.before, can.rim, law).rebound_as_a_whole();
+  BOOST_REQUIRE(whole.has_value());
+  const Vector3 centre(-whole->moment.y() / whole->impulse.z(), whole->moment.x() / whole->impulse.z(), 0);
+  const double e = clatter::analytic::test::integrated_restitution(
+      0.6, -rise(can.before.velocity, can.before.angular_velocity, centre));
+  BOOST_TEST(centre.norm() > 0.01);
+  for (const double angle : {0.0, 1.0, 2.5, 4.0}) {
+    BOOST_TEST(std::fabs(rise_after(can, *whole, angle) + e * rise_before(can, angle)) <= tolerance);
+  }
+}
 
 BOOST_AUTO_TEST_CASE(an_upright_cylinder_without_spin_rebounds_flat_with_e_and_slides_or_stops_as_friction_has_it) {
   constexpr double tolerance = 1e-15;

@@ -3,9 +3,10 @@
 #include <cmath>
 #include <random>
 
-#include "analytic/errors.hpp"
+#include "analytic/base/errors.hpp"
+#include "analytic/plane/sequence.hpp"
+#include "analytic/space/body.hpp"
 #include "analytic/space/sequence.hpp"
-#include "analytic/space/shapes.hpp"
 
 namespace {
 

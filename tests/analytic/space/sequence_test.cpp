@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "analytic/space/shapes.hpp"
+#include "analytic/space/body.hpp"
 #include "validation/oracles/reference_scene.hpp"
 
 namespace {

@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "tests/analytic/oracle/viscoelastic_bounce.hpp"
 #include "tests/analytic/space/random_contact.hpp"
 #include "tests/analytic/space/reference_impact.hpp"
 #include "validation/oracles/reference_table.hpp"
@@ -295,6 +296,38 @@ BOOST_AUTO_TEST_CASE(a_planar_flat_landing_with_friction_agrees_with_the_planar_
     BOOST_CHECK_LE(std::fabs(whole->velocity_after.x() - planar->after.tangential), tolerance * speed);
   }
   BOOST_CHECK_GT(compared, 500);
+}
+
+BOOST_AUTO_TEST_CASE(faces_and_edges_on_damped_ground_bounce_as_a_mass_at_their_pressure_centre_does) {
+  constexpr double tolerance = 1e-9;  // integrated_restitution()
+  Random random(9);
+  int faces = 0, edges = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Box box(random.uniform(0.3, 1), random.uniform(0.3, 1), random.uniform(0.1, 0.4), random.uniform(0.2, 3));
+    State before;
+    before.velocity = {random.uniform(-1, 1), random.uniform(-1, 1), -random.uniform(0.5, 1.5)};
+    before.angular_velocity = random.vector(0.8);
+    const bool is_edge = i % 2 == 0;
+    if (is_edge) before.attitude = Eigen::AngleAxisd(random.uniform(0.2, 1), Vector3::UnitY());
+    const std::vector<Corner> touching = is_edge ? std::vector{box.bottom[1], box.bottom[2]} : box.bottom;
+    Law law = frictionless(1);
+    law.law.law = RestitutionLaw::viscoelastic;
+    law.law.damping_per_stiffness = random.uniform(0.05, 1);
+    const auto whole = rebound_as_a_whole(box.body, before, touching, law);
+    if (!whole || whole->order.front().size() != touching.size()) continue;  // one corner alone approaches
+    ++(is_edge ? edges : faces);
+    // Without friction the impulses, all upwards, have their resultant at (−M_y, M_x)/P_z.
+    const Vector3 centre(-whole->moment.y() / whole->impulse.z(), whole->moment.x() / whole->impulse.z(), 0);
+    const double approach = -normal_velocity(before.velocity, before.angular_velocity, centre);
+    const double e = clatter::analytic::test::integrated_restitution(law.law.damping_per_stiffness, approach);
+    for (const Corner& corner : touching) {
+      const Vector3 arm = before.attitude * corner.place;
+      BOOST_TEST(std::fabs(normal_velocity(whole->velocity_after, whole->angular_velocity_after, arm) +
+                           e * normal_velocity(before.velocity, before.angular_velocity, arm)) <= tolerance);
+    }
+  }
+  BOOST_TEST(faces > 100);
+  BOOST_TEST(edges > 100);
 }
 
 BOOST_AUTO_TEST_CASE(an_edge_that_lands_level_strikes_as_the_corner_of_the_planar_model) {

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analytic/law/impact_law.hpp"
+
+#include <cmath>
+
+#include "analytic/base/errors.hpp"
+
+namespace clatter::analytic {
+
+using detail::refuse;
+
+void ImpactLaw::validate() const {
+  if (!(restitution >= 0 && restitution <= 1)) {
+    refuse("restitution", restitution, "between 0 and 1");
+  }
+  if (!std::isfinite(friction_value)) refuse("friction", friction_value, "finite");
+  if (friction == FrictionKind::coulomb && !(friction_value >= 0)) {
+    refuse("friction", friction_value, "at least 0");
+  }
+  if (!(damping_per_stiffness >= 0 && std::isfinite(damping_per_stiffness))) {
+    refuse("damping per stiffness", damping_per_stiffness, "at least 0 and finite");
+  }
+  if (law == RestitutionLaw::viscoelastic && restitution != 1) {
+    refuse("restitution", restitution, "1 for the viscoelastic law");
+  }
+}
+
+}  // namespace clatter::analytic

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The laws of an impact: restitution, and friction along the ground.
+#pragma once
+
+namespace clatter::analytic {
+
+/// Which quantity the coefficient of restitution e relates after the end of compression.
+enum class RestitutionLaw {
+  newton,   ///< velocities: u_after = −e u_before
+  poisson,  ///< impulses: P_restitution = e P_compression
+  stronge,  ///< work of the normal force: W_restitution = −e² W_compression
+  /// A ground that pushes with (k_G + c_G δ̇) K(δ), any growth K: e follows from `damping_per_stiffness` and each
+  /// contact's own approach speed (viscoelastic.hpp), and from the work along the path if slip stops on the way
+  /// (viscoelastic.hpp).  Without damping it is Stronge's law with e = 1.
+  viscoelastic,
+};
+
+enum class FrictionKind {
+  none,
+  impulse_ratio,  ///< P_t = μ_i P_n with μ_i as given: Eq. 8 as it stands, admissible or not
+  coulomb,        ///< |P_t| <= μ P_n at every instant, against the slip: Routh's construction
+};
+
+struct ImpactLaw {
+  double restitution = 1;  ///< e in [0, 1]; 1 for the viscoelastic law, which computes its own
+  RestitutionLaw law = RestitutionLaw::newton;
+  FrictionKind friction = FrictionKind::none;
+  double friction_value = 0;         ///< μ_i (any finite value) or Coulomb's μ >= 0
+  double damping_per_stiffness = 0;  ///< τ = c_G/k_G >= 0 of the viscoelastic law [s/m]
+
+  /// @throws std::domain_error naming the field, its value and what is allowed.
+  void validate() const;
+};
+
+/// How the contact point moved along the ground during the impact.
+enum class ImpactMode {
+  frictionless,  ///< no tangential impulse asked for
+  slip,          ///< slips one way throughout (also: an impulse ratio as given)
+  stick,         ///< no slip from the start
+  slip_stick,    ///< slip stops, then sticks
+  reverse_slip,  ///< slip stops, then goes the other way
+};
+
+}  // namespace clatter::analytic

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analytic/plane/accumulation.hpp"
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "analytic/law/viscoelastic.hpp"
+
+namespace clatter::analytic {
+
+namespace {
+
+constexpr int blocks = 4;  // two extrapolations, whose difference is the error, need three ratios
+
+/// Limit of a shrinking series beyond its last term.
+struct Remainder {
+  double value = 0;
+  double error = 0;
+};
+
+/// Aitken's Δ² from the last two of `terms` (latest last), the two before and the two before those.
+/// The changes of the extrapolated limit shrink at least as fast as the terms, or as the changes themselves did last.
+std::optional<Remainder> shrinking_remainder(const double (&terms)[blocks]) {
+  const auto remaining = [&](int k) {
+    const double ratio = terms[k] / terms[k - 1];
+    return ratio > 0 && ratio < 1 ? terms[k] * ratio / (1 - ratio) : NAN;
+  };
+  const double last = remaining(3);
+  const double change = std::fabs(last - (remaining(2) - terms[3]));
+  const double change_before = std::fabs(remaining(2) - terms[3] - (remaining(1) - terms[3] - terms[2]));
+  const double ratio = terms[3] / terms[2];
+  const double rounding = 32 * std::numeric_limits<double>::epsilon() * (last + terms[2]) / (1 - ratio);
+  if (!(last > 0) || std::isnan(change_before)) return {};
+  if (change <= rounding && change_before <= rounding) return Remainder{last, 2 * rounding};
+  const double shrinks = std::fmax(ratio, change / change_before);
+  if (!(shrinks < 1)) return {};
+  const double error = rounding + 2 * std::fmax(change, shrinks * change_before) / (1 - shrinks);
+  if (!(error < last)) return {};
+  return Remainder{last, error};
+}
+
+/// Tangential impulse of a face that slides with `slip` while it takes the normal impulse `normal`.
+double sliding_impulse(const ImpactLaw& law, double mass, double slip, double normal) {
+  if (law.friction == FrictionKind::none) return 0;
+  if (law.friction == FrictionKind::impulse_ratio) return law.friction_value * normal;
+  return -std::copysign(std::fmin(law.friction_value * normal, mass * std::fabs(slip)), slip);
+}
+
+}  // namespace
+
+std::optional<Tail> bouncing_tail(const BodyMotion& motion, const ImpactLaw& law, double gravity,
+                                  const BodyMotion::Strike& last) {
+  const PlanarVelocity v = motion.velocity();
+  if (v.angular != 0 || !(gravity > 0) || !(law.restitution < 1)) return {};
+  const bool upright = std::popcount(last.vertices) == 1;
+  if (upright &&
+      (motion.contact_point(std::countr_zero(last.vertices)).tangential != 0 || last.impact.tangential_impulse != 0)) {
+    return {};
+  }
+  const double w = last.impact.separation_speed;
+  const double e = law.restitution;
+  const double mass = motion.body().mass;
+  const double normal = mass * (1 + e) * w / (1 - e);
+  const double tangential = upright ? 0 : sliding_impulse(law, mass, v.tangential, normal);
+  return Tail{.end_time = motion.time() + 2 * w / (gravity * (1 - e)),
+              .normal_impulse = normal,
+              .tangential_impulse = tangential,
+              .vertices = last.vertices,
+              .closed_form = true,
+              .after = {.tangential = v.tangential + tangential / mass},
+              .after_error = {}};
+}
+
+bool may_accumulate(const ImpactLaw& law) { return law.restitution < 1 || law.friction == FrictionKind::coulomb; }
+
+double damping_loss(const ImpactLaw& law, double approach_speed) {
+  const bool damped = law.law == RestitutionLaw::viscoelastic && approach_speed > 0;
+  return damped ? restitution_loss_of_damping(law.damping_per_stiffness * approach_speed) : 0;
+}
+
+bool Accumulation::repeats(int period) const {
+  const int count = static_cast<int>(events_.size());
+  if (count < blocks * period) return false;
+  for (int i = count - (blocks - 1) * period; i < count; ++i) {
+    const Event &event = events_[static_cast<std::size_t>(i)], &before = events_[static_cast<std::size_t>(i - period)];
+    if (event.vertices != before.vertices || event.mode != before.mode) return false;
+  }
+  return true;
+}
+
+double Accumulation::block(int period, int index, double Event::*quantity) const {
+  const auto end = events_.size() - static_cast<std::size_t>((blocks - 1 - index) * period);
+  double sum = 0;
+  for (std::size_t i = end - static_cast<std::size_t>(period); i < end; ++i) {
+    sum += events_[i].*quantity;
+  }
+  return sum;
+}
+
+VertexSet Accumulation::vertices(int last) const {
+  VertexSet set = 0;
+  for (std::size_t i = events_.size() - static_cast<std::size_t>(last); i < events_.size(); ++i)
+    set |= events_[i].vertices;
+  return set;
+}
+
+std::optional<Tail> Accumulation::periodic(int period, const Tolerance& tolerance) const {
+  double times[blocks], impulses[blocks];
+  for (int k = 0; k < blocks; ++k) {
+    times[k] = block(period, k, &Event::flight_time);
+    impulses[k] = block(period, k, &Event::normal_impulse);
+  }
+  const auto time = shrinking_remainder(times);
+  const auto impulse = shrinking_remainder(impulses);
+  if (!time || !impulse || !(time->error <= std::fmax(tolerance.relative * time->value, tolerance.time)) ||
+      !(impulse->error <= std::fmax(tolerance.relative * impulse->value, tolerance.impulse))) {
+    return {};
+  }
+  constexpr double damped_share = 0.01;  // of the shrinking, below which it no longer changes with the speed
+  if (!(block(period, blocks - 1, &Event::damping_loss) <=
+        damped_share * (1 - impulses[blocks - 1] / impulses[blocks - 2]))) {
+    return {};
+  }
+  const double ratio = block(period, blocks - 1, &Event::tangential_impulse) / impulses[blocks - 1];
+  const double ratio_before = block(period, blocks - 2, &Event::tangential_impulse) / impulses[blocks - 2];
+  const double shrinks = impulses[blocks - 1] / impulses[blocks - 2];
+  return Tail{.end_time = time->value,
+              .end_time_error = time->error,
+              .normal_impulse = impulse->value,
+              .normal_impulse_error = impulse->error,
+              .tangential_impulse = ratio * impulse->value,
+              .tangential_impulse_error = 2 * std::fabs(ratio - ratio_before) / (1 - shrinks) * impulse->value +
+                                          std::fabs(ratio) * impulse->error,
+              .vertices = vertices(period),
+              .after = {},
+              .after_error = {}};
+}
+
+/// The last impacts took next to no time, and those before them little more than they.
+std::optional<Tail> Accumulation::vanishing(const Tolerance& tolerance) const {
+  constexpr int period = 12;
+  if (events_.size() < static_cast<std::size_t>(blocks * period)) return {};
+  const auto remainder = [&](double Event::*quantity) {
+    double largest_ratio = 0;
+    for (int k = 1; k < blocks; ++k) {
+      largest_ratio = std::fmax(largest_ratio, block(period, k, quantity) / block(period, k - 1, quantity));
+    }
+    return largest_ratio < 1 ? block(period, blocks - 1, quantity) * largest_ratio / (1 - largest_ratio) : NAN;
+  };
+  const double time = remainder(&Event::flight_time), impulse = remainder(&Event::normal_impulse);
+  if (!(4 * time <= tolerance.time && 4 * impulse <= tolerance.impulse)) return {};
+  const double ratio =
+      block(period, blocks - 1, &Event::tangential_impulse) / block(period, blocks - 1, &Event::normal_impulse);
+  return Tail{.end_time = time,
+              .end_time_error = 4 * time,
+              .normal_impulse = impulse,
+              .normal_impulse_error = 4 * impulse,
+              .tangential_impulse = ratio * impulse,
+              .tangential_impulse_error = 4 * (1 + std::fabs(ratio)) * impulse,
+              .vertices = vertices(blocks * period),
+              .after = {},
+              .after_error = {}};
+}
+
+std::optional<Tail> Accumulation::extrapolate(const Tolerance& tolerance) const {
+  constexpr int longest_period = 6;
+  for (int period = 1; period <= longest_period; ++period) {
+    if (!repeats(period)) continue;
+    if (auto tail = periodic(period, tolerance)) return tail;
+  }
+  return vanishing(tolerance);
+}
+
+void end_state(const BodyMotion& motion, Tail& tail) {
+  const PlanarVelocity v = motion.velocity();
+  const PlanarBody& body = motion.body();
+  const double normal = tail.normal_impulse, tangential = tail.tangential_impulse;
+  tail.after = {.tangential = v.tangential + tangential / body.mass};
+  tail.after_error = {.tangential = tail.tangential_impulse_error / body.mass};
+  if (std::popcount(tail.vertices) != 1) {
+    const double share = std::fmin(tail.normal_impulse_error / normal, 1.0);  // of the motion that may be left
+    tail.after_error.normal = share * std::fabs(v.normal);
+    tail.after_error.angular = share * std::fabs(v.angular);
+    return;
+  }
+  const ContactPoint d = motion.contact_point(std::countr_zero(tail.vertices));
+  const double inertia = body.mass * body.gyration_square;
+  const double way =
+      (std::fabs(v.angular) + (normal + std::fabs(tangential)) * body.reach() / inertia) * body.reach() * tail.end_time;
+  tail.after.angular = v.angular + (tangential * d.normal - normal * d.tangential) / inertia;
+  tail.after.normal = tail.after.angular * d.tangential;
+  tail.after_error.angular =
+      (tail.tangential_impulse_error * std::fabs(d.normal) + tail.normal_impulse_error * std::fabs(d.tangential) +
+       way * (normal + std::fabs(tangential))) /
+      inertia;
+  tail.after_error.normal = tail.after_error.angular * std::fabs(d.tangential) + way * std::fabs(tail.after.angular);
+}
+
+bool keeps_its_mode(const BodyMotion& motion, const Tail& tail, ImpactMode mode) {
+  if (mode == ImpactMode::frictionless || mode == ImpactMode::stick || mode == ImpactMode::slip_stick) return true;
+  const PlanarBody& body = motion.body();
+  const ContactInertia inertia =
+      contact_inertia(body.gyration_square, motion.contact_point(motion.local_departure().reference));
+  const double turning = std::fabs(motion.velocity().angular);
+  const double change =
+      (inertia.tangential * std::fabs(tail.tangential_impulse) + std::fabs(inertia.coupling) * tail.normal_impulse) /
+          body.mass +
+      turning * turning * body.reach() * tail.end_time;
+  return 2 * change < std::fabs(motion.slip());
+}
+
+}  // namespace clatter::analytic

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analytic/plane/error_growth.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "analytic/base/errors.hpp"
+#include "analytic/base/limits.hpp"
+
+namespace clatter::analytic {
+
+using detail::epsilon;
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::infinity();
+/// Beyond this share of the second order beside the first, the first no longer tells how errors
+/// grow.
+constexpr double largest_curvature = 0.25;
+
+bool holds(const VertexSet set, int vertex) { return (set >> vertex & 1) != 0; }
+
+}  // namespace
+
+ErrorGrowth::ErrorGrowth(const BodyMotion& motion, double angle) {
+  const ContactPoint d = motion.contact_point(std::countr_zero(motion.lowest_vertices()));
+  const PlanarVelocity v = motion.velocity();
+  const bool exact = motion.local_departure().sine == 0 || d.tangential == 0;  // 0° and 90° are what they are
+  const double size = exact ? 0 : std::fabs(angle);
+  of_angle_[at_angle] = size;
+  of_angle_[at_normal] = v.angular * d.normal * size;
+  of_angle_[at_slip] = v.angular * d.tangential * size;
+  of_speed_[at_normal] = v.normal;
+  StateVector of_slip{}, of_turn{};
+  of_slip[at_slip] = v.tangential;
+  of_turn[at_turn] = v.angular;
+  of_turn[at_normal] = -v.angular * d.tangential;
+  of_turn[at_slip] = v.angular * d.normal;
+  for (StateVector column : {of_angle_, of_speed_, of_slip, of_turn}) {
+    for (double& entry : column) entry *= epsilon;
+    factor_.add(column);
+  }
+}
+
+double ErrorGrowth::bound(const StateVector& gradient, double rounding) const {
+  return (alone(gradient) + 2 * rounding) * (1 + curvature_);
+}
+
+void ErrorGrowth::advance(const StateMatrix& jacobian) {
+  factor_.advance(jacobian);
+  of_angle_ = product(jacobian, of_angle_);
+  of_speed_ = product(jacobian, of_speed_);
+}
+
+/// Another vertex that is as near the ground as the error of its height might have come first.
+void ErrorGrowth::check_arrival(const FlownState& flown, const Moment& touch, const Fall& fall) {
+  const Arrival& arrival = flown.arrival;
+  const StateVector of_first = height_gradient(flown, arrival.vertex, touch);
+  for (int i = 0; i < flown.body.vertex_count; ++i) {
+    if (i == arrival.vertex) continue;
+    const auto [height, velocity, scale] = vertex_height(flown.body, flown.departure, i).at(touch.time, touch.turn);
+    const double share = velocity / fall.velocity;
+    StateVector gradient = height_gradient(flown, i, touch);
+    for (std::size_t k = 0; k < state_size; ++k) gradient[k] -= share * of_first[k];
+    const double propagated = alone(gradient);
+    const bool together = holds(arrival.vertices, i);
+    const double rounding = 4 * epsilon * scale + std::fabs(share) * fall.height_rounding;
+    if (together ? !(propagated <= 0) : !(height >= propagated + rounding)) predictable_ = false;
+  }
+}
+
+/// A vertex that passed the ground within the error of its height might have touched.
+void ErrorGrowth::check_passes(const FlownState& flown, const Passes& passes, double until) {
+  for (int i = 0; i < flown.body.vertex_count; ++i) {
+    NearMiss pass = passes[static_cast<std::size_t>(i)];
+    if (pass.time > until) {  // the search looked beyond the arrival of another vertex
+      pass = first_root(vertex_height(flown.body, flown.departure, i), until).near_miss;
+    }
+    if (!std::isfinite(pass.clearance) || (pass.time == 0 && pass.margin == 0)) continue;
+    const double error = alone(height_gradient(flown, i, Moment(flown.departure, pass.time)));
+    if (!(pass.clearance >= 2 * (error + pass.margin))) predictable_ = false;
+  }
+}
+
+void ErrorGrowth::end_without_contact(const BodyMotion& motion, const FlownState& flown) {
+  if (predictable_) check_passes(flown, motion.passes(), unknown);
+}
+
+void ErrorGrowth::fly(const BodyMotion& motion, const FlownState& flown) {
+  if (!predictable_) return;
+  const Arrival& arrival = flown.arrival;
+  const Departure& from = flown.departure;
+  const Moment touch(from, arrival.time);
+  const FlightDerivatives f = flight_derivatives(flown, touch);
+  const VertexHeight height = vertex_height(flown.body, from, arrival.vertex);
+  const double reach = std::fabs(height.versine) + std::fabs(height.sine);
+  const double turned = touch.turn.angle;
+  const double of_phase = turned > 1 ? turned * reach : 0;
+  // v₀ is the difference of two parts.
+  const ContactPoint offset = from.offset(flown.body, from.reference, arrival.vertex);
+  const double of_start = from.rebound_speed + std::fabs(from.angular * offset.tangential);
+  const VertexHeight::Value value = height.at(arrival.time, touch.turn);
+  const double height_rounding = 2 * epsilon * (value.scale + of_start * arrival.time + of_phase);
+  check_arrival(flown, touch, {.velocity = value.velocity, .height_rounding = height_rounding});
+  check_passes(flown, motion.passes(), arrival.time);
+  if (arrival.within_margin) predictable_ = false;
+
+  StateVector of_height = f.of_time;
+  for (double& entry : of_height) entry *= height_rounding / f.velocity;
+  advance(f.state);
+  factor_.add(of_height);
+  const double roundings[] = {arrival.time + motion.time(), turned > 0 ? std::fabs(from.inclination) + turned : 0,
+                              of_start + motion.normal_scale(arrival.vertex) + of_phase * std::fabs(from.angular),
+                              motion.slip_scale(arrival.vertex)};
+  for (std::size_t i = 0; i < 4; ++i) factor_.add(i, epsilon * roundings[i]);
+  StateVector speed{}, angle{};
+  speed[at_normal] = angle[at_angle] = 1;
+  const double late = std::fmax(alone(speed) / std::fabs(f.velocity), alone(angle));
+  if (!(late <= largest_curvature)) predictable_ = false;
+  curvature_ = std::fmax(curvature_, late);
+  if (!predictable_) factor_ = {};
+}
+
+double ErrorGrowth::total_impulse() const {
+  if (!predictable_) return unknown;
+  StateVector sum{};
+  sum[at_sum] = 1;
+  return bound(sum, epsilon * total_impulse_);
+}
+
+void ErrorGrowth::add_to(const BodyMotion& motion, Tail& tail) const {
+  if (!predictable_) {
+    tail.end_time_error = tail.normal_impulse_error = tail.tangential_impulse_error = unknown;
+    tail.after_error = {.normal = unknown, .tangential = unknown, .angular = unknown};
+    return;
+  }
+  const Departure from = motion.local_departure();
+  const PlanarVelocity v = motion.velocity();
+  const MotionGradients moves(motion.body(), motion.contact_point(from.reference), v, from.gravity);
+  StateVector time{}, speed{}, turn{};
+  time[at_time] = speed[at_normal] = turn[at_turn] = 1;
+  const double relative = bound(speed, 2 * epsilon * from.rebound_speed) / from.rebound_speed;
+  tail.end_time_error += bound(time, epsilon * motion.time()) + relative * (tail.end_time - motion.time());
+  tail.normal_impulse_error += relative * tail.normal_impulse;
+  tail.tangential_impulse_error += relative * std::fabs(tail.tangential_impulse);
+  tail.after_error.tangential += bound(moves.tangential, 2 * epsilon * std::fabs(v.tangential)) +
+                                 relative * std::fabs(tail.after.tangential - v.tangential);
+  if (tail.after.angular == 0) return;
+  tail.after_error.normal += bound(moves.normal, 2 * epsilon * std::fabs(v.normal));
+  tail.after_error.angular +=
+      bound(turn, epsilon * std::fabs(v.angular)) + relative * std::fabs(tail.after.angular - v.angular);
+}
+
+// Errors of an impact's numbers, and what the impact adds to them (error_growth.hpp).
+
+namespace {
+
+/// The other outermost vertex of a flat landing.
+ContactPoint partner(const BodyMotion& motion, VertexSet vertices, int reference) {
+  const double x = motion.contact_point(reference).tangential;
+  ContactPoint farthest = motion.contact_point(reference);
+  for (int i = 0; i < motion.body().vertex_count; ++i) {
+    const ContactPoint d = motion.contact_point(i);
+    if ((vertices >> i & 1) != 0 && std::fabs(d.tangential - x) > std::fabs(farthest.tangential - x)) farthest = d;
+  }
+  return farthest;
+}
+
+StruckState struck_state(const BodyMotion& motion, const ImpactLaw& law, const ImpactRow& row) {
+  const int vertex = motion.local_departure().reference;
+  const ContactPoint d = motion.contact_point(vertex);
+  const bool flat = std::popcount(row.vertices) > 1;
+  const double u = flat ? normal_velocity(row.before, d) : -row.impact.approach_speed;
+  return {.body = motion.turned_body(),
+          .law = law,
+          .before = row.before,
+          .contact = {u, row.impact.slip_before},
+          .place = d,
+          .second = flat ? partner(motion, row.vertices, vertex) : ContactPoint{},
+          .flat = flat};
+}
+
+/// Relative rounding of P_n from that of A − (P_t/P_n) B.
+double impulse_rounding(const StruckState& struck, const Impact& impact) {
+  if (struck.flat) return 2 * epsilon;
+  const ContactInertia inertia = contact_inertia(struck.body.gyration_square, struck.place);
+  const double coupled = inertia.coupling * impact.impulse_ratio();
+  return 2 * epsilon * (inertia.normal + std::fabs(coupled)) / std::fabs(inertia.normal - coupled);
+}
+
+/// Size of the parts that make up P_t: with Coulomb's law those before and after slip has stopped.
+double tangential_size(const StruckState& struck, const Impact& impact) {
+  const bool parts = struck.law.friction == FrictionKind::coulomb;
+  return std::fmax(std::fabs(impact.tangential_impulse), parts ? struck.law.friction_value * impact.normal_impulse : 0);
+}
+
+}  // namespace
+
+double ErrorGrowth::amplification(const ImpactDerivatives& d, const ImpactRow& row) const {
+  double largest = 0;
+  for (const StateVector* of : {&of_angle_, &of_speed_}) {
+    double of_impulse = 0;
+    for (std::size_t i = 0; i < state_size; ++i) of_impulse += d.normal[i] * (*of)[i];
+    const auto compare = [&](double change, double value) {
+      if (change != 0) largest = std::fmax(largest, std::fabs(change / value));
+    };
+    compare((*of)[at_time], row.start);
+    compare((*of)[at_angle], row.contact_angle);
+    compare(of_impulse, row.impact.normal_impulse);
+  }
+  return largest;
+}
+
+/// The numbers of the row before the errors have gone through the impact.
+void ErrorGrowth::fill(const BodyMotion& motion, const StruckState& struck, const ImpactDerivatives& d,
+                       ImpactRow& row) const {
+  const Impact& impact = row.impact;
+  const double u = struck.contact.normal, w = impact.separation_speed;
+  const double of_impulse = impulse_rounding(struck, impact);
+  const double gravity = motion.local_departure().gravity;
+  StateVector time{}, angle{}, approach{}, loss{}, restitution{}, ratio{};
+  time[at_time] = angle[at_angle] = approach[at_normal] = 1;
+  for (std::size_t i = 0; i < state_size; ++i) {
+    const double of_u = i == at_normal ? 1 : 0, of_s = i == at_slip ? 1 : 0;
+    loss[i] = -(d.normal[i] * (u + w) + impact.normal_impulse * (of_u + d.state[at_normal][i]) +
+                d.tangential[i] * (impact.slip_before + impact.slip_after) +
+                impact.tangential_impulse * (of_s + d.state[at_slip][i])) /
+              2;
+    restitution[i] = -d.state[at_normal][i] / u + w / (u * u) * of_u;
+    ratio[i] = (d.tangential[i] - impact.impulse_ratio() * d.normal[i]) / impact.normal_impulse;
+  }
+  RowErrors& e = row.error;
+  e.start = row.start == 0 ? 0 : bound(time, epsilon * row.start);
+  e.inclination = bound(angle, epsilon * std::fabs(row.inclination));
+  e.contact_angle = bound(angle, epsilon * row.contact_angle);
+  e.approach_speed = bound(approach, epsilon * std::fabs(u));
+  e.normal_impulse = bound(d.normal, of_impulse * impact.normal_impulse);
+  e.tangential_impulse = bound(d.tangential, of_impulse * tangential_size(struck, impact));
+  if (impact.normal_impulse > 0) {
+    e.restitution = bound(restitution, 4 * epsilon);
+    e.impulse_ratio = bound(ratio, 2 * of_impulse * std::fabs(impact.impulse_ratio()));
+  }
+  const double size = std::fabs(row.energy_before) + std::fabs(row.energy_after);
+  e.energy_before = bound(MotionGradients(struck.body, struck.place, row.before, gravity).energy, 2 * epsilon * size);
+  e.energy_loss = bound(loss, of_impulse * (impact.normal_impulse * (std::fabs(u) + w) +
+                                            std::fabs(impact.tangential_impulse) *
+                                                (std::fabs(impact.slip_before) + std::fabs(impact.slip_after))));
+}
+
+void ErrorGrowth::add_rounding(const StruckState& struck, const Impact& impact) {
+  const double push = impact.slip_after - impact.slip_before;
+  const double mass = struck.body.mass, square = struck.body.gyration_square;
+  const double of_impulse = impulse_rounding(struck, impact);
+  StateVector of_jump{};
+  of_jump[at_normal] = impact.separation_speed;
+  of_jump[at_slip] = impact.slip_after == 0 ? 0 : push;
+  of_jump[at_turn] = impact.after.angular - struck.before.angular;
+  of_jump[at_sum] = impact.normal_impulse;
+  for (double& entry : of_jump) entry *= of_impulse;
+  factor_.add(of_jump);
+  const double moment = struck.flat ? std::fabs(struck.before.angular)
+                                    : (tangential_size(struck, impact) * std::fabs(struck.place.normal) +
+                                       std::fabs(impact.normal_impulse * struck.place.tangential)) /
+                                          (mass * square);
+  // Where slip stops during restitution is the difference of two impulses.
+  const bool stops = impact.mode == ImpactMode::slip_stick || impact.mode == ImpactMode::reverse_slip;
+  if (stops && struck.law.law != RestitutionLaw::newton && !struck.flat) {
+    const ContactInertia inertia = contact_inertia(square, struck.place);
+    factor_.add(at_normal, 4 * epsilon *
+                               (inertia.normal * impact.normal_impulse +
+                                std::fabs(inertia.coupling) * tangential_size(struck, impact)) /
+                               mass);
+  }
+  if (impact.slip_after != 0) {
+    factor_.add(at_slip, 2 * epsilon * (std::fabs(impact.slip_before) + std::fabs(push)));
+  }
+  factor_.add(at_turn, 2 * epsilon * (std::fabs(struck.before.angular) + moment));
+  factor_.add(at_sum, epsilon * total_impulse_);
+}
+
+void ErrorGrowth::strike(const BodyMotion& motion, const ImpactLaw& law, ImpactRow& row) {
+  row.error = RowErrors::unknown();
+  total_impulse_ += row.impact.normal_impulse;
+  if (!predictable_) return;
+  row.error.predictable = true;
+  const StruckState struck = struck_state(motion, law, row);
+  if (!(row.impact.approach_speed > 0)) {  // an arrival that rounding has turned into a departure
+    predictable_ = false;
+    row.error = RowErrors::unknown();
+    return;
+  }
+  const ImpactDerivatives d = impact_derivatives(struck, row.impact.mode);
+  fill(motion, struck, d, row);
+  row.amplification = amplification(d, row);
+  advance(d.state);
+  add_rounding(struck, row.impact);
+  const PlanarVelocity& after = row.impact.after;
+  const MotionGradients moves(struck.body, struck.place, after, motion.local_departure().gravity);
+  StateVector turn{};
+  turn[at_turn] = 1;
+  row.error.after = {
+      .normal = bound(moves.normal, 2 * epsilon * (std::fabs(row.before.normal) + std::fabs(after.normal))),
+      .tangential =
+          bound(moves.tangential, 2 * epsilon * (std::fabs(row.before.tangential) + std::fabs(after.tangential))),
+      .angular = bound(turn, epsilon * std::fabs(after.angular))};
+  const auto relative = [](double error, double value) { return error > 0 ? error / std::fabs(value) : 0; };
+  row.error.relative =
+      std::max({relative(row.error.start, row.start), relative(row.error.contact_angle, row.contact_angle),
+                relative(row.error.normal_impulse, row.impact.normal_impulse)});
+  row.error.energy_after =
+      bound(moves.energy, 2 * epsilon * (std::fabs(row.energy_before) + std::fabs(row.energy_after)));
+}
+
+}  // namespace clatter::analytic

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How errors of the start and of rounding grow along an impact sequence.
+//
+// The state (t, α, u, s, Ω, ΣP) of a body whose vertex touches the ground goes through impacts and
+// flights by their Jacobians, and with it independent errors: one unit in the last place of each
+// number of the drop, and the rounding of each step.  What a Jacobian cannot tell ends the
+// prediction: a second vertex that arrives, or passes the ground, within the error, and an error so
+// large beside a graze that the root's parabola shows.
+#pragma once
+
+#include "analytic/plane/body_motion.hpp"
+#include "analytic/plane/error_factor.hpp"
+#include "analytic/plane/impact_rows.hpp"
+#include "analytic/plane/step_jacobians.hpp"
+
+namespace clatter::analytic {
+
+class ErrorGrowth {
+ public:
+  /// @param motion before its first impact, in internal units (impact_rows.hpp); angle of the drop [rad]
+  ErrorGrowth(const BodyMotion& motion, double angle);
+
+  /// Errors and amplification of a row whose impact `motion` has just had; errors go through the
+  /// impact.
+  void strike(const BodyMotion& motion, const ImpactLaw& law, ImpactRow& row);
+  /// Errors go through the flight that `motion` has just flown; `flown.arrival` as it was found.
+  void fly(const BodyMotion& motion, const FlownState& flown);
+  /// Whether a flight without a contact is one for certain.
+  void end_without_contact(const BodyMotion& motion, const FlownState& flown);
+
+  [[nodiscard]] bool predictable() const { return predictable_; }
+  /// Bound on the error of the sum of the normal impulses so far [N·s].
+  [[nodiscard]] double total_impulse() const;
+  /// Adds to the errors of a tail those of the state after the last impact, from which its sums
+  /// begin.
+  void add_to(const BodyMotion& motion, Tail& tail) const;
+
+ private:
+  [[nodiscard]] double bound(const StateVector& gradient, double rounding) const;
+  [[nodiscard]] double alone(const StateVector& gradient) const { return deviations * factor_.deviation(gradient); }
+  void fill(const BodyMotion& motion, const StruckState& struck, const ImpactDerivatives& d, ImpactRow& row) const;
+  [[nodiscard]] double amplification(const ImpactDerivatives& d, const ImpactRow& row) const;
+  void add_rounding(const StruckState& struck, const Impact& impact);
+  void advance(const StateMatrix& jacobian);
+  /// Of the vertex that arrives.
+  struct Fall {
+    double velocity;         ///< h′ [m/s]
+    double height_rounding;  ///< [m]
+  };
+  void check_arrival(const FlownState& flown, const Moment& touch, const Fall& fall);
+  void check_passes(const FlownState& flown, const Passes& passes, double until);
+
+  /// Bounds are this many standard deviations of the errors assumed.
+  static constexpr double deviations = 3;
+
+  ErrorFactor factor_;
+  StateVector of_angle_{}, of_speed_{};  ///< changes of the state for relative changes of the
+                                         ///< drop's angle and speed by 1
+  double curvature_ = 0;                 ///< largest share of the second order so far, relative to the first
+  double total_impulse_ = 0;
+  bool predictable_ = true;
+};
+
+}  // namespace clatter::analytic

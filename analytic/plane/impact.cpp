@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analytic/plane/impact.hpp"
+
+#include <cmath>
+
+#include "analytic/base/errors.hpp"
+#include "analytic/law/coulomb_path.hpp"
+
+namespace clatter::analytic {
+
+double Impact::impulse_ratio() const { return normal_impulse > 0 ? tangential_impulse / normal_impulse : 0; }
+
+double Impact::restitution() const { return approach_speed > 0 ? separation_speed / approach_speed : 0; }
+
+ContactInertia contact_inertia(double gyration_square, const ContactPoint& d) {
+  const double per_tangential = d.tangential / gyration_square;
+  const double per_normal = d.normal / gyration_square;
+  return {.normal = std::fma(per_tangential, d.tangential, 1.0),
+          .coupling = per_tangential * d.normal,
+          .tangential = std::fma(per_normal, d.normal, 1.0)};
+}
+
+double normal_velocity(const PlanarVelocity& v, const ContactPoint& d) {
+  return std::fma(-v.angular, d.tangential, v.normal);
+}
+
+double slip_velocity(const PlanarVelocity& v, const ContactPoint& d) {
+  return std::fma(v.angular, d.normal, v.tangential);
+}
+
+Impact strike(const PlanarBody& body, const PlanarVelocity& before, const ContactPoint& contact,
+              const ImpactLaw& given) {
+  return strike(body, before, {normal_velocity(before, contact), slip_velocity(before, contact)}, contact, given);
+}
+
+Impact strike(const PlanarBody& body, const PlanarVelocity& before, const ContactVelocity& velocity,
+              const ContactPoint& contact, const ImpactLaw& law) {
+  law.validate();
+  const auto [u, s] = velocity;
+  Impact impact{.approach_speed = -u, .separation_speed = u, .slip_before = s, .slip_after = s, .after = before};
+  if (!(u < 0)) return impact;
+
+  const ContactInertia inertia = contact_inertia(body.gyration_square, contact);
+  const PathCoefficients<> path{.normal = inertia.normal,
+                                .normal_coupling = inertia.coupling,
+                                .slip_drift = inertia.coupling,
+                                .tangential = inertia.tangential};
+  const PathStart<> start{.approach_speed = -u, .slip = s, .restitution = restitution_at(law, -u)};
+  const auto [normal, tangential, separation, mode] = point_impulse(path, start, law);
+  impact.normal_impulse = body.mass * normal;
+  impact.tangential_impulse = body.mass * tangential;
+  impact.mode = mode;
+  const double turning = (tangential * contact.normal - normal * contact.tangential) / body.gyration_square;
+  impact.after = {.normal = before.normal + normal,
+                  .tangential = before.tangential + tangential,
+                  .angular = before.angular + turning};
+  if (!std::isfinite(impact.after.angular) || !std::isfinite(impact.after.tangential)) {
+    throw NumericalError("the impulse overflows: the impulse ratio is too near the jamming limit");
+  }
+  impact.separation_speed = separation;
+  const double turned = impact.after.angular * contact.tangential;
+  if (2 * std::fabs(turned) <= impact.separation_speed) {  // near upright: no cancellation
+    impact.after.normal = impact.separation_speed + turned;
+  }
+  impact.slip_after = mode == ImpactMode::stick || mode == ImpactMode::slip_stick
+                          ? 0
+                          : s + (inertia.tangential * tangential - inertia.coupling * normal);
+  impact.energy_loss = (0 - impact.normal_impulse * (u + impact.separation_speed) -
+                        impact.tangential_impulse * (s + impact.slip_after)) /
+                       2;
+  return impact;
+}
+
+std::optional<Impact> strike_flat(const PlanarBody& body, const PlanarVelocity& before, const ContactPoint& first,
+                                  const ContactPoint& second, const ImpactLaw& law) {
+  law.validate();
+  if (!(normal_velocity(before, first) < 0 && normal_velocity(before, second) < 0)) return {};
+  if (!(-before.normal > 0)) return {};
+  const double e = restitution_at(law, pressure_centre_speed(-before.normal, before.angular, body.gyration_square));
+  const double depth = first.normal;
+  const PathStart<> start{.approach_speed = -before.normal, .slip = slip_velocity(before, first), .restitution = e};
+  const PathEnd<> path = flat_impulse(start, before.angular * depth, law);
+  const double normal = path.normal_impulse, tangential = path.tangential_impulse;
+
+  // Shares of the two vertices, from the angular momentum that they must supply together.
+  const double moment = tangential * depth + body.gyration_square * (1 + e) * before.angular;
+  const double of_first = (moment - normal * second.tangential) / (first.tangential - second.tangential);
+  if (!(of_first >= 0 && of_first <= normal)) return {};
+
+  Impact impact{.normal_impulse = body.mass * normal,
+                .tangential_impulse = body.mass * tangential,
+                .approach_speed = start.approach_speed,
+                .separation_speed = e * start.approach_speed,
+                .slip_before = start.slip,
+                .mode = path.mode,
+                .after = {.normal = e * start.approach_speed,
+                          .tangential = before.tangential + tangential,
+                          .angular = 0 - e * before.angular}};
+  impact.slip_after = slip_velocity(impact.after, first);
+  const double turning_energy = body.gyration_square * before.angular * before.angular;
+  const double normal_energy = before.normal * before.normal + turning_energy;
+  impact.energy_loss = (body.mass * (1 - e) * (1 + e) * normal_energy -
+                        impact.tangential_impulse * (before.tangential + impact.after.tangential)) /
+                       2;
+  return impact;
+}
+
+}  // namespace clatter::analytic

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A drop in the plane, the rows of its impact sequence, and the units in which that is computed.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analytic/base/angle.hpp"
+#include "analytic/plane/body.hpp"
+#include "analytic/plane/flight.hpp"
+#include "analytic/plane/impact.hpp"
+
+namespace clatter::analytic {
+
+/// Bounds on the errors of an impact's numbers, each in the unit of its number; infinite in a row
+/// that cannot be predicted. They hold what errors of the start (one unit in the last place of each
+/// number given) and rounding have grown to.
+struct RowErrors {
+  bool predictable = false;   ///< errors have not grown so far that another sequence may follow
+  double relative = 0;        ///< largest of start, contact angle and normal impulse, beside the number itself
+  double start = 0;           ///< [s]
+  double inclination = 0;     ///< [rad]
+  double contact_angle = 0;   ///< [rad]
+  double approach_speed = 0;  ///< [m/s]
+  double restitution = 0;
+  double normal_impulse = 0;      ///< [N·s]
+  double tangential_impulse = 0;  ///< [N·s]
+  double impulse_ratio = 0;
+  PlanarVelocity after;
+  double energy_before = 0;  ///< [J]
+  double energy_after = 0;   ///< [J]
+  double energy_loss = 0;    ///< [J]
+
+  /// Nothing is known.
+  [[nodiscard]] static RowErrors unknown();
+};
+
+/// The body as it touches the ground for the first time.
+struct Drop {
+  PlanarBody body;
+  Angle inclination;        ///< in [−180°, 180°]; from 0° to 90° end a is low
+  PlanarVelocity velocity;  ///< of the centre of mass, before the first impact
+  double gravity = 0;       ///< g >= 0 [m/s²]
+  ImpactLaw law;
+
+  /// @throws std::domain_error naming the field, its value and what is allowed.
+  void validate() const;
+};
+
+struct SequenceOptions {
+  int impacts = 6;  ///< most impacts to report, >= 1
+  /// Relative error to which the end of an accumulation of impacts must be known before the sequence
+  /// is cut there: 10^−digits of the remaining time.  In [1, 15].
+  int digits = 6;
+  /// Also follow how errors of the drop and of rounding grow: `error` and `amplification` of each row, and the errors
+  /// of tail and total.
+  bool amplification = true;
+
+  /// @throws std::domain_error naming the field, its value and what is allowed.
+  void validate() const;
+};
+
+/// One impact.
+struct ImpactRow {
+  double start = 0;          ///< time since the first impact [s]
+  VertexSet vertices = 0;    ///< which strike
+  double inclination = 0;    ///< α, reduced to (−π, π] [rad]; a lower: positive
+  double contact_angle = 0;  ///< acute angle to the ground [rad]
+  double centre_height = 0;  ///< z of the centre of mass [m]
+  PlanarVelocity before;
+  Impact impact;             ///< impulse, speeds and velocity after
+  double energy_before = 0;  ///< translational + rotational + potential (z = 0 at the ground) [J]
+  double energy_after = 0;
+  /// Relative change of this row's quantities per relative change of the drop (angle, speed): the
+  /// largest over contact angle, time and impulse.  NaN if it could not be had, or is so large that the row cannot be
+  /// predicted.
+  double amplification = 0;
+  RowErrors error;  ///< all unknown without SequenceOptions::amplification
+  /// The flight that led here; for the first row all zero.
+  Flight flight;
+  Departure departure;  ///< how that flight began
+};
+
+enum class Outcome {
+  no_further_impact,  ///< nothing reaches the ground any more
+  impact_limit,       ///< as many impacts as asked for
+  at_rest,            ///< infinitely many impacts end in a finite time, with no normal or angular motion left that
+                      ///< doubles could tell from none
+  sustained_contact,  ///< a vertex stays on the ground (after infinitely many impacts, or with e = 0)
+                      ///< while the body still turns: beyond the model
+  not_computed,       ///< a number of the next flight or impact could not be had; the rows so far hold
+  outside_model,      ///< the next impact jams; the rows so far hold
+};
+
+/// The remaining impacts after the last row: infinitely many in a finite time.
+/// Errors are bounds on those of the extrapolation, with SequenceOptions::amplification on all that the sums begin from
+/// as well; infinite where the last row cannot be predicted.
+struct Tail {
+  double end_time = 0;        ///< time since the first impact [s]
+  double end_time_error = 0;  ///< [s]
+  double normal_impulse = 0;  ///< sum over the remaining impacts [N·s]
+  double normal_impulse_error = 0;
+  double tangential_impulse = 0;  ///< likewise
+  double tangential_impulse_error = 0;
+  VertexSet vertices = 0;
+  bool closed_form = false;
+  PlanarVelocity after;  ///< at the end
+  PlanarVelocity after_error;
+};
+
+struct Sequence {
+  std::vector<ImpactRow> rows;
+  Outcome outcome = Outcome::no_further_impact;
+  std::string message;                ///< why it ended, one sentence
+  std::vector<std::string> warnings;  ///< such as energy created by an impulse ratio
+  std::optional<Tail> tail;
+  NearMiss near_miss;               ///< of the last flight, if no_further_impact
+  double total_normal_impulse = 0;  ///< rows and tail [N·s]
+  /// Bound on its error; infinite without SequenceOptions::amplification or if a row cannot be predicted [N·s].
+  double total_normal_impulse_error = 0;
+  /// Whether the outcome is certain, and not only that of one of the sequences that the errors leave open.
+  bool end_predictable = false;
+  int root_evaluations = 0;
+};
+
+/// Scales a drop so that its length, speed and mass are of order 1 and its results back.  Factors are
+/// powers of two, so that scaling is exact and results do not depend on the user's units.
+class Units {
+ public:
+  explicit Units(const Drop& drop);
+  [[nodiscard]] Drop to_internal(Drop drop) const;
+  void to_si(Sequence& sequence) const;
+  /// [J] of an energy in internal units.
+  [[nodiscard]] double energy(double internal) const;
+
+ private:
+  void to_si(PlanarVelocity& v) const;
+  void to_si(Impact& impact) const;
+  void to_si(RowErrors& error) const;
+  void to_si(NearMiss& miss) const;
+  void to_si(ImpactRow& row) const;
+
+  int length_, speed_, mass_;  ///< exponents of two
+};
+
+}  // namespace clatter::analytic

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analytic/plane/step_jacobians.hpp"
+
+#include "analytic/law/coulomb_path.hpp"
+
+namespace clatter::analytic {
+
+namespace {
+
+/// What an impact does, as functions of the state before it.
+struct ImpactResponse {
+  ImpactDual normal;      ///< P_n [N·s]
+  ImpactDual tangential;  ///< P_t [N·s]
+  ImpactDual separation;  ///< u after it [m/s]
+  ImpactDual push;        ///< change of s [m/s]
+  ImpactDual turn;        ///< change of Ω [rad/s]
+};
+
+/// Where ImpactDual has the derivative with respect to a number of the state.
+constexpr std::size_t slot(std::size_t index) { return index - at_angle; }
+
+ImpactDual variable(StateIndex index, double value) {
+  ImpactDual number(value);
+  number.slope[slot(index)] = 1;
+  return number;
+}
+
+ImpactDual of_angle(double value, double slope) {
+  ImpactDual number(value);
+  number.slope[slot(at_angle)] = slope;
+  return number;
+}
+
+ImpactResponse point_response(const StruckState& struck) {
+  const double mass = struck.body.mass, square = struck.body.gyration_square;
+  const ContactPoint& d = struck.place;
+  // d_t′ = −d_n, d_n′ = d_t, and with them A′ = −2B, B′ = A − C, C′ = 2B.
+  const ImpactDual along = of_angle(d.tangential, -d.normal), up = of_angle(d.normal, d.tangential);
+  const auto [a, b, c] = contact_inertia(square, d);
+  const ImpactDual coupling = of_angle(b, a - c), tangential = of_angle(c, 2 * b);
+  const ImpactDual approach = -variable(at_normal, struck.contact.normal);
+  const PathEnd<ImpactDual> end = point_impulse<ImpactDual>(
+      {.normal = of_angle(a, -2 * b), .normal_coupling = coupling, .slip_drift = coupling, .tangential = tangential},
+      {.approach_speed = approach,
+       .slip = variable(at_slip, struck.contact.slip),
+       .restitution = restitution_at(struck.law, approach)},
+      struck.law);
+  return {.normal = mass * end.normal_impulse,
+          .tangential = mass * end.tangential_impulse,
+          .separation = end.separation_speed,
+          .push = tangential * end.tangential_impulse - coupling * end.normal_impulse,
+          .turn = (end.tangential_impulse * up - end.normal_impulse * along) / square};
+}
+
+/// A flat landing keeps its inclination.
+ImpactResponse flat_response(const StruckState& struck) {
+  const double mass = struck.body.mass;
+  const ContactPoint& d = struck.place;
+  const ImpactDual turning = variable(at_turn, struck.before.angular);
+  const ImpactDual normal = variable(at_normal, struck.contact.normal);
+  const ImpactDual approach = -(normal + turning * d.tangential);
+  const ImpactDual e =
+      restitution_at(struck.law, pressure_centre_speed(approach, turning, struck.body.gyration_square));
+  const PathEnd<ImpactDual> end = flat_impulse<ImpactDual>(
+      {.approach_speed = approach, .slip = variable(at_slip, struck.contact.slip), .restitution = e},
+      turning * d.normal, struck.law);
+  return {.normal = mass * end.normal_impulse,
+          .tangential = mass * end.tangential_impulse,
+          .separation = -e * normal,
+          .push = end.tangential_impulse - (1 + e) * turning * d.normal,
+          .turn = -(1 + e) * turning};
+}
+
+bool sticks(ImpactMode mode) { return mode == ImpactMode::stick || mode == ImpactMode::slip_stick; }
+
+}  // namespace
+
+ImpactDerivatives impact_derivatives(const StruckState& struck, ImpactMode mode) {
+  const ImpactResponse response = struck.flat ? flat_response(struck) : point_response(struck);
+  ImpactDerivatives d;
+  for (std::size_t i = 0; i < state_size; ++i) d.state[i][i] = 1;
+  for (std::size_t i = at_angle; i <= at_turn; ++i) {
+    d.normal[i] = response.normal.slope[slot(i)];
+    d.tangential[i] = response.tangential.slope[slot(i)];
+    d.state[at_normal][i] = response.separation.slope[slot(i)];
+    d.state[at_slip][i] += response.push.slope[slot(i)];
+    d.state[at_turn][i] += response.turn.slope[slot(i)];
+    d.state[at_sum][i] = d.normal[i];
+  }
+  if (sticks(mode) && !struck.flat) d.state[at_slip] = {};
+  return d;
+}
+
+StateVector height_gradient(const FlownState& flown, int vertex, const Moment& moment) {
+  const Departure& from = flown.departure;
+  const ContactPoint d = flown.body.contact_point(vertex, from.sine, from.cosine);
+  const ContactPoint offset = from.offset(flown.body, from.reference, vertex);
+  const double sense = from.angular < 0 ? -1 : 1;
+  const double along = offset.tangential - d.tangential * moment.turn.versine;
+  StateVector gradient{};
+  gradient[at_angle] = along + sense * (moment.turn.angle * offset.normal - d.normal * moment.turn.sine_deficit);
+  gradient[at_normal] = moment.time;
+  gradient[at_turn] = -moment.time * (along + sense * d.normal * moment.turn.sine);
+  return gradient;
+}
+
+FlightDerivatives flight_derivatives(const FlownState& flown, const Moment& touch) {
+  const Departure& from = flown.departure;
+  const int vertex = flown.arrival.vertex;
+  const double time = touch.time, rate = from.angular, turned = rate * time;
+  const ContactPoint d = flown.body.contact_point(vertex, from.sine, from.cosine);
+  const ContactPoint offset = from.offset(flown.body, from.reference, vertex);
+  const double vers = touch.turn.versine, sine = rate < 0 ? -touch.turn.sine : touch.turn.sine;
+  const ContactPoint to{.tangential = d.tangential + (d.normal * sine - d.tangential * vers),
+                        .normal = d.normal - (d.tangential * sine + d.normal * vers)};
+  // d_t and d_n of the arriving vertex at the touch, from those of the departing one before.
+  const double along = offset.tangential + d.normal * sine - d.tangential * vers;
+  const double up = offset.normal - d.tangential * sine - d.normal * vers;
+
+  FlightDerivatives f;
+  f.velocity = from.rebound_speed - from.gravity * time - rate * along;
+  f.acceleration = -from.gravity - rate * rate * to.normal;
+  f.of_time[at_time] = 1;
+  f.of_time[at_angle] = -rate;
+  f.of_time[at_normal] = f.acceleration;
+  f.of_time[at_slip] = -rate * rate * to.tangential;
+  for (std::size_t i = 0; i < state_size; ++i) f.state[i][i] = 1;
+  f.state[at_angle][at_turn] = -time;
+  f.state[at_normal][at_angle] = rate * up;
+  f.state[at_normal][at_turn] = -along - turned * to.normal;
+  f.state[at_slip][at_angle] = rate * along;
+  f.state[at_slip][at_turn] = up - turned * to.tangential;
+  const StateVector height = height_gradient(flown, vertex, touch);
+  for (std::size_t i = 0; i < state_size; ++i) {
+    for (std::size_t k = 0; k < state_size; ++k) f.state[i][k] -= f.of_time[i] * height[k] / f.velocity;
+  }
+  return f;
+}
+
+MotionGradients::MotionGradients(const PlanarBody& body, const ContactPoint& d, const PlanarVelocity& v,
+                                 double gravity) {
+  normal[at_angle] = -v.angular * d.normal;
+  normal[at_normal] = 1;
+  normal[at_turn] = d.tangential;
+  tangential[at_angle] = -v.angular * d.tangential;
+  tangential[at_slip] = 1;
+  tangential[at_turn] = -d.normal;
+  for (std::size_t i = 0; i < state_size; ++i) {
+    energy[i] = body.mass * (v.normal * normal[i] + v.tangential * tangential[i]);
+  }
+  energy[at_turn] += body.mass * body.gyration_square * v.angular;
+  energy[at_angle] -= body.mass * gravity * d.tangential;
+}
+
+}  // namespace clatter::analytic

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analytic/space/accumulation.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace clatter::analytic::space {
+
+namespace {
+
+/// The kinds of path that accumulation.hpp tells apart.
+ImpactMode mode_of(PathKind path) {
+  switch (path) {
+    case PathKind::frictionless: return ImpactMode::frictionless;
+    case PathKind::stick: return ImpactMode::stick;
+    case PathKind::slip_stick: return ImpactMode::slip_stick;
+    case PathKind::slip_reslip: return ImpactMode::reverse_slip;
+    case PathKind::slip:
+    case PathKind::turning_slip: break;
+  }
+  return ImpactMode::slip;
+}
+
+/// Tangential impulse of a body that slides with `slip` while the ground pushes with the normal impulse `normal`.
+Vector2 sliding_impulse(const Drop& drop, const Vector2& slip, double normal) {
+  const ImpactLaw& law = drop.law.law;
+  if (law.friction == FrictionKind::none) return Vector2::Zero();
+  if (law.friction == FrictionKind::impulse_ratio) return law.friction_value * normal * drop.law.ratio_direction;
+  const double speed = slip.norm();
+  if (!(speed > 0)) return Vector2::Zero();
+  return -std::fmin(law.friction_value * normal, drop.body.mass * speed) / speed * slip;
+}
+
+}  // namespace
+
+std::optional<Tail> bouncing_tail(const Drop& drop, const ImpactRow& last) {
+  const double e = drop.law.law.restitution;
+  const Impact& impact = last.impact;
+  if (impact.angular_velocity_after != Vector3::Zero() || !(drop.gravity > 0) || !(e < 1)) return {};
+  const Vector3 arm = last.before.attitude * last.corners.front().place;
+  if (!last.group && (arm.head<2>() != Vector2::Zero() || impact.impulse.head<2>() != Vector2::Zero())) return {};
+  const double w = impact.velocity_after.z(), mass = drop.body.mass;
+  if (!(w >= 0)) return {};
+  Tail tail;
+  tail.end_time = last.start + 2 * w / (drop.gravity * (1 - e));
+  tail.normal_impulse = mass * (1 + e) * w / (1 - e);
+  const Vector2 slip = impact.velocity_after.head<2>();
+  if (last.group) tail.tangential_impulse = sliding_impulse(drop, slip, tail.normal_impulse);
+  for (const Corner& corner : last.corners) tail.corners.push_back(corner.index);
+  tail.closed_form = true;
+  tail.velocity_after.head<2>() = slip + tail.tangential_impulse / mass;
+  return tail;
+}
+
+void SpaceAccumulation::add(const ImpactRow& row, double damping_loss) {
+  Event event{.corners = {},
+              .mode = mode_of(row.impact.path),
+              .flight_time = row.flight.time,
+              .damping_loss = damping_loss,
+              .impulse = row.impact.impulse,
+              .moment = {}};
+  for (const Corner& corner : row.corners) event.corners.push_back(corner.index);
+  std::sort(event.corners.begin(), event.corners.end());
+  event.moment = row.group ? row.group->moment
+                           : Vector3((row.before.attitude * row.corners.front().place).cross(row.impact.impulse));
+  events_.push_back(event);
+}
+
+std::size_t SpaceAccumulation::first_of_last_eight(std::vector<int>& labels) const {
+  constexpr std::size_t longest = 64, most = 8;
+  std::size_t first = events_.size();
+  while (first > 0 && events_.size() - first < longest) {
+    for (const int corner : events_[first - 1].corners) {
+      if (std::find(labels.begin(), labels.end(), corner) == labels.end()) labels.push_back(corner);
+    }
+    if (labels.size() > most) {
+      labels.resize(most);
+      break;
+    }
+    --first;
+  }
+  return first;
+}
+
+std::optional<Tail> SpaceAccumulation::extrapolate(const Accumulation::Tolerance& tolerance) const {
+  std::vector<int> labels;
+  Accumulation accumulation;
+  for (std::size_t i = first_of_last_eight(labels); i < events_.size(); ++i) {
+    const Event& event = events_[i];
+    VertexSet set = 0;
+    for (const int corner : event.corners) {
+      const auto at = std::find(labels.begin(), labels.end(), corner) - labels.begin();
+      set = static_cast<VertexSet>(set | 1u << at);
+    }
+    accumulation.add(
+        {set, event.mode, event.flight_time, event.impulse.z(), event.impulse.head<2>().norm(), event.damping_loss});
+  }
+  const auto planar = accumulation.extrapolate(tolerance);
+  if (!planar) return {};
+  Tail tail;
+  tail.end_time = planar->end_time;
+  tail.end_time_error = planar->end_time_error;
+  tail.normal_impulse = planar->normal_impulse;
+  tail.normal_impulse_error = planar->normal_impulse_error;
+  for (std::size_t k = 0; k < labels.size(); ++k) {
+    if (planar->vertices >> k & 1) tail.corners.push_back(labels[k]);
+  }
+  double normal = 0;
+  Vector2 tangential = Vector2::Zero();
+  for (std::size_t i = last_round(tail); i < events_.size(); ++i) {
+    normal += events_[i].impulse.z();
+    tangential += events_[i].impulse.head<2>();
+  }
+  tail.tangential_impulse = tail.normal_impulse / normal * tangential;
+  return tail;
+}
+
+/// First event from the end back at which each of the tail's corners has struck.
+std::size_t SpaceAccumulation::last_round(const Tail& tail) const {
+  std::vector<int> unseen = tail.corners;
+  std::size_t i = events_.size();
+  while (i > 1 && !unseen.empty()) {
+    --i;
+    std::erase_if(unseen, [&](int corner) {
+      const auto& struck = events_[i].corners;
+      return std::find(struck.begin(), struck.end(), corner) != struck.end();
+    });
+  }
+  return i;
+}
+
+Vector3 SpaceAccumulation::lever(const Tail& tail) const {
+  double normal = 0;
+  Vector3 moment = Vector3::Zero();
+  for (std::size_t i = last_round(tail); i < events_.size(); ++i) {
+    normal += events_[i].impulse.z();
+    moment += events_[i].moment;
+  }
+  return moment / normal;
+}
+
+bool undisturbed(const Drop& drop, const State& now, const Tail& tail) {
+  const PrincipalAxes principal(drop.body.inertia);
+  const FreeFlight flight(principal, now, drop.gravity);
+  const PointHeights heights(drop.body, flight);
+  const FlightMoment moment = heights.moment(0);
+  const double reach = heights.reach(), least = static_cast<double>(principal.moments[0]);
+  const double impulse = tail.normal_impulse + tail.tangential_impulse.norm(), time = 2 * tail.end_time;
+  const double jump = impulse / drop.body.mass + impulse * reach * reach / least;
+  const double speed = now.angular_velocity.norm() + jump / reach;
+  const double bend = drop.gravity + 2 * speed * speed * reach;
+  for (int i = 0; i < heights.count(); ++i) {
+    if (std::find(tail.corners.begin(), tail.corners.end(), i) != tail.corners.end()) continue;
+    const PointHeight h = heights.at(i, moment);
+    if (!(h.height + std::fmin(h.velocity - jump, 0.0) * time - bend / 2 * time * time > 0)) return false;
+  }
+  return true;
+}
+
+void end_state(const Drop& drop, const ImpactRow& last, const Vector3& lever, Tail& tail) {
+  const Body& body = drop.body;
+  const Impact& impact = last.impact;
+  const Vector3 impulse(tail.tangential_impulse.x(), tail.tangential_impulse.y(), tail.normal_impulse);
+  const Matrix3 axes = last.before.attitude.toRotationMatrix();
+  const Vector3 change = axes * (body.inertia.inverse() * (axes.transpose() * (tail.normal_impulse * lever)));
+  const Vector3 fall(0, 0, -drop.gravity * tail.end_time);
+  // Euler's equations over the time that is left.
+  const Vector3 w = axes.transpose() * impact.angular_velocity_after;
+  const Vector3 drift = axes * (body.inertia.inverse() * (body.inertia * w).cross(w)) * tail.end_time;
+  tail.velocity_after = impact.velocity_after + impulse / body.mass + fall;
+  tail.angular_velocity_after = impact.angular_velocity_after + change + drift;
+  if (tail.corners.size() < 3 && !(last.corners.front().radius > 0)) return;  // neither a face nor a level rim
+  tail.velocity_after.z() = 0;
+  tail.angular_velocity_after.head<2>().setZero();
+}
+
+}  // namespace clatter::analytic::space

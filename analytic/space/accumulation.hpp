@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Infinitely many impacts of a body in space in a finite time: where they end.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "analytic/plane/accumulation.hpp"
+#include "analytic/space/impact_rows.hpp"
+
+namespace clatter::analytic::space {
+
+/// Bouncing of a body that does not turn: after an impact with rebound speed w that leaves the body so, flight times
+/// form a geometric series. Remaining time 2w/(g(1−e)), normal impulse m (1+e) w/(1−e), tangential impulse by the
+/// friction law until slip stops.  Nothing if the body turns, is elastic, has no gravity, or would be turned.
+[[nodiscard]] std::optional<Tail> bouncing_tail(const Drop& drop, const ImpactRow& last);
+
+/// Recognises accumulations of one corner, of an edge or of corners in turn, by accumulation.hpp: impacts whose corners
+/// repeat with a period, summed over each period, shrink geometrically in the limit.
+class SpaceAccumulation {
+ public:
+  /// @param damping_loss as in Accumulation::Event
+  void add(const ImpactRow& row, double damping_loss);
+  /// The tail, if it is known to the tolerance.  Its end_time counts from the last impact; tangential impulse and
+  /// moment keep the ratio to the normal impulse that they had in the last period.
+  [[nodiscard]] std::optional<Tail> extrapolate(const Accumulation::Tolerance& tolerance) const;
+  /// Ratio of the moment about the centre of mass to the normal impulse over the last period, world frame [m].
+  [[nodiscard]] Vector3 lever(const Tail& tail) const;
+
+ private:
+  struct Event {
+    std::vector<int> corners;
+    ImpactMode mode;
+    double flight_time, damping_loss;
+    Vector3 impulse, moment;
+  };
+  /// Impacts from the end backwards that involve at most eight corners, as many as accumulation.hpp tells apart.
+  [[nodiscard]] std::size_t first_of_last_eight(std::vector<int>& labels) const;
+  [[nodiscard]] std::size_t last_round(const Tail& tail) const;
+
+  std::vector<Event> events_;
+};
+
+/// Whether no other point reaches the ground before twice the remaining time has passed, whatever the impulses to come
+/// do.
+/// @param now the state after the last impact
+[[nodiscard]] bool undisturbed(const Drop& drop, const State& now, const Tail& tail);
+
+/// Velocities at the end of an extrapolated tail, whose end_time counts from the last impact, from those after it: at
+/// rest but for sliding and spinning about the vertical with three corners or more, otherwise the corners stay on the
+/// ground while the body turns.
+void end_state(const Drop& drop, const ImpactRow& last, const Vector3& lever, Tail& tail);
+
+}  // namespace clatter::analytic::space
