@@ -88,7 +88,7 @@ const std::vector<Told>& told() {
          {"drop.attitude=1x0x0x0 drop.angular_velocity=0.3x-0.2x0.1", "drop.angle_deg=0 drop.tilt_deg=20"})
       add(list, "", std::string("body.shape=box body.size=0.3x0.2x0.1 impact.restitution=0.5 ") + attitude, 3);
     add(list, "", "drop.angle_deg=90 world.gravity=9.81 impact.restitution=0.5", 3);
-    add(list, "", "drop.angle_deg=130 drop.spin=1 body.shape=box body.size=0.3x0.2x0.1", 2);
+    add(list, "", "drop.angle_deg=70 drop.spin=1 body.shape=box body.size=0.3x0.2x0.1", 2);
     return list;
   }();
   return all;
