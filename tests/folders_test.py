@@ -15,7 +15,8 @@ ORDERS = {
     "analytic": ("base", "law", "plane", "space"),
     "numeric": ("base", "mesh", "surface", "files", "body", "motion", "contact", "stepping", "drop", "."),
     "validation": ("embedded", "output", "oracles", "record", "tables", "scene", "benchmark", "compare",
-                   "figures", "plan", "sweep", "tradeoff", "measured", "verify", "extremes", "reports", "demo", "cli"),
+                   "figures", "plan", "sweep", "tradeoff", "measured", "verify", "extremes", "explain",
+                   "reports", "demo", "cli"),
 }
 APART = {"benchmark/engines/native"}  # programs of their own, which include nothing from here
 INCLUDE = re.compile(r'^\s*#include "((\w+)/(?:(.+)/)?[^/"]+)"', re.MULTILINE)

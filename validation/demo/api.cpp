@@ -17,7 +17,7 @@
 #include "validation/record/history_file.hpp"
 #include "validation/reports/angles_report.hpp"
 #include "validation/reports/comparison_report.hpp"
-#include "validation/reports/derivation.hpp"
+#include "validation/reports/explanation_report.hpp"
 #include "validation/reports/sequence_report.hpp"
 #include "validation/reports/simulation_report.hpp"
 #include "validation/scene/discrete_scene.hpp"

@@ -66,7 +66,7 @@ export interface Equation {
 
 export interface ExplainAnswer {
   impact: number;
-  steps: { title: string; text: string; equations: Equation[] }[];
+  steps: { title: string; text: string; laws: { symbolic: string; tex: string }[]; equations: Equation[] }[];
 }
 
 /** A scene file as arguments of the other requests. */
