@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analytic/plane/sequence.hpp"
+#include "analytic/space/sequence.hpp"
 #include "validation/record/motion_numbers.hpp"
 
 namespace clatter::validation::inline compare {
@@ -25,8 +26,18 @@ struct PredictedSize {
 [[nodiscard]] std::vector<PredictedSize> predicted_sizes(const analytic::Drop& drop, const analytic::Sequence& sequence,
                                                          const std::vector<double>& contact_times);
 
+/// As predicted_sizes in the plane: gravity for T, a turn by |Ω| T/2 about the axis of Ω before or after, whichever is
+/// faster, the corner v T/(2π) further inside along each of the body's axes, half the duration of each contact before.
+/// The body has no rims.
+[[nodiscard]] std::vector<PredictedSize> predicted_sizes(const analytic::space::Drop& drop,
+                                                         const analytic::space::Sequence& sequence,
+                                                         const std::vector<double>& contact_times);
+
 /// The drop that begins with this row: the state before it, turned or mirrored so that the inclination lies in
 /// [0°, 90°].  Speeds of tangential and angular motion may change sign with that.
 [[nodiscard]] analytic::Drop drop_at(const analytic::Drop& drop, const analytic::ImpactRow& row);
+
+/// The same in space: the state before it as it is.
+[[nodiscard]] analytic::space::Drop drop_at(const analytic::space::Drop& drop, const analytic::space::ImpactRow& row);
 
 }  // namespace clatter::validation::inline compare

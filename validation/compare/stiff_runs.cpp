@@ -22,7 +22,8 @@ constexpr double small = 0.02;  // what turning, gravity and indentation may be 
 
 double feature_of(const Scene& scene, const numeric::Body& body) {
   switch (scene.body.shape) {
-    case BodyScene::Shape::rod: return scene.body.radius * (1 - std::cos(2 * std::numbers::pi / scene.body.sectors));
+    case BodyScene::Shape::rod:
+      return scene.body.meshed_radius() * (1 - std::cos(2 * std::numbers::pi / scene.body.sectors));
     case BodyScene::Shape::box: return scene.body.size.minCoeff();
     case BodyScene::Shape::mesh: break;
   }

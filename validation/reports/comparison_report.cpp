@@ -243,7 +243,7 @@ Report begun_comparison(const Scene& scene, std::optional<double> approach) {
   report.fields["scene"] = scene_value(scene, Model::continuous, approach);
   report.fields["body"] = body_value(scene);
   report.grid.columns = comparison_columns();
-  report.digest.emplace();
+  report.digest.emplace().leading = 3;
   return report;
 }
 

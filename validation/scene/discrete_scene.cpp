@@ -258,16 +258,6 @@ std::string restitution_words(const DiscreteLaw& law, std::optional<double> appr
 
 }  // namespace
 
-RestitutionLaw restitution_law(const Scene& scene) {
-  if (scene.impact.law) return *scene.impact.law;
-  return scene.impact.restitution || !scene.has_ground() ? RestitutionLaw::newton : RestitutionLaw::viscoelastic;
-}
-
-bool takes_friction_of_ground(const Scene& scene) {
-  const DiscreteImpact& impact = scene.impact;
-  return !impact.impulse_ratio && !impact.friction && scene.has_ground() && scene.world.ground.has_friction();
-}
-
 DiscreteLaw discrete_law(const Scene& scene) {
   const DiscreteImpact& impact = scene.impact;
   const numeric::Ground& ground = scene.world.ground;

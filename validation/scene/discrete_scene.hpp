@@ -32,10 +32,6 @@ struct DiscreteLaw {
   LawSource restitution_from = LawSource::standard, friction_from = LawSource::standard;
 };
 
-/// The restitution law: that of [impact]; else Newton's with a restitution or without a ground; else the ground's.
-[[nodiscard]] analytic::RestitutionLaw restitution_law(const Scene& scene);
-/// Whether friction is left to the ground, and the ground has some.
-[[nodiscard]] bool takes_friction_of_ground(const Scene& scene);
 /// The law that the discrete model takes: each number from [impact] where that gives it, else from the ground.
 /// @throws analytic::OutsideModelError where the ground's regularised friction would be taken.
 [[nodiscard]] DiscreteLaw discrete_law(const Scene& scene);

@@ -185,6 +185,17 @@ const std::vector<std::string>& scene_keys() {
   return names;
 }
 
+const std::map<std::string, std::string>& key_flags() {
+  static const std::map<std::string, std::string> flags = [] {
+    std::map<std::string, std::string> by_key;
+    for (const Key& key : all_keys()) {
+      if (*key.flag != '\0') by_key.emplace(key.name, key.flag);
+    }
+    return by_key;
+  }();
+  return flags;
+}
+
 void put_values(const SceneValues& values, Scene& scene, Model model) {
   for (const Key& key : all_keys()) {
     if (values.has(key.name)) put_given(values, key, scene, model);

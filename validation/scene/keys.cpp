@@ -5,7 +5,6 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/orientation.hpp"
 
 namespace clatter::validation::inline scene {

@@ -3,6 +3,7 @@
 // echo, what a sweep may set, and the arguments of Python and of the page.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -110,6 +111,9 @@ struct Alternative {
 [[nodiscard]] const std::vector<Alternative>& alternatives();
 /// Names of the keys, and of those that a file's sweep has.
 [[nodiscard]] const std::vector<std::string>& scene_keys();
+
+/// The flag of each key that has one.
+[[nodiscard]] const std::map<std::string, std::string>& key_flags();
 
 /// Puts each key that is given in its place.  @throws BadInput where one is out of its range.
 void put_values(const SceneValues& values, Scene& scene, Model model);

@@ -13,8 +13,8 @@
 #include "validation/embedded/embedded.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/scene/body_properties.hpp"
 #include "validation/output/sink.hpp"
+#include "validation/scene/body_properties.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/scene/orientation.hpp"
 #include "validation/scene/scene.hpp"
@@ -22,7 +22,6 @@
 
 namespace clatter::validation::inline scene {
 namespace {
-
 
 void only_for(const SceneValues& values, const std::vector<std::string>& keys, const std::string& what) {
   for (const std::string& key : keys) {
@@ -161,6 +160,7 @@ void make_room_for_law(SceneValues& values, const std::vector<SceneOverride>& ov
 }
 
 Scene read_values(SceneValues values, const std::vector<SceneOverride>& overrides, Model model) {
+  values.call_by(key_flags());
   for (const Alternative& pair : alternatives()) refuse_both(overrides, pair.instead_of, pair.key);
   refuse_both(overrides, "run.tolerance", "run.step");
   make_room_for_law(values, overrides);

@@ -152,6 +152,10 @@ struct Scene {
 /// The scene of a case.  @throws as case_text
 [[nodiscard]] Scene case_scene(const std::string& name, const std::vector<SceneOverride>& overrides = {});
 
+/// The restitution law: that of [impact]; else Newton's with a restitution or without a ground; else the ground's.
+[[nodiscard]] analytic::RestitutionLaw restitution_law(const Scene& scene);
+/// Whether friction is left to the ground, and the ground has some.
+[[nodiscard]] bool takes_friction_of_ground(const Scene& scene);
 [[nodiscard]] const char* method_name(numeric::Method method);
 [[nodiscard]] const char* law_name(analytic::RestitutionLaw law);
 

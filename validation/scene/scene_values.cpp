@@ -12,7 +12,6 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/sink.hpp"
-#include "validation/scene/keys.hpp"
 #include "validation/scene/option_values.hpp"
 
 namespace clatter::validation::inline scene {
@@ -145,8 +144,8 @@ bool SceneValues::has_table(const std::string& name) const {
 
 std::string SceneValues::place_of(const std::string& key) const {
   if (!path_.empty()) return path_ + ": " + key;
-  const std::string flag = key_named(key).flag;
-  return flag.empty() ? key : flag;
+  const auto flag = flags_ ? flags_->find(key) : std::map<std::string, std::string>::const_iterator{};
+  return flags_ && flag != flags_->end() ? flag->second : key;
 }
 
 void SceneValues::require(const std::string& key, const std::string& what) const {

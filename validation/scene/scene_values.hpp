@@ -26,6 +26,9 @@ class SceneValues {
   void set(const std::string& key, const std::string& flag, const std::string& text);
   void drop(const std::string& key) { entries_.erase(key); }
 
+  /// What messages call a key that stands in no file: its flag.  @param flags  by key; outlives the values
+  void call_by(const std::map<std::string, std::string>& flags) { flags_ = &flags; }
+
   [[nodiscard]] bool has(const std::string& key) const { return entries_.contains(key); }
   /// Whether any key below the table `name` is given.
   [[nodiscard]] bool has_table(const std::string& name) const;
@@ -66,6 +69,7 @@ class SceneValues {
   [[nodiscard]] std::string place_of(const std::string& key) const;
 
   std::string path_;
+  const std::map<std::string, std::string>* flags_ = nullptr;
   std::map<std::string, Entry> entries_;
 };
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "analytic/space/impulse_path.hpp"
+#include "analytic/space/impact.hpp"
 
 namespace clatter::oracle {
 

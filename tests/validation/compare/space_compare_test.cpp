@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "validation/compare/random_space_scenes.hpp"
-#include "validation/compare/space_prediction.hpp"
+#include "validation/compare/prediction.hpp"
 #include "validation/scene/discrete_scene.hpp"
 
 namespace {
