@@ -161,7 +161,7 @@ void drop_unlike_limits(Comparison& comparison, const Scene& scene) {
 }
 
 /// Where a limit is off by more than its bar says; empty: by less.
-std::string landing_words(const ComparedImpact& impact) {
+std::string limit_miss_words(const ComparedImpact& impact) {
   if (!impact.lands()) return "its limit misses the discrete value: the models differ here";
   const double bars = impact.bars_off();
   if (bars <= 1) return "";
@@ -173,7 +173,7 @@ std::string landing_words(const ComparedImpact& impact) {
 std::string explanation_of(const Comparison& comparison, const Scene& scene, double radius, std::size_t i) {
   const DiscreteSide& side = comparison.discrete;
   const ComparedImpact& impact = comparison.impacts[i];
-  if (impact.has_landing()) return landing_words(impact);
+  if (impact.has_landing()) return limit_miss_words(impact);
   if (i >= side.impacts.size()) return "the discrete sequence has ended: " + side.message;
   const SequenceImpact& discrete = side.impacts[i];
   if (const std::string reason = reason_in_principle(discrete); !reason.empty()) return reason;

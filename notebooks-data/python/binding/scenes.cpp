@@ -18,6 +18,7 @@
 #include "validation/reports/tradeoff_report.hpp"
 #include "validation/sweep/rows.hpp"
 #include "validation/sweep/sweep_run.hpp"
+#include "validation/tables/csv_line.hpp"
 
 namespace clatter::python {
 namespace {

@@ -362,8 +362,8 @@ BOOST_AUTO_TEST_CASE(a_thin_rod_is_meshed_with_a_hundredth_of_its_length_as_radi
   const Scene scene = read_scene(grounded, {}, Model::continuous);
   BOOST_TEST(scene.body.radius == 0);
   double across = 0;
-  for (const clatter::numeric::Vector3& vertex : scene.make_body().facets().vertices)
-    across = std::max(across, vertex.z());
+  const clatter::numeric::Body body = scene.make_body();
+  for (const clatter::numeric::Vector3& vertex : body.facets().vertices) across = std::max(across, vertex.z());
   BOOST_TEST(std::fabs(across - 0.03) <= 1e-15);
 }
 
