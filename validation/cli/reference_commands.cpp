@@ -32,8 +32,8 @@
 #include "validation/reports/tradeoff_report.hpp"
 #include "validation/reports/verify_report.hpp"
 #include "validation/scene/keys.hpp"
-#include "validation/scene/orientation.hpp"
 #include "validation/scene/option_values.hpp"
+#include "validation/scene/orientation.hpp"
 #include "validation/sweep/rows.hpp"
 
 namespace clatter::validation::inline cli {
@@ -59,7 +59,11 @@ std::string default_words(const Key& key) {
   if (key.is_required) return "required";
   if (std::holds_alternative<ListValue>(key.value)) return "";
   for (const auto shape : {BodyScene::Shape::rod, BodyScene::Shape::box, BodyScene::Shape::mesh}) {
-    const Json value = key.get(begun_scene(shape));
+    Scene scene;
+    scene.body.shape = shape;
+    scene.world.ground.stiffness = 0;  // none
+    scene.world.gravity = 0;
+    const Json value = key.get(scene);
     if (!value.is_null() && value != Json("")) return value_words(value);
   }
   return "";

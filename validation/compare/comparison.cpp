@@ -234,10 +234,11 @@ std::string shortfall_of(const Comparison& comparison, const Scene& scene) {
 
 /// The sequence of the body as given and, where the mesh has other corners, that of these.
 void find_discrete_sides(Comparison& comparison, const Scene& scene, const numeric::Body& body) {
-  const DiscreteDrop drop = discrete_drop(scene);
+  const bool is_mesh = scene.body.shape == BodyScene::Shape::mesh;
+  const DiscreteDrop drop = is_mesh ? mesh_drop(scene, body) : discrete_drop(scene);
   comparison.approach_speed = first_approach_speed(drop);
   comparison.discrete = discrete_side(scene, drop);
-  if (scene.body.shape == BodyScene::Shape::mesh) return;  // the mesh is the body
+  if (is_mesh) return;
   const DiscreteDrop of_mesh = mesh_drop(scene, body);
   if (!has_other_corners(drop, of_mesh)) return;
   comparison.as_given = std::move(comparison.discrete);

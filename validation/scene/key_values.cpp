@@ -42,6 +42,12 @@ void put_given(const SceneValues& values, const Key& key, Scene& scene, Model mo
       key.value);
 }
 
+/// Puts in what the discrete model takes without being told.
+void settle_law(Scene& scene) {
+  scene.impact.law = restitution_law(scene);
+  if (!scene.impact.restitution) scene.impact.restitution = 1;
+}
+
 Json value_json(const Key& key, Scene& scene) {
   return std::visit(Overloaded{
                         [&](const OptionalNumber& v) { return v.at(scene) ? Json(*v.at(scene)) : Json(nullptr); },
@@ -112,7 +118,7 @@ std::string Key::allowed() const {
 
 Json Key::get(const Scene& scene) const {
   Scene shown = scene;  // the places are those of a scene that may be changed
-  if (!shown.impact.restitution) shown.impact.restitution = 1;
+  settle_law(shown);
   const Echo shows = echo_of(*this, scene, Model::continuous);
   return shows == Echo::value ? value_json(*this, shown) : Json(nullptr);
 }
@@ -206,7 +212,7 @@ Json keys_json(const Scene& scene, Model model) {
   Scene shown = scene;  // the places are those of a scene that may be changed
   // What the discrete model takes without being told: no friction is a ratio of 0.
   if (model == Model::discrete && !shown.impact.impulse_ratio) shown.impact.impulse_ratio = 0;
-  if (!shown.impact.restitution) shown.impact.restitution = 1;
+  settle_law(shown);
   Json json = Json::object();
   for (const Key& key : all_keys()) {
     if (!key.is_for(model)) continue;

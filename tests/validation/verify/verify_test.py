@@ -21,9 +21,9 @@ NUMBERS = [7, 8, 9, 10, 11, 12, 14, 15, 16, 17, 19, 20, 21, 22, 23, 24]
 
 class Compare(unittest.TestCase):
     def test_the_rows_are_aligned_and_the_limits_land(self):
-        run = run("compare", case("phone-damped"), "--format", "json")
-        self.assertEqual(run.returncode, 0, run.stderr)
-        result = json.loads(run.stdout)
+        done = run("compare", case("phone-damped"), "--format", "json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        result = json.loads(done.stdout)
         self.assertTrue(result["agrees"])
         self.assertEqual([impact["n"] for impact in result["impacts"]], [1, 2, 3, 4, 5, 6])
         for impact in result["impacts"]:
@@ -35,8 +35,8 @@ class Compare(unittest.TestCase):
         self.assertAlmostEqual(first["predicted"], sum(parts), delta=1e-15)
 
     def test_a_row_that_cannot_be_compared_says_why(self):
-        run = run("compare", case("phone-elastic"), "--angle", "3", "--impacts", "1", "--format", "json")
-        impact = json.loads(run.stdout)["impacts"][0]
+        done = run("compare", case("phone-elastic"), "--angle", "3", "--impacts", "1", "--format", "json")
+        impact = json.loads(done.stdout)["impacts"][0]
         self.assertFalse(impact["comparable"])
         self.assertIn("another place touches", impact["reason"])
         self.assertIsNone(impact["numbers"]["impulse_normal"]["deviation"])
@@ -52,8 +52,8 @@ class Compare(unittest.TestCase):
             self.assertEqual(run("compare", os.path.join(CASES, file)).returncode, 0, file)
 
     def test_a_sweep_has_a_row_for_each_value(self):
-        run = run("compare", case("rod-friction-sweep"), "--format", "csv")
-        rows = list(csv.DictReader(line for line in run.stdout.splitlines() if not line.startswith("#")))
+        done = run("compare", case("rod-friction-sweep"), "--format", "csv")
+        rows = list(csv.DictReader(line for line in done.stdout.splitlines() if not line.startswith("#")))
         self.assertEqual(len(rows), 17 * 7)
         self.assertEqual(float(rows[-1]["sliding_friction"]), 0.8)
 
@@ -64,9 +64,9 @@ class Compare(unittest.TestCase):
             scene = os.path.join(folder, "creeping.toml")
             with open(scene, "w") as file:
                 file.write(creeping)
-            run = run("compare", scene)
-        self.assertEqual((run.returncode, run.stdout), (4, ""))
-        self.assertEqual(len(run.stderr.splitlines()), 1)
+            done = run("compare", scene)
+        self.assertEqual((done.returncode, done.stdout), (4, ""))
+        self.assertEqual(len(done.stderr.splitlines()), 1)
 
     def test_the_scene_file_is_not_written_over(self):
         self.assertEqual(run("compare", case("rod-45"), "--output", case("rod-45")).returncode, 2)
@@ -105,24 +105,24 @@ class Verify(unittest.TestCase):
                 if command.startswith("clatter verify"):
                     continue
                 words = command.replace("DIR", folder).replace("FILE", os.path.join(folder, "history.csv")).split()
-                run = subprocess.run([PROGRAM, *words[1:]], capture_output=True, text=True, cwd=ROOT, timeout=3000)
-                self.assertEqual(run.returncode, 0, f"{command}: {run.stderr}")
+                done = subprocess.run([PROGRAM, *words[1:]], capture_output=True, text=True, cwd=ROOT, timeout=3000)
+                self.assertEqual(done.returncode, 0, f"{command}: {done.stderr}")
 
     def test_bad_arguments_have_one_line_and_status_2(self):
         for arguments in (["--only", "C21"], ["--only"], ["--quick", "--only", "C1"], ["--html", "/no/such/folder/x.html"],
                           ["--only", "C1", ""], ["--fast"]):
-            run = run("verify", *arguments)
-            self.assertEqual((run.returncode, run.stdout), (2, ""), arguments)
-            self.assertEqual(len(run.stderr.splitlines()), 1, run.stderr)
+            done = run("verify", *arguments)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), arguments)
+            self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
         self.assertIn("C2", run("verify", "--only", "C21").stderr)
 
     def test_without_gnuplot_the_page_is_refused_and_nothing_is_written(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "page.html")
-            run = subprocess.run([PROGRAM, "verify", "--only", "C1", "--html", path], capture_output=True, text=True,
+            done = subprocess.run([PROGRAM, "verify", "--only", "C1", "--html", path], capture_output=True, text=True,
                                  env={**os.environ, "PATH": "/nonexistent"})
-            self.assertEqual(run.returncode, 2)
-            self.assertRegex(run.stderr, r"\Aclatter: --html [^\n]*gnuplot-nox\n\Z")
+            self.assertEqual(done.returncode, 2)
+            self.assertRegex(done.stderr, r"\Aclatter: --html [^\n]*gnuplot-nox\n\Z")
             self.assertEqual(os.listdir(folder), [])
 
 
@@ -200,9 +200,9 @@ class Figures(unittest.TestCase):
     def test_bad_arguments_have_status_2(self):
         for arguments in ([], ["--output"], ["--output", self.path(7)], ["--output", self.folder.name, "--only", "13"],
                           ["--output", self.folder.name, "--only", "x"]):
-            run = run("figures", *arguments)
-            self.assertEqual((run.returncode, run.stdout), (2, ""), arguments)
-            self.assertEqual(len(run.stderr.splitlines()), 1)
+            done = run("figures", *arguments)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), arguments)
+            self.assertEqual(len(done.stderr.splitlines()), 1)
 
 
 if __name__ == "__main__":

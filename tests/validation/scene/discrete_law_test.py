@@ -1,0 +1,160 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a scene means: the law, the body and the defaults that the discrete model takes, the same in every command."""
+
+import csv
+import io
+import json
+import math
+import random
+import unittest
+
+from run_folder import TETRAHEDRON, EmptyFolder, run
+
+GROUND = ["--stiffness", "1e8", "--damping", "1e7"]
+
+
+def answer(command, *arguments):
+    done = run(command, *arguments, "--format", "json")
+    if done.returncode not in (0, 1, 3):
+        raise AssertionError((command, arguments, done.stderr))
+    return json.loads(done.stdout)
+
+
+def restitution(s):
+    """e of ln[(1+s)/(1−s e)] = s (1+e), by bisection; its left side less its right is below 0 from 0 to the root."""
+    low, high = 0.0, min(1.0, 1 / s)
+    for _ in range(200):
+        e = (low + high) / 2
+        if math.log1p(s) - math.log1p(-s * e) - s * (1 + e) < 0:
+            low = e
+        else:
+            high = e
+    return low
+
+
+class Law(unittest.TestCase):
+    """A rod of 1 m and 1 kg that strikes at 45 degrees with 1 m/s: P = (1 + e) v / (1/m + d²/I), d² = 1/8, I = 1/12."""
+
+    def impulse(self, *flags):
+        return answer("sequence", "--angle", "45", "--impacts", "1", *flags)["impacts"][0]["impulse_normal"]
+
+    def assert_impulse(self, e, *flags):
+        self.assertAlmostEqual(self.impulse(*flags), (1 + e) / 2.5, delta=1e-13, msg=flags)
+
+    def test_without_a_ground_or_a_restitution_impacts_are_elastic(self):
+        self.assert_impulse(1)
+
+    def test_the_grounds_damping_gives_the_restitution_where_none_is_given(self):
+        e = restitution(0.1)
+        self.assert_impulse(e, *GROUND)
+        self.assert_impulse(e, *GROUND, "--restitution-law", "viscoelastic")
+
+    def test_a_restitution_goes_before_the_ground_and_is_newtons(self):
+        law = answer("sequence", "--angle", "45", *GROUND, "--restitution", "0.5")["scene"]["discrete_law"]
+        self.assertEqual((law["law"], law["restitution"], law["restitution_from"]), ("newton", 0.5, "impact"))
+        self.assert_impulse(0.5, *GROUND, "--restitution", "0.5")
+
+    def test_restitution_and_friction_are_taken_each_on_its_own(self):
+        rough = [*GROUND, "--static-friction", "0.3", "--sliding-friction", "0.2"]
+        for flags, friction, source in ((rough, 0.2, "ground.sliding_friction"), ([*rough, "--restitution", "0.5"], 0.2, "ground.sliding_friction"),
+                                        ([*rough, "--friction", "0.4"], 0.4, "impact")):
+            law = answer("sequence", "--angle", "45", *flags)["scene"]["discrete_law"]
+            self.assertEqual((law["friction_law"], law["friction"], law["friction_from"]), ("coulomb", friction, source))
+        ratio = answer("sequence", "--angle", "45", *rough, "--impulse-ratio", "0.1")
+        self.assertEqual(ratio["scene"]["discrete_law"]["friction_law"], "impulse-ratio")
+        self.assertAlmostEqual(ratio["impacts"][0]["impulse_ratio"], 0.1, delta=1e-15)
+
+    def test_the_head_says_which_law_ran_and_where_each_number_came_from(self):
+        head = " ".join(run("sequence", "phone-damped").stdout.split())
+        self.assertIn("e = 0.773 at 4.39 m/s (viscoelastic), from the ground's damping; Coulomb friction μ = 0.075, from the ground", head)
+
+    def test_what_goes_together_is_said_in_one_line(self):
+        for flags, words in ((["--restitution-law", "viscoelastic"], "where no ground is given"),
+                             ([*GROUND, "--restitution-law", "viscoelastic", "--restitution", "0.5"], "not both"),
+                             (["--restitution-law", "poisson"], "given with impact.restitution"),
+                             ([*GROUND, "--restitution-law", "stronge"], "given with impact.restitution")):
+            done = run("sequence", "--angle", "45", *flags)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), flags)
+            self.assertIn(words, done.stderr)
+
+
+class Defaults(EmptyFolder):
+    def test_files_and_flags_have_the_same_gravity_and_radius(self):
+        for drop, flags in (("speed = 2", ["--speed", "2"]), ("height = 1", ["--height", "1"]), ("clearance = 1", ["--clearance", "1"])):
+            file = self.write("scene.toml", f"[drop]\nangle_deg = 10\n{drop}\n")
+            by_file, by_flags = answer("sequence", file), answer("sequence", "--angle", "10", *flags)
+            by_file["scene"].pop("file")
+            self.assertEqual(by_file, by_flags)
+            self.assertEqual(by_file["scene"]["world"]["gravity"], 0 if "speed" in drop else 9.81)
+            self.assertEqual(by_file["scene"]["body"]["radius"], 0)
+
+    def test_a_clearance_is_the_height_of_the_lowest_point(self):
+        for flags in (["--angle", "10"], ["--body", "box", "--size", "0.2x0.1x0.05", "--angle", "30", "--tilt", "20"]):
+            speed = answer("sequence", *flags, "--clearance", "0.7", "--impacts", "1")["impacts"][0]["approach_speed"]
+            self.assertAlmostEqual(speed, math.sqrt(2 * 9.81 * 0.7), delta=1e-14)
+
+    def test_the_simulated_rod_is_a_round_cylinder_whatever_its_mesh(self):
+        body = answer("simulate", "rod-45")["body"]
+        for found, exact in zip(body["principal_inertia"], (0.01**2 / 2, 1 / 12 + 0.01**2 / 4, 1 / 12 + 0.01**2 / 4)):
+            self.assertAlmostEqual(found / exact, 1, delta=1e-14)
+
+
+class OneAnswer(EmptyFolder):
+    """The same bits wherever the discrete model runs."""
+
+    NUMBERS = {"start": lambda i: i["start"], "impulse_normal": lambda i: i["impulse_normal"], "impulse_z": lambda i: i["impulse"][2],
+               "velocity_normal": lambda i: i["velocity_after"][2], "velocity_after_z": lambda i: i["velocity_after"][2],
+               "angular_velocity": lambda i: i["angular_velocity_after"][1], "angular_velocity_after_y": lambda i: i["angular_velocity_after"][1]}
+
+    def random_scene(self, rng):
+        box = rng.random() < 0.5
+        lines = ["[drop]", f"angle_deg = {rng.uniform(2, 80)}", f"tilt_deg = {rng.choice([0, 0, rng.uniform(-50, 50)])}",
+                 rng.choice([f"height = {rng.uniform(2, 4)}", f"clearance = {rng.uniform(0.1, 1)}", f"speed = {rng.uniform(0.5, 3)}"]),
+                 "[body]", "shape = 'box'" if box else "shape = 'rod'",
+                 f"size = [{rng.uniform(0.1, 0.2)}, {rng.uniform(0.05, 0.1)}, {rng.uniform(0.01, 0.04)}]" if box
+                 else rng.choice(["length = 0.8", f"radius = {rng.uniform(0.002, 0.02)}"]),
+                 "[ground]", f"stiffness = {10 ** rng.uniform(8, 10)}", f"damping = {rng.choice([0, 10 ** rng.uniform(5, 7)])}",
+                 f"sliding_friction = {rng.choice([0, rng.uniform(0.05, 0.5)])}", "[run]", "impacts = 2"]
+        if rng.random() < 0.2:
+            lines += ["[impact]", f"restitution = {rng.uniform(0.3, 1)}"]
+        return self.write("scene.toml", "\n".join(lines) + "\n")
+
+    def test_compare_and_sweep_print_the_numbers_of_sequence_to_the_bit(self):
+        rng = random.Random(25)
+        for _ in range(12):
+            scene = self.random_scene(rng)
+            impacts = answer("sequence", scene)["impacts"]
+            rows = list(csv.DictReader(io.StringIO(run("sweep", scene, "--model", "discrete", "--rows", "impact", "--bare").stdout)))
+            self.assertEqual([float(row["impulse_normal"]) for row in rows], [impact["impulse_normal"] for impact in impacts])
+            for impact, compared in zip(impacts, answer("compare", scene)["impacts"]):
+                found = {name: number["discrete"] for name, number in compared["numbers"].items() if name in self.NUMBERS}
+                self.assertEqual(found, {name: self.NUMBERS[name](impact) for name in found})
+
+    def test_other_corners_of_a_mesh_are_a_column_of_their_own(self):
+        thin = answer("compare", "--angle", "10", "--stiffness", "1e11", "--impacts", "1")["impacts"][0]["numbers"]["impulse_normal"]
+        self.assertEqual(thin["discrete"], answer("sequence", "--angle", "10")["impacts"][0]["impulse_normal"])
+        thick = answer("sequence", "--angle", "10", "--radius", "0.01", "--stiffness", "1e11")["impacts"][0]["impulse_normal"]
+        self.assertAlmostEqual(thin["mesh_corners"] / thick, 1, delta=1e-14)
+        self.assertAlmostEqual(thin["limit"] / thick, 1, delta=1e-9)
+        same = answer("compare", "rod-10", "--impacts", "1")["impacts"][0]["numbers"]["impulse_normal"]
+        self.assertIsNone(same["mesh_corners"])
+
+    def test_a_mesh_is_read_once(self):
+        """Its file is a pipe, which gives its bytes to the first reader alone."""
+        import os
+        import threading
+        pipe = self.path("body.stl")
+        for command in ("sequence", "simulate", "compare"):
+            os.mkfifo(pipe)
+            writer = threading.Thread(target=lambda: open(pipe, "w", encoding="utf-8").write(TETRAHEDRON))
+            writer.start()
+            scene = self.write("scene.toml", "[drop]\nangle_deg = 10\n[body]\nshape = 'mesh'\nmass = 1\nmesh = { file = 'body.stl' }\n"
+                               "[ground]\nstiffness = 1e8\n[run]\nimpacts = 1\n")
+            self.assertGreater(answer(command, scene)["body"]["mass"], 0)
+            writer.join()
+            os.unlink(pipe)
+
+
+if __name__ == "__main__":
+    unittest.main()
