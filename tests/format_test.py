@@ -29,8 +29,10 @@ def long_functions(command, **options):
 
 class Format(unittest.TestCase):
     def test_every_cpp_file_is_as_clang_format_writes_it(self):
-        result = subprocess.run(["clang-format", "--dry-run", "--Werror", *sources()], cwd=ROOT, capture_output=True, text=True)
-        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        # With --dry-run it complains of the comment behind an inline namespace, which it writes so itself.
+        for path in sources():
+            written = subprocess.run(["clang-format", path], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+            self.assertEqual(Path(path).read_text(encoding="utf-8"), written, path)
 
     def test_the_rule_finds_a_line_that_is_too_long(self):
         result = subprocess.run(["clang-format", "--dry-run", "--Werror", "--assume-filename=analytic/long.cpp"], cwd=ROOT,

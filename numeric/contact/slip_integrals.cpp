@@ -154,8 +154,8 @@ class Strips {
     }
   }
 
-  /// Bernstein ellipse of the function across, whose singularities are where the slip and v_r vanish together at an end, or on the way
-  /// between ends on different sides of the least slip.
+  /// Bernstein ellipse of the function across, whose singularities are where the slip and v_r vanish together at an
+  /// end, or on the way between ends on different sides of the least slip.
   [[nodiscard]] double part_ellipse(const Strip& strip, double low, double high) const {
     const double middle = (low + high) / 2, left = strip.left.along(middle), right = strip.right.along(middle);
     const double at_left = rise_.dot(slip(left, middle)), at_right = rise_.dot(slip(right, middle));

@@ -14,8 +14,8 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 constexpr double finer = 0.1;   ///< tolerance of the second run, over that of the main one
 constexpr double coarser = 10;  ///< the same where a finer one is not to be had
-/// Longest step of the second run, over that of the main one: where steps are as long as they may be, the tolerance changes
-/// nothing.
+/// Longest step of the second run, over that of the main one: where steps are as long as they may be, the tolerance
+/// changes nothing.
 constexpr double shorter_steps = 0.7;
 /// Errors of single numbers scatter about the power of the tolerance: of random drops 95 of 100 lie within these.
 constexpr double error_per_distance_of_finer = 4;

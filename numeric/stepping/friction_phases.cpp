@@ -68,10 +68,10 @@ constexpr double least_resolution = 1e-9;      ///< of that speed
 constexpr double turning_resolution = 1e-13;   ///< of that speed: a range above it comes from turning, not rounding
 constexpr double steps_of_range = 4;           ///< of a fixed length within which friction may cross the range
 
-/// The unit vector along `v`; where its square underflows, `v` is scaled first.
-AlongGround direction_of(const AlongGround& v) {
-  const AlongGround unit = v * (1 / v.norm());
-  return std::fabs(unit.norm() - 1) <= direction_rounding ? unit : AlongGround(v.stableNormalized());
+/// The unit vector along `v`, or against it with `sign` −1.  The inverse of a length below 1e-308 overflows.
+AlongGround direction_of(const AlongGround& v, double sign) {
+  const AlongGround scaled = v * (v.norm() < 1e-290 ? 0x1p900 : 1);
+  return scaled * (sign / scaled.norm());
 }
 
 }  // namespace
@@ -89,11 +89,11 @@ void FrictionPhases::begin(const MotionState& touch, const Vector3& point, const
   const AlongGround slip{moving.x(), system_.planar() ? 0.0 : moving.y()};
   const double speed = slip.norm();
   if (speed > 1e-12 * std::max(scales_.speed, touch.velocity.norm())) {
-    return start(Kind::slip, direction_of(slip), now);
+    return start(Kind::slip, direction_of(slip, 1), now);
   }
   const AlongGround ratio = system_.sticking_ratio(point);
   if (ratio.norm() <= ground.static_friction) return start(Kind::stick, none, now);
-  start(Kind::slip, direction_of(-ratio), now);
+  start(Kind::slip, direction_of(ratio, -1), now);
 }
 
 void FrictionPhases::start(Kind kind, const AlongGround& direction, const ContactInstant& now) {
@@ -159,7 +159,7 @@ void FrictionPhases::change(const ContactInstant& at, ContactInstant& now) {
   if (can_hold) {
     start(Kind::stick, {}, now);
   } else {
-    start(Kind::slip, hold.norm() > 0 ? direction_of(-hold) : system_.phase().direction, now);
+    start(Kind::slip, hold.norm() > 0 ? direction_of(hold, -1) : system_.phase().direction, now);
   }
   now.diagnosis = system_.diagnose(now.state, now.rate);
 }

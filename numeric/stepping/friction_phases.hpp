@@ -26,7 +26,8 @@ class FrictionLog {
   void open(const Sums& sums) { start_ = sums; }
   /// Notes the phase that was opened last, if it mattered.
   void close(const FrictionPhase& phase, const Sums& sums);
-  /// Name of what happened in a contact with Coulomb friction.  Slip that turns back at once is reverse_slip, whatever else there is.
+  /// Name of what happened in a contact with Coulomb friction.  Slip that turns back at once is reverse_slip, whatever
+  /// else there is.
   [[nodiscard]] FrictionMode mode() const;
 
  private:

@@ -17,7 +17,7 @@ constexpr double least_over_touches = 1e-9;  ///< of that time: steps this short
 }  // namespace
 
 void StepControl::begin(const StepSettings& settings, const ContactScales& scales, long evaluation_limit) {
-  assert(scales.depth > 0 && scales.speed > 0 && scales.time > 0);
+  assert(scales.depth >= 0 && scales.speed >= 0 && scales.time >= 0);  // each may underflow
   settings_ = settings;
   scales_ = scales;
   evaluation_limit_ = evaluation_limit;

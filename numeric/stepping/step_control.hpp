@@ -13,7 +13,8 @@ namespace clatter::numeric::inline stepping {
 struct StepSettings {
   double tolerance = 1e-10;  ///< of an adaptive method: local error <= tolerance × scale, per step
   double step_cap = 1;       ///< of an adaptive method: factor of the longest step and of the first one
-  /// Length of the steps of a fixed-step method [s], at most a quarter of scales.time; 0: scales.time / steps_per_contact.
+  /// Length of the steps of a fixed-step method [s], at most a quarter of scales.time; 0: scales.time /
+  /// steps_per_contact.
   double step = 0;
   double first_step = 0;  ///< length of the first fixed step [s], at most `step`; 0: as the others
   double steps_per_contact = 300;

@@ -7,7 +7,6 @@
 
 #include "analytic/base/errors.hpp"
 #include "validation/compare/prediction.hpp"
-#include "validation/compare/prediction.hpp"
 #include "validation/plan/cost_table.hpp"
 #include "validation/plan/tolerance_search.hpp"
 #include "validation/record/names.hpp"

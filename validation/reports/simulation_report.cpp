@@ -15,7 +15,6 @@
 #include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/scene_value.hpp"
 #include "validation/scene/shortfall.hpp"
-#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation::inline reports {
 namespace {

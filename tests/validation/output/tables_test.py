@@ -143,7 +143,7 @@ class Help(unittest.TestCase):
         for command in [line, *checks]:
             self.assertNotRegex(command, r"[.]toml|/cases/")
         with tempfile.TemporaryDirectory() as folder:
-            done = run(*line.split(), folder=folder)
+            done = run(*line.split(), cwd=folder)
             self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_no_foreign_text_reaches_a_terminal_as_a_command(self):
@@ -165,7 +165,7 @@ class Help(unittest.TestCase):
                             ["sequence", f"s{evil}.toml"], ["simulate", f"s{evil}.toml"], ["plan", f"s{evil}.toml"], ["sequence", "mesh.toml"],
                             ["sequence", evil], ["sequence", f"--{evil}"], [evil]):
                 for form in ("table", "csv", "json", "markdown", "latex"):
-                    done = run(*command, "--format", form, folder=folder)
+                    done = run(*command, "--format", form, cwd=folder)
                     for text in (done.stdout, done.stderr):
                         self.assertNotRegex(text, "[\x00-\x09\x0b-\x1f\x7f-\x9f]", (command, form))
 

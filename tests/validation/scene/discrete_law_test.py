@@ -6,7 +6,9 @@ import csv
 import io
 import json
 import math
+import os
 import random
+import threading
 import unittest
 
 from run_folder import TETRAHEDRON, EmptyFolder, run
@@ -142,14 +144,12 @@ class OneAnswer(EmptyFolder):
 
     def test_a_mesh_is_read_once(self):
         """Its file is a pipe, which gives its bytes to the first reader alone."""
-        import os
-        import threading
         pipe = self.path("body.stl")
         for command in ("sequence", "simulate", "compare"):
             os.mkfifo(pipe)
-            writer = threading.Thread(target=lambda: open(pipe, "w", encoding="utf-8").write(TETRAHEDRON))
+            writer = threading.Thread(target=self.write, args=("body.stl", TETRAHEDRON))
             writer.start()
-            scene = self.write("scene.toml", "[drop]\nangle_deg = 10\n[body]\nshape = 'mesh'\nmass = 1\nmesh = { file = 'body.stl' }\n"
+            scene = self.write("scene.toml", "[drop]\nangle_deg = 20\ntilt_deg = 10\n[body]\nshape = 'mesh'\nmass = 1\nmesh = { file = 'body.stl' }\n"
                                "[ground]\nstiffness = 1e8\n[run]\nimpacts = 1\n")
             self.assertGreater(answer(command, scene)["body"]["mass"], 0)
             writer.join()

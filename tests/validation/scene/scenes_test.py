@@ -116,7 +116,7 @@ class Keys(Folder):
         text = self.run_program("keys").stdout
         self.assertLessEqual(max(map(len, text.splitlines())), 80)
         self.assertIn("drop.angle_deg  --angle  (required)", text)
-        self.assertIn("world.gravity  --gravity  (9.81)", text)
+        self.assertIn("world.gravity  --gravity  (0)", text)
 
     def test_every_format_has_every_key(self):
         for form in ("csv", "markdown", "latex"):
