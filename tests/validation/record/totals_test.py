@@ -66,7 +66,7 @@ class Sums(Base):
         self.assertIsNone(self.json("simulate", TUMBLING)["total_normal_impulse_error"])
 
     def test_a_sum_of_the_continuous_model_is_unknown_even_where_the_runs_stay_together(self):
-        run = self.json("simulate", "phone-elastic", "--angle", "4.06", "--digits", "11", "--impacts", "11", "--planar")
+        run = self.json("simulate", "phone-elastic", "--angle", "4.08", "--digits", "11", "--impacts", "11", "--planar")
         last = run["impacts"][-1]
         self.assertFalse(last["predictable"])
         for impact in run["impacts"]:  # by so much two runs differ, which says little of the last
@@ -167,7 +167,8 @@ class Columns(Base):
                 self.assertLessEqual(float(row[f"{name}_error"]), 1e-2 * float(row[name]), name)
 
     def test_a_sweeps_errors_are_empty_where_unknown_and_absent_where_not_asked_for(self):
-        sweep = ["sweep", PHONE, "--model", "discrete", "--set", "drop.angle_deg=33", "--set", "run.impacts=2:62:60"]
+        sweep = ["sweep", PHONE, "--model", "discrete", "--set", "drop.angle_deg=33", "--set", "run.impacts=2:62:60",
+                 "--set", "impact.restitution=1", "--set", "impact.friction=0"]  # on the ground's damping errors stay small
         known, unknown = self.rows(*sweep)
         self.assertEqual((known["predictable"], unknown["predictable"]), ("true", "false"))
         self.assertGreater(float(known["total_normal_impulse_error"]), 0)
@@ -233,7 +234,7 @@ class Shortfalls(Base):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "scene.toml")
             with open(path, "w", encoding="utf-8") as file:
-                file.write("[ground]\nstiffness = 1e8\ndamping = 1e13\n[run]\nimpacts = 3\nevaluation_limit = 20000\n"
+                file.write("[world]\ngravity = 9.81\n[ground]\nstiffness = 1e8\ndamping = 1e13\n[run]\nimpacts = 3\nevaluation_limit = 20000\n"
                            "[sweep]\nangle_deg = { from = 10, to = 20, step = 10 }\n")
             self.assertIn("2 of 2 values fall short; 10: ", self.short("simulate", path).stderr)
 
