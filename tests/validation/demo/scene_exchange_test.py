@@ -33,14 +33,15 @@ class SceneFiles(WithServer):
                 count += 1
         self.assertGreater(count, 10)
 
-    def test_a_scene_file_without_impact_keys_gets_those_of_its_ground_and_says_so(self):
+    def test_a_scene_file_without_impact_keys_keeps_the_law_of_its_ground(self):
         text = "[drop]\nangle_deg = 90\nheight = 2\n[ground]\nstiffness = 1e9\ndamping = 1e8\nsliding_friction = 0.3\n"
         opened = json.loads(self.demo.post("/api/scene", {"name": "own.toml", "text": text})[2])
-        self.assertEqual(len(opened["notes"]), 1)
+        self.assertEqual((opened["notes"], opened["arguments"]["restitution_law"]), ([], "viscoelastic"))
+        law = json.loads(self.demo.post("/api/sequence", opened["arguments"])[2])["scene"]["discrete_law"]
         # The exact relation of one frictionless contact: ln[(1 + s)/(1 - s e)] = s (1 + e), s = (c/k) v.
-        e, s = opened["arguments"]["restitution"], 1e8 / 1e9 * math.sqrt(2 * 9.81 * (2 - 0.5))
+        e, s = law["restitution"], 1e8 / 1e9 * math.sqrt(2 * 9.81 * (2 - 0.5))
         self.assertLess(abs(math.log((1 + s) / (1 - s * e)) - s * (1 + e)), 1e-14)
-        self.assertEqual(opened["arguments"]["friction"], 0.3)
+        self.assertEqual((law["friction"], law["friction_from"]), (0.3, "ground.sliding_friction"))
         opened = json.loads(self.demo.post("/api/scene", {"name": "own.toml", "text": text + "[impact]\nrestitution = 1\n"})[2])
         self.assertEqual((opened["notes"], opened["arguments"]["restitution"], "friction" in opened["arguments"]), ([], 1, False))
 

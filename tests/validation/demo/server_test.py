@@ -131,7 +131,7 @@ class Refusals(WithServer):
                 ("angles", {"count": 1000000}, "count 1000000"), ("explain", {"angle": 10}, "impact ''"),
                 ("simulate", {"angle": 10}, "ground.stiffness: required"), ("simulate", {"case": "phone-dampd"}, "case 'phone-dampd'"),
                 ("simulate", {"case": "../cases/rod-45"}, "case '../cases/rod-45'"), ("simulate", {"case": "rod-sweep"}, "sweeps"),
-                ("sequence", {"case": "phone-corer"}, "did you mean phone-corner?"), ("explain", {"case": "rod-friction-sweep", "impact": 1}, "sweeps"),
+                ("sequence", {"case": "phone-corer"}, "did you mean phone-corner?"), ("explain", {"case": "rod-friction-sweep", "impact": 1}, "must be left out here; give friction"),
                 ("sequence", {"case": "../cases/rod-45"}, "case '../cases/rod-45'"),
                 ("compare", {"angle": 10, "stiffness": -1}, "stiffness '-1'"),
                 ("scene", {}, "scene file: drop.angle_deg: required"), ("scene", {"name": "a\nb", "text": "x"}, "scene file:1:"),

@@ -43,8 +43,8 @@ export const SCENES: readonly Scene[] = [
 /** So much of a scene fits into an offline copy of 2 MB: a phone's contacts and flights take many samples. */
 const OFFLINE: Readonly<Record<string, { angles: number[]; impacts: number }>> = {
   rod: { angles: [5, 10, 15, 20, 25, 30, 45, 60], impacts: 3 },
-  "rod-gravity": { angles: [5, 10, 20, 30, 45, 60], impacts: 3 },
-  "thick-rod": { angles: [10, 20, 30, 45], impacts: 3 },
+  "rod-gravity": { angles: [5, 10, 20, 45], impacts: 3 },
+  "thick-rod": { angles: [10, 30], impacts: 3 },
   "phone-damped": { angles: [10, 20, 30], impacts: 3 },
   "phone-elastic": { angles: [10, 30], impacts: 2 },
   "phone-corner": { angles: [30], impacts: 2 },
