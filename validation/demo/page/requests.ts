@@ -36,7 +36,9 @@ export function explainRequest(parameters: Parameters, impact: number): Request 
 export function simulateRequest(parameters: Parameters): Request {
   const body = { ...drop(parameters), ...shape(parameters), ...ground(parameters) };
   const run = { digits: CONTINUOUS_DIGITS, planar: parameters.planar && isInPlane(parameters), history: true };
-  return { path: "simulate", body: { ...body, ...run, ...parameters.extra } };
+  // A law that relates a coefficient goes with it, in the scene of either model.
+  const law = "restitution_law" in parameters.extra ? { restitution: parameters.e } : {};
+  return { path: "simulate", body: { ...body, ...run, ...law, ...parameters.extra } };
 }
 
 /** A scene file of what both models are asked. */
