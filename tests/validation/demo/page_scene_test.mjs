@@ -17,7 +17,7 @@ const SCENES = {
   rod: '[drop]\nangle_deg = 17.25\nspeed = 2\nspin = 0.5\ntangential_velocity = -0.25\n[world]\ngravity = 3.5\n[impact]\nrestitution = 0.875\n'
     + 'friction = 0.125\n[body]\nmass = 0.5\nlength = 0.75\nradius = 0.03\n[ground]\nstiffness = 2e9\ndamping = 1e7\nsliding_friction = 0.125\n'
     + '[run]\nimpacts = 3\n',
-  attitude: `[drop]\nattitude = [0.8, 0.36, -0.48, 0]\nvelocity = [0.25, 0.125, -1.5]\nangular_velocity = [1, -2, 0.5]\n[impact]\nrestitution = 0.7\n`
+  attitude: `[drop]\nattitude = [0.8, 0.36, -0.48, 0]\nvelocity = [0.25, 0.125, -1.5]\nangular_velocity = [1, -2, 0.5]\n[world]\ngravity = 9.81\n[impact]\nrestitution = 0.7\n`
     + `law = "stronge"\nfriction = 0.4\n${BOX}centre = [0.01, 0.002, 0]\ninertia = [1e-4, 4e-4, 4.5e-4]\n[ground]\nstiffness = 1e9\n`
     + 'static_friction = 0.5\nsliding_friction = 0.3\narea = "projected"\n[run]\nimpacts = 2\n',
   corner: `[drop]\norientation = 20\nheight = 0.4\n[impact]\nrestitution = 0.5\n${BOX}[ground]\nstiffness = 1e9\n[run]\nimpacts = 2\n`,
