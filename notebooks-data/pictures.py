@@ -223,7 +223,7 @@ def draw_strip(axes, place, rows, shades):
 CORNERS = Source("corner_sequence.csv", ("sequence", "phone-corner"),
                  ("n", "corners", "place_x", "place_y", "place_z", "attitude_q0", "attitude_q1", "attitude_q2", "attitude_q3",
                   "start", "impulse_normal"))
-VIEW = np.radians([-60, 18])  # azimuth and elevation from which the drop is seen
+VIEW = np.radians([-60, 0])  # azimuth and elevation from which the drop is seen: level, so that heights are true
 FACES = [(axis, side) for axis in range(3) for side in (-1, 1)]
 
 
@@ -245,7 +245,7 @@ def seen(points):
 def corner_sequence(data):
     """A phone on its corner: its attitude at each impact, the corner that strikes and the impulse."""
     table = Table.read(data / "figures" / CORNERS.file)
-    figure = new_figure(9.6, 3.2)
+    figure = new_figure(9.6, 3.6)
     axes = figure.subplots()
     axes.axhline(0, color=INK, linewidth=0.8)
     for i in range(len(table["n"])):
@@ -255,8 +255,8 @@ def corner_sequence(data):
         draw_struck_box(axes, place, attitude, corner, table["impulse_normal"][i] / max(table["impulse_normal"]))
         axes.annotate(f"impact {table['n'][i]:.0f}, corner {table['corners'][i]}\n{1e3 * table['start'][i]:.3g} ms, "
                       f"{table['impulse_normal'][i]:.3g} N·s", (140 * i, -8), ha="center", va="top")
-    axes.set(aspect="equal", xlim=(-75, 140 * i + 75), ylim=(-32, 90), xlabel="along the page, one drop beside the other [mm]",
-             ylabel="height on the page [mm]")
+    axes.set(aspect="equal", xlim=(-75, 140 * i + 75), ylim=(-34, 125), xlabel="across, one drop beside the other [mm]",
+             ylabel="height [mm]")
     axes.plot([], [], color=RED, marker="o", markersize=4, label="corner that strikes, and its normal impulse Pₙ")
     panel_legend(axes)
     axes.grid(False)
