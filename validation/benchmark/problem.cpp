@@ -45,7 +45,7 @@ Problem read_problem(const EmbeddedFile& file) {
   problem.gaps = values.numbers("problem.gaps", {1, 2, 3, 4, 5, 6, 7, 8}, positive, "heights in m");
   problem.tolerances = values.numbers("problem.tolerances", {4}, positive, "four errors");
   if (values.has("problem.until")) problem.until = values.number("problem.until", 0, positive);
-  problem.scene = read_discrete_scene(values, {});
+  problem.scene = read_discrete_scene(values, {}).scene;
   problem.scene_text = file.text.substr(file.text.find("[drop]"));
   return problem;
 }

@@ -36,11 +36,11 @@ bool has_scene(const SceneFlags& given) {
 }
 
 /// What the address of the page ends with: nothing, or the scene given.
-std::string query_of(SceneFlags given) {
+std::string query_of(const SceneFlags& given) {
   if (!has_scene(given)) return "";
   // Flags alone describe a drop of the discrete model, unless they give a ground.
-  if (given.source.empty() && !is_given(given, "--stiffness")) given.model = Model::discrete;
-  return page_query(read_scene_flags(given));
+  const bool is_discrete = given.source.empty() && !is_given(given, "--stiffness");
+  return page_query(is_discrete ? read_discrete_flags(given).scene : read_scene_flags(given));
 }
 
 void require_page() {

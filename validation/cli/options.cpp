@@ -105,8 +105,11 @@ void add_scene_flags(Command& command, SceneFlags& given, Model model) {
 
 Scene read_scene_flags(const SceneFlags& given) {
   const SceneValues values = scene_values(given.source);
-  if (given.model == Model::discrete) return read_discrete_scene(values, overrides_of(given));
   return read_scene(values, overrides_of(given), given.model);
+}
+
+PreparedScene read_discrete_flags(const SceneFlags& given) {
+  return read_discrete_scene(scene_values(given.source), overrides_of(given));
 }
 
 bool is_given(const SceneFlags& given, const std::string& name) { return given.texts.at(name).has_value(); }

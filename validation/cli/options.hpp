@@ -11,6 +11,7 @@
 #include "validation/figures/picture.hpp"
 #include "validation/output/report.hpp"
 #include "validation/output/sink.hpp"
+#include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/option_values.hpp"
 #include "validation/scene/rod_parameters.hpp"
 #include "validation/scene/scene.hpp"
@@ -62,6 +63,8 @@ void add_scene_argument(Command& command, std::string& source, bool required);
 void add_scene_flags(Command& command, SceneFlags& flags, Model model = Model::continuous);
 /// @throws BadInput with one line.
 [[nodiscard]] Scene read_scene_flags(const SceneFlags& flags);
+/// For `sequence` and `explain`.  @throws as read_discrete_scene
+[[nodiscard]] PreparedScene read_discrete_flags(const SceneFlags& flags);
 /// Whether the flag ("--history") was typed.
 [[nodiscard]] bool is_given(const SceneFlags& flags, const std::string& name);
 

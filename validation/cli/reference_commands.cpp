@@ -235,7 +235,7 @@ std::vector<Column> angles_all() {
 /// In the plane, and what comes to them in space.
 std::vector<Column> sequence_all() {
   std::vector<Column> all = sequence_columns();
-  for (const Column& column : impact_columns<SpaceRow>({})) {
+  for (const Column& column : impact_columns(RunModel::space, {})) {
     const auto is_it = [&](const Column& other) { return other.name == column.name; };
     if (std::none_of(all.begin(), all.end(), is_it)) all.push_back(column);
   }

@@ -22,24 +22,23 @@ struct SequenceInput {
   std::optional<std::string> window;
 };
 
-template <class Sequence>
-int status_of(const Scene& scene, const Sequence& sequence) {
-  const std::string why = shortfall(scene, sequence);
+int status_of(const Scene& scene, const Run& run) {
+  const std::string why = shortfall(scene, run);
   if (why.empty()) return 0;
   say(why);
-  return shortfall_status(sequence.outcome);
+  return shortfall_status(run);
 }
 
 /// @throws BadInput if the window holds none of the sequence's times.
-Picture picture_of(const Scene& scene, const DiscreteRun& run, const std::optional<std::string>& window) {
-  const Picture picture = sequence_picture(scene, run, read_window(window));
+Picture picture_of(const PreparedScene& prepared, const DiscreteRun& found, const std::optional<std::string>& window) {
+  const Picture picture = sequence_picture(prepared, found, read_window(window));
   if (picture.panels.front().rows.size() < 2)
     throw BadInput(fmt::format("--window {}: must hold times of the sequence", *window));
   return picture;
 }
 
 int run_sequence(const SequenceInput& input) {
-  const Scene scene = read_scene_flags(input.scene);
+  const PreparedScene prepared = read_discrete_flags(input.scene);
   const OutputChoice choice = read_output(input.output);
   const SequenceMethod method = read_sequence_method(input.method.value_or("auto"));
   static_cast<void>(read_window(input.window));
@@ -48,13 +47,15 @@ int run_sequence(const SequenceInput& input) {
   }
   check_files(choice, plot_files(input.plot));
   PlotFile plot(input.plot);
-  const DiscreteRun run = run_discrete(scene, method);
-  for (const std::string& warning : run.warnings()) say(warning);
+  const DiscreteRun found = run_discrete(prepared, method);
+  for (const std::string& warning : found.run.warnings) say(warning);
   std::optional<Picture> picture;
-  if (plot.is_wanted()) picture = picture_of(scene, run, input.window);
-  write_report(choice, sequence_report(scene, run));
-  if (picture) plot.write(*picture, run_words("sequence", "impact sequence, discrete model", scene, Model::discrete));
-  return std::visit([&](const auto& sequence) { return status_of(scene, sequence); }, run.sequence);
+  if (plot.is_wanted()) picture = picture_of(prepared, found, input.window);
+  write_report(choice, sequence_report(prepared, found));
+  if (picture) {
+    plot.write(*picture, run_words("sequence", "impact sequence, discrete model", prepared.scene, Model::discrete));
+  }
+  return status_of(prepared.scene, found.run);
 }
 
 }  // namespace

@@ -111,7 +111,7 @@ MotionNumbers allowance(const LimitRow& limit, const SequenceImpact& impact, con
 
 /// The estimates, unknown in a row that cannot be predicted.
 MotionNumbers error_of(const ImpactRecord& record) {
-  MotionNumbers error = motion_errors(record);
+  MotionNumbers error = motion_numbers(impact_of(record).error);
   if (!record.predictable) error.fill(std::numeric_limits<double>::infinity());
   return error;
 }
@@ -131,7 +131,7 @@ void add_impact(Comparison& comparison, double radius, std::size_t i) {
     impact.as_given_error = comparison.as_given->impacts[i].errors;
   }
   if (i < records.size()) {
-    impact.continuous = motion_numbers(records[i]);
+    impact.continuous = motion_numbers(impact_of(records[i]).value);
     impact.continuous_error = error_of(records[i]);
     impact.continuous_end = contact_name(side, records[i].end, records[i].place, radius);
     impact.contact_time = records[i].value.duration;
@@ -234,11 +234,10 @@ std::string shortfall_of(const Comparison& comparison, const Scene& scene) {
 
 /// The sequence of the body as given and, where the mesh has other corners, that of these.
 void find_discrete_sides(Comparison& comparison, const Scene& scene, const numeric::Body& body) {
-  const bool is_mesh = scene.body.shape == BodyScene::Shape::mesh;
-  const DiscreteDrop drop = is_mesh ? mesh_drop(scene, body) : discrete_drop(scene);
+  const DiscreteDrop drop = discrete_drop(scene, body);
   comparison.approach_speed = first_approach_speed(drop);
   comparison.discrete = discrete_side(scene, drop);
-  if (is_mesh) return;
+  if (scene.body.shape == BodyScene::Shape::mesh) return;
   const DiscreteDrop of_mesh = mesh_drop(scene, body);
   if (!has_other_corners(drop, of_mesh)) return;
   comparison.as_given = std::move(comparison.discrete);

@@ -53,8 +53,9 @@ bool is_open_face(const ImpactRow& row) {
 
 SequenceImpact planar_impact(const analytic::Drop& drop, const ImpactRow& row) {
   const ImpactMode mode = row.impact.mode;
-  SequenceImpact impact{.numbers = motion_numbers(row),
-                        .errors = motion_errors(row),
+  const Impact found = impact_of(row);
+  SequenceImpact impact{.numbers = motion_numbers(found.value),
+                        .errors = motion_numbers(found.error),
                         .end = end_of(drop.body, row),
                         .place = {},
                         .amplification = row.amplification,
@@ -73,14 +74,15 @@ SequenceImpact planar_impact(const analytic::Drop& drop, const ImpactRow& row) {
 
 DiscreteSide planar_side(const Scene& scene, const analytic::Drop& drop) {
   const analytic::Sequence sequence = impact_sequence(drop, {.impacts = scene.request.impacts});
-  DiscreteSide side{.in_space = false,
-                    .corners = {},
-                    .quantities = plane_quantities,
-                    .impacts = {},
-                    .scales = comparison_scales(sequence, drop.body),
-                    .outcome = sequence.outcome,
-                    .message = sequence.message,
-                    .predict = [drop, sequence](const auto& times) { return predicted_sizes(drop, sequence, times); }};
+  DiscreteSide side{
+      .in_space = false,
+      .corners = {},
+      .quantities = plane_quantities,
+      .impacts = {},
+      .scales = comparison_scales(run_of(sequence).impacts, {.reach = drop.body.reach(), .mass = drop.body.mass}),
+      .outcome = sequence.outcome,
+      .message = sequence.message,
+      .predict = [drop, sequence](const auto& times) { return predicted_sizes(drop, sequence, times); }};
   bool after_face = false;
   for (const ImpactRow& row : sequence.rows) {
     SequenceImpact& impact = side.impacts.emplace_back(planar_impact(drop, row));
@@ -139,8 +141,9 @@ SequenceImpact space_impact(const Scene& scene, const space::Drop& drop, const s
     names += (names.empty() ? "" : " ") + corner_name(scene, corner);
   }
   const PathKind path = row.impact.path;
-  SequenceImpact impact{.numbers = motion_numbers(row),
-                        .errors = motion_errors(row),
+  const Impact found = impact_of(row);
+  SequenceImpact impact{.numbers = motion_numbers(found.value),
+                        .errors = motion_numbers(found.error),
                         .end = names,
                         .place = place,
                         .amplification = row.amplification,
@@ -158,14 +161,15 @@ SequenceImpact space_impact(const Scene& scene, const space::Drop& drop, const s
 
 DiscreteSide space_side(const Scene& scene, const space::Drop& drop) {
   const space::Sequence sequence = impact_sequence(drop, {.impacts = scene.request.impacts});
-  DiscreteSide side{.in_space = true,
-                    .corners = {},
-                    .quantities = space_quantities,
-                    .impacts = {},
-                    .scales = comparison_scales(sequence, drop.body),
-                    .outcome = sequence.outcome,
-                    .message = sequence.message,
-                    .predict = [drop, sequence](const auto& times) { return predicted_sizes(drop, sequence, times); }};
+  DiscreteSide side{
+      .in_space = true,
+      .corners = {},
+      .quantities = space_quantities,
+      .impacts = {},
+      .scales = comparison_scales(run_of(sequence).impacts, {.reach = drop.body.reach(), .mass = drop.body.mass}),
+      .outcome = sequence.outcome,
+      .message = sequence.message,
+      .predict = [drop, sequence](const auto& times) { return predicted_sizes(drop, sequence, times); }};
   for (std::size_t i = 0; i < drop.body.vertices.size(); ++i) {
     const space::Corner corner{.index = static_cast<int>(i), .place = drop.body.vertices[i]};
     side.corners.push_back({corner.place, corner_name(scene, corner)});

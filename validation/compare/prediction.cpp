@@ -52,7 +52,8 @@ void add_difference(const AnySequence& base, const AnySequence& other, std::size
     MotionNumbers apart;
     apart.fill(unknown_error);
     if (same) {
-      const MotionNumbers a = motion_numbers(base.rows[i]), b = motion_numbers(other.rows[i]);
+      const MotionNumbers a = motion_numbers(impact_of(base.rows[i]).value),
+                          b = motion_numbers(impact_of(other.rows[i]).value);
       for (std::size_t q = 0; q < motion_number_count; ++q) apart[q] = std::fabs(b[q] - a[q]);
     }
     for (std::size_t q = i == 0 ? 2 : 0; q < motion_number_count; ++q) {  // time and angle of a contact are before it

@@ -68,7 +68,7 @@ double growth(const Simulation& run, std::size_t row) {
 /// discrete model says.
 MotionNumbers error_of_runs(const Simulation& stiffest, std::size_t row, double weight, const LimitRequest& request,
                             const MotionNumbers& size) {
-  const MotionNumbers estimates = motion_errors(stiffest.impacts[row]);
+  const MotionNumbers estimates = motion_numbers(impact_of(stiffest.impacts[row]).error);
   const double most = request.planar ? weight * run_error * growth(stiffest, row)
                                      : weight * space_run_error * std::max(request.amplification[row], 1.0);
   MotionNumbers errors{};
@@ -104,7 +104,7 @@ LimitRow extrapolate(const std::vector<Simulation>& ladder, std::size_t row, Ext
   for (int j = 0; j < runs_of_a_limit; ++j) {
     const Simulation& run = ladder[static_cast<std::size_t>(j)];
     x[j] = run.impacts[0].value.duration;
-    const MotionNumbers numbers = motion_numbers(run.impacts[row]);
+    const MotionNumbers numbers = motion_numbers(impact_of(run.impacts[row]).value);
     for (std::size_t q = 0; q < motion_number_count; ++q) y(static_cast<int>(q), j) = numbers[q];
   }
   const Powers powers = powers_of(ladder, row, at.exponent);

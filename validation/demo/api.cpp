@@ -74,24 +74,25 @@ std::optional<SceneValues> case_values(NamedTexts& texts) {
   return SceneValues("scene", case_text(name), scene_keys());
 }
 
-/// What a page can show.
-Scene shown(Scene scene) {
+/// @throws BadInput for what a page cannot show
+void require_drawable(const Scene& scene) {
   if (scene.body.shape == BodyScene::Shape::mesh)
     throw BadInput("body 'mesh': must be rod or box; a page can name no file");
   if (scene.sweep) throw BadInput("case: sweeps a quantity; give another");
   limit("impacts", scene.request.impacts, most_impacts);
-  return scene;
 }
 
 /// The case or flags alone, with the arguments in it; in the plane or in space.
-Scene discrete_scene(NamedTexts texts) {
+PreparedScene discrete_scene(NamedTexts texts) {
   const std::optional<SceneValues> given = case_values(texts);
-  return shown(read_discrete_scene(given ? *given : scene_values(""), scene_overrides(texts)));
+  PreparedScene prepared = read_discrete_scene(given ? *given : scene_values(""), scene_overrides(texts));
+  require_drawable(prepared.scene);
+  return prepared;
 }
 
 Value sequence(NamedTexts texts) {
-  const Scene scene = discrete_scene(std::move(texts));
-  return sequence_report(scene, run_discrete(scene, SequenceMethod::automatic)).fields;
+  const PreparedScene prepared = discrete_scene(std::move(texts));
+  return sequence_report(prepared, run_discrete(prepared, SequenceMethod::automatic)).fields;
 }
 
 Value explain(NamedTexts texts) {
@@ -108,8 +109,9 @@ Value angles(NamedTexts texts) {
 /// The case or an empty scene, with the arguments in it.
 Scene continuous_scene(NamedTexts texts) {
   const std::optional<SceneValues> given = case_values(texts);
-  Scene scene = shown(
-      read_scene(given ? *given : SceneValues("scene", "", scene_keys()), scene_overrides(texts), Model::continuous));
+  Scene scene =
+      read_scene(given ? *given : SceneValues("scene", "", scene_keys()), scene_overrides(texts), Model::continuous);
+  require_drawable(scene);
   scene.accuracy.evaluation_limit = std::min<long>(scene.accuracy.evaluation_limit, most_evaluations);
   return scene;
 }

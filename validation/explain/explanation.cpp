@@ -14,14 +14,14 @@
 namespace clatter::validation::inline explain {
 namespace {
 
-template <class AnySequence>
-Step missing_impact(const AnySequence& sequence, int n) {
-  const std::size_t have = sequence.rows.size();
+/// Why impact n of a run does not happen.
+Step missing_impact(const Run& run, int n) {
+  const std::size_t have = run.impacts.size();
   Step step{fmt::format("Impact {} does not happen", n),
-            {fmt::format("The sequence has {} impact{}. It ends with {}: {}.", have, have == 1 ? "" : "s",
-                         outcome_name(sequence.outcome), sequence.message)}};
-  const analytic::NearMiss& miss = sequence.near_miss;
-  if (sequence.outcome != analytic::Outcome::no_further_impact || !std::isfinite(miss.clearance)) return step;
+            {fmt::format("The sequence has {} impact{}. It ends with {}: {}.", have, have == 1 ? "" : "s", run.outcome,
+                         run.message)}};
+  if (!run.near_miss || !std::isfinite(run.near_miss->clearance)) return step;
+  const analytic::NearMiss& miss = *run.near_miss;
   step.equations.push_back({.quantity = number("h_least", miss.clearance, "m", miss.margin),
                             .words = {"clearance, the least height of a vertex at a turning point"}});
   step.equations.push_back(
@@ -41,25 +41,24 @@ std::string restitution_words(const analytic::ImpactLaw& law) {
 
 }  // namespace
 
-Explanation explain_impact(Scene scene, const DiscreteDrop& drop, int n) {
+Explanation explain_impact(const PreparedScene& prepared, int n) {
+  Scene scene = prepared.scene;
   scene.request.impacts = std::max(scene.request.impacts, n);
-  const auto explained = [&](const auto& chosen) -> Explanation {
-    const auto sequence = impact_sequence(chosen, {.impacts = n, .digits = scene.accuracy.digits});
+  const auto explained = [&](const auto& drop) -> Explanation {
+    const auto sequence = impact_sequence(drop, {.impacts = n, .digits = scene.accuracy.digits});
+    const Run run = run_of(sequence);
     const bool has_impact = static_cast<std::size_t>(n) <= sequence.rows.size();
     const bool falls_short = scene.require_digits || !has_impact;
-    return {
-        .scene = scene,
-        .impact = n,
-        .approach_speed = first_approach_speed(drop),
-        .steps = has_impact ? impact_steps(scene, chosen, sequence, n) : std::vector<Step>{missing_impact(sequence, n)},
-        .warnings = sequence.warnings,
-        .shortfall = falls_short ? shortfall(scene, sequence) : "",
-        .shortfall_status = shortfall_status(sequence.outcome)};
+    return {.scene = scene,
+            .impact = n,
+            .approach_speed = first_approach_speed(prepared.drop),
+            .steps = has_impact ? impact_steps(scene, drop, sequence, n) : std::vector<Step>{missing_impact(run, n)},
+            .warnings = sequence.warnings,
+            .shortfall = falls_short ? shortfall(scene, run) : "",
+            .shortfall_status = shortfall_status(run)};
   };
-  return std::visit(explained, drop);
+  return std::visit(explained, prepared.drop);
 }
-
-Explanation explain_impact(const Scene& scene, int n) { return explain_impact(scene, discrete_drop(scene), n); }
 
 Quantity number(const Symbol& symbol, double value, const std::string& unit, double error, double size) {
   return {symbol, Eigen::MatrixXd::Constant(1, 1, value), unit, error, size};

@@ -25,8 +25,6 @@ struct Explanation {
 /// Steps that lead to impact n of the drop (n >= 1), or to the reason why it does not happen.  The numbers are those of
 /// its sequence.
 /// @throws as analytic::impact_sequence and analytic::space::impact_sequence
-[[nodiscard]] Explanation explain_impact(Scene scene, const DiscreteDrop& drop, int n);
-/// The same for the drop of the scene.  @throws as discrete_drop(), too
-[[nodiscard]] Explanation explain_impact(const Scene& scene, int n);
+[[nodiscard]] Explanation explain_impact(const PreparedScene& prepared, int n);
 
 }  // namespace clatter::validation::inline explain

@@ -96,8 +96,7 @@ void ModelHierarchy::find_discrete() {
   std::string &in_plane = against_[index(ModelLevel::discrete)],
               &in_space = against_[index(ModelLevel::discrete_in_space)];
   try {
-    const bool is_mesh = scene_.body.shape == BodyScene::Shape::mesh;
-    const DiscreteDrop drop = is_mesh ? mesh_drop(scene_, body_) : discrete_drop(scene_);
+    const DiscreteDrop drop = discrete_drop(scene_, body_);
     if (const auto* const planar = std::get_if<analytic::Drop>(&drop)) {
       drop_ = *planar;
       in_space = "the drop stays in its plane, where the discrete model gives the same";
@@ -143,19 +142,19 @@ Simulation ModelHierarchy::simulate(const LevelSetting& setting, int impacts) co
 LevelResult ModelHierarchy::run(const LevelSetting& setting, int impacts) const {
   if (setting.level == ModelLevel::closed_form) {
     const analytic::Sequence sequence = closed_form_sequence(*thin_rod_, impacts);
-    return {motion_rows(sequence), 0, sequence.message};
+    return {motion_rows(run_of(sequence)), 0, sequence.message};
   }
   if (setting.level == ModelLevel::discrete) {
     const analytic::Sequence sequence = impact_sequence(*drop_, {.impacts = impacts, .amplification = false});
-    return {motion_rows(sequence), sequence.root_evaluations, sequence.message};
+    return {motion_rows(run_of(sequence)), sequence.root_evaluations, sequence.message};
   }
   if (setting.level == ModelLevel::discrete_in_space) {
     const analytic::space::Sequence sequence =
         impact_sequence(*space_drop_, {.impacts = impacts, .amplification = false});
-    return {motion_rows(sequence), sequence.evaluations, sequence.message};
+    return {motion_rows(run_of(sequence)), sequence.evaluations, sequence.message};
   }
   const Simulation run = simulate(setting, impacts);
-  return {motion_rows(run), run.force_evaluations, std::string(outcome_name(run.outcome)) + ": " + run.message};
+  return {motion_rows(run_of(run)), run.force_evaluations, std::string(outcome_name(run.outcome)) + ": " + run.message};
 }
 
 Truth true_values(const ModelHierarchy& hierarchy, double trusted) {
@@ -170,7 +169,7 @@ Truth true_values(const ModelHierarchy& hierarchy, double trusted) {
   const Simulation other = hierarchy.simulate(coarser, impacts);
   truth.sizes = motion_sizes(run, run.impacts.size(), hierarchy.body());
   truth.contact_time = run.impacts[0].value.duration;
-  const auto rows = motion_rows(run), others = motion_rows(other);
+  const auto rows = motion_rows(run_of(run)), others = motion_rows(run_of(other));
   for (std::size_t i = 0; i < std::min(rows.size(), others.size()); ++i) {
     const double error = row_distance(rows[i], others[i], truth.sizes);
     if (!(error <= trusted) || run.impacts[i].end != other.impacts[i].end) break;

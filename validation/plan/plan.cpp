@@ -74,7 +74,7 @@ class Planner {
     plan_.cut_short = is_cut_short(finest.outcome);
     seconds_per_evaluation_ = seconds / static_cast<double>(finest.force_evaluations);
     if (finest.impacts.empty()) return;
-    truth_ = motion_rows(finest);
+    truth_ = motion_rows(run_of(finest));
     plan_.impacts = impacts();
     sizes_ = motion_sizes(finest, finest.impacts.size(), ladder_.body());
     for (const numeric::ImpactRecord& row : finest.impacts) contact_times_.push_back(row.value.duration);

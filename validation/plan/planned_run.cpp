@@ -43,7 +43,7 @@ void judge(const numeric::Body& body, PlannedRun& planned) {
   const MotionNumbers sizes = motion_sizes(planned.run, count, body);
   planned.achieved = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    planned.achieved = std::max(planned.achieved, row_distance(motion_errors(rows[i]), {}, sizes));
+    planned.achieved = std::max(planned.achieved, row_distance(motion_numbers(impact_of(rows[i]).error), {}, sizes));
   }
 }
 
@@ -99,7 +99,8 @@ class Runner {
     const MotionNumbers sizes = motion_sizes(finer, finer.impacts.size(), body_);
     double worst = 0;
     for (std::size_t i = 0; i < std::min(run.impacts.size(), finer.impacts.size()); ++i) {
-      const double apart = row_distance(motion_numbers(run.impacts[i]), motion_numbers(finer.impacts[i]), sizes);
+      const double apart = row_distance(motion_numbers(impact_of(run.impacts[i]).value),
+                                        motion_numbers(impact_of(finer.impacts[i]).value), sizes);
       if (!(apart <= different_ways)) break;
       worst = std::max(worst, apart);
     }

@@ -23,22 +23,22 @@ analytic::Sequence planar_sequence(const Scene& scene, const analytic::Drop& dro
   return closed_form_sequence(drop, scene.request.impacts, true);
 }
 
-}  // namespace
-
-const std::vector<std::string>& DiscreteRun::warnings() const {
-  return std::visit([](const auto& s) -> const std::vector<std::string>& { return s.warnings; }, sequence);
-}
-
-DiscreteRun run_discrete(const Scene& scene, SequenceMethod method) {
-  DiscreteDrop drop = discrete_drop(scene);
-  if (const auto* const planar = std::get_if<analytic::Drop>(&drop)) {
-    analytic::Sequence sequence = planar_sequence(scene, *planar, method);
-    return {std::move(drop), std::move(sequence)};
+DiscreteSequence sequence_of(const PreparedScene& prepared, SequenceMethod method) {
+  const Scene& scene = prepared.scene;
+  if (const auto* const planar = std::get_if<analytic::Drop>(&prepared.drop)) {
+    return planar_sequence(scene, *planar, method);
   }
   if (method == SequenceMethod::closed_form) throw BadInput("--method closed-form: the body moves in space");
-  analytic::space::Sequence sequence = impact_sequence(
-      std::get<analytic::space::Drop>(drop), {.impacts = scene.request.impacts, .digits = scene.accuracy.digits});
-  return {std::move(drop), std::move(sequence)};
+  return impact_sequence(std::get<analytic::space::Drop>(prepared.drop),
+                         {.impacts = scene.request.impacts, .digits = scene.accuracy.digits});
+}
+
+}  // namespace
+
+DiscreteRun run_discrete(const PreparedScene& prepared, SequenceMethod method) {
+  DiscreteSequence sequence = sequence_of(prepared, method);
+  Run run = named_run(prepared.scene, sequence, prepared.centre);
+  return {std::move(sequence), std::move(run)};
 }
 
 }  // namespace clatter::validation::inline plan

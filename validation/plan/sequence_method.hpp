@@ -17,18 +17,14 @@ enum class SequenceMethod {
 /// @throws BadInput naming the nearest of auto, closed-form and discrete.
 [[nodiscard]] SequenceMethod read_sequence_method(const std::string& name);
 
-/// A drop and its sequence, in the plane or in space: both the same.
+/// A sequence of the discrete model, and its record.
 struct DiscreteRun {
-  DiscreteDrop drop;
-  std::variant<analytic::Sequence, analytic::space::Sequence> sequence;
-
-  [[nodiscard]] const std::vector<std::string>& warnings() const;
-  /// The sequence if it is one in the plane.
-  [[nodiscard]] const analytic::Sequence* planar() const { return std::get_if<analytic::Sequence>(&sequence); }
+  DiscreteSequence sequence;
+  Run run;
 };
 
-/// Runs the scene.  Warnings are left in the sequence.
-/// @throws as discrete_drop and impact_sequence; BadInput if the closed form does not apply, with the reason.
-[[nodiscard]] DiscreteRun run_discrete(const Scene& scene, SequenceMethod method);
+/// Runs the scene.  Warnings are left in the run.
+/// @throws as impact_sequence; BadInput if the closed form does not apply, with the reason.
+[[nodiscard]] DiscreteRun run_discrete(const PreparedScene& prepared, SequenceMethod method);
 
 }  // namespace clatter::validation::inline plan

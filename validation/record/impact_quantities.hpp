@@ -6,40 +6,13 @@
 #include <cstddef>
 #include <span>
 #include <string>
-#include <type_traits>
 #include <variant>
 
-#include "analytic/plane/sequence.hpp"
-#include "analytic/space/sequence.hpp"
-#include "numeric/drop/impact_record.hpp"
+#include "validation/record/run.hpp"
 
 namespace clatter::validation::inline record {
 
-/// Impact n, counted from 1, of the discrete model.
-struct DiscreteRow {
-  const analytic::ImpactRow& row;
-  int n = 1;
-  double drop_deg = 0;  ///< inclination of the drop, which came in degrees [°]
-};
-
-/// Impact n, counted from 1, of the discrete model in space.
-struct SpaceRow {
-  const analytic::space::ImpactRow& row;
-  int n = 1;
-  std::string end{}, corners{};   ///< which end of the body strikes, and which of its corners
-  std::array<double, 3> place{};  ///< of the first corner, from the geometric centre (a mesh: in its file's frame) [m]
-};
-
-/// Impact n, counted from 1, of the continuous model.
-struct ContinuousRow {
-  const numeric::ImpactRecord& row;
-  int n = 1;
-  std::string corners{};  ///< which corners of the body touch first; empty: they have no names
-};
-
-using EntryVector = std::array<double, 3>;      ///< x, y, z
-using EntryParameters = std::array<double, 4>;  ///< Euler parameters, scalar first
-/// A quantity of one impact; nothing where the model has none, a number that is not finite where it is not to be had.
+/// A quantity of one impact; nothing where it has none, a number that is not finite where it is not to be had.
 using Entry = std::variant<std::nullptr_t, bool, int, double, std::string, EntryVector, EntryParameters>;
 
 /// What the numbers of one kind are measured by: one against which they count as zero.
@@ -47,11 +20,12 @@ enum class Scale { none, time, angle, impulse, speed, rate, energy, ratio };
 inline constexpr std::size_t scale_count = 8;
 using Scales = std::array<double, scale_count>;  ///< by Scale, in the units of the quantities; 0: not known
 
-/// How one model, or the tail of its sequence, knows a quantity; empty: it does not.
-template <class Impact>
-struct Getter {
-  Entry (*value)(const Impact&) = nullptr;
-  Entry (*error)(const Impact&) = nullptr;  ///< bound or estimate, not finite where not known
+/// What a model, or the tail of its sequence, knows of a quantity.
+enum class Known {
+  absent,      ///< it has no such column
+  empty,       ///< a column without values
+  value_only,  ///< the value without an error
+  with_error,  ///< the value and its error
 };
 
 struct ImpactQuantity {
@@ -59,28 +33,20 @@ struct ImpactQuantity {
   const char* symbol;  ///< in tables; of a vector those of its parts, x y z
   const char* unit;
   const char* meaning;
-  Scale scale = Scale::none;
-  Getter<DiscreteRow> discrete{};
-  Getter<SpaceRow> space{};
-  Getter<ContinuousRow> continuous{};
-  Getter<analytic::Tail> tail{};               ///< the sum of all further impacts of the discrete model
-  bool motion = false;                         ///< one of the MotionNumbers, which every model has
-  Getter<analytic::space::Tail> space_tail{};  ///< as `tail`, in space
+  Scale scale;
+  Known in_plane, in_space, continuous, tail;
+  Entry (*number)(const Numbers&);  ///< one of the numbers, and so of their errors; or none
+  Entry (*fact)(const Impact&);     ///< anything else
 
-  template <class Impact>
-  [[nodiscard]] const Getter<Impact>& of() const {
-    if constexpr (std::is_same_v<Impact, DiscreteRow>) return discrete;
-    else if constexpr (std::is_same_v<Impact, SpaceRow>) return space;
-    else if constexpr (std::is_same_v<Impact, ContinuousRow>) return continuous;
-    else if constexpr (std::is_same_v<Impact, analytic::Tail>) return tail;
-    else return space_tail;
-  }
+  [[nodiscard]] Known known_to(RunModel model) const;
+  [[nodiscard]] Entry value(const Impact& impact) const { return number ? number(impact.value) : fact(impact); }
+  /// Of a number only.
+  [[nodiscard]] Entry error(const Impact& impact) const { return number(impact.error); }
+  /// An entry of its kind, without meaning.
+  [[nodiscard]] Entry kind() const;
 };
 
 /// All of them, in the order of CSV and JSON.
 [[nodiscard]] std::span<const ImpactQuantity> impact_quantities();
-
-/// Tangential over normal impulse.
-[[nodiscard]] double impulse_ratio(const numeric::ImpactNumbers& numbers);
 
 }  // namespace clatter::validation::inline record

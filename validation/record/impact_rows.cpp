@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <sstream>
@@ -14,9 +15,6 @@
 
 namespace clatter::validation::inline record {
 namespace {
-
-using analytic::ImpactRow;
-using analytic::Tail;
 
 Value to_value(const Entry& entry) {
   return std::visit(
@@ -39,14 +37,6 @@ std::span<const double> list_of(const Entry& entry) {
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
-
-/// Rows to ask for the kinds of quantities.
-const ImpactRow some_row{};
-const analytic::space::ImpactRow some_flown{};
-const numeric::ImpactRecord some_record{};
-DiscreteRow some_impact(const DiscreteRow*) { return {some_row}; }
-SpaceRow some_impact(const SpaceRow*) { return {some_flown}; }
-ContinuousRow some_impact(const ContinuousRow*) { return {some_record}; }
 
 /// Columns that an entry of this kind takes.
 std::size_t width_of(const Entry& entry) { return std::max<std::size_t>(list_of(entry).size(), 1); }
@@ -104,40 +94,10 @@ void add_errors(const Entry& error, Row& row) {
   for (std::size_t part = 0; part < width_of(error); ++part) row.emplace_back(Value(part_of(error, part)));
 }
 
-/// Calls use(quantity, value, error) for each quantity of the impact; the error is unknown where there is none.
-template <class Impact, class Use>
-void for_each_quantity(const Impact& impact, Use&& use) {
-  for (const ImpactQuantity& quantity : impact_quantities()) {
-    const Getter<Impact>& get = quantity.of<Impact>();
-    if (get.value) use(quantity, get.value(impact), get.error ? get.error(impact) : Entry(unknown_error));
-  }
-}
-
-template <class Impact, class Use>
-void for_each_value(const Impact& impact, Use&& use) {
-  for (const ImpactQuantity& quantity : impact_quantities()) {
-    const Getter<Impact>& get = quantity.of<Impact>();
-    if (get.value) use(quantity, get.value(impact));
-  }
-}
-
-template <class Impact, class Use>
-void for_each_error(const Impact& impact, Use&& use) {
-  for (const ImpactQuantity& quantity : impact_quantities()) {
-    const Getter<Impact>& get = quantity.of<Impact>();
-    if (get.error) use(quantity, get.error(impact));
-  }
-}
-
-/// The entries of the tail in the places of an impact's.
-template <class AnyTail>
-Entry tail_entry(const Entry& kind, Entry (*get)(const AnyTail&), const AnyTail& tail) {
-  if (get) return get(tail);
-  switch (width_of(kind)) {
-    case 3: return EntryVector{unknown_error, unknown_error, unknown_error};
-    case 4: return EntryParameters{unknown_error, unknown_error, unknown_error, unknown_error};
-    default: return nullptr;
-  }
+/// What the model knows of a quantity of the impact; a tail knows less.
+Known known_of(const ImpactQuantity& quantity, RunModel model, const Impact& impact) {
+  const Known known = quantity.known_to(model);
+  return impact.is_tail ? std::min(known, quantity.tail) : known;
 }
 
 void append_part(std::string& out, double number) {
@@ -167,83 +127,68 @@ Cell ImpactDigits::cell(double value, double error, Scale scale) const {
   return known_cell({value, error}, {digits, scales[static_cast<std::size_t>(scale)]});
 }
 
-template <class Impact>
-std::vector<Column> impact_columns(const std::vector<std::string>& shown) {
-  std::vector<Column> columns;
-  const Impact impact = some_impact(static_cast<const Impact*>(nullptr));
-  for_each_quantity(impact, [&](const ImpactQuantity& quantity, const Entry& kind, const Entry&) {
-    add_columns(quantity, kind, shown, columns);
-  });
-  const std::size_t values = columns.size();
-  for_each_error(impact,
-                 [&](const ImpactQuantity& quantity, const Entry& kind) { add_columns(quantity, kind, {}, columns); });
-  for (std::size_t i = values; i < columns.size(); ++i) columns[i] = error_column(columns[i]);
+Scales scales_of(const Run& run, double reach) {
+  Scales scales{};
+  const auto grow = [&](Scale scale, double number) {
+    double& size = scales[static_cast<std::size_t>(scale)];
+    size = std::max(size, std::fabs(number));
+  };
+  grow(Scale::angle, 90);
+  grow(Scale::ratio, 1);
+  for (const Impact& impact : run.impacts) {
+    grow(Scale::speed, impact.largest_speed);
+    grow(Scale::rate, std::max(impact.largest_rate, impact.largest_speed / reach));
+    grow(Scale::time, impact.value.start);
+    for (const double part : impact.value.impulse) grow(Scale::impulse, part);
+    grow(Scale::energy, impact.value.energy_before);
+  }
+  return scales;
+}
+
+std::vector<Column> impact_columns(RunModel model, const std::vector<std::string>& shown) {
+  std::vector<Column> columns, errors;
+  for (const ImpactQuantity& quantity : impact_quantities()) {
+    const Known known = quantity.known_to(model);
+    if (known != Known::absent) add_columns(quantity, quantity.kind(), shown, columns);
+    if (known == Known::with_error) add_columns(quantity, quantity.kind(), {}, errors);
+  }
+  for (const Column& column : errors) columns.push_back(error_column(column));
   return columns;
 }
 
-template <class Impact>
-Row impact_row(const Impact& impact, const ImpactDigits& digits) {
-  Row row;
-  for_each_quantity(impact, [&](const ImpactQuantity& quantity, const Entry& value, const Entry& error) {
-    add_cells(quantity, value, error, digits, row);
-  });
-  for_each_error(impact, [&](const ImpactQuantity&, const Entry& error) { add_errors(error, row); });
+Row impact_row(const Impact& impact, RunModel model, const ImpactDigits& digits) {
+  Row row, errors;
+  for (const ImpactQuantity& quantity : impact_quantities()) {
+    const Known column = quantity.known_to(model), known = known_of(quantity, model, impact);
+    if (column == Known::absent) continue;
+    if (known >= Known::value_only) {
+      const Entry unknown(unknown_error), error = known == Known::with_error ? quantity.error(impact) : unknown;
+      add_cells(quantity, quantity.value(impact), error, digits, row);
+    } else {
+      row.resize(row.size() + width_of(quantity.kind()));
+    }
+    if (column != Known::with_error) continue;
+    if (known == Known::with_error) add_errors(quantity.error(impact), errors);
+    else errors.resize(errors.size() + width_of(quantity.kind()));
+  }
+  row.insert(row.end(), errors.begin(), errors.end());
   return row;
 }
 
-Row tail_row(const Tail& tail, const ImpactDigits& digits) {
-  Row row;
-  const DiscreteRow impact = some_impact(static_cast<const DiscreteRow*>(nullptr));
-  for_each_quantity(impact, [&](const ImpactQuantity& quantity, const Entry& kind, const Entry&) {
-    const Entry value = tail_entry(kind, quantity.tail.value, tail);
-    if (quantity.tail.value) add_cells(quantity, value, tail_entry(kind, quantity.tail.error, tail), digits, row);
-    else row.resize(row.size() + width_of(kind));
-  });
-  for_each_error(impact, [&](const ImpactQuantity& quantity, const Entry& kind) {
-    if (quantity.tail.error) add_errors(quantity.tail.error(tail), row);
-    else row.resize(row.size() + width_of(kind));
-  });
-  return row;
+void append_impact(std::string& out, const Impact& impact, const ImpactText& text) {
+  for (const ImpactQuantity& quantity : impact_quantities()) {
+    if (quantity.known_to(text.columns) == Known::absent) continue;
+    const bool is_known = known_of(quantity, text.model, impact) >= Known::value_only;
+    const bool is_asked = text.errors || quantity.name != std::string_view("predictable");
+    if (is_known && is_asked) append_entry(out, quantity.value(impact));
+    else append_nothing(out, quantity.kind());
+  }
+  for (const ImpactQuantity& quantity : impact_quantities()) {
+    if (quantity.known_to(text.columns) != Known::with_error) continue;
+    const bool is_known = known_of(quantity, text.model, impact) == Known::with_error;
+    if (is_known && text.errors) append_entry(out, quantity.error(impact));
+    else append_nothing(out, quantity.kind());
+  }
 }
-
-template <class Columns, class Impact>
-void append_impact(std::string& out, const Impact& impact, bool with_errors) {
-  const Columns columns = some_impact(static_cast<const Columns*>(nullptr));
-  for_each_value(columns, [&](const ImpactQuantity& quantity, const Entry& kind) {
-    const auto value = quantity.of<Impact>().value;
-    if (value && (with_errors || quantity.name != std::string_view("predictable"))) append_entry(out, value(impact));
-    else append_nothing(out, kind);
-  });
-  for_each_error(columns, [&](const ImpactQuantity& quantity, const Entry& kind) {
-    const auto error = quantity.of<Impact>().error;
-    if (error && with_errors) append_entry(out, error(impact));
-    else append_nothing(out, kind);
-  });
-}
-
-template <class Columns, class AnyTail>
-void append_tail(std::string& out, const AnyTail& tail, bool with_errors) {
-  const Columns columns = some_impact(static_cast<const Columns*>(nullptr));
-  for_each_value(columns, [&](const ImpactQuantity& quantity, const Entry& kind) {
-    append_entry(out, tail_entry(kind, quantity.of<AnyTail>().value, tail));
-  });
-  for_each_error(columns, [&](const ImpactQuantity& quantity, const Entry& kind) {
-    append_entry(out, tail_entry(kind, with_errors ? quantity.of<AnyTail>().error : nullptr, tail));
-  });
-}
-
-template std::vector<Column> impact_columns<DiscreteRow>(const std::vector<std::string>&);
-template std::vector<Column> impact_columns<SpaceRow>(const std::vector<std::string>&);
-template std::vector<Column> impact_columns<ContinuousRow>(const std::vector<std::string>&);
-template Row impact_row(const DiscreteRow&, const ImpactDigits&);
-template Row impact_row(const SpaceRow&, const ImpactDigits&);
-template Row impact_row(const ContinuousRow&, const ImpactDigits&);
-template void append_impact<DiscreteRow>(std::string&, const DiscreteRow&, bool);
-template void append_impact<SpaceRow>(std::string&, const DiscreteRow&, bool);
-template void append_impact<SpaceRow>(std::string&, const SpaceRow&, bool);
-template void append_impact<ContinuousRow>(std::string&, const ContinuousRow&, bool);
-template void append_tail<DiscreteRow>(std::string&, const analytic::Tail&, bool);
-template void append_tail<SpaceRow>(std::string&, const analytic::Tail&, bool);
-template void append_tail<SpaceRow>(std::string&, const analytic::space::Tail&, bool);
 
 }  // namespace clatter::validation::inline record

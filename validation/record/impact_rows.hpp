@@ -12,8 +12,7 @@ namespace clatter::validation::inline record {
 
 /// The columns of a model's quantities, then those of their errors as NAME_error.
 /// @param shown names of the columns that tables have
-template <class Impact>
-[[nodiscard]] std::vector<Column> impact_columns(const std::vector<std::string>& shown);
+[[nodiscard]] std::vector<Column> impact_columns(RunModel model, const std::vector<std::string>& shown);
 
 /// What tables show of an impact's numbers.
 struct ImpactDigits {
@@ -25,18 +24,19 @@ struct ImpactDigits {
   /// A number of this kind with its error.
   [[nodiscard]] Cell cell(double value, double error, Scale scale) const;
 };
-/// The cells of an impact under those columns.
-template <class Impact>
-[[nodiscard]] Row impact_row(const Impact& impact, const ImpactDigits& digits);
-/// The same of the tail: its quantities under the columns of the discrete model.
-[[nodiscard]] Row tail_row(const analytic::Tail& tail, const ImpactDigits& digits);
+/// Sizes of the numbers of a run of the discrete model, against which a number counts as zero.
+/// @param reach  largest distance of a corner from the centre of mass: a body that does not turn has a size of rates,
+///               too, that of its speed over this [m]
+[[nodiscard]] Scales scales_of(const Run& run, double reach);
+/// The cells of an impact under the columns of its model, or of a tail, which leaves empty what no tail knows.
+[[nodiscard]] Row impact_row(const Impact& impact, RunModel model, const ImpactDigits& digits);
 
-/// Appends the cells of an impact as CSV, each after a comma, under the columns of the kind of impacts `Columns`; what
-/// an impact in the plane has no value of is left empty under the columns of one in space.
-template <class Columns, class Impact>
-void append_impact(std::string& out, const Impact& impact, bool with_errors);
-/// The same of the tail, in the plane or in space.
-template <class Columns, class AnyTail>
-void append_tail(std::string& out, const AnyTail& tail, bool with_errors);
+/// An impact, or a tail, as CSV.
+struct ImpactText {
+  RunModel model, columns;  ///< of the impact, and of the columns: one in the plane may stand under those of space
+  bool errors = true;       ///< whether they were asked for; else they are left empty, as is `predictable`
+};
+/// Appends the cells, each after a comma; what the impact has no value of is left empty.
+void append_impact(std::string& out, const Impact& impact, const ImpactText& text);
 
 }  // namespace clatter::validation::inline record

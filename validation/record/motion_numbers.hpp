@@ -7,33 +7,31 @@
 #include <span>
 #include <vector>
 
-#include "analytic/plane/sequence.hpp"
-#include "analytic/space/sequence.hpp"
-#include "numeric/simulate.hpp"
+#include "validation/record/run.hpp"
 
 namespace clatter::validation::inline record {
 
-/// The quantities of ImpactQuantity::motion: time of touch-down [s], contact angle [°], impulse x, y, z [N·s], velocity
+/// Time of touch-down [s], contact angle [°], impulse x, y, z [N·s], velocity
 /// after x, y, z [m/s], angular velocity after x, y, z [rad/s]; world frame.  What lies out of the plane is zero in a
 /// planar model.
 inline constexpr std::size_t motion_number_count = 11;
 using MotionNumbers = std::array<double, motion_number_count>;
 
-[[nodiscard]] MotionNumbers motion_numbers(const analytic::ImpactRow& row);
-[[nodiscard]] MotionNumbers motion_numbers(const analytic::space::ImpactRow& row);
-[[nodiscard]] MotionNumbers motion_numbers(const numeric::ImpactRecord& row);
-/// Their errors; not finite where not known.
-[[nodiscard]] MotionNumbers motion_errors(const analytic::ImpactRow& row);
-[[nodiscard]] MotionNumbers motion_errors(const analytic::space::ImpactRow& row);
-[[nodiscard]] MotionNumbers motion_errors(const numeric::ImpactRecord& row);
-[[nodiscard]] std::vector<MotionNumbers> motion_rows(const analytic::Sequence& sequence);
-[[nodiscard]] std::vector<MotionNumbers> motion_rows(const analytic::space::Sequence& sequence);
-[[nodiscard]] std::vector<MotionNumbers> motion_rows(const numeric::Simulation& run);
+/// Those of an impact, or of its errors, which are not finite where not known.
+[[nodiscard]] MotionNumbers motion_numbers(const Numbers& numbers);
+/// Those of each impact of a run.
+[[nodiscard]] std::vector<MotionNumbers> motion_rows(const Run& run);
 
-/// Sizes against which errors of the first `count` >= 1 impacts count as relative: the time of the last of them, 90°,
-/// the largest speed v of the centre or the tips, m v, and v over the body's radius.
+/// Size and mass of a body: how fast its tips are, and what speeds make of impulses.
+struct BodySize {
+  double reach = 0;  ///< largest distance of a corner from the centre of mass [m]
+  double mass = 0;   ///< [kg]
+};
+
+/// Sizes against which errors of the impacts, at least one, count as relative: the time of the last of them or that of
+/// moving by the reach, 90°, the largest speed v of the centre or the tips, m v, and v over the reach.
+[[nodiscard]] MotionNumbers motion_sizes(std::span<const Impact> impacts, const BodySize& body);
 [[nodiscard]] MotionNumbers motion_sizes(const numeric::Simulation& run, std::size_t count, const numeric::Body& body);
-[[nodiscard]] MotionNumbers motion_sizes(const analytic::Sequence& sequence, const analytic::PlanarBody& body);
 
 /// A number of the motion that a comparison of models shows.
 struct ComparedQuantity {
@@ -66,9 +64,7 @@ inline constexpr std::size_t normal_impulse_place = 4;  ///< in MotionNumbers
 
 /// Sizes against which deviations count as relative: time, angle and velocities of the drop at large, so that a number
 /// that is zero by symmetry has a scale too.
-[[nodiscard]] MotionNumbers comparison_scales(const analytic::Sequence& sequence, const analytic::PlanarBody& body);
-[[nodiscard]] MotionNumbers comparison_scales(const analytic::space::Sequence& sequence,
-                                              const analytic::space::Body& body);
+[[nodiscard]] MotionNumbers comparison_scales(std::span<const Impact> impacts, const BodySize& body);
 
 /// Largest distance of a row's numbers, relative to `sizes`; infinite if one is no number.
 [[nodiscard]] double row_distance(const MotionNumbers& row, const MotionNumbers& other, const MotionNumbers& sizes);

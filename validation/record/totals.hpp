@@ -4,10 +4,7 @@
 
 #include <string>
 
-#include "analytic/plane/sequence.hpp"
-#include "analytic/space/sequence.hpp"
-#include "numeric/simulate.hpp"
-#include "validation/output/estimated.hpp"
+#include "validation/record/run.hpp"
 
 namespace clatter::validation::inline record {
 
@@ -24,9 +21,7 @@ struct Totals {
   Estimated largest_peak;    ///< [N]; likewise
 };
 
-[[nodiscard]] Totals totals(const analytic::Sequence& sequence);
-[[nodiscard]] Totals totals(const analytic::space::Sequence& sequence);
-[[nodiscard]] Totals totals(const numeric::Simulation& run);
+[[nodiscard]] Totals totals(const Run& run);
 
 /// Adds the sum of normal impulses, its error and whether all can be predicted to the fields of a run.
 void add_totals(const Totals& sums, Value& fields);

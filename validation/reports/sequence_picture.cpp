@@ -57,12 +57,10 @@ struct Flight {
   }
 };
 
-PlanarBody planar_body_of(const Scene& scene) { return std::get<analytic::Drop>(discrete_drop(scene)).body; }
-
 class HeightCurve {
  public:
-  HeightCurve(const Scene& scene, const Sequence& sequence, const TimeWindow& window)
-      : body_(planar_body_of(scene)), gravity_(scene.world.gravity), rows_(sequence.rows), whole_(whole_time(sequence)),
+  HeightCurve(const analytic::Drop& drop, const Sequence& sequence, const TimeWindow& window)
+      : body_(drop.body), gravity_(drop.gravity), rows_(sequence.rows), whole_(whole_time(sequence)),
         width_(std::min(whole_, window.to - window.from)) {
     add_part(flight(rows_.front(), rows_.front().before), -approach());
     std::reverse(samples_.begin(), samples_.end());
@@ -134,13 +132,13 @@ class HeightCurve {
   std::vector<std::vector<double>> samples_;
 };
 
-PicturePanel height_panel(const Scene& scene, const Sequence& sequence, const TimeWindow& window) {
+PicturePanel height_panel(const analytic::Drop& drop, const Sequence& sequence, const TimeWindow& window) {
   PicturePanel panel{
       .columns = {{"time", "s", "time since the first impact"},
                   {"a", "m", "height of the lowest point of end a"},
                   {"b", "m", "height of the lowest point of end b"},
                   {"end", "m", "time at which the impacts end"}},
-      .rows = clipped(HeightCurve(scene, sequence, window).samples(), window),
+      .rows = clipped(HeightCurve(drop, sequence, window).samples(), window),
       .plot = {.title = "",
                .x_label = "",
                .y_label = "lowest point [m]",
@@ -165,7 +163,7 @@ std::size_t side_of(const PlanarBody& body, const ImpactRow& row) {
   return side;
 }
 
-PicturePanel impulse_panel(const Scene& scene, const Sequence& sequence) {
+PicturePanel impulse_panel(const PlanarBody& body, const Sequence& sequence) {
   PicturePanel panel{.columns = {{"time", "s", "time since the first impact"},
                                  {"a", "N·s", "normal impulse at end a"},
                                  {"b", "N·s", "normal impulse at end b"},
@@ -178,7 +176,6 @@ PicturePanel impulse_panel(const Scene& scene, const Sequence& sequence) {
                               .curves = {},
                               .x = {},
                               .y = {0, no_number}}};
-  const PlanarBody body = planar_body_of(scene);
   bool is_used[5] = {};
   for (const ImpactRow& row : sequence.rows) {
     auto& numbers = panel.rows.emplace_back(std::vector<double>{row.start, no_number, no_number, no_number, no_number});
@@ -263,16 +260,16 @@ PicturePanel space_height_panel(const analytic::space::Drop& drop, const SpaceSe
 }
 
 /// Who strikes in each impact, and where there are more than a legend takes, that somebody does.
-std::vector<std::string> striking_corners(const Scene& scene, const SpaceSequence& sequence) {
+std::vector<std::string> striking_corners(const Run& run) {
   constexpr std::size_t most = 8;
   std::vector<std::string> names;
-  for (const SpaceRow& row : space_rows(scene, sequence, body_properties(scene, Model::discrete).centre))
-    names.push_back(row.row.corners.size() > 1 ? "several corners" : "corner " + row.corners);
+  for (const Impact& impact : run.impacts)
+    names.push_back(impact.touches > 1 ? "several corners" : "corner " + impact.corners);
   if (std::set<std::string>(names.begin(), names.end()).size() > most) names.assign(names.size(), "a corner");
   return names;
 }
 
-PicturePanel space_impulse_panel(const Scene& scene, const SpaceSequence& sequence) {
+PicturePanel space_impulse_panel(const Run& run) {
   PicturePanel panel{.columns = {{"time", "s", "time since the first impact"}},
                      .rows = {},
                      .plot = {.title = "",
@@ -281,11 +278,11 @@ PicturePanel space_impulse_panel(const Scene& scene, const SpaceSequence& sequen
                               .curves = {},
                               .x = {},
                               .y = {0, no_number}}};
-  const std::vector<std::string> names = striking_corners(scene, sequence);
+  const std::vector<std::string> names = striking_corners(run);
   std::vector<std::string> legends(names);
   std::sort(legends.begin(), legends.end());
   legends.erase(std::unique(legends.begin(), legends.end()), legends.end());
-  if (sequence.tail) legends.emplace_back("all further impacts");
+  if (run.tail) legends.emplace_back("all further impacts");
   for (const std::string& legend : legends) {
     panel.columns.push_back({fmt::format("impulse_{}", panel.columns.size()), "N·s", "normal impulse: " + legend});
     panel.plot.curves.push_back(
@@ -297,8 +294,8 @@ PicturePanel space_impulse_panel(const Scene& scene, const SpaceSequence& sequen
     numbers[1 + static_cast<std::size_t>(std::find(legends.begin(), legends.end(), legend) - legends.begin())] = normal;
   };
   for (std::size_t i = 0; i < names.size(); ++i)
-    add(sequence.rows[i].start, names[i], sequence.rows[i].impact.impulse.z());
-  if (sequence.tail) add(sequence.tail->end_time, legends.back(), sequence.tail->normal_impulse);
+    add(run.impacts[i].value.start, names[i], run.impacts[i].value.impulse[2]);
+  if (run.tail) add(run.tail->sum.value.start, legends.back(), run.tail->sum.value.impulse[2]);
   return panel;
 }
 
@@ -332,19 +329,18 @@ void show_all(Picture& picture, double end) {
 
 }  // namespace
 
-Picture sequence_picture(const Scene& scene, const DiscreteRun& run, const TimeWindow& window) {
-  Picture picture{.what = "Impact sequence, discrete model", .scene = words_of(scene), .panels = {}};
-  double last = 0;
-  if (const Sequence* const sequence = run.planar()) {
-    picture.panels = {height_panel(scene, *sequence, window), impulse_panel(scene, *sequence)};
-    last = sequence->tail ? sequence->tail->end_time : sequence->rows.back().start;
+Picture sequence_picture(const PreparedScene& prepared, const DiscreteRun& found, const TimeWindow& window) {
+  const Run& run = found.run;
+  Picture picture{.what = "Impact sequence, discrete model", .scene = words_of(prepared.scene), .panels = {}};
+  if (const auto* const drop = std::get_if<analytic::Drop>(&prepared.drop)) {
+    const auto& sequence = std::get<Sequence>(found.sequence);
+    picture.panels = {height_panel(*drop, sequence, window), impulse_panel(drop->body, sequence)};
   } else {
-    const auto& in_space = std::get<SpaceSequence>(run.sequence);
-    picture.panels = {space_height_panel(std::get<analytic::space::Drop>(run.drop), in_space, window),
-                      space_impulse_panel(scene, in_space)};
-    last = in_space.tail ? in_space.tail->end_time : in_space.rows.back().start;
+    const auto& in_space = std::get<SpaceSequence>(found.sequence);
+    picture.panels = {space_height_panel(std::get<analytic::space::Drop>(prepared.drop), in_space, window),
+                      space_impulse_panel(run)};
   }
-  if (window.is_all()) show_all(picture, last);
+  if (window.is_all()) show_all(picture, (run.tail ? run.tail->sum : run.impacts.back()).value.start);
   else show_window(picture, window);
   return picture;
 }

@@ -12,6 +12,7 @@ namespace clatter::validation::inline reports {
 /// Heights over time, each flight in closed form, and the normal impulse of each impact at its time, as far as the
 /// window goes: in the plane the heights of both ends and the impulses at each, in space those of the centre of mass
 /// and the lowest point, and the impulses at each corner.
-[[nodiscard]] Picture sequence_picture(const Scene& scene, const DiscreteRun& run, const TimeWindow& window);
+[[nodiscard]] Picture sequence_picture(const PreparedScene& prepared, const DiscreteRun& found,
+                                       const TimeWindow& window);
 
 }  // namespace clatter::validation::inline reports

@@ -1,76 +1,156 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/reports/sequence_report.hpp"
 
-#include "validation/reports/sequence_parts.hpp"
-#include "validation/reports/space_sequence_report.hpp"
-#include "validation/scene/discrete_scene.hpp"
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/output/number.hpp"
+#include "validation/record/impact_rows.hpp"
+#include "validation/record/totals.hpp"
+#include "validation/scene/body_properties.hpp"
+#include "validation/scene/scene_value.hpp"
+#include "validation/scene/shortfall.hpp"
 
 namespace clatter::validation::inline reports {
 namespace {
 
-using analytic::ImpactRow;
-using analytic::Sequence;
+namespace space = analytic::space;
 
-Value tail_fields(const std::optional<analytic::Tail>& some) {
-  if (!some) return {};
-  const analytic::Tail& tail = *some;
-  return Value::Fields{{"end", analytic::PlanarBody::vertex_set_name(tail.vertices)},
-                       {"end_time", tail.end_time},
-                       {"end_time_error", tail.end_time_error},
-                       {"impulse_normal", tail.normal_impulse},
-                       {"impulse_normal_error", tail.normal_impulse_error},
-                       {"impulse_tangential", tail.tangential_impulse},
-                       {"impulse_tangential_error", tail.tangential_impulse_error},
-                       {"closed_form", tail.closed_form},
-                       {"velocity_after", std::vector<double>{tail.after.tangential, 0.0, tail.after.normal}},
-                       {"angular_velocity_after", std::vector<double>{0.0, tail.after.angular, 0.0}}};
+/// "1.25000 ± 0.00012"
+std::string with_error(const Estimated& number, const Shown& shown) {
+  const std::string text = known_text(number, shown);
+  return number.is_known() && number.error > 0 ? text + " ± " + significant(number.error, 2) : text;
 }
 
-/// Sizes against which a number of the sequence counts as zero.
-Scales scales_of(const Sequence& sequence) {
-  Scales scales = begun_scales();
-  for (const ImpactRow& row : sequence.rows) {
-    for (const analytic::PlanarVelocity& v : {row.before, row.impact.after}) {
-      grow(scales, Scale::speed, v.normal);
-      grow(scales, Scale::speed, v.tangential);
-      grow(scales, Scale::rate, v.angular);
-    }
-    grow(scales, Scale::time, row.start);
-    grow(scales, Scale::impulse, row.impact.normal_impulse);
-    grow(scales, Scale::impulse, row.impact.tangential_impulse);
-    grow(scales, Scale::energy, row.energy_before);
+/// Until which impact rows can be trusted; empty: all can.
+std::string trust_words(const Run& run) {
+  const auto lost = std::ranges::find(run.impacts, false, &Impact::predictable);
+  if (lost == run.impacts.end()) return "";
+  return lost == run.impacts.begin()
+             ? "?: not to be trusted: how errors grow is not known"
+             : fmt::format("?: trust ends with impact {}: after it rounding decides what happens",
+                           lost - run.impacts.begin());
+}
+
+/// What was asked against what rounding leaves; empty where nothing is known.
+std::string accuracy_words(int digits, double error) {
+  if (!std::isfinite(error)) return "";
+  return fmt::format("asked {} digits, achieved {:.1f}: what rounding leaves", digits,
+                     std::max(-std::log10(error), 0.0));
+}
+
+std::string tail_words(int digits, const RunTail& tail) {
+  const Estimated end{tail.sum.value.start, tail.sum.error.start};
+  return fmt::format("…: the last row sums up all further impacts; they end at {} s, {}",
+                     with_error(end, {.digits = digits + 3}), tail.closed_form ? "in closed form" : "by extrapolation");
+}
+
+std::string near_miss_words(int digits, const Run& run) {
+  if (!run.near_miss || !std::isfinite(run.near_miss->clearance)) return "";
+  const Impact& last = run.impacts.back();
+  const Estimated clearance{run.near_miss->clearance, last.predictable ? run.near_miss->margin : last.error.start};
+  return fmt::format("closest approach after the last impact: {} m above the ground",
+                     known_text(clearance, {.digits = std::min(digits, 6)}));
+}
+
+std::string order_words(const space::GroupImpact& group) {
+  return group.is_whole ? "the body rebounds as a whole"
+                        : fmt::format("they strike one after the other, {} strikes", group.order.size());
+}
+
+/// Rows in which several corners arrive together, and what a small tilt would make of them.
+void add_group_notes(const space::Sequence& sequence, const space::Drop& drop, std::vector<std::string>& notes) {
+  int n = 0;
+  for (const space::ImpactRow& row : sequence.rows) {
+    ++n;
+    if (!row.group) continue;
+    const space::OutcomeSet set = tilted_outcomes(drop.body, row.before, row.corners, drop.law);
+    const double speed = std::max(row.before.velocity.norm(), row.approach_speed);
+    std::string words = fmt::format("impact {}: {}, {}", n, landing_words(row.corners), order_words(*row.group));
+    if (set.velocity_spread > 1e-6 * speed) words += "; " + tilt_words(set);
+    notes.push_back(words);
   }
-  return scales;
 }
 
-bool loses_energy(const Sequence& sequence) {
-  return std::any_of(sequence.rows.begin(), sequence.rows.end(), [&](const ImpactRow& row) {
-    return std::fabs(row.impact.energy_loss) > 1e-14 * sequence.rows[0].energy_before;
+/// How far the run can be trusted, its sum, its accuracy and why it ended.
+std::vector<std::string> notes_of(const PreparedScene& prepared, const DiscreteRun& found) {
+  const int digits = prepared.scene.accuracy.digits;
+  const Run& run = found.run;
+  std::vector<std::string> notes;
+  if (const auto* const sequence = std::get_if<space::Sequence>(&found.sequence)) {
+    add_group_notes(*sequence, std::get<space::Drop>(prepared.drop), notes);
+  }
+  if (run.tail) notes.push_back(tail_words(digits, *run.tail));
+  for (const std::string& words :
+       {trust_words(run),
+        fmt::format("Sum of normal impulses: {} N·s", known_text(totals(run).normal_impulse, {.digits = digits})),
+        accuracy_words(digits, run.relative_error), fmt::format("{}: {}", run.outcome, run.message),
+        near_miss_words(digits, run)}) {
+    notes.push_back(words);
+  }
+  std::erase(notes, "");
+  return notes;
+}
+
+Value tail_fields(const RunTail& tail) {
+  const Numbers &value = tail.sum.value, &error = tail.sum.error;
+  const auto list = [](const EntryVector& v) { return std::vector<double>(v.begin(), v.end()); };
+  return Value::Fields{{"end", text_or_nothing(tail.sum.end)},
+                       {"end_time", value.start},
+                       {"end_time_error", error.start},
+                       {"impulse_normal", value.impulse[2]},
+                       {"impulse_normal_error", error.impulse[2]},
+                       {"impulse_tangential", value.impulse[0]},
+                       {"impulse_tangential_error", error.impulse[0]},
+                       {"impulse", list(value.impulse)},
+                       {"closed_form", tail.closed_form},
+                       {"velocity_after", list(value.velocity_after)},
+                       {"angular_velocity_after", list(value.angular_velocity_after)}};
+}
+
+/// The fields behind the impacts.
+void add_results(const Scene& scene, const Run& run, Value& fields) {
+  if (run.tail) fields["tail"] = tail_fields(*run.tail);
+  fields["outcome"] = run.outcome;
+  fields["message"] = run.message + "; the discrete model's impacts are instantaneous: no peak force or time";
+  if (!run.warnings.empty()) fields["warnings"] = run.warnings;
+  if (run.near_miss) {
+    fields["near_miss"] = Value::Fields{{"clearance", run.near_miss->clearance},
+                                        {"margin", run.near_miss->margin},
+                                        {"within_margin", run.near_miss->within_margin()}};
+  }
+  fields["accuracy"] =
+      Value::Fields{{"asked", std::pow(10.0, -scene.accuracy.digits)}, {"achieved", run.relative_error}};
+  add_totals(totals(run), fields);
+  fields["shortfall"] = text_or_nothing(shortfall(scene, run));
+  fields["cost"] = Value::Fields{{"force_evaluations", 0}, {"root_evaluations", run.evaluations}};
+}
+
+bool loses_energy(const Run& run) {
+  return std::ranges::any_of(run.impacts, [&](const Impact& impact) {
+    return std::fabs(impact.value.energy_loss) > 1e-14 * run.impacts[0].value.energy_before;
   });
 }
 
-std::string tail_words(const Scene& scene, const analytic::Tail& tail) {
-  const Estimated end{tail.end_time, tail.end_time_error};
-  return fmt::format("…: the last row sums up all further impacts; they end at {} s, {}",
-                     with_error(end, {.digits = scene.accuracy.digits + 3}),
-                     tail.closed_form ? "in closed form" : "by extrapolation");
+std::vector<Column> columns_of(const PreparedScene& prepared, const Run& run) {
+  const bool friction = law_of(prepared.drop).friction != analytic::FrictionKind::none;
+  if (run.model == RunModel::plane) return sequence_columns(friction, loses_energy(run));
+  std::vector<std::string> shown{"n",
+                                 "corners",
+                                 "start",
+                                 "impulse_normal",
+                                 "velocity_after_z",
+                                 "angular_velocity_after_x",
+                                 "angular_velocity_after_y",
+                                 "angular_velocity_after_z"};
+  if (friction) shown.emplace_back("mode");
+  return impact_columns(RunModel::space, shown);
 }
 
-std::string near_miss_words(const Scene& scene, const Sequence& sequence) {
-  const analytic::NearMiss& miss = sequence.near_miss;
-  if (sequence.outcome != analytic::Outcome::no_further_impact || !std::isfinite(miss.clearance)) return "";
-  const analytic::RowErrors& last = sequence.rows.back().error;
-  const Estimated clearance{miss.clearance, last.predictable ? miss.margin : last.start};
-  return fmt::format("closest approach after the last impact: {} m above the ground",
-                     known_text(clearance, {.digits = std::min(scene.accuracy.digits, 6)}));
-}
-
-std::vector<std::string> closing_notes(const Scene& scene, const Sequence& sequence) {
-  std::vector<std::string> notes = closing_words(scene, sequence);
-  if (sequence.tail) notes.insert(notes.begin(), tail_words(scene, *sequence.tail));
-  const std::string miss = near_miss_words(scene, sequence);
-  if (!miss.empty()) notes.push_back(miss);
-  return notes;
+double reach_of(const DiscreteDrop& drop) {
+  return std::visit([](const auto& one) { return one.body.reach(); }, drop);
 }
 
 }  // namespace
@@ -80,31 +160,35 @@ std::vector<Column> sequence_columns(bool friction, bool loses) {
       "n", "end", "start", "contact_angle_deg", "impulse_normal", "velocity_after_z", "angular_velocity_after_y"};
   if (friction) shown.insert(shown.end(), {"impulse_tangential", "mode"});
   else if (loses) shown.emplace_back("energy_loss");
-  return impact_columns<DiscreteRow>(shown);
+  return impact_columns(RunModel::plane, shown);
 }
 
-Report sequence_report(const Scene& scene, const analytic::Drop& drop, const Sequence& sequence) {
-  Report report = begun_sequence_report(scene, drop, "impact sequence, discrete model", totals(sequence));
-  report.notes = closing_notes(scene, sequence);
-  report.grid.columns = sequence_columns(drop.law.friction != analytic::FrictionKind::none, loses_energy(sequence));
-  const ImpactDigits digits{.digits = scene.accuracy.digits, .scales = scales_of(sequence)};
-  int n = 0;
-  for (const ImpactRow& row : sequence.rows) add_impact_row(report, DiscreteRow{row, ++n, scene.angle_deg}, digits);
+Report sequence_report(const PreparedScene& prepared, const DiscreteRun& found) {
+  const Scene& scene = prepared.scene;
+  const Run& run = found.run;
+  const double approach = first_approach_speed(prepared.drop);
+  const bool in_space = run.model == RunModel::space;
+  Report report = begun_report(
+      "sequence", in_space ? "impact sequence, discrete model in space" : "impact sequence, discrete model");
+  report.head = scene_head(scene, Model::discrete, approach);
+  report.remarks = {totals_line(totals(run))};
+  report.notes = notes_of(prepared, found);
+  report.fields["model"] = "discrete";
+  report.fields["scene"] = scene_value(scene, Model::discrete, approach);
+  report.fields["body"] = body_value(scene, Model::discrete);
+  report.grid.columns = columns_of(prepared, run);
+  const ImpactDigits digits{.digits = scene.accuracy.digits, .scales = scales_of(run, reach_of(prepared.drop))};
+  for (const Impact& impact : run.impacts) {
+    report.grid.rows.push_back(impact_row(impact, run.model, digits));
+    if (!impact.predictable) report.grid.rows.back()[0].shown = fmt::format("{}?", impact.n);
+  }
   report.fields["impacts"] = row_objects(report.grid);
-  add_results(scene, sequence, tail_fields(sequence.tail), sequence.root_evaluations, report.fields);
-  if (sequence.tail) {
-    report.grid.rows.push_back(tail_row(*sequence.tail, digits));
+  add_results(scene, run, report.fields);
+  if (run.tail) {
+    report.grid.rows.push_back(impact_row(run.tail->sum, run.model, digits));
     report.grid.rows.back()[0].shown = "…";
   }
   return report;
-}
-
-Report sequence_report(const Scene& scene, const DiscreteRun& run) {
-  if (const Sequence* const planar = run.planar()) {
-    return sequence_report(scene, std::get<analytic::Drop>(run.drop), *planar);
-  }
-  return sequence_report(scene, std::get<analytic::space::Drop>(run.drop),
-                         std::get<analytic::space::Sequence>(run.sequence));
 }
 
 }  // namespace clatter::validation::inline reports

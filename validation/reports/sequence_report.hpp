@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What `clatter sequence` says.
+// What `clatter sequence` says of a drop, in the plane or in space.
 #pragma once
 
 #include <vector>
@@ -9,12 +9,10 @@
 
 namespace clatter::validation::inline reports {
 
-/// @param friction, loses  which columns tables have
+/// Columns in the plane.
+/// @param friction, loses  which of them tables have
 [[nodiscard]] std::vector<Column> sequence_columns(bool friction = true, bool loses = true);
 /// A row for each impact, and in tables and CSV one for the tail.
-[[nodiscard]] Report sequence_report(const Scene& scene, const analytic::Drop& drop,
-                                     const analytic::Sequence& sequence);
-/// Of a drop in the plane or in space.
-[[nodiscard]] Report sequence_report(const Scene& scene, const DiscreteRun& run);
+[[nodiscard]] Report sequence_report(const PreparedScene& prepared, const DiscreteRun& found);
 
 }  // namespace clatter::validation::inline reports

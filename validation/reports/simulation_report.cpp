@@ -48,7 +48,7 @@ ImpactDigits digits_of(const Scene& scene, const PlannedRun& planned, bool trust
 
 /// The sum of the normal impulses as far as it is known.
 std::string total_words(const Scene& scene, const PlannedRun& planned) {
-  const Estimated total = totals(planned.run).normal_impulse;
+  const Estimated total = totals(run_of(planned.run)).normal_impulse;
   const bool trusted = trusted_impacts(scene, planned.run) == planned.run.impacts.size();
   ImpactDigits digits = digits_of(scene, planned, trusted);
   return shown_text(digits.cell(total.value, total.error, Scale::none));
@@ -142,16 +142,16 @@ std::vector<Column> columns_of(const Scene& scene) {
                                  "angular_velocity_after_y"};
   if (friction) shown.emplace_back("impulse_tangential");
   if (friction || scene.world.ground.damping > 0) shown.emplace_back("energy_loss");
-  return impact_columns<ContinuousRow>(shown);
+  return impact_columns(RunModel::continuous, shown);
 }
 
 std::vector<Row> rows_of(const Scene& scene, const PlannedRun& planned) {
   std::vector<Row> rows;
   const std::size_t trust = trusted_impacts(scene, planned.run);
-  for (const ContinuousRow& impact : continuous_rows(scene, planned.run)) {
+  for (const Impact& impact : named_run(scene, planned.run).impacts) {
     const bool trusted = rows.size() < trust;
-    rows.push_back(impact_row(impact, digits_of(scene, planned, trusted)));
-    rows.back()[0].shown = fmt::format("{}{}{}", impact.n, trusted ? "" : "?", impact.row.submerged ? "!" : "");
+    rows.push_back(impact_row(impact, RunModel::continuous, digits_of(scene, planned, trusted)));
+    rows.back()[0].shown = fmt::format("{}{}{}", impact.n, trusted ? "" : "?", impact.submerged ? "!" : "");
   }
   return rows;
 }
@@ -185,7 +185,7 @@ void add_results(const Scene& scene, const PlannedRun& planned, Value& fields) {
                                      {"achieved", planned.achieved},
                                      {"known_impacts", planned.known_impacts},
                                      {"planned", planned.planned}};
-  add_totals(totals(run), fields);
+  add_totals(totals(run_of(run)), fields);
   fields["shortfall"] = shortfall_value(scene, planned);
   fields["energy_start"] = run.energy_start;
   fields["cost"] =
@@ -195,7 +195,7 @@ void add_results(const Scene& scene, const PlannedRun& planned, Value& fields) {
 /// Adds the impacts of a run to the report of a sweep.
 void add_run(const SweptRun& swept, const Scene& scene, Report& report) {
   const Simulation& run = swept.planned.run;
-  Grid impacts{impact_columns<ContinuousRow>({}), rows_of(swept.scene, swept.planned)};
+  Grid impacts{impact_columns(RunModel::continuous, {}), rows_of(swept.scene, swept.planned)};
   report.fields["runs"].push_back(Value::Fields{{scene.sweep->name(), swept.value},
                                                 {"outcome", outcome_name(run.outcome)},
                                                 {"message", run.message},
@@ -217,13 +217,13 @@ void add_run(const SweptRun& swept, const Scene& scene, Report& report) {
 
 }  // namespace
 
-std::vector<Column> simulation_columns() { return impact_columns<ContinuousRow>({}); }
+std::vector<Column> simulation_columns() { return impact_columns(RunModel::continuous, {}); }
 
 Report simulation_report(const Scene& scene, const PlannedRun& planned) {
   Report report = begun_report("simulate", "impact sequence, continuous contact");
   report.head = scene_head(scene);
   report.notes = notes_of(scene, planned);
-  report.remarks = {totals_line(totals(planned.run))};
+  report.remarks = {totals_line(totals(run_of(planned.run)))};
   report.grid = {columns_of(scene), rows_of(scene, planned)};
   report.fields["model"] = "continuous";
   report.fields["scene"] = scene_value(scene);

@@ -239,6 +239,18 @@ std::string law_friction_words(const Scene& scene, const DiscreteLaw& law) {
   return "no friction";
 }
 
+/// Fills in which end and corners of the body strike, and where.
+void name_corners(const Scene& scene, const space::ImpactRow& row, const Vector3& centre, Impact& impact) {
+  bool left = false, right = false;
+  for (const space::Corner& corner : row.corners) {
+    (corner.place.x() + centre.x() < 0 ? left : right) = true;
+    impact.corners += (impact.corners.empty() ? "" : " ") + corner_name(scene, corner);
+  }
+  impact.end = left && right ? "both" : left ? "a" : "b";
+  const Vector3 place = row.corners.front().place + centre;
+  impact.place = {place.x(), place.y(), place.z()};
+}
+
 double ground_restitution(const DiscreteLaw& law, double approach) {
   return analytic::restitution_of_damping(law.law.damping_per_stiffness * approach);
 }
@@ -388,6 +400,10 @@ DiscreteDrop DiscreteBody::drop(const Scene& scene) {
 
 DiscreteDrop discrete_drop(const Scene& scene) { return DiscreteBody(scene).drop(scene); }
 
+DiscreteDrop discrete_drop(const Scene& scene, const numeric::Body& body) {
+  return scene.body.shape == BodyScene::Shape::mesh ? mesh_drop(scene, body) : discrete_drop(scene);
+}
+
 DiscreteDrop mesh_drop(const Scene& scene, const numeric::Body& body) {
   return DiscreteBody(std::shared_ptr<const numeric::Body>(std::shared_ptr<void>(), &body)).drop(scene);
 }
@@ -407,7 +423,17 @@ bool has_other_corners(const DiscreteDrop& drop, const DiscreteDrop& mesh) {
          !same_places(one.body.vertices, other.body.vertices, one.body.reach());
 }
 
-Scene read_discrete_scene(const SceneValues& values, const std::vector<SceneOverride>& overrides) {
+PreparedScene prepared(Scene scene) {
+  DiscreteBody body(scene);
+  DiscreteDrop drop = body.drop(scene);
+  if (scene.falls()) {
+    const auto* const planar = std::get_if<analytic::Drop>(&drop);
+    scene.speed = planar ? -planar->velocity.normal : -std::get<space::Drop>(drop).velocity.z();
+  }
+  return {.scene = std::move(scene), .centre = body.centre(), .drop = std::move(drop)};
+}
+
+PreparedScene read_discrete_scene(const SceneValues& values, const std::vector<SceneOverride>& overrides) {
   Scene scene = read_scene(values, overrides, Model::discrete);
   if (scene.sweep) {
     const bool is_angle = scene.sweep->quantity == SceneSweep::Quantity::angle_deg;
@@ -416,12 +442,7 @@ Scene read_discrete_scene(const SceneValues& values, const std::vector<SceneOver
                                  is_angle ? "--angle" : "--friction"));
     }
   }
-  if (scene.falls()) {
-    const DiscreteDrop drop = discrete_drop(scene);
-    const auto* const planar = std::get_if<analytic::Drop>(&drop);
-    scene.speed = planar ? -planar->velocity.normal : -std::get<space::Drop>(drop).velocity.z();
-  }
-  return scene;
+  return prepared(std::move(scene));
 }
 
 std::string law_words(const Scene& scene, std::optional<double> approach, const KeyNames& unsettled) {
@@ -495,29 +516,20 @@ std::string landing_words(const std::vector<space::Corner>& corners) {
   return fmt::format("{} corners land at once", corners.size());
 }
 
-std::vector<SpaceRow> space_rows(const Scene& scene, const space::Sequence& sequence, const Vector3& centre) {
-  std::vector<SpaceRow> rows;
-  for (const space::ImpactRow& row : sequence.rows) {
-    SpaceRow named{.row = row, .n = static_cast<int>(rows.size()) + 1};
-    bool left = false, right = false;
-    for (const space::Corner& corner : row.corners) {
-      (corner.place.x() + centre.x() < 0 ? left : right) = true;
-      named.corners += (named.corners.empty() ? "" : " ") + corner_name(scene, corner);
-    }
-    named.end = left && right ? "both" : left ? "a" : "b";
-    const Vector3 place = row.corners.front().place + centre;
-    named.place = {place.x(), place.y(), place.z()};
-    rows.push_back(named);
-  }
-  return rows;
+Run named_run(const Scene& scene, const DiscreteSequence& sequence, const Vector3& centre) {
+  if (const auto* const planar = std::get_if<analytic::Sequence>(&sequence)) return run_of(*planar, scene.angle_deg);
+  const auto& in_space = std::get<space::Sequence>(sequence);
+  Run run = run_of(in_space);
+  for (std::size_t i = 0; i < run.impacts.size(); ++i) name_corners(scene, in_space.rows[i], centre, run.impacts[i]);
+  return run;
 }
 
-std::vector<ContinuousRow> continuous_rows(const Scene& scene, const numeric::Simulation& run) {
-  std::vector<ContinuousRow> rows;
-  for (const numeric::ImpactRecord& row : run.impacts) {
-    rows.push_back({row, static_cast<int>(rows.size()) + 1, corner_names(scene, row.place)});
+Run named_run(const Scene& scene, const numeric::Simulation& simulation) {
+  Run run = run_of(simulation);
+  for (std::size_t i = 0; i < run.impacts.size(); ++i) {
+    run.impacts[i].corners = corner_names(scene, simulation.impacts[i].place);
   }
-  return rows;
+  return run;
 }
 
 }  // namespace clatter::validation::inline scene

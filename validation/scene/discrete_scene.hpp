@@ -13,7 +13,7 @@
 #include "analytic/space/sequence.hpp"
 #include "numeric/body.hpp"
 #include "numeric/simulate.hpp"
-#include "validation/record/impact_quantities.hpp"
+#include "validation/record/run.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/scene.hpp"
 
@@ -51,6 +51,8 @@ struct DiscreteLaw {
 /// A drop for the discrete model that runs it: in the plane where reason_in_space is empty and the body has an outline
 /// there, else in space, where the same motion comes out up to rounding.
 using DiscreteDrop = std::variant<analytic::Drop, analytic::space::Drop>;
+/// Its sequence.
+using DiscreteSequence = std::variant<analytic::Sequence, analytic::space::Sequence>;
 
 /// The law of a drop.
 [[nodiscard]] const analytic::ImpactLaw& law_of(const DiscreteDrop& drop);
@@ -86,15 +88,26 @@ class DiscreteBody {
 
 /// The drop of a scene: its body, motion and law for the discrete model.  @throws as DiscreteBody
 [[nodiscard]] DiscreteDrop discrete_drop(const Scene& scene);
-/// The same with the corners of the mesh that the continuous model drops.
+/// The same where the continuous model's body is there already, whose corners a mesh has.
+[[nodiscard]] DiscreteDrop discrete_drop(const Scene& scene, const numeric::Body& body);
+/// The drop with the corners of the mesh that the continuous model drops, whatever shape that stands for.
 [[nodiscard]] DiscreteDrop mesh_drop(const Scene& scene, const numeric::Body& body);
 /// Whether the corners or the inertia of the two drops' bodies differ by more than 1e-9 of their size: those of a mesh
 /// from those of the shape that it stands for.
 [[nodiscard]] bool has_other_corners(const DiscreteDrop& drop, const DiscreteDrop& mesh);
 
-/// A scene for `sequence` and `explain`: `speed` is that of the fall, where a height is given.
-/// @throws BadInput as read_scene, and for a scene that sweeps what the discrete model takes.
-[[nodiscard]] Scene read_discrete_scene(const SceneValues& values, const std::vector<SceneOverride>& overrides);
+/// A scene with what the discrete model makes of it, made once.
+struct PreparedScene {
+  Scene scene;              ///< `speed` is that of the fall, where a height is given
+  numeric::Vector3 centre;  ///< of mass, in the body's frame [m]
+  DiscreteDrop drop;
+};
+
+/// @throws as discrete_drop
+[[nodiscard]] PreparedScene prepared(Scene scene);
+/// A scene for `sequence` and `explain`.
+/// @throws BadInput as read_scene, and for a scene that sweeps what the discrete model takes; as prepared().
+[[nodiscard]] PreparedScene read_discrete_scene(const SceneValues& values, const std::vector<SceneOverride>& overrides);
 
 /// "e = 0.770 at 4.33 m/s, from the ground's damping; Coulomb friction μ = 0.075, from the ground".
 /// @param approach  of the first contact [m/s]; none: e is told by c_G/k_G
@@ -115,12 +128,10 @@ class DiscreteBody {
 [[nodiscard]] std::string tilt_words(const analytic::space::OutcomeSet& set);
 /// The corners of a row in words: "2 corners land at once", "a round end lands level".
 [[nodiscard]] std::string landing_words(const std::vector<analytic::space::Corner>& corners);
-/// The rows of a sequence with the names of the corners that strike.
+/// The run of a drop's sequence, in space with the names and places of the corners that strike.
 /// @param centre  of mass, in the body's frame [m]
-[[nodiscard]] std::vector<SpaceRow> space_rows(const Scene& scene, const analytic::space::Sequence& sequence,
-                                               const numeric::Vector3& centre);
-
-/// The rows of a run of the continuous model, with the names of the corners that touch first.
-[[nodiscard]] std::vector<ContinuousRow> continuous_rows(const Scene& scene, const numeric::Simulation& run);
+[[nodiscard]] Run named_run(const Scene& scene, const DiscreteSequence& sequence, const numeric::Vector3& centre);
+/// The run of the continuous model, with the names of the corners that touch first.
+[[nodiscard]] Run named_run(const Scene& scene, const numeric::Simulation& simulation);
 
 }  // namespace clatter::validation::inline scene

@@ -4,20 +4,15 @@
 
 #include <string>
 
-#include "analytic/plane/sequence.hpp"
-#include "analytic/space/sequence.hpp"
+#include "validation/record/run.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation::inline scene {
 
-/// Largest relative error of the sequence's numbers, its tail's too; infinite if one cannot be predicted.
-[[nodiscard]] double largest_error(const analytic::Sequence& sequence);
-[[nodiscard]] double largest_error(const analytic::space::Sequence& sequence);
-
-/// In one line why there are fewer impacts than asked for, where a number that could not be computed or a limit is the
-/// reason, or, with run.require_digits, that fewer digits are known than asked for; empty: neither.
-[[nodiscard]] std::string shortfall(const Scene& scene, const analytic::Sequence& sequence);
-[[nodiscard]] std::string shortfall(const Scene& scene, const analytic::space::Sequence& sequence);
+/// Of a run of the discrete model: in one line why there are fewer impacts than asked for, where a number that could
+/// not be computed or a limit is the reason, or, with run.require_digits, that fewer digits are known than asked for;
+/// empty: neither.
+[[nodiscard]] std::string shortfall(const Scene& scene, const Run& run);
 /// "asked 6 digits, achieved 4.2"; empty where the relative error gives the digits.
 [[nodiscard]] std::string digits_shortfall(int asked, double achieved);
 
@@ -37,7 +32,7 @@ class Shortfalls {
   std::string first_;
 };
 
-/// Exit status of a sequence that falls short: 4 where it leaves the model, else 3.
-[[nodiscard]] int shortfall_status(analytic::Outcome outcome);
+/// Exit status of a run of the discrete model that falls short: 4 where it leaves the model, else 3.
+[[nodiscard]] int shortfall_status(const Run& run);
 
 }  // namespace clatter::validation::inline scene

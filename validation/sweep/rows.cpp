@@ -10,7 +10,6 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/record/impact_rows.hpp"
-#include "validation/record/names.hpp"
 #include "validation/record/totals.hpp"
 
 namespace clatter::validation::inline sweep {
@@ -59,22 +58,18 @@ Column error_beside(const Column& number) {
 const std::vector<std::string> shown_of_impacts{
     "n", "end", "start", "contact_angle_deg", "impulse_normal", "velocity_after_z", "angular_velocity_after_y"};
 
-/// Calls use(impact) with a null pointer to the kind of rows that the impacts of a layout have.
-template <class Use>
-auto with_kind(const RowLayout& layout, Use&& use) {
-  if (layout.model == Model::continuous) return use(static_cast<const ContinuousRow*>(nullptr));
-  if (layout.in_space) return use(static_cast<const SpaceRow*>(nullptr));
-  return use(static_cast<const DiscreteRow*>(nullptr));
+/// The model whose columns rows of impacts have.
+RunModel columns_model(const RowLayout& layout) {
+  if (layout.model == Model::continuous) return RunModel::continuous;
+  return layout.in_space ? RunModel::space : RunModel::plane;
 }
 
 std::vector<Column> columns_of_impacts(const RowLayout& layout) {
-  return with_kind(layout,
-                   [](auto* kind) { return impact_columns<std::remove_cvref_t<decltype(*kind)>>(shown_of_impacts); });
+  return impact_columns(columns_model(layout), shown_of_impacts);
 }
 
 bool has_error(const ImpactQuantity& quantity, const RowLayout& layout) {
-  return with_kind(layout,
-                   [&](auto* kind) { return quantity.of<std::remove_cvref_t<decltype(*kind)>>().error != nullptr; });
+  return quantity.known_to(columns_model(layout)) == Known::with_error;
 }
 
 std::vector<Column> scene_columns(const RowLayout& layout) {
@@ -187,36 +182,32 @@ void append_part_of(std::string& out, const Entry& entry, std::size_t part) {
 }
 
 /// Place of the impact with the largest normal impulse, the first of equal ones.
-template <class Impact>
 std::size_t hardest_of(const std::vector<Impact>& impacts) {
-  static const ImpactQuantity& impulse = *std::ranges::find_if(
-      impact_quantities(), [](const ImpactQuantity& one) { return one.name == std::string_view("impulse_normal"); });
-  std::size_t hardest = 0;
-  double largest = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < impacts.size(); ++i) {
-    const double value = std::get<double>(impulse.of<Impact>().value(impacts[i]));
-    if (!(value > largest)) continue;
-    largest = value;
-    hardest = i;
-  }
-  return hardest;
+  const auto is_softer = [](const Impact& one, const Impact& other) {
+    return one.value.impulse[2] < other.value.impulse[2];
+  };
+  return static_cast<std::size_t>(std::max_element(impacts.begin(), impacts.end(), is_softer) - impacts.begin());
 }
 
 /// Appends the cells of the columns asked for, of their values or of their errors; empty where the scene has no such
 /// impact, or the impact no such quantity.
-template <class Impact>
-void append_asked(const RowForm& form, const std::vector<Impact>& impacts, bool of_errors) {
+void append_asked(const RowForm& form, const Run& run, bool of_errors) {
   if (form.layout.asked.empty()) return;
-  const std::size_t hardest = hardest_of(impacts);
+  const std::size_t hardest = hardest_of(run.impacts);
   for (const ImpactColumn& asked : form.layout.asked) {
-    if (of_errors && !has_error(*asked.quantity, form.layout)) continue;
+    const ImpactQuantity& quantity = *asked.quantity;
+    if (of_errors && !has_error(quantity, form.layout)) continue;
     const std::size_t place = asked.impact == 0 ? hardest : static_cast<std::size_t>(asked.impact - 1);
-    const Getter<Impact>& get = asked.quantity->template of<Impact>();
-    const bool is_known = of_errors ? form.errors && get.error
-                                    : form.predictions || asked.quantity->name != std::string_view("predictable");
-    const auto entry = of_errors ? get.error : get.value;
-    if (place < impacts.size() && entry && is_known) append_part_of(form.out, entry(impacts[place]), asked.part);
-    else form.out += ',';
+    const Known known = quantity.known_to(run.model);
+    const bool is_known = of_errors ? form.errors && known == Known::with_error
+                                    : known >= Known::value_only &&
+                                          (form.predictions || quantity.name != std::string_view("predictable"));
+    if (place < run.impacts.size() && is_known) {
+      const Impact& impact = run.impacts[place];
+      append_part_of(form.out, of_errors ? quantity.error(impact) : quantity.value(impact), asked.part);
+    } else {
+      form.out += ',';
+    }
   }
 }
 
@@ -242,21 +233,20 @@ void append_empty_row(const RowForm& form, std::string_view impacts, const char*
 }
 
 /// The one row of a scene with its sums.
-template <class Impact>
-void append_scene_row(const RowForm& form, const Totals& sums, const std::vector<Impact>& impacts,
-                      const char* outcome) {
+void append_scene_row(const RowForm& form, const Run& run) {
   const Model model = form.layout.model;
+  const Totals sums = totals(run);
   form.out += form.prefix;
   append_cell(form.out, std::to_string(sums.impacts));
-  append_cell(form.out, outcome);
+  append_cell(form.out, run.outcome);
   for_each_number(model, [&](const SceneNumber& n) { append_cell(form.out, (sums.*n.sum).value); });
   append_cell(form.out, !form.predictions ? "" : sums.predictable ? "true" : "false");
-  append_asked(form, impacts, false);
+  append_asked(form, run, false);
   for_each_number(model, [&](const SceneNumber& n) {
     if (form.errors) append_cell(form.out, (sums.*n.sum).error);
     else form.out += ',';
   });
-  append_asked(form, impacts, true);
+  append_asked(form, run, true);
   append_cell(form.out, csv_text(form.reason));
   form.out += '\n';
 }
@@ -289,49 +279,18 @@ std::string row_prefix(long long index, const std::vector<double>& values) {
   return prefix;
 }
 
-void append_rows(const RowForm& form, const analytic::Sequence& sequence, double drop_deg) {
-  const char* const outcome = outcome_name(sequence.outcome);
-  std::vector<DiscreteRow> impacts;
-  for (const analytic::ImpactRow& row : sequence.rows) {
-    impacts.push_back({row, static_cast<int>(impacts.size()) + 1, drop_deg});
-  }
-  if (form.layout.rows == RowKind::scene) return append_scene_row(form, totals(sequence), impacts, outcome);
-  for (const DiscreteRow& impact : impacts) {
+void append_rows(const RowForm& form, const Run& run) {
+  if (run.impacts.empty()) return append_empty_row(form, "0", run.outcome);
+  if (form.layout.rows == RowKind::scene) return append_scene_row(form, run);
+  const auto append = [&](const Impact& impact) {
+    const bool is_continuous = run.model == RunModel::continuous;  // errors are none where none were asked for
     form.out += form.prefix;
-    if (form.layout.in_space) append_impact<SpaceRow>(form.out, impact, form.errors);
-    else append_impact<DiscreteRow>(form.out, impact, form.errors);
-    append_ending(form, outcome);
-  }
-  if (!sequence.tail) return;
-  form.out += form.prefix;
-  if (form.layout.in_space) append_tail<SpaceRow>(form.out, *sequence.tail, form.errors);
-  else append_tail<DiscreteRow>(form.out, *sequence.tail, form.errors);
-  append_ending(form, outcome);
-}
-
-void append_rows(const RowForm& form, const analytic::space::Sequence& sequence, const std::vector<SpaceRow>& rows) {
-  const char* const outcome = outcome_name(sequence.outcome);
-  if (form.layout.rows == RowKind::scene) return append_scene_row(form, totals(sequence), rows, outcome);
-  for (const SpaceRow& row : rows) {
-    form.out += form.prefix;
-    append_impact<SpaceRow>(form.out, row, form.errors);
-    append_ending(form, outcome);
-  }
-  if (!sequence.tail) return;
-  form.out += form.prefix;
-  append_tail<SpaceRow>(form.out, *sequence.tail, form.errors);
-  append_ending(form, outcome);
-}
-
-void append_rows(const RowForm& form, const numeric::Simulation& run, const std::vector<ContinuousRow>& rows) {
-  const char* const outcome = outcome_name(run.outcome);
-  if (run.impacts.empty()) return append_empty_row(form, "0", outcome);
-  if (form.layout.rows == RowKind::scene) return append_scene_row(form, totals(run), rows, outcome);
-  for (const ContinuousRow& row : rows) {
-    form.out += form.prefix;
-    append_impact<ContinuousRow>(form.out, row, true);  // empty where none were asked for
-    append_ending(form, outcome);
-  }
+    append_impact(form.out, impact,
+                  {.model = run.model, .columns = columns_model(form.layout), .errors = is_continuous || form.errors});
+    append_ending(form, run.outcome);
+  };
+  for (const Impact& impact : run.impacts) append(impact);
+  if (run.tail) append(run.tail->sum);
 }
 
 void append_failure(const RowForm& form, const char* outcome) { append_empty_row(form, "", outcome); }

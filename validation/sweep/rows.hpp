@@ -6,9 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "analytic/plane/sequence.hpp"
-#include "analytic/space/sequence.hpp"
-#include "numeric/simulate.hpp"
 #include "validation/output/report.hpp"
 #include "validation/record/impact_quantities.hpp"
 #include "validation/scene/scene.hpp"
@@ -64,10 +61,8 @@ struct RowForm {
   bool predictions = true;  ///< whether their growth was
   std::string reason;
 };
-/// Appends the rows of one scene.  @param drop_deg its inclination [°]
-void append_rows(const RowForm& form, const analytic::Sequence& sequence, double drop_deg);
-void append_rows(const RowForm& form, const analytic::space::Sequence& sequence, const std::vector<SpaceRow>& rows);
-void append_rows(const RowForm& form, const numeric::Simulation& run, const std::vector<ContinuousRow>& rows);
+/// Appends the rows of one scene.
+void append_rows(const RowForm& form, const Run& run);
 /// The one row of a scene without numbers.
 void append_failure(const RowForm& form, const char* outcome);
 

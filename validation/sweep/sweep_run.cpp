@@ -159,32 +159,27 @@ void SceneRunner::renew_body() {
   for (const std::size_t place : plan_.body_values) body_values_.push_back(values_[place]);
 }
 
-/// In the plane or in space.
-void SceneRunner::append_sequence(RowForm& form) {
+/// The sequence of the scene, in the plane or in space.
+DiscreteSequence SceneRunner::sequence(bool with_errors) {
   const analytic::SequenceOptions options{
-      .impacts = scene_.request.impacts, .digits = scene_.accuracy.digits, .amplification = form.errors};
+      .impacts = scene_.request.impacts, .digits = scene_.accuracy.digits, .amplification = with_errors};
   const DiscreteDrop drop = body_.discrete->drop(scene_);
-  if (const auto* const planar = std::get_if<analytic::Drop>(&drop)) {
-    const analytic::Sequence sequence = impact_sequence(*planar, options);
-    form.reason = shortfall(scene_, sequence);
-    return append_rows(form, sequence, scene_.angle_deg);
-  }
-  const analytic::space::Sequence sequence = impact_sequence(std::get<analytic::space::Drop>(drop), options);
-  form.reason = shortfall(scene_, sequence);
-  append_rows(form, sequence, space_rows(scene_, sequence, body_.discrete->centre()));
+  return std::visit([&](const auto& one) -> DiscreteSequence { return impact_sequence(one, options); }, drop);
 }
 
 bool SceneRunner::append_result(RowForm& form) {
   renew_body();
   if (plan_.layout.model == Model::discrete) {
-    append_sequence(form);
+    const Run run = named_run(scene_, sequence(form.errors), body_.discrete->centre());
+    form.reason = shortfall(scene_, run);
+    append_rows(form, run);
     return true;
   }
   const PlannedRun planned = run_to_digits(*body_.solid, scene_.world, scene_.start(*body_.solid), scene_.request,
                                            scene_.accuracy, {.progress = [this](int, long) { return !stop_(); }});
   if (planned.run.outcome == numeric::Outcome::interrupted) return false;
   form.reason = shortfall(scene_, planned);
-  append_rows(form, planned.run, continuous_rows(scene_, planned.run));
+  append_rows(form, named_run(scene_, planned.run));
   return true;
 }
 

@@ -95,7 +95,7 @@ class SceneRunner {
   /// False if it was stopped; then nothing is appended.
   bool append_scene(long long index, std::string& out);
   bool append_result(RowForm& form);
-  void append_sequence(RowForm& form);
+  [[nodiscard]] DiscreteSequence sequence(bool with_errors);
   [[nodiscard]] RowForm form_of(const std::string& prefix, std::string& out) const;
   void renew_body();
 

@@ -77,8 +77,9 @@ Measured bars_of_the_simulator(CaseRuns& case_runs) {
     for (std::size_t i = 0; i < std::min(run.impacts.size(), truth.impacts.size()); ++i) {
       const numeric::ImpactRecord& row = run.impacts[i];
       if (!row.predictable || std::isnan(row.error.start)) continue;
-      const MotionNumbers value = motion_numbers(row), bar = motion_errors(row),
-                          exact = motion_numbers(truth.impacts[i]);
+      const Impact impact = impact_of(row);
+      const MotionNumbers value = motion_numbers(impact.value), bar = motion_numbers(impact.error),
+                          exact = motion_numbers(impact_of(truth.impacts[i]).value);
       for (std::size_t q = 0; q < motion_number_count; ++q) {
         if (exact[q] != 0) sample.take(std::fabs(value[q] - exact[q]) / sizes[q], bar[q] / sizes[q]);
       }

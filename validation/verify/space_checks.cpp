@@ -170,7 +170,7 @@ double asymmetry(const Drop& drop, const Symmetry& symmetry) {
   double worst = 0;
   for (std::size_t i = 0; i < run.rows.size() && run.rows[i].error.predictable; ++i) {
     if (i >= other.rows.size()) return INFINITY;
-    const Impact &a = run.rows[i].impact, &b = other.rows[i].impact;
+    const analytic::space::Impact &a = run.rows[i].impact, &b = other.rows[i].impact;
     const double apart = std::max({(b.impulse - symmetry.velocity(a.impulse)).norm() / a.impulse.norm(),
                                    (b.velocity_after - symmetry.velocity(a.velocity_after)).norm() / 3,
                                    (b.angular_velocity_after - symmetry.rate(a.angular_velocity_after)).norm() /
@@ -201,7 +201,7 @@ Measured path_of_friction(CaseRuns&) {
     const Matrix3 axes = drop.attitude.toRotationMatrix();
     const ContactVelocity velocity = contact_velocity(before, place);
     if (!(velocity.value.z() < 0)) continue;
-    const Impact impact = strike(drop.body, before, place, drop.law);
+    const analytic::space::Impact impact = strike(drop.body, before, place, drop.law);
     if (impact.path != PathKind::turning_slip || !(impact.least_slip > 0.1 * velocity.value.norm())) continue;
     ++paths;
     const Matrix3 inverse =
@@ -254,7 +254,7 @@ Measured planar_model(CaseRuns&) {
       if (i >= planar.rows.size()) return {static_cast<double>(impacts), INFINITY, Answer::refuted, "an impact more"};
       ++impacts;
       const analytic::Impact& a = planar.rows[i].impact;
-      const Impact& b = flown.rows[i].impact;
+      const analytic::space::Impact& b = flown.rows[i].impact;
       const double apart = std::max({std::fabs(b.impulse.z() - a.normal_impulse),
                                      std::fabs(b.impulse.x() - a.tangential_impulse), std::fabs(b.impulse.y()),
                                      (b.velocity_after - Vector3(a.after.tangential, 0, a.after.normal)).norm(),

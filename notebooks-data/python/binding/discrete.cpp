@@ -23,16 +23,16 @@ namespace {
 namespace py = pybind11;
 using validation::AnglesRequest;
 using validation::NamedTexts;
-using validation::Scene;
+using validation::PreparedScene;
 
-Scene read_discrete(const SceneSource& source) {
+PreparedScene read_discrete(const SceneSource& source) {
   return validation::read_discrete_scene(source.values(), validation::scene_overrides(source.changes));
 }
 
 Report sequence(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes,
                 const std::string& method) {
   return run_interruptible([source = SceneSource{name, text, changes}, method](const Watch&) -> Report {
-    const Scene scene = read_discrete(source);
+    const PreparedScene scene = read_discrete(source);
     const auto run = std::make_shared<const validation::DiscreteRun>(
         validation::run_discrete(scene, validation::read_sequence_method(method)));
     return {[scene, run] { return validation::sequence_report(scene, *run); }};

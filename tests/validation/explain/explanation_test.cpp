@@ -32,7 +32,7 @@ struct Told {
   Explanation explanation;
 };
 
-Scene scene_of(const std::string& source, const std::string& flags) {
+PreparedScene scene_of(const std::string& source, const std::string& flags) {
   std::vector<SceneOverride> overrides;
   for (std::size_t at = 0; at < flags.size();) {
     const std::size_t equals = flags.find('=', at), end = std::min(flags.find(' ', at), flags.size());
@@ -43,7 +43,7 @@ Scene scene_of(const std::string& source, const std::string& flags) {
 }
 
 void add(std::vector<Told>& all, const std::string& source, const std::string& flags, int impacts) {
-  const Scene scene = scene_of(source, flags);
+  const PreparedScene scene = scene_of(source, flags);
   for (int n = 1; n <= impacts; ++n) {
     try {
       all.push_back({fmt::format("explain {} {} {}", n, source, flags), explain_impact(scene, n)});
@@ -54,10 +54,9 @@ void add(std::vector<Told>& all, const std::string& source, const std::string& f
 
 /// The same on the scene's ground, as compare has it.
 void add_on_ground(std::vector<Told>& all, const std::string& source, int impacts) {
-  const Scene scene = read_scene(scene_values(source), {}, Model::continuous);
-  const DiscreteDrop drop = discrete_drop(scene);
+  const PreparedScene scene = prepared(read_scene(scene_values(source), {}, Model::continuous));
   for (int n = 1; n <= impacts; ++n) {
-    all.push_back({fmt::format("explain {} {} on its ground", n, source), explain_impact(scene, drop, n)});
+    all.push_back({fmt::format("explain {} {} on its ground", n, source), explain_impact(scene, n)});
   }
 }
 
@@ -217,9 +216,8 @@ BOOST_AUTO_TEST_CASE(each_line_of_text_fits_80_columns_and_ascii_is_ascii) {
 }
 
 BOOST_AUTO_TEST_CASE(on_a_damped_ground_e_follows_from_the_speed_of_each_impact) {
-  const Scene scene = read_scene(scene_values("rod-damped"), {}, Model::continuous);
-  const DiscreteDrop drop = discrete_drop(scene);
-  const Explanation explanation = explain_impact(scene, drop, 1);
+  const PreparedScene scene = prepared(read_scene(scene_values("rod-damped"), {}, Model::continuous));
+  const Explanation explanation = explain_impact(scene, 1);
   const auto step =
       std::ranges::find_if(explanation.steps, [](const Step& s) { return s.title.starts_with("Restitution"); });
   BOOST_REQUIRE((step != explanation.steps.end()));

@@ -47,7 +47,7 @@ Scene planar_case(const char* name, int impacts) {
 
 double true_error(const Scene& scene, const numeric::Simulation& run) {
   const Truth truth = true_values(ModelHierarchy(scene));
-  return distance(motion_rows(run), truth.rows, truth.sizes);
+  return distance(motion_rows(run_of(run)), truth.rows, truth.sizes);
 }
 
 }  // namespace

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One run of either model, in the plane or in space: the impacts, what follows them and how it ended.  Models' own rows
+// are converted here; reports, sweeps, comparisons, JSON and Python read nothing else.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analytic/plane/sequence.hpp"
+#include "analytic/space/sequence.hpp"
+#include "numeric/simulate.hpp"
+#include "validation/output/estimated.hpp"
+
+namespace clatter::validation::inline record {
+
+/// The model of a run, which decides what is known of its impacts.
+enum class RunModel { plane, space, continuous };
+
+using EntryVector = std::array<double, 3>;      ///< x, y, z; world frame if nothing else is said
+using EntryParameters = std::array<double, 4>;  ///< Euler parameters, scalar first
+
+/// The numbers of an impact; the same struct holds their errors, not finite where not known.  What a model has not is
+/// 0.
+struct Numbers {
+  double start = 0;              ///< touch-down, after that of impact 1; of a tail its end [s]
+  double duration = 0;           ///< [s]
+  double inclination_deg = 0;    ///< of the body's x axis at touch-down, > 0: end a lower [°]
+  double contact_angle_deg = 0;  ///< acute angle between body and ground at touch-down [°]
+  double approach_speed = 0;     ///< of the contact point, downward [m/s]
+  double restitution = 0;        ///< separation over approach speed that came out
+  double impulse_ratio = 0;      ///< P_x/P_z
+  EntryVector impulse{};         ///< of the ground [N·s]; an error in space: each the bound on the vector's length
+  double peak_force = 0;         ///< [N]
+  double peak_time = 0;          ///< after touch-down [s]
+  EntryVector velocity_after{};  ///< of the centre of mass [m/s]
+  EntryVector angular_velocity_after{};  ///< [rad/s]
+  double energy_before = 0;              ///< translational, rotational and potential [J]
+  double energy_after = 0;               ///< [J]
+  double energy_loss = 0;                ///< [J]
+  double work_damping = 0;               ///< [J]
+  double work_friction = 0;              ///< [J]
+  double work_released = 0;              ///< [J]
+  EntryParameters attitude{1, 0, 0, 0};  ///< at touch-down, body to world
+
+  /// Nothing is known.
+  [[nodiscard]] static Numbers unknown();
+};
+
+struct Impact {
+  int n = 0;             ///< from 1
+  bool is_tail = false;  ///< the sum of infinitely many impacts after the last row; `start` is their end
+  std::string end;       ///< which end of the body strikes, or its vertices
+  std::string corners;   ///< which of its corners; empty: they have no names
+  EntryVector place{};   ///< of the first of them, from the geometric centre (a mesh: in its file's frame) [m]
+  Numbers value, error;
+  int touches = 1;        ///< separate places that came down
+  const char* mode = "";  ///< how friction acted
+  bool submerged = false;
+  double local_slip = 0;     ///< [N·s]
+  double energy_stored = 0;  ///< [J]
+  double ledger_gap = 0;
+  double amplification = 0;
+  bool predictable = true;
+  double largest_speed = 0;  ///< of the centre of mass, before or after; the simulator's: or of approach [m/s]
+  double largest_rate = 0;   ///< before or after [rad/s]
+};
+
+/// The sum of infinitely many impacts after the last row.
+struct RunTail {
+  Impact sum;
+  bool closed_form = false;  ///< else by extrapolation
+};
+
+struct Run {
+  RunModel model = RunModel::plane;
+  std::vector<Impact> impacts;
+  std::optional<RunTail> tail;
+  const char* outcome = "";
+  std::string message;  ///< the outcome in words
+  std::vector<std::string> warnings;
+  bool is_cut_short = false;  ///< a number could not be computed, or a limit on the work was reached
+  bool leaves_model = false;  ///< the next impact is outside the model
+  double relative_error = 0;  ///< largest of the discrete model's numbers; infinite: one cannot be predicted
+  std::optional<analytic::NearMiss> near_miss;    ///< of the flight after the last impact
+  std::optional<Estimated> total_normal_impulse;  ///< by the model itself, which knows how errors are correlated [N·s]
+  long evaluations = 0;                           ///< of the discrete model, of heights or rotations
+};
+
+/// An inclination that no drop has: the angle of the first impact is then that of its row.
+inline constexpr double no_inclination = 360;
+
+/// The impact of a row.
+/// @param n  its number; 0: it has none
+/// @param drop_deg  inclination of the drop as it was given, which the first impact keeps to the last digit [°]
+[[nodiscard]] Impact impact_of(const analytic::ImpactRow& row, int n = 0, double drop_deg = no_inclination);
+[[nodiscard]] Impact impact_of(const analytic::space::ImpactRow& row, int n = 0);
+[[nodiscard]] Impact impact_of(const numeric::ImpactRecord& row, int n = 0);
+
+/// The run of a sequence or simulation, without names of corners in space.
+[[nodiscard]] Run run_of(const analytic::Sequence& sequence, double drop_deg = no_inclination);
+[[nodiscard]] Run run_of(const analytic::space::Sequence& sequence);
+[[nodiscard]] Run run_of(const numeric::Simulation& simulation);
+
+}  // namespace clatter::validation::inline record
