@@ -388,29 +388,14 @@ TableRequest impact_list_request(bool in_space, const ColumnNames& names) {
           .names = names};
 }
 
-bool is_counter_clockwise(const NumericTable& table, const Reference& reference) {
-  if (!table.column("Omega")) return false;
-  const std::size_t omega = table.column("Omega").value(), normal = table.column("Pn").value();
-  double agreement = 0, before = reference.start.angular_velocity.y();
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const auto points = reference.place_named(table.word(row, "place"));
-    if (!points) return false;
-    // End a, to the left of the centre, is turned clockwise by a push upward.
-    double lever = 0;
-    for (const int point : *points) lever -= reference.body.vertices[static_cast<std::size_t>(point)].x();
-    agreement += (table.at(row, omega) - before) * lever * table.at(row, normal);
-    before = table.at(row, omega);
-  }
-  return agreement < 0;
-}
-
-std::vector<FoundImpact> listed_impacts(const NumericTable& table, const Reference& reference) {
+std::vector<FoundImpact> listed_impacts(const NumericTable& table, const Reference& reference,
+                                        bool is_counter_clockwise) {
   const auto number = [&](std::size_t row, const char* name) { return table.at(row, table.column(name).value()); };
   const auto vector = [&](std::size_t row, const char* x, const char* y, const char* z) {
     return Vector3(number(row, x), number(row, y), number(row, z));
   };
   const bool in_space = table.column("Px").has_value();
-  const double clockwise = is_counter_clockwise(table, reference) ? -1 : 1;
+  const double clockwise = is_counter_clockwise ? -1 : 1;
   std::vector<FoundImpact> found;
   State state = reference.start;
   double time = reference.sequences.front().truth.front().time, shift = 0;

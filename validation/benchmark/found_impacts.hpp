@@ -41,14 +41,12 @@ struct ImpactSearch {
 [[nodiscard]] std::vector<FoundImpact> find_impacts(const Motion& motion, const Reference& reference,
                                                     const ImpactSearch& search);
 
-/// Whether Omega of a list is positive counter-clockwise: its changes are against the moments of its own impulses.
-[[nodiscard]] bool is_counter_clockwise(const NumericTable& table, const Reference& reference);
-
 /// Impacts of a list t,place,Pn,Pt,V,Omega, or in space t,place,Px,Py,Pz,Vx,Vy,Vz,Wx,Wy,Wz; Omega and W as in the
 /// program's own tables, positive clockwise on the page, unless is_counter_clockwise().  States follow from the
 /// reference's start by free flight.
 /// @throws BadInput for a place that the body does not have, and times that decrease
-[[nodiscard]] std::vector<FoundImpact> listed_impacts(const NumericTable& table, const Reference& reference);
+[[nodiscard]] std::vector<FoundImpact> listed_impacts(const NumericTable& table, const Reference& reference,
+                                                      bool is_counter_clockwise = false);
 [[nodiscard]] TableRequest impact_list_request(bool in_space, const ColumnNames& names);
 
 }  // namespace clatter::validation::inline benchmark

@@ -118,6 +118,10 @@ Score score_impacts(const std::vector<FoundImpact>& impacts, const Reference& re
     score.energy_error = worse(score.energy_error, std::fabs(one.energy_error));
   }
   score.found = score.impacts.size();
+  if (score.found == 0) {
+    for (double* error : {&score.law_error, &score.velocity_error, &score.angular_error, &score.time_error})
+      *error = Score::unknown;
+  }
   find_missing(score, sequence);
   score.order_is_right = score.findings.empty();
   return score;
@@ -162,6 +166,7 @@ Score best_of(const Reference& reference, const std::string& law, Judge&& judge)
     if (!law.empty() && !sequence.law.is_named(law)) continue;
     Score score = judge(sequence);
     score.law_is_declared = !law.empty();
+    if (!score.left_out.empty()) score.findings.push_back("incomplete: " + score.left_out);
     explain(score, reference.tolerances[1], sizes_of(reference, sequence).time);
     if (first || score.error() < best.error() || (score.order_is_right && !best.order_is_right)) best = score;
     first = false;
@@ -190,8 +195,8 @@ ImpactSearch search_for(const Reference& reference) {
 class Flights {
  public:
   Flights(const Motion& motion, const Reference& reference, const ReferenceSequence& sequence,
-          const std::vector<FoundImpact>& impacts)
-      : motion_(motion), reference_(reference), sequence_(sequence), impacts_(impacts) {}
+          const std::vector<FoundImpact>& impacts, bool has_ended)
+      : motion_(motion), reference_(reference), sequence_(sequence), impacts_(impacts), has_ended_(has_ended) {}
 
   void score(Score& score) {
     energy_ = reference_.energy(reference_.start);
@@ -204,7 +209,8 @@ class Flights {
       if (last > row) follow(row, last, score, i);
       if (i < count) row = impacts_[i].last_row;
     }
-    if (reference_.energy_alone) long_run(score);
+    score.left_out = missing_time();
+    if (reference_.energy_alone && score.left_out.empty()) long_run(score);
   }
 
  private:
@@ -235,16 +241,21 @@ class Flights {
     }
   }
 
+  /// That the run ends before the time until which the problem asks, unless it says that nothing approaches any more.
+  [[nodiscard]] std::string missing_time() const {
+    if (!reference_.until || has_ended_) return "";
+    const std::size_t row = motion_.size() - 1;
+    const double end = motion_.time(row) - motion_.first_touch();
+    const double step = motion_.time(row) - motion_.time(row - 1);  // the last one may end beyond the time asked for
+    if (!(end + step < *reference_.until)) return "";
+    return fmt::format("the run ends {} s after the first touch, and {} s are asked for", significant(end, 4),
+                       shortest(*reference_.until));
+  }
+
   /// Energy at the end of a long run, whatever impacts there are.
   void long_run(Score& score) const {
     const double end = motion_.first_touch() + *reference_.until;
     std::size_t row = motion_.size() - 1;
-    // The last step may end beyond it.
-    if (2 * motion_.time(row) - motion_.time(row - 1) < end) {
-      score.energy_error = Score::unknown;
-      score.findings.push_back(fmt::format("the run ends before {} s", shortest(*reference_.until)));
-      return;
-    }
     while (row > 0 && motion_.time(row) > end) --row;
     const double wanted = reference_.energy(sequence_.after.back());
     const double error = std::fabs(motion_.energy(row) - wanted) / energy_;
@@ -258,13 +269,29 @@ class Flights {
   const Reference& reference_;
   const ReferenceSequence& sequence_;
   const std::vector<FoundImpact>& impacts_;
+  bool has_ended_;
   double energy_ = 1;
 };
+
+/// What a list says of its end.
+void score_ending(Score& score, const Ending& ending, const Reference& reference, const ReferenceSequence& sequence) {
+  if (!reference.until) return;
+  if (!reference.energy_alone) {
+    if (!ending.nothing_approaches) score.left_out = "no line \"# ended: nothing approaches\"";
+  } else if (!ending.energy) {
+    score.left_out =
+        fmt::format("no line \"# energy: J\" of the energy {} s after the first touch", shortest(*reference.until));
+  } else {
+    const double wanted = reference.energy(sequence.after.back());
+    const double error = std::fabs(*ending.energy - wanted) / reference.energy(reference.start);
+    score.energy_error = worse(score.energy_error, error);
+  }
+}
 
 }  // namespace
 
 const std::vector<std::string>& verdict_names() {
-  static const std::vector<std::string> names{"exact", "sharp", "good", "coarse", "fails"};
+  static const std::vector<std::string> names{"exact", "sharp", "good", "coarse", "incomplete", "fails"};
   return names;
 }
 
@@ -284,24 +311,29 @@ double Score::error() const {
 
 Verdict verdict_of(const Score& score, const std::vector<double>& tolerances) {
   for (std::size_t i = 0; i < tolerances.size(); ++i) {
-    if (score.error() <= tolerances[i]) return static_cast<Verdict>(i);
+    if (!(score.error() <= tolerances[i])) continue;
+    return score.left_out.empty() ? static_cast<Verdict>(i) : Verdict::incomplete;
   }
   return Verdict::fails;
 }
 
-Score score_motion(const Motion& motion, const Reference& reference, const std::string& law) {
+Score score_motion(const Motion& motion, const Reference& reference, const std::string& law, const Ending& ending) {
   const std::vector<FoundImpact> impacts = find_impacts(motion, reference, search_for(reference));
   return best_of(reference, law, [&](const ReferenceSequence& sequence) {
     Score score = score_impacts(impacts, reference, sequence);
     score.start_error = motion.start_error();
-    Flights(motion, reference, sequence, impacts).score(score);
+    Flights(motion, reference, sequence, impacts, ending.nothing_approaches).score(score);
     return score;
   });
 }
 
-Score score_list(const std::vector<FoundImpact>& impacts, const Reference& reference, const std::string& law) {
-  return best_of(reference, law,
-                 [&](const ReferenceSequence& sequence) { return score_impacts(impacts, reference, sequence); });
+Score score_list(const std::vector<FoundImpact>& impacts, const Reference& reference, const std::string& law,
+                 const Ending& ending) {
+  return best_of(reference, law, [&](const ReferenceSequence& sequence) {
+    Score score = score_impacts(impacts, reference, sequence);
+    score_ending(score, ending, reference, sequence);
+    return score;
+  });
 }
 
 }  // namespace clatter::validation::inline benchmark

@@ -12,7 +12,14 @@
 namespace clatter::validation::inline benchmark {
 
 /// Classes of tolerance, the best first; each has its largest error in Reference::tolerances.
-enum class Verdict { exact, sharp, good, coarse, fails };
+enum class Verdict {
+  exact,
+  sharp,
+  good,
+  coarse,
+  incomplete,  ///< what there is lies in a class, and something that the problem asks for is left out
+  fails
+};
 [[nodiscard]] const char* verdict_name(Verdict verdict);
 [[nodiscard]] const std::vector<std::string>& verdict_names();
 
@@ -49,7 +56,8 @@ struct Score {
   double law_error = 0, velocity_error = 0, angular_error = 0, time_error = 0, energy_error = 0, flight_error = 0,
          start_error = 0;
   std::optional<std::size_t> drift{}, stray{};  ///< after how many impacts energy or flight is worst
-  std::vector<std::string> findings{};          ///< what is wrong, in words, the first first
+  std::string left_out{};               ///< what the problem asks for and the answer does not say; empty: nothing
+  std::vector<std::string> findings{};  ///< what is wrong, in words, the first first
 
   /// V, Ω and t.
   [[nodiscard]] double motion_error() const;
@@ -62,10 +70,18 @@ struct Score {
 
 [[nodiscard]] Verdict verdict_of(const Score& score, const std::vector<double>& tolerances);
 
+/// What an answer says of its end, in lines above its header.
+struct Ending {
+  bool nothing_approaches = false;  ///< "# ended: nothing approaches": free flight from the last row on, for ever
+  std::optional<double> energy;     ///< "# energy: J", m V²/2 + ω·L/2 + m g z at its end [J]
+};
+
 /// The scores of a motion.  Without a declared law (empty) the one that fits best.
-[[nodiscard]] Score score_motion(const Motion& motion, const Reference& reference, const std::string& law);
-/// The scores of a list of impacts; no score of flight and start.
+[[nodiscard]] Score score_motion(const Motion& motion, const Reference& reference, const std::string& law,
+                                 const Ending& ending = {});
+/// The scores of a list of impacts; no score of flight and start.  Where the problem says until when nothing more
+/// strikes, the list must say that nothing does; where it asks for an energy, its own.
 [[nodiscard]] Score score_list(const std::vector<FoundImpact>& impacts, const Reference& reference,
-                               const std::string& law);
+                               const std::string& law, const Ending& ending = {});
 
 }  // namespace clatter::validation::inline benchmark

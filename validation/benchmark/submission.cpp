@@ -70,14 +70,48 @@ SubmissionHead head_of(const NumericTable& table) {
   return head;
 }
 
+/// The value of a line that has few of them; nothing without the line.
+std::optional<std::string> chosen_comment(const NumericTable& table, const std::string& key,
+                                          const std::vector<std::string>& allowed) {
+  const auto given = table.comment(key);
+  if (given && std::find(allowed.begin(), allowed.end(), *given) == allowed.end()) {
+    throw BadInput(
+        fmt::format("{} = {}: must be {}", place_of(table, key), shown_field(*given), fmt::join(allowed, " or ")));
+  }
+  return given;
+}
+
+Ending ending_of(const NumericTable& table) {
+  Ending ending{.nothing_approaches = chosen_comment(table, "ended", {"nothing approaches"}).has_value(), .energy = {}};
+  const auto energy = table.comment("energy");
+  double value = 0;
+  if (energy && !read_number(trimmed(*energy), value)) {
+    throw BadInput(fmt::format("{} = {}: must be a number of joules", place_of(table, "energy"), shown_field(*energy)));
+  }
+  if (energy) ending.energy = value;
+  return ending;
+}
+
+/// A list in the plane says which turn its Omega counts as positive: a guess would hide a wrong sign.
+Score judge_list(const NumericTable& table, const SubmissionHead& head, const Reference& reference) {
+  const std::string other = "counter-clockwise";
+  const auto turn = chosen_comment(table, "Omega", {"clockwise", other});
+  Score score = score_list(listed_impacts(table, reference, turn == other), reference, head.law, ending_of(table));
+  if (table.column("Omega") && !turn) {
+    score.left_out = "no line \"# Omega: clockwise\" or \"# Omega: counter-clockwise\"";
+    score.findings.insert(score.findings.begin(), "incomplete: " + score.left_out);
+  }
+  return score;
+}
+
 Submission judge(ReadFile file, const SubmissionHead& head, const Reference& reference) {
   Submission submission{.path = file.table.path(), .head = head, .is_list = file.is_list};
   if (file.is_list) {
-    if (is_counter_clockwise(file.table, reference)) submission.remark = "Omega is read as positive counter-clockwise";
-    submission.score = score_list(listed_impacts(file.table, reference), reference, head.law);
+    submission.score = judge_list(file.table, head, reference);
   } else {
+    const Ending ending = ending_of(file.table);
     const Motion motion(std::move(file.table), reference);
-    submission.score = score_motion(motion, reference, head.law);
+    submission.score = score_motion(motion, reference, head.law, ending);
   }
   submission.verdict = verdict_of(submission.score, reference.tolerances);
   return submission;

@@ -24,7 +24,6 @@ struct Submission {
   SubmissionHead head;
   int problem_version = 0;
   bool is_list = false;  ///< of impacts, not a motion
-  std::string remark{};  ///< on how the file was read, for readers; empty: none
   Score score{};
   Verdict verdict = Verdict::fails;
 };

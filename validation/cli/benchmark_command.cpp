@@ -112,7 +112,8 @@ Command benchmark_command() {
       "Files are CSV, t,x,z,phi,vx,vz,omega of the centre of mass (floor z = 0, phi and omega\n"
       "counter-clockwise), in space t,x,y,z,q0,q1,q2,q3,vx,vy,vz,wx,wy,wz, or impacts\n"
       "t,place,Pn,Pt,V,Omega (V and Omega after each, as clatter benchmark truth has them), after lines\n"
-      "# problem: ID, and as they apply # engine:, # version:, # step:, # settings:, # law:.";
+      "# problem: ID, and as they apply # engine:, # version:, # step:, # settings:, # law:,\n"
+      "# Omega: clockwise|counter-clockwise (of lists), # ended: nothing approaches, # energy: J.";
   command.run = [input] { return run_benchmark(*input); };
   return command;
 }

@@ -315,17 +315,41 @@ std::string benchmark_list_text() {
   return text;
 }
 
+/// Axes and the turns that count as positive, with a picture.
+std::vector<std::string> sign_lines(const Problem& problem) {
+  if (!problem.scene.attitude.empty()) {
+    return {
+        "signs: x to the right, y into the page, z up; q turns the body to the world, wx, wy, wz by the right hand"};
+  }
+  return {
+      "signs: phi and omega of motions are positive counter-clockwise on the page; Omega of the truth below is "
+      "positive clockwise, that of a list as its line \"# Omega: clockwise\" or \"# Omega: counter-clockwise\" says",
+      "  z |        b      phi > 0: end b is the higher one", "    |     /         omega > 0: b rises, a falls",
+      "    |  a            Omega > 0, clockwise: b falls, a rises", "    +-----------> x"};
+}
+
+/// What an answer must say beside its rows; empty: nothing.
+std::string ending_words(const Problem& problem) {
+  if (!problem.until) return "";
+  const std::string until = shortest(*problem.until);
+  return problem.energy_alone
+             ? fmt::format("; a motion must last {} s, a list needs \"# energy: J\" then, with m g z", until)
+             : fmt::format("; a motion must last {} s or say \"# ended: nothing approaches\", as a list must", until);
+}
+
 Report benchmark_statement(const Problem& problem) {
   Report report = begun_report("benchmark", problem.id + ", " + problem.title);
   report.head = {fmt::format("problem: {}", problem.id), fmt::format("version: {}", problem.version),
                  "motivation: " + problem.motivation, "separates: " + problem.separates};
   const std::vector<std::string> data = data_lines(problem);
   report.head.insert(report.head.end(), data.begin(), data.end());
+  const std::vector<std::string> signs = sign_lines(problem);
+  report.head.insert(report.head.end(), signs.begin(), signs.end());
   for (const std::string& line :
        {law_words(problem), asked_words(problem), error_words(problem), "acceptance: " + problem.acceptance,
         "results: as text, t,x,z,phi,vx,vz,omega of the centre of mass (in space "
         "t,x,y,z,q0,q1,q2,q3,vx,vy,vz,wx,wy,wz) or t,place,Pn,Pt,V,Omega, after a line # problem: " +
-            problem.id,
+            problem.id + ending_words(problem),
         "truth by " + oracle_of(problem)}) {
     report.head.push_back(line);
   }
@@ -368,6 +392,18 @@ Report markdown_statement(const Problem& problem) {
   return report;
 }
 
+/// What a list of the truth says of its signs and its end.
+std::vector<std::string> ending_lines(const Problem& problem) {
+  const Reference reference = reference_of(problem);
+  std::vector<std::string> lines;
+  if (reference.is_planar) lines.emplace_back("Omega: clockwise");
+  if (problem.until && !problem.energy_alone) lines.emplace_back("ended: nothing approaches");
+  if (problem.energy_alone) {
+    lines.push_back("energy: " + shortest(reference.energy(reference.sequences.front().after.back())));
+  }
+  return lines;
+}
+
 Report benchmark_truth_report(const Problem& problem, const std::string& law) {
   Report report = begun_report("benchmark", "the truth of " + problem.id);
   report.head = {"problem: " + problem.id, "truth by " + oracle_of(problem)};
@@ -376,6 +412,7 @@ Report benchmark_truth_report(const Problem& problem, const std::string& law) {
     report.head.insert(report.head.begin() + 1, "law: " + law);
     report.remarks.push_back("law: " + law);
   }
+  for (const std::string& line : ending_lines(problem)) report.remarks.push_back(line);
   report.grid = truth_grid(problem, law);
   report.fields["problem"] = problem.id;
   report.fields["version"] = problem.version;
@@ -425,7 +462,6 @@ Report score_report(const std::string& command, const std::vector<Submission>& s
     files.push_back(submission_value(report.grid.columns, one));
     worst = std::max(worst, one.verdict);
     const std::string name = std::filesystem::path(one.path).filename().string();
-    if (!one.remark.empty()) report.notes.push_back(name + ": " + one.remark);
     for (const std::string& finding : one.score.findings) report.notes.push_back(name + ": " + finding);
     if (!one.score.law_is_declared && one.score.law != "any") {
       report.notes.push_back(name + ": declares no law; judged by the one that fits best, " + one.score.law);

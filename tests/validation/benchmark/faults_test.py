@@ -119,7 +119,8 @@ def listed(problem, edit, law=None):
     """The truth as a list of impacts, changed."""
     rows = exact_motion.told("benchmark", "truth", problem, *(["--law", law] if law else []))["impacts"]
     rows = edit([{k: row[k] for k in ("t", "place", "Pn", "Pt", "V", "Omega")} for row in rows])
-    lines = [f"# problem: {problem}"] + ([f"# law: {law}"] if law else []) + ["t,place,Pn,Pt,V,Omega"]
+    head = ["# Omega: clockwise", "# ended: nothing approaches", "t,place,Pn,Pt,V,Omega"]
+    lines = [f"# problem: {problem}"] + ([f"# law: {law}"] if law else []) + head
     return "\n".join(lines + [",".join(str(v) for v in row.values()) for row in rows]) + "\n"
 
 

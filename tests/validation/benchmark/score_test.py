@@ -111,14 +111,59 @@ class Exact(Folder):
                     done = run("benchmark", "score", path, "--require", "exact")
                     self.assertEqual(done.returncode, 0, done.stdout)
 
-    def test_a_list_whose_omega_is_counter_clockwise_throughout_is_read_so(self):
+    def test_a_list_says_which_turn_its_omega_counts_as_positive(self):
+        """Nobody guesses: the other sign fails, and without the line the list is incomplete."""
         for problem in ("rod-10", "clatter-08", "friction-stick"):
             rows = told("benchmark", "truth", problem)["impacts"]
-            lines = [f"# problem: {problem}", "t,place,Pn,Pt,V,Omega"]
-            lines += [f"{r['t']!r},{r['place']},{r['Pn']!r},{r['Pt']!r},{r['V']!r},{-r['Omega']!r}" for r in rows]
-            done = run("benchmark", "score", self.put("\n".join(lines) + "\n"), "--require", "exact")
-            self.assertEqual(done.returncode, 0, done.stdout)
-            self.assertIn("counter-clockwise", done.stdout)
+            for sign in (1, -1):
+                numbers = [f"{r['t']!r},{r['place']},{r['Pn']!r},{r['Pt']!r},{r['V']!r},{sign * r['Omega']!r}" for r in rows]
+                for turn in ("clockwise", "counter-clockwise", ""):
+                    lines = [f"# problem: {problem}", "# ended: nothing approaches", f"# Omega: {turn}", "t,place,Pn,Pt,V,Omega"]
+                    text = "\n".join([line for line in lines if line != "# Omega: "] + numbers) + "\n"
+                    found = self.score(self.put(text))["files"][0]
+                    right = turn == ("clockwise" if sign == 1 else "counter-clockwise")
+                    wanted = "exact" if right else "incomplete" if turn == "" and sign == 1 else "fails"
+                    self.assertEqual(found["verdict"], wanted, (problem, sign, turn, found))
+
+    def test_a_motion_that_ends_before_the_time_asked_for_is_incomplete(self):
+        """That nothing more strikes is what the problem asks, and a run that stopped has not shown it."""
+        for problem in ("rod-10", "fold-2-above", "fold-3-above"):
+            motion = Motion(problem, 0)
+            rows = motion.rows(1e-3)
+            last = told("benchmark", "truth", problem)["impacts"][-1]["t"] + motion.touch
+            cut = [row for row in rows if row[0] <= (last + rows[-1][0]) / 2]
+            self.assertLess(len(cut), len(rows))
+            self.assertEqual(self.score(self.put(motion.text(rows)))["files"][0]["verdict"], "exact")
+            early = self.score(self.put(motion.text(cut)))["files"][0]
+            self.assertEqual(early["verdict"], "incomplete", early)
+            self.assertIn("s are asked for", early["findings"][0])
+            said = motion.text(cut).replace("\n", "\n# ended: nothing approaches\n", 1)
+            self.assertEqual(self.score(self.put(said))["files"][0]["verdict"], "exact")
+
+    def test_a_long_run_needs_the_energy_at_its_end(self):
+        done = run("benchmark", "truth", "long", "--format", "csv")
+        self.assertEqual(self.score(self.put(done.stdout))["files"][0]["verdict"], "exact")
+        without = "".join(line + "\n" for line in done.stdout.splitlines() if "energy:" not in line)
+        found = self.score(self.put(without))["files"][0]
+        self.assertEqual(found["verdict"], "incomplete", found)
+        energy = float(done.stdout.split("# energy: ")[1].split()[0])
+        off = self.score(self.put(done.stdout.replace(f"# energy: {energy!r}", f"# energy: {0.9 * energy!r}")))["files"][0]
+        self.assertEqual(off["verdict"], "fails", off)
+
+    def test_a_motion_before_any_impact_has_no_scores(self):
+        motion = Motion("rod-10", 2)
+        text = motion.text([row for row in motion.rows(1e-3) if row[0] < motion.touch][:2])
+        found = self.score(self.put(text))["files"][0]
+        self.assertEqual((found["verdict"], found["law_error"], found["velocity_error"]), ("fails", None, None))
+
+    def test_a_list_without_the_line_of_its_end_is_incomplete_where_the_end_is_asked_for(self):
+        done = run("benchmark", "truth", "fold-2-above", "--format", "csv")
+        text = done.stdout.replace("# ended: nothing approaches\n", "")
+        self.assertNotEqual(text, done.stdout)
+        self.assertEqual(self.score(self.put(text))["files"][0]["verdict"], "incomplete")
+        wrong = run("benchmark", "score", self.put(done.stdout.replace("nothing approaches", "so be it")))
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn("must be nothing approaches", wrong.stderr)
 
     def test_the_simulator_answers_the_compliant_problem_with_a_time_history(self):
         scene = self.put(told("benchmark", "show", SIMULATED)["scene_toml"], "scene.toml")
@@ -302,10 +347,10 @@ class BadFiles(Folder):
         for i in range(300):
             text = bytearray(draw.choice(whole).encode())
             for _ in range(draw.randint(1, 4)):
-                at = draw.randrange(len(text))
+                at = draw.randrange(max(len(text), 1))
                 kind = draw.randrange(4)
                 if kind == 0:
-                    text[at] = draw.randrange(256)
+                    text[at:at + 1] = bytes([draw.randrange(256)])
                 elif kind == 1:
                     del text[at:at + draw.randint(1, 40)]
                 elif kind == 2:
