@@ -69,6 +69,19 @@ double Body::reach() const {
   return reach;
 }
 
+std::optional<double> Body::transverse_moment() const {
+  if (!vertices.empty() || rims.empty()) return {};
+  const Vector3& axis = rims.front().axis;
+  const double rounding = 4 * std::numeric_limits<double>::epsilon();
+  for (const Rim& rim : rims) {
+    if (!(rim.axis.cross(axis).norm() <= rounding && rim.centre.cross(axis).norm() <= rounding * reach())) return {};
+  }
+  const double along = axis.dot(inertia * axis), across = (inertia.trace() - along) / 2;
+  const Matrix3 revolved = across * Matrix3::Identity() + (along - across) * axis * axis.transpose();
+  if (!((inertia - revolved).cwiseAbs().maxCoeff() <= rounding * inertia.cwiseAbs().maxCoeff())) return {};
+  return across;
+}
+
 void Body::validate() const {
   require(mass > 0 && std::isfinite(mass), "mass", mass, "above 0 and finite");
   validate_inertia(inertia);

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace clatter::analytic::space {
@@ -33,6 +34,9 @@ struct Body {
 
   /// Largest distance of a point of the hull from the centre of mass [m].
   [[nodiscard]] double reach() const;
+  /// Moment of inertia across the axis of a body of revolution, the surface of which is rims about one axis through
+  /// the centre of mass that is one of the inertia, to rounding; nothing for any other body [kg·m²].
+  [[nodiscard]] std::optional<double> transverse_moment() const;
   /// @throws std::domain_error naming the field, its value and what is allowed: mass > 0; inertia symmetric with
   ///         principal values > 0 that hold the triangle inequality to rounding; at least one vertex or rim; all
   ///         finite.

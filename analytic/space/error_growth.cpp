@@ -144,6 +144,19 @@ std::pair<Eigen::MatrixXd, Eigen::MatrixXd> ErrorGrowth::energy_gradients(const 
   return {energy, energy_after};
 }
 
+/// A turn moves the lowest point of a rim along the rim, to points of other velocities.
+void ErrorGrowth::add_shift_of_lowest_point(const ImpactRow& row, Eigen::MatrixXd& approach) const {
+  const Corner& corner = row.corners.front();
+  const double steep = steepness(body_, row.before.attitude, corner.index), step = relative_step * steep;
+  if (corner.radius > 0 || corner.index < static_cast<int>(body_.vertices.size())) return;
+  for (int k = 0; k < 3; ++k) {
+    const Quaternion plus = shifted(row.before, k, step).attitude, minus = shifted(row.before, k, -step).attitude;
+    const Vector3 shift =
+        row.before.attitude * (touching_place(body_, plus, corner.index) - touching_place(body_, minus, corner.index));
+    approach(0, 1 + k) += row.before.angular_velocity.cross(shift).z() / (2 * step);
+  }
+}
+
 void ErrorGrowth::fill(const Eigen::MatrixXd& derivatives, ImpactRow& row) const {
   const State& before = row.before;
   const Vector3 arm = before.attitude * row.corners.front().place;
@@ -160,6 +173,7 @@ void ErrorGrowth::fill(const Eigen::MatrixXd& derivatives, ImpactRow& row) const
   approach.block<1, 3>(0, 1) = -(cross_matrix(w) * cross_matrix(arm)).row(2);
   approach(0, 6) = 1;
   approach.block<1, 3>(0, 7) = -cross_matrix(arm).row(2);
+  add_shift_of_lowest_point(row, approach);
   const auto [energy, energy_after] = energy_gradients(row, inertia, velocity, turning);
   const Vector3 momentum_after = inertia * row.impact.angular_velocity_after;
   const Factor rounding = impulse_rounding(row);

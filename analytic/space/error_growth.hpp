@@ -56,6 +56,7 @@ class ErrorGrowth {
                                                                              const Matrix3& inertia,
                                                                              const Eigen::MatrixXd& velocity,
                                                                              const Eigen::MatrixXd& turning) const;
+  void add_shift_of_lowest_point(const ImpactRow& row, Eigen::MatrixXd& approach) const;
   void fill(const Eigen::MatrixXd& derivatives, ImpactRow& row) const;
   [[nodiscard]] Jacobian flight_jacobian(const FreeFlight& flight, double time) const;
   void check_others(const FreeFlight& flight, const FirstContact& contact);

@@ -18,15 +18,19 @@ using detail::never;
 
 // Height of a point that has just left the ground, as a series in time.
 
-/// h(t) = t (u + t C(t)), with C from the Taylor series of e = Aᵀ z and ω at t = 0 (Euler's equations), so that a hop
-/// keeps its relative accuracy however small its speed u beside V_z.
+/// h(t) = t (u + t C(t) − ρ t S(t)), so that a hop keeps its relative accuracy however small its speed u beside V_z.
+/// C comes from the Taylor series of e = Aᵀ z and ω at t = 0 (Euler's equations), with the place of a vertex or the
+/// centre of a rim.  ρ S is a rim's share: with v = v₀ + v₁ t + V t² across the rim's axis, of size s, and
+/// s₁ = v₀·v₁/s₀ the derivative of s at t = 0,
+///     S = (s − s₀ − s₁ t)/t² = (|v₀ × v₁|²/s₀² + 2 (v₀ + v₁ t)·V + t² V²)/(s + s₀ + s₁ t),         (1)
+/// where only the second form has its digits unless s₀ + s₁ t < 0.
 /// Domain: |ω| t <= 0.1, where 16 terms leave a few ulp.
 class Hop {
  public:
   static constexpr double largest_turn = 0.1;  ///< [rad]
 
-  /// Of the point at `place` (body frame), which leaves with the normal velocity `speed`.
-  Hop(const Body& body, const FreeFlight& flight, const Vector3& place, double speed);
+  /// Of a vertex or the lowest point of a rim, which leaves with the normal velocity `speed`.
+  Hop(const Body& body, const FreeFlight& flight, int point, double speed);
 
   struct Value {
     double quotient = 0;  ///< h/t [m/s]
@@ -35,16 +39,25 @@ class Hop {
   [[nodiscard]] Value at(double time) const;
   /// h′ [m/s].
   [[nodiscard]] double velocity(double time) const;
+  /// Rounding error of h/t, but for that of its terms [m/s].
+  [[nodiscard]] double noise() const { return detail::epsilon / 4 * speed_; }
 
  private:
   static constexpr std::size_t terms = 16;
+  struct Share {
+    double value = 0, slope = 0;
+  };
+  /// S of (1) and its derivative.
+  [[nodiscard]] Share share_of_rim(double time) const;
+
   double speed_;
   std::array<double, terms> bends_{};  ///< of C
+  double radius_ = 0;                  ///< ρ; 0: a vertex, or a rim that stays level
+  double size_ = 0, growth_ = 0;       ///< s₀, s₁
+  double turn_ = 0;                    ///< |v₀ × v₁|²/s₀²
+  Vector3 start_, rate_;               ///< v₀, v₁
+  std::array<Vector3, terms> across_;  ///< of V
 };
-
-/// The place whose height is that of the touching point during a hop: a vertex; the centre of a level rim that stays
-/// level, since the body turns about the vertical alone.  The lowest point of another rim is at no one place.
-[[nodiscard]] std::optional<Vector3> hopping_place(const Body& body, const FreeFlight& flight, int point);
 
 // The first root of the height of a body's point in a piece of a flight, certified by bounds of its second derivative.
 
@@ -63,6 +76,8 @@ class PointSearch {
   bool look(int point, const Node& a, const Node& b);
   /// Takes the time as the point's contact, unless one before it is known; true.
   bool take(int point, double time, detail::Bracket bracket);
+  /// Takes the end of a piece in which the point went below the ground from a height that was rounding.
+  bool take_end(int point, double from, double time);
 
   [[nodiscard]] PointHeights& heights() { return heights_; }
   [[nodiscard]] FirstContact& found() { return found_; }
@@ -73,31 +88,43 @@ class PointSearch {
   /// Normal velocity of the point that arrives first; of a small hop to relative accuracy, with that `error`.
   /// @param first  the point at the contact
   double arrival_velocity(const PointHeight& first, double& error) const;
+  /// Whether the contact is a hop's, known to relative accuracy.
+  [[nodiscard]] bool hopped() const { return best_ > 0 && hop_time_ == best_; }
 
  private:
   bool halves(int point, const Node& a, const Node& b);
-  /// A height that is not above the ground though the piece before has no root that could be told: at rounding.
-  bool solve_after(int point, const Node& a, const Node& node);
+  bool split(int point, const Node& a, const Node& b, double middle);
   bool convex(int point, const Node& a, const Node& b);
   bool solve(int point, const Node& a, const Node& b);
   /// Root of h/t in (0, b].
   bool solve_quotient(int point, const PointHeight& start, const Node& b);
   Node at(int point, double time);
+  /// Whether the point is the rim that hop_ is of, at a time in its domain.
+  [[nodiscard]] bool hops(int point, double time) const {
+    return point == hopping_rim_ && time * flight_.rotation().fastest() <= Hop::largest_turn;
+  }
+  /// Takes a root of hop_.
+  bool take_hop(int point, double time, detail::Bracket bracket);
 
   const Body& body_;
   const FreeFlight& flight_;
   PointHeights heights_;
   FirstContact found_;
   std::optional<Hop> hop_;
-  double hop_time_ = -1;
+  int hopping_rim_ = -1;
+  double hop_time_ = -1, hop_velocity_ = 0;
   double best_ = detail::never, threshold_;
 };
 
-Hop::Hop(const Body& body, const FreeFlight& flight, const Vector3& place, double speed) : speed_(speed) {
+Hop::Hop(const Body& body, const FreeFlight& flight, int point, double speed) : speed_(speed) {
   const Matrix3& inertia = body.inertia;
   const Matrix3 inverse = inertia.inverse();
+  const State& start = flight.start();
+  const auto index = static_cast<std::size_t>(point);
+  const bool is_rim = index >= body.vertices.size();
   std::array<Vector3, terms + 2> e, w, momentum;
-  e[0] = flight.rotation().vertical(0).direction;
+  // Rounding of e turns the lowest point of a rim near level: that of the departure's is taken, which `speed` is of.
+  e[0] = is_rim ? start.attitude.conjugate() * Vector3::UnitZ() : flight.rotation().vertical(0).direction;
   w[0] = flight.rotation().angular_velocity(0);
   momentum[0] = inertia * w[0];
   for (std::size_t n = 0; n + 1 < e.size(); ++n) {
@@ -111,8 +138,43 @@ Hop::Hop(const Body& body, const FreeFlight& flight, const Vector3& place, doubl
     momentum[n + 1] = torque / next;
     w[n + 1] = inverse * momentum[n + 1];
   }
+  const Vector3 place = is_rim ? body.rims[index - body.vertices.size()].centre : body.vertices[index];
   for (std::size_t k = 0; k < terms; ++k) bends_[k] = e[k + 2].dot(place);
   bends_[0] -= flight.gravity() / 2;
+  if (!is_rim) return;
+  const bool level = touching_corner(body, start.attitude, point).radius > 0;
+  const Vector3& spin = start.angular_velocity;
+  if (level && spin.head<2>().norm() <= 64 * epsilon * std::fabs(spin.z())) return;  // it stays level
+  const Rim& rim = body.rims[index - body.vertices.size()];
+  radius_ = rim.radius;
+  const auto across = [&](const Vector3& x) { return Vector3(x - x.dot(rim.axis) * rim.axis); };
+  start_ = level ? Vector3(Vector3::Zero()) : across(e[0]);
+  rate_ = across(e[1]);
+  for (std::size_t k = 0; k < terms; ++k) across_[k] = across(e[k + 2]);
+  size_ = start_.norm();
+  growth_ = level ? rate_.norm() : start_.dot(rate_) / size_;
+  turn_ = level ? 0 : (start_ / size_).cross(rate_).squaredNorm();
+}
+
+Hop::Share Hop::share_of_rim(double time) const {
+  Vector3 bend = Vector3::Zero(), change = Vector3::Zero();  // V, V′
+  for (std::size_t k = terms; k-- > 0;) {
+    change = change * time + bend;
+    bend = bend * time + across_[k];
+  }
+  const Vector3 line = start_ + time * rate_, v = line + time * time * bend;
+  const Vector3 rate = rate_ + time * (2 * bend + time * change);
+  const double size = v.norm(), straight = size_ + growth_ * time;
+  const double growth = size > 0 ? v.dot(rate) / size : rate.norm();
+  if (straight < 0) {
+    const double value = (size - straight) / (time * time);
+    return {value, (growth - growth_) / (time * time) - 2 * value / time};
+  }
+  const double sum = size + straight;
+  if (!(sum > 0)) return {};
+  const double value = (turn_ + 2 * line.dot(bend) + time * time * bend.squaredNorm()) / sum;
+  const double slope = 2 * (rate_.dot(bend) + line.dot(change) + time * (bend + time * change).dot(bend));
+  return {value, (slope - value * (growth + growth_)) / sum};
 }
 
 Hop::Value Hop::at(double time) const {
@@ -121,21 +183,17 @@ Hop::Value Hop::at(double time) const {
     slope = slope * time + bend;
     bend = bend * time + bends_[k];
   }
+  if (radius_ > 0) {
+    const Share rim = share_of_rim(time);
+    bend -= radius_ * rim.value;
+    slope -= radius_ * rim.slope;
+  }
   return {.quotient = speed_ + time * bend, .slope = bend + time * slope};
 }
 
 double Hop::velocity(double time) const {
   const Value value = at(time);
   return value.quotient + time * value.slope;
-}
-
-std::optional<Vector3> hopping_place(const Body& body, const FreeFlight& flight, int point) {
-  const auto index = static_cast<std::size_t>(point);
-  if (index < body.vertices.size()) return body.vertices[index];
-  const Corner corner = touching_corner(body, flight.start().attitude, point);
-  const Vector3& spin = flight.start().angular_velocity;
-  const bool stays_level = corner.radius > 0 && spin.head<2>().norm() <= 64 * detail::epsilon * std::fabs(spin.z());
-  return stays_level ? std::optional<Vector3>(corner.place) : std::nullopt;
 }
 
 namespace {
@@ -152,6 +210,11 @@ PointSearch::PointSearch(const Body& body, const FreeFlight& flight)
 bool PointSearch::look(int point, const Node& a, const Node& b) {
   if (a.point.time >= best_) return true;
   const bool touching = a.point.time == 0 && a.point.height == 0;
+  if (touching && heights_.is_rim(point)) {
+    if (hopping_rim_ != point) hop_.emplace(body_, flight_, point, a.point.velocity);
+    hopping_rim_ = point;
+    if (!hops(point, b.point.time)) return split(point, a, b, 0.99 * Hop::largest_turn / flight_.rotation().fastest());
+  }
   const HeightBounds bounds = heights_.bounds(point, {a.moment, b.moment, a.point, b.point, touching});
   if (bounds.lowest > (touching ? 0 : std::fmin(threshold_, found_.near_miss.clearance))) return false;
   if (touching) {
@@ -173,19 +236,21 @@ bool PointSearch::look(int point, const Node& a, const Node& b) {
 bool PointSearch::halves(int point, const Node& a, const Node& b) {
   const double middle = a.point.time + (b.point.time - a.point.time) / 2;
   if (!(middle > a.point.time && middle < b.point.time) || b.point.time - a.point.time <= 8 * epsilon * b.point.time) {
-    if (b.point.height > 0) return false;
-    found_.within_margin = true;
-    return take(point, b.point.time, {a.point.time, b.point.time});
+    return b.point.height > 0 ? false : take_end(point, a.point.time, b.point.time);
   }
+  return split(point, a, b, middle);
+}
+
+bool PointSearch::split(int point, const Node& a, const Node& b, double middle) {
   const Node node = at(point, middle);
   if (look(point, a, node)) return true;
-  if (!(node.point.height > 0)) return solve_after(point, a, node);
+  if (!(node.point.height > 0)) return take_end(point, a.point.time, node.point.time);
   return look(point, node, b);
 }
 
-bool PointSearch::solve_after(int point, const Node& a, const Node& node) {
+bool PointSearch::take_end(int point, double from, double time) {
   found_.within_margin = true;
-  return take(point, node.point.time, {a.point.time, node.point.time});
+  return take(point, time, {from, time});
 }
 
 bool PointSearch::convex(int point, const Node& a, const Node& b) {
@@ -216,33 +281,38 @@ bool PointSearch::convex(int point, const Node& a, const Node& b) {
 bool PointSearch::solve(int point, const Node& a, const Node& b) {
   if (!(a.point.height > 0)) return false;
   const double noise = epsilon * heights_.reach() / 4;
+  const bool hopping = hops(point, b.point.time);
   const auto sample = [&](double t) -> detail::Sample {
     const PointHeight h = at(point, t).point;
-    return {h.height, h.velocity, noise};
+    return {h.height, h.velocity, hopping ? hop_->noise() * t : noise};
   };
   const double share = a.point.height / (a.point.height - b.point.height);
   const detail::Root root = detail::bracketed_root(detail::FunctionView(sample), {a.point.time, b.point.time},
                                                    a.point.time + share * (b.point.time - a.point.time), false);
-  return take(point, root.value, {a.point.time, b.point.time});
+  const detail::Bracket bracket{a.point.time, b.point.time};
+  return hopping ? take_hop(point, root.value, bracket) : take(point, root.value, bracket);
 }
 
 bool PointSearch::solve_quotient(int point, const PointHeight& start, const Node& b) {
   const Touch touch{.point = point, .normal_velocity = start.velocity};
   const double turn = b.point.time * flight_.rotation().fastest();
-  const std::optional<Vector3> place = hopping_place(body_, flight_, point);
   const double bend = start.acceleration;
   const double guess = bend < 0 ? -2 * touch.normal_velocity / bend : b.point.time / 2;
-  if (place && turn <= Hop::largest_turn) {
-    hop_.emplace(body_, flight_, *place, touch.normal_velocity);
+  if (turn <= Hop::largest_turn) {
+    if (!hops(point, 0)) {
+      hop_.emplace(body_, flight_, point, touch.normal_velocity);
+      hopping_rim_ = -1;
+    } else if (!(hop_->at(b.point.time).quotient < 0)) {
+      return false;
+    }
     const auto sample = [&](double t) -> detail::Sample {
       const Hop::Value value = hop_->at(t);
-      return {value.quotient, value.slope, epsilon / 4 * touch.normal_velocity};
+      return {value.quotient, value.slope, hop_->noise()};
     };
     const detail::Root root = detail::bracketed_root(detail::FunctionView(sample), {0, b.point.time}, guess, false);
-    hop_time_ = root.value;
-    return take(point, root.value, {0, b.point.time});
+    return take_hop(point, root.value, {0, b.point.time});
   }
-  if (place && guess * flight_.rotation().fastest() < Hop::largest_turn / 2) {  // the root lies near: come nearer
+  if (guess * flight_.rotation().fastest() < Hop::largest_turn / 2) {  // the root lies near: come nearer
     const Node nearer = at(point, Hop::largest_turn * 0.99 / flight_.rotation().fastest());
     if (nearer.point.height < 0) return solve_quotient(point, start, nearer);
   }
@@ -265,7 +335,21 @@ PointSearch::Node PointSearch::at(int point, double time) {
     throw NumericalError("no contact found nor excluded in a million evaluations of a flight's rotation");
   }
   const FlightMoment moment = heights_.moment(time);
-  return {moment, heights_.at(point, moment)};
+  Node node{moment, heights_.at(point, moment)};
+  if (time > 0 && hops(point, time)) {
+    const Hop::Value value = hop_->at(time);
+    node.point.height = time * value.quotient;
+    node.point.velocity = value.quotient + time * value.slope;
+  }
+  return node;
+}
+
+bool PointSearch::take_hop(int point, double time, detail::Bracket bracket) {
+  if (time < best_) {
+    hop_time_ = time;
+    hop_velocity_ = hop_->velocity(time);
+  }
+  return take(point, time, bracket);
 }
 
 bool PointSearch::take(int point, double time, detail::Bracket bracket) {
@@ -280,10 +364,9 @@ bool PointSearch::take(int point, double time, detail::Bracket bracket) {
 }
 
 double PointSearch::arrival_velocity(const PointHeight& first, double& error) const {
-  if (!(best_ > 0 && hop_ && hop_time_ == best_)) return first.velocity;
-  const double velocity = hop_->velocity(best_);
-  error = 4 * epsilon * std::fabs(velocity);
-  return velocity;
+  if (!hopped()) return first.velocity;
+  error = 4 * epsilon * std::fabs(hop_velocity_);
+  return hop_velocity_;
 }
 
 namespace {
@@ -400,7 +483,10 @@ class Search {
       const double lowest = std::fmin(start.centre, next.centre);
       for (std::size_t i = 0; i < from_.size(); ++i) {
         to_[i] = heights_.at(static_cast<int>(i), next);
-        if (lowest <= depths_[i]) search_.look(static_cast<int>(i), {start, from_[i]}, {next, to_[i]});
+        if (!(lowest <= depths_[i])) continue;
+        const int point = static_cast<int>(i);
+        if (search_.look(point, {start, from_[i]}, {next, to_[i]})) continue;
+        if (to_[i].height < -heights_.noise(stop)) search_.take_end(point, start.time, stop);
       }
       if (found_.end == FlightEnd::contact) return false;
       start = next;
@@ -421,14 +507,23 @@ class Search {
     const PointHeight first =
         best == 0 ? from_[static_cast<std::size_t>(found_.point)] : heights_.at(found_.point, moment);
     found_.normal_velocity = search_.arrival_velocity(first, found_.velocity_error);
+    if (search_.hopped() && heights_.is_rim(found_.point)) {
+      // Rounding of the attitude turns the lowest point of a rim by that over the rim's steepness.
+      const double steep =
+          std::fmin(heights_.steepness(found_.point, heights_.moment(0)), heights_.steepness(found_.point, moment));
+      found_.velocity_error += 4 * epsilon * std::fabs(touch(found_.point)->normal_velocity);
+      found_.velocity_error /= steep;
+    }
     found_.acceleration = first.acceleration;
     found_.together.assign(1, found_.point);
+    // The others' heights err by the time's error, too.
+    const double late = search_.hopped() ? 4 * epsilon * best : heights_.noise(best) / std::fabs(first.velocity);
     for (int i = 0; i < heights_.count(); ++i) {
       if (i == found_.point) continue;
       const PointHeight h = best == 0 ? from_[static_cast<std::size_t>(i)] : heights_.at(i, moment);
-      // The others' heights err by the time's error, too.
-      const double slower = std::fabs(h.velocity / first.velocity);
-      if (std::fabs(h.height) <= heights_.noise(best) * (1 + slower) && h.velocity < 0) found_.together.push_back(i);
+      if (std::fabs(h.height) <= heights_.noise(best) + late * std::fabs(h.velocity) && h.velocity < 0) {
+        found_.together.push_back(i);
+      }
     }
   }
 
@@ -445,7 +540,15 @@ class Search {
 }  // namespace
 
 FirstContact first_contact(const Body& body, const FreeFlight& flight, std::span<const Touch> touching) {
-  return Search(body, flight, touching).run();
+  const std::optional<double> across = body.transverse_moment();
+  if (!across) return Search(body, flight, touching).run();
+  const State& start = flight.start();
+  Body shape = body;
+  shape.inertia = *across * Matrix3::Identity();
+  State steady = start;
+  const Vector3 spin = start.attitude.conjugate() * start.angular_velocity;
+  steady.angular_velocity = start.attitude * (body.inertia * spin) / *across;
+  return Search(shape, FreeFlight(PrincipalAxes(shape.inertia), steady, flight.gravity()), touching).run();
 }
 
 }  // namespace clatter::analytic::space

@@ -4,6 +4,9 @@
 // The flight is cut into pieces of a fraction of a radian.  On each, point_height.hpp bounds the height of every vertex
 // and rim from below: above the ground, the piece is clear.  Otherwise the sign of h″ tells: a concave height reaches
 // the ground if its end does, a convex one if its lowest point does; a piece with neither sign is halved.
+//
+// The axis of a free symmetric top circles its momentum L at the rate |L|/I₁, I₁ across the axis.  A body of revolution
+// has the heights of its shape turning steadily with L/I₁, whatever its spin about its own axis: so they are computed.
 #pragma once
 
 #include <span>

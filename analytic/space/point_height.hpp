@@ -64,9 +64,14 @@ class PointHeights {
   PointHeights(const Body& body, const FreeFlight& flight);
 
   [[nodiscard]] int count() const { return static_cast<int>(body_.vertices.size() + body_.rims.size()); }
+  [[nodiscard]] bool is_rim(int point) const { return point >= static_cast<int>(body_.vertices.size()); }
   [[nodiscard]] FlightMoment moment(double time) const;
   [[nodiscard]] PointHeight at(int point, const FlightMoment& moment) const;
   [[nodiscard]] HeightBounds bounds(int point, const Piece& piece) const;
+  /// As steepness() of the body at a moment.
+  [[nodiscard]] double steepness(int point, const FlightMoment& moment) const {
+    return is_rim(point) ? moment.vertical.direction.cross(rim(point).axis).norm() : 1;
+  }
   /// Largest distance of a point from the centre of mass [m].
   [[nodiscard]] double reach() const { return reach_; }
   /// Bound on how far the point comes below the centre of mass at any time [m].
@@ -80,7 +85,6 @@ class PointHeights {
   [[nodiscard]] double noise(double time) const;
 
  private:
-  [[nodiscard]] bool is_rim(int point) const { return point >= static_cast<int>(body_.vertices.size()); }
   [[nodiscard]] const Rim& rim(int point) const {
     return body_.rims[static_cast<std::size_t>(point) - body_.vertices.size()];
   }

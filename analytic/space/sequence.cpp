@@ -49,8 +49,11 @@ void strike_row(const Body& body, const Law& law, ImpactRow& row) {
     return;
   }
   ContactVelocity velocity = contact_velocity(row.before, corner.place);
-  // A small hop knows its normal velocity better.
-  if (row.flight.time > 0 && row.flight.velocity_error < 2 * epsilon * velocity.scale) {
+  // A small hop knows its normal velocity better; but an impact keeps the energy only with the velocity of its place,
+  // which the attitude's rounding turns along a rim that is almost level.
+  const double steep = steepness(body, row.before.attitude, corner.index);
+  if (row.flight.time > 0 && row.flight.velocity_error < 2 * epsilon * velocity.scale / steep &&
+      std::fabs(row.flight.normal_velocity) <= 1e3 * steep * velocity.scale) {
     velocity.value.z() = row.flight.normal_velocity;
   }
   row.impact = strike(body, row.before, velocity, corner.place, law);
