@@ -322,7 +322,7 @@ class CtrlC(unittest.TestCase):
     def test_ctrl_c_ends_every_long_call(self):
         with tempfile.TemporaryDirectory() as folder:
             answer, tracks = Path(folder, "answer.csv"), Path(folder, "tracks.csv")
-            answer.write_text("# problem: rod-10\n" + clatter.benchmark_truth("rod-10").to_text("csv"), encoding="utf-8")
+            answer.write_text(clatter.benchmark_truth("rod-10").to_text("csv"), encoding="utf-8")
             tracks.write_text(many_drops(), encoding="utf-8")
             for name, call in ENDLESS.items():
                 with self.subTest(call=name):

@@ -55,7 +55,7 @@ class Evidence(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             right, wrong = Path(folder, "right.csv"), Path(folder, "wrong.csv")
             truth = printed("benchmark", "truth", "rod-10", "--format", "csv", "--bare").splitlines()
-            right.write_text("\n".join(["# problem: rod-10", *truth]), encoding="utf-8")
+            right.write_text(printed("benchmark", "truth", "rod-10", "--format", "csv"), encoding="utf-8")
             wrong.write_text("\n".join(["# problem: rod-10", truth[0], re.sub(r",([^,]*)$", r",9\1", truth[1])]), encoding="utf-8")
             scored = clatter.benchmark_score([right, wrong], require="good")
             self.assert_same(scored, "benchmark", "score", right, wrong, "--require", "good", statuses=(1,))

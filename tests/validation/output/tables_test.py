@@ -108,7 +108,7 @@ class Version(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             run_file = os.path.join(folder, "run.csv")
             with open(run_file, "w", encoding="utf-8") as file:
-                file.write("# problem: rod-10\n" + printed("benchmark", "truth", "rod-10", "--format", "csv", "--bare"))
+                file.write(printed("benchmark", "truth", "rod-10", "--format", "csv"))
             for command in (["benchmark", "score", run_file], ["compare", "rod-10", "--against", run_file]):
                 self.assertEqual(json.loads(printed(*command, "--format", "json"))["clatter"], version())
                 self.assertIn(f"# clatter {version()}, {command[0]}: ", printed(*command, "--format", "csv"))
@@ -185,7 +185,7 @@ class Help(unittest.TestCase):
             with self.subTest(command=name), tempfile.TemporaryDirectory() as folder:
                 if name == "benchmark":
                     with open(os.path.join(folder, words[2]), "w", encoding="utf-8") as file:
-                        file.write("# problem: rod-10\n" + printed("benchmark", "truth", "rod-10", "--format", "csv", "--bare"))
+                        file.write(printed("benchmark", "truth", "rod-10", "--format", "csv"))
                 result = run(*words, cwd=folder)
                 self.assertEqual(result.returncode, 0, (words, result.stderr))
                 done += 1
