@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parent.parent
 ORDERS = {
     "analytic": ("base", "law", "plane", "space"),
     "numeric": ("base", "mesh", "surface", "files", "body", "motion", "contact", "stepping", "drop", "."),
-    "validation": ("embedded", "output", "oracles", "record", "tables", "scene", "benchmark", "compare",
+    "validation": ("embedded", "output", "record", "tables", "scene", "benchmark", "compare",
                    "figures", "plan", "sweep", "tradeoff", "measured", "verify", "extremes", "explain",
                    "reports", "demo", "cli"),
 }
@@ -103,7 +103,20 @@ class Folders(unittest.TestCase):
         for room, other in (("analytic", "numeric"), ("numeric", "analytic")):
             for path in sorted((ROOT / room).rglob("*.[ch]pp")):
                 rooms = {of for _, of, _ in INCLUDE.findall(path.read_text(encoding="utf-8"))}
-                self.assertFalse(rooms & {other, "validation"}, path)
+                self.assertFalse(rooms & {other, "validation", "tests"}, path)
+
+    def test_the_tests_of_a_model_need_nothing_of_what_compares_both(self):
+        for room, others in (("analytic", {"numeric", "validation"}), ("numeric", {"analytic", "validation"})):
+            for path in sorted((ROOT / "tests" / room).rglob("*.[ch]pp")):
+                rooms = {of for _, of, _ in INCLUDE.findall(path.read_text(encoding="utf-8"))}
+                self.assertFalse(rooms & others, path)
+
+    def test_oracles_include_no_formula_of_a_model(self):
+        """Only the states and rows that a model takes and gives."""
+        allowed = {"analytic/space/body.hpp", "analytic/space/impulse_path.hpp", "analytic/space/sequence.hpp"}
+        for path in sorted((ROOT / "tests" / "oracles").glob("*.hpp")):
+            headers = {header for header, of, _ in INCLUDE.findall(path.read_text(encoding="utf-8")) if of != "tests"}
+            self.assertLessEqual(headers, allowed, path)
 
     def test_the_includes_of_every_folder_are_seen(self):
         for room, order in ORDERS.items():

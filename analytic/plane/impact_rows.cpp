@@ -133,11 +133,6 @@ void Drop::validate() const {
           body.gyration_square, "a positive double that is not subnormal");
 }
 
-void SequenceOptions::validate() const {
-  require(impacts >= 1, "impacts", impacts, "at least 1");
-  require(digits >= 1 && digits <= 15, "digits", digits, "between 1 and 15");
-}
-
 RowErrors RowErrors::unknown() {
   constexpr double none = std::numeric_limits<double>::infinity();
   return {.predictable = false,

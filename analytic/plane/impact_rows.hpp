@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analytic/base/angle.hpp"
+#include "analytic/law/sequence_loop.hpp"
 #include "analytic/plane/body.hpp"
 #include "analytic/plane/flight.hpp"
 #include "analytic/plane/impact.hpp"
@@ -48,19 +49,6 @@ struct Drop {
   void validate() const;
 };
 
-struct SequenceOptions {
-  int impacts = 6;  ///< most impacts to report, >= 1
-  /// Relative error to which the end of an accumulation of impacts must be known before the sequence
-  /// is cut there: 10^−digits of the remaining time.  In [1, 15].
-  int digits = 6;
-  /// Also follow how errors of the drop and of rounding grow: `error` and `amplification` of each row, and the errors
-  /// of tail and total.
-  bool amplification = true;
-
-  /// @throws std::domain_error naming the field, its value and what is allowed.
-  void validate() const;
-};
-
 /// One impact.
 struct ImpactRow {
   double start = 0;          ///< time since the first impact [s]
@@ -80,17 +68,6 @@ struct ImpactRow {
   /// The flight that led here; for the first row all zero.
   Flight flight;
   Departure departure;  ///< how that flight began
-};
-
-enum class Outcome {
-  no_further_impact,  ///< nothing reaches the ground any more
-  impact_limit,       ///< as many impacts as asked for
-  at_rest,            ///< infinitely many impacts end in a finite time, with no normal or angular motion left that
-                      ///< doubles could tell from none
-  sustained_contact,  ///< a vertex stays on the ground (after infinitely many impacts, or with e = 0)
-                      ///< while the body still turns: beyond the model
-  not_computed,       ///< a number of the next flight or impact could not be had; the rows so far hold
-  outside_model,      ///< the next impact jams; the rows so far hold
 };
 
 /// The remaining impacts after the last row: infinitely many in a finite time.

@@ -2,10 +2,8 @@
 #include "analytic/plane/sequence.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 
 #include "analytic/base/errors.hpp"
@@ -35,10 +33,10 @@ void require_representable(const Drop& drop, const Drop& internal) {
 }
 
 /// The loop of impacts, in internal units.
-class Run {
+class Run : public SequenceLoop<Sequence, ErrorGrowth> {
  public:
   Run(const Drop& drop, const SequenceOptions& options)
-      : law_(drop.law), options_(options), gravity_(drop.gravity),
+      : SequenceLoop(options), law_(drop.law), gravity_(drop.gravity),
         motion_(drop.body, drop.inclination, drop.velocity, drop.gravity) {
     result_.rows.reserve(static_cast<std::size_t>(std::min(options.impacts, 64)));
     if (options.amplification) growth_.emplace(motion_, drop.inclination.radians);
@@ -47,36 +45,19 @@ class Run {
   Sequence run() {
     const VertexSet lowest = motion_.lowest_vertices();
     require_approach(lowest);
-    try {
-      go_on(lowest);
-    } catch (const NumericalError& error) {
-      end_early(Outcome::not_computed, error);
-    } catch (const OutsideModelError& error) {
-      end_early(Outcome::outside_model, error);
-    }
-    result_.end_predictable = growth_ && growth_->predictable();
-    if (growth_ && !growth_->predictable()) {
-      result_.message += "; errors have grown so far that another sequence is possible" + from_impact();
-    }
+    follow([&] { go_on(lowest); });
     result_.total_normal_impulse_error =
         (growth_ ? growth_->total_impulse() : infinite) + (result_.tail ? result_.tail->normal_impulse_error : 0);
     return std::move(result_);
   }
 
  private:
-  /// Called while the error is handled; the rows so far are kept.
-  void end_early(Outcome outcome, const std::exception& error) {
-    if (result_.rows.empty()) throw;
-    result_.outcome = outcome;
-    result_.message = error.what();
-  }
-
   void go_on(VertexSet arriving) {
     Flight flight;
     Departure departure;
     for (;;) {
       const BodyMotion::Strike strike = record(arriving, flight, departure);
-      if (accumulates(strike) || full()) break;
+      if (accumulates(strike) || is_full()) break;
       departure = motion_.departure();
       flight = fly();
       result_.root_evaluations += flight.evaluations;
@@ -88,13 +69,6 @@ class Run {
     }
   }
 
-  /// From which impact on nothing is certain; nothing to say if only the end is not.
-  [[nodiscard]] std::string from_impact() const {
-    std::size_t known = 0;
-    for (const ImpactRow& row : result_.rows) known += row.error.predictable ? 1 : 0;
-    return known < result_.rows.size() ? " from impact " + std::to_string(known + 1) + " on" : "";
-  }
-
   Flight fly() {
     if (!growth_) return motion_.fly();
     FlownState flown{.body = motion_.turned_body(), .departure = motion_.local_departure(), .arrival = {}};
@@ -104,6 +78,7 @@ class Run {
     else if (flight.end == FlightEnd::no_contact) growth_->end_without_contact(motion_, flown);
     return flight;
   }
+
   void require_approach(VertexSet vertices) const {
     double fastest = infinite;
     for (int i = 0; i < motion_.body().vertex_count; ++i) {
@@ -136,45 +111,24 @@ class Run {
       accumulation_.add({row.vertices, row.impact.mode, flight.arrival.time, row.impact.normal_impulse,
                          row.impact.tangential_impulse, damping_loss(law_, row.impact.approach_speed)});
     }
-    warn_of_energy(row.impact);
+    note_energy(row.impact.energy_loss, 1e-14);
     if (growth_) growth_->strike(motion_, law_, row);
     result_.rows.push_back(row);
     return strike;
   }
 
-  void warn_of_energy(const Impact& impact) {
-    const double kinetic = result_.rows.empty() ? 1 : result_.rows.front().energy_before;
-    if (impact.energy_loss >= -1e-14 * kinetic) return;  // rounding of an elastic impact
-    created_ -= impact.energy_loss;
-    first_creating_ = first_creating_ == 0 ? static_cast<int>(result_.rows.size()) + 1 : first_creating_;
-  }
-
-  [[nodiscard]] bool last_row() const { return static_cast<int>(result_.rows.size()) >= options_.impacts; }
-
-  bool full() {
-    if (!last_row()) return false;
-    result_.outcome = Outcome::impact_limit;
-    result_.message = "as many impacts as asked for; more may follow";
-    return true;
-  }
-
-  /// Whether infinitely many impacts follow that need no more rows: a bouncing in closed form fills the
-  /// rows asked for first, as far as its speeds and times are numbers.
+  /// Whether infinitely many impacts follow that need no more rows.
   bool accumulates(const BodyMotion::Strike& strike) {
-    constexpr double least = std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
     auto tail = bouncing_tail(motion_, law_, gravity_, strike);
     if (!tail) return extrapolated_end(strike.impact.mode);
-    const double speed = strike.impact.separation_speed;
-    if (!last_row() && speed > least && speed > least * gravity_) return false;
+    if (bounces_on(strike.impact.separation_speed, gravity_)) return false;
     finish(*tail);
     return true;
   }
 
   bool extrapolated_end(ImpactMode mode) {
     constexpr double ulps = 4 * std::numeric_limits<double>::epsilon();
-    auto tail = accumulation_.extrapolate({.relative = std::pow(10.0, -options_.digits),
-                                           .time = ulps * motion_.time(),
-                                           .impulse = ulps * result_.total_normal_impulse});
+    auto tail = extrapolated(accumulation_, motion_.time());
     if (!tail || !undisturbed(*tail)) return false;
     const bool vanishes = tail->normal_impulse <= ulps * result_.total_normal_impulse;
     if (!vanishes && !keeps_its_mode(motion_, *tail, mode)) return false;
@@ -197,52 +151,26 @@ class Run {
 
   void finish(Tail tail) {
     if (growth_) growth_->add_to(motion_, tail);
-    result_.tail = tail;
-    result_.total_normal_impulse += tail.normal_impulse;
-    rest(tail.after, tail.vertices,
-         tail.closed_form ? "infinitely many impacts end in a finite time (geometric series)"
-                          : "infinitely many impacts end in a finite time (extrapolated)");
+    end_in(tail, tail.after.angular != 0, tail.after.tangential != 0, stays(tail.vertices));
   }
 
-  /// The contact has come to rest; has the body?
-  void rest(const PlanarVelocity& after, VertexSet vertices, const std::string& how) {
-    const bool turns = after.angular != 0;
-    result_.outcome = turns ? Outcome::sustained_contact : Outcome::at_rest;
-    result_.message = how + "; " +
-                      (turns ? "end " + PlanarBody::vertex_set_name(vertices) +
-                                   " stays on the ground while the body still turns, "
-                                   "which impacts do not describe"
-                       : after.tangential != 0 ? "the body slides on"
-                                               : "the body is at rest");
+  static std::string stays(VertexSet vertices) {
+    return "end " + PlanarBody::vertex_set_name(vertices) + " stays on the ground while the body still turns";
   }
 
   void end_without_contact(const Flight& flight) {
     if (flight.end == FlightEnd::stays_touching) {
-      rest(motion_.velocity(), static_cast<VertexSet>(1u << flight.arrival.vertex), "no rebound (e = 0)");
-      return;
+      const PlanarVelocity& after = motion_.velocity();
+      const auto vertex = static_cast<VertexSet>(1u << flight.arrival.vertex);
+      return rest(after.angular != 0, after.tangential != 0, "no rebound (e = 0)", stays(vertex));
     }
-    result_.outcome = Outcome::no_further_impact;
-    result_.near_miss = flight.near_miss;
-    result_.message = flight.near_miss.within_margin()
-                          ? "the next impact is a graze so slight that rounding decides; taken as a miss"
-                          : "nothing reaches the ground any more";
+    end_in_flight(flight.near_miss);
   }
 
- public:
-  /// Total energy created by an impulse ratio that is not admissible, and the first impact to do so.
-  [[nodiscard]] double created() const { return created_; }
-  [[nodiscard]] int first_creating() const { return first_creating_; }
-
- private:
   ImpactLaw law_;
-  const SequenceOptions& options_;
   double gravity_;
   BodyMotion motion_;
   Accumulation accumulation_;
-  std::optional<ErrorGrowth> growth_;
-  Sequence result_;
-  double created_ = 0;
-  int first_creating_ = 0;
 };
 
 /// Impulses and velocities that leave the doubles on the way back to SI units.
@@ -265,14 +193,8 @@ Sequence internal_sequence(const Drop& drop, const SequenceOptions& options, con
   Sequence sequence = run.run();
   units.to_si(sequence);
   require_representable(sequence);
-  if (run.first_creating() > 0) {
-    std::ostringstream text;
-    text.precision(6);
-    const bool coulomb = drop.law.friction == FrictionKind::coulomb;
-    text << (coulomb ? "the law of restitution, with friction," : "the impulse ratio")
-         << " creates energy: " << units.energy(run.created()) << " J in all, from impact " << run.first_creating()
-         << " on";
-    sequence.warnings.push_back(text.str());
+  if (run.created().first > 0) {
+    sequence.warnings.push_back(energy_warning(drop.law.friction, run.created(), units.energy(run.created().sum)));
   }
   return sequence;
 }

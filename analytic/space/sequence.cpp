@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <vector>
 
 #include "analytic/base/errors.hpp"
@@ -88,10 +87,10 @@ namespace {
 constexpr int most_evaluations = 1'000'000;
 
 /// The loop of impacts, in internal units.
-class Run {
+class Run : public SequenceLoop<Sequence, ErrorGrowth> {
  public:
   Run(const Drop& drop, const SequenceOptions& options)
-      : drop_(drop), body_(drop_.body), options_(options), principal_(body_.inertia), reach_(body_.reach()) {
+      : SequenceLoop(options), drop_(drop), body_(drop_.body), principal_(body_.inertia), reach_(body_.reach()) {
     state_.attitude = drop.attitude.normalized();
     state_.velocity = drop.velocity;
     state_.angular_velocity = drop.angular_velocity;
@@ -100,38 +99,11 @@ class Run {
   Sequence run() {
     const std::vector<int> lowest = touch_down();
     if (options_.amplification) growth_.emplace(body_, state_, drop_.gravity);
-    try {
-      go_on(lowest);
-    } catch (const NumericalError& error) {
-      end_early(Outcome::not_computed, error);
-    } catch (const OutsideModelError& error) {
-      end_early(Outcome::outside_model, error);
-    }
-    finish_errors();
+    follow([&] { go_on(lowest); });
     return std::move(result_);
   }
 
-  /// Energy created by the law, and the first impact to do so.
-  [[nodiscard]] double created() const { return created_; }
-  [[nodiscard]] std::size_t first_creating() const { return first_creating_; }
-
  private:
-  /// Called while the error is handled; the rows so far are kept.
-  void end_early(Outcome outcome, const std::exception& error) {
-    if (result_.rows.empty()) throw;
-    result_.outcome = outcome;
-    result_.message = error.what();
-  }
-
-  void finish_errors() {
-    result_.end_predictable = growth_ && growth_->predictable();
-    if (!growth_ || growth_->predictable()) return;
-    result_.message += "; errors have grown so far that another sequence is possible";
-    std::size_t known = 0;
-    for (const ImpactRow& row : result_.rows) known += row.error.predictable ? 1 : 0;
-    if (known < result_.rows.size()) result_.message += " from impact " + std::to_string(known + 1) + " on";
-  }
-
   /// Puts the lowest points on the ground; returns those.
   std::vector<int> touch_down() {
     const FreeFlight flight(principal_, state_, 0);
@@ -158,7 +130,7 @@ class Run {
     FirstContact flown;
     for (;;) {
       record(arriving, flown);
-      if (accumulates() || full()) return;
+      if (accumulates() || is_full()) return;
       const ImpactRow& last = result_.rows.back();
       const FreeFlight flight(principal_, state_, drop_.gravity);
       flown = first_contact(body_, flight, touches_);
@@ -205,7 +177,7 @@ class Run {
     row.energy_after = energy(state_);
     find_departures(drop_.law, row, state_, touches_);
     result_.total_normal_impulse += row.impact.impulse.z();
-    warn_of_energy(row.impact);
+    note_energy(row.impact.energy_loss, 1e-12);
     if (growth_) grow(row);
     if (!result_.rows.empty()) accumulation_.add(row, damping_loss(drop_.law.law, row.approach_speed));
     result_.rows.push_back(std::move(row));
@@ -215,45 +187,23 @@ class Run {
     growth_->strike([&](const State& before) { return struck_again(body_, drop_.law, row, before); }, row);
   }
 
-  void warn_of_energy(const Impact& impact) {
-    const double kinetic = result_.rows.empty() ? 1 : result_.rows.front().energy_before;
-    if (impact.energy_loss >= -1e-12 * kinetic) return;  // rounding of an elastic impact
-    created_ -= impact.energy_loss;
-    if (first_creating_ == 0) first_creating_ = result_.rows.size() + 1;
-  }
-
-  [[nodiscard]] bool last_row() const { return static_cast<int>(result_.rows.size()) >= options_.impacts; }
-
-  bool full() {
-    if (!last_row()) return false;
-    result_.outcome = Outcome::impact_limit;
-    result_.message = "as many impacts as asked for; more may follow";
-    return true;
-  }
-
-  /// Whether infinitely many impacts follow that need no more rows: a bouncing in closed form fills the rows asked for
-  /// first, as far as its speeds and times are numbers.
+  /// Whether infinitely many impacts follow that need no more rows.
   bool accumulates() {
-    constexpr double least = std::numeric_limits<double>::min() / epsilon;
     const ImpactRow& last = result_.rows.back();
     if (auto tail = bouncing_tail(drop_, last)) {
-      const double speed = last.impact.velocity_after.z();
-      if (!last_row() && speed > least && speed > least * drop_.gravity) return false;
-      finish(*tail);
+      if (bounces_on(last.impact.velocity_after.z(), drop_.gravity)) return false;
+      finish(std::move(*tail));
       return true;
     }
     return may_accumulate(drop_.law.law) && drop_.gravity > 0 && extrapolated_end();
   }
 
   bool extrapolated_end() {
-    constexpr double ulps = 4 * epsilon;
-    auto tail = accumulation_.extrapolate({.relative = std::pow(10.0, -options_.digits),
-                                           .time = ulps * time_,
-                                           .impulse = ulps * result_.total_normal_impulse});
+    auto tail = extrapolated(accumulation_, time_);
     if (!tail || !undisturbed(drop_, state_, *tail)) return false;
     end_state(drop_, result_.rows.back(), accumulation_.lever(*tail), *tail);
     tail->end_time += time_;
-    finish(*tail);
+    finish(std::move(*tail));
     return true;
   }
 
@@ -261,57 +211,40 @@ class Run {
     if (!growth_ || !growth_->predictable()) {
       tail.end_time_error = tail.normal_impulse_error = std::numeric_limits<double>::infinity();
     }
-    result_.total_normal_impulse += tail.normal_impulse;
     const bool turns = tail.angular_velocity_after != Vector3::Zero();
-    rest(turns, tail.velocity_after.head<2>() != Vector2::Zero(),
-         tail.closed_form ? "infinitely many impacts end in a finite time (geometric series)"
-                          : "infinitely many impacts end in a finite time (extrapolated)");
-    result_.tail = std::move(tail);
+    const bool slides = tail.velocity_after.head<2>() != Vector2::Zero();
+    end_in(std::move(tail), turns, slides, stays);
   }
 
-  /// The contact has come to rest; has the body?
-  void rest(bool turns, bool slides, const std::string& how) {
-    result_.outcome = turns ? Outcome::sustained_contact : Outcome::at_rest;
-    result_.message = how + "; " +
-                      (turns    ? "the body still turns while it stays on the ground, which impacts do not describe"
-                       : slides ? "the body slides on"
-                                : "the body is at rest");
+  void rest_as_it_is(const std::string& how) {
+    rest(state_.angular_velocity != Vector3::Zero(), state_.velocity.head<2>() != Vector2::Zero(), how, stays);
   }
 
   void end_without_contact(const FirstContact& flown) {
     if (growth_) growth_->end_without_contact(flown);
     if (flown.end == FlightEnd::stays_touching) {
       result_.end_acceleration = flown.acceleration;
-      rest(state_.angular_velocity != Vector3::Zero(), state_.velocity.head<2>() != Vector2::Zero(), "no rebound");
-      return;
+      return rest_as_it_is("no rebound");
     }
-    result_.outcome = Outcome::no_further_impact;
-    result_.near_miss = flown.near_miss;
-    result_.message = flown.near_miss.within_margin()
-                          ? "the next impact is a graze so slight that rounding decides; taken as a miss"
-                          : "nothing reaches the ground any more";
+    end_in_flight(flown.near_miss);
   }
 
   /// Corners approach, but so slowly that no impulse comes of it.
   void stall() {
     if (growth_) growth_->give_up();
-    rest(state_.angular_velocity != Vector3::Zero(), state_.velocity.head<2>() != Vector2::Zero(),
-         "what is left of the corners' approach is rounding");
+    rest_as_it_is("what is left of the corners' approach is rounding");
   }
+
+  static constexpr const char* stays = "the body still turns while it stays on the ground";
 
   const Drop drop_;
   const Body& body_;
-  const SequenceOptions& options_;
   PrincipalAxes principal_;
   double reach_;
   State state_;
   double time_ = 0;
   std::vector<Touch> touches_;
   SpaceAccumulation accumulation_;
-  std::optional<ErrorGrowth> growth_;
-  Sequence result_;
-  double created_ = 0;
-  std::size_t first_creating_ = 0;
 };
 
 }  // namespace
@@ -330,14 +263,8 @@ Sequence impact_sequence(const Drop& drop, const SequenceOptions& options) {
   Sequence sequence = run.run();
   units.to_si(sequence);
   require_representable(sequence);
-  if (run.first_creating() > 0) {
-    std::ostringstream text;
-    text.precision(6);
-    text << (drop.law.law.friction == FrictionKind::coulomb ? "the law of restitution, with friction,"
-                                                            : "the impulse ratio")
-         << " creates energy: " << units.energy(run.created()) << " J in all, from impact " << run.first_creating()
-         << " on";
-    sequence.warnings.push_back(text.str());
+  if (run.created().first > 0) {
+    sequence.warnings.push_back(energy_warning(drop.law.law.friction, run.created(), units.energy(run.created().sum)));
   }
   return sequence;
 }

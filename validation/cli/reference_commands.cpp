@@ -2,7 +2,6 @@
 // What the program says of itself: `clatter keys` and `clatter init`, the language of scenes and a scene file to begin
 // with; `clatter columns`, every column of CSV and JSON; shell completion and the man page.
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -13,6 +12,7 @@
 #include "validation/cli/options.hpp"
 #include "validation/cli/parser.hpp"
 #include "validation/output/bad_input.hpp"
+#include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/output/symbols.hpp"
@@ -50,10 +50,7 @@ Scene begun_scene(BodyScene::Shape shape) {
   return scene;
 }
 
-std::string value_words(const Json& value) {
-  return value.is_number_float() ? shortest(value.get<double>()) : value.dump();
-}
-
+/// As a scene file has it: texts in quotes.
 /// "required", or the value that a scene file has without the key; empty: none.
 std::string default_words(const Key& key) {
   if (key.is_required) return "required";
@@ -63,8 +60,8 @@ std::string default_words(const Key& key) {
     scene.body.shape = shape;
     scene.world.ground.stiffness = 0;  // none
     scene.world.gravity = 0;
-    const Json value = key.get(scene);
-    if (!value.is_null() && value != Json("")) return value_words(value);
+    const Value value = key.get(scene);
+    if (!value.text().empty()) return compact_json(value);
   }
   return "";
 }
@@ -162,9 +159,9 @@ std::string scene_file() {
       table = name.substr(0, dot);
       text += fmt::format("\n[{}]\n", table);
     }
-    const Json value = key.get(scene);
-    const std::string setting = fmt::format("{}{} = {}", value.is_null() ? "# " : "", name.substr(dot + 1),
-                                            value.is_null() ? example(key) : value_words(value));
+    const Value value = key.get(scene);
+    const std::string setting = fmt::format("{}{} = {}", value.is_nothing() ? "# " : "", name.substr(dot + 1),
+                                            value.is_nothing() ? example(key) : compact_json(value));
     text += fmt::format("{:<34} # {}\n", setting, meaning(key));
   }
   return text;

@@ -51,9 +51,8 @@ bool is_open_face(const ImpactRow& row) {
   return is_face(row) && (row.before.angular != 0 || row.impact.tangential_impulse != 0);
 }
 
-SequenceImpact planar_impact(const analytic::Drop& drop, const ImpactRow& row) {
+SequenceImpact planar_impact(const analytic::Drop& drop, const ImpactRow& row, const Impact& found) {
   const ImpactMode mode = row.impact.mode;
-  const Impact found = impact_of(row);
   SequenceImpact impact{.numbers = motion_numbers(found.value),
                         .errors = motion_numbers(found.error),
                         .end = end_of(drop.body, row),
@@ -74,18 +73,19 @@ SequenceImpact planar_impact(const analytic::Drop& drop, const ImpactRow& row) {
 
 DiscreteSide planar_side(const Scene& scene, const analytic::Drop& drop) {
   const analytic::Sequence sequence = impact_sequence(drop, {.impacts = scene.request.impacts});
-  DiscreteSide side{
-      .in_space = false,
-      .corners = {},
-      .quantities = plane_quantities,
-      .impacts = {},
-      .scales = comparison_scales(run_of(sequence).impacts, {.reach = drop.body.reach(), .mass = drop.body.mass}),
-      .outcome = sequence.outcome,
-      .message = sequence.message,
-      .predict = [drop, sequence](const auto& times) { return predicted_sizes(drop, sequence, times); }};
+  const Run run = run_of(sequence, scene.angle_deg);
+  DiscreteSide side{.in_space = false,
+                    .corners = {},
+                    .quantities = plane_quantities,
+                    .impacts = {},
+                    .scales = comparison_scales(run.impacts, {.reach = drop.body.reach(), .mass = drop.body.mass}),
+                    .outcome = sequence.outcome,
+                    .message = sequence.message,
+                    .predict = [drop, sequence](const auto& times) { return predicted_sizes(drop, sequence, times); }};
   bool after_face = false;
-  for (const ImpactRow& row : sequence.rows) {
-    SequenceImpact& impact = side.impacts.emplace_back(planar_impact(drop, row));
+  for (std::size_t i = 0; i < sequence.rows.size(); ++i) {
+    const ImpactRow& row = sequence.rows[i];
+    SequenceImpact& impact = side.impacts.emplace_back(planar_impact(drop, row, run.impacts[i]));
     if (after_face) impact.follows_open = "follows the landing of a whole face: rounding decides how it lands again";
     after_face = after_face || is_face(row);
   }
@@ -133,7 +133,8 @@ std::string open_words(const space::Drop& drop, const space::ImpactRow& row) {
                      tilt_words(tilted_outcomes(drop.body, row.before, row.corners, drop.law)));
 }
 
-SequenceImpact space_impact(const Scene& scene, const space::Drop& drop, const space::ImpactRow& row) {
+SequenceImpact space_impact(const Scene& scene, const space::Drop& drop, const space::ImpactRow& row,
+                            const Impact& found) {
   Vector3 place = Vector3::Zero();
   std::string names;
   for (const space::Corner& corner : row.corners) {
@@ -141,7 +142,6 @@ SequenceImpact space_impact(const Scene& scene, const space::Drop& drop, const s
     names += (names.empty() ? "" : " ") + corner_name(scene, corner);
   }
   const PathKind path = row.impact.path;
-  const Impact found = impact_of(row);
   SequenceImpact impact{.numbers = motion_numbers(found.value),
                         .errors = motion_numbers(found.error),
                         .end = names,
@@ -161,22 +161,23 @@ SequenceImpact space_impact(const Scene& scene, const space::Drop& drop, const s
 
 DiscreteSide space_side(const Scene& scene, const space::Drop& drop) {
   const space::Sequence sequence = impact_sequence(drop, {.impacts = scene.request.impacts});
-  DiscreteSide side{
-      .in_space = true,
-      .corners = {},
-      .quantities = space_quantities,
-      .impacts = {},
-      .scales = comparison_scales(run_of(sequence).impacts, {.reach = drop.body.reach(), .mass = drop.body.mass}),
-      .outcome = sequence.outcome,
-      .message = sequence.message,
-      .predict = [drop, sequence](const auto& times) { return predicted_sizes(drop, sequence, times); }};
+  const Run run = run_of(sequence);
+  DiscreteSide side{.in_space = true,
+                    .corners = {},
+                    .quantities = space_quantities,
+                    .impacts = {},
+                    .scales = comparison_scales(run.impacts, {.reach = drop.body.reach(), .mass = drop.body.mass}),
+                    .outcome = sequence.outcome,
+                    .message = sequence.message,
+                    .predict = [drop, sequence](const auto& times) { return predicted_sizes(drop, sequence, times); }};
   for (std::size_t i = 0; i < drop.body.vertices.size(); ++i) {
     const space::Corner corner{.index = static_cast<int>(i), .place = drop.body.vertices[i]};
     side.corners.push_back({corner.place, corner_name(scene, corner)});
   }
   bool after_group = false;
-  for (const space::ImpactRow& row : sequence.rows) {
-    SequenceImpact& impact = side.impacts.emplace_back(space_impact(scene, drop, row));
+  for (std::size_t i = 0; i < sequence.rows.size(); ++i) {
+    const space::ImpactRow& row = sequence.rows[i];
+    SequenceImpact& impact = side.impacts.emplace_back(space_impact(scene, drop, row, run.impacts[i]));
     if (after_group) impact.follows_open = "follows corners that landed at once: rounding decides their order";
     after_group = after_group || row.group.has_value();
   }

@@ -11,6 +11,7 @@
 
 #include "validation/demo/scene_exchange.hpp"
 #include "validation/output/bad_input.hpp"
+#include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
 #include "validation/plan/planned_run.hpp"
 #include "validation/plan/sequence_method.hpp"

@@ -35,9 +35,10 @@ std::vector<const Key*> said_keys(const Scene& scene) {
   const Scene bare = bare_scene(scene.body.shape);
   std::vector<const Key*> said;
   for (const Key& key : all_keys()) {
-    const Json value = key.get(scene);
-    if (key.is_file() || value.is_null()) continue;
-    if (is_always_said(key) || key.is_required || value != key.get(bare)) said.push_back(&key);
+    const Value value = key.get(scene);
+    if (key.is_file() || value.is_nothing()) continue;
+    if (is_always_said(key) || key.is_required || compact_json(value) != compact_json(key.get(bare)))
+      said.push_back(&key);
   }
   return said;
 }
@@ -54,7 +55,7 @@ SceneArguments scene_arguments(const Scene& scene) {
   require_shown(scene);
   SceneArguments result;
   if (!scene.history.empty()) result.notes.emplace_back("run.history is left out: a page writes no file");
-  for (const Key* key : said_keys(scene)) result.arguments.push_back({key->argument(), value_of(key->get(scene))});
+  for (const Key* key : said_keys(scene)) result.arguments.push_back({key->argument(), key->get(scene)});
   return result;
 }
 
@@ -71,7 +72,7 @@ Scene read_for_page(const SceneValues& values, const std::vector<SceneOverride>&
 std::string line_of(const Key& key, const Scene& scene) {
   const std::string name = std::string(key.name).substr(std::string_view(key.name).find('.') + 1);
   const std::string unit = *key.unit == '\0' ? "" : fmt::format(" [{}]", key.unit);
-  return fmt::format("{} = {}  # {}{}\n", name, compact_json(value_of(key.get(scene))), key.help, unit);
+  return fmt::format("{} = {}  # {}{}\n", name, compact_json(key.get(scene)), key.help, unit);
 }
 
 }  // namespace

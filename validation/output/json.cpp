@@ -85,31 +85,6 @@ class Writer {
 
 }  // namespace
 
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value + 0.0) : Json(nullptr); }
-
-Json text_json(const std::string& text) { return Json::parse(quoted(text)); }
-
-Value value_of(const Json& json) {
-  switch (json.type()) {
-    case Json::value_t::boolean: return json.get<bool>();
-    case Json::value_t::number_integer:
-    case Json::value_t::number_unsigned: return json.get<long long>();
-    case Json::value_t::number_float: return json.get<double>();
-    case Json::value_t::string: return json.get<std::string>();
-    case Json::value_t::array: {
-      List list;
-      for (const Json& item : json) list.push_back(value_of(item));
-      return list;
-    }
-    case Json::value_t::object: {
-      Fields fields;
-      for (const auto& [name, item] : json.items()) fields.push_back({name, value_of(item)});
-      return fields;
-    }
-    default: return nullptr;
-  }
-}
-
 std::string json_text(const Value& value) {
   Writer writer(true);
   writer.write(value, "");

@@ -11,16 +11,9 @@ namespace clatter::validation::inline output {
 
 using Json = nlohmann::ordered_json;
 
-/// A number, or null where it is not finite.
-[[nodiscard]] Json number_or_null(double value);
-
-/// A text of any bytes, such as a file's name; those that are no UTF-8 become U+FFFD, since JSON has no other way to
-/// say them.
-[[nodiscard]] Json text_json(const std::string& text);
-
-/// The same tree.
-[[nodiscard]] Value value_of(const Json& json);
-
+/// Texts of any bytes, such as a file's name: those that are no UTF-8 become U+FFFD, since JSON has no other way to say
+/// them.
+///
 /// Indented JSON with every number in its shortest round-trip form (nlohmann's own writer is not always
 /// shortest) and short arrays of numbers on one line.
 [[nodiscard]] std::string json_text(const Value& value);

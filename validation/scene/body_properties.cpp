@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <tuple>
 
@@ -14,6 +13,7 @@
 #include "numeric/files/import.hpp"
 #include "numeric/mesh/generators.hpp"
 #include "validation/output/bad_input.hpp"
+#include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/hull.hpp"
 #include "validation/scene/keys.hpp"
@@ -63,7 +63,7 @@ struct Bounds {
 [[noreturn]] void refuse(const Scene& scene, const char* name, const std::string& allowed) {
   const Key& key = key_named(name);
   const std::string place = scene.path.empty() ? std::string(key.flag) : scene.path + ": " + name;
-  throw BadInput(fmt::format("{} = {}: must be {}", place, key.get(scene).dump(), allowed));
+  throw BadInput(fmt::format("{} = {}: must be {}", place, compact_json(key.get(scene)), allowed));
 }
 
 /// @param k2 inertia over mass about the centre of mass, which does not overflow where m R² does

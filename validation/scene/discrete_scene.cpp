@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "analytic/base/errors.hpp"
 #include "analytic/law/viscoelastic.hpp"
 #include "analytic/plane/body_motion.hpp"
 #include "analytic/space/body.hpp"
 #include "validation/output/bad_input.hpp"
+#include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/hull.hpp"
 #include "validation/scene/keys.hpp"
@@ -297,7 +297,9 @@ DiscreteLaw discrete_law(const Scene& scene) {
 }
 
 std::string reason_in_space(const Scene& scene) {
-  const auto given = [&](const char* key) { return fmt::format("{} = {}", key, key_named(key).get(scene).dump()); };
+  const auto given = [&](const char* key) {
+    return fmt::format("{} = {}", key, compact_json(key_named(key).get(scene)));
+  };
   const Eigen::Quaterniond turn = scene.touch_attitude();
   if (scene.attitude.empty() && scene.tilt_deg != 0) return "drop.tilt_deg turns it out of its plane";
   if (!scene.attitude.empty() && !vanish({turn.x(), turn.z()}, 1)) {

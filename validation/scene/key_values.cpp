@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "validation/scene/keys.hpp"
@@ -48,16 +47,16 @@ void settle_law(Scene& scene) {
   if (!scene.impact.restitution) scene.impact.restitution = 1;
 }
 
-Json value_json(const Key& key, Scene& scene) {
+Value value_of(const Key& key, Scene& scene) {
   return std::visit(Overloaded{
-                        [&](const OptionalNumber& v) { return v.at(scene) ? Json(*v.at(scene)) : Json(nullptr); },
-                        [&](const TextValue& v) { return text_json(v.at(scene)); },
-                        [&](const NameValue& v) { return Json((*v.names)[v.get(scene)]); },
+                        [&](const OptionalNumber& v) { return v.at(scene) ? Value(*v.at(scene)) : Value(); },
+                        [&](const TextValue& v) { return Value(v.at(scene)); },
+                        [&](const NameValue& v) { return Value((*v.names)[v.get(scene)]); },
                         [&](const ListValue& v) {
                           const std::vector<double> numbers = v.get(scene);
-                          return numbers.empty() ? Json(nullptr) : Json(numbers);
+                          return numbers.empty() ? Value() : Value(numbers);
                         },
-                        [&](const auto& v) { return Json(v.at(scene)); },
+                        [&](const auto& v) { return Value(v.at(scene)); },
                     },
                     key.value);
 }
@@ -116,11 +115,11 @@ std::string Key::allowed() const {
                     value);
 }
 
-Json Key::get(const Scene& scene) const {
+Value Key::get(const Scene& scene) const {
   Scene shown = scene;  // the places are those of a scene that may be changed
   settle_law(shown);
   const Echo shows = echo_of(*this, scene, Model::continuous);
-  return shows == Echo::value ? value_json(*this, shown) : Json(nullptr);
+  return shows == Echo::value ? value_of(*this, shown) : Value();
 }
 
 std::string Key::argument() const {
@@ -208,25 +207,23 @@ void put_values(const SceneValues& values, Scene& scene, Model model) {
   }
 }
 
-Json keys_json(const Scene& scene, Model model) {
+void add_keys(const Scene& scene, Model model, Value& fields) {
   Scene shown = scene;  // the places are those of a scene that may be changed
   // What the discrete model takes without being told: no friction is a ratio of 0.
   if (model == Model::discrete && !shown.impact.impulse_ratio) shown.impact.impulse_ratio = 0;
   settle_law(shown);
-  Json json = Json::object();
   for (const Key& key : all_keys()) {
     if (!key.is_for(model)) continue;
     const Echo echo = echo_of(key, scene, model);
     if (echo == Echo::absent) continue;
-    Json* place = &json;
+    Value* place = &fields;
     std::string name = key.name;
     for (std::size_t dot = name.find('.'); dot != std::string::npos; dot = name.find('.')) {
       place = &(*place)[name.substr(0, dot)];
       name.erase(0, dot + 1);
     }
-    (*place)[name] = echo == Echo::null ? Json(nullptr) : value_json(key, shown);
+    (*place)[name] = echo == Echo::null ? Value() : value_of(key, shown);
   }
-  return json;
 }
 
 }  // namespace clatter::validation::inline scene

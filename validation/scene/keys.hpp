@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "validation/output/json.hpp"
+#include "validation/output/value.hpp"
 #include "validation/scene/scene.hpp"
 #include "validation/scene/scene_values.hpp"
 
@@ -92,7 +92,7 @@ struct Key {
   /// What is allowed, in words: "greater than 0", "one of rod, box, mesh".
   [[nodiscard]] std::string allowed() const;
   /// Its value in a scene, null or absent as in the echo.
-  [[nodiscard]] Json get(const Scene& scene) const;
+  [[nodiscard]] Value get(const Scene& scene) const;
   /// Whether a scene has a value of it; true for kinds that always have one.
   [[nodiscard]] bool is_given(const Scene& scene) const;
   /// Puts a number in its place; whether it is in range is for the reader to say.  @pre is_number()
@@ -117,8 +117,8 @@ struct Alternative {
 
 /// Puts each key that is given in its place.  @throws BadInput where one is out of its range.
 void put_values(const SceneValues& values, Scene& scene, Model model);
-/// Every key of the model under its table's name.
-[[nodiscard]] Json keys_json(const Scene& scene, Model model);
+/// Adds every key of the model under its table's name.
+void add_keys(const Scene& scene, Model model, Value& fields);
 
 /// Names of choices, in the order of their enumerators.
 [[nodiscard]] const std::vector<std::string>& shape_names();

@@ -10,7 +10,7 @@
 
 #include "analytic/plane/impact.hpp"
 #include "numeric/simulate.hpp"
-#include "validation/output/json.hpp"
+#include "validation/output/value.hpp"
 #include "validation/scene/scene_values.hpp"
 
 namespace clatter::validation::inline scene {
@@ -70,7 +70,7 @@ struct SceneSweep {
   /// Key of the scene file under "sweep", and the quantity's name in JSON and CSV.
   [[nodiscard]] const std::string& name() const;
   /// As a scene file has it: an array, or an object with from and to.
-  [[nodiscard]] Json json() const;
+  [[nodiscard]] Value fields() const;
 };
 
 /// The model that a scene is read for.  The discrete one needs no ground.
@@ -124,8 +124,6 @@ struct Scene {
   /// Downward speed after a fall from `height`, of a centre of mass that is `touch` [m] above the ground at the first
   /// touch [m/s].  @throws BadInput if `height` is not above that.
   [[nodiscard]] double fallen_speed(double touch) const;
-  /// The keys of the model, defaults included, under the names of the file; all of them for the continuous one.
-  [[nodiscard]] Json json(Model model = Model::continuous) const;
   /// Whether attitude, velocity or angular velocity are given as vectors.
   [[nodiscard]] bool has_vectors() const;
   /// How the body comes to the ground, for a reader, without what is zero and without what `unsettled` keys say.

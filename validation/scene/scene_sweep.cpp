@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
@@ -75,13 +74,13 @@ std::vector<double> SceneSweep::values() const {
 
 const std::string& SceneSweep::name() const { return sweep_names()[static_cast<std::size_t>(quantity)]; }
 
-Json SceneSweep::json() const {
+Value SceneSweep::fields() const {
   if (!listed.empty()) return listed;
-  Json json{{"from", from}, {"to", to}};
-  if (count > 0) json["count"] = count;
-  else json["step"] = step;
-  if (logarithmic) json["scale"] = "log";
-  return json;
+  Value fields = Value::Fields{{"from", from}, {"to", to}};
+  if (count > 0) fields["count"] = count;
+  else fields["step"] = step;
+  if (logarithmic) fields["scale"] = "log";
+  return fields;
 }
 
 std::optional<SceneSweep> read_sweep_table(const SceneValues& values) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
@@ -149,16 +148,6 @@ const char* method_name(numeric::Method method) { return method_names()[static_c
 
 const char* law_name(analytic::RestitutionLaw law) { return law_names()[static_cast<std::size_t>(law)].c_str(); }
 
-Json Scene::json(Model model) const {
-  Json json = Json::object();
-  if (!path.empty()) json["file"] = text_json(path);
-  json.update(keys_json(*this, model));
-  if (sweep) {
-    json["sweep"][sweep->name()] = sweep->json();
-  }
-  return json;
-}
-
 std::string Scene::drop_words(const KeyNames& unsettled) const {
   const bool sweeps_angle = sweep && sweep->quantity == SceneSweep::Quantity::angle_deg;
   std::string turn = sweeps_angle ? fmt::format("{}° to {}°", shortest(sweep->from), shortest(sweep->to))
@@ -200,7 +189,10 @@ std::vector<std::string> Scene::summary(Model model, const KeyNames& unsettled) 
 }
 
 Value scene_value(const Scene& scene, Model model, std::optional<double> approach) {
-  Value fields = value_of(scene.json(model));
+  Value fields;
+  if (!scene.path.empty()) fields["file"] = scene.path;
+  add_keys(scene, model, fields);
+  if (scene.sweep) fields["sweep"][scene.sweep->name()] = scene.sweep->fields();
   if (model == Model::discrete || approach) fields["discrete_law"] = law_fields(scene, approach);
   return fields;
 }

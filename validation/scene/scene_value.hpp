@@ -11,8 +11,8 @@
 
 namespace clatter::validation::inline scene {
 
-/// All keys that the model has, defaults included, as Scene::json(); for the discrete model, or with `approach`, also
-/// "discrete_law": the law that it takes and where each number came from (law_fields).
+/// All keys that the model has, defaults included, under the names of the file; for the discrete model, or with
+/// `approach`, also "discrete_law": the law that it takes and where each number came from (law_fields).
 /// @param approach  speed of the first contact in the discrete model [m/s]
 [[nodiscard]] Value scene_value(const Scene& scene, Model model = Model::continuous,
                                 std::optional<double> approach = {});

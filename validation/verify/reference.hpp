@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "analytic/plane/contact_angles.hpp"
-#include "validation/oracles/reference_table.hpp"
+#include "tests/oracles/reference_table.hpp"
 
 namespace clatter::validation::inline verify {
 

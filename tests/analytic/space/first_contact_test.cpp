@@ -9,7 +9,7 @@
 #include <random>
 
 #include "analytic/space/body.hpp"
-#include "validation/oracles/free_top.hpp"
+#include "tests/oracles/free_top.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "validation/oracles/free_top.hpp"
+#include "tests/oracles/free_top.hpp"
 
 namespace {
 

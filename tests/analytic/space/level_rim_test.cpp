@@ -7,8 +7,8 @@
 
 #include "analytic/space/body.hpp"
 #include "analytic/space/sequence.hpp"
-#include "tests/analytic/oracle/viscoelastic_bounce.hpp"
 #include "tests/analytic/space/random_contact.hpp"
+#include "tests/oracles/viscoelastic_bounce.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analytic/space/impulse_path.hpp"
-#include "validation/oracles/reference_scene.hpp"
+#include "tests/oracles/reference_scene.hpp"
 
 namespace clatter::oracle {
 

@@ -4,10 +4,10 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "tests/analytic/oracle/viscoelastic_bounce.hpp"
 #include "tests/analytic/space/random_contact.hpp"
 #include "tests/analytic/space/reference_impact.hpp"
-#include "validation/oracles/reference_table.hpp"
+#include "tests/oracles/reference_table.hpp"
+#include "tests/oracles/viscoelastic_bounce.hpp"
 
 namespace {
 

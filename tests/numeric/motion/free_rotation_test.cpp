@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "validation/oracles/free_top.hpp"
+#include "tests/oracles/free_top.hpp"
 
 namespace {
 

@@ -105,7 +105,7 @@ class Defaults(EmptyFolder):
 class OneAnswer(EmptyFolder):
     """The same bits wherever the discrete model runs."""
 
-    NUMBERS = {"start": lambda i: i["start"], "impulse_normal": lambda i: i["impulse_normal"], "impulse_z": lambda i: i["impulse"][2],
+    NUMBERS = {"start": lambda i: i["start"], "contact_angle_deg": lambda i: i["contact_angle_deg"], "impulse_normal": lambda i: i["impulse_normal"], "impulse_z": lambda i: i["impulse"][2],
                "velocity_normal": lambda i: i["velocity_after"][2], "velocity_after_z": lambda i: i["velocity_after"][2],
                "angular_velocity": lambda i: i["angular_velocity_after"][1], "angular_velocity_after_y": lambda i: i["angular_velocity_after"][1]}
 

@@ -13,7 +13,7 @@
 #include <iostream>
 #include <random>
 
-#include "validation/oracles/impulse_path.hpp"
+#include "tests/oracles/impulse_path.hpp"
 
 namespace {
 

@@ -20,7 +20,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "validation/oracles/impulse_path.hpp"
+#include "tests/oracles/impulse_path.hpp"
 
 namespace clatter::oracle {
 

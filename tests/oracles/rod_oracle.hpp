@@ -15,8 +15,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "validation/oracles/digits.hpp"
-#include "validation/oracles/rod.hpp"
+#include "tests/oracles/digits.hpp"
+#include "tests/oracles/rod.hpp"
 
 namespace clatter::oracle {
 

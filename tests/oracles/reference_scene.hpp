@@ -9,7 +9,7 @@
 
 #include "analytic/space/body.hpp"
 #include "analytic/space/sequence.hpp"
-#include "validation/oracles/reference_table.hpp"
+#include "tests/oracles/reference_table.hpp"
 
 namespace clatter::oracle {
 

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analytic/law/sequence_loop.hpp"
+
+#include <sstream>
+
+namespace clatter::analytic {
+
+void SequenceOptions::validate() const {
+  detail::require(impacts >= 1, "impacts", impacts, "at least 1");
+  detail::require(digits >= 1 && digits <= 15, "digits", digits, "between 1 and 15");
+}
+
+std::string energy_warning(FrictionKind friction, const CreatedEnergy& created, double joules) {
+  std::ostringstream text;
+  text.precision(6);
+  text << (friction == FrictionKind::coulomb ? "the law of restitution, with friction," : "the impulse ratio")
+       << " creates energy: " << joules << " J in all, from impact " << created.first << " on";
+  return text.str();
+}
+
+}  // namespace clatter::analytic

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the impact sequences of the plane and of space share: options, outcomes, and how a run begins, fills and ends.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "analytic/base/errors.hpp"
+#include "analytic/law/impact_law.hpp"
+
+namespace clatter::analytic {
+
+struct SequenceOptions {
+  int impacts = 6;  ///< most impacts to report, >= 1
+  /// Relative error to which the end of an accumulation of impacts must be known before the sequence
+  /// is cut there: 10^−digits of the remaining time.  In [1, 15].
+  int digits = 6;
+  /// Also follow how errors of the drop and of rounding grow: `error` and `amplification` of each row, and the errors
+  /// of tail and total.
+  bool amplification = true;
+
+  /// @throws std::domain_error naming the field, its value and what is allowed.
+  void validate() const;
+};
+
+enum class Outcome {
+  no_further_impact,  ///< nothing reaches the ground any more
+  impact_limit,       ///< as many impacts as asked for
+  at_rest,            ///< infinitely many impacts end in a finite time, with no normal or angular motion left that
+                      ///< doubles could tell from none
+  sustained_contact,  ///< a vertex stays on the ground (after infinitely many impacts, or with e = 0)
+                      ///< while the body still turns: beyond the model
+  not_computed,       ///< a number of the next flight or impact could not be had; the rows so far hold
+  outside_model,      ///< the next impact jams; the rows so far hold
+};
+
+/// Energy that a law of restitution or friction has created [J, or in internal units].
+struct CreatedEnergy {
+  double sum = 0;
+  std::size_t first = 0;  ///< number of the first impact to do so, from 1; 0: none
+};
+
+/// "the impulse ratio creates energy: ... J in all, from impact ... on".
+/// @param joules  the sum
+[[nodiscard]] std::string energy_warning(FrictionKind friction, const CreatedEnergy& created, double joules);
+
+/// The rows, outcome and errors of one run, in internal units.  AnySequence has rows, outcome, message, tail, near_miss
+/// and total_normal_impulse; AnyGrowth follows errors and says predictable().
+template <class AnySequence, class AnyGrowth>
+class SequenceLoop {
+ public:
+  [[nodiscard]] const CreatedEnergy& created() const { return created_; }
+
+ protected:
+  using AnyTail = typename decltype(AnySequence::tail)::value_type;
+
+  explicit SequenceLoop(const SequenceOptions& options) : options_(options) {}
+
+  /// Runs the impacts; what ends them early keeps the rows so far.  @throws what `go_on` throws before the first row
+  template <class GoOn>
+  void follow(GoOn&& go_on) {
+    try {
+      go_on();
+    } catch (const NumericalError& error) {
+      end_early(Outcome::not_computed, error);
+    } catch (const OutsideModelError& error) {
+      end_early(Outcome::outside_model, error);
+    }
+    result_.end_predictable = growth_ && growth_->predictable();
+    if (!growth_ || growth_->predictable()) return;
+    result_.message += "; errors have grown so far that another sequence is possible";
+    std::size_t known = 0;
+    for (const auto& row : result_.rows) known += row.error.predictable ? 1 : 0;
+    if (known < result_.rows.size()) result_.message += " from impact " + std::to_string(known + 1) + " on";
+  }
+
+  [[nodiscard]] bool is_last_row() const { return result_.rows.size() >= static_cast<std::size_t>(options_.impacts); }
+
+  bool is_full() {
+    if (!is_last_row()) return false;
+    result_.outcome = Outcome::impact_limit;
+    result_.message = "as many impacts as asked for; more may follow";
+    return true;
+  }
+
+  /// A bouncing in closed form fills the rows asked for first, as far as its speeds and times are numbers.
+  [[nodiscard]] bool bounces_on(double separation_speed, double gravity) const {
+    constexpr double least = std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
+    return !is_last_row() && separation_speed > least && separation_speed > least * gravity;
+  }
+
+  /// Notes the loss of the next row's impact where it is below zero by more than `rounding` of the energy at the start,
+  /// which is of order 1 at the first impact.
+  void note_energy(double loss, double rounding) {
+    const double start = result_.rows.empty() ? 1 : result_.rows.front().energy_before;
+    if (loss >= -rounding * start) return;
+    created_.sum -= loss;
+    if (created_.first == 0) created_.first = result_.rows.size() + 1;
+  }
+
+  /// The contact has come to rest; has the body?
+  /// @param stays  what the body does where it turns on
+  void rest(bool turns, bool slides, const std::string& how, const std::string& stays) {
+    result_.outcome = turns ? Outcome::sustained_contact : Outcome::at_rest;
+    result_.message = how + "; " +
+                      (turns    ? stays + ", which impacts do not describe"
+                       : slides ? "the body slides on"
+                                : "the body is at rest");
+  }
+
+  /// Infinitely many impacts have ended in `tail`.
+  void end_in(AnyTail tail, bool turns, bool slides, const std::string& stays) {
+    result_.total_normal_impulse += tail.normal_impulse;
+    rest(turns, slides,
+         tail.closed_form ? "infinitely many impacts end in a finite time (geometric series)"
+                          : "infinitely many impacts end in a finite time (extrapolated)",
+         stays);
+    result_.tail = std::move(tail);
+  }
+
+  template <class Miss>
+  void end_in_flight(const Miss& near_miss) {
+    result_.outcome = Outcome::no_further_impact;
+    result_.near_miss = near_miss;
+    result_.message = near_miss.within_margin()
+                          ? "the next impact is a graze so slight that rounding decides; taken as a miss"
+                          : "nothing reaches the ground any more";
+  }
+
+  /// What an extrapolated end must be known to: the digits asked for, or 4 ulp of what came before.
+  template <class AnyAccumulation>
+  [[nodiscard]] auto extrapolated(const AnyAccumulation& accumulation, double time) const {
+    constexpr double ulps = 4 * std::numeric_limits<double>::epsilon();
+    return accumulation.extrapolate({.relative = std::pow(10.0, -options_.digits),
+                                     .time = ulps * time,
+                                     .impulse = ulps * result_.total_normal_impulse});
+  }
+
+  const SequenceOptions& options_;
+  std::optional<AnyGrowth> growth_;
+  AnySequence result_;
+
+ private:
+  /// Called while the error is handled.
+  void end_early(Outcome outcome, const std::exception& error) {
+    if (result_.rows.empty()) throw;
+    result_.outcome = outcome;
+    result_.message = error.what();
+  }
+
+  CreatedEnergy created_;
+};
+
+}  // namespace clatter::analytic
