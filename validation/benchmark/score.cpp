@@ -44,21 +44,6 @@ double distance(const Reference& reference, const State& a, const State& b) {
                    turn.dot(reference.body.inertia * turn));
 }
 
-double law_error(const Reference& reference, const DeclaredLaw& law, const FoundImpact& impact) {
-  if (impact.points.empty()) return Score::unknown;
-  double least = Score::unknown;
-  for (const auto& [before, after] : impact.bookings) {
-    try {
-      const State exact = exact_map(reference, law, before, impact.points);
-      const double change = std::fmax(distance(reference, exact, before), distance(reference, after, before));
-      least = std::fmin(least, distance(reference, exact, after) / change);
-    } catch (const std::exception&) {
-      continue;  // the law has no answer there: the error is unknown
-    }
-  }
-  return least;
-}
-
 ImpactScore impact_score(const Reference& reference, const ReferenceSequence& sequence, const FoundImpact& impact,
                          std::size_t i) {
   const Sizes sizes = sizes_of(reference, sequence);
@@ -150,6 +135,7 @@ void explain(Score& score, double tolerance, double time) {
     const std::size_t before = score.findings.size();
     add(one.velocity_error, "velocity" + at);
     add(one.angular_error, "angular velocity" + at);
+    add(one.impulse_error, "impulse" + at);
     if (!(std::fabs(one.time_error) <= tolerance * time)) {
       score.findings.push_back(fmt::format("impact {} comes {} s {}", i + 1, significant(std::fabs(one.time_error), 2),
                                            one.time_error < 0 ? "early" : "late"));
@@ -273,6 +259,16 @@ class Flights {
   double energy_ = 1;
 };
 
+/// What a list says of its impulses.
+void score_impulses(Score& score, const std::vector<FoundImpact>& impacts, const ReferenceSequence& sequence) {
+  double largest = 0;
+  for (const TruthRow& row : sequence.truth) largest = std::fmax(largest, row.impulse.norm());
+  for (std::size_t i = 0; i < std::min(score.impacts.size(), sequence.truth.size()); ++i) {
+    score.impacts[i].impulse_error = (impacts[i].impulse - sequence.truth[i].impulse).norm() / largest;
+    score.impulse_error = worse(score.impulse_error, score.impacts[i].impulse_error);
+  }
+}
+
 /// What a list says of its end.
 void score_ending(Score& score, const Ending& ending, const Reference& reference, const ReferenceSequence& sequence) {
   if (!reference.until) return;
@@ -290,6 +286,25 @@ void score_ending(Score& score, const Ending& ending, const Reference& reference
 
 }  // namespace
 
+double law_error(const Reference& reference, const DeclaredLaw& law, const FoundImpact& impact) {
+  if (impact.points.empty()) return Score::unknown;
+  double least = Score::unknown;
+  for (const auto& [before, after] : impact.bookings) {
+    try {
+      const State exact = exact_map(reference, law, before, impact.points);
+      const double change = std::fmax(distance(reference, exact, before), distance(reference, after, before));
+      least = std::fmin(least, distance(reference, exact, after) / change);
+    } catch (const std::exception&) {
+      continue;  // the law has no answer there: the error is unknown
+    }
+  }
+  return least;
+}
+
+std::vector<FoundImpact> impacts_of(const Motion& motion, const Reference& reference) {
+  return find_impacts(motion, reference, search_for(reference));
+}
+
 const std::vector<std::string>& verdict_names() {
   static const std::vector<std::string> names{"exact", "sharp", "good", "coarse", "incomplete", "fails"};
   return names;
@@ -306,7 +321,8 @@ double Score::motion_error() const { return worse(velocity_error, worse(angular_
 
 double Score::error() const {
   if (!order_is_right) return unknown;
-  return worse(worse(law_error, motion_error()), worse(energy_error, worse(flight_error, start_error)));
+  return worse(worse(worse(law_error, impulse_error), motion_error()),
+               worse(energy_error, worse(flight_error, start_error)));
 }
 
 Verdict verdict_of(const Score& score, const std::vector<double>& tolerances) {
@@ -318,7 +334,7 @@ Verdict verdict_of(const Score& score, const std::vector<double>& tolerances) {
 }
 
 Score score_motion(const Motion& motion, const Reference& reference, const std::string& law, const Ending& ending) {
-  const std::vector<FoundImpact> impacts = find_impacts(motion, reference, search_for(reference));
+  const std::vector<FoundImpact> impacts = impacts_of(motion, reference);
   return best_of(reference, law, [&](const ReferenceSequence& sequence) {
     Score score = score_impacts(impacts, reference, sequence);
     score.start_error = motion.start_error();
@@ -331,6 +347,7 @@ Score score_list(const std::vector<FoundImpact>& impacts, const Reference& refer
                  const Ending& ending) {
   return best_of(reference, law, [&](const ReferenceSequence& sequence) {
     Score score = score_impacts(impacts, reference, sequence);
+    score_impulses(score, impacts, sequence);
     score_ending(score, ending, reference, sequence);
     return score;
   });

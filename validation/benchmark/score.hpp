@@ -32,6 +32,7 @@ struct ImpactScore {
   double velocity_error = 0;  ///< |ΔV| over the sequence's largest |V|
   double angular_error = 0;   ///< |ΔΩ| over the sequence's largest |Ω|, at least |V|/reach
   double energy_error = 0;    ///< of the energy after it, relative to that of the start, signed
+  double impulse_error = 0;   ///< |ΔP| over the sequence's largest |P|, of a list; of a motion P is m ΔV
   double impulse_normal = 0;  ///< [N·s]
   double impulse_tangential = 0;
   analytic::space::State after;
@@ -42,6 +43,7 @@ struct ImpactScore {
 ///             norm of kinetic energy, over the map's own change; the nearest of the impact's bookings
 ///   order     number and places of the impacts, in their order
 ///   motion    V, Ω and t against the truth; t over the last impact's time, at least reach/speed
+///   impulse   of a list against the truth
 ///   energy    after the impacts against the truth, and what is gained or lost between impacts
 ///   flight    what free flight does not explain of the way between impacts, over the reach
 ///   start     of the state at the first touch, as Motion::start_error()
@@ -53,8 +55,8 @@ struct Score {
   std::vector<ImpactScore> impacts{};
   std::size_t found = 0, expected = 0;
   bool order_is_right = false;
-  double law_error = 0, velocity_error = 0, angular_error = 0, time_error = 0, energy_error = 0, flight_error = 0,
-         start_error = 0;
+  double law_error = 0, velocity_error = 0, angular_error = 0, time_error = 0, impulse_error = 0, energy_error = 0,
+         flight_error = 0, start_error = 0;
   std::optional<std::size_t> drift{}, stray{};  ///< after how many impacts energy or flight is worst
   std::string left_out{};               ///< what the problem asks for and the answer does not say; empty: nothing
   std::vector<std::string> findings{};  ///< what is wrong, in words, the first first
@@ -64,6 +66,12 @@ struct Score {
   /// The largest of all.
   [[nodiscard]] double error() const;
 };
+
+/// Distance of the velocities after an impact from the law's exact map at the state before it, over the map's own
+/// change; of the impact's bookings the nearest.  Unknown where no point struck or the law has no answer.
+[[nodiscard]] double law_error(const Reference& reference, const DeclaredLaw& law, const FoundImpact& impact);
+/// Impacts of a motion that are large enough to be judged.
+[[nodiscard]] std::vector<FoundImpact> impacts_of(const Motion& motion, const Reference& reference);
 
 /// The larger of two errors; one that is no number counts as unknown.
 [[nodiscard]] double worse(double error, double other);

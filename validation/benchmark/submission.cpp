@@ -93,27 +93,31 @@ Ending ending_of(const NumericTable& table) {
 }
 
 /// A list in the plane says which turn its Omega counts as positive: a guess would hide a wrong sign.
-Score judge_list(const NumericTable& table, const SubmissionHead& head, const Reference& reference) {
-  const std::string other = "counter-clockwise";
-  const auto turn = chosen_comment(table, "Omega", {"clockwise", other});
-  Score score = score_list(listed_impacts(table, reference, turn == other), reference, head.law, ending_of(table));
-  if (table.column("Omega") && !turn) {
+Score judge_list(const Answer& answer, const SubmissionHead& head, const Reference& reference) {
+  const NumericTable& table = answer.table;
+  Score score =
+      score_list(listed_impacts(table, reference, answer.is_counter_clockwise), reference, head.law, answer.ending);
+  if (table.column("Omega") && !table.comment("Omega")) {
     score.left_out = "no line \"# Omega: clockwise\" or \"# Omega: counter-clockwise\"";
     score.findings.insert(score.findings.begin(), "incomplete: " + score.left_out);
   }
   return score;
 }
 
-Submission judge(ReadFile file, const SubmissionHead& head, const Reference& reference) {
+Submission judge(const ReadFile& file, const SubmissionHead& head, const Reference& reference) {
   Submission submission{.path = file.table.path(), .head = head, .is_list = file.is_list};
-  if (file.is_list) {
-    submission.score = judge_list(file.table, head, reference);
-  } else {
-    const Ending ending = ending_of(file.table);
-    const Motion motion(std::move(file.table), reference);
-    submission.score = score_motion(motion, reference, head.law, ending);
-  }
+  const std::string other = "counter-clockwise";
+  const Answer answer{
+      .table = file.table,
+      .is_list = file.is_list,
+      .is_counter_clockwise = file.is_list && chosen_comment(file.table, "Omega", {"clockwise", other}) == other,
+      .ending = ending_of(file.table)};
+  submission.score = file.is_list ? judge_list(answer, head, reference)
+                                  : score_motion(Motion(file.table, reference), reference, head.law, answer.ending);
   submission.verdict = verdict_of(submission.score, reference.tolerances);
+  if (!(submission.score.error() <= reference.tolerances[1])) {
+    submission.causes = causes_of(answer, reference, submission.score);
+  }
   return submission;
 }
 
@@ -157,7 +161,7 @@ std::string read_law(const std::string& where, const std::string& text) {
 }
 
 Submission judge_file(const std::string& path, const std::string& problem, const ColumnNames& names) {
-  ReadFile file = read_file(path, names);
+  const ReadFile file = read_file(path, names);
   SubmissionHead head = head_of(file.table);
   std::string where = place_of(file.table, "problem");
   if (!problem.empty()) head.problem = problem, where = "--problem";
@@ -169,15 +173,15 @@ Submission judge_file(const std::string& path, const std::string& problem, const
   const auto found = references.find(named.id);
   const Reference& reference =
       found != references.end() ? found->second : references.emplace(named.id, reference_of(named)).first->second;
-  Submission submission = judge(std::move(file), head, reference);
+  Submission submission = judge(file, head, reference);
   submission.problem_version = named.version;
   return submission;
 }
 
 Submission judge_file(const std::string& path, const Reference& reference, const ColumnNames& names) {
-  ReadFile file = read_file(path, names);
+  const ReadFile file = read_file(path, names);
   const SubmissionHead head = head_of(file.table);
-  return judge(std::move(file), head, reference);
+  return judge(file, head, reference);
 }
 
 std::vector<SubmissionGroup> group_submissions(const std::vector<Submission>& submissions) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/benchmark/score.hpp"
+#include "validation/benchmark/diagnosis.hpp"
 
 namespace clatter::validation::inline benchmark {
 
@@ -26,6 +26,7 @@ struct Submission {
   bool is_list = false;  ///< of impacts, not a motion
   Score score{};
   Verdict verdict = Verdict::fails;
+  std::vector<Cause> causes{};  ///< what explains a run that is not sharp
 };
 
 /// Files of one problem, engine, version, settings and law.

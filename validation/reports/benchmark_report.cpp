@@ -223,6 +223,7 @@ Row submission_row(const Submission& one) {
           error_cell(score.velocity_error),
           error_cell(score.angular_error),
           error_cell(score.time_error),
+          one.is_list ? error_cell(score.impulse_error) : Cell(),
           error_cell(score.energy_error),
           one.is_list ? Cell() : error_cell(score.flight_error),
           one.is_list ? Cell() : error_cell(score.start_error),
@@ -234,6 +235,14 @@ Row submission_row(const Submission& one) {
 Value submission_value(const std::vector<Column>& columns, const Submission& one) {
   Value value = row_object(columns, submission_row(one));
   value["findings"] = one.score.findings;
+  Value causes{Value::List{}};
+  for (const Cause& cause : one.causes) {
+    causes.push_back(Value::Fields{{"cause", cause.name},
+                                   {"value", cause.value ? Value(*cause.value) : Value()},
+                                   {"misfit", cause.misfit},
+                                   {"words", cause.words}});
+  }
+  value["causes"] = std::move(causes);
   Value impacts{Value::List{}};
   int n = 0;
   for (const ImpactScore& impact : one.score.impacts) impacts.push_back(impact_value(impact, ++n));
@@ -443,6 +452,7 @@ std::vector<Column> score_columns() {
       {"velocity_error", "V", "", "largest error of V after an impact, over the sequence's largest"},
       {"angular_velocity_error", "Ω", "", "the same of Ω"},
       {"time_error", "t", "", "largest error of an impact's time, over that of the last impact"},
+      Column{"impulse_error", "", "", "of a list the largest error of an impulse, over the sequence's largest", false},
       {"energy_error", "energy", "", "largest error of energy after impacts, or drift between them, over the start's"},
       Column{"flight_error", "", "", "way between impacts that free flight does not explain, over the body's reach",
              false},
@@ -462,6 +472,7 @@ Report score_report(const std::string& command, const std::vector<Submission>& s
     files.push_back(submission_value(report.grid.columns, one));
     worst = std::max(worst, one.verdict);
     const std::string name = std::filesystem::path(one.path).filename().string();
+    for (const Cause& cause : one.causes) report.notes.push_back(name + ": likely cause: " + cause.words);
     for (const std::string& finding : one.score.findings) report.notes.push_back(name + ": " + finding);
     if (!one.score.law_is_declared && one.score.law != "any") {
       report.notes.push_back(name + ": declares no law; judged by the one that fits best, " + one.score.law);

@@ -239,6 +239,14 @@ std::optional<std::size_t> NumericTable::column(std::string_view name) const {
   return at == columns_.end() ? std::nullopt : std::optional(static_cast<std::size_t>(at - columns_.begin()));
 }
 
+NumericTable NumericTable::changed(const std::function<void(std::span<double>)>& change) const {
+  NumericTable table = *this;
+  for (std::size_t row = 0; row < rows(); ++row) {
+    change({table.numbers_.data() + row * columns_.size(), columns_.size()});
+  }
+  return table;
+}
+
 const std::string& NumericTable::word(std::size_t row, std::string_view column) const {
   const auto at = std::find(words_.begin(), words_.end(), column);
   return texts_.at(row * words_.size() + static_cast<std::size_t>(at - words_.begin()));

@@ -8,6 +8,7 @@
 // Line ends are LF or CRLF; a byte order mark, blank lines and lines that begin with # are skipped.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -72,6 +73,8 @@ class NumericTable {
   [[nodiscard]] std::span<const double> row(std::size_t row) const {
     return {numbers_.data() + row * columns_.size(), columns_.size()};
   }
+  /// The same table with each row's numbers changed.
+  [[nodiscard]] NumericTable changed(const std::function<void(std::span<double>)>& change) const;
   /// A field of a column of words.  @pre the column was requested
   [[nodiscard]] const std::string& word(std::size_t row, std::string_view column) const;
   /// A field of a column that was read, as the file has it.

@@ -11,7 +11,7 @@ from planar_code import Code
 
 STEP = 1 / 500
 SCORES = ("law_error", "velocity_error", "angular_velocity_error", "time_error", "energy_error", "flight_error",
-          "start_error")
+          "start_error", "impulse_error")
 
 
 def faulty(problem, law=None, **replaced):
@@ -194,6 +194,57 @@ def weak_gravity(code, state, dt):
     return after
 
 
+def written(problem, *columns, factor=-1.0):
+    """Rows with columns in other units or of other signs: 1 x, 2 z, 3 phi, 4 vx, 5 vz, 6 omega."""
+    return edited(problem, lambda code, rows: [[v * (factor if k in columns else 1.0) for k, v in enumerate(row)] for row in rows])
+
+
+def in_body_frame(motion):
+    rows = motion.rows(STEP)
+    return [r[:11] + list(exact_motion.turned_back(r[4:8], r[11:14])) for r in rows]
+
+
+def only_fast(threshold):
+    """Restitution for contacts above a speed alone; what does not rebound is not followed."""
+    def strike(code, state, points, n):
+        code.gone = -code.approach(state, points[0]) <= threshold
+        e = 0.0 if code.gone else code.e
+        return code.apply(state, points[0], *code.impulse(state, points[0], e, code.friction))
+    return strike
+
+
+def scaled_moment(factor):
+    def strike(code, state, points, n):
+        true, code.moment = code.moment, code.moment * factor
+        after = code.apply(state, points[0], *code.impulse(state, points[0], code.e, code.friction))
+        code.moment = true
+        return after
+    return strike
+
+
+def scaled_lever(factor):
+    def strike(code, state, points, n):
+        true, code.points = code.points, [(x * factor, z * factor) for x, z in code.points]
+        after = code.apply(state, points[0], *code.impulse(state, points[0], code.e, code.friction))
+        code.points = true
+        return after
+    return strike
+
+
+def every(**values):
+    """A list with values of every row changed."""
+    def edit(rows):
+        for row in rows:
+            for key, value in values.items():
+                row[key] = value(row[key])
+        return rows
+    return edit
+
+
+def other_end(place):
+    return {"a": "b", "b": "a"}.get(place, place)
+
+
 # What is planted, and the score that must find it: "order", or the name of an error.
 FAULTS = {
     "e = 0.99": ("law_error", lambda: faulty("rod-10", strike=restitution(0.99))),
@@ -246,6 +297,48 @@ FAULTS = {
     "starts at 10.1 degrees": ("start_error", lambda: started("rod-10", _3=lambda phi: phi * 1.01)),
     "starts with a spin": ("start_error", lambda: started("rod-10", _6=lambda w: w + 0.05)),
     "starts 1 % too fast": ("start_error", lambda: started("rod-10", _5=lambda v: v * 1.01)),
+    "e = 0.9": ("law_error", lambda: faulty("rod-10", strike=restitution(0.9))),
+    "inertia 1.1 times": ("law_error", lambda: faulty("rod-10", strike=scaled_moment(1.1))),
+    "inertia 1.25 times": ("law_error", lambda: faulty("rod-1", strike=scaled_moment(1.25))),
+    "inertia 0.9 times with friction": ("law_error", lambda: faulty("friction-slip", strike=scaled_moment(0.9), law="newton routh")),
+    "levers 0.95 times": ("law_error", lambda: faulty("clatter-08", strike=scaled_lever(0.95))),
+    "no restitution below 1 m/s": ("law_error", lambda: faulty("clatter-05", strike=only_fast(1.0), next_touch=gone)),
+    "phi and omega clockwise": ("start_error", lambda: written("clatter-08", 3, 6)),
+    "omega of the other sign": ("flight_error", lambda: written("rod-45", 6)),
+    "z points down": ("start_error", lambda: written("clatter-05", 2, 5)),
+    "phi and omega in degrees": ("start_error", lambda: written("rod-45", 3, 6, factor=57.29577951308232)),
+    "omega in degrees per second": ("flight_error", lambda: written("rod-10", 6, factor=57.29577951308232)),
+    "lengths in millimetres": ("start_error", lambda: written("box", 1, 2, 4, 5, factor=1000.0)),
+    "times in milliseconds": ("flight_error", lambda: written("rod-10", 0, factor=1000.0)),
+    "omega in body axes": ("start_error", lambda: space("corner", in_body_frame)),
+    "Omega of the other sign in a list": ("angular_velocity_error", lambda: listed("rod-10", every(Omega=lambda w: -w))),
+    "ends exchanged in a list": ("order", lambda: listed("rod-10", every(place=other_end))),
+    "a heavier rod in a list": ("impulse_error", lambda: listed("rod-10", every(Pn=lambda p: 1.1 * p))),
+    "an impulse 13 % too large in a list": ("impulse_error", lambda: listed("rod-10", changed(0, Pn=lambda p: 1.13 * p))),
+}
+
+# The cause that is named, by its name and its number; a fault that is not here need not be named, and must not be named otherwise.
+CAUSES = {
+    "e = 0.99": ("restitution", 0.99), "e = 1.01 at the first impact": ("restitution", 1.01),
+    "e = 0.99 at the second impact": ("restitution", 0.99), "e = 0.99 at the third impact": ("restitution", 0.99),
+    "e = 0.75 for 0.8": ("restitution", 0.75), "e = 0.52 at the third impact": ("restitution", 0.52),
+    "inertia 3 % too large": ("inertia", 1.03), "restitution of the centre alone": ("centre-alone", None),
+    "end 5 mm short": ("lever", 0.99), "friction 0.29": ("friction", 0.29), "friction 0.32": ("friction", 0.32),
+    "friction pushes on": ("friction-ratio", -0.3), "no friction": ("friction", 0.0),
+    "sticks beyond Coulomb's bound": ("friction", 0.6), "slips at the bound where it sticks": ("friction-ratio", 0.8),
+    "no reversal of slip": ("friction-ratio", -0.3), "friction bounded by weight": ("friction-ratio", 0.05),
+    "another law than declared": ("law", None), "both ends at once": ("centre-alone", None),
+    "the rod as in a mirror": ("phi-sign", None), "impacts 1 ms late": ("delay", 1e-3), "a skin of 1 mm": ("margin", 1e-3),
+    "drift of 1e-4": ("damping", 5e-4), "drift of 1e-2": ("damping", 0.02), "spin is damped": ("spin-damping", 0.01),
+    "gravity 9.7": ("gravity", 9.7), "starts at 10.1 degrees": ("start-angle", 10.1), "starts with a spin": ("start-spin", 0.05),
+    "starts 1 % too fast": ("start-speed", 1.01), "e = 0.9": ("restitution", 0.9), "inertia 1.1 times": ("inertia", 1.1), "inertia 1.25 times": ("inertia", 1.25),
+    "inertia 0.9 times with friction": ("inertia", 0.9), "levers 0.95 times": ("lever", 0.95),
+    "no restitution below 1 m/s": ("restitution-threshold", None), "phi and omega clockwise": ("phi-sign", None),
+    "omega of the other sign": ("omega-sign", None), "z points down": ("up-down", None),
+    "phi and omega in degrees": ("degrees", None), "omega in degrees per second": ("degrees", None),
+    "lengths in millimetres": ("millimetres", None), "times in milliseconds": ("milliseconds", None),
+    "omega in body axes": ("body-frame", None), "Omega of the other sign in a list": ("omega-sign", None),
+    "ends exchanged in a list": ("ends-exchanged", None), "a heavier rod in a list": ("mass", 1.1),
 }
 
 # Faults so small that a class of tolerance may pass them are found by the exact one.
@@ -266,8 +359,8 @@ class PlantedFaults(unittest.TestCase):
             assert done.returncode == 0, (name, done.stderr)
             cls.scored[name] = json.loads(done.stdout)["files"][0]
 
-    def test_forty_faults_are_planted(self):
-        self.assertGreaterEqual(len(FAULTS), 40)
+    def test_sixty_faults_are_planted(self):
+        self.assertGreaterEqual(len(FAULTS), 60)
 
     def test_each_fault_is_found_by_the_score_that_should_find_it(self):
         for name, (score, _) in FAULTS.items():
@@ -289,11 +382,28 @@ class PlantedFaults(unittest.TestCase):
             with self.subTest(name):
                 self.assertTrue(file["findings"])
 
+    def test_the_cause_of_a_fault_is_named_and_no_other(self):
+        """One that is named beside it explains the same numbers as well."""
+        named = 0
+        for name, file in self.scored.items():
+            causes = [(cause["cause"], cause["value"]) for cause in file["causes"]]
+            with self.subTest(name):
+                wanted = CAUSES.get(name)
+                if wanted is None:
+                    self.assertEqual(causes, [])
+                    continue
+                self.assertIn(wanted[0], [cause for cause, _ in causes], file["findings"])
+                if wanted[1] is not None:
+                    self.assertAlmostEqual(dict(causes)[wanted[0]], wanted[1], delta=max(1e-6, 2e-3 * abs(wanted[1])))
+                named += 1
+        self.assertGreaterEqual(named, 40)
+
     def test_no_two_faults_look_the_same(self):
         seen = {}
         for name, file in self.scored.items():
             look = (file["problem"], tuple(file["findings"]),
-                    tuple("?" if file[s] is None else f"{file[s]:.2g}" for s in SCORES))
+                    tuple("?" if file[s] is None else f"{file[s]:.2g}" for s in SCORES),
+                    tuple(cause["words"] for cause in file["causes"]))
             self.assertNotIn(look, seen, f"{name} looks like {seen.get(look)}")
             seen[look] = name
 

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What explains a foreign run that fails.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/benchmark/score.hpp"
+
+namespace clatter::validation::inline benchmark {
+
+/// A hypothesis that explains a run, where the problem's own statement does not.
+struct Cause {
+  std::string name;             ///< "restitution", "inertia", "phi-sign", …
+  std::optional<double> value;  ///< the number that explains the run, in SI units; nothing: the hypothesis has none
+  double misfit = 0;            ///< the relative error that is left with it
+  std::string words;            ///< one line
+};
+
+/// A run as its file has it.
+struct Answer {
+  const NumericTable& table;
+  bool is_list = false;               ///< of impacts, not a motion
+  bool is_counter_clockwise = false;  ///< what a list's Omega counts as positive
+  Ending ending{};
+};
+
+/// Of a run's error, what a hypothesis may leave.
+inline constexpr double explained = 0.05;
+
+/// "to 2e-16": the misfit of a hypothesis, for its words.
+[[nodiscard]] std::string misfit_words(double misfit);
+
+/// The ways to read an answer's rows by which all of it is right: other signs, axes, units and frames, and of a list
+/// other ends.
+[[nodiscard]] std::vector<Cause> misreadings_of(const Answer& answer, const Reference& reference, const Score& score);
+
+}  // namespace clatter::validation::inline benchmark
