@@ -6,7 +6,7 @@ extremes.md with figures/extremes.svg.
     notebooks-data/documents.py PROGRAM            writes them
     notebooks-data/documents.py PROGRAM --check    says which are not what PROGRAM prints, and changes nothing
 
-A block of README.md stands between "<!-- output: COMMAND -->", "<!-- verdicts -->" or "<!-- costs -->" and
+A block of README.md stands between "<!-- output: COMMAND -->", "<!-- measurement -->" or "<!-- costs -->" and
 "<!-- end -->".  The costs are those of tradeoff.csv, which tradeoff.py measures.  The paper's figures and other pictures
 are drawn from the data by figures.py, to be run after this.
 """
@@ -24,7 +24,7 @@ ROOT = Path(__file__).resolve().parent.parent
 README = ROOT / "README.md"
 VERIFICATION = ROOT / "notebooks-data" / "verification.md"
 TRADEOFF = ROOT / "notebooks-data" / "tradeoff.csv"
-BLOCK = re.compile(r"(<!-- ((?P<kind>output|verdicts|costs)(: (?P<command>[^>]+?))?) -->\n).*?(?P<end><!-- end -->)", re.DOTALL)
+BLOCK = re.compile(r"(<!-- ((?P<kind>output|measurement|costs)(: (?P<command>[^>]+?))?) -->\n).*?(?P<end><!-- end -->)", re.DOTALL)
 EXTREMES = ROOT / "notebooks-data" / "extremes.md"
 FIGURES = ROOT / "notebooks-data" / "figures"
 COSTS_OF = ("rod-10", "rod-45", "phone-damped")
@@ -50,29 +50,36 @@ def cell(text):
     return text.replace("|", "\\|")
 
 
-def cell_pair(text):
-    """Two cells with " | " between them."""
-    return " | ".join(cell(part) for part in text.split(" | "))
-
-
 def settled(text):
     """Without rounding errors and what hangs on them, which differ from machine to machine."""
     return re.sub(r"\d(\.\d+)?e[-−]\d\d|\d+ force evaluations", "", text)
 
 
-def verdict(check):
-    answer = check["answer"] if check["answer"] == "holds" else f"**{check['answer']}**"
-    return f"{check['id']} {check['what']} | {answer}; {check['quantity']}: {number(check)}"
+MEASURED = {  # rows of `clatter measured score` as README shows them
+    "first impacts that one impulse at a corner explains": ("point impacts",),
+    "as fitted: e, μ and, of the body, axes and inertia": ("as fitted",),
+    "e and μ fitted, the body as described": ("body as described",),
+    "published e and μ, the body as described": ("published parameters",),
+    "no impact at all": ("no change",),
+    "the other first impacts: as one, as a sequence of impacts": ("no point impact: one impact",
+                                                                  "no point impact: the sequence"),
+}
 
 
-def verdicts(checks):
-    """Claims and errata, two in a row."""
-    chosen = [check for check in checks if check["id"][0] in "CE"]
-    half = (len(chosen) + 1) // 2
-    lines = ["| claim | answer | claim, or what is wrong in print | answer |", "|---|---|---|---|"]
-    for left, right in itertools.zip_longest(chosen[:half], chosen[half:]):
-        sides = [cell_pair(verdict(left)), cell_pair(verdict(right)) if right else " | "]
-        lines.append(f"| {' | '.join(sides)} |")
+def measurement(program):
+    """Median misses of the predicted motion after impact 1, for both sets of tracked drops."""
+    sets = {name: {row["quantity"]: row for row in
+                   json.loads(printed(program, ["measured", "score", name, "--format", "json"]))["scores"]}
+            for name in ("square-drops", "cube-tosses")}
+
+    def share(row):
+        return f"{row['value']:.2g} %" + (f" of {row['drops']}" if row["quantity"] == "point impacts" else "")
+
+    lines = ["| motion after impact 1 misses the measured one by, in the median | squares | cubes |", "|---|---|---|"]
+    for words, quantities in MEASURED.items():
+        cells = [", ".join(share(rows[quantity]) for quantity in quantities if quantity in rows) or "–"
+                 for rows in sets.values()]
+        lines.append(f"| {words} | {' | '.join(cells)} |")
     return "\n".join(lines) + "\n"
 
 
@@ -148,13 +155,13 @@ def extremes(result):
     return "\n".join(lines) + "\n"
 
 
-def readme(program, text, checks):
+def readme(program, text):
     def block(found):
         kind = found.group("kind")
         if kind == "output":
             content = f"```\n{printed(program, shlex.split(found.group('command'))[1:])}```\n"
         else:
-            content = verdicts(checks) if kind == "verdicts" else costs()
+            content = measurement(program) if kind == "measurement" else costs()
         return found.group(1) + content + found.group("end")
     return BLOCK.sub(block, text)
 
@@ -166,7 +173,7 @@ def main():
     program = str(Path(sys.argv[1]).resolve())
     result = json.loads(printed(program, ["verify", "--format", "json"]))
     old = README.read_text(encoding="utf-8")
-    wanted = {README: readme(program, old, result["checks"]), VERIFICATION: verification(result)}
+    wanted = {README: readme(program, old), VERIFICATION: verification(result)}
     stale = [path for path, text in wanted.items() if not path.exists() or settled(path.read_text(encoding="utf-8")) != settled(text)]
     if sys.argv[2:]:
         for path in stale:

@@ -17,12 +17,33 @@ class SampleList : public numeric::HistoryRecorder {
   std::vector<numeric::HistorySample>& samples_;
 };
 
+/// ∫F_z dt of what it records.
+class ForceIntegral : public numeric::HistoryRecorder {
+ public:
+  void record(const numeric::HistorySample& sample) override {
+    impulse_ += (sample.time - time_) * (sample.force.z() + force_) / 2;
+    time_ = sample.time;
+    force_ = sample.force.z();
+  }
+  [[nodiscard]] double impulse() const { return impulse_; }
+
+ private:
+  double time_ = 0, force_ = 0, impulse_ = 0;
+};
+
 constexpr int fall_points = 20;
 
 }  // namespace
 
+double RecordedRun::force_impulse() const {
+  ForceIntegral integral;
+  for (const numeric::HistorySample& sample : samples) integral.record(sample);
+  return integral.impulse();
+}
+
 std::string RunOptions::key() const {
-  return fmt::format("{}/{}/{}/{}/{}", digits, impacts, planar, static_cast<int>(method), static_cast<int>(area));
+  return fmt::format("{}/{}/{}/{}/{}/{}", digits, impacts, planar, static_cast<int>(method), step,
+                     static_cast<int>(area));
 }
 
 Scene scene_of_case(const std::string& name, const RunOptions& options) {
@@ -31,6 +52,7 @@ Scene scene_of_case(const std::string& name, const RunOptions& options) {
   if (options.impacts > 0) scene.request.impacts = options.impacts;
   if (options.planar) scene.world.planar = true;
   if (options.method != numeric::Method::automatic) scene.accuracy.method = options.method;
+  if (options.step > 0) scene.accuracy.step = options.step;
   if (options.area != numeric::AreaMeasure::surface) scene.world.ground.area = options.area;
   scene.request.error_estimates = false;
   return scene;
@@ -78,7 +100,10 @@ const std::vector<SweptSimulation>& CaseRuns::sweep(const std::string& name, con
     std::vector<SweptSimulation> swept;
     for (const double value : scene.sweep->values()) {
       const Scene one = scene.at(value);
-      swept.push_back({value, numeric::simulate(body, one.world, one.start(body), one.request, one.accuracy)});
+      ForceIntegral force;
+      numeric::Simulation run =
+          numeric::simulate(body, one.world, one.start(body), one.request, one.accuracy, {.history = &force});
+      swept.push_back({value, std::move(run), force.impulse()});
     }
     return swept;
   });

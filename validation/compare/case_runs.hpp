@@ -19,12 +19,15 @@ namespace clatter::validation::inline compare {
 struct SweptSimulation {
   double value;
   numeric::Simulation run;
+  double force_impulse;  ///< ∫F_z dt over all contacts, by the trapezoidal rule over the accepted steps [N·s]
 };
 
 /// A run with its time history.
 struct RecordedRun {
   numeric::Simulation run;
   std::vector<numeric::HistorySample> samples;
+
+  [[nodiscard]] double force_impulse() const;  ///< as in SweptSimulation
 };
 
 /// How a case is run.
@@ -33,6 +36,7 @@ struct RunOptions {
   int impacts = 0;  ///< 0: as the case says
   bool planar = false;
   numeric::Method method = numeric::Method::automatic;
+  double step = 0;  ///< of a method of fixed step [s]; 0: as the case says
   numeric::AreaMeasure area = numeric::AreaMeasure::surface;
 
   [[nodiscard]] std::string key() const;

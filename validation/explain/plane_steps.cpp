@@ -131,12 +131,7 @@ class PlanarImpact {
     const Quantity gamma =
         falls ? writer_.computed("Γ", "", Expression(given_.gravity) / (Expression(*length_) * square(w0_)))
               : gamma_name;
-    if (arrival.bracket_high < 1e300) {
-      writer_.found(number("φ_low", std::fabs(row_.departure.angular) * arrival.bracket_low, "rad"),
-                    {"left end of the certified bracket"});
-      writer_.found(number("φ_high", std::fabs(row_.departure.angular) * arrival.bracket_high, "rad"),
-                    {"its right end"});
-    }
+    certified_bracket();
     phi = writer_.found(phi, {fmt::format("the root, after {} evaluations", row_.flight.evaluations)});
     const Expression f = left(k, gamma);
     const double turned = phi.value(0, 0),
@@ -146,6 +141,14 @@ class PlanarImpact {
     writer_.found(number("β", row_.contact_angle * degrees, "°", row_.error.contact_angle * degrees),
                   absolute(Expression(phi) - theta), {"contact angle now"});
     inclination();
+  }
+
+  void certified_bracket() {
+    const analytic::Arrival& arrival = row_.flight.arrival;
+    const double rate = std::fabs(row_.departure.angular);
+    if (!(arrival.bracket_high < 1e300)) return;
+    writer_.found(number("φ_low", rate * arrival.bracket_low, "rad"), {"left end of the certified bracket"});
+    writer_.found(number("φ_high", rate * arrival.bracket_high, "rad"), {"its right end"});
   }
 
   void inclination() {
@@ -347,42 +350,58 @@ class PlanarImpact {
     const Quantity vt =
         number("V_t", impact.after.tangential, "m/s", error_of(&analytic::PlanarVelocity::tangential), speed_);
     const Quantity w = number("Ω", impact.after.angular, "rad/s", error_of(&analytic::PlanarVelocity::angular));
-    const Quantity ratio = ratio_ ? *ratio_ : given_.impulse_ratio ? *given_.impulse_ratio : number("μ_i", 0, "");
-    const bool rubs = ratio_ || given_.impulse_ratio;
-    Words words{"Momentum along the normal and along the ground, angular momentum",
-                is_newton ? ", and restitution" : "",
-                ". Unknown are the impulse ",
-                p,
-                " and the velocities after, ",
-                vn,
-                ", ",
-                vt,
-                " and ",
-                w,
-                "."};
-    if (!rubs) words.emplace_back(" Without friction the impulse along the ground is zero.");
-    writer_.open("Eq. 8", words);
-    const Expression lever = rubs ? Expression(ratio) * p * dn_ - Expression(p) * dt_ : -(Expression(p) * dt_);
-    writer_.law(m * (Expression(vn) - vn_), p);
-    writer_.law(m * (Expression(vt) - vt_), rubs ? Expression(ratio) * p : Expression(0));
-    writer_.law(m * k2_ * (Expression(w) - w_), lever);
-    if (is_newton)
-      writer_.law(Expression(vn) - Expression(w) * dt_, -(Expression(e) * (Expression(vn_) - Expression(w_) * dt_)));
+    const std::optional<Quantity> ratio = ratio_ ? ratio_ : given_.impulse_ratio;
+    state_eq8({.p = p, .vn = vn, .vt = vt, .w = w}, ratio, is_newton ? &e : nullptr);
     if (!normal_) {
-      const Expression below = rubs ? Expression(a) - Expression(ratio) * b : Expression(a);
+      const Expression below = ratio ? Expression(a) - Expression(*ratio) * b : Expression(a);
       normal_ = writer_.found(p, -((1 + Expression(e)) * m * u_ / below), {"normal impulse"});
     }
-    if (rubs && !tangential_) {
+    if (ratio && !tangential_) {
       tangential_ = writer_.found(number("P_t", impact.tangential_impulse, "N·s", row_.error.tangential_impulse),
-                                  Expression(ratio) * *normal_, {"tangential impulse"});
+                                  Expression(*ratio) * *normal_, {"tangential impulse"});
     }
     const Expression pn = *normal_;
-    const Quantity after = writer_.found(vn, Expression(vn_) + pn / m);
-    vt_after_ = writer_.found(vt, rubs ? Expression(vt_) + Expression(*tangential_) / m : Expression(vt_));
+    vn_after_ = writer_.found(vn, Expression(vn_) + pn / m);
+    vt_after_ = writer_.found(vt, ratio ? Expression(vt_) + Expression(*tangential_) / m : Expression(vt_));
     const Expression of_normal = pn * dt_, inertia = m * k2_;
-    w_after_ = writer_.found(w, rubs ? Expression(w_) + (Expression(*tangential_) * dn_ - of_normal) / inertia
-                                     : Expression(w_) - of_normal / inertia);
-    vn_after_ = after;
+    w_after_ = writer_.found(w, ratio ? Expression(w_) + (Expression(*tangential_) * dn_ - of_normal) / inertia
+                                      : Expression(w_) - of_normal / inertia);
+    contact_after(ratio.has_value());
+    if (!is_newton)
+      writer_.found(number("e_N", impact.restitution(), "", row_.error.restitution, 1), -(Expression(u_after_) / u_),
+                    {"ratio of separation to approach speed"});
+  }
+
+  struct Unknowns {
+    Quantity p, vn, vt, w;
+  };
+
+  /// The lines of Eq. 8 with what they ask for.
+  /// @param e  of Newton's law, whose line is the last; none: another law ends the impact
+  void state_eq8(const Unknowns& of, const std::optional<Quantity>& ratio, const Quantity* e) {
+    const Expression m = given_.mass, p = of.p, vn = of.vn, w = of.w;
+    Words words{"Momentum along the normal and along the ground, angular momentum",
+                e ? ", and restitution" : "",
+                ". Unknown are the impulse ",
+                of.p,
+                " and the velocities after, ",
+                of.vn,
+                ", ",
+                of.vt,
+                " and ",
+                of.w,
+                "."};
+    if (!ratio) words.emplace_back(" Without friction the impulse along the ground is zero.");
+    writer_.open("Eq. 8", words);
+    writer_.law(m * (vn - vn_), p);
+    writer_.law(m * (Expression(of.vt) - vt_), ratio ? Expression(*ratio) * p : Expression(0));
+    writer_.law(m * k2_ * (w - w_), ratio ? Expression(*ratio) * p * dn_ - p * dt_ : -(p * dt_));
+    if (e) writer_.law(vn - w * dt_, -(Expression(*e) * (Expression(vn_) - Expression(w_) * dt_)));
+  }
+
+  /// The velocity of the contact after the impact.
+  void contact_after(bool rubs) {
+    const analytic::Impact& impact = row_.impact;
     u_after_ =
         writer_.found(number("u′", impact.separation_speed, "m/s", 0, speed_),
                       Expression(vn_after_) - Expression(w_after_) * dt_, {"normal velocity of the contact, after"});
@@ -390,9 +409,6 @@ class PlanarImpact {
       s_after_ = writer_.found(number("s′", impact.slip_after, "m/s", 0, speed_),
                                Expression(vt_after_) + Expression(w_after_) * dn_, {"slip of the contact, after"});
     }
-    if (!is_newton)
-      writer_.found(number("e_N", impact.restitution(), "", row_.error.restitution, 1), -(Expression(u_after_) / u_),
-                    {"ratio of separation to approach speed"});
   }
 
   void flat_landing() {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "validation/output/number.hpp"
 #include "validation/output/report.hpp"
 
 namespace clatter::validation::inline output {
@@ -48,9 +49,9 @@ struct Shown {
 [[nodiscard]] Cell known_cell(const Estimated& number, const Shown& shown);
 [[nodiscard]] std::string known_text(const Estimated& number, const Shown& shown);
 
-/// The error, or nothing where it is not known.
+/// The error as outputs show it, with two significant digits; nothing where it is not known.
 [[nodiscard]] inline Value error_or_nothing(const Estimated& number) {
-  return number.is_known() ? Value(number.error) : Value();
+  return number.is_known() ? Value(rounded_up(number.error)) : Value();
 }
 
 }  // namespace clatter::validation::inline output

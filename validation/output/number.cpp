@@ -35,6 +35,33 @@ int known_digits(double value, double error) {
   return static_cast<int>(digits) - (off <= half_unit ? 0 : 1);
 }
 
+namespace {
+
+/// digits × 10^exponent, rounded once.
+double decimal(int digits, int exponent) {
+  constexpr int exact = 22;  // largest power of ten that is a double
+  if (exponent < 0 && exponent >= -exact) return digits / std::pow(10.0, -exponent);
+  if (exponent >= 0 && exponent <= exact) return digits * std::pow(10.0, exponent);
+  const std::string text = fmt::format("{}e{}", digits, exponent);
+  double value = 0;
+  const auto error = std::from_chars(text.data(), text.data() + text.size(), value).ec;
+  return error == std::errc() || exponent < 0 ? value : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+double rounded_up(double error) {
+  const double size = std::fabs(error);
+  if (!(size > 0 && size < std::numeric_limits<double>::infinity())) return error;
+  constexpr int least = -323;  // exponent of the smallest double
+  const int exponent = std::max(static_cast<int>(std::floor(std::log10(size))) - 1, least);
+  int digits = static_cast<int>(std::ceil(size / decimal(1, exponent)));
+  while (digits > 1 && decimal(digits - 1, exponent) >= size) --digits;
+  while (decimal(digits, exponent) < size) ++digits;
+  const bool has_three = digits > 100;  // log10 took a number just above a power of ten for one below
+  return std::copysign(has_three ? decimal((digits + 9) / 10, exponent + 1) : decimal(digits, exponent), error);
+}
+
 bool read_number(std::string_view text, double& value) {
   if (text.starts_with('+')) text.remove_prefix(1);
   const char* const end = text.data() + text.size();

@@ -21,6 +21,10 @@ namespace clatter::validation::inline output {
 /// last one and, for d > 1, at most 10^-d |value|.  17 without error; 0, none, where error or value is not finite.
 [[nodiscard]] int known_digits(double value, double error);
 
+/// The least number of two significant digits whose magnitude is at least that of `error`, so that a bound stays one;
+/// 0, NaN and infinities as they are.
+[[nodiscard]] double rounded_up(double error);
+
 /// Reads a whole text as a finite decimal number (no "nan", "inf", "0x", blanks or overflow).
 /// @returns false if it is not one.
 [[nodiscard]] bool read_number(std::string_view text, double& value);

@@ -91,7 +91,7 @@ void add_cells(const ImpactQuantity& quantity, const Entry& value, const Entry& 
 }
 
 void add_errors(const Entry& error, Row& row) {
-  for (std::size_t part = 0; part < width_of(error); ++part) row.emplace_back(Value(part_of(error, part)));
+  for (std::size_t part = 0; part < width_of(error); ++part) row.emplace_back(rounded_up(part_of(error, part)));
 }
 
 /// What the model knows of a quantity of the impact; a tail knows less.
@@ -103,6 +103,10 @@ Known known_of(const ImpactQuantity& quantity, RunModel model, const Impact& imp
 void append_part(std::string& out, double number) {
   out += ',';
   append_number(out, number);
+}
+
+void append_error(std::string& out, const Entry& entry) {
+  for (std::size_t part = 0; part < width_of(entry); ++part) append_part(out, rounded_up(part_of(entry, part)));
 }
 
 void append_entry(std::string& out, const Entry& entry) {
@@ -186,7 +190,7 @@ void append_impact(std::string& out, const Impact& impact, const ImpactText& tex
   for (const ImpactQuantity& quantity : impact_quantities()) {
     if (quantity.known_to(text.columns) != Known::with_error) continue;
     const bool is_known = known_of(quantity, text.model, impact) == Known::with_error;
-    if (is_known && text.errors) append_entry(out, quantity.error(impact));
+    if (is_known && text.errors) append_error(out, quantity.error(impact));
     else append_nothing(out, quantity.kind());
   }
 }

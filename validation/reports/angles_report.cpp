@@ -216,7 +216,7 @@ void add_rows(const AnglesRequest& request, long long begin, long long end, Grid
       if (is_exact || std::isnan(row[k])) cells[k].shown = cells[k].value.text();
     }
     for (std::size_t k = 0; k < column_count(request); ++k) {
-      if (has_error(k)) cells.emplace_back(errors[k]);
+      if (has_error(k)) cells.emplace_back(rounded_up(errors[k]));
     }
   }
 }

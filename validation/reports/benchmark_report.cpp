@@ -189,11 +189,11 @@ Value impact_value(const ImpactScore& one, int n) {
   value["place"] = one.place;
   value["true_place"] = text_or_nothing(one.true_place);
   value["t"] = one.time;
-  value["time_error"] = one.time_error;
-  value["law_error"] = one.law_error;
-  value["velocity_error"] = one.velocity_error;
-  value["angular_velocity_error"] = one.angular_error;
-  value["energy_error"] = one.energy_error;
+  value["time_error"] = rounded_up(one.time_error);
+  value["law_error"] = rounded_up(one.law_error);
+  value["velocity_error"] = rounded_up(one.velocity_error);
+  value["angular_velocity_error"] = rounded_up(one.angular_error);
+  value["energy_error"] = rounded_up(one.energy_error);
   value["impulse_normal"] = one.impulse_normal;
   value["impulse_tangential"] = one.impulse_tangential;
   value["velocity_after"] = parts(one.after.velocity);
@@ -203,7 +203,7 @@ Value impact_value(const ImpactScore& one, int n) {
 
 Cell step_cell(const std::optional<double>& step) { return step ? Cell(*step, 4) : Cell(); }
 
-Cell error_cell(double error) { return std::isfinite(error) ? Cell(error, 2) : Cell(Value(), "?"); }
+Cell error_cell(double error) { return std::isfinite(error) ? Cell(rounded_up(error), 2) : Cell(Value(), "?"); }
 
 Row submission_row(const Submission& one) {
   const Score& score = one.score;
@@ -263,8 +263,8 @@ Value group_value(const SubmissionGroup& group) {
     Value one;
     one["step"] = step.step ? Value(*step.step) : Value();
     one["files"] = static_cast<long long>(step.files);
-    one["motion_error"] = step.motion_error;
-    one["law_error"] = step.law_error;
+    one["motion_error"] = rounded_up(step.motion_error);
+    one["law_error"] = rounded_up(step.law_error);
     one["error"] = step.error;
     value["steps"].push_back(std::move(one));
   }

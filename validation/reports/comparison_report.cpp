@@ -151,7 +151,7 @@ Row number_row(const NumberPair& pair, bool is_of_mesh) {
           where(comparable, [&] { return size.indentation[q]; }),
           where(comparable, [&] { return size.delay[q]; }),
           where(impact.limit.has_value(), [&] { return impact.limit->value[q]; }),
-          where(impact.limit.has_value(), [&] { return impact.limit->error[q]; }),
+          where(impact.limit.has_value(), [&] { return rounded_up(impact.limit->error[q]); }),
           where(impact.limit.has_value(), [&] { return pair.allowance(); }),
           where(is_of_mesh && impact.discrete, [&] { return pair.discrete(); }),
           where(is_of_mesh && impact.discrete, [&] { return error_or_nothing(pair.discrete_number()); }),

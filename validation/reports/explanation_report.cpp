@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "validation/output/number.hpp"
 #include "validation/output/symbols.hpp"
 #include "validation/output/version.hpp"
 #include "validation/reports/formula_text.hpp"
@@ -157,7 +158,7 @@ Value equation_fields(const Equation& equation, int digits) {
                        {"tex", equation_tex(tex)},
                        {"words", text.words},
                        {"value", value_of(equation.quantity.value)},
-                       {"error", equation.quantity.error},
+                       {"error", rounded_up(equation.quantity.error)},
                        {"unit", equation.quantity.unit}};
 }
 
@@ -208,7 +209,7 @@ Report explanation_report(const Explanation& explanation) {
         for (Eigen::Index k = 0; k < quantity.value.cols(); ++k) {
           report.grid.rows.push_back({Cell(step.title), Cell(parts.name + component_name(quantity.value, i, k)),
                                       Cell(parts.formula), Cell(parts.numbers), Cell(Value(quantity.value(i, k))),
-                                      Cell(quantity.unit), Cell(Value(quantity.error))});
+                                      Cell(quantity.unit), Cell(rounded_up(quantity.error))});
         }
       }
     }

@@ -49,7 +49,7 @@ TrackCounts count_tracks(const MeasuredFile& file) {
 Value calibration_value(const CalibrationResult& c) {
   const Vector3& turn = c.calibration.turn;
   return Value::Fields{{"turn", std::vector<double>{turn.x(), turn.y(), turn.z()}},
-                       {"turn_error", c.turn_error},
+                       {"turn_error", rounded_up(c.turn_error)},
                        {"resting", c.resting},
                        {"ground", c.calibration.ground},
                        {"ground_spread", c.ground_spread},
@@ -154,7 +154,7 @@ Row law_row(const std::string& name, const LawFit& law, const PairedDifference& 
           Cell(law.fit.half_width(1), 2),
           Cell(1e4 * law.fit.loss(), 4),
           Cell(1e4 * above.mean, 2),
-          Cell(1e4 * above.error, 2),
+          Cell(rounded_up(1e4 * above.error), 2),
           Cell(law.impacts)};
 }
 
@@ -240,7 +240,7 @@ Report measured_fit_report(const MeasuredRun& run) {
   report.fields["fits"] = row_objects(report.grid);
   report.fields["best"] = best;
   report.fields["contact_time"] = fit.contact_time;
-  report.fields["contact_time_error"] = fit.contact_time_error;
+  report.fields["contact_time_error"] = rounded_up(fit.contact_time_error);
   report.fields["message"] = preference_words(fit);
   return report;
 }

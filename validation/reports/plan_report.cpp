@@ -81,7 +81,7 @@ Row level_row(const WeighedLevel& level, const Plan& plan) {
           applies ? Cell(level.evaluations, continuous ? fmt::format("{:.0f}", level.evaluations) : "") : Cell(),
           applies ? Cell(level.seconds, 2) : Cell(),
           Cell(level_assumption(level.level)),
-          Cell(Value(level.assumption_error)),
+          Cell(rounded_up(level.assumption_error)),
           Cell(level.serves),
           Cell(verdict(level, plan)),
           Cell(text_or_nothing(level.against))};

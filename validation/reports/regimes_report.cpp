@@ -114,7 +114,7 @@ void add_boundary(const RegimeBoundary& b, int digits, Row& row) {
   const Estimated angle = Estimated{b.theta, b.uncertainty} * degrees_per_radian;
   row.insert(row.end(),
              {exists ? known_cell(angle, {digits, 90}) : Cell(), Cell(kind_name(b.kind)), angle_cell(b.beta, digits),
-              angle_cell(b.gamma, digits), Cell(exists ? Value(angle.error) : Value())});
+              angle_cell(b.gamma, digits), Cell(exists ? error_or_nothing(angle) : Value())});
 }
 
 Report report_of(const std::vector<Regimes>& all, const Quantity& quantity, const RodParameters& rod, int digits) {

@@ -103,7 +103,7 @@ Report tradeoff_report(const Scene& scene, const Tradeoff& tradeoff) {
   report.fields["body"] = body_value(scene);
   report.fields["points"] = row_objects(report.grid);
   report.fields["reference"] = tradeoff.reference;
-  report.fields["reference_error"] = tradeoff.reference_error;
+  report.fields["reference_error"] = rounded_up(tradeoff.reference_error);
   report.fields["impacts"] = tradeoff.impacts;
   report.fields["shortfall"] = text_or_nothing(tradeoff.shortfall);
   report.fields["message"] = reference_words(tradeoff);

@@ -55,7 +55,7 @@ Row check_row(const CheckResult& result) {
           Cell(done ? Value(answer_name(m.answer)) : Value(), marked_answer(result)),
           done ? number_cell(m.number) : Cell(),
           Cell(check.oracle, oracle_letter(check.oracle)),
-          done ? Cell(m.error, 2) : Cell(),
+          done ? Cell(rounded_up(m.error), 2) : Cell(),
           Cell(check.tolerance, 1),
           Cell(result.seconds, fmt::format("{:.2f}", result.seconds)),
           Cell(check.claim),

@@ -167,12 +167,14 @@ class AskedColumns {
 };
 
 /// Appends one cell: the part of an entry, empty where there is none.
-void append_part_of(std::string& out, const Entry& entry, std::size_t part) {
+/// @param written  what a number becomes in the output
+template <class Written>
+void append_part_of(std::string& out, const Entry& entry, std::size_t part, Written&& written) {
   const auto append = [&](const auto& content) {
     using Content = std::decay_t<decltype(content)>;
     if constexpr (std::is_same_v<Content, EntryVector> || std::is_same_v<Content, EntryParameters>) {
-      append_number(out, content[part]);
-    } else if constexpr (std::is_same_v<Content, double>) append_number(out, content);
+      append_number(out, written(content[part]));
+    } else if constexpr (std::is_same_v<Content, double>) append_number(out, written(content));
     else if constexpr (std::is_same_v<Content, bool>) out += content ? "true" : "false";
     else if constexpr (std::is_same_v<Content, int>) out += std::to_string(content);
     else if constexpr (std::is_same_v<Content, std::string>) out += content;
@@ -204,7 +206,8 @@ void append_asked(const RowForm& form, const Run& run, bool of_errors) {
                                           (form.predictions || quantity.name != std::string_view("predictable"));
     if (place < run.impacts.size() && is_known) {
       const Impact& impact = run.impacts[place];
-      append_part_of(form.out, of_errors ? quantity.error(impact) : quantity.value(impact), asked.part);
+      if (of_errors) append_part_of(form.out, quantity.error(impact), asked.part, rounded_up);
+      else append_part_of(form.out, quantity.value(impact), asked.part, [](double number) { return number; });
     } else {
       form.out += ',';
     }
@@ -243,7 +246,7 @@ void append_scene_row(const RowForm& form, const Run& run) {
   append_cell(form.out, !form.predictions ? "" : sums.predictable ? "true" : "false");
   append_asked(form, run, false);
   for_each_number(model, [&](const SceneNumber& n) {
-    if (form.errors) append_cell(form.out, (sums.*n.sum).error);
+    if (form.errors) append_cell(form.out, rounded_up((sums.*n.sum).error));
     else form.out += ',';
   });
   append_asked(form, run, true);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -47,6 +49,29 @@ BOOST_AUTO_TEST_CASE(significant_digits_are_kept_and_no_more_than_known_ones_sho
   for (const double unknown : {static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
     BOOST_TEST(known_digits(1.0, unknown) == 0);
     BOOST_TEST(known_digits(unknown, 0) == 0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_error_has_two_significant_digits_and_is_never_rounded_down) {
+  BOOST_TEST(rounded_up(1.21e-13) == 1.3e-13);
+  BOOST_TEST(rounded_up(1.2e-13) == 1.2e-13);
+  BOOST_TEST(rounded_up(9.91) == 10);
+  BOOST_TEST(rounded_up(100.5) == 110);
+  BOOST_TEST(rounded_up(4.9406564584124654e-324) > 0);
+  BOOST_TEST(rounded_up(0) == 0);
+  BOOST_TEST(rounded_up(INFINITY) == INFINITY);
+  BOOST_TEST(std::isnan(rounded_up(NAN)));
+  std::mt19937_64 random(2);
+  for (int i = 0; i < 100000; ++i) {
+    const std::uint64_t bits = random() >> 1;
+    double error = 0;
+    std::memcpy(&error, &bits, sizeof error);
+    if (!(error < 1e307)) continue;
+    const double shown = rounded_up(error);
+    BOOST_REQUIRE(shown >= error);
+    BOOST_REQUIRE(shown <= error * 1.1 || error < 1e-320);  // one unit of the second digit
+    const std::string two_digits = fmt::format("{:.1e}", shown);
+    BOOST_REQUIRE(std::strtod(two_digits.c_str(), nullptr) == shown);
   }
 }
 

@@ -115,6 +115,24 @@ class Forms(unittest.TestCase):
                 for number in numbers:
                     self.assertGreaterEqual(float(row[number + "_error"]), 0, (name, number))
 
+    def test_errors_have_two_significant_digits_in_every_form(self):
+        def errors(name, value, within):
+            if isinstance(value, dict):
+                return [error for key, part in value.items() for error in errors(key, part, key == "error_estimate" or within)]
+            if isinstance(value, list):
+                return [error for part in value for error in errors(name, part, within)]
+            is_error = (within or name.endswith("_error")) and isinstance(value, float)
+            return [(name, value)] if is_error else []
+
+        for name, (command, _) in COMMANDS.items():
+            found = errors("", json.loads(self.printed(*command, "--format", "json")), False)
+            for row in records(self.printed(*command, "--format", "csv")):
+                found += [(key, float(cell)) for key, cell in row.items() if key.endswith("_error") and cell]
+            if name in ("sequence", "angles", "regimes", "simulate", "compare", "sweep"):
+                self.assertGreater(len(found), 5, name)
+            for key, error in found:
+                self.assertEqual(float(f"{error:.1e}"), error, (name, key))
+
     def test_both_models_give_the_energy_loss_in_joule_in_tables_and_data(self):
         # A flat landing with e < 1 loses (1 - e^2) of its kinetic energy m v^2/2.
         command = ["sequence", "--angle", "0", "--body", "box", "--size", "1x1x0.1", "--restitution", "0.5", "--mass", "2",
