@@ -34,29 +34,29 @@ def power(value):
     return "?" if value is None else "0" if value == 0 else f"{value:.1e}".replace("e-0", "e-").replace("e+00", "")
 
 
-def main_table(league):
+def main_table(league, settings_of):
+    """An engine a row, with the settings that `settings_of` names."""
     head = ["engine", "settings", "bits", "law", "V, Ω at 1/60 s", "1/240 s", "1/960 s", "energy", "sequences right"]
     rows = []
     for engine in league.ranked():
-        for settings in league.settings_of(engine):
-            last = league.last_step(engine)
-            steps = [power(league.median(engine, settings, step, "velocities")) for step in league.STEPS] if last else \
-                ["", "", power(league.median(engine, settings, last, "velocities"))]
-            right, all_phases = league.right(engine, settings, last)
-            rows.append([engine["name"], settings, str(engine["precision"]), power(league.median(engine, settings, last, "law_error")), *steps,
-                         power(league.median(engine, settings, last, "energy_error")), f"{right} of {all_phases}"])
+        settings, last = settings_of(engine), league.last_step(engine)
+        steps = [power(league.median(engine, settings, step, "velocities")) for step in league.STEPS] if last else \
+            ["", "", power(league.median(engine, settings, last, "velocities"))]
+        right, all_phases = league.right(engine, settings, last)
+        rows.append([engine["name"], settings, str(engine["precision"]), power(league.median(engine, settings, last, "law_error")), *steps,
+                     power(league.median(engine, settings, last, "energy_error")), f"{right} of {all_phases}"])
     return table(head, rows)
 
 
 def first_lines(league):
-    """The head of the table, both settings in a row."""
-    head = ["engine", "V, Ω off by", "tuned", "impulse off by, tuned", "sequences right", "tuned"]
+    """The head of the table: the best settings, and the error with the engine's own."""
+    head = ["engine", "V, Ω off by", "impulse off by", "sequences right", "V, Ω by default"]
     rows = []
     for engine in league.ranked()[:README_ROWS]:
-        last = league.last_step(engine)
-        errors = [power(league.median(engine, settings, last, "velocities")) for settings in league.settings_of(engine)]
-        right = ["{} of {}".format(*league.right(engine, settings, last)) for settings in league.settings_of(engine)]
-        rows.append([engine["name"], *errors, power(league.median(engine, "tuned", last, "law_error")), *right])
+        best, last = league.best(engine), league.last_step(engine)
+        rows.append([engine["name"], power(league.median(engine, best, last, "velocities")),
+                     power(league.median(engine, best, last, "law_error")), "{} of {}".format(*league.right(engine, best, last)),
+                     power(league.median(engine, "default", last, "velocities"))])
     return as_markdown([table(head, rows)])
 
 
@@ -105,7 +105,8 @@ def blocks(league, findings, notes):
         heading(1, "The league: how engines do on the clattering benchmark"),
         text(f"Made by `{COMMAND}` and `notebooks-data/league_documents.py` from league.csv beside this page. {league.summary()}"),
         text(notes["measures"]), picture("figures/league_steps.svg", "Error of the velocities over the step, engine by engine"),
-        heading(2, "Engines"), text(notes["table"]), main_table(league),
+        heading(2, "Engines with the best settings that were tried"), text(notes["best"]), main_table(league, league.best),
+        heading(2, "Engines as they come"), text(notes["default"]), main_table(league, lambda engine: "default"),
         heading(2, "Right digits of V and Ω, problem by problem"), text(notes["digits"]), digits_table(league), problems,
         heading(2, "What goes wrong"), text(notes["wrong"]), findings_table(league, findings),
         heading(2, "Error against cost"), text(notes["cost"]), picture("figures/league_costs.svg", "Error of the velocities over the time of a run"),

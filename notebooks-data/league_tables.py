@@ -65,12 +65,19 @@ class League:
         rows = self.answered(engine, settings, step)
         return sum(int(row["right"]) for row in rows), sum(int(row["phases"]) for row in rows)
 
+    def judged(self, engine, settings):
+        """What ranks settings: the median error of the velocities at the finest step."""
+        error = self.median(engine, settings, self.last_step(engine), "velocities")
+        return math.inf if error is None else error
+
+    def best(self, engine):
+        """Of the settings that were tried, those with the least error; the engine's own where that is equal."""
+        return min(self.settings_of(engine), key=lambda settings: (self.judged(engine, settings), settings != "default"))
+
     def ranked(self):
-        """By the median error of the velocities with the engine's own settings at the finest step; this program's last."""
-        def key(engine):
-            error = self.median(engine, "default", self.last_step(engine), "velocities")
-            return (engine["adapter"] == "program", math.inf if error is None else error, engine["name"])
-        return sorted(self.engines, key=key)
+        """By the error with the best settings; this program's models last."""
+        return sorted(self.engines, key=lambda engine: (engine["adapter"] == "program",
+                                                        self.judged(engine, self.best(engine)), engine["name"]))
 
     def digits(self, engine, settings, problem, step):
         """Right digits of V and Ω; a cross for a wrong sequence, a dash without an answer."""
