@@ -39,9 +39,12 @@ namespace {
 
 /// digits × 10^exponent, rounded once.
 double decimal(int digits, int exponent) {
-  constexpr int exact = 22;  // largest power of ten that is a double
-  if (exponent < 0 && exponent >= -exact) return digits / std::pow(10.0, -exponent);
-  if (exponent >= 0 && exponent <= exact) return digits * std::pow(10.0, exponent);
+  // Powers of ten that are doubles.
+  static constexpr double powers[]{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                   1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+  constexpr int most = 22;
+  if (exponent < 0 && exponent >= -most) return digits / powers[-exponent];
+  if (exponent >= 0 && exponent <= most) return digits * powers[exponent];
   const std::string text = fmt::format("{}e{}", digits, exponent);
   double value = 0;
   const auto error = std::from_chars(text.data(), text.data() + text.size(), value).ec;
@@ -54,12 +57,15 @@ double rounded_up(double error) {
   const double size = std::fabs(error);
   if (!(size > 0 && size < std::numeric_limits<double>::infinity())) return error;
   constexpr int least = -323;  // exponent of the smallest double
-  const int exponent = std::max(static_cast<int>(std::floor(std::log10(size))) - 1, least);
+  constexpr double decades_per_octave = 0.30102999566398120;
+  // That of the size's second digit, or the one below.
+  int exponent = std::max(static_cast<int>(std::floor(std::ilogb(size) * decades_per_octave)) - 1, least);
+  if (size > decimal(100, exponent)) ++exponent;
   int digits = static_cast<int>(std::ceil(size / decimal(1, exponent)));
-  while (digits > 1 && decimal(digits - 1, exponent) >= size) --digits;
-  while (decimal(digits, exponent) < size) ++digits;
-  const bool has_three = digits > 100;  // log10 took a number just above a power of ten for one below
-  return std::copysign(has_three ? decimal((digits + 9) / 10, exponent + 1) : decimal(digits, exponent), error);
+  if (digits > 1 && decimal(digits - 1, exponent) >= size) --digits;
+  double shown = decimal(digits, exponent);
+  if (shown < size) shown = decimal(digits + 1, exponent);
+  return std::copysign(shown, error);
 }
 
 bool read_number(std::string_view text, double& value) {
