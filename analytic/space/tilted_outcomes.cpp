@@ -120,7 +120,7 @@ class SectorSearch {
   }
 
  private:
-  static constexpr std::size_t most_strikes = 5000;
+  static constexpr std::size_t most_strikes = 10'000;
   static constexpr double least_width = 1e-9;  ///< [rad]
 
   /// Heights above the centre of mass, but for a constant.

@@ -42,7 +42,7 @@ struct OutcomeSet {
   /// Whether outcomes vary continuously with the direction of the tilt (level rim): `outcomes` are then those of single
   /// directions, and the spreads hold to 2e-3 of themselves.
   bool varies = false;
-  /// Share of the directions whose strikes were not followed to their end: more than 5000 strikes in all, or a strike
+  /// Share of the directions whose strikes were not followed to their end: more than 10 000 strikes in all, or a strike
   /// that cannot be computed.
   double open_share = 0;
   /// Share of the directions with the outcome of strike_together(), which is a convention: 0 where no tilt gives it.
@@ -55,7 +55,7 @@ struct OutcomeSet {
 };
 
 /// Every outcome that small tilts in all directions give, but for those of sectors below 1e-9 rad: heights below 1e-9
-/// of the body and approaches below 1e-10 of the first are none.  At most 5000 strikes, the widest sectors first.
+/// of the body and approaches below 1e-10 of the first are none.  At most 10 000 strikes, the widest sectors first.
 /// @throws as strike_together()
 [[nodiscard]] OutcomeSet tilted_outcomes(const Body& body, const State& before, std::span<const Corner> touching,
                                          const Law& law);

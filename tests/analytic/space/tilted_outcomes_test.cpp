@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "analytic/space/simultaneous.hpp"
 #include "tests/analytic/space/random_contact.hpp"
 
 namespace {
@@ -146,7 +147,12 @@ State after_tilt(const Body& body, const State& before, const std::vector<Corner
   return state;
 }
 
-/// A box, or a prism on an uneven polygon, that lands level.
+double kinetic_energy(const Body& body, const State& state) {
+  const Vector3 spin = state.attitude.conjugate() * state.angular_velocity;
+  return (body.mass * state.velocity.squaredNorm() + spin.dot(body.inertia * spin)) / 2;
+}
+
+/// A prism on an uneven polygon, that lands level.
 struct LevelFace {
   Body body;
   State before;
@@ -194,13 +200,20 @@ BOOST_AUTO_TEST_CASE(no_direction_of_the_tilt_has_an_outcome_beyond_the_set_and_
       missed += found ? 0 : 1;
     }
     BOOST_CHECK_EQUAL(missed, 0);
-    double sum = 0;
+    const GroupImpact by_rule = strike_together(face.body, face.before, face.touching, law);
+    double sum = 0, by_rule_share = 0, least = 1e300, most = -1e300;
     for (std::size_t j = 0; j < shares.size(); ++j) {
-      sum += set.outcomes[j].share;
-      BOOST_CHECK_LE(std::fabs(shares[j] - set.outcomes[j].share), share_tolerance);
-      const State after = after_tilt(face.body, face.before, face.touching, law, set.outcomes[j].tilt_direction);
-      BOOST_CHECK(agree(after.velocity, after.angular_velocity, set.outcomes[j].impact, 1e-5));
+      const auto& [direction, share, impact] = set.outcomes[j];
+      sum += share;
+      BOOST_CHECK_LE(std::fabs(shares[j] - share), share_tolerance);
+      const State after = after_tilt(face.body, face.before, face.touching, law, direction);
+      BOOST_CHECK(agree(after.velocity, after.angular_velocity, impact, 1e-5));
+      if (agree(after.velocity, after.angular_velocity, by_rule, 1e-5)) by_rule_share += share;
+      least = std::fmin(least, kinetic_energy(face.body, after));
+      most = std::fmax(most, kinetic_energy(face.body, after));
     }
+    BOOST_CHECK_LE(std::fabs(by_rule_share - set.convention_share), 1e-12);
+    BOOST_CHECK_LE(std::fabs(most - least - set.range.energy_loss), 1e-5 * most);
     BOOST_CHECK_LE(std::fabs(sum - 1), 1e-8);
   }
 }
