@@ -86,6 +86,7 @@ class StrikingBody {
 /// Strikes in turn can go on as a geometric series, each round a little weaker than the one before.
 class StrikeSeries {
  public:
+  /// @param block  strikes in each sum
   explicit StrikeSeries(std::size_t block = 64) : block_(block), next_(block) {}
   /// Once the sums over blocks of strikes fall by one ratio q, adds nine tenths of their remaining sum,
   /// block·q/(1 − q), so that what is left still approaches; true if so.

@@ -203,12 +203,14 @@ template <class Step>
 void SectorSearch::split(const Sector& sector, Step&& step) {
   double from = 0;
   std::size_t first = first_at(sector.from, sector.to);
+  const std::vector<double> speeds = speeds_;  // before the step
   for (bool last = false; !last;) {
     const Cut cut = first_cut(sector, first, from);
     last = !(cut.at < 1);
     Sector part{between(sector.from, sector.to, from), between(sector.from, sector.to, cut.at), sector.struck};
     if (step(part, first)) wait(std::move(part));
     else open_ += part.width();
+    speeds_ = speeds;
     from = cut.at;
     first = cut.next;
   }
@@ -227,12 +229,12 @@ bool SectorSearch::put_down(Sector& sector, std::size_t lowest) const {
 /// computed.
 bool SectorSearch::strike(Sector& sector, std::size_t first) {
   StrikingBody& struck = sector.struck;
-  const double passed[] = {time(sector.from, first), time(sector.to, first)};
+  const double from_passed = time(sector.from, first), to_passed = time(sector.to, first);
   level_.clear();
   for (std::size_t i = 0; i < arms_.size(); ++i) {
     double &at_from = sector.from.heights[i], &at_to = sector.to.heights[i];
-    at_from = std::fmax(at_from + struck.velocity(arms_[i]).z() * passed[0], 0.0);
-    at_to = std::fmax(at_to + struck.velocity(arms_[i]).z() * passed[1], 0.0);
+    at_from = std::fmax(at_from + struck.velocity(arms_[i]).z() * from_passed, 0.0);
+    at_to = std::fmax(at_to + struck.velocity(arms_[i]).z() * to_passed, 0.0);
     if (i != first && !(std::fmax(at_from, at_to) <= near_)) continue;
     at_from = at_to = 0;
     level_.push_back(i);
