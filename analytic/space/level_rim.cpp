@@ -2,7 +2,6 @@
 #include "analytic/space/level_rim.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "analytic/base/limits.hpp"
@@ -166,18 +165,6 @@ GroupImpact LevelRim::tilted(double direction) const {
   GroupImpact result = rim.struck_.result();
   result.is_whole = result.order.size() == 1;
   return result;
-}
-
-std::vector<TiltedOutcome> tilted_rim(const Body& body, const State& before, const Corner& rim, const Law& law) {
-  const LevelRim level(body, before, rim, law);
-  constexpr int directions = 64;
-  const double scale = before.velocity.norm() + before.angular_velocity.norm() * level.reach();
-  std::vector<TiltedOutcome> found;
-  for (int i = 0; i < directions; ++i) {
-    const double direction = 0.0123 + i * 2 * std::numbers::pi / directions;
-    add_distinct({direction, level.tilted(direction)}, level.reach(), scale, found);
-  }
-  return found;
 }
 
 }  // namespace clatter::analytic::space

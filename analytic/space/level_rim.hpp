@@ -69,8 +69,4 @@ class LevelRim {
 /// about horizontal axes that is rounding of the spin.  Otherwise rounding would grow from bounce to bounce.
 [[nodiscard]] State levelled(const Body& body, const State& state, const Corner& rim);
 
-/// Outcomes of 64 directions of a small tilt, those that are distinct to 1e-6 of the velocities.
-[[nodiscard]] std::vector<TiltedOutcome> tilted_rim(const Body& body, const State& before, const Corner& rim,
-                                                    const Law& law);
-
 }  // namespace clatter::analytic::space

@@ -163,76 +163,6 @@ bool StrikingGroup::strike_face(const Points& group) {
   return true;
 }
 
-/// Corners strike in the order that a tilt towards `direction` gives.
-GroupImpact tilted(StrikingGroup group, double direction) {
-  const auto& points = group.points();
-  const Vector2 rise(std::cos(direction), std::sin(direction));
-  std::vector<double> height;
-  for (const auto& p : points) height.push_back(rise.dot(p.arm.head<2>()));
-  const double least = std::ranges::min(height);
-  for (double& h : height) h -= least;
-  for (;;) {
-    check_number_of_strikes(group.strikes());
-    double soonest = std::numeric_limits<double>::infinity();
-    std::size_t next = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const double time = group.approaches(points[i]) ? -height[i] / group.velocity(points[i]).z() : soonest;
-      if (time < soonest) soonest = time, next = i;
-    }
-    if (!(soonest < std::numeric_limits<double>::infinity())) break;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      height[i] = std::fmax(height[i] + group.velocity(points[i]).z() * soonest, 0.0);
-    }
-    height[next] = 0;
-    group.strike_corner(points[next]);
-  }
-  GroupImpact result = group.result();
-  result.is_whole = group.strikes() == 1;
-  return result;
-}
-
-/// Collects outcomes over the directions of the tilt.
-class OutcomeSearch {
- public:
-  OutcomeSearch(const StrikingGroup& group, double reach, const State& before)
-      : group_(group), reach_(reach), scale_(before.velocity.norm() + before.angular_velocity.norm() * reach) {}
-
-  std::vector<TiltedOutcome> search() {
-    constexpr int directions = 32;
-    constexpr double step = 6.283185307179586 / directions;
-    constexpr double first = 0.1234567;  // no edge of a scene is likely to lie so
-    std::size_t before = add(first);
-    for (int i = 1; i <= directions; ++i) {
-      const double direction = first + i * step;
-      const std::size_t after = add(direction);
-      refine({direction - step, before}, {direction, after}, 6);
-      before = after;
-    }
-    return std::move(found_);
-  }
-
- private:
-  struct Sample {
-    double direction;
-    std::size_t outcome;
-  };
-  /// The place in found_ of what this direction gives.
-  std::size_t add(double direction) {
-    return add_distinct({direction, tilted(group_, direction)}, reach_, scale_, found_);
-  }
-  void refine(const Sample& low, const Sample& high, int depth) {
-    if (low.outcome == high.outcome || depth == 0) return;
-    const double middle = (low.direction + high.direction) / 2;
-    const Sample between{middle, add(middle)};
-    refine(low, between, depth - 1);
-    refine(between, high, depth - 1);
-  }
-
-  const StrikingGroup& group_;
-  double reach_, scale_;
-  std::vector<TiltedOutcome> found_;
-};
-
 }  // namespace
 
 std::optional<GroupImpact> rebound_as_a_whole(const Body& body, const State& before, std::span<const Corner> touching,
@@ -256,29 +186,6 @@ GroupImpact strike_together(const Body& body, const State& before, std::span<con
     if (!group.strike(fastest)) group.strike_corner(fastest.front());
   }
   return group.result();
-}
-
-OutcomeSet tilted_outcomes(const Body& body, const State& before, std::span<const Corner> touching, const Law& law) {
-  OutcomeSet set;
-  if (const Corner* rim = level_rim(touching)) {
-    set.outcomes = tilted_rim(body, before, *rim, law);
-    set.varies = set.outcomes.size() > 1;
-  } else {
-    const StrikingGroup group(body, before, touching, law);
-    double reach = 0;
-    for (const auto& p : group.points()) reach = std::fmax(reach, p.arm.norm());
-    set.outcomes = OutcomeSearch(group, reach, before).search();
-  }
-  std::vector<GroupImpact> all{strike_together(body, before, touching, law)};
-  for (const TiltedOutcome& outcome : set.outcomes) all.push_back(outcome.impact);
-  for (const GroupImpact& a : all) {
-    for (const GroupImpact& b : all) {
-      set.velocity_spread = std::fmax(set.velocity_spread, (a.velocity_after - b.velocity_after).norm());
-      set.angular_velocity_spread =
-          std::fmax(set.angular_velocity_spread, (a.angular_velocity_after - b.angular_velocity_after).norm());
-    }
-  }
-  return set;
 }
 
 }  // namespace clatter::analytic::space

@@ -18,16 +18,13 @@
 // Otherwise corners strike one after the other, the fastest approach first; those equally fast to rounding strike as an
 // edge or a face if they can.  A corner whose approach is below the rounding of its velocity is at rest.
 //
-// A tilt however small makes corners strike in some order, which can decide the outcome: tilted_outcomes() lists every
-// outcome that small tilts in all directions give.  In the limit of no tilt heights are linear in a time that is scaled
-// with the tilt, so that the order follows from heights and velocities alone.
+// What small tilts make of it: tilted_outcomes.hpp.
 //
 // The rim of a round end that lies level is a face with a full circle of touching points: level_rim.hpp.
 #pragma once
 
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "analytic/space/striking_body.hpp"
 
@@ -43,20 +40,5 @@ namespace clatter::analytic::space {
 /// @throws as strike(); NumericalError if 40 000 strikes do not end it
 [[nodiscard]] GroupImpact strike_together(const Body& body, const State& before, std::span<const Corner> touching,
                                           const Law& law);
-
-struct OutcomeSet {
-  std::vector<TiltedOutcome> outcomes;  ///< distinct to 1e-6 of the velocities
-  /// Whether outcomes vary continuously with the direction of the tilt (level rim): `outcomes` are then those of single
-  /// directions, and the spreads hold to 2e-3 of themselves.
-  bool varies = false;
-  double velocity_spread = 0;          ///< largest distance between two V, that of strike_together() included [m/s]
-  double angular_velocity_spread = 0;  ///< the same for Ω [rad/s]
-};
-
-/// Every outcome that small tilts in all directions give; one that a sector of less than 0.2° alone gives can be
-/// missed.
-/// @throws as strike_together()
-[[nodiscard]] OutcomeSet tilted_outcomes(const Body& body, const State& before, std::span<const Corner> touching,
-                                         const Law& law);
 
 }  // namespace clatter::analytic::space

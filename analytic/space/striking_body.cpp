@@ -84,7 +84,7 @@ GroupImpact StrikingBody::result() const {
 
 bool StrikeSeries::converges(StrikingBody& struck) {
   if (struck.strikes() < next_) return false;
-  next_ = struck.strikes() + block;
+  next_ = struck.strikes() + block_;
   Sum& now = sums_.emplace_back();
   now << struck.impact().impulse, struck.impact().moment;
   if (sums_.size() < 4) return false;
@@ -99,19 +99,6 @@ bool StrikeSeries::converges(StrikingBody& struck) {
   struck.add(rest.head<3>(), rest.tail<3>());
   sums_.clear();
   return true;
-}
-
-std::size_t add_distinct(const TiltedOutcome& outcome, double reach, double scale, std::vector<TiltedOutcome>& found) {
-  constexpr double same = 1e-6;
-  const GroupImpact& impact = outcome.impact;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const GroupImpact& other = found[i].impact;
-    const double apart = (impact.velocity_after - other.velocity_after).norm() +
-                         reach * (impact.angular_velocity_after - other.angular_velocity_after).norm();
-    if (apart <= same * scale) return i;
-  }
-  found.push_back(outcome);
-  return found.size() - 1;
 }
 
 void check_number_of_strikes(std::size_t strikes) {

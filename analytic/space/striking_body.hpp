@@ -23,12 +23,6 @@ struct GroupImpact {
   PathKind path = PathKind::frictionless;  ///< of the first strike
 };
 
-/// What a small tilt makes of it.
-struct TiltedOutcome {
-  double tilt_direction = 0;  ///< of one such tilt: the horizontal direction in which corners lie higher [rad]
-  GroupImpact impact;         ///< is_whole: one corner alone struck
-};
-
 /// The impulse of a face that rebounds as a whole, and where its pushes act.
 struct FaceRebound {
   Vector3 impulse = Vector3::Zero();         ///< P, world frame [N·s]
@@ -92,21 +86,17 @@ class StrikingBody {
 /// Strikes in turn can go on as a geometric series, each round a little weaker than the one before.
 class StrikeSeries {
  public:
-  /// Once the sums over blocks of 64 strikes fall by one ratio q, adds nine tenths of their remaining sum,
+  /// @param block  strikes in each sum
+  explicit StrikeSeries(std::size_t block = 64) : block_(block), next_(block) {}
+  /// Once the sums over blocks of strikes fall by one ratio q, adds nine tenths of their remaining sum,
   /// block·q/(1 − q), so that what is left still approaches; true if so.
   bool converges(StrikingBody& struck);
 
  private:
-  static constexpr std::size_t block = 64;
   using Sum = Eigen::Matrix<double, 6, 1>;  ///< impulse and moment
   std::vector<Sum> sums_;                   ///< after each block
-  std::size_t next_ = block;
+  std::size_t block_, next_;
 };
-
-/// Adds an outcome unless one nearer than 1e-6 of the velocities is among those found; returns the place of either.
-/// @param reach  largest distance of a touching point from the centre of mass [m]
-/// @param scale  of the velocities [m/s]
-std::size_t add_distinct(const TiltedOutcome& outcome, double reach, double scale, std::vector<TiltedOutcome>& found);
 
 /// @throws NumericalError if there are too many
 void check_number_of_strikes(std::size_t strikes);

@@ -465,9 +465,15 @@ class SpatialImpact {
   void tilts() {
     const space::OutcomeSet set = tilted_outcomes(drop_.body, row_.before, row_.corners, drop_.law);
     const std::size_t count = set.outcomes.size();
-    const std::string outcomes = set.varies   ? "another outcome; those of eight follow"
-                                 : count == 1 ? "the same outcome"
-                                              : fmt::format("one of {} outcomes", count);
+    constexpr std::size_t most = 4;
+    std::string outcomes = set.varies   ? "another outcome; those of eight follow"
+                           : count == 1 ? "the same outcome"
+                                        : fmt::format("one of {} outcomes", count);
+    if (!set.varies && count > most)
+      outcomes += fmt::format("; the {} commonest follow, JSON of sequence has all", most);
+    if (!set.is_complete()) {
+      outcomes += fmt::format("; {} % of the directions are not followed", significant(100 * set.open_share, 2));
+    }
     writer_.open("Small tilts",
                  {fmt::format("However small, a tilt makes the corners strike in some order. Each direction gives {}.",
                               outcomes)});
@@ -476,12 +482,13 @@ class SpatialImpact {
     writer_.found(number("Δω", set.angular_velocity_spread, "rad/s", 0, speed_ / reach_),
                   {"the same of angular velocities"});
     const std::size_t step = set.varies ? std::max<std::size_t>(count / 8, 1) : 1;
-    for (std::size_t i = 0; i < count; i += step) {
+    for (std::size_t i = 0; i < (set.varies ? count : std::min(count, most)); i += step) {
       const space::TiltedOutcome& outcome = set.outcomes[i];
       const std::string index = std::to_string(i + 1);
       writer_.open(fmt::format("Outcome {} of {}", index, count),
-                   {fmt::format("The body is raised on the side of {}° from x: {}.",
-                                significant(outcome.tilt_direction * degrees, 4), order_words(outcome.impact))});
+                   {fmt::format("{} % of the directions: the body is raised on the side of {}° from x, say: {}.",
+                                significant(100 * outcome.share, 2), significant(outcome.tilt_direction * degrees, 4),
+                                order_words(outcome.impact))});
       writer_.found({"V_" + index + "′", outcome.impact.velocity_after, "m/s", 0, speed_},
                     {"velocity of the centre of mass, after"});
       writer_.found({"ω_" + index + "′", outcome.impact.angular_velocity_after, "rad/s", 0, speed_ / reach_},

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
+#include <vector>
 
 #include "validation/output/number.hpp"
 #include "validation/record/impact_rows.hpp"
@@ -55,33 +58,46 @@ std::string near_miss_words(int digits, const Run& run) {
                      known_text(clearance, {.digits = std::min(digits, 6)}));
 }
 
-std::string order_words(const space::GroupImpact& group) {
-  return group.is_whole ? "the body rebounds as a whole"
-                        : fmt::format("they strike one after the other, {} strikes", group.order.size());
+const char* convention_words(const space::GroupImpact& group) {
+  return group.is_whole ? "the body rebounds as a whole" : "they strike one after the other, the fastest first";
 }
 
-/// Rows in which several corners arrive together, and what a small tilt would make of them.
-void add_group_notes(const space::Sequence& sequence, const space::Drop& drop, std::vector<std::string>& notes) {
-  int n = 0;
-  for (const space::ImpactRow& row : sequence.rows) {
-    ++n;
-    if (!row.group) continue;
-    const space::OutcomeSet set = tilted_outcomes(drop.body, row.before, row.corners, drop.law);
+using OutcomeSets = std::vector<std::optional<space::OutcomeSet>>;
+
+/// What small tilts make of the rows in which several corners arrive together; nothing for the other rows.
+OutcomeSets outcome_sets(const PreparedScene& prepared, const DiscreteRun& found) {
+  OutcomeSets sets;
+  const auto* const sequence = std::get_if<space::Sequence>(&found.sequence);
+  if (sequence == nullptr) return sets;
+  const auto& drop = std::get<space::Drop>(prepared.drop);
+  for (const space::ImpactRow& row : sequence->rows) {
+    auto& set = sets.emplace_back();
+    if (row.group) set = tilted_outcomes(drop.body, row.before, row.corners, drop.law);
+  }
+  return sets;
+}
+
+/// The rows in which several corners arrive together.
+void add_group_notes(const DiscreteRun& found, const OutcomeSets& sets, std::vector<std::string>& notes) {
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    if (!sets[i]) continue;
+    const space::ImpactRow& row = std::get<space::Sequence>(found.sequence).rows[i];
     const double speed = std::max(row.before.velocity.norm(), row.approach_speed);
-    std::string words = fmt::format("impact {}: {}, {}", n, landing_words(row.corners), order_words(*row.group));
-    if (set.velocity_spread > 1e-6 * speed) words += "; " + tilt_words(set);
+    std::string words =
+        fmt::format("impact {}: {}, {}", i + 1, landing_words(row.corners), convention_words(*row.group));
+    if (sets[i]->velocity_spread > 1e-6 * speed || !sets[i]->is_complete()) {
+      words += ", by convention; " + tilt_words(*sets[i]);
+    }
     notes.push_back(words);
   }
 }
 
 /// How far the run can be trusted, its sum, its accuracy and why it ended.
-std::vector<std::string> notes_of(const PreparedScene& prepared, const DiscreteRun& found) {
+std::vector<std::string> notes_of(const PreparedScene& prepared, const DiscreteRun& found, const OutcomeSets& sets) {
   const int digits = prepared.scene.accuracy.digits;
   const Run& run = found.run;
   std::vector<std::string> notes;
-  if (const auto* const sequence = std::get_if<space::Sequence>(&found.sequence)) {
-    add_group_notes(*sequence, std::get<space::Drop>(prepared.drop), notes);
-  }
+  add_group_notes(found, sets, notes);
   if (run.tail) notes.push_back(tail_words(digits, *run.tail));
   for (const std::string& words :
        {trust_words(run),
@@ -108,6 +124,53 @@ Value tail_fields(const RunTail& tail) {
                        {"closed_form", tail.closed_form},
                        {"velocity_after", list(value.velocity_after)},
                        {"angular_velocity_after", list(value.angular_velocity_after)}};
+}
+
+std::vector<double> numbers_of(const space::Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
+/// The first strikes, each with the names of its corners.
+Value order_value(const Scene& scene, const space::ImpactRow& row, const space::GroupImpact& impact) {
+  constexpr std::size_t most = 32;
+  Value::List order;
+  for (std::size_t i = 0; i < std::min(impact.order.size(), most); ++i) {
+    std::vector<std::string> names;
+    for (const space::Corner& corner : row.corners) {
+      if (std::ranges::count(impact.order[i], corner.index) > 0) names.push_back(corner_name(scene, corner));
+    }
+    order.emplace_back(names);
+  }
+  return order;
+}
+
+Value outcome_fields(const Scene& scene, const space::ImpactRow& row, const space::TiltedOutcome& outcome) {
+  const space::GroupImpact& impact = outcome.impact;
+  return Value::Fields{{"share", outcome.share},
+                       {"tilt_direction_deg", outcome.tilt_direction * 180 / std::numbers::pi},
+                       {"velocity_after", numbers_of(impact.velocity_after)},
+                       {"angular_velocity_after", numbers_of(impact.angular_velocity_after)},
+                       {"energy_loss", impact.energy_loss},
+                       {"strikes", impact.order.size()},
+                       {"order", order_value(scene, row, impact)}};
+}
+
+/// Adds to the impacts of several corners what small tilts make of them.
+void add_outcomes(const Scene& scene, const DiscreteRun& found, const OutcomeSets& sets, Value::List& impacts) {
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    if (!sets[i]) continue;
+    const space::OutcomeSet& set = *sets[i];
+    const space::ImpactRow& row = std::get<space::Sequence>(found.sequence).rows[i];
+    Value::List outcomes;
+    for (const space::TiltedOutcome& outcome : set.outcomes) outcomes.push_back(outcome_fields(scene, row, outcome));
+    impacts[i]["convention"] = convention_words(*row.group);
+    impacts[i]["convention_share"] = set.convention_share;
+    impacts[i]["outcomes"] = outcomes;
+    impacts[i]["outcomes_vary"] = set.varies;
+    impacts[i]["outcomes_complete"] = set.is_complete();
+    impacts[i]["outcomes_open_share"] = set.open_share;
+    impacts[i]["outcomes_range"] = Value::Fields{{"velocity_after", numbers_of(set.range.velocity)},
+                                                 {"angular_velocity_after", numbers_of(set.range.angular_velocity)},
+                                                 {"energy_loss", set.range.energy_loss}};
+  }
 }
 
 /// The fields behind the impacts.
@@ -172,7 +235,8 @@ Report sequence_report(const PreparedScene& prepared, const DiscreteRun& found) 
       "sequence", in_space ? "impact sequence, discrete model in space" : "impact sequence, discrete model");
   report.head = scene_head(scene, Model::discrete, approach);
   report.remarks = {totals_line(totals(run))};
-  report.notes = notes_of(prepared, found);
+  const OutcomeSets sets = outcome_sets(prepared, found);
+  report.notes = notes_of(prepared, found, sets);
   report.fields["model"] = "discrete";
   report.fields["scene"] = scene_value(scene, Model::discrete, approach);
   report.fields["body"] = body_value(scene, Model::discrete);
@@ -182,7 +246,9 @@ Report sequence_report(const PreparedScene& prepared, const DiscreteRun& found) 
     report.grid.rows.push_back(impact_row(impact, run.model, digits));
     if (!impact.predictable) report.grid.rows.back()[0].shown = fmt::format("{}?", impact.n);
   }
-  report.fields["impacts"] = row_objects(report.grid);
+  auto impacts = std::get<Value::List>(row_objects(report.grid).content());
+  add_outcomes(scene, found, sets, impacts);
+  report.fields["impacts"] = impacts;
   add_results(scene, run, report.fields);
   if (run.tail) {
     report.grid.rows.push_back(impact_row(run.tail->sum, run.model, digits));

@@ -507,10 +507,18 @@ std::string corner_names(const Scene& scene, const Vector3& place) {
 }
 
 std::string tilt_words(const space::OutcomeSet& set) {
-  const std::string outcomes = set.varies ? "outcomes that change with the direction of the tilt,"
-                                          : fmt::format("{} outcomes,", set.outcomes.size());
-  return fmt::format("small tilts give {} up to {} m/s and {} rad/s apart", outcomes,
-                     significant(set.velocity_spread, 2), significant(set.angular_velocity_spread, 2));
+  const std::size_t count = set.outcomes.size();
+  const std::string outcomes =
+      set.varies ? "outcomes that change with the direction of the tilt,"
+                 : fmt::format("{}{} outcome{},", set.is_complete() ? "" : "at least ", count, count == 1 ? "" : "s");
+  std::string words = fmt::format("small tilts give {} up to {} m/s and {} rad/s apart", outcomes,
+                                  significant(set.velocity_spread, 2), significant(set.angular_velocity_spread, 2));
+  const auto percent = [](double share) { return significant(100 * share, 2); };
+  if (!set.varies && count > 1) {
+    words += fmt::format(", the commonest for {} % of the directions", percent(set.outcomes.front().share));
+  }
+  if (!set.is_complete()) words += fmt::format("; {} % of the directions are not followed", percent(set.open_share));
+  return words;
 }
 
 std::string landing_words(const std::vector<space::Corner>& corners) {

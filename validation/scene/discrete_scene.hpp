@@ -11,6 +11,7 @@
 
 #include "analytic/plane/sequence.hpp"
 #include "analytic/space/sequence.hpp"
+#include "analytic/space/tilted_outcomes.hpp"
 #include "numeric/body.hpp"
 #include "numeric/simulate.hpp"
 #include "validation/record/run.hpp"
@@ -123,8 +124,8 @@ struct PreparedScene {
 /// Names of the corners whose mean is `place` [m], from the centre of mass, as of those that touch at once; empty for a
 /// mesh, whose corners have numbers that depend on all of them.
 [[nodiscard]] std::string corner_names(const Scene& scene, const numeric::Vector3& place);
-/// What small tilts make of corners that land at once: how many outcomes and how far apart; of a level rim, which has
-/// one for each direction, how far apart.
+/// What small tilts make of corners that land at once: how many outcomes, how far apart and the largest share of the
+/// directions; of a level rim, which has one for each direction, how far apart.
 [[nodiscard]] std::string tilt_words(const analytic::space::OutcomeSet& set);
 /// The corners of a row in words: "2 corners land at once", "a round end lands level".
 [[nodiscard]] std::string landing_words(const std::vector<analytic::space::Corner>& corners);

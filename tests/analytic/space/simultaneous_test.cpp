@@ -209,64 +209,6 @@ BOOST_AUTO_TEST_CASE(corners_that_cannot_rebound_as_a_whole_strike_one_after_the
   BOOST_CHECK_GT(several, 100);
 }
 
-/// A uniform thin rod along x, flat.
-struct FlatRod {
-  Body body{.mass = 1, .inertia = Vector3(1e-3, 1. / 12, 1. / 12).asDiagonal(), .vertices = {}, .rims = {}};
-  std::vector<Corner> ends = corners_of({{-0.5, 0, 0}, {0.5, 0, 0}});
-};
-
-BOOST_AUTO_TEST_CASE(a_flat_elastic_rod_rebounds_as_a_whole_however_it_is_tilted_after_impulses_1_2_1) {
-  const FlatRod rod;
-  State before;
-  before.velocity = {0, 0, -1};
-  const OutcomeSet set = tilted_outcomes(rod.body, before, rod.ends, frictionless(1));
-  BOOST_CHECK_LE(set.velocity_spread, 1e-14);
-  BOOST_CHECK_LE(set.angular_velocity_spread, 1e-13);
-  for (const TiltedOutcome& outcome : set.outcomes) {
-    BOOST_CHECK_EQUAL(outcome.impact.order.size(), 3u);
-    BOOST_CHECK(outcome.impact.order[0] == outcome.impact.order[2]);
-    BOOST_CHECK(outcome.impact.order[0] != outcome.impact.order[1]);
-  }
-}
-
-BOOST_AUTO_TEST_CASE(tilts_to_either_side_of_a_damped_rod_give_two_outcomes_that_are_mirror_images) {
-  const FlatRod rod;
-  State before;
-  before.velocity = {0, 0, -1};
-  const double e = 0.5;
-  const OutcomeSet set = tilted_outcomes(rod.body, before, rod.ends, frictionless(e));
-  BOOST_REQUIRE_EQUAL(set.outcomes.size(), 2u);
-  const GroupImpact &left = set.outcomes[0].impact, &right = set.outcomes[1].impact;
-  BOOST_CHECK_LE((left.velocity_after - right.velocity_after).norm(), 1e-14);
-  BOOST_CHECK_LE((left.angular_velocity_after + right.angular_velocity_after).norm(), 1e-14);
-  // In terms of the ends' velocities (u, w) an impact gives (−e u, w + (1+e) u/2), for W = 4 at the end and −2 across.
-  double u = -1, w = -1;
-  for (bool at_u = true; u < 0 || w < 0; at_u = !at_u) {
-    double &struck = at_u ? u : w, &other = at_u ? w : u;
-    other += (1 + e) * struck / 2;
-    struck *= -e;
-  }
-  BOOST_CHECK_LE(std::fabs(left.velocity_after.z() - (u + w) / 2), 1e-14);
-  BOOST_CHECK_LE(std::fabs(set.angular_velocity_spread - 2 * std::fabs(u - w)), 1e-13);
-}
-
-BOOST_AUTO_TEST_CASE(a_slippery_rocking_block_has_several_outcomes_and_a_face_that_drops_level_and_elastic_one) {
-  const Box block(0.4, 0.3, 1, 1);
-  State rocking;
-  rocking.angular_velocity = {0, -1, 0};
-  rocking.velocity = {0, 0, -0.2};
-  const OutcomeSet set = tilted_outcomes(block.body, rocking, block.bottom, frictionless(0.7));
-  BOOST_CHECK_GE(set.outcomes.size(), 2u);
-  BOOST_CHECK_GT(set.angular_velocity_spread, 1e-3);
-  // Each of these leaves no corner approaching.
-  for (const TiltedOutcome& outcome : set.outcomes) {
-    for (const Corner& corner : block.bottom) {
-      BOOST_CHECK_GE(
-          normal_velocity(outcome.impact.velocity_after, outcome.impact.angular_velocity_after, corner.place), -1e-13);
-    }
-  }
-}
-
 BOOST_AUTO_TEST_CASE(a_planar_flat_landing_with_friction_agrees_with_the_planar_model) {
   constexpr double tolerance = 1e-13;
   Random random(7);

@@ -7,11 +7,15 @@ import math
 import random
 import unittest
 
-from space_folder import (CENTRE, INERTIA, MASS, SIZE, VERTICES, SpaceFolder, box_moments, cross, l_shape, rotated, times,
-                          words)
+from space_folder import (CENTRE, INERTIA, MASS, SIZE, VERTICES, SpaceFolder, box_moments, cross, l_shape, product, rotated,
+                          times, words)
 
 PHONE = ["--body", "box", "--size", "x".join(map(str, SIZE)), "--mass", str(MASS)]
 CORNER = [*PHONE, "--angle", "40", "--tilt", "25"]
+# A level face with four outcomes, one of which 8.1 degrees of tilts give.
+TURN = (-0.5868253197351159, 0, 0, 0.8097135568321546)
+FACE = ["--body", "box", "--size", "0.1514x0.08958x0.1433", "--mass", "0.584", "--velocity=0,0,-1",
+        "--angular-velocity=20.31,-4.001,-25.12", "--restitution", "0.4", "--gravity", "9.81"]
 
 
 class Sequence(SpaceFolder):
@@ -94,6 +98,53 @@ class Sequence(SpaceFolder):
             self.assertLess(math.dist(first["place"], corners[heights.index(min(heights))]), 1e-12)
             struck.add(first["corners"])
         self.assertEqual(len(struck), 10)  # the inner corner cannot
+
+    def test_the_outcomes_of_small_tilts_are_all_in_json_and_one_line_of_the_table(self):
+        row = self.json_of("sequence", *FACE, "--attitude=" + words(TURN), "--impacts", "1")["impacts"][0]
+        outcomes = row["outcomes"]
+        self.assertEqual(len(outcomes), 4)
+        self.assertAlmostEqual(sum(outcome["share"] for outcome in outcomes), 1, delta=1e-9)
+        self.assertEqual((row["outcomes_complete"], row["outcomes_vary"]), (True, False))
+        self.assertIn("one after the other", row["convention"])
+        narrow = outcomes[-1]
+        self.assertAlmostEqual(narrow["share"], 8.1 / 360, delta=1e-4)
+        self.assertAlmostEqual(narrow["velocity_after"][2], 0.73715, delta=5e-6)
+        for a, b in zip(narrow["angular_velocity_after"], (3.2415, 6.7277, -25.12)):
+            self.assertAlmostEqual(a, b, delta=5e-5)
+        self.assertEqual(narrow["strikes"], len(narrow["order"]))
+        for k in range(3):
+            rates = [outcome["angular_velocity_after"][k] for outcome in outcomes]
+            self.assertAlmostEqual(row["outcomes_range"]["angular_velocity_after"][k], max(rates) - min(rates), delta=1e-12)
+        table = self.run_program("sequence", *FACE, "--attitude=" + words(TURN), "--impacts", "1").stdout
+        self.assertEqual(table.count("4 outcomes"), 1)
+        self.assertLessEqual(max(map(len, table.splitlines())), 80)
+        self.assertNotIn("outcomes", self.json_of("sequence", *CORNER, "--impacts", "1")["impacts"][0])
+
+    def test_a_face_within_a_millionth_of_a_degree_of_level_has_the_outcome_of_its_tilt(self):
+        outcomes = self.json_of("sequence", *FACE, "--attitude=" + words(TURN), "--impacts", "1")["impacts"][0]["outcomes"]
+        for outcome in outcomes:
+            side = math.radians(outcome["tilt_direction_deg"])
+            for degrees in (1e-6, 1e-7, 1e-8):
+                half = math.radians(degrees) / 2
+                tilt = (1, half * math.sin(side), -half * math.cos(side), 0)  # what lies on that side goes up
+                attitude = "--attitude=" + words(product(tilt, TURN))
+                rows = self.json_of("sequence", *FACE, attitude, "--impacts", "6")["impacts"]
+                near = [row for row in rows if row["start"] < 1e-6]
+                self.assertEqual(len(near), outcome["strikes"])
+                for key, size in (("velocity_after", 1), ("angular_velocity_after", 30)):
+                    for a, b in zip(near[-1][key], outcome[key]):
+                        self.assertAlmostEqual(a, b, delta=1e-6 * size)
+
+    def test_level_landings_of_light_bodies_take_no_seconds_and_say_what_is_left_out(self):
+        light = ["--body", "box", "--size", "1x1x0.7", "--inertia", "6e-4,5.5e-3,5e-3", "--gravity", "0", "--impacts", "1"]
+        for friction, e in (("0.3", "0"), ("0", "0.3")):
+            given = ["sequence", *light, "--orientation", "3", "--restitution", e, "--friction", friction]
+            row = self.json_of(*given)["impacts"][0]
+            shares = sum(outcome["share"] for outcome in row["outcomes"])
+            self.assertAlmostEqual(shares + row["outcomes_open_share"], 1, delta=1e-6)
+            self.assertEqual(row["outcomes_complete"], row["outcomes_open_share"] <= 1e-9)
+            if not row["outcomes_complete"]:
+                self.assertIn("not followed", " ".join(self.run_program(*given).stdout.split()))
 
     def test_every_format_has_the_rows(self):
         table = self.run_program("sequence", *CORNER, "--impacts", "3").stdout
