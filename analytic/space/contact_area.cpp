@@ -11,12 +11,15 @@ namespace clatter::analytic::space {
 namespace {
 
 /// A pole nearer than this, in units of the area, gives closed forms; its cube is what they cancel.
-constexpr double near_pole = 4;
+constexpr double near_pole = 3;
 /// Beyond this, rules of six and four points do what ten and eight do nearer.
 constexpr double distant_pole = 16;
-/// Gauss's rule of ten points gives a boundary piece to rounding if the pole is this many half lengths away.
+/// Gauss's rule of ten points gives an arc to rounding if this many of its halves fit between its middle and the angle,
+/// complex for a pole off the circle, at which a point lies on the pole.
 constexpr double pieces_away = 3;
 constexpr double shortest_arc = 1e-15;
+/// Four points do on a side shorter than this, seen from a pole that is not near.
+constexpr double short_side = 0.1;
 
 double wedge(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
 Vector2 quarter_turn(const Vector2& a) { return {-a.y(), a.x()}; }
@@ -71,7 +74,8 @@ void PoleIntegrals::add_side(const Vector2& from, const Vector2& to) {
 
 void PoleIntegrals::add_arc(double from, double to, const Vector2& pole) {
   const double half = (to - from) / 2, middle = from + half;
-  if (pieces_away * half > (on_circle(middle) - pole).norm() && half > shortest_arc) {
+  const double off = std::remainder(middle - std::atan2(pole.y(), pole.x()), 2 * std::numbers::pi);
+  if (pieces_away * half > std::hypot(off, std::log(pole.norm())) && half > shortest_arc) {
     add_arc(from, middle, pole);
     return add_arc(middle, to, pole);
   }
@@ -115,10 +119,8 @@ class FarIntegrals {
   FarIntegrals(const Vector2& slip, double spin) : slip_(slip), spin_(spin) {}
 
   void add_side(const Vector2& from, const Vector2& to) {
-    const auto& rule = unit_rule<along>();
-    for (unsigned i = 0; i < along; ++i) {
-      add(from + rule.nodes[i] * (to - from), rule.weights[i] * wedge(from, to));
-    }
+    if ((to - from).squaredNorm() < short_side * short_side) add_side_by<4>(from, to);
+    else add_side_by<along>(from, to);
   }
   void add_arc(double from, double to) {
     const auto& rule = unit_rule<along>();
@@ -129,6 +131,13 @@ class FarIntegrals {
   Matrix3 sum = Matrix3::Zero();
 
  private:
+  template <unsigned points>
+  void add_side_by(const Vector2& from, const Vector2& to) {
+    const auto& rule = unit_rule<points>();
+    for (unsigned i = 0; i < points; ++i) {
+      add(from + rule.nodes[i] * (to - from), rule.weights[i] * wedge(from, to));
+    }
+  }
   /// The sector from the centre to a boundary point, `area` = ξ × dξ there.
   void add(const Vector2& point, double area) {
     using Nodes = Eigen::Array<double, outward, 1>;
@@ -208,7 +217,7 @@ void PressedArea::press_disc(const Vector3& pressure) {
 }
 
 void PressedArea::add_arcs(double from, double to) {
-  const int count = static_cast<int>(std::ceil((to - from) / (std::numbers::pi / 2) - 1e-9));
+  const int count = static_cast<int>(std::ceil((to - from) / (std::numbers::pi / 4) - 1e-9));
   for (int i = 0; i < count; ++i)
     arcs_.push_back({from + (to - from) * i / count, from + (to - from) * (i + 1) / count});
 }

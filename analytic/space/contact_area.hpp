@@ -41,7 +41,7 @@ class PressedArea {
   /// ∫ g gᵀ dA, g = (1, ξ, η).
   [[nodiscard]] Matrix3 moments() const;
   /// ∫ (d_x, d_y, ξ d_y − η d_x)ᵀ gᵀ dA of (1), (u, w) ≠ 0; times c: direction and couple of slip, weighted with q.
-  /// Accuracy: 1e-14 of the area's moments.
+  /// Accuracy: 5e-14 of the moments of the whole area.
   [[nodiscard]] Matrix3 slip_moments(const Vector2& slip, double spin) const;
 
  private:
@@ -49,7 +49,7 @@ class PressedArea {
     Vector2 from, to;
   };
   struct Arc {
-    double from, to;  ///< angles of the unit circle, at most a quarter of it [rad]
+    double from, to;  ///< angles of the unit circle, at most an eighth of it [rad]
   };
   void press_disc(const Vector3& pressure);
   void add_arcs(double from, double to);

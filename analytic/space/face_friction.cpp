@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analytic/space/face_friction.hpp"
 
+#include <gsl/gsl_odeiv2.h>
+
 #include <Eigen/LU>
-#include <array>
-#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "analytic/base/errors.hpp"
 #include "analytic/base/limits.hpp"
@@ -15,11 +16,13 @@ namespace clatter::analytic::space {
 namespace {
 
 /// Local error of a step, relative to the largest slip so far.
-constexpr double step_error = 1e-14;
+constexpr double step_error = 4e-15;
 /// A stop forecast within this part of the impulse that is left will come, whatever turn slip takes.
 constexpr double sure_stop = 1e-4;
 /// Slip, relative to what all of the impulse could do, with which a face that is let go begins to slip.
-constexpr double first_slip = 1e-17;
+constexpr double first_slip = 1e-15;
+/// A step that may change no more of the slip than this and still fails leads out of what pressure can do.
+constexpr double shortest_step = 1e-13;
 
 /// What turns a face, of (1) and (2): J, α₀, and the pressure point (−M_y, M_x) without friction and per K.
 struct FaceTurning {
@@ -38,6 +41,10 @@ struct FaceTurning {
 };
 
 Vector2 drift_of_slip(const SlidingFace& face) { return face.depth * Vector2(-face.turn_rate.y(), face.turn_rate.x()); }
+
+struct FreeFaceStep {
+  void operator()(gsl_odeiv2_step* step) const { gsl_odeiv2_step_free(step); }
+};
 
 /// The path of (U, w), in the metric of the kinetic energy: y = (√m U, √J w).
 class FacePath {
@@ -62,6 +69,7 @@ class FacePath {
   End slide();
   bool sticks();
   [[nodiscard]] Vector3 rate(const Vector3& y);
+  static int derivative(double impulse, const double y[], double change[], void* path);
   [[nodiscard]] bool solve(const Vector2& slip, double spin);
 
   const SlidingFace& face_;
@@ -76,11 +84,19 @@ class FacePath {
   Vector3 force_ = Vector3::Zero();  ///< (F, K) with them
   Matrix3 whole_moments_, rubbing_;
   Eigen::Matrix<double, 2, 3> shift_;  ///< of the pressure point by (F, K)
+  gsl_odeiv2_system system_{derivative, nullptr, 3, this};
+  std::unique_ptr<gsl_odeiv2_step, FreeFaceStep> step_{gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, 3)};
 };
+
+int FacePath::derivative(double, const double y[], double change[], void* path) {
+  Eigen::Map<Vector3> rate_of_change(change);
+  rate_of_change = static_cast<FacePath*>(path)->rate(Eigen::Map<const Vector3>(y));
+  return 0;
+}
 
 /// Finds a, b, c and with them F, K: linear equations on the area that is pushed, which is that of the solution.
 bool FacePath::solve(const Vector2& slip, double spin) {
-  constexpr int most_turns = 60;
+  constexpr int most_turns = 40;
   constexpr double settled = 1e-9;
   const Vector2& centre = pushed_.centre();
   const Vector3 wanted = (Vector3() << 1, (turning_.point - centre) / pushed_.unit()).finished();
@@ -117,27 +133,21 @@ bool FacePath::solve(const Vector2& slip, double spin) {
 
 /// y′, NaN where no pressure does it.
 Vector3 FacePath::rate(const Vector3& y) {
-  if (!solve(y.head<2>() / root_mass_, y.z() / root_inertia_)) {
+  const Vector2 slip = y.head<2>() / root_mass_;
+  const double spin = y.z() / root_inertia_;
+  if (const bool afresh = pressure_.tail<2>() != Vector2::Zero(); !solve(slip, spin)) {
     pressure_ << 1 / whole_moments_(0, 0), 0, 0;
-    if (!solve(y.head<2>() / root_mass_, y.z() / root_inertia_)) {
-      return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
-    }
+    if (!afresh || !solve(slip, spin)) return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
   }
   return load_ + Vector3(force_.x() / root_mass_, force_.y() / root_mass_, force_.z() / root_inertia_);
 }
 
 /// Follows slip until it stops, as successive forecasts of the stop agree, or until the impulse is spent.
 FacePath::End FacePath::slide() {
-  constexpr int most_steps = 10'000, most_refused = 40;
-  using State = std::array<double, 3>;
-  boost::numeric::odeint::runge_kutta_fehlberg78<State> stepper;
-  const auto system = [this](const State& y, State& change, double) {
-    Eigen::Map<Vector3>(change.data()) = rate(Eigen::Map<const Vector3>(y.data()));
-  };
+  constexpr int most_steps = 10'000;
   const double begin = spent_;
   double scale = slip_.norm(), forecast = -1, length = std::numeric_limits<double>::infinity();
   double fast = scale;  // slip at the forecast
-  int refused = 0;
   for (int i = 0; i < most_steps; ++i) {
     const Vector3 now = rate(slip_);
     if (!now.allFinite()) return End::no_pressure;
@@ -149,26 +159,25 @@ FacePath::End FacePath::slide() {
       const bool agrees = std::fabs(stop - forecast) <= rounding && size <= fast / 2;
       // Without a load slip can only become less, and what stops it does not depend on when.
       const double forecast_error = load_ == Vector3::Zero() ? sure_stop * (face_.normal_impulse - spent_) : rounding;
-      if (stop < face_.normal_impulse && (agrees || stop - spent_ <= forecast_error)) {
+      if ((agrees && stop < face_.normal_impulse) || stop - spent_ <= forecast_error) {
         spent_ = stop;
         return End::stopped;
       }
       if (!(size > fast / 2 && forecast >= 0)) forecast = stop, fast = size;
     }
-    length = std::fmin(length, 0.9 * size / std::fmax(std::fabs(growth), now.norm() / 8));
+    length = std::fmin(length, size / std::fmax(-growth / 0.9, now.norm() / 8));
     const double left = face_.normal_impulse - spent_;
+    if (!(left > 0)) return End::impulse_spent;
     const bool last = length >= left;
     if (last) length = left;
-    State from, to, error;
-    Eigen::Map<Vector3>(from.data()) = slip_;
-    stepper.do_step(system, from, 0, to, length, error);
-    const double wrong = Eigen::Map<Vector3>(error.data()).norm() / (step_error * scale);
+    Vector3 next = slip_, error;
+    gsl_odeiv2_step_apply(step_.get(), 0, length, next.data(), error.data(), now.data(), nullptr, &system_);
+    const double wrong = error.norm() / (step_error * scale);
     if (wrong <= 1) {
-      slip_ = Eigen::Map<Vector3>(to.data());
+      slip_ = next;
       if (last) return End::impulse_spent;
       spent_ += length;
-      refused = 0;
-    } else if (++refused > most_refused) {
+    } else if (length * now.norm() <= shortest_step * size) {
       return End::no_pressure;
     }
     length *= wrong >= 0 ? std::fmin(std::fmax(0.9 * std::pow(wrong, -0.125), 0.1), 4) : 0.1;
@@ -185,8 +194,8 @@ bool FacePath::sticks() {
 
 std::optional<FaceFriction> FacePath::follow() {
   FaceFriction result;
-  const bool slips = slip_ != Vector3::Zero();
   const Vector3 before = slip_;
+  const bool slips = before.norm() > 16 * detail::epsilon * root_mass_ * face_.velocity_scale;
   End end = slips ? slide() : End::stopped;
   if (end == End::stopped) {
     result.path = slips ? PathKind::slip_stick : PathKind::stick;
