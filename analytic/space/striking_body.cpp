@@ -12,6 +12,16 @@
 
 namespace clatter::analytic::space {
 
+namespace {
+
+/// Where the pushes act in the ground, if its friction has the moment of a force below the centre of mass.
+Vector2 point_of_pushes(const Vector3& impulse, const Vector3& moment, const Vector3& below) {
+  const Vector2 of_pushes = (moment - below.cross(impulse)).head<2>();
+  return Vector2(-of_pushes.y(), of_pushes.x()) / impulse.z();
+}
+
+}  // namespace
+
 StrikingBody::StrikingBody(const Body& body, const State& before, const Law& law)
     : body_(body), law_(law), state_(before), before_(before), axes_(before.attitude.toRotationMatrix()) {
   law.validate();
@@ -47,11 +57,10 @@ std::optional<FaceRebound> StrikingBody::face_rebound(double depth) const {
                     .drift = Vector2(-depth * turn.y(), depth * turn.x()) / normal,
                     .velocity_scale = state_.velocity.norm() + state_.angular_velocity.norm() * depth},
                    law_);
-  const Vector3 of_friction = below.cross(whole.impulse);
-  const Vector2 of_pushes = moment - of_friction.head<2>();
+  const Vector3 of_all(moment.x(), moment.y(), 0);
   return FaceRebound{.impulse = whole.impulse,
-                     .moment = {moment.x(), moment.y(), 0},
-                     .pressure_point = Vector2(-of_pushes.y(), of_pushes.x()) / whole.impulse.z(),
+                     .moment = of_all,
+                     .pressure_point = point_of_pushes(whole.impulse, of_all, below),
                      .path = whole.path};
 }
 
@@ -79,8 +88,7 @@ std::optional<FaceRebound> StrikingBody::face_rebound(double depth, const Contac
   rebound->impulse.head<2>() = friction->impulse;
   rebound->moment.head<2>() -= friction->couple * (inertia * inverse_inertia_.block<2, 1>(0, 2));
   rebound->moment.z() = friction->couple;
-  const Vector2 of_pushes = (rebound->moment - below.cross(rebound->impulse)).head<2>();
-  rebound->pressure_point = Vector2(-of_pushes.y(), of_pushes.x()) / rebound->impulse.z();
+  rebound->pressure_point = point_of_pushes(rebound->impulse, rebound->moment, below);
   rebound->spin_after = friction->spin_after;
   return rebound;
 }
