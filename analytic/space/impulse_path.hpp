@@ -61,8 +61,8 @@ struct ContactImpulse {
 [[nodiscard]] ContactImpulse contact_impulse(const Contact& contact, const Law& law);
 
 /// A face that lands and rebounds as a whole: its normal motion goes over into −e times itself in step with the normal
-/// impulse p, whatever friction does; friction acts where the centre of mass is above the ground and slows the slip
-/// there,
+/// impulse p, whatever friction does; where all of the face slips in one direction (face_friction.hpp otherwise),
+/// friction acts where the centre of mass is above the ground and slows the slip there,
 ///     dv_t/dp = drift + (dP_t/dp)/m,   du/dp = 1/m.
 struct FaceContact {
   double mass = 1;                  ///< m [kg]

@@ -49,20 +49,6 @@ std::vector<int> convex_hull(const std::vector<Vector2>& points) {
   return hull;
 }
 
-/// Distance of `point` from the nearest side of the hull of `corners`: > 0 inside, < 0 outside [m]; −infinity where the
-/// hull has no area.
-double margin_inside(const std::vector<Vector2>& corners, const Vector2& point) {
-  const std::vector<int> hull = convex_hull(corners);
-  if (hull.size() < 3) return -std::numeric_limits<double>::infinity();
-  double margin = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    const Vector2& from = corners[static_cast<std::size_t>(hull[i])];
-    const Vector2& to = corners[static_cast<std::size_t>(hull[(i + 1) % hull.size()])];
-    margin = std::fmin(margin, cross(to - from, point - from) / (to - from).norm());
-  }
-  return margin;
-}
-
 /// A body with its touching corners.
 class StrikingGroup {
  public:
@@ -100,7 +86,7 @@ class StrikingGroup {
 
  private:
   bool strike_edge(const Point& first, const Point& second, const Points& group);
-  bool strike_face(const Points& group);
+  bool strike_face(const Points& group, const std::vector<int>& hull);
 
   StrikingBody struck_;
   Points points_;
@@ -131,7 +117,7 @@ bool StrikingGroup::strike(const Points& group) {
     return group[static_cast<std::size_t>(hull[static_cast<std::size_t>(i)])];
   };
   if (hull.size() == 1) return strike_corner(corner(0)), true;
-  return hull.size() == 2 ? strike_edge(corner(0), corner(1), group) : strike_face(group);
+  return hull.size() == 2 ? strike_edge(corner(0), corner(1), group) : strike_face(group, hull);
 }
 
 /// The edge strikes with the point at which the impulses of (1) have their resultant.
@@ -153,12 +139,13 @@ bool StrikingGroup::strike_edge(const Point& first, const Point& second, const P
   return true;
 }
 
-bool StrikingGroup::strike_face(const Points& group) {
+bool StrikingGroup::strike_face(const Points& group, const std::vector<int>& hull) {
   double depth = 0;
-  std::vector<Vector2> feet;
-  for (const Point& p : group) depth -= p.arm.z() / static_cast<double>(group.size()), feet.push_back(p.arm.head<2>());
-  const auto face = struck_.face_rebound(depth);
-  if (!face || !(margin_inside(feet, face->pressure_point) >= 0)) return false;
+  for (const Point& p : group) depth -= p.arm.z() / static_cast<double>(group.size());
+  ContactArea area;
+  for (const int i : hull) area.corners.emplace_back(group[static_cast<std::size_t>(i)].arm.head<2>());
+  const auto face = struck_.face_rebound(depth, area);
+  if (!face || !area.contains(face->pressure_point)) return false;
   struck_.push(*face, indices_of(group));
   return true;
 }

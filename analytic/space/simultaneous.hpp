@@ -9,9 +9,11 @@
 //          with that point as a corner would, friction and law included.  If friction then leaves one of the two
 //          approaching, the edge does not rebound as a whole.
 //   face   V_z, ω_x, ω_y → −e times themselves (Eq. 10 in space); ω_z changes through the inertia's off-diagonal
-//          elements.  Friction acts at the point below the centre of mass (FaceContact), as for a flat landing in the
-//          plane.  The pressure point (−N_y, N_x)/P_z from the centre of mass, N the moment of the normal impulses,
-//          must lie inside the polygon of the corners.                                                 (2)
+//          elements and by friction, which acts all over the polygon of the corners under a linear pressure
+//          (face_friction.hpp).  The pressure point (−N_y, N_x)/P_z from the centre of mass, N the moment of the
+//          normal impulses, must lie inside the polygon, of each part of the impulse.  A face that slides straight
+//          (slides_straight()) has no couple; it keeps the rule of a flat landing in the plane, friction at the point
+//          below the centre of mass (FaceContact), by which the pressure point is that of the impulse as a whole. (2)
 // The viscoelastic law takes e at the approach speed of the edge's point, and of the pressure point that a face has
 // without friction, −V_z + ω·Mω/(m (−V_z)) with M the inverse of the horizontal part of I⁻¹: there the landing is that
 // of one contact.

@@ -7,9 +7,20 @@
 #include "analytic/base/errors.hpp"
 #include "analytic/base/limits.hpp"
 #include "analytic/law/coulomb_path.hpp"
+#include "analytic/space/face_friction.hpp"
 #include "analytic/space/impulse_path.hpp"
 
 namespace clatter::analytic::space {
+
+namespace {
+
+/// Where the pushes act in the ground, if its friction has the moment of a force below the centre of mass.
+Vector2 point_of_pushes(const Vector3& impulse, const Vector3& moment, const Vector3& below) {
+  const Vector2 of_pushes = (moment - below.cross(impulse)).head<2>();
+  return Vector2(-of_pushes.y(), of_pushes.x()) / impulse.z();
+}
+
+}  // namespace
 
 StrikingBody::StrikingBody(const Body& body, const State& before, const Law& law)
     : body_(body), law_(law), state_(before), before_(before), axes_(before.attitude.toRotationMatrix()) {
@@ -46,12 +57,45 @@ std::optional<FaceRebound> StrikingBody::face_rebound(double depth) const {
                     .drift = Vector2(-depth * turn.y(), depth * turn.x()) / normal,
                     .velocity_scale = state_.velocity.norm() + state_.angular_velocity.norm() * depth},
                    law_);
-  const Vector3 of_friction = below.cross(whole.impulse);
-  const Vector2 of_pushes = moment - of_friction.head<2>();
+  const Vector3 of_all(moment.x(), moment.y(), 0);
   return FaceRebound{.impulse = whole.impulse,
-                     .moment = {moment.x(), moment.y(), 0},
-                     .pressure_point = Vector2(-of_pushes.y(), of_pushes.x()) / whole.impulse.z(),
+                     .moment = of_all,
+                     .pressure_point = point_of_pushes(whole.impulse, of_all, below),
                      .path = whole.path};
+}
+
+std::optional<FaceRebound> StrikingBody::face_rebound(double depth, const ContactArea& area) const {
+  auto rebound = face_rebound(depth);
+  const ImpactLaw& law = law_.law;
+  if (!rebound || law.friction != FrictionKind::coulomb || !(law.friction_value > 0)) return rebound;
+  const Vector2 turn = inverse_inertia_.topLeftCorner<2, 2>() * rebound->moment.head<2>();
+  const Vector3 below(0, 0, -depth);
+  const SlidingFace face{.mass = body_.mass,
+                         .inverse_inertia = inverse_inertia_,
+                         .depth = depth,
+                         .friction = law.friction_value,
+                         .normal_impulse = rebound->impulse.z(),
+                         .turn_rate = turn / rebound->impulse.z(),
+                         .slip = velocity(below).head<2>(),
+                         .spin = state_.angular_velocity.z(),
+                         .velocity_scale = state_.velocity.norm() + state_.angular_velocity.norm() * depth};
+  if (slides_straight(face)) return rebound;
+  const auto friction = face_friction(face, area);
+  if (!friction) return {};
+  rebound->path = friction->path;
+  if (friction->path == PathKind::stick && friction->couple == 0) return rebound;
+  const Matrix2 inertia = inverse_inertia_.topLeftCorner<2, 2>().inverse();
+  rebound->impulse.head<2>() = friction->impulse;
+  rebound->moment.head<2>() -= friction->couple * (inertia * inverse_inertia_.block<2, 1>(0, 2));
+  rebound->moment.z() = friction->couple;
+  rebound->pressure_point = point_of_pushes(rebound->impulse, rebound->moment, below);
+  rebound->spin_after = friction->spin_after;
+  return rebound;
+}
+
+void StrikingBody::push(const FaceRebound& face, const std::vector<int>& points) {
+  push(face.impulse, face.moment, face.path, points);
+  if (face.spin_after) state_.angular_velocity.z() = *face.spin_after;
 }
 
 void StrikingBody::push(const Vector3& impulse, const Vector3& moment, PathKind path, const std::vector<int>& points) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "analytic/space/contact_area.hpp"
 #include "analytic/space/impact.hpp"
 
 namespace clatter::analytic::space {
@@ -29,6 +30,7 @@ struct FaceRebound {
   Vector3 moment = Vector3::Zero();          ///< about the centre of mass [N·m·s]
   Vector2 pressure_point = Vector2::Zero();  ///< of (2) in simultaneous.hpp, from the centre of mass [m]
   PathKind path = PathKind::frictionless;
+  std::optional<double> spin_after = {};  ///< ω_z, where friction has a couple about the vertical [rad/s]
 };
 
 /// Strikes add up to one GroupImpact.  World frame; arms are from the centre of mass.
@@ -55,14 +57,15 @@ class StrikingBody {
   /// The impact of one point; `points` are the indices that the record gets.  @throws as space::strike()
   void strike_at(const Vector3& place, const std::vector<int>& points) { strike_at(place, points, law_); }
   void strike_at(const Vector3& place, const std::vector<int>& points, const Law& law);
-  /// V_z, ω_x, ω_y → −e times themselves; nothing if the centre of mass does not come down.
+  /// V_z, ω_x, ω_y → −e times themselves, with friction below the centre of mass; nothing if that does not come down.
   /// @param depth  of the ground below the centre of mass [m]
   [[nodiscard]] std::optional<FaceRebound> face_rebound(double depth) const;
+  /// The same with friction all over the area (face_friction.hpp), from below the centre of mass; nothing if the area
+  /// has no pressure for it.
+  [[nodiscard]] std::optional<FaceRebound> face_rebound(double depth, const ContactArea& area) const;
   /// Goes on from another that began with the same body, state and law.
   void take(const StrikingBody& other);
-  void push(const FaceRebound& face, const std::vector<int>& points) {
-    push(face.impulse, face.moment, face.path, points);
-  }
+  void push(const FaceRebound& face, const std::vector<int>& points);
 
   /// Adds an impulse to the last strike.
   void add(const Vector3& impulse, const Vector3& moment);

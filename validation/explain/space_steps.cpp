@@ -416,12 +416,20 @@ class SpatialImpact {
   void group() {
     const space::GroupImpact& group = *row_.group;
     const bool is_rim = row_.corners.front().radius > 0;
-    const std::string how =
-        group.is_whole ? "Pushes alone can make the body rebound as a whole, each point at e times its approach."
-                       : fmt::format(
-                             "Pushes alone cannot make the body rebound as a whole; they strike one after the "
-                             "other, the fastest first: {}.",
-                             order_words(group));
+    const bool is_face = is_rim || (group.is_whole && group.order.front().size() > 2);
+    const char* const rubbing =
+        is_face && given_.friction
+            ? " Each point of the face is rubbed against its slip, by μ times the pressure there."
+            : "";
+    const std::string how = group.is_whole
+                                ? std::string(
+                                      "Pushes alone can make the body rebound as a whole, each point at e times its "
+                                      "approach.") +
+                                      rubbing
+                                : fmt::format(
+                                      "Pushes alone cannot make the body rebound as a whole; they strike one after the "
+                                      "other, the fastest first: {}.",
+                                      order_words(group));
     writer_.open("Corners at once",
                  {fmt::format("At once: {}{}. {}", is_rim ? "all points of the rim of " : "", arrived(), how)});
     std::optional<Quantity> first;
