@@ -84,6 +84,7 @@ void SequenceUnits::to_si(NearMiss& miss) const {
 
 void SequenceUnits::to_si(FirstContact& flight) const {
   scale(flight.time, length_ - speed_);
+  scale(flight.time_error, length_ - speed_);
   scale(flight.bracket_low, length_ - speed_);
   scale(flight.bracket_high, length_ - speed_);
   scale(flight.normal_velocity, speed_);
