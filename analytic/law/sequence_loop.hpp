@@ -39,6 +39,13 @@ enum class Outcome {
   outside_model,      ///< the next impact jams; the rows so far hold
 };
 
+/// When the last impact was, and what rounding leaves unknown of its flight.
+struct Resolution {
+  double time = 0;        ///< since the first impact [s]
+  double of_flight = 0;   ///< rounding of the last flight's time [s]
+  double of_impulse = 0;  ///< what the ground gives in that time [N·s]
+};
+
 /// Energy that a law of restitution or friction has created [J, or in internal units].
 struct CreatedEnergy {
   double sum = 0;
@@ -71,9 +78,10 @@ class SequenceLoop {
     } catch (const OutsideModelError& error) {
       end_early(Outcome::outside_model, error);
     }
-    result_.end_predictable = growth_ && growth_->predictable();
+    result_.end_predictable = growth_ && (growth_->predictable() || end_is_certain_);
     if (!growth_ || growth_->predictable()) return;
-    result_.message += "; errors have grown so far that another sequence is possible";
+    result_.message += end_is_certain_ ? "; another sequence with the same end is possible"
+                                       : "; errors have grown so far that another sequence is possible";
     std::size_t known = 0;
     for (const auto& row : result_.rows) known += row.error.predictable ? 1 : 0;
     if (known < result_.rows.size()) result_.message += " from impact " + std::to_string(known + 1) + " on";
@@ -134,15 +142,16 @@ class SequenceLoop {
 
   /// What an extrapolated end must be known to: the digits asked for, or 4 ulp of what came before.
   template <class AnyAccumulation>
-  [[nodiscard]] auto extrapolated(const AnyAccumulation& accumulation, double time) const {
+  [[nodiscard]] auto extrapolated(const AnyAccumulation& accumulation, const Resolution& now) const {
     constexpr double ulps = 4 * std::numeric_limits<double>::epsilon();
     return accumulation.extrapolate({.relative = std::pow(10.0, -options_.digits),
-                                     .time = ulps * time,
-                                     .impulse = ulps * result_.total_normal_impulse});
+                                     .time = std::fmax(ulps * now.time, now.of_flight),
+                                     .impulse = std::fmax(ulps * result_.total_normal_impulse, now.of_impulse)});
   }
 
   const SequenceOptions& options_;
   std::optional<AnyGrowth> growth_;
+  bool end_is_certain_ = false;  ///< although errors decide the order of the last impacts
   AnySequence result_;
 
  private:

@@ -121,8 +121,11 @@ void SequenceUnits::to_si(Tail& tail) const {
   scale(tail.normal_impulse, mass_ + speed_);
   scale(tail.normal_impulse_error, mass_ + speed_);
   scale(tail.tangential_impulse, mass_ + speed_);
+  scale(tail.tangential_impulse_error, mass_ + speed_);
   scale(tail.velocity_after, speed_);
+  scale(tail.velocity_error, speed_);
   scale(tail.angular_velocity_after, speed_ - length_);
+  scale(tail.angular_velocity_error, speed_ - length_);
 }
 
 void SequenceUnits::to_si(Sequence& sequence) const {
@@ -154,6 +157,11 @@ void require_representable(const Sequence& sequence) {
     }
     throw NumericalError("a time, impulse, velocity or energy of the sequence is beyond the doubles");
   }
+}
+
+void Tail::forget() {
+  end_time_error = normal_impulse_error = tangential_impulse_error = infinite;
+  velocity_error = angular_velocity_error = infinite;
 }
 
 RowErrors RowErrors::unknown() {

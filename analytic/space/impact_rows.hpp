@@ -65,14 +65,20 @@ struct ImpactRow {
 /// The remaining impacts after the last row: infinitely many in a finite time.
 struct Tail {
   double end_time = 0;        ///< time since the first impact [s]
-  double end_time_error = 0;  ///< of the extrapolation; infinite where the last row cannot be predicted [s]
+  double end_time_error = 0;  ///< with that of the last row; infinite where the end cannot be predicted [s]
   double normal_impulse = 0;  ///< sum over the remaining impacts [N·s]
   double normal_impulse_error = 0;
   Vector2 tangential_impulse = Vector2::Zero();  ///< likewise, world frame [N·s]
-  std::vector<int> corners;                      ///< that strike in turn (Corner::index)
+  double tangential_impulse_error = 0;           ///< of vectors: bounds on the length of the error
+  std::vector<int> corners;                      ///< that strike in turn and stay on the ground (Corner::index)
   bool closed_form = false;
-  Vector3 velocity_after = Vector3::Zero();          ///< of the centre of mass at the end [m/s]
+  Vector3 velocity_after = Vector3::Zero();  ///< of the centre of mass at the end [m/s]
+  double velocity_error = 0;
   Vector3 angular_velocity_after = Vector3::Zero();  ///< [rad/s]
+  double angular_velocity_error = 0;
+
+  /// Nothing is known of the errors.
+  void forget();
 };
 
 struct Sequence {

@@ -199,21 +199,28 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   }
 
   bool extrapolated_end() {
-    auto tail = extrapolated(accumulation_, time_);
+    const ImpactRow& last = result_.rows.back();
+    // Heights that are rounding know the next arrivals no better, however long the rows go on.
+    constexpr double resolution = 16;
+    const double rounding = last.flight.is_hop ? 0 : resolution * last.flight.time_error;
+    auto tail = extrapolated(accumulation_, {time_, rounding, rounding / last.flight.time * last.impact.impulse.z()});
     if (!tail || !undisturbed(drop_, state_, *tail)) return false;
-    end_state(drop_, result_.rows.back(), accumulation_.lever(*tail), *tail);
+    const bool vanishes = tail->end_time <= std::fmax(rounding, 4 * epsilon * time_);
+    if (!vanishes && !keeps_slipping(body_, last, *tail)) return false;
+    end_state(drop_, last, accumulation_.lever(*tail), *tail);
     tail->end_time += time_;
     finish(std::move(*tail));
     return true;
   }
 
   void finish(Tail tail) {
-    if (!growth_ || !growth_->predictable()) {
-      tail.end_time_error = tail.normal_impulse_error = std::numeric_limits<double>::infinity();
-    }
-    const bool turns = tail.angular_velocity_after != Vector3::Zero();
+    if (!growth_) tail.forget();
+    else if (growth_->predictable()) add_errors(drop_, result_.rows.back(), tail);
+    else end_is_certain_ = ends_for_certain(drop_, result_.rows, tail);
     const bool slides = tail.velocity_after.head<2>() != Vector2::Zero();
-    end_in(std::move(tail), turns, slides, stays);
+    const bool turns = tail.angular_velocity_after.head<2>() != Vector2::Zero();
+    const bool spins = tail.angular_velocity_after.z() != 0;
+    end_in(std::move(tail), turns, slides || spins, stays);
   }
 
   void rest_as_it_is(const std::string& how) {
