@@ -31,8 +31,8 @@ struct SequenceOptions {
 enum class Outcome {
   no_further_impact,  ///< nothing reaches the ground any more
   impact_limit,       ///< as many impacts as asked for
-  at_rest,            ///< infinitely many impacts end in a finite time, with no normal or angular motion left that
-                      ///< doubles could tell from none
+  at_rest,            ///< infinitely many impacts end in a finite time, with no normal motion nor turning about a
+                      ///< horizontal axis left that doubles could tell from none, or with a face that it must settle on
   sustained_contact,  ///< a vertex stays on the ground (after infinitely many impacts, or with e = 0)
                       ///< while the body still turns: beyond the model
   not_computed,       ///< a number of the next flight or impact could not be had; the rows so far hold
@@ -122,12 +122,11 @@ class SequenceLoop {
   }
 
   /// Infinitely many impacts have ended in `tail`.
-  void end_in(AnyTail tail, bool turns, bool slides, const std::string& stays) {
+  /// @param then  ", then the body ..."; empty: nothing comes before what rest() says
+  void end_in(AnyTail tail, bool turns, bool slides, const std::string& stays, const std::string& then = "") {
     result_.total_normal_impulse += tail.normal_impulse;
-    rest(turns, slides,
-         tail.closed_form ? "infinitely many impacts end in a finite time (geometric series)"
-                          : "infinitely many impacts end in a finite time (extrapolated)",
-         stays);
+    const char* const sum = tail.closed_form ? "geometric series" : "extrapolated";
+    rest(turns, slides, std::string("infinitely many impacts end in a finite time (") + sum + ")" + then, stays);
     result_.tail = std::move(tail);
   }
 

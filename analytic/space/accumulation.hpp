@@ -65,4 +65,15 @@ void add_errors(const Drop& drop, const ImpactRow& last, Tail& tail);
 /// @param tail  end_time since the first impact
 [[nodiscard]] bool ends_for_certain(const Drop& drop, const std::vector<ImpactRow>& rows, Tail& tail);
 
+/// The face on which a body must come to rest, which the energy E of its vertical motion and turning about horizontal
+/// axes, above that of rest on the face, cannot lift off by more than
+///     height of the centre of mass  E/(m g),   tilt  E/(m g ρ),                                       (1)
+/// ρ the distance inside the face of the point that the resting body presses on: that below the centre of mass, moved
+/// by friction, by μ times the centre's height at most, and by what products of inertia do to a spinning body.  No
+/// other point comes down at such a tilt, and impacts with e < 1 take the energy away.  Nothing where (1) leaves
+/// another face open. Rest is taken to come within 8 v/(g (1 − e)), v = √(2E/m): a body that does not tilt needs 2, the
+/// slowest of 360 random boxes 3.1 (time-stepping of their unilateral motion).
+/// @param time  of the state, since the first impact [s]
+[[nodiscard]] std::optional<Rest> settles(const Drop& drop, const State& now, double time);
+
 }  // namespace clatter::analytic::space

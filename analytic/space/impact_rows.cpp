@@ -131,6 +131,7 @@ void SequenceUnits::to_si(Tail& tail) const {
 void SequenceUnits::to_si(Sequence& sequence) const {
   for (ImpactRow& row : sequence.rows) to_si(row);
   if (sequence.tail) to_si(*sequence.tail);
+  if (sequence.rest) scale(sequence.rest->latest, length_ - speed_);
   to_si(sequence.near_miss);
   scale(sequence.end_acceleration, 2 * speed_ - length_);
   scale(sequence.total_normal_impulse, mass_ + speed_);
@@ -157,6 +158,13 @@ void require_representable(const Sequence& sequence) {
     }
     throw NumericalError("a time, impulse, velocity or energy of the sequence is beyond the doubles");
   }
+}
+
+State state_after(const ImpactRow& row) {
+  State state = row.before;
+  state.velocity = row.impact.velocity_after;
+  state.angular_velocity = row.impact.angular_velocity_after;
+  return state;
 }
 
 void Tail::forget() {

@@ -62,6 +62,8 @@ struct ImpactRow {
   FirstContact flight;  ///< that led here; empty for the first row
 };
 
+[[nodiscard]] State state_after(const ImpactRow& row);
+
 /// The remaining impacts after the last row: infinitely many in a finite time.
 struct Tail {
   double end_time = 0;        ///< time since the first impact [s]
@@ -81,13 +83,20 @@ struct Tail {
   void forget();
 };
 
+/// The face on which a body comes to rest, still sliding and turning about the vertical there unless friction stops it.
+struct Rest {
+  std::vector<int> corners;  ///< of the face, in order around it (Corner::index)
+  double latest = 0;         ///< by when nothing of the body bounces or rocks any more, since the first impact [s]
+};
+
 struct Sequence {
   std::vector<ImpactRow> rows;
   Outcome outcome = Outcome::no_further_impact;
   std::string message;                ///< why it ended, one sentence
   std::vector<std::string> warnings;  ///< such as energy created by Newton's law with friction
   std::optional<Tail> tail;
-  NearMiss near_miss;  ///< of the last flight, if no_further_impact
+  std::optional<Rest> rest;  ///< if what is left of the motion can end on one face only
+  NearMiss near_miss;        ///< of the last flight, if no_further_impact
   /// h″ of the corner that stays on the ground, if sustained_contact without a tail [m/s²].
   double end_acceleration = 0;
   double total_normal_impulse = 0;  ///< rows and tail [N·s]

@@ -130,7 +130,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     FirstContact flown;
     for (;;) {
       record(arriving, flown);
-      if (accumulates() || is_full()) return;
+      if (accumulates() || (is_full() && note_slow_contacts())) return;
       const ImpactRow& last = result_.rows.back();
       const FreeFlight flight(principal_, state_, drop_.gravity);
       flown = first_contact(body_, flight, touches_);
@@ -201,11 +201,11 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   bool extrapolated_end() {
     const ImpactRow& last = result_.rows.back();
     // Heights that are rounding know the next arrivals no better, however long the rows go on.
-    constexpr double resolution = 16;
-    const double rounding = last.flight.is_hop ? 0 : resolution * last.flight.time_error;
-    auto tail = extrapolated(accumulation_, {time_, rounding, rounding / last.flight.time * last.impact.impulse.z()});
+    constexpr double roundings = 16;
+    const double unknown = last.flight.is_hop ? 0 : roundings * last.flight.time_error;
+    auto tail = extrapolated(accumulation_, {time_, unknown, unknown / last.flight.time * last.impact.impulse.z()});
     if (!tail || !undisturbed(drop_, state_, *tail)) return false;
-    const bool vanishes = tail->end_time <= std::fmax(rounding, 4 * epsilon * time_);
+    const bool vanishes = tail->end_time <= std::fmax(unknown, 4 * epsilon * time_);
     if (!vanishes && !keeps_slipping(body_, last, *tail)) return false;
     end_state(drop_, last, accumulation_.lever(*tail), *tail);
     tail->end_time += time_;
@@ -214,17 +214,34 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   }
 
   void finish(Tail tail) {
+    State end = state_;
+    end.velocity = tail.velocity_after;
+    end.angular_velocity = tail.angular_velocity_after;
+    result_.rest = settles(drop_, end, tail.end_time);
     if (!growth_) tail.forget();
     else if (growth_->predictable()) add_errors(drop_, result_.rows.back(), tail);
-    else end_is_certain_ = ends_for_certain(drop_, result_.rows, tail);
+    else end_is_certain_ = ends_for_certain(drop_, result_.rows, tail) || rests_for_certain();
     const bool slides = tail.velocity_after.head<2>() != Vector2::Zero();
-    const bool turns = tail.angular_velocity_after.head<2>() != Vector2::Zero();
+    const bool turns = !result_.rest && tail.angular_velocity_after.head<2>() != Vector2::Zero();
     const bool spins = tail.angular_velocity_after.z() != 0;
-    end_in(std::move(tail), turns, slides || spins, stays);
+    const bool comes_down = result_.rest && tail.corners.size() < result_.rest->corners.size();
+    const std::string stays = which_stays(tail.corners.size());
+    end_in(std::move(tail), turns, slides || spins, stays, comes_down ? ", then the body settles on a face" : "");
+  }
+
+  /// Whether the body already had to come to rest on that face after the last impact that can be predicted.
+  bool rests_for_certain() {
+    const auto lost = std::ranges::find_if(result_.rows, [](const ImpactRow& row) { return !row.error.predictable; });
+    if (!result_.rest || lost == result_.rows.begin()) return false;
+    const auto then = settles(drop_, state_after(*(lost - 1)), (lost - 1)->start);
+    if (!then || !std::ranges::is_permutation(then->corners, result_.rest->corners)) return false;
+    result_.rest->latest = std::fmax(result_.rest->latest, then->latest);
+    return true;
   }
 
   void rest_as_it_is(const std::string& how) {
-    rest(state_.angular_velocity != Vector3::Zero(), state_.velocity.head<2>() != Vector2::Zero(), how, stays);
+    rest(state_.angular_velocity != Vector3::Zero(), state_.velocity.head<2>() != Vector2::Zero(), how,
+         which_stays(touches_.size()));
   }
 
   void end_without_contact(const FirstContact& flown) {
@@ -236,13 +253,27 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     end_in_flight(flown.near_miss);
   }
 
+  /// Of damped ground, whose hops are no geometric series.
+  bool note_slow_contacts() {
+    if (drop_.law.law.law == RestitutionLaw::viscoelastic) {
+      result_.message += "; on damped ground slow contacts lose next to nothing, so that hops last for ever";
+    }
+    return true;
+  }
+
   /// Corners approach, but so slowly that no impulse comes of it.
   void stall() {
     if (growth_) growth_->give_up();
     rest_as_it_is("what is left of the corners' approach is rounding");
   }
 
-  static constexpr const char* stays = "the body still turns while it stays on the ground";
+  static std::string which_stays(std::size_t corners) {
+    return "the body still turns while " +
+           std::string(corners == 1   ? "a corner stays"
+                       : corners == 2 ? "two corners stay"
+                                      : "it stays") +
+           " on the ground";
+  }
 
   const Drop drop_;
   const Body& body_;
