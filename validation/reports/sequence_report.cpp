@@ -47,6 +47,39 @@ std::string tail_words(int digits, const RunTail& tail) {
                      with_error(end, {.digits = digits + 3}), tail.closed_form ? "in closed form" : "by extrapolation");
 }
 
+/// "+x-y+z, +x+y+z"
+std::string names_of(const Scene& scene, const space::Body& body, const std::vector<int>& corners) {
+  std::string names;
+  for (const int i : corners) {
+    const auto index = static_cast<std::size_t>(i);
+    space::Corner corner{.index = i};
+    if (index < body.vertices.size()) corner.place = body.vertices[index];
+    names += (names.empty() ? "" : ", ") + corner_name(scene, corner);
+  }
+  return names;
+}
+
+/// Which corners stay on the ground, on which face and by when the body settles, and how far it slides there.
+void add_end_notes(const Scene& scene, const space::Drop& drop, const space::Sequence& sequence,
+                   std::vector<std::string>& notes) {
+  if (!sequence.tail) return;
+  const space::Tail& tail = *sequence.tail;
+  if (drop.body.rims.empty()) {
+    notes.push_back("the further impacts are those of " + names_of(scene, drop.body, tail.corners));
+  }
+  if (!sequence.rest) return;
+  notes.push_back(fmt::format("the body settles on the face of {} before {} s",
+                              names_of(scene, drop.body, sequence.rest->corners),
+                              significant(sequence.rest->latest, 3)));
+  const analytic::ImpactLaw& law = drop.law.law;
+  const double speed = tail.velocity_after.head<2>().norm();
+  const bool turns = tail.angular_velocity_after != space::Vector3::Zero();
+  if (law.friction != analytic::FrictionKind::coulomb || !(law.friction_value > 0) || !(speed > 0) || turns) return;
+  const double slowing = law.friction_value * drop.gravity;
+  notes.push_back(fmt::format("friction stops its slide {} s and {} m later", significant(speed / slowing, 3),
+                              significant(speed * speed / (2 * slowing), 3)));
+}
+
 std::string near_miss_words(int digits, const Run& run) {
   if (!run.near_miss || !std::isfinite(run.near_miss->clearance)) return "";
   const Impact& last = run.impacts.back();
@@ -83,6 +116,9 @@ std::vector<std::string> notes_of(const PreparedScene& prepared, const DiscreteR
     add_group_notes(*sequence, std::get<space::Drop>(prepared.drop), notes);
   }
   if (run.tail) notes.push_back(tail_words(digits, *run.tail));
+  if (const auto* const sequence = std::get_if<space::Sequence>(&found.sequence)) {
+    add_end_notes(prepared.scene, std::get<space::Drop>(prepared.drop), *sequence, notes);
+  }
   for (const std::string& words :
        {trust_words(run),
         fmt::format("Sum of normal impulses: {} N·s", known_text(totals(run).normal_impulse, {.digits = digits})),
@@ -108,6 +144,15 @@ Value tail_fields(const RunTail& tail) {
                        {"closed_form", tail.closed_form},
                        {"velocity_after", list(value.velocity_after)},
                        {"angular_velocity_after", list(value.angular_velocity_after)}};
+}
+
+/// Which corners stay, and the face that the body settles on.
+void add_end(const Scene& scene, const space::Drop& drop, const space::Sequence& sequence, Value& fields) {
+  if (!sequence.tail) return;
+  fields["tail"]["corners"] = names_of(scene, drop.body, sequence.tail->corners);
+  if (!sequence.rest) return;
+  fields["rest"] =
+      Value::Fields{{"face", names_of(scene, drop.body, sequence.rest->corners)}, {"latest", sequence.rest->latest}};
 }
 
 /// The fields behind the impacts.
@@ -184,6 +229,9 @@ Report sequence_report(const PreparedScene& prepared, const DiscreteRun& found) 
   }
   report.fields["impacts"] = row_objects(report.grid);
   add_results(scene, run, report.fields);
+  if (const auto* const sequence = std::get_if<space::Sequence>(&found.sequence)) {
+    add_end(scene, std::get<space::Drop>(prepared.drop), *sequence, report.fields);
+  }
   if (run.tail) {
     report.grid.rows.push_back(impact_row(run.tail->sum, run.model, digits));
     report.grid.rows.back()[0].shown = "…";
