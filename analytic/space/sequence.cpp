@@ -225,7 +225,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     const bool turns = !result_.rest && tail.angular_velocity_after.head<2>() != Vector2::Zero();
     const bool spins = tail.angular_velocity_after.z() != 0;
     const bool comes_down = result_.rest && tail.corners.size() < result_.rest->corners.size();
-    const std::string stays = which_stays(tail.corners.size());
+    const std::string stays = which_stays(tail.corners);
     end_in(std::move(tail), turns, slides || spins, stays, comes_down ? ", then the body settles on a face" : "");
   }
 
@@ -240,8 +240,10 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   }
 
   void rest_as_it_is(const std::string& how) {
+    std::vector<int> corners;
+    for (const Touch& touch : touches_) corners.push_back(touch.point);
     rest(state_.angular_velocity != Vector3::Zero(), state_.velocity.head<2>() != Vector2::Zero(), how,
-         which_stays(touches_.size()));
+         which_stays(corners));
   }
 
   void end_without_contact(const FirstContact& flown) {
@@ -267,12 +269,13 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     rest_as_it_is("what is left of the corners' approach is rounding");
   }
 
-  static std::string which_stays(std::size_t corners) {
-    return "the body still turns while " +
-           std::string(corners == 1   ? "a corner stays"
-                       : corners == 2 ? "two corners stay"
-                                      : "it stays") +
-           " on the ground";
+  [[nodiscard]] std::string which_stays(const std::vector<int>& corners) const {
+    const bool is_rim = corners.front() >= static_cast<int>(body_.vertices.size());
+    const char* const which = is_rim                ? "its rim rolls or slides"
+                              : corners.size() == 1 ? "a corner stays"
+                              : corners.size() == 2 ? "two corners stay"
+                                                    : "it stays";
+    return std::string("the body still turns while ") + which + " on the ground";
   }
 
   const Drop drop_;

@@ -8,6 +8,7 @@
 
 #include "analytic/base/errors.hpp"
 #include "analytic/plane/sequence.hpp"
+#include "analytic/space/accumulation.hpp"
 #include "analytic/space/body.hpp"
 #include "analytic/space/sequence.hpp"
 
@@ -356,4 +357,62 @@ BOOST_AUTO_TEST_CASE(a_drop_on_damped_ground_says_that_slow_contacts_lose_nothin
   const space::Sequence s = space::impact_sequence(drop, {.impacts = 100});
   BOOST_TEST(!s.rest);
   BOOST_TEST(s.message.find("hops last for ever") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(what_a_body_must_settle_on_is_the_face_that_its_energy_cannot_lift_it_off) {
+  space::Drop drop = slab(Quaternion::Identity(), 0.5);
+  space::State flat;
+  flat.position = {0, 0, 0.01};
+  flat.velocity = {0.3, 0, 0.02};
+  const auto rest = space::settles(drop, flat, 1);
+  BOOST_REQUIRE(rest);
+  BOOST_TEST(rest->corners.size() == 4U);
+  BOOST_TEST(stands_on(drop.body, rest->corners));
+  // A slab that does not tilt bounces for 2 w/(g (1 − e)).
+  const double bouncing = 2 * 0.02 / (drop.gravity * 0.5);
+  BOOST_TEST(rest->latest >= 1 + bouncing);
+  BOOST_TEST(rest->latest <= 1 + 5 * bouncing);
+  // A tilt that brings another corner down needs m g ρ φ; here ρ = 0.1 m, and φ = 0.02/0.36 would do.
+  flat.velocity.z() = std::sqrt(2 * drop.gravity * 0.1 * 0.02 / 0.36);
+  BOOST_TEST(!space::settles(drop, flat, 1));
+  flat.velocity.z() = 0;
+  // Friction moves the pressure point by μ times the centre's height; spin with products of inertia moves it, too.
+  space::Drop tall = drop;
+  tall.body = space::box(1, {.size = {0.1, 0.1, 0.4}});
+  flat.position.z() = 0.2;
+  BOOST_TEST(space::settles(tall, flat, 1).has_value());
+  tall.law.law.friction = FrictionKind::coulomb;
+  tall.law.law.friction_value = 0.3;
+  BOOST_TEST(!space::settles(tall, flat, 1));
+  drop.law.law.law = RestitutionLaw::viscoelastic;
+  flat.position.z() = 0.01;
+  BOOST_TEST(!space::settles(drop, flat, 1));
+}
+
+BOOST_AUTO_TEST_CASE(a_corner_that_hardly_rebounds_ends_in_few_rows_though_its_slip_is_rounding) {
+  const space::Drop drop = tumbling(88);
+  BOOST_TEST_REQUIRE(drop.law.law.restitution < 0.01);
+  const space::Sequence s = space::impact_sequence(drop, {.impacts = 200});
+  BOOST_TEST(s.rows.size() < 15);
+  BOOST_TEST(s.end_predictable);
+}
+
+BOOST_AUTO_TEST_CASE(a_tilted_rim_bounces_to_rest_on_itself_and_rolls_on) {
+  for (const double e : {0.1, 0.3, 0.5}) {
+    space::Drop drop;
+    drop.body = space::cylinder(1, {.length = 0.2, .radius = 0.5});
+    drop.attitude = turn(-85 * std::numbers::pi / 180, {0, 1, 0});
+    drop.velocity = {0, 0, -1};
+    drop.angular_velocity = {1, 0, 0};
+    drop.gravity = 9.81;
+    drop.law.law.restitution = e;
+    const space::Sequence s = space::impact_sequence(drop, {.impacts = 200});
+    BOOST_TEST_CONTEXT("e = " << e << ": " << s.message) {
+      BOOST_TEST(s.rows.size() < 40);
+      BOOST_TEST(s.rows.back().error.predictable);
+      BOOST_REQUIRE(s.tail);
+      BOOST_TEST(s.tail->end_time_error <= 1e-12);
+      BOOST_TEST(s.message.find("rim rolls or slides") != std::string::npos);
+    }
+  }
 }
