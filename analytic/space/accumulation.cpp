@@ -33,6 +33,12 @@ Vector2 sliding_impulse(const Drop& drop, const Vector2& slip, double normal) {
   return -std::fmin(law.friction_value * normal, drop.body.mass * speed) / speed * slip;
 }
 
+/// How fast a point of the body moves after an impulse of this size at most.
+double jump_of(const Body& body, double impulse) {
+  const double least = static_cast<double>(PrincipalAxes(body.inertia).moments[0]), reach = body.reach();
+  return impulse * (1 / body.mass + reach * reach / least);
+}
+
 }  // namespace
 
 std::optional<Tail> bouncing_tail(const Drop& drop, const ImpactRow& last) {
@@ -164,12 +170,6 @@ Vector3 SpaceAccumulation::lever(const Tail& tail) const {
   return moment / normal;
 }
 
-/// How fast a point of the body moves after an impulse of this size at most.
-double jump_of(const Body& body, double impulse) {
-  const double least = static_cast<double>(PrincipalAxes(body.inertia).moments[0]), reach = body.reach();
-  return impulse * (1 / body.mass + reach * reach / least);
-}
-
 bool undisturbed(const Drop& drop, const State& now, const Tail& tail) {
   const PrincipalAxes principal(drop.body.inertia);
   const FreeFlight flight(principal, now, drop.gravity);
@@ -222,14 +222,18 @@ void add_errors(const Drop& drop, const ImpactRow& last, Tail& tail) {
                        (bend > 0 && !last.group ? bend / std::fabs(last.flight.acceleration) : 0);
   tail.end_time_error += e.start + share * left;
   tail.normal_impulse_error += share * normal;
-  tail.tangential_impulse_error +=
-      tail.tangential_impulse.norm() * (tail.normal_impulse_error / normal) + 2 * turning * left * normal;
+  if (normal > 0) {
+    tail.tangential_impulse_error +=
+        tail.tangential_impulse.norm() * tail.normal_impulse_error / normal + 2 * turning * left * normal;
+  }
   const double error = tail.normal_impulse_error + tail.tangential_impulse_error;
   const double turned = 2 * turning * left;  // of the corner's arm and the inertia's axes
   tail.velocity_error += e.velocity_after + error / drop.body.mass;
   tail.angular_velocity_error +=
       e.angular_velocity_after + jump_of(drop.body, error + turned * normal) / reach + turned * turning * turned;
 }
+
+namespace {
 
 /// A face of the hull, as the ground would see it.
 struct LowestFace {
@@ -285,6 +289,8 @@ double room_around_centre(const Body& body, const State& now, const LowestFace& 
   }
   return room;
 }
+
+}  // namespace
 
 std::optional<Rest> settles(const Drop& drop, const State& now, double time) {
   const ImpactLaw& law = drop.law.law;

@@ -52,6 +52,11 @@ constexpr double deviations = 3;
 /// Rounding of an impulse with friction, relative: half of what impact.hpp promises, as a standard deviation.
 constexpr double friction_rounding = 5e-14;
 
+/// Whether the row's corner has returned from a hop with an approach speed of relative accuracy.
+bool is_hop(const ImpactRow& row) {
+  return !row.group && row.flight.is_hop && row.impact.contact_before.z() == row.flight.normal_velocity;
+}
+
 }  // namespace
 
 ErrorGrowth::ErrorGrowth(const Body& body, const State& start, double gravity)
@@ -80,11 +85,6 @@ void ErrorGrowth::append(const Factor& columns) {
     for (int i = 0; i < size; ++i) wider.col(i).head(i).setZero();
   }
   factor_ = wider;
-}
-
-/// Whether the row's corner has returned from a hop with an approach speed of relative accuracy.
-bool is_hop(const ImpactRow& row) {
-  return row.flight.is_hop && row.impact.contact_before.z() == row.flight.normal_velocity;
 }
 
 /// What rounding of the impulse, δP in each direction, does to the state: δV = δP/m, δω = I⁻¹ (r × δP).

@@ -13,10 +13,13 @@ namespace clatter::analytic::space {
 /// Errors of the state (t, δθ, δV, δω) at touch and departure, to first order: δθ the rotation vector of the attitude's
 /// error, everything in the world frame; the height of the centre of mass follows from the touch.
 ///
-/// Impact: central differences of the impact in δθ, V and ω.  Flight, at a fixed time: δθ and δV in closed form,
-/// δω by central differences of the rotation; then the touch at h = 0 shifts the time by
+/// Impact of a corner: central differences of P in the corner's velocity and in δθ, each on its own scale; of a group:
+/// of the impact in δθ, V and ω.  Flight, at a fixed time: δθ and δV in closed form, δω by central differences of the
+/// rotation, or of a short flight by a Runge-Kutta step; then the touch at h = 0 shifts the time by
 ///     δt = −δh/h′,   δh = −(δθ₀ × r₀)_z + t δV_z + (δθ₁ × r₁)_z,                                       (1)
 /// r₀, r₁ from the centre of mass to the corner that departed and the one that arrives.
+/// A corner's normal velocity after an impact and after a small hop is carried beside V and ω to relative accuracy:
+/// rounding of those leaves it as it is.
 /// Independent errors are columns of a factor F of the covariance F Fᵀ; bounds are three standard deviations.
 /// Domain: errors so small that (1) is linear; beyond, nothing is predictable any more, nor is a row whose corner
 /// another one precedes within the errors, nor what follows corners that arrive together (their order, which rounding

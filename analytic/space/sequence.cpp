@@ -240,10 +240,11 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   }
 
   void rest_as_it_is(const std::string& how) {
+    result_.rest = settles(drop_, state_, time_);
     std::vector<int> corners;
     for (const Touch& touch : touches_) corners.push_back(touch.point);
-    rest(state_.angular_velocity != Vector3::Zero(), state_.velocity.head<2>() != Vector2::Zero(), how,
-         which_stays(corners));
+    const bool turns = !result_.rest && state_.angular_velocity != Vector3::Zero();
+    rest(turns, state_.velocity.head<2>() != Vector2::Zero(), how, which_stays(corners));
   }
 
   void end_without_contact(const FirstContact& flown) {

@@ -62,20 +62,17 @@ std::string names_of(const Scene& scene, const space::Body& body, const std::vec
 /// Which corners stay on the ground, on which face and by when the body settles, and how far it slides there.
 void add_end_notes(const Scene& scene, const space::Drop& drop, const space::Sequence& sequence,
                    std::vector<std::string>& notes) {
-  if (!sequence.tail) return;
-  const space::Tail& tail = *sequence.tail;
-  if (drop.body.rims.empty()) {
-    notes.push_back("the further impacts are those of " + names_of(scene, drop.body, tail.corners));
+  if (sequence.tail && drop.body.rims.empty()) {
+    notes.push_back("the further impacts are those of " + names_of(scene, drop.body, sequence.tail->corners));
   }
   if (!sequence.rest) return;
   notes.push_back(fmt::format("the body settles on the face of {} before {} s",
                               names_of(scene, drop.body, sequence.rest->corners),
                               significant(sequence.rest->latest, 3)));
   const analytic::ImpactLaw& law = drop.law.law;
-  const double speed = tail.velocity_after.head<2>().norm();
-  const bool turns = tail.angular_velocity_after != space::Vector3::Zero();
-  if (law.friction != analytic::FrictionKind::coulomb || !(law.friction_value > 0) || !(speed > 0) || turns) return;
-  const double slowing = law.friction_value * drop.gravity;
+  if (law.friction != analytic::FrictionKind::coulomb || !(law.friction_value > 0) || !sequence.tail) return;
+  const double speed = sequence.tail->velocity_after.head<2>().norm(), slowing = law.friction_value * drop.gravity;
+  if (!(speed > 0) || sequence.tail->angular_velocity_after != space::Vector3::Zero()) return;
   notes.push_back(fmt::format("friction stops its slide {} s and {} m later", significant(speed / slowing, 3),
                               significant(speed * speed / (2 * slowing), 3)));
 }
@@ -148,8 +145,7 @@ Value tail_fields(const RunTail& tail) {
 
 /// Which corners stay, and the face that the body settles on.
 void add_end(const Scene& scene, const space::Drop& drop, const space::Sequence& sequence, Value& fields) {
-  if (!sequence.tail) return;
-  fields["tail"]["corners"] = names_of(scene, drop.body, sequence.tail->corners);
+  if (sequence.tail) fields["tail"]["corners"] = names_of(scene, drop.body, sequence.tail->corners);
   if (!sequence.rest) return;
   fields["rest"] =
       Value::Fields{{"face", names_of(scene, drop.body, sequence.rest->corners)}, {"latest", sequence.rest->latest}};
