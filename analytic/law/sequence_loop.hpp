@@ -31,12 +31,19 @@ struct SequenceOptions {
 enum class Outcome {
   no_further_impact,  ///< nothing reaches the ground any more
   impact_limit,       ///< as many impacts as asked for
-  at_rest,            ///< infinitely many impacts end in a finite time, with no normal or angular motion left that
-                      ///< doubles could tell from none
+  at_rest,            ///< infinitely many impacts end in a finite time, with no normal motion nor turning about a
+                      ///< horizontal axis left that doubles could tell from none, or with a face that it must settle on
   sustained_contact,  ///< a vertex stays on the ground (after infinitely many impacts, or with e = 0)
                       ///< while the body still turns: beyond the model
   not_computed,       ///< a number of the next flight or impact could not be had; the rows so far hold
   outside_model,      ///< the next impact jams; the rows so far hold
+};
+
+/// When the last impact was, and what rounding leaves unknown of its flight.
+struct Resolution {
+  double time = 0;        ///< since the first impact [s]
+  double of_flight = 0;   ///< rounding of the last flight's time [s]
+  double of_impulse = 0;  ///< what the ground gives in that time [N·s]
 };
 
 /// Energy that a law of restitution or friction has created [J, or in internal units].
@@ -71,9 +78,10 @@ class SequenceLoop {
     } catch (const OutsideModelError& error) {
       end_early(Outcome::outside_model, error);
     }
-    result_.end_predictable = growth_ && growth_->predictable();
+    result_.end_predictable = growth_ && (growth_->predictable() || end_is_certain_);
     if (!growth_ || growth_->predictable()) return;
-    result_.message += "; errors have grown so far that another sequence is possible";
+    result_.message += end_is_certain_ ? "; another sequence with the same end is possible"
+                                       : "; errors have grown so far that another sequence is possible";
     std::size_t known = 0;
     for (const auto& row : result_.rows) known += row.error.predictable ? 1 : 0;
     if (known < result_.rows.size()) result_.message += " from impact " + std::to_string(known + 1) + " on";
@@ -114,12 +122,11 @@ class SequenceLoop {
   }
 
   /// Infinitely many impacts have ended in `tail`.
-  void end_in(AnyTail tail, bool turns, bool slides, const std::string& stays) {
+  /// @param then  ", then the body ..."; empty: nothing comes before what rest() says
+  void end_in(AnyTail tail, bool turns, bool slides, const std::string& stays, const std::string& then = "") {
     result_.total_normal_impulse += tail.normal_impulse;
-    rest(turns, slides,
-         tail.closed_form ? "infinitely many impacts end in a finite time (geometric series)"
-                          : "infinitely many impacts end in a finite time (extrapolated)",
-         stays);
+    const char* const sum = tail.closed_form ? "geometric series" : "extrapolated";
+    rest(turns, slides, std::string("infinitely many impacts end in a finite time (") + sum + ")" + then, stays);
     result_.tail = std::move(tail);
   }
 
@@ -134,15 +141,16 @@ class SequenceLoop {
 
   /// What an extrapolated end must be known to: the digits asked for, or 4 ulp of what came before.
   template <class AnyAccumulation>
-  [[nodiscard]] auto extrapolated(const AnyAccumulation& accumulation, double time) const {
+  [[nodiscard]] auto extrapolated(const AnyAccumulation& accumulation, const Resolution& now) const {
     constexpr double ulps = 4 * std::numeric_limits<double>::epsilon();
     return accumulation.extrapolate({.relative = std::pow(10.0, -options_.digits),
-                                     .time = ulps * time,
-                                     .impulse = ulps * result_.total_normal_impulse});
+                                     .time = std::fmax(ulps * now.time, now.of_flight),
+                                     .impulse = std::fmax(ulps * result_.total_normal_impulse, now.of_impulse)});
   }
 
   const SequenceOptions& options_;
   std::optional<AnyGrowth> growth_;
+  bool end_is_certain_ = false;  ///< although errors decide the order of the last impacts
   AnySequence result_;
 
  private:

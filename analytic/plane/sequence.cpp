@@ -128,7 +128,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 
   bool extrapolated_end(ImpactMode mode) {
     constexpr double ulps = 4 * std::numeric_limits<double>::epsilon();
-    auto tail = extrapolated(accumulation_, motion_.time());
+    auto tail = extrapolated(accumulation_, {.time = motion_.time()});
     if (!tail || !undisturbed(*tail)) return false;
     const bool vanishes = tail->normal_impulse <= ulps * result_.total_normal_impulse;
     if (!vanishes && !keeps_its_mode(motion_, *tail, mode)) return false;

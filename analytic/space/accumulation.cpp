@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace clatter::analytic::space {
 
@@ -30,6 +31,12 @@ Vector2 sliding_impulse(const Drop& drop, const Vector2& slip, double normal) {
   const double speed = slip.norm();
   if (!(speed > 0)) return Vector2::Zero();
   return -std::fmin(law.friction_value * normal, drop.body.mass * speed) / speed * slip;
+}
+
+/// How fast a point of the body moves after an impulse of this size at most.
+double jump_of(const Body& body, double impulse) {
+  const double least = static_cast<double>(PrincipalAxes(body.inertia).moments[0]), reach = body.reach();
+  return impulse * (1 / body.mass + reach * reach / least);
 }
 
 }  // namespace
@@ -97,7 +104,7 @@ std::optional<Tail> SpaceAccumulation::extrapolate(const Accumulation::Tolerance
         {set, event.mode, event.flight_time, event.impulse.z(), event.impulse.head<2>().norm(), event.damping_loss});
   }
   const auto planar = accumulation.extrapolate(tolerance);
-  if (!planar) return {};
+  if (!planar) return vanishing_hops(tolerance);
   Tail tail;
   tail.end_time = planar->end_time;
   tail.end_time_error = planar->end_time_error;
@@ -114,6 +121,29 @@ std::optional<Tail> SpaceAccumulation::extrapolate(const Accumulation::Tolerance
   }
   tail.tangential_impulse = tail.normal_impulse / normal * tangential;
   return tail;
+}
+
+/// The last hops of one corner are so short that what is left of them does not matter, however its slip, which is then
+/// rounding, goes.
+std::optional<Tail> SpaceAccumulation::vanishing_hops(const Accumulation::Tolerance& tolerance) const {
+  constexpr std::size_t hops = 4;
+  if (events_.size() < hops) return {};
+  const auto last = std::span(events_).last(hops);
+  double ratio = 0;
+  for (std::size_t i = 0; i < hops; ++i) {
+    if (last[i].corners.size() != 1 || last[i].corners != last[0].corners) return {};
+    if (i > 0) ratio = std::fmax(ratio, last[i].flight_time / last[i - 1].flight_time);
+  }
+  const Event& end = last.back();
+  if (!(ratio < 1)) return {};
+  const double rest = ratio / (1 - ratio), time = rest * end.flight_time, impulse = rest * end.impulse.z();
+  if (!(4 * time <= tolerance.time && 4 * impulse <= tolerance.impulse)) return {};
+  return Tail{.end_time = time,
+              .end_time_error = 4 * time,
+              .normal_impulse = impulse,
+              .normal_impulse_error = 4 * impulse,
+              .tangential_impulse = rest * end.impulse.head<2>(),
+              .corners = end.corners};
 }
 
 /// First event from the end back at which each of the tail's corners has struck.
@@ -145,9 +175,8 @@ bool undisturbed(const Drop& drop, const State& now, const Tail& tail) {
   const FreeFlight flight(principal, now, drop.gravity);
   const PointHeights heights(drop.body, flight);
   const FlightMoment moment = heights.moment(0);
-  const double reach = heights.reach(), least = static_cast<double>(principal.moments[0]);
-  const double impulse = tail.normal_impulse + tail.tangential_impulse.norm(), time = 2 * tail.end_time;
-  const double jump = impulse / drop.body.mass + impulse * reach * reach / least;
+  const double reach = heights.reach(), time = 2 * tail.end_time;
+  const double jump = jump_of(drop.body, tail.normal_impulse + tail.tangential_impulse.norm());
   const double speed = now.angular_velocity.norm() + jump / reach;
   const double bend = drop.gravity + 2 * speed * speed * reach;
   for (int i = 0; i < heights.count(); ++i) {
@@ -173,6 +202,145 @@ void end_state(const Drop& drop, const ImpactRow& last, const Vector3& lever, Ta
   if (tail.corners.size() < 3 && !(last.corners.front().radius > 0)) return;  // neither a face nor a level rim
   tail.velocity_after.z() = 0;
   tail.angular_velocity_after.head<2>().setZero();
+}
+
+bool keeps_slipping(const Body& body, const ImpactRow& last, const Tail& tail) {
+  const PathKind path = last.impact.path;
+  if (path == PathKind::frictionless || path == PathKind::stick || path == PathKind::slip_stick) return true;
+  const double turning = last.impact.angular_velocity_after.norm(), impulse = tail.tangential_impulse.norm();
+  const double change = jump_of(body, tail.normal_impulse + impulse) + turning * turning * body.reach() * tail.end_time;
+  return 2 * change < last.impact.contact_after.head<2>().norm();
+}
+
+void add_errors(const Drop& drop, const ImpactRow& last, Tail& tail) {
+  const RowErrors& e = last.error;
+  const double reach = drop.body.reach(), turning = last.impact.angular_velocity_after.norm();
+  const double normal = tail.normal_impulse, left = tail.end_time - last.start;
+  // A hop takes 2u/|h″|.
+  const double bend = 4 * reach * turning * (e.angular_velocity_after + turning * e.attitude);
+  const double share = e.approach_speed / last.approach_speed +
+                       (bend > 0 && !last.group ? bend / std::fabs(last.flight.acceleration) : 0);
+  tail.end_time_error += e.start + share * left;
+  tail.normal_impulse_error += share * normal;
+  if (normal > 0) {
+    tail.tangential_impulse_error +=
+        tail.tangential_impulse.norm() * tail.normal_impulse_error / normal + 2 * turning * left * normal;
+  }
+  const double error = tail.normal_impulse_error + tail.tangential_impulse_error;
+  const double turned = 2 * turning * left;  // of the corner's arm and the inertia's axes
+  tail.velocity_error += e.velocity_after + error / drop.body.mass;
+  tail.angular_velocity_error +=
+      e.angular_velocity_after + jump_of(drop.body, error + turned * normal) / reach + turned * turning * turned;
+}
+
+namespace {
+
+/// A face of the hull, as the ground would see it.
+struct LowestFace {
+  std::vector<int> corners;     ///< in order around it
+  Vector3 normal;               ///< outward, world frame
+  double depth = 0, least = 0;  ///< of the face and of the other vertices inside it, from the centre of mass [m]
+};
+
+/// The face of the lowest three vertices; nothing if they are not of one.
+std::optional<LowestFace> lowest_face(const Body& body, const State& now) {
+  std::vector<Vector3> arms;
+  std::vector<int> order;
+  for (const Vector3& vertex : body.vertices) {
+    order.push_back(static_cast<int>(arms.size()));
+    arms.push_back(now.attitude * vertex);
+  }
+  const auto arm = [&](int i) -> const Vector3& { return arms[static_cast<std::size_t>(i)]; };
+  std::ranges::sort(order, {}, [&](int i) { return arm(i).z(); });
+  if (order.size() < 4 || !body.rims.empty()) return {};
+  const Vector3& first = arm(order[0]);
+  LowestFace face;
+  for (std::size_t k = 2; k < order.size(); ++k) {
+    face.normal = (arm(order[1]) - first).cross(arm(order[k]) - first);
+    if (face.normal.norm() > 1e-9 * body.reach() * body.reach()) break;
+  }
+  face.normal = std::copysign(1 / face.normal.norm(), -face.normal.z()) * face.normal;
+  face.depth = face.normal.dot(first);
+  face.least = -body.reach();
+  for (const int i : order) {
+    const double depth = face.normal.dot(arm(i));
+    if (std::fabs(depth - face.depth) <= 1e-9 * body.reach()) face.corners.push_back(i);
+    else face.least = std::fmax(face.least, depth);
+  }
+  if (!(face.least < face.depth)) return {};
+  Vector3 middle = Vector3::Zero();
+  for (const int i : face.corners) middle += arm(i) / static_cast<double>(face.corners.size());
+  const Vector3 axis = (first - middle).normalized();
+  std::ranges::sort(face.corners, {}, [&](int i) {
+    const Vector3 from_middle = arm(i) - middle;
+    return std::atan2(face.normal.dot(axis.cross(from_middle)), axis.dot(from_middle));
+  });
+  return face;
+}
+
+/// Least distance inside the face of the foot of the perpendicular from the centre of mass.
+double room_around_centre(const Body& body, const State& now, const LowestFace& face) {
+  double room = body.reach();
+  for (std::size_t k = 0; k < face.corners.size(); ++k) {
+    const auto next = static_cast<std::size_t>(face.corners[(k + 1) % face.corners.size()]);
+    const Vector3 from = now.attitude * body.vertices[static_cast<std::size_t>(face.corners[k])];
+    const Vector3 edge = (now.attitude * body.vertices[next] - from).normalized();
+    room = std::fmin(room, face.normal.dot(edge.cross(-from)));
+  }
+  return room;
+}
+
+}  // namespace
+
+std::optional<Rest> settles(const Drop& drop, const State& now, double time) {
+  const ImpactLaw& law = drop.law.law;
+  if (!(drop.gravity > 0) || law.law == RestitutionLaw::viscoelastic || !(law.restitution < 1)) return {};
+  const Body& body = drop.body;
+  const auto face = lowest_face(body, now);
+  if (!face) return {};
+  const Matrix3 axes = now.attitude.toRotationMatrix(), inertia = axes * body.inertia * axes.transpose();
+  const double weight = body.mass * drop.gravity, spin = now.angular_velocity.z();
+  const double friction = law.friction == FrictionKind::none ? 0 : std::fabs(law.friction_value);
+  const double unbalanced = inertia.col(2).head<2>().norm() + face->normal.head<2>().norm() * inertia.norm();
+  const double room = room_around_centre(body, now, *face) - friction * face->depth - spin * spin * unbalanced / weight;
+  Vector3 turning = now.angular_velocity;
+  turning.z() = 0;
+  const double energy = body.mass * now.velocity.z() * now.velocity.z() / 2 + turning.dot(inertia * turning) / 2 +
+                        weight * std::fmax(now.position.z() - face->depth, 0.0);
+  // A tilt φ lowers other points by φ times their distance at most.
+  const double tilt = energy / (weight * room), now_tilted = face->normal.head<2>().norm();
+  const double clear = face->depth - face->least;
+  if (!(room > 0) || !(2 * std::fmax(tilt, now_tilted) * 2 * body.reach() < clear)) return {};
+  const double speed = std::sqrt(2 * energy / body.mass);
+  return Rest{.corners = face->corners, .latest = time + 8 * speed / (drop.gravity * (1 - law.restitution))};
+}
+
+bool ends_for_certain(const Drop& drop, const std::vector<ImpactRow>& rows, Tail& tail) {
+  const auto lost = std::ranges::find_if(rows, [](const ImpactRow& row) { return !row.error.predictable; });
+  const auto stays = [&](const Corner& corner) { return std::ranges::count(tail.corners, corner.index) > 0; };
+  const ImpactRow* const known = lost == rows.begin() ? nullptr : &*(lost - 1);
+  bool certain = known && std::all_of(lost, rows.end(),
+                                      [&](const ImpactRow& row) { return std::ranges::all_of(row.corners, stays); });
+  Tail since = tail;
+  if (certain) {
+    since.end_time -= known->start;
+    for (auto row = lost; row != rows.end(); ++row) {
+      since.normal_impulse += row->impact.impulse.z();
+      since.tangential_impulse.x() += row->impact.impulse.head<2>().norm();
+    }
+    certain = undisturbed(drop, state_after(*known), since);
+  }
+  if (!certain) {
+    tail.forget();
+    return false;
+  }
+  constexpr double safety = 4;
+  const double impulse = safety * (since.normal_impulse + since.tangential_impulse.norm());
+  tail.end_time_error = known->error.start + safety * since.end_time;
+  tail.normal_impulse_error = tail.tangential_impulse_error = impulse;
+  tail.velocity_error = known->error.velocity_after + impulse / drop.body.mass;
+  tail.angular_velocity_error = known->error.angular_velocity_after + jump_of(drop.body, impulse) / drop.body.reach();
+  return true;
 }
 
 }  // namespace clatter::analytic::space

@@ -36,6 +36,7 @@ class SpaceAccumulation {
   };
   /// Impacts from the end backwards that involve at most eight corners, as many as accumulation.hpp tells apart.
   [[nodiscard]] std::size_t first_of_last_eight(std::vector<int>& labels) const;
+  [[nodiscard]] std::optional<Tail> vanishing_hops(const Accumulation::Tolerance& tolerance) const;
   [[nodiscard]] std::size_t last_round(const Tail& tail) const;
 
   std::vector<Event> events_;
@@ -50,5 +51,29 @@ class SpaceAccumulation {
 /// rest but for sliding and spinning about the vertical with three corners or more, otherwise the corners stay on the
 /// ground while the body turns.
 void end_state(const Drop& drop, const ImpactRow& last, const Vector3& lever, Tail& tail);
+
+/// Whether slip during the tail goes on as it was: the corner sticks each time, or slips far too fast to stop.
+[[nodiscard]] bool keeps_slipping(const Body& body, const ImpactRow& last, const Tail& tail);
+
+/// Adds to the errors of an extrapolated end those of the impact that it is extrapolated from.
+/// @param tail  end_time since the first impact
+void add_errors(const Drop& drop, const ImpactRow& last, Tail& tail);
+
+/// Whether the tail's corners come to rest although errors decide the order of the last impacts: since the last row
+/// that can be predicted nothing else has been able to reach the ground, whatever the order.  Then the errors are what
+/// has happened since, else infinite.
+/// @param tail  end_time since the first impact
+[[nodiscard]] bool ends_for_certain(const Drop& drop, const std::vector<ImpactRow>& rows, Tail& tail);
+
+/// The face on which a body must come to rest, which the energy E of its vertical motion and turning about horizontal
+/// axes, above that of rest on the face, cannot lift off by more than
+///     height of the centre of mass  E/(m g),   tilt  E/(m g ρ),                                       (1)
+/// ρ the distance inside the face of the point that the resting body presses on: that below the centre of mass, moved
+/// by friction, by μ times the centre's height at most, and by what products of inertia do to a spinning body.  No
+/// other point comes down at such a tilt, and impacts with e < 1 take the energy away.  Nothing where (1) leaves
+/// another face open. Rest is taken to come within 8 v/(g (1 − e)), v = √(2E/m): a body that does not tilt needs 2, the
+/// slowest of 360 random boxes 3.1 (time-stepping of their unilateral motion).
+/// @param time  of the state, since the first impact [s]
+[[nodiscard]] std::optional<Rest> settles(const Drop& drop, const State& now, double time);
 
 }  // namespace clatter::analytic::space

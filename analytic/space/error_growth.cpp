@@ -42,18 +42,28 @@ State shifted(const State& state, int number, double step) {
   return s;
 }
 
+/// A factor of errors that are independent.
+auto diagonal(const Eigen::Matrix<double, 10, 1>& deviations) -> Eigen::Matrix<double, 10, 10> {
+  return deviations.asDiagonal();
+}
+
 /// Bounds are this many standard deviations of the errors assumed.
 constexpr double deviations = 3;
 /// Rounding of an impulse with friction, relative: half of what impact.hpp promises, as a standard deviation.
 constexpr double friction_rounding = 5e-14;
 
+/// Whether the row's corner has returned from a hop with an approach speed of relative accuracy.
+bool is_hop(const ImpactRow& row) {
+  return !row.group && row.flight.is_hop && row.impact.contact_before.z() == row.flight.normal_velocity;
+}
+
 }  // namespace
 
 ErrorGrowth::ErrorGrowth(const Body& body, const State& start, double gravity)
-    : body_(body), gravity_(gravity), inverse_inertia_(body.inertia.inverse()), factor_(size, 0) {
+    : body_(body), gravity_(gravity), inverse_inertia_(body.inertia.inverse()), factor_(size, 0), arriving_(size, 0) {
   Deviations d;
   d << 0, Vector3::Constant(epsilon), epsilon * start.velocity.cwiseAbs(), epsilon * start.angular_velocity.cwiseAbs();
-  add(d);
+  append(diagonal(d));
   of_drop_.setZero();
   for (int k = 0; k < 3; ++k) {
     of_drop_(1 + k, k) = 1;
@@ -61,8 +71,6 @@ ErrorGrowth::ErrorGrowth(const Body& body, const State& start, double gravity)
     of_drop_(7 + k, 6 + k) = start.angular_velocity.norm();
   }
 }
-
-void ErrorGrowth::add(const Deviations& d) { append(Jacobian(d.asDiagonal())); }
 
 /// F Fᵀ = Rᵀ R with Fᵀ = Q R: F's columns are the rows of Fᵀ, as GSL stores them.
 void ErrorGrowth::append(const Factor& columns) {
@@ -81,7 +89,11 @@ void ErrorGrowth::append(const Factor& columns) {
 
 /// What rounding of the impulse, δP in each direction, does to the state: δV = δP/m, δω = I⁻¹ (r × δP).
 ErrorGrowth::Factor ErrorGrowth::impulse_rounding(const ImpactRow& row) const {
-  const double speed = row.before.velocity.norm() + row.before.angular_velocity.norm() * body_.reach();
+  double speed = row.before.velocity.norm() + row.before.angular_velocity.norm() * body_.reach();
+  // P is of degree one in the velocity of the corner, the normal part of which is a hop's.
+  if (is_hop(row)) {
+    speed *= std::fmin(1, row.impact.impulse.norm() / (body_.mass * row.impact.contact_before.norm()));
+  }
   const double share = row.impact.path == PathKind::frictionless ? 8 * epsilon : friction_rounding;
   const double rounding = share * row.impact.impulse.norm() + 8 * epsilon * body_.mass * speed;
   const Matrix3 axes = row.before.attitude.toRotationMatrix();
@@ -96,6 +108,21 @@ ErrorGrowth::Factor ErrorGrowth::impulse_rounding(const ImpactRow& row) const {
   return columns;
 }
 
+double ErrorGrowth::approach_rounding(const ImpactRow& row) const {
+  if (is_hop(row)) return row.flight.velocity_error;
+  return 4 * epsilon * (row.before.velocity.norm() + row.before.angular_velocity.norm() * body_.reach());
+}
+
+/// Takes from errors of the state what they do to the corner's normal velocity, which is carried beside the state and
+/// errs by `rounding` instead.
+ErrorGrowth::Factor ErrorGrowth::without_approach(Factor columns, const Gradient& approach, double rounding) {
+  columns.row(6) -= approach.lazyProduct(columns).eval();
+  columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
+  columns.rightCols<1>().setZero();
+  columns(6, columns.cols() - 1) = rounding;
+  return columns;
+}
+
 void ErrorGrowth::advance(const Jacobian& jacobian) {
   factor_ = jacobian.lazyProduct(factor_).eval();
   of_drop_ = jacobian.lazyProduct(of_drop_).eval();
@@ -106,14 +133,68 @@ double ErrorGrowth::bound(const Eigen::MatrixXd& gradient) const {
   return std::isfinite(value) ? value : infinite;
 }
 
-/// Rows: P, V′, ω′; columns: δθ, V, ω.
-Eigen::MatrixXd ErrorGrowth::strike_jacobian(const Strike& strike, const ImpactRow& row) const {
+/// How a turn of the body moves the place that touches, from the centre of mass; the lowest point of a rim moves along
+/// the rim as well.
+Matrix3 ErrorGrowth::arm_jacobian(const ImpactRow& row) const {
+  const Corner& corner = row.corners.front();
+  const State& state = row.before;
+  Matrix3 arm = -cross_matrix(state.attitude * corner.place);
+  if (corner.radius > 0 || corner.index < static_cast<int>(body_.vertices.size())) return arm;
+  const double step = relative_step * steepness(body_, state.attitude, corner.index);
+  for (int k = 0; k < 3; ++k) {
+    const Quaternion plus = shifted(state, k, step).attitude, minus = shifted(state, k, -step).attitude;
+    const Vector3 along = touching_place(body_, plus, corner.index) - touching_place(body_, minus, corner.index);
+    arm.col(k) += state.attitude * along / (2 * step);
+  }
+  return arm;
+}
+
+/// δu, u = V_z + (ω × r)_z at the row's corner, for the angular velocity before or after.
+ErrorGrowth::Gradient ErrorGrowth::approach_gradient(const ImpactRow& row, const Vector3& turning) const {
+  Gradient approach = Gradient::Zero();
+  approach.segment<3>(1) = (cross_matrix(turning) * arm_jacobian(row)).row(2);
+  approach[6] = 1;
+  approach.tail<3>() = -cross_matrix(row.before.attitude * row.corners.front().place).row(2);
+  return approach;
+}
+
+/// Rows: P, V′, ω′; columns: δθ, V, ω.  P is differentiated by the corner's velocity and the attitude, each on its own
+/// scale, so that small hops lose nothing.
+Eigen::MatrixXd ErrorGrowth::corner_jacobian(const Strike& strike, const ImpactRow& row) const {
+  const Vector3 &v = row.impact.contact_before, &impulse = row.impact.impulse;
+  const Vector3 arm = row.before.attitude * row.corners.front().place;
+  State at_corner = row.before;  // of a body that moves with the corner's velocity and does not turn
+  at_corner.velocity = v;
+  at_corner.angular_velocity.setZero();
+  const Matrix3 by_turn = arm_jacobian(row);
+  Eigen::Matrix<double, 3, 9> of_velocity, of_impulse;
+  of_velocity << cross_matrix(row.before.angular_velocity) * by_turn, Matrix3::Identity(), -cross_matrix(arm);
+  const double room = relative_step * steepness(body_, row.before.attitude, row.corners.front().index);
+  const double along = relative_step * v.norm(), across = relative_step * std::fabs(v.z());
+  const auto slope = [&](int number, double step) -> Vector3 {
+    return (strike(shifted(at_corner, number, step)).impulse - strike(shifted(at_corner, number, -step)).impulse) /
+           (2 * step);
+  };
+  Matrix3 by_velocity;
+  by_velocity << slope(3, along), slope(4, along), slope(5, across);
+  of_impulse = by_velocity * of_velocity;
+  for (int k = 0; k < 3; ++k) of_impulse.col(k) += slope(k, room);
+  const Matrix3 axes = row.before.attitude.toRotationMatrix(), inverse = axes * inverse_inertia_ * axes.transpose();
+  const Vector3 moment = arm.cross(impulse);
+  Eigen::MatrixXd derivatives(9, 9);
+  derivatives << of_impulse, of_impulse / body_.mass, inverse * cross_matrix(arm) * of_impulse;
+  derivatives.bottomLeftCorner<3, 3>() +=
+      inverse * (cross_matrix(moment) - cross_matrix(impulse) * by_turn) - cross_matrix(inverse * moment);
+  derivatives.bottomRightCorner<6, 6>() += Eigen::Matrix<double, 6, 6>::Identity();
+  return derivatives;
+}
+
+/// The same of a group of corners.
+Eigen::MatrixXd ErrorGrowth::group_jacobian(const Strike& strike, const ImpactRow& row) const {
   const double reach = body_.reach();
   const double speed = row.impact.contact_before.norm();
   const double turning = row.before.angular_velocity.norm() * reach;
-  // The lowest point of a rim moves by ρ for a turn by the rim's steepness.
-  const double room = row.group ? 1 : steepness(body_, row.before.attitude, row.corners.front().index);
-  const double steps[3] = {relative_step * std::fmin(room, speed / std::fmax(turning, speed)), relative_step * speed,
+  const double steps[3] = {relative_step * std::fmin(1, speed / std::fmax(turning, speed)), relative_step * speed,
                            relative_step * speed / reach};
   Eigen::MatrixXd derivatives(9, 9);
   for (int k = 0; k < 9; ++k) {
@@ -144,22 +225,8 @@ std::pair<Eigen::MatrixXd, Eigen::MatrixXd> ErrorGrowth::energy_gradients(const 
   return {energy, energy_after};
 }
 
-/// A turn moves the lowest point of a rim along the rim, to points of other velocities.
-void ErrorGrowth::add_shift_of_lowest_point(const ImpactRow& row, Eigen::MatrixXd& approach) const {
-  const Corner& corner = row.corners.front();
-  const double steep = steepness(body_, row.before.attitude, corner.index), step = relative_step * steep;
-  if (corner.radius > 0 || corner.index < static_cast<int>(body_.vertices.size())) return;
-  for (int k = 0; k < 3; ++k) {
-    const Quaternion plus = shifted(row.before, k, step).attitude, minus = shifted(row.before, k, -step).attitude;
-    const Vector3 shift =
-        row.before.attitude * (touching_place(body_, plus, corner.index) - touching_place(body_, minus, corner.index));
-    approach(0, 1 + k) += row.before.angular_velocity.cross(shift).z() / (2 * step);
-  }
-}
-
 void ErrorGrowth::fill(const Eigen::MatrixXd& derivatives, ImpactRow& row) const {
   const State& before = row.before;
-  const Vector3 arm = before.attitude * row.corners.front().place;
   const Matrix3 axes = before.attitude.toRotationMatrix(), inertia = axes * body_.inertia * axes.transpose();
   Eigen::MatrixXd time = Eigen::MatrixXd::Zero(1, size), approach = time;
   Eigen::MatrixXd angle = Eigen::MatrixXd::Zero(3, size), impulse = angle, velocity = angle, turning = angle;
@@ -168,12 +235,8 @@ void ErrorGrowth::fill(const Eigen::MatrixXd& derivatives, ImpactRow& row) const
   impulse.rightCols(9) = derivatives.topRows(3);
   velocity.rightCols(9) = derivatives.middleRows(3, 3);
   turning.rightCols(9) = derivatives.bottomRows(3);
-  // u = V_z + (ω × r)_z.
   const Vector3& w = before.angular_velocity;
-  approach.block<1, 3>(0, 1) = -(cross_matrix(w) * cross_matrix(arm)).row(2);
-  approach(0, 6) = 1;
-  approach.block<1, 3>(0, 7) = -cross_matrix(arm).row(2);
-  add_shift_of_lowest_point(row, approach);
+  approach = approach_gradient(row, w);
   const auto [energy, energy_after] = energy_gradients(row, inertia, velocity, turning);
   const Vector3 momentum_after = inertia * row.impact.angular_velocity_after;
   const Factor rounding = impulse_rounding(row);
@@ -184,7 +247,7 @@ void ErrorGrowth::fill(const Eigen::MatrixXd& derivatives, ImpactRow& row) const
   e.predictable = true;
   e.start = row.start == 0 ? 0 : bound(time) + epsilon * row.start;
   e.attitude = bound(angle) + 4 * epsilon;
-  e.approach_speed = bound(approach) + 4 * epsilon * (before.velocity.norm() + w.norm() * body_.reach());
+  e.approach_speed = bound(approach) + approach_rounding(row);
   e.impulse = bound(impulse) + body_.mass * in_velocity;
   e.velocity_after = bound(velocity) + in_velocity + 4 * epsilon * before.velocity.norm();
   e.angular_velocity_after = bound(turning) + in_turning + 4 * epsilon * w.norm();
@@ -196,6 +259,7 @@ void ErrorGrowth::fill(const Eigen::MatrixXd& derivatives, ImpactRow& row) const
 void ErrorGrowth::strike(const Strike& strike, ImpactRow& row) {
   row.error = RowErrors::unknown();
   row.amplification = std::numeric_limits<double>::quiet_NaN();
+  const Factor arriving = std::exchange(arriving_, Factor(size, 0));
   const bool turns = row.before.angular_velocity.norm() > 0;
   if (row.group && row.start > 0 && turns) predictable_ = false;
   if (!predictable_) return;
@@ -203,9 +267,12 @@ void ErrorGrowth::strike(const Strike& strike, ImpactRow& row) {
     predictable_ = false;
     return;
   }
+  append(is_hop(row) ? without_approach(arriving, approach_gradient(row, row.before.angular_velocity),
+                                        row.flight.velocity_error)
+                     : arriving);
   Eigen::MatrixXd derivatives;
   try {
-    derivatives = strike_jacobian(strike, row);
+    derivatives = row.group ? group_jacobian(strike, row) : corner_jacobian(strike, row);
   } catch (const std::runtime_error&) {  // a neighbour jams, or cannot be computed
     predictable_ = false;
     return;
@@ -223,12 +290,17 @@ void ErrorGrowth::strike(const Strike& strike, ImpactRow& row) {
   Jacobian jacobian = Jacobian::Identity();
   jacobian.bottomRightCorner(6, 9) = derivatives.bottomRows(6);
   advance(jacobian);
-  append(impulse_rounding(row));
   Deviations d;
-  d << 0, Vector3::Constant(epsilon),
+  d << epsilon / 4 * row.start, Vector3::Constant(epsilon),
       Vector3::Constant(epsilon * (row.before.velocity.norm() + row.impact.velocity_after.norm())),
       Vector3::Constant(epsilon * (row.before.angular_velocity.norm() + row.impact.angular_velocity_after.norm()));
-  add(d);
+  Factor rounding(size, 16);
+  rounding << impulse_rounding(row), diagonal(d);
+  if (row.group) return append(rounding);
+  const Impact& impact = row.impact;
+  const double share = impact.path == PathKind::frictionless ? 8 * epsilon : friction_rounding;
+  append(without_approach(rounding, approach_gradient(row, impact.angular_velocity_after),
+                          share * impact.impulse.norm() / body_.mass + approach_rounding(row)));
 }
 
 // Growth of errors along a flight, up to the touch that ends it.
@@ -236,6 +308,7 @@ void ErrorGrowth::strike(const Strike& strike, ImpactRow& row) {
 ErrorGrowth::Jacobian ErrorGrowth::flight_jacobian(const FreeFlight& flight, double time) const {
   const State& start = flight.start();
   const double speed = start.angular_velocity.norm();
+  if (speed * time <= 1e-3) return short_flight_jacobian(flight, time);
   const double step = speed > 0 ? relative_step * speed / (1 + speed * time) : relative_step / time;
   const PrincipalAxes principal(body_.inertia);
   const State now = flight.at(time);
@@ -246,14 +319,41 @@ ErrorGrowth::Jacobian ErrorGrowth::flight_jacobian(const FreeFlight& flight, dou
     of_attitude.col(k) = small_rotation(plus.attitude, minus.attitude) / (2 * step);
     of_velocity.col(k) = (plus.angular_velocity - minus.angular_velocity) / (2 * step);
   }
-  // A turn of attitude and ω together turns the whole motion.
-  const Matrix3 turn = cross_matrix(start.angular_velocity);
+  return rotation_jacobian(start.angular_velocity, now.angular_velocity, of_attitude, of_velocity);
+}
+
+/// A turn of attitude and ω together turns the whole motion.
+ErrorGrowth::Jacobian ErrorGrowth::rotation_jacobian(const Vector3& before, const Vector3& after,
+                                                     const Matrix3& of_attitude, const Matrix3& of_velocity) {
+  const Matrix3 turn = cross_matrix(before);
   Jacobian j = Jacobian::Identity();
   j.block<3, 3>(1, 1) = Matrix3::Identity() + of_attitude * turn;
   j.block<3, 3>(1, 7) = of_attitude;
-  j.block<3, 3>(7, 1) = -cross_matrix(now.angular_velocity) + of_velocity * turn;
+  j.block<3, 3>(7, 1) = -cross_matrix(after) + of_velocity * turn;
   j.block<3, 3>(7, 7) = of_velocity;
   return j;
+}
+
+/// One Runge-Kutta step of  δθ′ = I⁻¹(δL − δθ × L),  L the momentum, and  δω = δθ′ + δθ × ω.
+ErrorGrowth::Jacobian ErrorGrowth::short_flight_jacobian(const FreeFlight& flight, double time) const {
+  const auto tensor = [&](const State& s, const Matrix3& of_body) -> Matrix3 {
+    const Matrix3 axes = s.attitude.toRotationMatrix();
+    return axes * of_body * axes.transpose();
+  };
+  const State &start = flight.start(), now = flight.at(time);
+  const Matrix3 inertia = tensor(start, body_.inertia);
+  const Matrix3 turn = cross_matrix(inertia * start.angular_velocity);
+  const Matrix3 first = tensor(start, inverse_inertia_), middle = tensor(flight.at(time / 2), inverse_inertia_),
+                last = tensor(now, inverse_inertia_);
+  const auto rate = [&](const Matrix3& inverse, const Matrix3& angle) -> Matrix3 {
+    return inverse * (inertia + turn * angle);  // −δθ × L = L × δθ
+  };
+  const Matrix3 zero = Matrix3::Zero();
+  const Matrix3 k1 = rate(first, zero), k2 = rate(middle, time / 2 * k1), k3 = rate(middle, time / 2 * k2),
+                k4 = rate(last, time * k3);
+  const Matrix3 of_attitude = time / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+  const Matrix3 of_velocity = rate(last, of_attitude) - cross_matrix(now.angular_velocity) * of_attitude;
+  return rotation_jacobian(start.angular_velocity, now.angular_velocity, of_attitude, of_velocity);
 }
 
 void ErrorGrowth::fly(const FreeFlight& flight, const FirstContact& contact, const Vector3& from_place,
@@ -269,7 +369,8 @@ void ErrorGrowth::fly(const FreeFlight& flight, const FirstContact& contact, con
   Eigen::Matrix<double, 1, size> height = -cross_matrix(to).row(2) * j.middleRows(1, 3);
   height.segment<3>(1) += cross_matrix(from).row(2);
   height[6] += t;
-  const Eigen::Matrix<double, 1, size> shift = -height / contact.normal_velocity;
+  const Gradient shift = -height / contact.normal_velocity;
+  const double late = bound(shift) + contact.time_error;  // beside the departure
   const Vector3 body_velocity = now.attitude.conjugate() * now.angular_velocity;
   const Vector3 acceleration = now.attitude * (inverse_inertia_ * (body_.inertia * body_velocity).cross(body_velocity));
   j.row(0) += shift;
@@ -280,15 +381,14 @@ void ErrorGrowth::fly(const FreeFlight& flight, const FirstContact& contact, con
   const double size_of_height = body_.reach() + t * (flight.start().velocity.norm() + gravity_ * t);
   const double turned_by = 1 + 1e-3 * flight.rotation().fastest() * t;
   Deviations d;
-  d << epsilon * t + 2 * epsilon * size_of_height / std::fabs(contact.normal_velocity),
+  d << (contact.is_hop ? contact.time_error
+                       : epsilon * t + 2 * epsilon * size_of_height / std::fabs(contact.normal_velocity)),
       Vector3::Constant(2 * epsilon * turned_by), Vector3::Constant(epsilon * (now.velocity.norm() + gravity_ * t)),
       Vector3::Constant(2 * epsilon * now.angular_velocity.norm());
-  add(d);
+  arriving_ = diagonal(d);
   // First order holds while the shift of the touch changes h′ little.
-  Eigen::MatrixXd time = Eigen::MatrixXd::Zero(1, size), angle = Eigen::MatrixXd::Zero(3, size);
-  time(0, 0) = 1;
+  Eigen::MatrixXd angle = Eigen::MatrixXd::Zero(3, size);
   angle.block<3, 3>(0, 1) = Matrix3::Identity();
-  const double late = bound(time);
   if (!(late * std::fabs(contact.acceleration) <= first_order * std::fabs(contact.normal_velocity)) ||
       !(bound(angle) <= first_order) || contact.within_margin) {
     predictable_ = false;
@@ -301,7 +401,7 @@ double ErrorGrowth::height_bound(double time) const {
   Eigen::MatrixXd angle = Eigen::MatrixXd::Zero(3, size), fall = Eigen::MatrixXd::Zero(1, size);
   angle.block<3, 3>(0, 1) = Matrix3::Identity();
   fall(0, 6) = time;
-  return 2 * body_.reach() * bound(angle) + bound(fall);
+  return 2 * body_.reach() * (bound(angle) + 4 * epsilon) + bound(fall);
 }
 
 /// No other point may be so near the ground that the errors let it arrive first.

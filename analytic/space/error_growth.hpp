@@ -13,10 +13,13 @@ namespace clatter::analytic::space {
 /// Errors of the state (t, δθ, δV, δω) at touch and departure, to first order: δθ the rotation vector of the attitude's
 /// error, everything in the world frame; the height of the centre of mass follows from the touch.
 ///
-/// Impact: central differences of the impact in δθ, V and ω.  Flight, at a fixed time: δθ and δV in closed form,
-/// δω by central differences of the rotation; then the touch at h = 0 shifts the time by
+/// Impact of a corner: central differences of P in the corner's velocity and in δθ, each on its own scale; of a group:
+/// of the impact in δθ, V and ω.  Flight, at a fixed time: δθ and δV in closed form, δω by central differences of the
+/// rotation, or of a short flight by a Runge-Kutta step; then the touch at h = 0 shifts the time by
 ///     δt = −δh/h′,   δh = −(δθ₀ × r₀)_z + t δV_z + (δθ₁ × r₁)_z,                                       (1)
 /// r₀, r₁ from the centre of mass to the corner that departed and the one that arrives.
+/// A corner's normal velocity after an impact and after a small hop is carried beside V and ω to relative accuracy:
+/// rounding of those leaves it as it is.
 /// Independent errors are columns of a factor F of the covariance F Fᵀ; bounds are three standard deviations.
 /// Domain: errors so small that (1) is linear; beyond, nothing is predictable any more, nor is a row whose corner
 /// another one precedes within the errors, nor what follows corners that arrive together (their order, which rounding
@@ -44,21 +47,28 @@ class ErrorGrowth {
   using Jacobian = Eigen::Matrix<double, size, size>;
 
   using Deviations = Eigen::Matrix<double, size, 1>;
+  using Gradient = Eigen::Matrix<double, 1, size>;
 
-  void add(const Deviations& deviations);
   void append(const Factor& columns);
   [[nodiscard]] Factor impulse_rounding(const ImpactRow& row) const;
   void advance(const Jacobian& jacobian);
-  [[nodiscard]] Eigen::MatrixXd strike_jacobian(const Strike& strike, const ImpactRow& row) const;
+  [[nodiscard]] static Factor without_approach(Factor columns, const Gradient& approach, double rounding);
+  [[nodiscard]] double approach_rounding(const ImpactRow& row) const;
+  [[nodiscard]] Matrix3 arm_jacobian(const ImpactRow& row) const;
+  [[nodiscard]] Gradient approach_gradient(const ImpactRow& row, const Vector3& turning) const;
+  [[nodiscard]] Eigen::MatrixXd corner_jacobian(const Strike& strike, const ImpactRow& row) const;
+  [[nodiscard]] Eigen::MatrixXd group_jacobian(const Strike& strike, const ImpactRow& row) const;
   /// Of the energies before and after the impact, with z = −r_z and the inertia turned.
   /// @param velocity, turning  gradients of the motion after, 3 × size
   [[nodiscard]] std::pair<Eigen::MatrixXd, Eigen::MatrixXd> energy_gradients(const ImpactRow& row,
                                                                              const Matrix3& inertia,
                                                                              const Eigen::MatrixXd& velocity,
                                                                              const Eigen::MatrixXd& turning) const;
-  void add_shift_of_lowest_point(const ImpactRow& row, Eigen::MatrixXd& approach) const;
   void fill(const Eigen::MatrixXd& derivatives, ImpactRow& row) const;
   [[nodiscard]] Jacobian flight_jacobian(const FreeFlight& flight, double time) const;
+  [[nodiscard]] Jacobian short_flight_jacobian(const FreeFlight& flight, double time) const;
+  [[nodiscard]] static Jacobian rotation_jacobian(const Vector3& before, const Vector3& after,
+                                                  const Matrix3& of_attitude, const Matrix3& of_velocity);
   void check_others(const FreeFlight& flight, const FirstContact& contact);
   [[nodiscard]] double bound(const Eigen::MatrixXd& gradient) const;
   [[nodiscard]] double height_bound(double time) const;
@@ -66,7 +76,7 @@ class ErrorGrowth {
   const Body& body_;
   double gravity_;
   Matrix3 inverse_inertia_;
-  Factor factor_;
+  Factor factor_, arriving_;                ///< arriving_: the rounding of a flight, until its impact is known
   Eigen::Matrix<double, size, 9> of_drop_;  ///< changes of the state for changes of the drop
   bool predictable_ = true;
 };

@@ -516,6 +516,9 @@ class Search {
     }
     found_.acceleration = first.acceleration;
     found_.together.assign(1, found_.point);
+    found_.is_hop = search_.hopped();
+    found_.time_error = found_.is_hop ? best * found_.velocity_error / std::fabs(found_.normal_velocity)
+                                      : heights_.noise(best) / std::fabs(first.velocity);
     // The others' heights err by the time's error, too.
     const double late = search_.hopped() ? 4 * epsilon * best : heights_.noise(best) / std::fabs(first.velocity);
     for (int i = 0; i < heights_.count(); ++i) {

@@ -27,10 +27,12 @@ struct Touch {
 struct FirstContact {
   FlightEnd end = FlightEnd::no_contact;
   double time = 0;            ///< since departure [s]
+  double time_error = 0;      ///< rounding error of time [s]
   int point = 0;              ///< the first; the one that stays for FlightEnd::stays_touching
   std::vector<int> together;  ///< approaching points at height 0 to rounding then, `point` first
   double bracket_low = 0;     ///< certified bracket of the time [s]
   double bracket_high = 0;
+  bool is_hop = false;  ///< of the point that departed, so small that time and normal_velocity are relatively accurate
   bool within_margin = false;  ///< the graze is so slight that rounding decides whether it happens
   double normal_velocity = 0;  ///< h′ of `point` then [m/s]
   double velocity_error = 0;   ///< rounding error of normal_velocity [m/s]

@@ -84,6 +84,7 @@ void SequenceUnits::to_si(NearMiss& miss) const {
 
 void SequenceUnits::to_si(FirstContact& flight) const {
   scale(flight.time, length_ - speed_);
+  scale(flight.time_error, length_ - speed_);
   scale(flight.bracket_low, length_ - speed_);
   scale(flight.bracket_high, length_ - speed_);
   scale(flight.normal_velocity, speed_);
@@ -120,13 +121,17 @@ void SequenceUnits::to_si(Tail& tail) const {
   scale(tail.normal_impulse, mass_ + speed_);
   scale(tail.normal_impulse_error, mass_ + speed_);
   scale(tail.tangential_impulse, mass_ + speed_);
+  scale(tail.tangential_impulse_error, mass_ + speed_);
   scale(tail.velocity_after, speed_);
+  scale(tail.velocity_error, speed_);
   scale(tail.angular_velocity_after, speed_ - length_);
+  scale(tail.angular_velocity_error, speed_ - length_);
 }
 
 void SequenceUnits::to_si(Sequence& sequence) const {
   for (ImpactRow& row : sequence.rows) to_si(row);
   if (sequence.tail) to_si(*sequence.tail);
+  if (sequence.rest) scale(sequence.rest->latest, length_ - speed_);
   to_si(sequence.near_miss);
   scale(sequence.end_acceleration, 2 * speed_ - length_);
   scale(sequence.total_normal_impulse, mass_ + speed_);
@@ -153,6 +158,18 @@ void require_representable(const Sequence& sequence) {
     }
     throw NumericalError("a time, impulse, velocity or energy of the sequence is beyond the doubles");
   }
+}
+
+State state_after(const ImpactRow& row) {
+  State state = row.before;
+  state.velocity = row.impact.velocity_after;
+  state.angular_velocity = row.impact.angular_velocity_after;
+  return state;
+}
+
+void Tail::forget() {
+  end_time_error = normal_impulse_error = tangential_impulse_error = infinite;
+  velocity_error = angular_velocity_error = infinite;
 }
 
 RowErrors RowErrors::unknown() {

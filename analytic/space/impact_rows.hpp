@@ -62,17 +62,31 @@ struct ImpactRow {
   FirstContact flight;  ///< that led here; empty for the first row
 };
 
+[[nodiscard]] State state_after(const ImpactRow& row);
+
 /// The remaining impacts after the last row: infinitely many in a finite time.
 struct Tail {
   double end_time = 0;        ///< time since the first impact [s]
-  double end_time_error = 0;  ///< of the extrapolation; infinite where the last row cannot be predicted [s]
+  double end_time_error = 0;  ///< with that of the last row; infinite where the end cannot be predicted [s]
   double normal_impulse = 0;  ///< sum over the remaining impacts [N·s]
   double normal_impulse_error = 0;
   Vector2 tangential_impulse = Vector2::Zero();  ///< likewise, world frame [N·s]
-  std::vector<int> corners;                      ///< that strike in turn (Corner::index)
+  double tangential_impulse_error = 0;           ///< of vectors: bounds on the length of the error
+  std::vector<int> corners;                      ///< that strike in turn and stay on the ground (Corner::index)
   bool closed_form = false;
-  Vector3 velocity_after = Vector3::Zero();          ///< of the centre of mass at the end [m/s]
+  Vector3 velocity_after = Vector3::Zero();  ///< of the centre of mass at the end [m/s]
+  double velocity_error = 0;
   Vector3 angular_velocity_after = Vector3::Zero();  ///< [rad/s]
+  double angular_velocity_error = 0;
+
+  /// Nothing is known of the errors.
+  void forget();
+};
+
+/// The face on which a body comes to rest, still sliding and turning about the vertical there unless friction stops it.
+struct Rest {
+  std::vector<int> corners;  ///< of the face, in order around it (Corner::index)
+  double latest = 0;         ///< by when nothing of the body bounces or rocks any more, since the first impact [s]
 };
 
 struct Sequence {
@@ -81,7 +95,8 @@ struct Sequence {
   std::string message;                ///< why it ended, one sentence
   std::vector<std::string> warnings;  ///< such as energy created by Newton's law with friction
   std::optional<Tail> tail;
-  NearMiss near_miss;  ///< of the last flight, if no_further_impact
+  std::optional<Rest> rest;  ///< if what is left of the motion can end on one face only
+  NearMiss near_miss;        ///< of the last flight, if no_further_impact
   /// h″ of the corner that stays on the ground, if sustained_contact without a tail [m/s²].
   double end_acceleration = 0;
   double total_normal_impulse = 0;  ///< rows and tail [N·s]

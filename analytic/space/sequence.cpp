@@ -130,7 +130,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     FirstContact flown;
     for (;;) {
       record(arriving, flown);
-      if (accumulates() || is_full()) return;
+      if (accumulates() || (is_full() && note_slow_contacts())) return;
       const ImpactRow& last = result_.rows.back();
       const FreeFlight flight(principal_, state_, drop_.gravity);
       flown = first_contact(body_, flight, touches_);
@@ -199,25 +199,52 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   }
 
   bool extrapolated_end() {
-    auto tail = extrapolated(accumulation_, time_);
+    const ImpactRow& last = result_.rows.back();
+    // Heights that are rounding know the next arrivals no better, however long the rows go on.
+    constexpr double roundings = 16;
+    const double unknown = last.flight.is_hop ? 0 : roundings * last.flight.time_error;
+    auto tail = extrapolated(accumulation_, {time_, unknown, unknown / last.flight.time * last.impact.impulse.z()});
     if (!tail || !undisturbed(drop_, state_, *tail)) return false;
-    end_state(drop_, result_.rows.back(), accumulation_.lever(*tail), *tail);
+    const bool vanishes = tail->end_time <= std::fmax(unknown, 4 * epsilon * time_);
+    if (!vanishes && !keeps_slipping(body_, last, *tail)) return false;
+    end_state(drop_, last, accumulation_.lever(*tail), *tail);
     tail->end_time += time_;
     finish(std::move(*tail));
     return true;
   }
 
   void finish(Tail tail) {
-    if (!growth_ || !growth_->predictable()) {
-      tail.end_time_error = tail.normal_impulse_error = std::numeric_limits<double>::infinity();
-    }
-    const bool turns = tail.angular_velocity_after != Vector3::Zero();
+    State end = state_;
+    end.velocity = tail.velocity_after;
+    end.angular_velocity = tail.angular_velocity_after;
+    result_.rest = settles(drop_, end, tail.end_time);
+    if (!growth_) tail.forget();
+    else if (growth_->predictable()) add_errors(drop_, result_.rows.back(), tail);
+    else end_is_certain_ = ends_for_certain(drop_, result_.rows, tail) || rests_for_certain();
     const bool slides = tail.velocity_after.head<2>() != Vector2::Zero();
-    end_in(std::move(tail), turns, slides, stays);
+    const bool turns = !result_.rest && tail.angular_velocity_after.head<2>() != Vector2::Zero();
+    const bool spins = tail.angular_velocity_after.z() != 0;
+    const bool comes_down = result_.rest && tail.corners.size() < result_.rest->corners.size();
+    const std::string stays = which_stays(tail.corners);
+    end_in(std::move(tail), turns, slides || spins, stays, comes_down ? ", then the body settles on a face" : "");
+  }
+
+  /// Whether the body already had to come to rest on that face after the last impact that can be predicted.
+  bool rests_for_certain() {
+    const auto lost = std::ranges::find_if(result_.rows, [](const ImpactRow& row) { return !row.error.predictable; });
+    if (!result_.rest || lost == result_.rows.begin()) return false;
+    const auto then = settles(drop_, state_after(*(lost - 1)), (lost - 1)->start);
+    if (!then || !std::ranges::is_permutation(then->corners, result_.rest->corners)) return false;
+    result_.rest->latest = std::fmax(result_.rest->latest, then->latest);
+    return true;
   }
 
   void rest_as_it_is(const std::string& how) {
-    rest(state_.angular_velocity != Vector3::Zero(), state_.velocity.head<2>() != Vector2::Zero(), how, stays);
+    result_.rest = settles(drop_, state_, time_);
+    std::vector<int> corners;
+    for (const Touch& touch : touches_) corners.push_back(touch.point);
+    const bool turns = !result_.rest && state_.angular_velocity != Vector3::Zero();
+    rest(turns, state_.velocity.head<2>() != Vector2::Zero(), how, which_stays(corners));
   }
 
   void end_without_contact(const FirstContact& flown) {
@@ -229,13 +256,28 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     end_in_flight(flown.near_miss);
   }
 
+  /// Of damped ground, whose hops are no geometric series.
+  bool note_slow_contacts() {
+    if (drop_.law.law.law == RestitutionLaw::viscoelastic) {
+      result_.message += "; on damped ground slow contacts lose next to nothing, so that hops last for ever";
+    }
+    return true;
+  }
+
   /// Corners approach, but so slowly that no impulse comes of it.
   void stall() {
     if (growth_) growth_->give_up();
     rest_as_it_is("what is left of the corners' approach is rounding");
   }
 
-  static constexpr const char* stays = "the body still turns while it stays on the ground";
+  [[nodiscard]] std::string which_stays(const std::vector<int>& corners) const {
+    const bool is_rim = corners.front() >= static_cast<int>(body_.vertices.size());
+    const char* const which = is_rim                ? "its rim rolls or slides"
+                              : corners.size() == 1 ? "a corner stays"
+                              : corners.size() == 2 ? "two corners stay"
+                                                    : "it stays";
+    return std::string("the body still turns while ") + which + " on the ground";
+  }
 
   const Drop drop_;
   const Body& body_;

@@ -16,11 +16,11 @@ namespace {
 // grow and takes any body; only Eq. 9 by itself is cheaper.
 analytic::Sequence planar_sequence(const Scene& scene, const analytic::Drop& drop, SequenceMethod method) {
   if (method != SequenceMethod::closed_form) {
-    return impact_sequence(drop, {.impacts = scene.request.impacts, .digits = scene.accuracy.digits});
+    return impact_sequence(drop, {.impacts = scene.most_impacts(), .digits = scene.accuracy.digits});
   }
   const std::string reason = reason_against_closed_form(drop);
   if (!reason.empty()) throw BadInput("--method closed-form: does not apply: " + reason);
-  return closed_form_sequence(drop, scene.request.impacts, true);
+  return closed_form_sequence(drop, scene.most_impacts(), true);
 }
 
 DiscreteSequence sequence_of(const PreparedScene& prepared, SequenceMethod method) {
@@ -30,7 +30,7 @@ DiscreteSequence sequence_of(const PreparedScene& prepared, SequenceMethod metho
   }
   if (method == SequenceMethod::closed_form) throw BadInput("--method closed-form: the body moves in space");
   return impact_sequence(std::get<analytic::space::Drop>(prepared.drop),
-                         {.impacts = scene.request.impacts, .digits = scene.accuracy.digits});
+                         {.impacts = scene.most_impacts(), .digits = scene.accuracy.digits});
 }
 
 }  // namespace

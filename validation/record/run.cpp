@@ -145,9 +145,11 @@ RunTail tail_of(const space::Tail& tail) {
   value.start = tail.end_time;
   error.start = tail.end_time_error;
   value.impulse = {tail.tangential_impulse.x(), tail.tangential_impulse.y(), tail.normal_impulse};
-  error.impulse = {unknown_error, unknown_error, tail.normal_impulse_error};
+  error.impulse = {tail.tangential_impulse_error, tail.tangential_impulse_error, tail.normal_impulse_error};
   value.velocity_after = entry(tail.velocity_after);
+  error.velocity_after = each(tail.velocity_error);
   value.angular_velocity_after = entry(tail.angular_velocity_after);
+  error.angular_velocity_after = each(tail.angular_velocity_error);
   return found;
 }
 

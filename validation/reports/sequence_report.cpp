@@ -50,6 +50,36 @@ std::string tail_words(int digits, const RunTail& tail) {
                      with_error(end, {.digits = digits + 3}), tail.closed_form ? "in closed form" : "by extrapolation");
 }
 
+/// "+x-y+z, +x+y+z"
+std::string names_of(const Scene& scene, const space::Body& body, const std::vector<int>& corners) {
+  std::string names;
+  for (const int i : corners) {
+    const auto index = static_cast<std::size_t>(i);
+    space::Corner corner{.index = i};
+    if (index < body.vertices.size()) corner.place = body.vertices[index];
+    names += (names.empty() ? "" : ", ") + corner_name(scene, corner);
+  }
+  return names;
+}
+
+/// Which corners stay on the ground, on which face and by when the body settles, and how far it slides there.
+void add_end_notes(const Scene& scene, const space::Drop& drop, const space::Sequence& sequence,
+                   std::vector<std::string>& notes) {
+  if (sequence.tail && drop.body.rims.empty()) {
+    notes.push_back("the further impacts are those of " + names_of(scene, drop.body, sequence.tail->corners));
+  }
+  if (!sequence.rest) return;
+  notes.push_back(fmt::format("the body settles on the face of {} before {} s",
+                              names_of(scene, drop.body, sequence.rest->corners),
+                              significant(sequence.rest->latest, 3)));
+  const analytic::ImpactLaw& law = drop.law.law;
+  if (law.friction != analytic::FrictionKind::coulomb || !(law.friction_value > 0) || !sequence.tail) return;
+  const double speed = sequence.tail->velocity_after.head<2>().norm(), slowing = law.friction_value * drop.gravity;
+  if (!(speed > 0) || sequence.tail->angular_velocity_after != space::Vector3::Zero()) return;
+  notes.push_back(fmt::format("friction stops its slide {} s and {} m later", significant(speed / slowing, 3),
+                              significant(speed * speed / (2 * slowing), 3)));
+}
+
 std::string near_miss_words(int digits, const Run& run) {
   if (!run.near_miss || !std::isfinite(run.near_miss->clearance)) return "";
   const Impact& last = run.impacts.back();
@@ -99,6 +129,9 @@ std::vector<std::string> notes_of(const PreparedScene& prepared, const DiscreteR
   std::vector<std::string> notes;
   add_group_notes(found, sets, notes);
   if (run.tail) notes.push_back(tail_words(digits, *run.tail));
+  if (const auto* const sequence = std::get_if<space::Sequence>(&found.sequence)) {
+    add_end_notes(prepared.scene, std::get<space::Drop>(prepared.drop), *sequence, notes);
+  }
   for (const std::string& words :
        {trust_words(run),
         fmt::format("Sum of normal impulses: {} N·s", known_text(totals(run).normal_impulse, {.digits = digits})),
@@ -171,6 +204,14 @@ void add_outcomes(const Scene& scene, const DiscreteRun& found, const OutcomeSet
                                                  {"angular_velocity_after", numbers_of(set.range.angular_velocity)},
                                                  {"energy_loss", set.range.energy_loss}};
   }
+}
+
+/// Which corners stay, and the face that the body settles on.
+void add_end(const Scene& scene, const space::Drop& drop, const space::Sequence& sequence, Value& fields) {
+  if (sequence.tail) fields["tail"]["corners"] = names_of(scene, drop.body, sequence.tail->corners);
+  if (!sequence.rest) return;
+  fields["rest"] =
+      Value::Fields{{"face", names_of(scene, drop.body, sequence.rest->corners)}, {"latest", sequence.rest->latest}};
 }
 
 /// The fields behind the impacts.
@@ -250,6 +291,9 @@ Report sequence_report(const PreparedScene& prepared, const DiscreteRun& found) 
   add_outcomes(scene, found, sets, impacts);
   report.fields["impacts"] = impacts;
   add_results(scene, run, report.fields);
+  if (const auto* const sequence = std::get_if<space::Sequence>(&found.sequence)) {
+    add_end(scene, std::get<space::Drop>(prepared.drop), *sequence, report.fields);
+  }
   if (run.tail) {
     report.grid.rows.push_back(impact_row(run.tail->sum, run.model, digits));
     report.grid.rows.back()[0].shown = "…";

@@ -271,6 +271,11 @@ void append_run(std::vector<Key>& keys) {
       {
           {"run.impacts", Use::both, "--impacts", "N", "", "most impacts to report",
            WholeNumber{[](Scene& s) -> int& { return s.request.impacts; }, 1, 1'000'000}},
+          {"run.until_rest", Use::discrete, "--until-rest", "", "",
+           "go on until the body rests or no impact follows, for 100000 impacts at most; exit status 3 if that is not "
+           "enough",
+           TruthValue{[](Scene& s) -> bool& { return s.until_rest; }},
+           [](const Scene& s, Model) { return s.until_rest ? Echo::value : Echo::absent; }},
           {"run.digits", Use::both, "--digits", "N", "", "significant digits asked for",
            WholeNumber{[](Scene& s) -> int& { return s.accuracy.digits; }, 2, 12, 1, 15}},
           {"run.require_digits", Use::both, "--require-digits", "", "", "exit status 3 if fewer digits are known",

@@ -65,7 +65,7 @@ using KeyValue =
 enum class Echo { value, null, absent };
 
 /// Which model a key is for.
-enum class Use { both, continuous };
+enum class Use { both, discrete, continuous };
 
 struct Key {
   const char* name;  ///< "drop.angle_deg"
@@ -82,7 +82,9 @@ struct Key {
 
   /// Name of the argument in Python and on the page: the flag's, or without one the key's last word.
   [[nodiscard]] std::string argument() const;
-  [[nodiscard]] bool is_for(Model model) const { return use == Use::both || model == Model::continuous; }
+  [[nodiscard]] bool is_for(Model model) const {
+    return use == Use::both || (use == Use::continuous) == (model == Model::continuous);
+  }
   [[nodiscard]] bool is_truth() const { return std::holds_alternative<TruthValue>(value); }
   [[nodiscard]] bool is_number() const;
   [[nodiscard]] bool is_whole() const;

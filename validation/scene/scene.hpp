@@ -99,11 +99,14 @@ struct Scene {
   numeric::World world;  ///< a ground of stiffness 0: none given, for the discrete model
   numeric::Request request;
   numeric::Accuracy accuracy;
+  bool until_rest = false;      ///< the discrete model goes on until nothing follows, whatever request.impacts is
   bool require_digits = false;  ///< fewer known digits are exit status 3
   std::string history;          ///< file for the time history; empty: none
   std::optional<SceneSweep> sweep;
 
   [[nodiscard]] bool has_ground() const { return world.ground.stiffness > 0; }
+  /// Most impacts of the discrete model.
+  [[nodiscard]] int most_impacts() const { return until_rest ? 100'000 : request.impacts; }
   /// Whether the body falls from rest, from a height or clearance.
   [[nodiscard]] bool falls() const { return height || clearance; }
   /// The scene with the swept quantity at one value, and no sweep.

@@ -210,7 +210,7 @@ std::vector<std::string> scene_head(const Scene& scene, Model model, std::option
   if (is_one_body) head.insert(head.begin() + 1, body_words(scene, model));
   if (model == Model::discrete) {
     std::string words = "impact: " + law_words(scene, approach, unsettled);
-    if (is_settled("run.impacts")) words += fmt::format("; at most {} impacts", scene.request.impacts);
+    if (is_settled("run.impacts")) words += fmt::format("; at most {} impacts", scene.most_impacts());
     if (is_settled("run.digits")) words += fmt::format(", {} digits", scene.accuracy.digits);
     head.push_back(words);
   } else if (approach) {

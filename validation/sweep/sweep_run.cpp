@@ -162,7 +162,7 @@ void SceneRunner::renew_body() {
 /// The sequence of the scene, in the plane or in space.
 DiscreteSequence SceneRunner::sequence(bool with_errors) {
   const analytic::SequenceOptions options{
-      .impacts = scene_.request.impacts, .digits = scene_.accuracy.digits, .amplification = with_errors};
+      .impacts = scene_.most_impacts(), .digits = scene_.accuracy.digits, .amplification = with_errors};
   const DiscreteDrop drop = body_.discrete->drop(scene_);
   return std::visit([&](const auto& one) -> DiscreteSequence { return impact_sequence(one, options); }, drop);
 }

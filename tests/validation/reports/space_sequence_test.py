@@ -66,6 +66,17 @@ class Sequence(SpaceFolder):
         for a, b in zip(by_angle, by_attitude):
             self.assertAlmostEqual(a["impulse_normal"], b["impulse_normal"], delta=1e-14)
 
+    def test_until_rest_goes_on_to_the_end_and_says_where_the_body_settles(self):
+        drop = ("sequence", *PHONE, "--angle", "4", "--tilt", "3", "--clearance", "0.01", "--restitution", "0.4")
+        six, all_of_it = self.json_of(*drop), self.json_of(*drop, "--until-rest")
+        self.assertEqual((len(six["impacts"]), six["outcome"]), (6, "impact-limit"))
+        self.assertGreater(len(all_of_it["impacts"]), 6)
+        self.assertEqual(all_of_it["impacts"][:6], six["impacts"])
+        self.assertEqual((all_of_it["outcome"], all_of_it["shortfall"]), ("at-rest", None))
+        self.assertEqual(len(all_of_it["rest"]["face"].split(", ")), 4)
+        self.assertGreaterEqual(all_of_it["rest"]["latest"], all_of_it["tail"]["end_time"])
+        self.assertGreater(all_of_it["tail"]["end_time_error"], 0)
+
     def test_the_corner_that_strikes_is_named_and_placed(self):
         for n in range(19, 27):
             row = self.json_of("sequence", *PHONE, "--orientation", str(n), "--impacts", "1")["impacts"][0]
