@@ -31,6 +31,7 @@ Integration integration_for(const Accuracy& accuracy) {
       accuracy.tolerance > 0 ? accuracy.tolerance : std::max(std::pow(10.0, -accuracy.digits - 4), least_tolerance);
   integration.steps.steps_per_contact = 10 * std::pow(10.0, std::min(accuracy.digits, 9) / 3.0);
   integration.evaluation_limit = accuracy.evaluation_limit;
+  integration.least_local_slip = std::pow(10.0, -accuracy.digits);
   return integration;
 }
 

@@ -32,6 +32,9 @@ struct Request {
   int impacts = 6;              ///< most impacts to report, >= 1
   bool error_estimates = true;  ///< by a second run, at another tolerance or half the step
   bool amplification = true;    ///< growth of a small error of the start, by a neighbouring run
+  /// ImpactRecord::local_slip however small it is.  Otherwise it comes with the error estimates, of those parts of
+  /// contacts where the laws of friction may differ by more than 10^−digits of the contact's mean force.
+  bool local_slip = false;
 
   /// @throws std::domain_error naming field, value and what is allowed.
   void validate() const;
