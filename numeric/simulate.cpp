@@ -31,6 +31,7 @@ Integration integration_for(const Accuracy& accuracy) {
       accuracy.tolerance > 0 ? accuracy.tolerance : std::max(std::pow(10.0, -accuracy.digits - 4), least_tolerance);
   integration.steps.steps_per_contact = 10 * std::pow(10.0, std::min(accuracy.digits, 9) / 3.0);
   integration.evaluation_limit = accuracy.evaluation_limit;
+  integration.least_local_slip = std::pow(10.0, -accuracy.digits);
   return integration;
 }
 
@@ -128,7 +129,10 @@ Simulation simulate(const Body& body, const World& world, const MotionState& sta
     const Request same_impacts{
         .impacts = static_cast<int>(simulation.impacts.size()), .error_estimates = false, .amplification = false};
     const SecondRun second = second_run(integration, main.step);
-    const DropRun other = run_checked(body, world, start, same_impacts, second.integration, {});
+    std::size_t place = 0;
+    const auto goes_on = [&](const ImpactRecord& row) { return !goes_another_way(simulation.impacts[place++], row); };
+    const DropRun other =
+        run_checked(body, world, start, same_impacts, second.integration, {.history = nullptr, .impact = goes_on});
     simulation.force_evaluations += other.force_evaluations;
     simulation.root_evaluations += other.root_evaluations;
     estimate_errors(body, second.error_per_distance, simulation.impacts, other.impacts);

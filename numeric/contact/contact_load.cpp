@@ -8,6 +8,7 @@
 namespace clatter::numeric::inline contact {
 namespace {
 
+constexpr std::size_t most_kept = 64;    ///< polygons that press for which room is made at the start
 constexpr double clip_rounding = 1e-15;  ///< of the largest depth: how far above the ground clipping may put a corner
 
 /// Slip velocity of the body's points: `value` at the origin, and its rates of change over the body, per metre.
@@ -30,15 +31,15 @@ BodySlip body_slip(const Vector3& origin, const GroundView& view, const SlipFiel
 }
 
 void add_force(double east, const Vector3& east_moment, double weight, const Vector3& direction, double& sum,
-               ContactLoad& load) {
+               SlipLoad& load) {
   sum -= weight * east;
-  load.slip_moment -= weight * east_moment.cross(direction);
+  load.moment -= weight * east_moment.cross(direction);
 }
 
 /// One direction of slip: the part of the polygon that slips forward, less the part that slips back.  `room` has twice
 /// the polygon's corners.
 void add_split(const ContactPolygon& polygon, double weight, const GroundView& view, const Ground& ground,
-               const BodySlip& slip, ContactCorner* room, ContactLoad& load) {
+               const BodySlip& slip, ContactCorner* room, SlipLoad& load) {
   ContactPolygon part = polygon;
   part.corners = room;
   for (const double side : {1.0, -1.0}) {
@@ -49,20 +50,24 @@ void add_split(const ContactPolygon& polygon, double weight, const GroundView& v
     const LoadIntegrals here = load_integrals(part);
     const double k = ground.stiffness, c = ground.damping;
     add_force(k * here.depth + c * here.depth_rate, k * here.depth_position + c * here.depth_rate_position,
-              side * weight, view.east, load.slip_east, load);
+              side * weight, view.east, load.east, load);
   }
 }
 
-/// Widens the load's range of slip by the polygon's, which is returned.
-SlipRange widen(const BodySlip& slip, const ContactPolygon& polygon, bool planar, ContactLoad& load) {
-  SlipRange range;
+/// Widens the range of slip by the polygon's.
+void widen(const BodySlip& slip, const ContactPolygon& polygon, bool planar, SlipRange& range) {
   for (int i = 0; i < polygon.count; ++i) {
     const Vector3& u = polygon.corners[i].position;
     const double east = slip.east + slip.east_slope.dot(u), north = planar ? 0 : slip.north + slip.north_slope.dot(u);
     range.add(east, north);
-    load.slip_range.add(east, north);
   }
-  return range;
+}
+
+/// A face that looks up from below the ground, of negative weight in the projected measure, is pressed downward and
+/// rubs as much.  In a patch taken as flat each column of the ground slips as one: the faces at its ends share one
+/// velocity, and their difference, never negative, is what the column presses with.
+double friction_weight(double weight, const SlipField& slip) {
+  return slip.kind == SlipField::Kind::turning ? weight : std::fabs(weight);
 }
 
 }  // namespace
@@ -79,7 +84,6 @@ double SlipRange::width() const { return std::max({high_east - low_east, high_no
 /// One evaluation: what it sees and what it has summed so far.
 struct ContactLoader::Sums {
   const GroundView& view;
-  const SlipField& slip;
   Vector3 normal;       ///< of the ground, body frame
   Vector3 normal_rate;  ///< its rate of change there
   Vector3 rate_slope;   ///< δ̇ = −(vertical speed + rate_slope·u)
@@ -95,13 +99,6 @@ struct ContactLoader::FacetView {
   double weight_rate;
 };
 
-/// A face that looks up from below the ground, of negative weight in the projected measure, is pressed downward and
-/// rubs as much.  In a patch taken as flat each column of the ground slips as one: the faces at its ends share one
-/// velocity, and their difference, never negative, is what the column presses with.
-double ContactLoader::friction_weight(double weight, const SlipField& slip) {
-  return slip.kind == SlipField::Kind::turning ? weight : std::fabs(weight);
-}
-
 ContactLoader::ContactLoader(const Body& body, const Ground& ground) : body_(body), ground_(ground) {
   std::size_t longest = 0;
   for (const Loop& loop : body.facets().loops) {
@@ -112,11 +109,14 @@ ContactLoader::ContactLoader(const Body& body, const Ground& ground) : body_(bod
   part_.resize(4 * longest);
   side_.resize(8 * longest);
   plane_.resize(4 * longest);
+  pressing_.reserve(most_kept);
+  corners_.reserve(4 * most_kept);
 }
 
-ContactLoad ContactLoader::load(const GroundView& view, const SlipField& slip, LoadRates* rates,
-                                std::vector<int>* submerged) {
-  Sums sums{view, slip, view.normal(), {}, {}, {}, {}, rates, submerged};
+ContactLoad ContactLoader::load(const GroundView& view, LoadRates* rates, std::vector<int>* submerged) {
+  pressing_.clear();
+  corners_.clear();
+  Sums sums{view, view.normal(), {}, {}, {}, {}, rates, submerged};
   sums.rate_slope = sums.normal.cross(view.angular_velocity);
   sums.normal_rate = sums.rate_slope;
   sums.load.deepest = -2 * body_.radius();  // where no facet is looked at
@@ -195,8 +195,9 @@ void ContactLoader::add_below(const ContactPolygon& below, const FacetView& face
 double ContactLoader::add_pressing(const ContactPolygon& pressing, const FacetView& facet, Sums& sums) {
   const LoadIntegrals here = load_integrals(pressing);
   sums.pressing.add(here, facet.weight);
-  if (sums.slip.kind != SlipField::Kind::none) {
-    add_slip(pressing, friction_weight(facet.weight, sums.slip), sums);
+  if (ground_.has_friction()) {
+    pressing_.push_back({corners_.size(), pressing.count, &facet.normal, pressing.origin, facet.weight});
+    corners_.insert(corners_.end(), pressing.corners, pressing.corners + pressing.count);
   }
   if (!sums.rates) return here.depth_squared;
   sums.rates->rates.add(rate_integrals(pressing), facet.weight);
@@ -206,12 +207,30 @@ double ContactLoader::add_pressing(const ContactPolygon& pressing, const FacetVi
   return here.depth_squared;
 }
 
-void ContactLoader::add_slip(const ContactPolygon& polygon, double weight, Sums& sums) {
-  const GroundView& view = sums.view;
-  const SlipField& field = sums.slip;
-  ContactLoad& load = sums.load;
+ContactPolygon ContactLoader::polygon_of(const Pressing& pressing) const {
+  return {corners_.data() + pressing.begin, pressing.count, *pressing.normal, pressing.origin};
+}
+
+SlipLoad ContactLoader::slip_load(const GroundView& view, const SlipField& field) {
+  SlipLoad load;
+  for (const Pressing& pressing : pressing_) add_slip(pressing, view, field, load);
+  return load;
+}
+
+SlipRange ContactLoader::slip_range(const GroundView& view, const SlipField& field) const {
+  SlipRange range;
+  for (const Pressing& pressing : pressing_) {
+    widen(body_slip(pressing.origin, view, field), polygon_of(pressing), field.planar, range);
+  }
+  return range;
+}
+
+void ContactLoader::add_slip(const Pressing& pressing, const GroundView& view, const SlipField& field, SlipLoad& load) {
+  const ContactPolygon polygon = polygon_of(pressing);
+  const double weight = friction_weight(pressing.weight, field);
   const BodySlip slip = body_slip(polygon.origin, view, field);
-  const SlipRange range = widen(slip, polygon, field.planar, load);
+  SlipRange range;
+  widen(slip, polygon, field.planar, range);
   const double rounding = range.width() > SlipField::alike * field.floor ? field.regularisation
                                                                          : std::max(field.regularisation, field.floor);
   if (field.planar && rounding == 0) {
@@ -225,11 +244,12 @@ void ContactLoader::add_slip(const ContactPolygon& polygon, double weight, Sums&
   const auto over_plane = [&](double value, const Vector3& slope) {
     return PlaneLinear{value, slope.dot(along), slope.dot(across)};
   };
-  const double rate = -(view.vertical_speed + sums.rate_slope.dot(polygon.origin));
+  const Vector3 normal = view.normal(), rate_slope = normal.cross(view.angular_velocity);
+  const double rate = -(view.vertical_speed + rate_slope.dot(polygon.origin));
   SlipPatch patch{plane_.data(),
                   polygon.count,
-                  over_plane(-view.height(polygon.origin), -sums.normal),
-                  over_plane(ground_.stiffness + ground_.damping * rate, -ground_.damping * sums.rate_slope),
+                  over_plane(-view.height(polygon.origin), -normal),
+                  over_plane(ground_.stiffness + ground_.damping * rate, -ground_.damping * rate_slope),
                   over_plane(slip.east, slip.east_slope),
                   over_plane(slip.north, slip.north_slope),
                   rounding};
@@ -238,8 +258,8 @@ void ContactLoader::add_slip(const ContactPolygon& polygon, double weight, Sums&
   const auto moment = [&](double value, double x, double y) -> Vector3 {
     return value * polygon.origin + x * along + y * across;
   };
-  add_force(here.east, moment(here.east, here.east_x, here.east_y), weight, view.east, load.slip_east, load);
-  add_force(here.north, moment(here.north, here.north_x, here.north_y), weight, view.north, load.slip_north, load);
+  add_force(here.east, moment(here.east, here.east_x, here.east_y), weight, view.east, load.east, load);
+  add_force(here.north, moment(here.north, here.north_x, here.north_y), weight, view.north, load.north, load);
 }
 
 }  // namespace clatter::numeric::inline contact

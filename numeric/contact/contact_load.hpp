@@ -34,11 +34,10 @@ struct GroundView {
 /// Slip velocities of the patch, for friction whose direction varies over it.
 struct SlipField {
   enum class Kind {
-    none,
     turning,  ///< −v/|v|, v = slip of the centre + spin × distance from it: the patch taken as flat
     points,   ///< −v/√(v² + v_r²), v the velocity of each point
   };
-  Kind kind = Kind::none;
+  Kind kind = Kind::points;
   bool planar = false;        ///< v has no part to the north
   bool rough = false;         ///< for an estimate, right to some per cent
   double regularisation = 0;  ///< v_r; 0: −v/|v| [m/s]
@@ -68,11 +67,8 @@ struct ContactLoad {
   double energy = 0;                       ///< ½ k_G ∫δ² over all that is below the ground [J]
   double damping_power = 0;                ///< c_G ∫δδ̇² where the ground presses [W]
   double release_power = 0;                ///< −k_G ∫δδ̇ where the clamp lets go [W]
-  double deepest = 0;                     ///< largest δ of a vertex near the ground [m]; not positive: nothing touches
-  double deepest_rate = 0;                ///< its δ̇ [m/s]
-  double slip_east = 0, slip_north = 0;   ///< ∫f_n s, s the direction of the field [N]
-  Vector3 slip_moment = Vector3::Zero();  ///< ∫f_n u × s, body frame [N·m]
-  SlipRange slip_range;                   ///< of the field
+  double deepest = 0;       ///< largest δ of a vertex near the ground [m]; not positive: nothing touches
+  double deepest_rate = 0;  ///< its δ̇ [m/s]
 
   [[nodiscard]] Vector3 pressure_centre() const { return first_moment / force; }
 };
@@ -86,35 +82,56 @@ struct LoadRates {
   Vector3 first_moment_by_area = Vector3::Zero();
 };
 
-/// Sums the load over the facets near the ground.  Holds the scratch memory; one per thread.
+/// Friction's part of a load, Eq. 6 of Shan et al. (2005) for μ_k = 1.
+struct SlipLoad {
+  double east = 0, north = 0;        ///< ∫f_n s, s the direction of the slip field [N]
+  Vector3 moment = Vector3::Zero();  ///< ∫f_n u × s, body frame [N·m]
+};
+
+/// Sums the load over the facets near the ground, and keeps the polygons that press, so that friction of any number of
+/// slip fields needs no other clipping.  Holds the scratch memory; one per thread.
 class ContactLoader {
  public:
   ContactLoader(const Body& body, const Ground& ground);
 
   /// @param rates  filled if not null.
   /// @param submerged  gets the indices of vertices below the ground, with repetitions, if not null.
-  [[nodiscard]] ContactLoad load(const GroundView& view, const SlipField& slip, LoadRates* rates = nullptr,
+  [[nodiscard]] ContactLoad load(const GroundView& view, LoadRates* rates = nullptr,
                                  std::vector<int>* submerged = nullptr);
+  /// Friction of a field of `points` or `turning` over the patch of the last load, which had the same view.
+  [[nodiscard]] SlipLoad slip_load(const GroundView& view, const SlipField& field);
+  /// The slip velocities that a field of `points` has over that patch.
+  [[nodiscard]] SlipRange slip_range(const GroundView& view, const SlipField& field) const;
 
  private:
   struct Sums;
   struct FacetView;
-  [[nodiscard]] static double friction_weight(double weight, const SlipField& slip);
+  /// A polygon that presses, and the corners that it has in `corners_`.
+  struct Pressing {
+    std::size_t begin;
+    int count;
+    const Vector3* normal;  ///< of its facet
+    Vector3 origin;
+    double weight;  ///< of its area
+  };
+  [[nodiscard]] ContactPolygon polygon_of(const Pressing& pressing) const;
   void add_facet(const Facet& facet, Sums& sums);
   void add_loop(const FacetView& facet, const Loop& loop, Sums& sums);
   void add_below(const ContactPolygon& below, const FacetView& facet, Sums& sums);
   /// @return ∫δ², not weighted.
   double add_pressing(const ContactPolygon& pressing, const FacetView& facet, Sums& sums);
-  /// Adds weight × the integrals of f_n = (k_G + c_G δ̇) δ against the slip direction over the polygon: by
+  /// Adds the integrals of f_n = (k_G + c_G δ̇) δ against the slip direction over the polygon: by
   /// slip_integrals, right to rounding; in the plane exactly, by the polygon's parts on the two sides of the line of no
   /// slip.
-  void add_slip(const ContactPolygon& polygon, double weight, Sums& sums);
+  void add_slip(const Pressing& pressing, const GroundView& view, const SlipField& field, SlipLoad& load);
 
   const Body& body_;
   const Ground& ground_;
   std::vector<ContactCorner> whole_, below_, part_;
   std::vector<ContactCorner> side_;  ///< part of a polygon that slips one way
   std::vector<PlanePoint> plane_;    ///< polygon in its facet's plane
+  std::vector<Pressing> pressing_;   ///< of the last load
+  std::vector<ContactCorner> corners_;
 };
 
 }  // namespace clatter::numeric::inline contact

@@ -172,12 +172,8 @@ ContactDiagnosis ContactSystem::diagnose(const ContactState& y, ContactState& ra
 }
 
 SlipField ContactSystem::slip_field(const FrictionPhase& phase) const {
-  using Kind = FrictionPhase::Kind;
-  SlipField field;
-  if (phase.kind != Kind::regularised && phase.kind != Kind::local) return field;
-  field.kind = SlipField::Kind::points;
-  field.planar = planar_;
-  if (phase.kind == Kind::regularised) field.regularisation = ground_.regularisation_speed;
+  SlipField field{.kind = SlipField::Kind::points, .planar = planar_};
+  if (phase.kind == FrictionPhase::Kind::regularised) field.regularisation = ground_.regularisation_speed;
   else field.floor = phase.floor;
   return field;
 }
@@ -188,7 +184,7 @@ void ContactSystem::evaluate(const ContactState& y, const FrictionPhase& phase, 
   const GroundView view = this->view(y);
   LoadRates rates;
   const bool wants_rates = diagnosis || phase.kind == FrictionPhase::Kind::stick;
-  const ContactLoad load = loader_.load(view, slip_field(phase), wants_rates ? &rates : nullptr, submerged);
+  const ContactLoad load = loader_.load(view, wants_rates ? &rates : nullptr, submerged);
   const bool presses = load.force > 0;
   Instant at{phase,
              view,
@@ -229,34 +225,43 @@ AlongGround ContactSystem::sticking_force(const ContactState& y) {
   return diagnosis.hold;
 }
 
-SlipRange ContactSystem::slip_range(const ContactState& y) {
-  ++evaluations_;
-  return loader_.load(view(y), {.kind = SlipField::Kind::points, .planar = planar_, .rough = true}).slip_range;
+SlipRange ContactSystem::slip_range(const ContactPatch& patch) const {
+  return loader_.slip_range(patch.view, {.kind = SlipField::Kind::points, .planar = planar_});
 }
 
-LocalFriction ContactSystem::local_friction(const ContactState& y, const AlongGround& shift) {
+AlongGround ContactSystem::slip_per_depth(const ContactState& y) const {
+  const GroundView view = this->view(y);
+  return {-view.north.dot(view.angular_velocity), planar_ ? 0 : view.east.dot(view.angular_velocity)};
+}
+
+ContactPatch ContactSystem::patch(const ContactState& y) {
   ++evaluations_;
   const GroundView view = this->view(y);
-  const ContactLoad load = loader_.load(
-      view,
+  const ContactLoad load = loader_.load(view);
+  return {view, load.force > 0 ? load.pressure_centre() : Vector3::Zero()};
+}
+
+LocalFriction ContactSystem::local_friction(const ContactPatch& patch, const AlongGround& shift) {
+  ++evaluations_;
+  const SlipLoad load = loader_.slip_load(
+      patch.view,
       {.kind = SlipField::Kind::points, .planar = planar_, .rough = true, .east = shift.east, .north = shift.north});
-  if (!(load.force > 0)) return {};
   const double mu = ground_.sliding_friction;
-  const AlongGround force{mu * load.slip_east, planar_ ? 0 : mu * load.slip_north};
-  return {force, mu * load.slip_moment - load.pressure_centre().cross(along(view, force)), load.slip_range.width()};
+  const AlongGround force{mu * load.east, planar_ ? 0 : mu * load.north};
+  return {force, mu * load.moment - patch.centre.cross(along(patch.view, force))};
 }
 
-AlongGround ContactSystem::response(const ContactState& y, const Vector3& u, const AlongGround& impulse) const {
-  const GroundView view = this->view(y);
+AlongGround ContactSystem::response(const ContactPatch& patch, const AlongGround& impulse) const {
+  const GroundView& view = patch.view;
+  const Vector3& u = patch.centre;
   const Vector3 turning = response(u.cross(along(view, impulse))).cross(u);
   return {impulse.east / body_.mass() + view.east.dot(turning),
           planar_ ? 0 : impulse.north / body_.mass() + view.north.dot(turning)};
 }
 
-AlongGround ContactSystem::response(const ContactState& y, const Vector3& u, const Vector3& angular_impulse) const {
-  const GroundView view = this->view(y);
-  const Vector3 turning = response(angular_impulse).cross(u);
-  return {view.east.dot(turning), planar_ ? 0 : view.north.dot(turning)};
+AlongGround ContactSystem::response(const ContactPatch& patch, const Vector3& angular_impulse) const {
+  const Vector3 turning = response(angular_impulse).cross(patch.centre);
+  return {patch.view.east.dot(turning), planar_ ? 0 : patch.view.north.dot(turning)};
 }
 
 double ContactSystem::vertical_spin(const ContactState& y) const {
@@ -282,7 +287,7 @@ ContactLoad ContactSystem::pressed(double depth) {
   view.vertical_speed = 0;
   view.angular_velocity.setZero();
   ++evaluations_;
-  return loader_.load(view, {});
+  return loader_.load(view);
 }
 
 bool ContactSystem::is_submerged(const ContactState& y) const {
@@ -298,7 +303,7 @@ ContactSystem::Friction ContactSystem::friction(const Instant& at) {
   switch (at.phase.kind) {
     case Kind::none: return {};
     case Kind::regularised:
-    case Kind::local: return over_patch(at, at.load);
+    case Kind::local: return over_patch(at, slip_field(at.phase));
     case Kind::stick: return in_stick(at);
     case Kind::slip: break;
   }
@@ -308,7 +313,7 @@ ContactSystem::Friction ContactSystem::friction(const Instant& at) {
   const AlongGround slip = leaning_slip(at.slip, at.phase);
   field.east = slip.east;
   field.north = slip.north;
-  return over_patch(at, loader_.load(at.view, field));
+  return over_patch(at, field);
 }
 
 ContactSystem::Friction ContactSystem::at_centre(const Instant& at, const AlongGround& force) const {
@@ -327,10 +332,11 @@ ContactSystem::Friction ContactSystem::in_stick(const Instant& at) const {
 
 /// Only the resultant at the pressure centre and the moment about the vertical are real of a patch taken as flat; so
 /// their power, −∫f·v over the flat patch, is never negative.
-ContactSystem::Friction ContactSystem::over_patch(const Instant& at, const ContactLoad& load) const {
+ContactSystem::Friction ContactSystem::over_patch(const Instant& at, const SlipField& field) {
+  const SlipLoad load = loader_.slip_load(at.view, field);
   const double mu = ground_.sliding_friction;
-  const AlongGround force{mu * load.slip_east, planar_ ? 0 : mu * load.slip_north};
-  Friction friction{force, mu * load.slip_moment, 0, {}};
+  const AlongGround force{mu * load.east, planar_ ? 0 : mu * load.north};
+  Friction friction{force, mu * load.moment, 0, {}};
   if (at.phase.kind == FrictionPhase::Kind::slip) {
     const Vector3 at_centre = at.centre.cross(along(at.view, force));
     friction.moment = at_centre + at.normal * at.normal.dot(friction.moment - at_centre);

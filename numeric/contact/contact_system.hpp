@@ -81,11 +81,16 @@ struct ContactDiagnosis {
   Vector3 couple = Vector3::Zero();  ///< moment of friction about the pressure centre, body frame [N·m]
 };
 
+/// The patch of an instant, and its pressure centre [m]; good until the next evaluation of a load.
+struct ContactPatch {
+  GroundView view;
+  Vector3 centre;
+};
+
 /// The local law's resultant and its moment about the pressure centre.
 struct LocalFriction {
   AlongGround force;                 ///< [N]
   Vector3 couple = Vector3::Zero();  ///< body frame [N·m]
-  double range = 0;                  ///< of slip velocities over the patch [m/s]
 };
 
 /// U̇ = R(U), Eq. 3 of Shan et al. (2005), with their Eqs. 1 and 2 in the form of Newton and Euler (NewtonEuler):
@@ -127,14 +132,17 @@ class ContactSystem {
   /// The same per unit of normal force for a light load at the body's point u, from the touch-down pose: tells
   /// whether a contact that begins without slip sticks.
   [[nodiscard]] AlongGround sticking_ratio(const Vector3& u) const;
+  /// How much faster points slip per metre of depth, by turning about the horizontal [1/s].
+  [[nodiscard]] AlongGround slip_per_depth(const ContactState& y) const;
+  [[nodiscard]] ContactPatch patch(const ContactState& y);
   /// Range of the slip velocities of the patch's points [m/s].
-  [[nodiscard]] SlipRange slip_range(const ContactState& y);
+  [[nodiscard]] SlipRange slip_range(const ContactPatch& patch) const;
   /// Friction of the local law if all points slipped faster by `shift` [m/s]; in space right to some per cent.
-  [[nodiscard]] LocalFriction local_friction(const ContactState& y, const AlongGround& shift);
-  /// Change of velocity of the body's point u along the ground by an impulse there [m/s].
-  [[nodiscard]] AlongGround response(const ContactState& y, const Vector3& u, const AlongGround& impulse) const;
+  [[nodiscard]] LocalFriction local_friction(const ContactPatch& patch, const AlongGround& shift);
+  /// Change of velocity of the pressure centre along the ground by an impulse there [m/s].
+  [[nodiscard]] AlongGround response(const ContactPatch& patch, const AlongGround& impulse) const;
   /// The same by an angular impulse [N·m·s], body frame.
-  [[nodiscard]] AlongGround response(const ContactState& y, const Vector3& u, const Vector3& angular_impulse) const;
+  [[nodiscard]] AlongGround response(const ContactPatch& patch, const Vector3& angular_impulse) const;
   /// Static energy and force at a depth below the touch-down pose, for the scales of time and depth.
   [[nodiscard]] ContactLoad pressed(double depth);
 
@@ -162,7 +170,7 @@ class ContactSystem {
   [[nodiscard]] Vector3 response(const Vector3& moment) const;
   [[nodiscard]] Friction friction(const Instant& at);
   [[nodiscard]] Friction at_centre(const Instant& at, const AlongGround& force) const;
-  [[nodiscard]] Friction over_patch(const Instant& at, const ContactLoad& load) const;
+  [[nodiscard]] Friction over_patch(const Instant& at, const SlipField& field);
   [[nodiscard]] Friction in_stick(const Instant& at) const;
   [[nodiscard]] AlongGround stick(const Instant& at) const;
 

@@ -133,15 +133,6 @@ SlipIntegrals along_segment(const SlipPatch& patch, const SlipSegment& segment) 
                                 : in_closed_form(patch, segment, change, place);
 }
 
-void add_point(const SlipPatch& patch, const PlanePoint& p, double weight, SlipIntegrals& sum) {
-  const SlipVector v{patch.east.at(p), patch.north.at(p)};
-  const double speed = std::sqrt(v.square() + patch.rounding * patch.rounding);
-  if (!(speed > 0)) return;
-  const double force = weight * patch.depth.at(p) * patch.stiffness.at(p) / speed;
-  const double east = force * v.east, north = force * v.north;
-  sum.add({east, north, east * p.x, east * p.y, north * p.x, north * p.y}, 1);
-}
-
 namespace {
 
 constexpr double least_ellipse_along_rays = 2.2;  ///< ρ from which Gauss's rule is taken

@@ -67,9 +67,6 @@ struct SlipSegment {
 /// Parameter of the largest Bernstein ellipse about −1 <= σ <= 1 without a zero of |slip + σ change|² + rounding².
 [[nodiscard]] double segment_ellipse(const SlipVector& slip, const SlipVector& change, double rounding);
 
-/// Adds weight × the integrands at p.
-void add_point(const SlipPatch& patch, const PlanePoint& p, double weight, SlipIntegrals& sum);
-
 /// Friction of the triangle between the point of no slip p₀ and a segment, over half of twice its area: with p on the
 /// segment, v the slip there, W = |v| and λ from p₀ to p,
 ///     ∫dσ ∫_0^1 λ q(p₀ + λ(p − p₀)) λ v/√(λ² W² + v_r²) dλ,   v_r > 0,                                  (1)

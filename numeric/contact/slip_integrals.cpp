@@ -209,7 +209,18 @@ double smooth_ellipse(const SlipPatch& patch, const SlipSurvey& s) {
   return square > 1 ? std::sqrt(square) + std::sqrt(square - 1) : 1;
 }
 
-SlipIntegrals add_up_fan(const SlipPatch& patch, int order) {
+/// Adds weight × the integrands at p.
+void add_point(const SlipPatch& patch, const PlanePoint& p, double weight, SlipIntegrals& sum) {
+  const SlipVector v{patch.east.at(p), patch.north.at(p)};
+  const double speed = std::sqrt(v.square() + patch.rounding * patch.rounding);
+  if (!(speed > 0)) return;
+  const double force = weight * patch.depth.at(p) * patch.stiffness.at(p) / speed;
+  const double east = force * v.east, north = force * v.north;
+  sum.add({east, north, east * p.x, east * p.y, north * p.x, north * p.y}, 1);
+}
+
+SlipIntegrals add_up_fan(const SlipPatch& of, int order) {
+  const SlipPatch patch = of;  // a copy stays in registers, which the sums could else overwrite
   SlipIntegrals sum;
   const std::span<const GaussNode> rule = gauss_rule(order);
   const PlanePoint& apex = patch.corners[0];

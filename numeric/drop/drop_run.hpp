@@ -16,6 +16,7 @@ struct Integration {
   Method method = Method::rk8pd;
   StepSettings steps;
   long evaluation_limit = 3'000'000;  ///< of the contact forces, at which the run ends
+  double least_local_slip = 0;        ///< see ContactControl
 };
 
 struct DropRun {
@@ -29,8 +30,8 @@ struct DropRun {
   MotionState final_state;
 };
 
-/// Takes from `request` the number of impacts and the amplification; with error estimates also
-/// ImpactRecord::local_slip, which is a part of them.
+/// Takes from `request` the number of impacts and the amplification; with error estimates, or
+/// asked for alone, also ImpactRecord::local_slip.
 [[nodiscard]] DropRun run_drop(const Body& body, const World& world, const MotionState& start, const Request& request,
                                const Integration& integration, const Observer& observer);
 

@@ -120,7 +120,7 @@ void ContactRun::begin(const MotionState& touch, const Vector3& point) {
   steps_.begin(control_->steps, scales, control_->evaluation_limit);
   events_.begin(scales);
   peak_.begin();
-  local_slip_.begin();
+  local_slip_.begin(control_->least_local_slip * scales.energy / scales.depth);
   touches_.begin();
   switches_ = 0;
   now_.time = 0;

@@ -20,6 +20,7 @@ struct ContactControl {
   StepSettings steps;
   long evaluation_limit = 0;         ///< of the system's count, at which the run stops
   bool estimate_local_slip = false;  ///< see ContactResult::local_slip
+  double least_local_slip = 0;       ///< part of the contact's mean force below which laws of friction count as equal
   bool point_friction = false;       ///< see World
 };
 

@@ -185,7 +185,7 @@ void FrictionPhases::choose_local_slip(ContactInstant& now) {
   const Ground& ground = system_.ground();
   if (ground.friction != FrictionLaw::local || !ground.has_friction()) return;
   FrictionPhase phase = system_.phase();
-  const double range = system_.slip_range(now.state).width();
+  const double range = system_.slip_range(system_.patch(now.state)).width();
   double resolved = std::max(slip_resolution * settings_.tolerance, least_resolution);
   // Within fewer steps of fixed length friction would overshoot from one end of the range to the other.
   if (settings_.fixed_step > 0) {

@@ -14,18 +14,25 @@ namespace clatter::numeric::inline stepping {
 /// by Euler's implicit method over the accepted steps: (1) is stiff where the body sticks.  F_local falls with y
 /// (friction opposes slip), so that each step has a solution, found component by component.  Right to a factor of about
 /// 3 as long as the impulse's change is small.
+/// Parts of a step in which the laws differ by less than `least` [N] count as equal; the bound, for slip v that is
+/// faster than twice the range w of what turning, spin and y add to it:
+///     |F_local − F_coulomb| <= 2 μ_k F_n w_across / |v|,   w_across the part of w across v                        (2)
 class LocalSlipEstimate {
  public:
-  void begin();
+  void begin(double least);
   /// Over a step of length h [s] that has ended at `y` with the numbers `at`.
   void advance(ContactSystem& system, const ContactState& y, const ContactDiagnosis& at, double h);
   /// ∫(F_local − F_coulomb) dt so far, its size [N·s].
   [[nodiscard]] double impulse() const { return impulse_.norm(); }
 
  private:
-  void part_of_step(ContactSystem& system, const ContactState& y, const ContactDiagnosis& at, double h,
+  void part_of_step(ContactSystem& system, const ContactPatch& patch, const ContactDiagnosis& at, double h,
                     const AlongGround& ahead);
+  [[nodiscard]] bool may_differ(double bound, const AlongGround& slip) const;
 
+  double least_ = 0;   ///< difference of the laws that counts [N]
+  AlongGround range_;  ///< of slip over the depth of the present patch [m/s]
+  double spin_ = 0;    ///< slip of its farthest points from spin that Coulomb's law leaves out [m/s]
   AlongGround slip_, impulse_;
   AlongGround last_;  ///< slip of the pressure centre at the end of the last step
 };

@@ -12,9 +12,15 @@ double EventLocator::fall(const std::function<double(const ContactInstant&)>& in
                           double h, ContactInstant& at_root) {
   const double at_start = indicator(now), at_end = indicator(at_root);
   if (!(at_start > 0 && at_end <= 0)) return h;
+  double shortest = h;  // with the indicator at or below 0; at_root has its end
   const auto value = [&](double length) {
     if (length <= 0) return at_start;
-    const double found = step_.take(now, length, trial_) ? indicator(trial_) : at_end;
+    if (!step_.take(now, length, trial_)) return at_end;
+    const double found = indicator(trial_);
+    if (found <= 0 && length < shortest) {
+      shortest = length;
+      at_root = trial_;
+    }
     return std::isfinite(found) ? found : at_end;
   };
   const double resolution = 1e-14 * (scales_.time + now.time);
@@ -24,7 +30,7 @@ double EventLocator::fall(const std::function<double(const ContactInstant&)>& in
           value, 0.0, h, at_start, at_end, [&](double a, double b) { return b - a <= resolution; }, iterations)
           .second;
   assert(high > 0 && high <= h);
-  if (!step_.take(now, high, trial_)) return h;
+  if (high == shortest || !step_.take(now, high, trial_)) return shortest;
   at_root = trial_;
   return high;
 }

@@ -303,6 +303,9 @@ void append_run(std::vector<Key>& keys) {
            TruthValue{[](Scene& s) -> bool& { return s.request.error_estimates; }}},
           {"run.amplification", Use::continuous, "", "true|false", "", "and the growth of errors by a neighbouring one",
            TruthValue{[](Scene& s) -> bool& { return s.request.amplification; }}},
+          {"run.note_local_slip", Use::continuous, "--note-local-slip", "", "",
+           "estimate what each place's own slip would change, however little",
+           TruthValue{[](Scene& s) -> bool& { return s.request.local_slip; }}},
       });
 }
 

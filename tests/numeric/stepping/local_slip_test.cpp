@@ -240,3 +240,26 @@ BOOST_AUTO_TEST_CASE(what_a_flat_patch_leaves_out_is_estimated_to_a_factor_of_th
   }
   BOOST_TEST(right >= 0.9 * scenes, right << " of " << scenes);
 }
+
+/// A bound leaves out what changes the impulse by less than the digits asked; ten times that, since rests add up.
+BOOST_AUTO_TEST_CASE(the_estimate_asked_for_and_that_which_comes_by_itself_differ_by_less_than_the_digits) {
+  constexpr int digits = 4;
+  constexpr double part = 0.05;  // to which both solve for the slip
+  for (const bool planar : {true, false}) {
+    std::mt19937 random(13);
+    for (int i = 0; i < scenes_each; ++i) {
+      const RandomScene scene = random_scene(random, planar);
+      const Body body = box_body(scene.size, 0.1);
+      const auto impact = [&](const Request& request) {
+        return simulate(body, {.ground = scene.ground, .planar = planar}, touching_state(body, scene.drop), request,
+                        {.digits = digits})
+            .impacts.at(0);
+      };
+      const ImpactRecord asked = impact({.impacts = 1, .error_estimates = false, .local_slip = true});
+      const ImpactRecord by_itself = impact({.impacts = 1, .amplification = false});
+      BOOST_TEST(std::fabs(by_itself.local_slip - asked.local_slip) <=
+                 10 * std::pow(10, -digits) * asked.value.impulse.norm() + part * asked.local_slip);
+      BOOST_TEST(impact(plain).local_slip == 0);
+    }
+  }
+}
