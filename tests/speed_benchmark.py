@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Processor time of one program, or of two side by side, on works that users wait for.
 
-tests/validation/speed_benchmark.py [--runs N] [--only WORD] [--limit RATIO] BEFORE [AFTER]
+tests/speed_benchmark.py [--runs N] [--only WORD] [--limit RATIO] BEFORE [AFTER]
 
 Each work is run N times (3) by each program in turn, so that both meet the same machine; the least counts.  With two
 programs the last column is AFTER over BEFORE, and the exit status is 1 if a ratio exceeds RATIO (1.05).  Works shorter
@@ -16,7 +16,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-CASES = Path(__file__).resolve().parents[2] / "validation" / "cases"
+CASES = Path(__file__).resolve().parents[1] / "validation" / "cases"
 ROWS = "--output rows.csv"
 WORKS = {
     "one sequence": "sequence --angle 10",
