@@ -27,7 +27,7 @@ constexpr long evaluations_of_a_pilot = 200'000;
 constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
 constexpr double estimate_margin = 4;  // what error estimates exceed errors by; a first run that they accept is cheaper
 constexpr double different_ways = 0.1;
-constexpr double outgrown = 100;            // times what is asked: errors for which no run is repeated
+constexpr double outgrown = 10;             // times what is asked: errors for which no run is repeated
 constexpr double usual_error_constant = 1;  // median over many scenes, for one whose pilots go different ways
 
 /// Whether rounding, grown by then, leaves more than what is asked.  Where the growth is not known, errors of an

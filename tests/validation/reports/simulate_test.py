@@ -408,6 +408,19 @@ class Claims(Folder):
         self.assertEqual([row["predictable"] for row in rows[:3]], [True, True, False])
         self.assertGreater(rows[2]["amplification"], 1e13)
 
+    def test_errors_of_the_damped_phone_cost_little_more_than_a_run_and_less_without_their_growth(self):
+        with open(os.path.join(CASES, "phone-damped.toml"), encoding="utf-8") as file:
+            scene = file.read()
+
+        def cost(*keys):
+            path = self.write("phone.toml", scene + "".join("%s = false\n" % key for key in keys))
+            return self.json(path)["cost"]["force_evaluations"]
+
+        plain, errors, both = cost("errors", "amplification"), cost("amplification"), cost()
+        self.assertLess(plain, errors)
+        self.assertLess(errors, both)
+        self.assertLess(both, 2.5 * plain)
+
     def test_in_its_plane_the_elastic_phone_can_be_predicted(self):
         self.assertTrue(all(row["predictable"] for row in self.case("phone-elastic.toml", "--planar")["impacts"]))
 
