@@ -69,8 +69,8 @@ class Sums(Base):
         run = self.json("simulate", "phone-elastic", "--angle", "4.08", "--digits", "11", "--impacts", "11", "--planar")
         last = run["impacts"][-1]
         self.assertFalse(last["predictable"])
-        for impact in run["impacts"]:  # by so much two runs differ, which says little of the last
-            self.assertIsNotNone(impact["error_estimate"]["impulse_normal"])
+        for impact in run["impacts"]:
+            self.assertEqual(impact["error_estimate"]["impulse_normal"] is None, not impact["predictable"])
         self.assertIsNone(run["total_normal_impulse_error"])
         self.assertFalse(run["predictable"])
 
@@ -98,8 +98,8 @@ class Sums(Base):
             rounding = len(data["impacts"]) * 2.0 ** -52 * data["total_normal_impulse"]
             self.assertGreater(data["total_normal_impulse_error"], 0)
             if scene[0] == "simulate":
-                self.assertGreaterEqual(data["total_normal_impulse_error"], parts)
-            self.assertLessEqual(data["total_normal_impulse_error"], parts + rounding)
+                self.assertGreaterEqual(1.1 * data["total_normal_impulse_error"], parts)  # each part is rounded up
+            self.assertLessEqual(data["total_normal_impulse_error"], rounded_up(parts + rounding))
 
     def test_the_sum_keeps_momentum_within_its_error(self):
         # What the ground gave is what the centre of mass and gravity took.
@@ -153,7 +153,7 @@ class Columns(Base):
             self.assertEqual(row["predictable"], "true")
             for name in ("discrete_error", "continuous_error", "deviation_error"):
                 self.assertEqual(float(row[name]), pair[name])
-            self.assertGreaterEqual(pair["deviation_error"], pair["discrete_error"] + pair["continuous_error"])
+            self.assertGreaterEqual(1.1 * pair["deviation_error"], pair["discrete_error"] + pair["continuous_error"])
 
     def test_a_sweeps_numbers_lie_within_their_errors_of_more_accurate_ones(self):
         rows = self.rows("sweep", PHONE, "--set", "drop.angle_deg=10:40:10", "--set", "run.planar=true", *QUICK)
