@@ -8,7 +8,6 @@
 #include <limits>
 #include <memory>
 
-#include "analytic/base/errors.hpp"
 #include "analytic/base/limits.hpp"
 
 namespace clatter::analytic::space {
@@ -21,6 +20,8 @@ constexpr double step_error = 4e-15;
 constexpr double sure_stop = 1e-4;
 /// Slip, relative to what all of the impulse could do, with which a face that is let go begins to slip.
 constexpr double first_slip = 1e-15;
+/// Pressure on less than this part of the area counts as pressure at its edge, where there is none.
+constexpr double least_part = 1e-4;
 /// A step that may change no more of the slip than this and still fails leads out of what pressure can do.
 constexpr double shortest_step = 1e-13;
 
@@ -105,11 +106,11 @@ bool FacePath::solve(const Vector2& slip, double spin) {
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_turns; ++i) {
     const bool whole = pushed_.press(pressure_);
-    if (pushed_.is_empty()) {
+    const Matrix3 moments = whole ? whole_moments_ : pushed_.moments();
+    if (!(moments(0, 0) > least_part * whole_moments_(0, 0))) {
       pressure_ = (before + pressure_) / 2;
       continue;
     }
-    const Matrix3 moments = whole ? whole_moments_ : pushed_.moments();
     const Matrix3 rubs = rubbing_ * pushed_.slip_moments(u, spin * pushed_.unit());
     Matrix3 equations = moments;
     equations.bottomRows<2>() -= shift_ * rubs / pushed_.unit();
@@ -144,7 +145,7 @@ Vector3 FacePath::rate(const Vector3& y) {
 
 /// Follows slip until it stops, as successive forecasts of the stop agree, or until the impulse is spent.
 FacePath::End FacePath::slide() {
-  constexpr int most_steps = 10'000;
+  constexpr int most_steps = 1000;
   const double begin = spent_;
   double scale = slip_.norm(), forecast = -1, length = std::numeric_limits<double>::infinity();
   double fast = scale;  // slip at the forecast
@@ -182,7 +183,7 @@ FacePath::End FacePath::slide() {
     }
     length *= wrong >= 0 ? std::fmin(std::fmax(0.9 * std::pow(wrong, -0.125), 0.1), 4) : 0.1;
   }
-  throw NumericalError("the slip of a face with friction could not be followed");
+  return End::no_pressure;  // along the edge of what pressure can do, where it cannot be told from none
 }
 
 /// Whether a face that holds still has a pressure; friction is what it takes.

@@ -46,9 +46,9 @@ struct FaceFriction {
 /// then has no couple, and all of it may as well act below the centre of mass.
 [[nodiscard]] bool slides_straight(const SlidingFace& face);
 
-/// Friction of a face; nothing where (2) asks at any moment for a point that pushes on the area cannot have.
-/// Accuracy: 1e-13 of μN and of what (U, w) does to m, J.
-/// @throws NumericalError if 10 000 steps do not end the path
+/// Friction of a face; nothing where (2) asks at any moment for a point that pushes on the area cannot have, or comes
+/// so near to its edge, pushes on less than 1e-4 of the area, that rounding keeps 1000 steps from following the path.
+/// Accuracy: 1e-12 of μN and of what (U, w) does to m, J.
 [[nodiscard]] std::optional<FaceFriction> face_friction(const SlidingFace& face, const ContactArea& area);
 
 }  // namespace clatter::analytic::space
