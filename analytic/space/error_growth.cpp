@@ -10,6 +10,7 @@
 
 #include "analytic/base/limits.hpp"
 #include "analytic/space/body.hpp"
+#include "analytic/space/flight_derivatives.hpp"
 
 namespace clatter::analytic::space {
 
@@ -27,12 +28,6 @@ Quaternion turned(const Vector3& angle, const Quaternion& attitude) {
   return (Quaternion(1, angle[0] / 2, angle[1] / 2, angle[2] / 2) * attitude).normalized();
 }
 
-/// Rotation vector from q to p, small.
-Vector3 small_rotation(const Quaternion& p, const Quaternion& q) {
-  const Quaternion d = p * q.conjugate();
-  return (d.w() < 0 ? -2 : 2) * d.vec();
-}
-
 State shifted(const State& state, int number, double step) {
   State s = state;
   const int axis = number % 3;
@@ -46,6 +41,13 @@ State shifted(const State& state, int number, double step) {
 constexpr double deviations = 3;
 /// Rounding of an impulse with friction, relative: half of what impact.hpp promises, as a standard deviation.
 constexpr double friction_rounding = 5e-14;
+
+/// Bound on the length of a vector whose errors are these combinations of independent ones.
+template <class Image>
+double bound(const Image& image) {
+  const double value = deviations * image.norm();
+  return std::isfinite(value) ? value : infinite;
+}
 
 }  // namespace
 
@@ -101,13 +103,7 @@ void ErrorGrowth::advance(const Jacobian& jacobian) {
   of_drop_ = jacobian.lazyProduct(of_drop_).eval();
 }
 
-double ErrorGrowth::bound(const Eigen::MatrixXd& gradient) const {
-  const double value = deviations * gradient.lazyProduct(factor_).norm();
-  return std::isfinite(value) ? value : infinite;
-}
-
-/// Rows: P, V′, ω′; columns: δθ, V, ω.
-Eigen::MatrixXd ErrorGrowth::strike_jacobian(const Strike& strike, const ImpactRow& row) const {
+StrikeDerivatives ErrorGrowth::differences(const Strike& strike, const ImpactRow& row) const {
   const double reach = body_.reach();
   const double speed = row.impact.contact_before.norm();
   const double turning = row.before.angular_velocity.norm() * reach;
@@ -115,7 +111,7 @@ Eigen::MatrixXd ErrorGrowth::strike_jacobian(const Strike& strike, const ImpactR
   const double room = row.group ? 1 : steepness(body_, row.before.attitude, row.corners.front().index);
   const double steps[3] = {relative_step * std::fmin(room, speed / std::fmax(turning, speed)), relative_step * speed,
                            relative_step * speed / reach};
-  Eigen::MatrixXd derivatives(9, 9);
+  StrikeDerivatives derivatives;
   for (int k = 0; k < 9; ++k) {
     const double step = steps[k / 3];
     const Impact plus = strike(shifted(row.before, k, step)), minus = strike(shifted(row.before, k, -step));
@@ -126,74 +122,66 @@ Eigen::MatrixXd ErrorGrowth::strike_jacobian(const Strike& strike, const ImpactR
   return derivatives;
 }
 
-std::pair<Eigen::MatrixXd, Eigen::MatrixXd> ErrorGrowth::energy_gradients(const ImpactRow& row, const Matrix3& inertia,
-                                                                          const Eigen::MatrixXd& velocity,
-                                                                          const Eigen::MatrixXd& turning) const {
+ErrorGrowth::EnergyGradients ErrorGrowth::energy_gradients(const ImpactRow& row, const Matrix3& inertia) const {
   const State& before = row.before;
   const Vector3 arm = before.attitude * row.corners.front().place;
-  const Vector3& w = before.angular_velocity;
-  const Vector3 momentum = inertia * w, momentum_after = inertia * row.impact.angular_velocity_after;
-  Eigen::MatrixXd energy = Eigen::MatrixXd::Zero(1, size), energy_after = energy;
-  energy.block<1, 3>(0, 1) = momentum.cross(w).transpose() + body_.mass * gravity_ * cross_matrix(arm).row(2);
-  energy.block<1, 3>(0, 4) = body_.mass * before.velocity.transpose();
-  energy.block<1, 3>(0, 7) = momentum.transpose();
-  energy_after.block<1, 3>(0, 1) = energy.block<1, 3>(0, 1) - momentum.cross(w).transpose() +
-                                   momentum_after.cross(row.impact.angular_velocity_after).transpose();
-  energy_after += body_.mass * row.impact.velocity_after.transpose().lazyProduct(velocity) +
-                  momentum_after.transpose().lazyProduct(turning);
-  return {energy, energy_after};
+  const Vector3 &w = before.angular_velocity, &w_after = row.impact.angular_velocity_after;
+  const Vector3 momentum = inertia * w;
+  EnergyGradients e;
+  e.before.segment<3>(1) = momentum.cross(w).transpose() + body_.mass * gravity_ * cross_matrix(arm).row(2);
+  e.before.segment<3>(4) = body_.mass * before.velocity.transpose();
+  e.before.segment<3>(7) = momentum.transpose();
+  e.after.segment<3>(1) =
+      (inertia * w_after).cross(w_after).transpose() + body_.mass * gravity_ * cross_matrix(arm).row(2);
+  return e;
 }
 
-/// A turn moves the lowest point of a rim along the rim, to points of other velocities.
-void ErrorGrowth::add_shift_of_lowest_point(const ImpactRow& row, Eigen::MatrixXd& approach) const {
+/// u = V_z + (ω × r)_z; a turn moves the lowest point of a rim along the rim, to points of other velocities.
+ErrorGrowth::Gradient ErrorGrowth::approach_gradient(const ImpactRow& row) const {
+  const State& before = row.before;
   const Corner& corner = row.corners.front();
-  const double steep = steepness(body_, row.before.attitude, corner.index), step = relative_step * steep;
-  if (corner.radius > 0 || corner.index < static_cast<int>(body_.vertices.size())) return;
-  for (int k = 0; k < 3; ++k) {
-    const Quaternion plus = shifted(row.before, k, step).attitude, minus = shifted(row.before, k, -step).attitude;
-    const Vector3 shift =
-        row.before.attitude * (touching_place(body_, plus, corner.index) - touching_place(body_, minus, corner.index));
-    approach(0, 1 + k) += row.before.angular_velocity.cross(shift).z() / (2 * step);
+  const Matrix3 arm = cross_matrix(before.attitude * corner.place), turning = cross_matrix(before.angular_velocity);
+  Gradient approach = Gradient::Zero();
+  approach.segment<3>(1) = -(turning * arm).row(2);
+  if (!(corner.radius > 0)) {
+    approach.segment<3>(1) += turning.row(2) * shift_of_lowest_point(body_, before.attitude, corner.index);
   }
+  approach[6] = 1;
+  approach.segment<3>(7) = -arm.row(2);
+  return approach;
 }
 
-void ErrorGrowth::fill(const Eigen::MatrixXd& derivatives, ImpactRow& row) const {
+void ErrorGrowth::fill(const StrikeDerivatives& derivatives, ImpactRow& row) const {
   const State& before = row.before;
-  const Vector3 arm = before.attitude * row.corners.front().place;
-  const Matrix3 axes = before.attitude.toRotationMatrix(), inertia = axes * body_.inertia * axes.transpose();
-  Eigen::MatrixXd time = Eigen::MatrixXd::Zero(1, size), approach = time;
-  Eigen::MatrixXd angle = Eigen::MatrixXd::Zero(3, size), impulse = angle, velocity = angle, turning = angle;
-  time(0, 0) = 1;
-  angle.block<3, 3>(0, 1) = Matrix3::Identity();
-  impulse.rightCols(9) = derivatives.topRows(3);
-  velocity.rightCols(9) = derivatives.middleRows(3, 3);
-  turning.rightCols(9) = derivatives.bottomRows(3);
-  // u = V_z + (ω × r)_z.
   const Vector3& w = before.angular_velocity;
-  approach.block<1, 3>(0, 1) = -(cross_matrix(w) * cross_matrix(arm)).row(2);
-  approach(0, 6) = 1;
-  approach.block<1, 3>(0, 7) = -cross_matrix(arm).row(2);
-  add_shift_of_lowest_point(row, approach);
-  const auto [energy, energy_after] = energy_gradients(row, inertia, velocity, turning);
+  const Matrix3 axes = before.attitude.toRotationMatrix(), inertia = axes * body_.inertia * axes.transpose();
+  const auto [energy, energy_of_turn] = energy_gradients(row, inertia);
   const Vector3 momentum_after = inertia * row.impact.angular_velocity_after;
+  const Eigen::Matrix<double, 9, Eigen::Dynamic, Eigen::ColMajor, 9, 3 * size> struck =
+      derivatives.lazyProduct(factor_.bottomRows<9>());
+  const Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 3 * size> energy_after =
+      energy_of_turn.lazyProduct(factor_) +
+      body_.mass * row.impact.velocity_after.transpose().lazyProduct(struck.middleRows<3>(3)) +
+      momentum_after.transpose().lazyProduct(struck.bottomRows<3>());
   const Factor rounding = impulse_rounding(row);
   const double in_velocity = deviations * rounding.middleRows(4, 3).norm();
   const double in_turning = deviations * rounding.bottomRows(3).norm();
   const double size_of_energy = std::fabs(row.energy_before) + std::fabs(row.energy_after);
   RowErrors& e = row.error;
   e.predictable = true;
-  e.start = row.start == 0 ? 0 : bound(time) + epsilon * row.start;
-  e.attitude = bound(angle) + 4 * epsilon;
-  e.approach_speed = bound(approach) + 4 * epsilon * (before.velocity.norm() + w.norm() * body_.reach());
-  e.impulse = bound(impulse) + body_.mass * in_velocity;
-  e.velocity_after = bound(velocity) + in_velocity + 4 * epsilon * before.velocity.norm();
-  e.angular_velocity_after = bound(turning) + in_turning + 4 * epsilon * w.norm();
-  e.energy_before = bound(energy) + 8 * epsilon * size_of_energy;
+  e.start = row.start == 0 ? 0 : bound(factor_.row(0)) + epsilon * row.start;
+  e.attitude = bound(factor_.middleRows<3>(1)) + 4 * epsilon;
+  e.approach_speed = bound(approach_gradient(row).lazyProduct(factor_)) +
+                     4 * epsilon * (before.velocity.norm() + w.norm() * body_.reach());
+  e.impulse = bound(struck.topRows<3>()) + body_.mass * in_velocity;
+  e.velocity_after = bound(struck.middleRows<3>(3)) + in_velocity + 4 * epsilon * before.velocity.norm();
+  e.angular_velocity_after = bound(struck.bottomRows<3>()) + in_turning + 4 * epsilon * w.norm();
+  e.energy_before = bound(energy.lazyProduct(factor_)) + 8 * epsilon * size_of_energy;
   e.energy_after = bound(energy_after) + 8 * epsilon * size_of_energy +
                    body_.mass * in_velocity * row.impact.velocity_after.norm() + in_turning * momentum_after.norm();
 }
 
-void ErrorGrowth::strike(const Strike& strike, ImpactRow& row) {
+void ErrorGrowth::strike(const Strike& strike, const StrikeDerivatives& closed, ImpactRow& row) {
   row.error = RowErrors::unknown();
   row.amplification = std::numeric_limits<double>::quiet_NaN();
   const bool turns = row.before.angular_velocity.norm() > 0;
@@ -203,9 +191,9 @@ void ErrorGrowth::strike(const Strike& strike, ImpactRow& row) {
     predictable_ = false;
     return;
   }
-  Eigen::MatrixXd derivatives;
+  StrikeDerivatives derivatives = closed;
   try {
-    derivatives = strike_jacobian(strike, row);
+    if (!derivatives.allFinite()) derivatives = differences(strike, row);
   } catch (const std::runtime_error&) {  // a neighbour jams, or cannot be computed
     predictable_ = false;
     return;
@@ -234,24 +222,14 @@ void ErrorGrowth::strike(const Strike& strike, ImpactRow& row) {
 // Growth of errors along a flight, up to the touch that ends it.
 
 ErrorGrowth::Jacobian ErrorGrowth::flight_jacobian(const FreeFlight& flight, double time) const {
-  const State& start = flight.start();
-  const double speed = start.angular_velocity.norm();
-  const double step = speed > 0 ? relative_step * speed / (1 + speed * time) : relative_step / time;
-  const PrincipalAxes principal(body_.inertia);
-  const State now = flight.at(time);
-  Matrix3 of_attitude, of_velocity;
-  for (int k = 0; k < 3; ++k) {
-    const State plus = FreeFlight(principal, shifted(start, 6 + k, step), gravity_).at(time);
-    const State minus = FreeFlight(principal, shifted(start, 6 + k, -step), gravity_).at(time);
-    of_attitude.col(k) = small_rotation(plus.attitude, minus.attitude) / (2 * step);
-    of_velocity.col(k) = (plus.angular_velocity - minus.angular_velocity) / (2 * step);
-  }
+  const auto [of_attitude, of_velocity] = rotation_derivatives(flight, body_.inertia, time);
   // A turn of attitude and ω together turns the whole motion.
-  const Matrix3 turn = cross_matrix(start.angular_velocity);
+  const Matrix3 turn = cross_matrix(flight.start().angular_velocity);
+  const Vector3 velocity = flight.at(time).angular_velocity;
   Jacobian j = Jacobian::Identity();
   j.block<3, 3>(1, 1) = Matrix3::Identity() + of_attitude * turn;
   j.block<3, 3>(1, 7) = of_attitude;
-  j.block<3, 3>(7, 1) = -cross_matrix(now.angular_velocity) + of_velocity * turn;
+  j.block<3, 3>(7, 1) = -cross_matrix(velocity) + of_velocity * turn;
   j.block<3, 3>(7, 7) = of_velocity;
   return j;
 }
@@ -285,12 +263,9 @@ void ErrorGrowth::fly(const FreeFlight& flight, const FirstContact& contact, con
       Vector3::Constant(2 * epsilon * now.angular_velocity.norm());
   add(d);
   // First order holds while the shift of the touch changes h′ little.
-  Eigen::MatrixXd time = Eigen::MatrixXd::Zero(1, size), angle = Eigen::MatrixXd::Zero(3, size);
-  time(0, 0) = 1;
-  angle.block<3, 3>(0, 1) = Matrix3::Identity();
-  const double late = bound(time);
+  const double late = bound(factor_.row(0));
   if (!(late * std::fabs(contact.acceleration) <= first_order * std::fabs(contact.normal_velocity)) ||
-      !(bound(angle) <= first_order) || contact.within_margin) {
+      !(bound(factor_.middleRows<3>(1)) <= first_order) || contact.within_margin) {
     predictable_ = false;
   }
   if (predictable_) check_others(flight, contact);
@@ -298,10 +273,7 @@ void ErrorGrowth::fly(const FreeFlight& flight, const FirstContact& contact, con
 
 /// Height of a point that neither departed nor arrived: error of attitude and of the parabola.
 double ErrorGrowth::height_bound(double time) const {
-  Eigen::MatrixXd angle = Eigen::MatrixXd::Zero(3, size), fall = Eigen::MatrixXd::Zero(1, size);
-  angle.block<3, 3>(0, 1) = Matrix3::Identity();
-  fall(0, 6) = time;
-  return 2 * body_.reach() * bound(angle) + bound(fall);
+  return 2 * body_.reach() * bound(factor_.middleRows<3>(1)) + time * bound(factor_.row(6));
 }
 
 /// No other point may be so near the ground that the errors let it arrive first.

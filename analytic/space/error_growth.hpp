@@ -4,17 +4,17 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <utility>
 
 #include "analytic/space/impact_rows.hpp"
+#include "analytic/space/strike_derivatives.hpp"
 
 namespace clatter::analytic::space {
 
 /// Errors of the state (t, δθ, δV, δω) at touch and departure, to first order: δθ the rotation vector of the attitude's
 /// error, everything in the world frame; the height of the centre of mass follows from the touch.
 ///
-/// Impact: central differences of the impact in δθ, V and ω.  Flight, at a fixed time: δθ and δV in closed form,
-/// δω by central differences of the rotation; then the touch at h = 0 shifts the time by
+/// Impact: strike_derivatives.hpp, or central differences where that has none.  Flight, at a fixed time:
+/// flight_derivatives.hpp; then the touch at h = 0 shifts the time by
 ///     δt = −δh/h′,   δh = −(δθ₀ × r₀)_z + t δV_z + (δθ₁ × r₁)_z,                                       (1)
 /// r₀, r₁ from the centre of mass to the corner that departed and the one that arrives.
 /// Independent errors are columns of a factor F of the covariance F Fᵀ; bounds are three standard deviations.
@@ -29,7 +29,8 @@ class ErrorGrowth {
   /// Impulse and velocities after an impact, as a function of the state before.
   using Strike = std::function<Impact(const State&)>;
   /// Fills in the row's errors and amplification, and carries the errors through the impact.
-  void strike(const Strike& strike, ImpactRow& row);
+  /// @param derivatives  of the impact; where they are not all finite, differences of `strike` serve
+  void strike(const Strike& strike, const StrikeDerivatives& derivatives, ImpactRow& row);
   /// Carries the errors through a flight.
   void fly(const FreeFlight& flight, const FirstContact& contact, const Vector3& from_place, const Vector3& to_place);
   /// After a flight without contact: whether the errors leave that certain.
@@ -40,27 +41,26 @@ class ErrorGrowth {
 
  private:
   static constexpr int size = 10;
-  using Factor = Eigen::Matrix<double, size, Eigen::Dynamic>;
+  using Factor = Eigen::Matrix<double, size, Eigen::Dynamic, Eigen::ColMajor, size, 3 * size>;
   using Jacobian = Eigen::Matrix<double, size, size>;
-
   using Deviations = Eigen::Matrix<double, size, 1>;
+  using Gradient = Eigen::Matrix<double, 1, size>;
 
   void add(const Deviations& deviations);
   void append(const Factor& columns);
   [[nodiscard]] Factor impulse_rounding(const ImpactRow& row) const;
   void advance(const Jacobian& jacobian);
-  [[nodiscard]] Eigen::MatrixXd strike_jacobian(const Strike& strike, const ImpactRow& row) const;
-  /// Of the energies before and after the impact, with z = −r_z and the inertia turned.
-  /// @param velocity, turning  gradients of the motion after, 3 × size
-  [[nodiscard]] std::pair<Eigen::MatrixXd, Eigen::MatrixXd> energy_gradients(const ImpactRow& row,
-                                                                             const Matrix3& inertia,
-                                                                             const Eigen::MatrixXd& velocity,
-                                                                             const Eigen::MatrixXd& turning) const;
-  void add_shift_of_lowest_point(const ImpactRow& row, Eigen::MatrixXd& approach) const;
-  void fill(const Eigen::MatrixXd& derivatives, ImpactRow& row) const;
+  [[nodiscard]] StrikeDerivatives differences(const Strike& strike, const ImpactRow& row) const;
+  /// Of the energy before the impact by the state before, with z = −r_z and the inertia turned; of the energy after it
+  /// by the attitude.
+  struct EnergyGradients {
+    Gradient before = Gradient::Zero(), after = Gradient::Zero();
+  };
+  [[nodiscard]] EnergyGradients energy_gradients(const ImpactRow& row, const Matrix3& inertia) const;
+  [[nodiscard]] Gradient approach_gradient(const ImpactRow& row) const;
+  void fill(const StrikeDerivatives& derivatives, ImpactRow& row) const;
   [[nodiscard]] Jacobian flight_jacobian(const FreeFlight& flight, double time) const;
   void check_others(const FreeFlight& flight, const FirstContact& contact);
-  [[nodiscard]] double bound(const Eigen::MatrixXd& gradient) const;
   [[nodiscard]] double height_bound(double time) const;
 
   const Body& body_;
