@@ -467,7 +467,7 @@ ContactImpulse CoulombPath::follow() {
 }
 
 /// Eq. 8 in space, and without friction: P_t = μ_i P_n d, P_n = −(1+e) v_n/(c + μ_i b·d).
-ContactImpulse ratio_impulse(const Contact& contact, const Law& law, NormalCoupling coupling) {
+ContactImpulse ratio_impulse(const Contact& contact, const Law& law, NormalCoupling coupling, ImpulseSlopes* slopes) {
   const Matrix3& w = contact.inverse_inertia;
   const double ratio = law.law.friction == FrictionKind::impulse_ratio ? law.law.friction_value : 0;
   const double speed = -contact.velocity.z();
@@ -483,13 +483,20 @@ ContactImpulse ratio_impulse(const Contact& contact, const Law& law, NormalCoupl
   result.slip_stop_impulse = none;
   result.least_slip = std::fmin(contact.velocity.head<2>().norm(), result.velocity_after.head<2>().norm());
   result.path = ratio == 0 ? PathKind::frictionless : PathKind::slip;
+  if (slopes == nullptr) return result;
+  const detail::Dual<1> gain = 1 + restitution_at(law.law, detail::Dual<1>(speed, {1}));
+  slopes->of_velocity = -(gain.value + speed * gain.slope[0]) / rate * direction * Vector3::UnitZ().transpose();
+  for (std::size_t k = 0; k < 3; ++k) {
+    slopes->of_turns.col(static_cast<int>(k)) = -slopes->turns[k].row(2).dot(direction) / rate * result.impulse;
+  }
   return result;
 }
 
-ContactImpulse impulse(const Contact& contact, const Law& law, NormalCoupling coupling) {
+ContactImpulse impulse(const Contact& contact, const Law& law, NormalCoupling coupling, ImpulseSlopes* slopes) {
+  if (slopes != nullptr) slopes->of_turns = slopes->of_velocity = Matrix3::Constant(none);
   const bool rubs = law.law.friction == FrictionKind::coulomb && law.law.friction_value > 0;
   const ContactImpulse result =
-      rubs ? CoulombPath(contact, law, coupling).follow() : ratio_impulse(contact, law, coupling);
+      rubs ? CoulombPath(contact, law, coupling).follow() : ratio_impulse(contact, law, coupling, slopes);
   if (!result.impulse.allFinite() || !result.velocity_after.allFinite()) {
     throw NumericalError("the impulse of a corner overflows");
   }
@@ -498,8 +505,8 @@ ContactImpulse impulse(const Contact& contact, const Law& law, NormalCoupling co
 
 }  // namespace
 
-ContactImpulse contact_impulse(const Contact& contact, const Law& law) {
-  return impulse(contact, law, NormalCoupling::of_friction);
+ContactImpulse contact_impulse(const Contact& contact, const Law& law, ImpulseSlopes* slopes) {
+  return impulse(contact, law, NormalCoupling::of_friction, slopes);
 }
 
 ContactImpulse face_impulse(const FaceContact& face, const Law& law) {
@@ -512,7 +519,7 @@ ContactImpulse face_impulse(const FaceContact& face, const Law& law) {
                .law = RestitutionLaw::newton,
                .friction = law.law.friction,
                .friction_value = law.law.friction_value};
-  return impulse(contact, whole, NormalCoupling::none);
+  return impulse(contact, whole, NormalCoupling::none, nullptr);
 }
 
 void Law::validate() const {
