@@ -251,6 +251,7 @@ PathEnd<Number> flat_impulse(const PathStart<Number>& start, const Number& turni
 
 template double restitution_at(const ImpactLaw&, const double&);
 template ImpactDual restitution_at(const ImpactLaw&, const ImpactDual&);
+template detail::Dual<1> restitution_at(const ImpactLaw&, const detail::Dual<1>&);
 template PathEnd<double> point_impulse(const PathCoefficients<double>&, const PathStart<double>&, const ImpactLaw&);
 template PathEnd<ImpactDual> point_impulse(const PathCoefficients<ImpactDual>&, const PathStart<ImpactDual>&,
                                            const ImpactLaw&);

@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "analytic/base/limits.hpp"
 #include "analytic/space/body.hpp"
+#include "analytic/space/flight_derivatives.hpp"
 
 namespace clatter::analytic::space {
 
@@ -25,12 +27,6 @@ constexpr double first_order = 0.02;
 
 Quaternion turned(const Vector3& angle, const Quaternion& attitude) {
   return (Quaternion(1, angle[0] / 2, angle[1] / 2, angle[2] / 2) * attitude).normalized();
-}
-
-/// Rotation vector from q to p, small.
-Vector3 small_rotation(const Quaternion& p, const Quaternion& q) {
-  const Quaternion d = p * q.conjugate();
-  return (d.w() < 0 ? -2 : 2) * d.vec();
 }
 
 State shifted(const State& state, int number, double step) {
@@ -51,6 +47,13 @@ auto diagonal(const Eigen::Matrix<double, 10, 1>& deviations) -> Eigen::Matrix<d
 constexpr double deviations = 3;
 /// Rounding of an impulse with friction, relative: half of what impact.hpp promises, as a standard deviation.
 constexpr double friction_rounding = 5e-14;
+
+/// Bound on the length of a vector whose errors are these combinations of independent ones.
+template <class Image>
+double bound(const Image& image) {
+  const double value = deviations * image.norm();
+  return std::isfinite(value) ? value : infinite;
+}
 
 /// Whether the row's corner has returned from a hop with an approach speed of relative accuracy.
 bool is_hop(const ImpactRow& row) {
@@ -128,75 +131,47 @@ void ErrorGrowth::advance(const Jacobian& jacobian) {
   of_drop_ = jacobian.lazyProduct(of_drop_).eval();
 }
 
-double ErrorGrowth::bound(const Eigen::MatrixXd& gradient) const {
-  const double value = deviations * gradient.lazyProduct(factor_).norm();
-  return std::isfinite(value) ? value : infinite;
-}
-
-/// How a turn of the body moves the place that touches, from the centre of mass; the lowest point of a rim moves along
-/// the rim as well.
-Matrix3 ErrorGrowth::arm_jacobian(const ImpactRow& row) const {
-  const Corner& corner = row.corners.front();
-  const State& state = row.before;
-  Matrix3 arm = -cross_matrix(state.attitude * corner.place);
-  if (corner.radius > 0 || corner.index < static_cast<int>(body_.vertices.size())) return arm;
-  const double step = relative_step * steepness(body_, state.attitude, corner.index);
-  for (int k = 0; k < 3; ++k) {
-    const Quaternion plus = shifted(state, k, step).attitude, minus = shifted(state, k, -step).attitude;
-    const Vector3 along = touching_place(body_, plus, corner.index) - touching_place(body_, minus, corner.index);
-    arm.col(k) += state.attitude * along / (2 * step);
-  }
-  return arm;
-}
-
-/// δu, u = V_z + (ω × r)_z at the row's corner, for the angular velocity before or after.
+/// δu, u = V_z + (ω × r)_z at the row's corner, for the angular velocity before or after; a turn moves the lowest point
+/// of a rim along the rim as well.
 ErrorGrowth::Gradient ErrorGrowth::approach_gradient(const ImpactRow& row, const Vector3& turning) const {
+  const Corner& corner = row.corners.front();
+  const Quaternion& attitude = row.before.attitude;
+  Matrix3 arm = -cross_matrix(attitude * corner.place);
   Gradient approach = Gradient::Zero();
-  approach.segment<3>(1) = (cross_matrix(turning) * arm_jacobian(row)).row(2);
   approach[6] = 1;
-  approach.tail<3>() = -cross_matrix(row.before.attitude * row.corners.front().place).row(2);
+  approach.tail<3>() = arm.row(2);
+  if (!(corner.radius > 0)) arm += shift_of_lowest_point(body_, attitude, corner.index);
+  approach.segment<3>(1) = cross_matrix(turning).row(2) * arm;
   return approach;
 }
 
-/// Rows: P, V′, ω′; columns: δθ, V, ω.  P is differentiated by the corner's velocity and the attitude, each on its own
-/// scale, so that small hops lose nothing.
-Eigen::MatrixXd ErrorGrowth::corner_jacobian(const Strike& strike, const ImpactRow& row) const {
-  const Vector3 &v = row.impact.contact_before, &impulse = row.impact.impulse;
-  const Vector3 arm = row.before.attitude * row.corners.front().place;
+/// P is differentiated by the corner's velocity and the attitude, each on its own scale, so that small hops lose
+/// nothing.
+StrikeDerivatives ErrorGrowth::corner_differences(const Strike& strike, const ImpactRow& row) const {
+  const Vector3& v = row.impact.contact_before;
+  const Corner& corner = row.corners.front();
   State at_corner = row.before;  // of a body that moves with the corner's velocity and does not turn
   at_corner.velocity = v;
   at_corner.angular_velocity.setZero();
-  const Matrix3 by_turn = arm_jacobian(row);
-  Eigen::Matrix<double, 3, 9> of_velocity, of_impulse;
-  of_velocity << cross_matrix(row.before.angular_velocity) * by_turn, Matrix3::Identity(), -cross_matrix(arm);
-  const double room = relative_step * steepness(body_, row.before.attitude, row.corners.front().index);
+  const double room = relative_step * steepness(body_, row.before.attitude, corner.index);
   const double along = relative_step * v.norm(), across = relative_step * std::fabs(v.z());
   const auto slope = [&](int number, double step) -> Vector3 {
     return (strike(shifted(at_corner, number, step)).impulse - strike(shifted(at_corner, number, -step)).impulse) /
            (2 * step);
   };
-  Matrix3 by_velocity;
-  by_velocity << slope(3, along), slope(4, along), slope(5, across);
-  of_impulse = by_velocity * of_velocity;
-  for (int k = 0; k < 3; ++k) of_impulse.col(k) += slope(k, room);
-  const Matrix3 axes = row.before.attitude.toRotationMatrix(), inverse = axes * inverse_inertia_ * axes.transpose();
-  const Vector3 moment = arm.cross(impulse);
-  Eigen::MatrixXd derivatives(9, 9);
-  derivatives << of_impulse, of_impulse / body_.mass, inverse * cross_matrix(arm) * of_impulse;
-  derivatives.bottomLeftCorner<3, 3>() +=
-      inverse * (cross_matrix(moment) - cross_matrix(impulse) * by_turn) - cross_matrix(inverse * moment);
-  derivatives.bottomRightCorner<6, 6>() += Eigen::Matrix<double, 6, 6>::Identity();
-  return derivatives;
+  ImpulseSlopes slopes;
+  slopes.of_turns << slope(0, room), slope(1, room), slope(2, room);
+  slopes.of_velocity << slope(3, along), slope(4, along), slope(5, across);
+  return strike_derivatives(body_, row.before, corner, row.impact.impulse, slopes);
 }
 
-/// The same of a group of corners.
-Eigen::MatrixXd ErrorGrowth::group_jacobian(const Strike& strike, const ImpactRow& row) const {
+StrikeDerivatives ErrorGrowth::group_differences(const Strike& strike, const ImpactRow& row) const {
   const double reach = body_.reach();
   const double speed = row.impact.contact_before.norm();
   const double turning = row.before.angular_velocity.norm() * reach;
   const double steps[3] = {relative_step * std::fmin(1, speed / std::fmax(turning, speed)), relative_step * speed,
                            relative_step * speed / reach};
-  Eigen::MatrixXd derivatives(9, 9);
+  StrikeDerivatives derivatives;
   for (int k = 0; k < 9; ++k) {
     const double step = steps[k / 3];
     const Impact plus = strike(shifted(row.before, k, step)), minus = strike(shifted(row.before, k, -step));
@@ -207,56 +182,50 @@ Eigen::MatrixXd ErrorGrowth::group_jacobian(const Strike& strike, const ImpactRo
   return derivatives;
 }
 
-std::pair<Eigen::MatrixXd, Eigen::MatrixXd> ErrorGrowth::energy_gradients(const ImpactRow& row, const Matrix3& inertia,
-                                                                          const Eigen::MatrixXd& velocity,
-                                                                          const Eigen::MatrixXd& turning) const {
+ErrorGrowth::EnergyGradients ErrorGrowth::energy_gradients(const ImpactRow& row, const Matrix3& inertia) const {
   const State& before = row.before;
   const Vector3 arm = before.attitude * row.corners.front().place;
-  const Vector3& w = before.angular_velocity;
-  const Vector3 momentum = inertia * w, momentum_after = inertia * row.impact.angular_velocity_after;
-  Eigen::MatrixXd energy = Eigen::MatrixXd::Zero(1, size), energy_after = energy;
-  energy.block<1, 3>(0, 1) = momentum.cross(w).transpose() + body_.mass * gravity_ * cross_matrix(arm).row(2);
-  energy.block<1, 3>(0, 4) = body_.mass * before.velocity.transpose();
-  energy.block<1, 3>(0, 7) = momentum.transpose();
-  energy_after.block<1, 3>(0, 1) = energy.block<1, 3>(0, 1) - momentum.cross(w).transpose() +
-                                   momentum_after.cross(row.impact.angular_velocity_after).transpose();
-  energy_after += body_.mass * row.impact.velocity_after.transpose().lazyProduct(velocity) +
-                  momentum_after.transpose().lazyProduct(turning);
-  return {energy, energy_after};
+  const Vector3 &w = before.angular_velocity, &w_after = row.impact.angular_velocity_after;
+  const Vector3 momentum = inertia * w;
+  EnergyGradients e;
+  e.before.segment<3>(1) = momentum.cross(w).transpose() + body_.mass * gravity_ * cross_matrix(arm).row(2);
+  e.before.segment<3>(4) = body_.mass * before.velocity.transpose();
+  e.before.segment<3>(7) = momentum.transpose();
+  e.after.segment<3>(1) =
+      (inertia * w_after).cross(w_after).transpose() + body_.mass * gravity_ * cross_matrix(arm).row(2);
+  return e;
 }
 
-void ErrorGrowth::fill(const Eigen::MatrixXd& derivatives, ImpactRow& row) const {
+void ErrorGrowth::fill(const StrikeDerivatives& derivatives, ImpactRow& row) const {
   const State& before = row.before;
-  const Matrix3 axes = before.attitude.toRotationMatrix(), inertia = axes * body_.inertia * axes.transpose();
-  Eigen::MatrixXd time = Eigen::MatrixXd::Zero(1, size), approach = time;
-  Eigen::MatrixXd angle = Eigen::MatrixXd::Zero(3, size), impulse = angle, velocity = angle, turning = angle;
-  time(0, 0) = 1;
-  angle.block<3, 3>(0, 1) = Matrix3::Identity();
-  impulse.rightCols(9) = derivatives.topRows(3);
-  velocity.rightCols(9) = derivatives.middleRows(3, 3);
-  turning.rightCols(9) = derivatives.bottomRows(3);
   const Vector3& w = before.angular_velocity;
-  approach = approach_gradient(row, w);
-  const auto [energy, energy_after] = energy_gradients(row, inertia, velocity, turning);
+  const Matrix3 axes = before.attitude.toRotationMatrix(), inertia = axes * body_.inertia * axes.transpose();
+  const auto [energy, energy_of_turn] = energy_gradients(row, inertia);
   const Vector3 momentum_after = inertia * row.impact.angular_velocity_after;
+  const Eigen::Matrix<double, 9, Eigen::Dynamic, Eigen::ColMajor, 9, most_columns> struck =
+      derivatives.lazyProduct(factor_.bottomRows<9>());
+  const Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, most_columns> energy_after =
+      energy_of_turn.lazyProduct(factor_) +
+      body_.mass * row.impact.velocity_after.transpose().lazyProduct(struck.middleRows<3>(3)) +
+      momentum_after.transpose().lazyProduct(struck.bottomRows<3>());
   const Factor rounding = impulse_rounding(row);
   const double in_velocity = deviations * rounding.middleRows(4, 3).norm();
   const double in_turning = deviations * rounding.bottomRows(3).norm();
   const double size_of_energy = std::fabs(row.energy_before) + std::fabs(row.energy_after);
   RowErrors& e = row.error;
   e.predictable = true;
-  e.start = row.start == 0 ? 0 : bound(time) + epsilon * row.start;
-  e.attitude = bound(angle) + 4 * epsilon;
-  e.approach_speed = bound(approach) + approach_rounding(row);
-  e.impulse = bound(impulse) + body_.mass * in_velocity;
-  e.velocity_after = bound(velocity) + in_velocity + 4 * epsilon * before.velocity.norm();
-  e.angular_velocity_after = bound(turning) + in_turning + 4 * epsilon * w.norm();
-  e.energy_before = bound(energy) + 8 * epsilon * size_of_energy;
+  e.start = row.start == 0 ? 0 : bound(factor_.row(0)) + epsilon * row.start;
+  e.attitude = bound(factor_.middleRows<3>(1)) + 4 * epsilon;
+  e.approach_speed = bound(approach_gradient(row, w).lazyProduct(factor_)) + approach_rounding(row);
+  e.impulse = bound(struck.topRows<3>()) + body_.mass * in_velocity;
+  e.velocity_after = bound(struck.middleRows<3>(3)) + in_velocity + 4 * epsilon * before.velocity.norm();
+  e.angular_velocity_after = bound(struck.bottomRows<3>()) + in_turning + 4 * epsilon * w.norm();
+  e.energy_before = bound(energy.lazyProduct(factor_)) + 8 * epsilon * size_of_energy;
   e.energy_after = bound(energy_after) + 8 * epsilon * size_of_energy +
                    body_.mass * in_velocity * row.impact.velocity_after.norm() + in_turning * momentum_after.norm();
 }
 
-void ErrorGrowth::strike(const Strike& strike, ImpactRow& row) {
+void ErrorGrowth::strike(const Strike& strike, const StrikeDerivatives& closed, ImpactRow& row) {
   row.error = RowErrors::unknown();
   row.amplification = std::numeric_limits<double>::quiet_NaN();
   const Factor arriving = std::exchange(arriving_, Factor(size, 0));
@@ -270,9 +239,9 @@ void ErrorGrowth::strike(const Strike& strike, ImpactRow& row) {
   append(is_hop(row) ? without_approach(arriving, approach_gradient(row, row.before.angular_velocity),
                                         row.flight.velocity_error)
                      : arriving);
-  Eigen::MatrixXd derivatives;
+  StrikeDerivatives derivatives = closed;
   try {
-    derivatives = row.group ? group_jacobian(strike, row) : corner_jacobian(strike, row);
+    if (!closed.allFinite()) derivatives = row.group ? group_differences(strike, row) : corner_differences(strike, row);
   } catch (const std::runtime_error&) {  // a neighbour jams, or cannot be computed
     predictable_ = false;
     return;
@@ -286,7 +255,10 @@ void ErrorGrowth::strike(const Strike& strike, ImpactRow& row) {
   const double of_impulse =
       derivatives.topRows(3).lazyProduct(of_drop_.bottomRows(9)).norm() / row.impact.impulse.norm();
   row.amplification = std::fmax(std::fmax(of_time, of_impulse), of_drop_.middleRows(1, 3).norm());
+  carry(derivatives, row);
+}
 
+void ErrorGrowth::carry(const StrikeDerivatives& derivatives, const ImpactRow& row) {
   Jacobian jacobian = Jacobian::Identity();
   jacobian.bottomRightCorner(6, 9) = derivatives.bottomRows(6);
   advance(jacobian);
@@ -306,54 +278,16 @@ void ErrorGrowth::strike(const Strike& strike, ImpactRow& row) {
 // Growth of errors along a flight, up to the touch that ends it.
 
 ErrorGrowth::Jacobian ErrorGrowth::flight_jacobian(const FreeFlight& flight, double time) const {
-  const State& start = flight.start();
-  const double speed = start.angular_velocity.norm();
-  if (speed * time <= 1e-3) return short_flight_jacobian(flight, time);
-  const double step = speed > 0 ? relative_step * speed / (1 + speed * time) : relative_step / time;
-  const PrincipalAxes principal(body_.inertia);
-  const State now = flight.at(time);
-  Matrix3 of_attitude, of_velocity;
-  for (int k = 0; k < 3; ++k) {
-    const State plus = FreeFlight(principal, shifted(start, 6 + k, step), gravity_).at(time);
-    const State minus = FreeFlight(principal, shifted(start, 6 + k, -step), gravity_).at(time);
-    of_attitude.col(k) = small_rotation(plus.attitude, minus.attitude) / (2 * step);
-    of_velocity.col(k) = (plus.angular_velocity - minus.angular_velocity) / (2 * step);
-  }
-  return rotation_jacobian(start.angular_velocity, now.angular_velocity, of_attitude, of_velocity);
-}
-
-/// A turn of attitude and ω together turns the whole motion.
-ErrorGrowth::Jacobian ErrorGrowth::rotation_jacobian(const Vector3& before, const Vector3& after,
-                                                     const Matrix3& of_attitude, const Matrix3& of_velocity) {
-  const Matrix3 turn = cross_matrix(before);
+  const auto [of_attitude, of_velocity] = rotation_derivatives(flight, body_.inertia, time);
+  // A turn of attitude and ω together turns the whole motion.
+  const Matrix3 turn = cross_matrix(flight.start().angular_velocity);
+  const Vector3 velocity = flight.at(time).angular_velocity;
   Jacobian j = Jacobian::Identity();
   j.block<3, 3>(1, 1) = Matrix3::Identity() + of_attitude * turn;
   j.block<3, 3>(1, 7) = of_attitude;
-  j.block<3, 3>(7, 1) = -cross_matrix(after) + of_velocity * turn;
+  j.block<3, 3>(7, 1) = -cross_matrix(velocity) + of_velocity * turn;
   j.block<3, 3>(7, 7) = of_velocity;
   return j;
-}
-
-/// One Runge-Kutta step of  δθ′ = I⁻¹(δL − δθ × L),  L the momentum, and  δω = δθ′ + δθ × ω.
-ErrorGrowth::Jacobian ErrorGrowth::short_flight_jacobian(const FreeFlight& flight, double time) const {
-  const auto tensor = [&](const State& s, const Matrix3& of_body) -> Matrix3 {
-    const Matrix3 axes = s.attitude.toRotationMatrix();
-    return axes * of_body * axes.transpose();
-  };
-  const State &start = flight.start(), now = flight.at(time);
-  const Matrix3 inertia = tensor(start, body_.inertia);
-  const Matrix3 turn = cross_matrix(inertia * start.angular_velocity);
-  const Matrix3 first = tensor(start, inverse_inertia_), middle = tensor(flight.at(time / 2), inverse_inertia_),
-                last = tensor(now, inverse_inertia_);
-  const auto rate = [&](const Matrix3& inverse, const Matrix3& angle) -> Matrix3 {
-    return inverse * (inertia + turn * angle);  // −δθ × L = L × δθ
-  };
-  const Matrix3 zero = Matrix3::Zero();
-  const Matrix3 k1 = rate(first, zero), k2 = rate(middle, time / 2 * k1), k3 = rate(middle, time / 2 * k2),
-                k4 = rate(last, time * k3);
-  const Matrix3 of_attitude = time / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
-  const Matrix3 of_velocity = rate(last, of_attitude) - cross_matrix(now.angular_velocity) * of_attitude;
-  return rotation_jacobian(start.angular_velocity, now.angular_velocity, of_attitude, of_velocity);
 }
 
 void ErrorGrowth::fly(const FreeFlight& flight, const FirstContact& contact, const Vector3& from_place,
@@ -370,7 +304,7 @@ void ErrorGrowth::fly(const FreeFlight& flight, const FirstContact& contact, con
   height.segment<3>(1) += cross_matrix(from).row(2);
   height[6] += t;
   const Gradient shift = -height / contact.normal_velocity;
-  const double late = bound(shift) + contact.time_error;  // beside the departure
+  const double late = bound(shift.lazyProduct(factor_)) + contact.time_error;  // beside the departure
   const Vector3 body_velocity = now.attitude.conjugate() * now.angular_velocity;
   const Vector3 acceleration = now.attitude * (inverse_inertia_ * (body_.inertia * body_velocity).cross(body_velocity));
   j.row(0) += shift;
@@ -387,10 +321,8 @@ void ErrorGrowth::fly(const FreeFlight& flight, const FirstContact& contact, con
       Vector3::Constant(2 * epsilon * now.angular_velocity.norm());
   arriving_ = diagonal(d);
   // First order holds while the shift of the touch changes h′ little.
-  Eigen::MatrixXd angle = Eigen::MatrixXd::Zero(3, size);
-  angle.block<3, 3>(0, 1) = Matrix3::Identity();
   if (!(late * std::fabs(contact.acceleration) <= first_order * std::fabs(contact.normal_velocity)) ||
-      !(bound(angle) <= first_order) || contact.within_margin) {
+      !(bound(factor_.middleRows<3>(1)) <= first_order) || contact.within_margin) {
     predictable_ = false;
   }
   if (predictable_) check_others(flight, contact);
@@ -398,10 +330,7 @@ void ErrorGrowth::fly(const FreeFlight& flight, const FirstContact& contact, con
 
 /// Height of a point that neither departed nor arrived: error of attitude and of the parabola.
 double ErrorGrowth::height_bound(double time) const {
-  Eigen::MatrixXd angle = Eigen::MatrixXd::Zero(3, size), fall = Eigen::MatrixXd::Zero(1, size);
-  angle.block<3, 3>(0, 1) = Matrix3::Identity();
-  fall(0, 6) = time;
-  return 2 * body_.reach() * (bound(angle) + 4 * epsilon) + bound(fall);
+  return 2 * body_.reach() * (bound(factor_.middleRows<3>(1)) + 4 * epsilon) + time * bound(factor_.row(6));
 }
 
 /// No other point may be so near the ground that the errors let it arrive first.

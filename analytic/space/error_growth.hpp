@@ -4,18 +4,18 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <utility>
 
 #include "analytic/space/impact_rows.hpp"
+#include "analytic/space/strike_derivatives.hpp"
 
 namespace clatter::analytic::space {
 
 /// Errors of the state (t, δθ, δV, δω) at touch and departure, to first order: δθ the rotation vector of the attitude's
 /// error, everything in the world frame; the height of the centre of mass follows from the touch.
 ///
-/// Impact of a corner: central differences of P in the corner's velocity and in δθ, each on its own scale; of a group:
-/// of the impact in δθ, V and ω.  Flight, at a fixed time: δθ and δV in closed form, δω by central differences of the
-/// rotation, or of a short flight by a Runge-Kutta step; then the touch at h = 0 shifts the time by
+/// Impact: strike_derivatives.hpp; where that has none, central differences, of a corner's P in its velocity and in δθ,
+/// each on its own scale, of a group's impact in δθ, V and ω.  Flight, at a fixed time: flight_derivatives.hpp; then
+/// the touch at h = 0 shifts the time by
 ///     δt = −δh/h′,   δh = −(δθ₀ × r₀)_z + t δV_z + (δθ₁ × r₁)_z,                                       (1)
 /// r₀, r₁ from the centre of mass to the corner that departed and the one that arrives.
 /// A corner's normal velocity after an impact and after a small hop is carried beside V and ω to relative accuracy:
@@ -32,7 +32,8 @@ class ErrorGrowth {
   /// Impulse and velocities after an impact, as a function of the state before.
   using Strike = std::function<Impact(const State&)>;
   /// Fills in the row's errors and amplification, and carries the errors through the impact.
-  void strike(const Strike& strike, ImpactRow& row);
+  /// @param derivatives  of the impact; where they are not all finite, differences of `strike` serve
+  void strike(const Strike& strike, const StrikeDerivatives& derivatives, ImpactRow& row);
   /// Carries the errors through a flight.
   void fly(const FreeFlight& flight, const FirstContact& contact, const Vector3& from_place, const Vector3& to_place);
   /// After a flight without contact: whether the errors leave that certain.
@@ -42,10 +43,9 @@ class ErrorGrowth {
   void give_up() { predictable_ = false; }
 
  private:
-  static constexpr int size = 10;
-  using Factor = Eigen::Matrix<double, size, Eigen::Dynamic>;
+  static constexpr int size = 10, most_columns = 4 * size;
+  using Factor = Eigen::Matrix<double, size, Eigen::Dynamic, Eigen::ColMajor, size, most_columns>;
   using Jacobian = Eigen::Matrix<double, size, size>;
-
   using Deviations = Eigen::Matrix<double, size, 1>;
   using Gradient = Eigen::Matrix<double, 1, size>;
 
@@ -54,23 +54,20 @@ class ErrorGrowth {
   void advance(const Jacobian& jacobian);
   [[nodiscard]] static Factor without_approach(Factor columns, const Gradient& approach, double rounding);
   [[nodiscard]] double approach_rounding(const ImpactRow& row) const;
-  [[nodiscard]] Matrix3 arm_jacobian(const ImpactRow& row) const;
   [[nodiscard]] Gradient approach_gradient(const ImpactRow& row, const Vector3& turning) const;
-  [[nodiscard]] Eigen::MatrixXd corner_jacobian(const Strike& strike, const ImpactRow& row) const;
-  [[nodiscard]] Eigen::MatrixXd group_jacobian(const Strike& strike, const ImpactRow& row) const;
-  /// Of the energies before and after the impact, with z = −r_z and the inertia turned.
-  /// @param velocity, turning  gradients of the motion after, 3 × size
-  [[nodiscard]] std::pair<Eigen::MatrixXd, Eigen::MatrixXd> energy_gradients(const ImpactRow& row,
-                                                                             const Matrix3& inertia,
-                                                                             const Eigen::MatrixXd& velocity,
-                                                                             const Eigen::MatrixXd& turning) const;
-  void fill(const Eigen::MatrixXd& derivatives, ImpactRow& row) const;
+  [[nodiscard]] StrikeDerivatives corner_differences(const Strike& strike, const ImpactRow& row) const;
+  [[nodiscard]] StrikeDerivatives group_differences(const Strike& strike, const ImpactRow& row) const;
+  /// Of the energy before the impact by the state before, with z = −r_z and the inertia turned; of the energy after it
+  /// by the attitude.
+  struct EnergyGradients {
+    Gradient before = Gradient::Zero(), after = Gradient::Zero();
+  };
+  [[nodiscard]] EnergyGradients energy_gradients(const ImpactRow& row, const Matrix3& inertia) const;
+  void fill(const StrikeDerivatives& derivatives, ImpactRow& row) const;
+  /// The errors through the impact, and its rounding.
+  void carry(const StrikeDerivatives& derivatives, const ImpactRow& row);
   [[nodiscard]] Jacobian flight_jacobian(const FreeFlight& flight, double time) const;
-  [[nodiscard]] Jacobian short_flight_jacobian(const FreeFlight& flight, double time) const;
-  [[nodiscard]] static Jacobian rotation_jacobian(const Vector3& before, const Vector3& after,
-                                                  const Matrix3& of_attitude, const Matrix3& of_velocity);
   void check_others(const FreeFlight& flight, const FirstContact& contact);
-  [[nodiscard]] double bound(const Eigen::MatrixXd& gradient) const;
   [[nodiscard]] double height_bound(double time) const;
 
   const Body& body_;

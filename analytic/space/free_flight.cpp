@@ -2,6 +2,7 @@
 #include "analytic/space/free_flight.hpp"
 
 #include <algorithm>
+#include <boost/math/special_functions/ellint_rd.hpp>
 #include <boost/math/special_functions/ellint_rf.hpp>
 #include <cmath>
 #include <limits>
@@ -222,6 +223,20 @@ ThetaRotation::Moment ThetaRotation::at(double time) const {
   moment.cosine = c * cosine - s * sine;
   moment.sine = c * sine + s * cosine;
   return moment;
+}
+
+double ThetaRotation::square_integral(double time) const {
+  const Extended u = start_ + rate_ * time;
+  const Extended halves = std::nearbyint(u / (2 * quarter_));
+  const double argument = scale_ * static_cast<double>(u - halves * (2 * quarter_));
+  const Functions f = dual_ ? dual(argument) : direct(argument);
+  const double least = least_third_ / amplitudes_[2];
+  // Both are zero only where the separatrix is nearer than doubles tell.
+  const auto integral = [](double x, double y) {
+    return x + y > 0 ? boost::math::ellint_rd(x, y, 1.0) / 3 : std::numeric_limits<double>::infinity();
+  };
+  const double rest = f.sn * f.sn * f.sn * integral(f.cn * f.cn, f.dn * f.dn);
+  return halves == 0 ? rest : rest + static_cast<double>(2 * halves) * integral(0, least * least);
 }
 
 /// By sines and cosines of multiples of v = πu/2K.

@@ -55,6 +55,12 @@ class ThetaRotation {
   [[nodiscard]] double modulus_square() const { return modulus_square_; }
   /// 4K/λ, after which ω in body axes repeats; infinite on the separatrix [s].
   [[nodiscard]] double period() const { return static_cast<double>(4 * quarter_ / rate_); }
+  /// σ of (1), 1 or −1.
+  [[nodiscard]] double sense() const { return sense_; }
+  /// λ of (1) [1/s].
+  [[nodiscard]] double rate() const { return static_cast<double>(rate_); }
+  /// ∫ sn² du from 0 to u at a time, by Carlson's R_D: sn³ R_D(cn², dn², 1)/3 for |u| <= K.
+  [[nodiscard]] double square_integral(double time) const;
   /// k′ M₃: the least that m₃ becomes.
   [[nodiscard]] double least_third() const { return least_third_; }
 

@@ -32,7 +32,7 @@ Impact strike(const Body& body, const State& before, const Vector3& place, const
 }
 
 Impact strike(const Body& body, const State& before, const ContactVelocity& velocity, const Vector3& place,
-              const Law& law) {
+              const Law& law, ImpulseSlopes* slopes) {
   law.validate();
   const Vector3& v = velocity.value;
   Impact impact;
@@ -49,7 +49,7 @@ Impact strike(const Body& body, const State& before, const ContactVelocity& velo
   const Matrix3 turned = axes * inverse_contact_inertia(body.mass, inverse_inertia, place) * axes.transpose();
   const Matrix3 w = (turned + turned.transpose()) / 2;
   const ContactImpulse at_corner =
-      contact_impulse({.inverse_inertia = w, .velocity = v, .velocity_scale = velocity.scale}, law);
+      contact_impulse({.inverse_inertia = w, .velocity = v, .velocity_scale = velocity.scale}, law, slopes);
   impact.impulse = at_corner.impulse;
   impact.contact_after = at_corner.velocity_after;
   impact.velocity_after += at_corner.impulse / body.mass;

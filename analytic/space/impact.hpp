@@ -48,7 +48,8 @@ struct ContactVelocity {
 ///         std::domain_error as ImpactLaw::validate().
 [[nodiscard]] Impact strike(const Body& body, const State& before, const Vector3& place, const Law& law);
 /// The same with a velocity of the corner that is known better than V + ω × r is.
+/// @param slopes  of the impulse, if asked for
 [[nodiscard]] Impact strike(const Body& body, const State& before, const ContactVelocity& velocity,
-                            const Vector3& place, const Law& law);
+                            const Vector3& place, const Law& law, ImpulseSlopes* slopes = nullptr);
 
 }  // namespace clatter::analytic::space

@@ -11,6 +11,8 @@
 // goes on along one of these.
 #pragma once
 
+#include <array>
+
 #include "analytic/law/impact_law.hpp"
 #include "analytic/space/body.hpp"
 
@@ -54,11 +56,20 @@ struct ContactImpulse {
   bool is_path_ambiguous = false;
 };
 
+/// How P changes with the contact, to first order; world frame.
+struct ImpulseSlopes {
+  std::array<Matrix3, 3> turns;  ///< given: δW for small turns of the body about x, y, z; about z that of W as a whole
+  Matrix3 of_turns;              ///< ∂P for these, v kept [N·s/rad]
+  /// ∂P/∂v [kg].  NaN, as of_turns, where P has no derivative or none in closed form: slip that starts from rest or
+  /// keeps a direction from which it would turn if it left it, other than in a plane of symmetry.
+  Matrix3 of_velocity;
+};
+
 /// The impulse of an approaching corner (v_n < 0) by `law`.
-/// Accuracy: 1e-13 of |P|, times what rounding of W and v does.
+/// Accuracy: 1e-13 of |P|, times what rounding of W and v does; 1e-10 of their size for the slopes.
 /// @throws OutsideModelError for an impulse ratio at or beyond jamming, c + μ_i b·d <= 0; NumericalError if a number
 ///         overflows or a path cannot be resolved.
-[[nodiscard]] ContactImpulse contact_impulse(const Contact& contact, const Law& law);
+[[nodiscard]] ContactImpulse contact_impulse(const Contact& contact, const Law& law, ImpulseSlopes* slopes = nullptr);
 
 /// A face that lands and rebounds as a whole: its normal motion goes over into −e times itself in step with the normal
 /// impulse p, whatever friction does; where all of the face slips in one direction (face_friction.hpp otherwise),

@@ -10,8 +10,11 @@
 // compression; friction that reverses can do that), E grows again without a second loss, and p_c stays.
 #pragma once
 
+#include <array>
 #include <limits>
+#include <type_traits>
 
+#include "analytic/base/dual.hpp"
 #include "analytic/law/impact_law.hpp"
 #include "analytic/space/body.hpp"
 
@@ -31,33 +34,42 @@ enum class Stage {
   done,
 };
 
+/// A number with its derivatives for turns of the body about x and y and for v_x, v_y, v_z in the unit of velocity.
+using PathDual = detail::Dual<5>;
+
 /// What the stages look at, along the path.
+template <class Number = double>
 struct Measure {
-  double impulse = 0;           ///< p
-  double normal_velocity = -1;  ///< u
-  double store = 0;             ///< E
+  Number impulse = 0;           ///< p
+  Number normal_velocity = -1;  ///< u
+  Number store = 0;             ///< E
 };
 
+/// Number: double, or PathDual for derivatives; the latter holds those of the approach speed, which is 1.
+template <class Number = double>
 class PathProgress {
  public:
-  PathProgress(const RestitutionRule& rule, double initial_slip)
-      : slip(initial_slip), least_slip(initial_slip), rule_(rule) {}
+  PathProgress(const RestitutionRule& rule, const Number& initial_slip, const Number& approach)
+      : slip(initial_slip), least_slip(detail::value_of(initial_slip)), rule_(rule), approach_(approach) {
+    at.normal_velocity = -approach;
+  }
 
   [[nodiscard]] Stage stage() const { return stage_; }
   [[nodiscard]] bool is_done() const { return stage_ == Stage::done; }
   /// What rises through zero at the end of the stage.
-  [[nodiscard]] double excess(const Measure& at) const;
+  template <class Value>
+  [[nodiscard]] Value excess(const Measure<Value>& at) const;
   /// The derivative of excess() by the impulse, where u has the derivative `normal_rate`.
-  [[nodiscard]] double excess_rate(const Measure& at, double normal_rate) const;
+  [[nodiscard]] double excess_rate(const Measure<>& at, double normal_rate) const;
   /// Enters the next stage.
   void end_stage();
 
   /// Goes along a straight line of constant ratio = dP_t/dp and normal_rate = du/dp for the impulse `length` or to the
   /// end of the law, whichever comes first.
   struct Line {
-    Vector2 ratio = Vector2::Zero();
-    double normal_rate = 1;
-    double length = std::numeric_limits<double>::infinity();
+    std::array<Number, 2> ratio{};
+    Number normal_rate = 1;
+    Number length = std::numeric_limits<double>::infinity();
   };
   void follow(const Line& line);
 
@@ -72,21 +84,36 @@ class PathProgress {
   [[nodiscard]] bool is_at_limit_speed() const {
     constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
     return stage_ == Stage::restitution && is_energetic() &&
-           1 - rule_.damping * at.normal_velocity <= rounding * (1 + rule_.damping * at.impulse);
+           1 - rule_.damping * detail::value_of(at.normal_velocity) <=
+               rounding * (1 + rule_.damping * detail::value_of(at.impulse));
   }
 
-  Measure at;
-  Vector2 friction = Vector2::Zero();                             ///< P_t
-  double slip;                                                    ///< σ
+  Measure<Number> at;
+  std::array<Number, 2> friction{};                               ///< P_t
+  Number slip;                                                    ///< σ
   double least_slip;                                              ///< smallest σ so far
-  double compression = std::numeric_limits<double>::quiet_NaN();  ///< p_c
+  Number compression = std::numeric_limits<double>::quiet_NaN();  ///< p_c
 
  private:
-  [[nodiscard]] double length_of_stage(double normal_rate) const;
-  void advance(const Line& line, double length);
+  [[nodiscard]] Number length_of_stage(const Number& normal_rate) const;
+  void advance(const Line& line, const Number& length);
 
   RestitutionRule rule_;
+  Number approach_;
   Stage stage_ = Stage::compression;
 };
+
+template <class Number>
+template <class Value>
+Value PathProgress<Number>::excess(const Measure<Value>& m) const {
+  const auto known = [](const Number& number) -> Value {
+    if constexpr (std::is_same_v<Value, Number>) return number;
+    else return detail::value_of(number);
+  };
+  if (stage_ != Stage::restitution) return m.normal_velocity;
+  if (rule_.law == RestitutionLaw::newton) return m.normal_velocity - rule_.restitution * known(approach_);
+  if (rule_.law == RestitutionLaw::poisson) return m.impulse - (1 + rule_.restitution) * known(compression);
+  return -m.store;
+}
 
 }  // namespace clatter::analytic::space

@@ -39,12 +39,14 @@ Impact impact_of(const GroupImpact& group, const State& before, const Vector3& p
 
 /// Fills in the impact of the row's corners from the state before: one corner, or a group of corners or a level rim.
 /// @throws as strike() and strike_together()
-void strike_row(const Body& body, const Law& law, ImpactRow& row) {
+/// @param derivatives  of the impact, if asked for; NaN for a group or a level rim
+void strike_row(const Body& body, const Law& law, ImpactRow& row, StrikeDerivatives* derivatives) {
   const Corner& corner = row.corners.front();
   if (row.corners.size() > 1 || corner.radius > 0) {
     row.group = strike_together(body, row.before, row.corners, law);
     row.impact = impact_of(*row.group, row.before, corner.place);
     row.approach_speed = row.group->approach_speed;
+    if (derivatives != nullptr) derivatives->setConstant(missing);
     return;
   }
   ContactVelocity velocity = contact_velocity(row.before, corner.place);
@@ -55,7 +57,8 @@ void strike_row(const Body& body, const Law& law, ImpactRow& row) {
       std::fabs(row.flight.normal_velocity) <= 1e3 * steep * velocity.scale) {
     velocity.value.z() = row.flight.normal_velocity;
   }
-  row.impact = strike(body, row.before, velocity, corner.place, law);
+  row.impact = derivatives != nullptr ? strike(body, row.before, velocity, corner, law, *derivatives)
+                                      : strike(body, row.before, velocity, corner.place, law);
   row.approach_speed = -velocity.value.z();
 }
 
@@ -171,20 +174,21 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     row.amplification = missing;
     row.error = RowErrors::unknown();
     for (const int point : arriving) row.corners.push_back(touching_corner(body_, state_.attitude, point));
-    strike_row(body_, drop_.law, row);
+    StrikeDerivatives derivatives;
+    const bool follows = growth_ && growth_->predictable();
+    strike_row(body_, drop_.law, row, follows ? &derivatives : nullptr);
     state_.velocity = row.impact.velocity_after;
     state_.angular_velocity = row.impact.angular_velocity_after;
     row.energy_after = energy(state_);
     find_departures(drop_.law, row, state_, touches_);
     result_.total_normal_impulse += row.impact.impulse.z();
     note_energy(row.impact.energy_loss, 1e-12);
-    if (growth_) grow(row);
+    if (growth_) {
+      growth_->strike([&](const State& before) { return struck_again(body_, drop_.law, row, before); }, derivatives,
+                      row);
+    }
     if (!result_.rows.empty()) accumulation_.add(row, damping_loss(drop_.law.law, row.approach_speed));
     result_.rows.push_back(std::move(row));
-  }
-
-  void grow(ImpactRow& row) {
-    growth_->strike([&](const State& before) { return struck_again(body_, drop_.law, row, before); }, row);
   }
 
   /// Whether infinitely many impacts follow that need no more rows.

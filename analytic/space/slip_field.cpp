@@ -86,6 +86,21 @@ void SlipField::find_zeros() {
   add(2 * pi + bracketed_zero({-b1_, b2_, anisotropy_}, 0, pi / 2, 1), true);
 }
 
+SlipFieldSlopes::SlipFieldSlopes(const SlipField& field, const Matrix3& w, const std::array<Matrix3, 3>& turns)
+    : friction_(field.friction()) {
+  Matrix2 axes;
+  axes << field.to_frame(Vector2::UnitX()), field.to_frame(Vector2::UnitY());
+  for (int k = 0; k < 2; ++k) {
+    const Matrix3& turn = turns[static_cast<std::size_t>(k)];
+    unit[k] = turn(2, 2) / w(2, 2);
+    const Matrix3 change = turn / w(2, 2) - unit[k] / w(2, 2) * w;
+    const Matrix2 a = axes * change.topLeftCorner<2, 2>() * axes.transpose();
+    const Vector2 b = axes * change.block<2, 1>(0, 2);
+    a11[k] = a(0, 0), a12[k] = a(0, 1), a22[k] = a(1, 1);
+    b1[k] = b[0], b2[k] = b[1];
+  }
+}
+
 InvariantDirections invariant_directions(const Matrix3& w, double friction) {
   const SlipField field(w, friction);
   InvariantDirections all;

@@ -78,7 +78,21 @@ class SlipField {
   [[nodiscard]] double friction() const { return friction_; }
   [[nodiscard]] double b1() const { return b1_; }
   [[nodiscard]] double b2() const { return b2_; }
+  /// 1, or 0 where friction does not act on the normal velocity.
+  [[nodiscard]] double normal_coupling() const { return normal_coupling_; }
+  [[nodiscard]] double a1() const { return a1_; }
+  [[nodiscard]] double a2() const { return a2_; }
   [[nodiscard]] double anisotropy() const { return anisotropy_; }
+  /// Derivatives of f, g and h by the angle.
+  [[nodiscard]] double slip_rate_slope(const Direction& s) const {
+    return b2_ * s.cosine - b1_ * s.sine + 2 * anisotropy_ * s.sine * s.cosine;
+  }
+  [[nodiscard]] double turning_slope(const Direction& s) const {
+    return -b1_ * s.cosine - b2_ * s.sine + anisotropy_ * (s.cosine - s.sine) * (s.cosine + s.sine);
+  }
+  [[nodiscard]] double normal_rate_slope(const Direction& s) const {
+    return normal_coupling_ * friction_ * (b1_ * s.sine - b2_ * s.cosine);
+  }
 
  private:
   void find_zeros();
@@ -86,6 +100,31 @@ class SlipField {
   double normal_coupling_, friction_, a1_ = 0, a2_ = 0, b1_ = 0, b2_ = 0, anisotropy_ = 0;
   std::array<InvariantAngle, 4> zeros_;
   std::size_t count_ = 0;
+};
+
+/// How the field changes with W, to first order, in its frame, which stays: by turns of the body about x and y.
+class SlipFieldSlopes {
+ public:
+  using Row = Eigen::Array<double, 1, 2>;
+  /// @param inverse_contact_inertia, turns  W, and δW for the two turns
+  SlipFieldSlopes(const SlipField& field, const Matrix3& inverse_contact_inertia, const std::array<Matrix3, 3>& turns);
+
+  /// Of f, g and h where the direction stays.
+  [[nodiscard]] Row slip_rate(const Direction& s) const {
+    return push(s) - friction_ * (a11 * s.cosine * s.cosine + 2 * a12 * s.cosine * s.sine + a22 * s.sine * s.sine);
+  }
+  [[nodiscard]] Row turning(const Direction& s) const {
+    return b2 * s.cosine - b1 * s.sine +
+           friction_ * ((a11 - a22) * s.sine * s.cosine - a12 * (s.cosine - s.sine) * (s.cosine + s.sine));
+  }
+  [[nodiscard]] Row normal_rate(const Direction& s) const { return -friction_ * push(s); }
+
+  Row b1, b2, a11, a12, a22;  ///< δb and δA over W_nn
+  Row unit;                   ///< δW_nn/W_nn
+
+ private:
+  [[nodiscard]] Row push(const Direction& s) const { return b1 * s.cosine + b2 * s.sine; }
+  double friction_;
 };
 
 /// An invariant direction of slip, as `explain` lists it.
