@@ -31,8 +31,8 @@ struct SequenceOptions {
 enum class Outcome {
   no_further_impact,  ///< nothing reaches the ground any more
   impact_limit,       ///< as many impacts as asked for
-  at_rest,            ///< infinitely many impacts end in a finite time, with no normal motion nor turning about a
-                      ///< horizontal axis left that doubles could tell from none, or with a face that it must settle on
+  at_rest,            ///< infinitely many impacts end in a finite time, with no normal or angular motion left that
+                      ///< doubles could tell from none, or with a face that the body must settle on
   sustained_contact,  ///< a vertex stays on the ground (after infinitely many impacts, or with e = 0)
                       ///< while the body still turns: beyond the model
   not_computed,       ///< a number of the next flight or impact could not be had; the rows so far hold

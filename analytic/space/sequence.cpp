@@ -226,7 +226,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     else if (growth_->predictable()) add_errors(drop_, result_.rows.back(), tail);
     else end_is_certain_ = ends_for_certain(drop_, result_.rows, tail) || rests_for_certain();
     const bool slides = tail.velocity_after.head<2>() != Vector2::Zero();
-    const bool turns = !result_.rest && tail.angular_velocity_after.head<2>() != Vector2::Zero();
+    const bool turns = !result_.rest && tail.angular_velocity_after != Vector3::Zero();
     const bool spins = tail.angular_velocity_after.z() != 0;
     const bool comes_down = result_.rest && tail.corners.size() < result_.rest->corners.size();
     const std::string stays = which_stays(tail.corners);
