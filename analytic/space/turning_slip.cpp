@@ -183,6 +183,12 @@ class TurningPath {
   void accept(const Panel& panel);
   void end_stage();
   void start_slopes();
+  /// Of φ, E, f and h at the nodes of a panel of fixed length, and of sin(w/2), relative, by one variable.
+  struct NodeChanges {
+    Nodes turn, factor, slip_rate, rise;
+    double stretch = 0;
+  };
+  [[nodiscard]] NodeChanges changes(const ArcPlaces<Nodes>& places, std::size_t k) const;
   void add_slopes(const Panel& panel, std::size_t k);
   void move_end();
 
@@ -324,43 +330,51 @@ void TurningPath<Number>::start_slopes() {
   }
 }
 
-/// Adds what the variable k does to the integrals of a panel of fixed length.
 template <class Number>
-void TurningPath<Number>::add_slopes(const Panel& p, std::size_t k) {
-  const Rule& r = rule();
-  const auto& [cosine, sine, pace, of_width, factor] = p.places;
+typename TurningPath<Number>::NodeChanges TurningPath<Number>::changes(const ArcPlaces<Nodes>& places,
+                                                                       std::size_t k) const {
+  const auto& [cosine, sine, pace, of_width, factor] = places;
   const double friction = field_.friction(), anisotropy = field_.anisotropy();
   const Direction& m = map_.middle();
   const double sine2 = 2 * m.sine * m.cosine, cosine2 = (m.cosine - m.sine) * (m.cosine + m.sine);
   const Nodes sum_sine = sine * m.cosine + cosine * m.sine, sum_cosine = cosine * m.cosine - sine * m.sine;
-  Nodes turn = map_.sense() * turned_.y[k] * pace;
-  Nodes change = anisotropy * sum_cosine * turn;  // of E
-  Nodes rate = Nodes::Zero(), rise = rate;        // of f and h, but for the turn
-  double stretch = 0;                             // of sin(w/2), relative
+  NodeChanges c{
+      .turn = map_.sense() * turned_.y[k] * pace, .factor = pace, .slip_rate = Nodes::Zero(), .rise = Nodes::Zero()};
+  c.factor = anisotropy * sum_cosine * c.turn;
   if (k < 2) {
     const int row = static_cast<int>(k);
     const SlipFieldSlopes& f = slopes_->field;
     const double from = slopes_->repelling[row], to = slopes_->attracting[row];
     const double width = map_.sense() * (to - from), middle = (from + to) / 2;
     const Nodes moved = from + map_.sense() * width * of_width;
-    turn += moved;
-    stretch = width / 2 * map_.half_cosine() / map_.half_sine();
-    change += anisotropy * sum_cosine * (moved + middle) + f.b2[row] * m.cosine - f.b1[row] * m.sine -
-              (field_.b2() * m.sine + field_.b1() * m.cosine) * middle +
-              anisotropy * (2 * map_.half_cosine() * cosine2 * middle - map_.half_sine() * width / 2 * sine2) +
-              friction * ((f.a11[row] - f.a22[row]) * (map_.half_cosine() * sine2 + sum_sine) -
-                          2 * f.a12[row] * (map_.half_cosine() * cosine2 + sum_cosine));
+    c.turn += moved;
+    c.stretch = width / 2 * map_.half_cosine() / map_.half_sine();
+    c.factor += anisotropy * sum_cosine * (moved + middle) + f.b2[row] * m.cosine - f.b1[row] * m.sine -
+                (field_.b2() * m.sine + field_.b1() * m.cosine) * middle +
+                anisotropy * (2 * map_.half_cosine() * cosine2 * middle - map_.half_sine() * width / 2 * sine2) +
+                friction * ((f.a11[row] - f.a22[row]) * (map_.half_cosine() * sine2 + sum_sine) -
+                            2 * f.a12[row] * (map_.half_cosine() * cosine2 + sum_cosine));
     const Nodes push = f.b1[row] * cosine + f.b2[row] * sine;
-    rate = push - friction * (f.a11[row] * cosine * cosine + 2 * f.a12[row] * cosine * sine + f.a22[row] * sine * sine);
-    rise = -friction * push;
+    c.slip_rate =
+        push - friction * (f.a11[row] * cosine * cosine + 2 * f.a12[row] * cosine * sine + f.a22[row] * sine * sine);
+    c.rise = -friction * push;
   }
   const Nodes across = field_.b2() * cosine - field_.b1() * sine;  // of b to the direction of slip
-  rate += (across + 2 * anisotropy * sine * cosine) * turn;
-  rise -= friction * across * turn;
-  const Nodes slowing = -change / factor - stretch;  // of dτ/dy, relative
-  const Nodes growth = (rate + p.slip_rate * slowing) * p.time_rate;
+  c.slip_rate += (across + 2 * anisotropy * sine * cosine) * c.turn;
+  c.rise -= friction * across * c.turn;
+  return c;
+}
+
+/// Adds what the variable k does to the integrals of a panel of fixed length.
+template <class Number>
+void TurningPath<Number>::add_slopes(const Panel& p, std::size_t k) {
+  const Rule& r = rule();
+  const Nodes &cosine = p.places.cosine, &sine = p.places.sine;
+  const NodeChanges c = changes(p.places, k);
+  const Nodes slowing = -c.factor / p.places.factor - c.stretch;  // of dτ/dy, relative
+  const Nodes growth = (c.slip_rate + p.slip_rate * slowing) * p.time_rate;
   const Nodes impulse = p.impulse_rate * (turned_.log_slip[k] + r.to_nodes(growth) + slowing);
-  const Nodes velocity = rise * p.impulse_rate + p.rise * impulse;
+  const Nodes velocity = c.rise * p.impulse_rate + p.rise * impulse;
   if (progress_.is_energetic()) {
     const Nodes left = 1 / (1 - progress_.damping() * p.normal_velocity);
     const Nodes speed = progress_.at.normal_velocity.slope[k] + r.to_nodes(velocity);
@@ -369,8 +383,9 @@ void TurningPath<Number>::add_slopes(const Panel& p, std::size_t k) {
   turned_.log_slip[k] += r.total(growth);
   progress_.at.impulse.slope[k] += r.total(impulse);
   progress_.at.normal_velocity.slope[k] += r.total(velocity);
-  progress_.friction[0].slope[k] -= friction * r.total(cosine * impulse - sine * turn * p.impulse_rate);
-  progress_.friction[1].slope[k] -= friction * r.total(sine * impulse + cosine * turn * p.impulse_rate);
+  const double friction = field_.friction();
+  progress_.friction[0].slope[k] -= friction * r.total(cosine * impulse - sine * c.turn * p.impulse_rate);
+  progress_.friction[1].slope[k] -= friction * r.total(sine * impulse + cosine * c.turn * p.impulse_rate);
 }
 
 /// Moves the end of the path to where the changed path ends the stage.
