@@ -6,6 +6,8 @@
 #include <cmath>
 #include <span>
 
+#include "analytic/base/limits.hpp"
+
 namespace clatter::analytic::space {
 
 namespace {
@@ -178,10 +180,13 @@ bool undisturbed(const Drop& drop, const State& now, const Tail& tail) {
   const double reach = heights.reach(), time = 2 * tail.end_time;
   const double jump = jump_of(drop.body, tail.normal_impulse + tail.tangential_impulse.norm());
   const double speed = now.angular_velocity.norm() + jump / reach;
-  const double bend = drop.gravity + 2 * speed * speed * reach;
+  const double bend = drop.gravity + 2 * speed * speed * reach, rounding = 32 * detail::epsilon * reach;
   for (int i = 0; i < heights.count(); ++i) {
     if (std::find(tail.corners.begin(), tail.corners.end(), i) != tail.corners.end()) continue;
     const PointHeight h = heights.at(i, moment);
+    // The rounding of a height cannot make a point that rises all the time reach the ground.
+    const bool rises = h.height >= -rounding && h.velocity - jump - bend * time > 0;
+    if (rises) continue;
     if (!(h.height + std::fmin(h.velocity - jump, 0.0) * time - bend / 2 * time * time > 0)) return false;
   }
   return true;

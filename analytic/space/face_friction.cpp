@@ -170,7 +170,7 @@ FacePath::End FacePath::slide() {
     const double left = face_.normal_impulse - spent_;
     if (!(left > 0)) return End::impulse_spent;
     const bool last = length >= left;
-    if (last) length = left;
+    length = std::fmin(length, left);
     Vector3 next = slip_, error;
     gsl_odeiv2_step_apply(step_.get(), 0, length, next.data(), error.data(), now.data(), nullptr, &system_);
     const double wrong = error.norm() / (step_error * scale);
