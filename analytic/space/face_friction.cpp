@@ -147,8 +147,7 @@ Vector3 FacePath::rate(const Vector3& y) {
 FacePath::End FacePath::slide() {
   constexpr int most_steps = 1000;
   const double begin = spent_;
-  double scale = slip_.norm(), forecast = -1, length = std::numeric_limits<double>::infinity();
-  double fast = scale;  // slip at the forecast
+  double scale = slip_.norm(), size_then = scale, forecast = -1, length = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_steps; ++i) {
     const Vector3 now = rate(slip_);
     if (!now.allFinite()) return End::no_pressure;
@@ -157,19 +156,19 @@ FacePath::End FacePath::slide() {
     if (growth < 0) {
       const double stop = spent_ - size / growth;
       const double rounding = detail::epsilon * (stop - begin);
-      const bool agrees = std::fabs(stop - forecast) <= rounding && size <= fast / 2;
+      const bool agrees = std::fabs(stop - forecast) <= rounding && size <= size_then / 2;
       // Without a load slip can only become less, and what stops it does not depend on when.
       const double forecast_error = load_ == Vector3::Zero() ? sure_stop * (face_.normal_impulse - spent_) : rounding;
       if ((agrees && stop < face_.normal_impulse) || stop - spent_ <= forecast_error) {
         spent_ = stop;
         return End::stopped;
       }
-      if (!(size > fast / 2 && forecast >= 0)) forecast = stop, fast = size;
+      if (!(size > size_then / 2 && forecast >= 0)) forecast = stop, size_then = size;
     }
     length = std::fmin(length, size / std::fmax(-growth / 0.9, now.norm() / 8));
     const double left = face_.normal_impulse - spent_;
-    if (!(left > 0)) return End::impulse_spent;
     const bool last = length >= left;
+    if (!(left > 0)) return End::impulse_spent;
     length = std::fmin(length, left);
     Vector3 next = slip_, error;
     gsl_odeiv2_step_apply(step_.get(), 0, length, next.data(), error.data(), now.data(), nullptr, &system_);

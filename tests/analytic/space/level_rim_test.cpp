@@ -142,13 +142,16 @@ BOOST_AUTO_TEST_CASE(
     if (!all_approach) continue;
     const Law law = law_of(e, mu);
     const auto whole = rebound_as_a_whole(u.body, u.before, std::vector{u.rim}, law);
-    // A polygon inside the rim needs no more than the rim; one around the rim needs no less.
-    const auto inside = rebound_as_a_whole(u.body, u.before, polygon(u, 36), law);
-    Upright wider = u;
-    wider.radius /= std::cos(std::numbers::pi / 36);
-    const auto around = rebound_as_a_whole(u.body, u.before, polygon(wider, 36), law);
-    if (inside) BOOST_CHECK(whole.has_value());
-    if (whole) BOOST_CHECK(around.has_value());
+    // Without friction a polygon inside the rim needs no more than the rim, and one around it no less; with friction
+    // the pressures over them differ, and with those the slip.
+    if (mu == 0) {
+      const auto inside = rebound_as_a_whole(u.body, u.before, polygon(u, 360), law);
+      Upright wider = u;
+      wider.radius /= std::cos(std::numbers::pi / 360);
+      const auto around = rebound_as_a_whole(u.body, u.before, polygon(wider, 360), law);
+      if (inside) BOOST_CHECK(whole.has_value());
+      if (whole) BOOST_CHECK(around.has_value());
+    }
     ++(whole ? whole_ones : others);
     if (!whole) continue;
     for (const double angle : {0.0, 1.0, 2.5, 4.0}) {
