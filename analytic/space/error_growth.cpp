@@ -47,6 +47,8 @@ auto diagonal(const Eigen::Matrix<double, 10, 1>& deviations) -> Eigen::Matrix<d
 constexpr double deviations = 3;
 /// Rounding of an impulse with friction, relative: half of what impact.hpp promises, as a standard deviation.
 constexpr double friction_rounding = 5e-14;
+/// Likewise of what face_friction.hpp promises.
+constexpr double face_rounding = 5e-13;
 
 /// Bound on the length of a vector whose errors are these combinations of independent ones.
 template <class Image>
@@ -97,7 +99,8 @@ ErrorGrowth::Factor ErrorGrowth::impulse_rounding(const ImpactRow& row) const {
   if (is_hop(row)) {
     speed *= std::fmin(1, row.impact.impulse.norm() / (body_.mass * row.impact.contact_before.norm()));
   }
-  const double share = row.impact.path == PathKind::frictionless ? 8 * epsilon : friction_rounding;
+  const double rubbed = row.group ? face_rounding : friction_rounding;
+  const double share = row.impact.path == PathKind::frictionless ? 8 * epsilon : rubbed;
   const double rounding = share * row.impact.impulse.norm() + 8 * epsilon * body_.mass * speed;
   const Matrix3 axes = row.before.attitude.toRotationMatrix();
   const Matrix3 lever = axes * inverse_inertia_ * axes.transpose() * cross_matrix(axes * row.corners.front().place);
