@@ -129,10 +129,7 @@ Simulation simulate(const Body& body, const World& world, const MotionState& sta
     const Request same_impacts{
         .impacts = static_cast<int>(simulation.impacts.size()), .error_estimates = false, .amplification = false};
     const SecondRun second = second_run(integration, main.step);
-    std::size_t place = 0;
-    const auto goes_on = [&](const ImpactRecord& row) { return !goes_another_way(simulation.impacts[place++], row); };
-    const DropRun other =
-        run_checked(body, world, start, same_impacts, second.integration, {.history = nullptr, .impact = goes_on});
+    const DropRun other = run_checked(body, world, start, same_impacts, second.integration, {});
     simulation.force_evaluations += other.force_evaluations;
     simulation.root_evaluations += other.root_evaluations;
     estimate_errors(body, second.error_per_distance, simulation.impacts, other.impacts);

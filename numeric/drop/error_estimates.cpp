@@ -20,7 +20,6 @@ constexpr double shorter_steps = 0.7;
 /// Errors of single numbers scatter about the power of the tolerance: of random drops 95 of 100 lie within these.
 constexpr double error_per_distance_of_finer = 4;
 constexpr double error_per_distance_of_coarser = 4;
-constexpr double another_way = 0.1;  ///< relative distance of impulses: what follows such impacts differs altogether
 constexpr double step_part = 0.5;
 constexpr double error_per_distance_of_steps = 3;  ///< 8/7 where the step is short enough for the order to show
 
@@ -111,11 +110,6 @@ SecondRun second_run(const Integration& main, double used_step) {
   steps.tolerance *= can_be_finer ? finer : coarser;
   second.error_per_distance = can_be_finer ? error_per_distance_of_finer : error_per_distance_of_coarser;
   return second;
-}
-
-bool goes_another_way(const ImpactRecord& row, const ImpactRecord& second) {
-  if (second.end != row.end || second.touches != row.touches) return true;
-  return !((second.value.impulse - row.value.impulse).norm() <= another_way * row.value.impulse.norm());
 }
 
 void estimate_errors(const Body& body, double error_per_distance, std::vector<ImpactRecord>& rows,

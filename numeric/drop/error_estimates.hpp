@@ -21,16 +21,12 @@ struct SecondRun {
 /// @param used_step  of the main run, fixed [s]
 [[nodiscard]] SecondRun second_run(const Integration& main, double used_step);
 
-/// Whether two runs of a drop have parted in this impact, so that what follows says nothing about errors: it has
-/// another end or number of touches in the second run, or an impulse that is a tenth of its size off.
-[[nodiscard]] bool goes_another_way(const ImpactRecord& row, const ImpactRecord& second);
-
 /// Fills in `error` of each row: error_per_distance × |row − second's row|, and what rounding leaves, grown by the
 /// row's amplification: 4 ε (1 + amplification) × the size of what the number is computed from; of a time, also the
 /// body's radius over the speed at which the ground is reached or left.  A vector's component takes at least a tenth of
 /// the vector's distance, duration, restitution and peak force of the impulse's relative one, and energies and works
-/// that relative one of the energy before: two runs may agree by chance.  Rows that the second run does not have, since
-/// it ends where it goes another way, or has with another end or number of touches, get NaN: not known.
+/// that relative one of the energy before: two runs may agree by chance.  Rows that the second run does not have, or
+/// has with another end or number of touches, get NaN: not known.
 void estimate_errors(const Body& body, double error_per_distance, std::vector<ImpactRecord>& rows,
                      const std::vector<ImpactRecord>& second);
 

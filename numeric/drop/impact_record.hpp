@@ -45,8 +45,7 @@ struct ImpactRecord {
   /// What FrictionLaw::local would change in the tangential impulse of this contact, estimated to a factor of about 3;
   /// 0 for the other laws, where it is not asked for, and where a bound says that it cannot matter [N·s].
   double local_slip = 0;
-  /// Growth of a relative error of the start until the end of this impact; NaN if not asked for.  Contacts after one
-  /// that is not predictable count as if they let errors be.
+  /// Growth of a relative error of the start until the end of this impact; NaN if not asked for.
   double amplification = 0;
   /// Whether rounding errors, so grown, stay below one part in a hundred.
   bool predictable = true;

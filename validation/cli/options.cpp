@@ -70,13 +70,15 @@ std::vector<const Key*> flag_keys(Model model) {
   return keys;
 }
 
+/// Of the flags that the command has: some that read a scene for one model have those of the other alone.
 std::vector<SceneOverride> overrides_of(const SceneFlags& given) {
   std::vector<SceneOverride> overrides;
   for (const Key* key : flag_keys(given.model)) {
     const std::string flag = key->flag;
-    if (!key->is_truth()) {
-      if (const auto& text = given.texts.at(flag)) overrides.push_back({key->name, flag, *text});
-    } else if (given.truths.at(flag)) {
+    const auto text = given.texts.find(flag);
+    const auto truth = given.truths.find(flag);
+    if (text != given.texts.end() && text->second) overrides.push_back({key->name, flag, *text->second});
+    if (truth != given.truths.end() && truth->second) {
       overrides.push_back({key->name, flag, flag.starts_with("--no-") ? "false" : "true"});
     }
   }

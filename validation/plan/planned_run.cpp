@@ -27,29 +27,19 @@ constexpr long evaluations_of_a_pilot = 200'000;
 constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
 constexpr double estimate_margin = 4;  // what error estimates exceed errors by; a first run that they accept is cheaper
 constexpr double different_ways = 0.1;
-constexpr double outgrown = 10;             // times what is asked: errors for which no run is repeated
 constexpr double usual_error_constant = 1;  // median over many scenes, for one whose pilots go different ways
-
-/// Whether rounding, grown by then, leaves more than what is asked.  Where the growth is not known, errors of an
-/// adaptive method that far above it say so.
-bool is_out_of_reach(const numeric::ImpactRecord& row, const PlannedRun& planned) {
-  if (!std::isnan(row.amplification)) return rounding * row.amplification > planned.asked;
-  if (&row == &planned.run.impacts.front() || !(planned.run.tolerance > 0)) return false;
-  return !(row_distance(motion_numbers(impact_of(row).error), {}, planned.sizes) <= outgrown * planned.asked);
-}
 
 /// Fills in what was achieved.
 void judge(const numeric::Body& body, PlannedRun& planned) {
   const std::vector<numeric::ImpactRecord>& rows = planned.run.impacts;
   if (!rows.empty()) planned.sizes = motion_sizes(planned.run, rows.size(), body);
-  const bool estimated = !rows.empty() && !std::isnan(rows[0].error.impulse.z());
   const auto last = std::find_if(rows.begin(), rows.end(), [&](const numeric::ImpactRecord& row) {
-    return (estimated || !std::isnan(row.amplification)) && is_out_of_reach(row, planned);
+    return rounding * row.amplification > planned.asked;
   });
   const auto count = static_cast<std::size_t>(last - rows.begin());
   planned.known_impacts = static_cast<int>(count);
   planned.achieved = std::numeric_limits<double>::quiet_NaN();
-  if (count == 0 || !estimated) return;
+  if (count == 0 || std::isnan(rows[0].error.impulse.z())) return;
   const MotionNumbers sizes = motion_sizes(planned.run, count, body);
   planned.achieved = 0;
   for (std::size_t i = 0; i < count; ++i) {
