@@ -412,26 +412,27 @@ class SpatialImpact {
     return group.order.size() > most ? fmt::format("{}, …, {} strikes in all", words, group.order.size()) : words;
   }
 
+  /// How the corners of a group strike.
+  [[nodiscard]] std::string rebound_words(const space::GroupImpact& group, bool is_rim) const {
+    if (!group.is_whole) {
+      return fmt::format(
+          "Pushes alone cannot make the body rebound as a whole; they strike one after the other, the fastest first: "
+          "{}.",
+          order_words(group));
+    }
+    const bool is_face = is_rim || group.order.front().size() > 2;
+    return std::string("Pushes alone can make the body rebound as a whole, each point at e times its approach.") +
+           (is_face && given_.friction
+                ? " Each point of the face is rubbed against its slip, by μ times the pressure there."
+                : "");
+  }
+
   /// Several corners at once, or a level rim.
   void group() {
     const space::GroupImpact& group = *row_.group;
     const bool is_rim = row_.corners.front().radius > 0;
-    const bool is_face = is_rim || (group.is_whole && group.order.front().size() > 2);
-    const char* const rubbing =
-        is_face && given_.friction
-            ? " Each point of the face is rubbed against its slip, by μ times the pressure there."
-            : "";
-    const std::string how = group.is_whole
-                                ? std::string(
-                                      "Pushes alone can make the body rebound as a whole, each point at e times its "
-                                      "approach.") +
-                                      rubbing
-                                : fmt::format(
-                                      "Pushes alone cannot make the body rebound as a whole; they strike one after the "
-                                      "other, the fastest first: {}.",
-                                      order_words(group));
-    writer_.open("Corners at once",
-                 {fmt::format("At once: {}{}. {}", is_rim ? "all points of the rim of " : "", arrived(), how)});
+    writer_.open("Corners at once", {fmt::format("At once: {}{}. {}", is_rim ? "all points of the rim of " : "",
+                                                 arrived(), rebound_words(group, is_rim))});
     std::optional<Quantity> first;
     int count = 0;
     for (const space::Corner& corner : row_.corners) {

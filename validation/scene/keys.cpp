@@ -296,6 +296,13 @@ void append_run(std::vector<Key>& keys) {
            TruthValue{[](Scene& s) -> bool& { return s.world.planar; }}},
           {"run.contact_gravity", Use::continuous, "--no-contact-gravity", "", "", "let gravity act in flight only",
            TruthValue{[](Scene& s) -> bool& { return s.world.gravity_in_contact; }}},
+      });
+}
+
+void append_estimates(std::vector<Key>& keys) {
+  keys.insert(
+      keys.end(),
+      {
           {"run.evaluation_limit", Use::continuous, "", "N", "",
            "of the contact forces; then the run ends with the rows so far",
            LongNumber{[](Scene& s) -> long& { return s.accuracy.evaluation_limit; }, 1, 1'000'000'000'000}},
@@ -322,6 +329,7 @@ const std::vector<Key>& all_keys() {
     append_mass_properties(rows);
     append_ground(rows);
     append_run(rows);
+    append_estimates(rows);
     return rows;
   }();
   return keys;
