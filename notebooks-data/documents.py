@@ -73,7 +73,8 @@ def measurement(program):
             for name in ("square-drops", "cube-tosses")}
 
     def share(row):
-        return f"{row['value']:.2g} %" + (f" of {row['drops']}" if row["quantity"] == "point impacts" else "")
+        value = row["value"]
+        return (f"{value:.0f} %" if value >= 100 else f"{value:.2g} %") + (f" of {row['drops']}" if row["quantity"] == "point impacts" else "")
 
     lines = ["| motion after impact 1 misses the measured one by, in the median | squares | cubes |", "|---|---|---|"]
     for words, quantities in MEASURED.items():
