@@ -320,18 +320,24 @@ std::optional<Rest> settles(const Drop& drop, const State& now, double time) {
   return Rest{.corners = face->corners, .latest = time + 8 * speed / (drop.gravity * (1 - law.restitution))};
 }
 
-bool ends_for_certain(const Drop& drop, const std::vector<ImpactRow>& rows, Tail& tail) {
+std::size_t known_rows(const std::vector<ImpactRow>& rows) {
   const auto lost = std::ranges::find_if(rows, [](const ImpactRow& row) { return !row.error.predictable; });
+  return static_cast<std::size_t>(lost - rows.begin());
+}
+
+bool ends_for_certain(const Drop& drop, const std::vector<ImpactRow>& rows, Tail& tail) {
+  const std::size_t count = known_rows(rows);
+  const auto lost = std::span(rows).subspan(count);
   const auto stays = [&](const Corner& corner) { return std::ranges::count(tail.corners, corner.index) > 0; };
-  const ImpactRow* const known = lost == rows.begin() ? nullptr : &*(lost - 1);
-  bool certain = known && std::all_of(lost, rows.end(),
-                                      [&](const ImpactRow& row) { return std::ranges::all_of(row.corners, stays); });
+  const ImpactRow* const known = count == 0 ? nullptr : &rows[count - 1];
+  bool certain =
+      known && std::ranges::all_of(lost, [&](const ImpactRow& row) { return std::ranges::all_of(row.corners, stays); });
   Tail since = tail;
   if (certain) {
     since.end_time -= known->start;
-    for (auto row = lost; row != rows.end(); ++row) {
-      since.normal_impulse += row->impact.impulse.z();
-      since.tangential_impulse.x() += row->impact.impulse.head<2>().norm();
+    for (const ImpactRow& row : lost) {
+      since.normal_impulse += row.impact.impulse.z();
+      since.tangential_impulse.x() += row.impact.impulse.head<2>().norm();
     }
     certain = undisturbed(drop, state_after(*known), since);
   }

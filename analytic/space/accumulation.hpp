@@ -59,6 +59,9 @@ void end_state(const Drop& drop, const ImpactRow& last, const Vector3& lever, Ta
 /// @param tail  end_time since the first impact
 void add_errors(const Drop& drop, const ImpactRow& last, Tail& tail);
 
+/// How many rows there are before the first that cannot be predicted.
+[[nodiscard]] std::size_t known_rows(const std::vector<ImpactRow>& rows);
+
 /// Whether the tail's corners come to rest although errors decide the order of the last impacts: since the last row
 /// that can be predicted nothing else has been able to reach the ground, whatever the order.  Then the errors are what
 /// has happened since, else infinite.
@@ -71,8 +74,9 @@ void add_errors(const Drop& drop, const ImpactRow& last, Tail& tail);
 /// ρ the distance inside the face of the point that the resting body presses on: that below the centre of mass, moved
 /// by friction, by μ times the centre's height at most, and by what products of inertia do to a spinning body.  No
 /// other point comes down at such a tilt, and impacts with e < 1 take the energy away.  Nothing where (1) leaves
-/// another face open. Rest is taken to come within 8 v/(g (1 − e)), v = √(2E/m): a body that does not tilt needs 2, the
-/// slowest of 360 random boxes 3.1 (time-stepping of their unilateral motion).
+/// another face open. Rest is taken to come within 8 v/(g (1 − e)), v = √(2E/m), which is not proved: a body that does
+/// not tilt needs 2, the slowest of 360 random boxes 3.0, or 3.4 v/g with e <= 0.3 (time-stepping of their unilateral
+/// motion).
 /// @param time  of the state, since the first impact [s]
 [[nodiscard]] std::optional<Rest> settles(const Drop& drop, const State& now, double time);
 

@@ -58,7 +58,10 @@ struct Corner {
   double radius = 0;                ///< of a level rim; 0: a point [m]
 };
 
-// The vector product as a matrix.
+// Vector products.
+
+/// The component of a × b along z.
+inline double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// V×, such that (V×) a = V × a.
 inline Matrix3 cross_matrix(const Vector3& v) {

@@ -21,7 +21,6 @@ constexpr double shortest_arc = 1e-15;
 /// Four points do on a side shorter than this, seen from a pole that is not near.
 constexpr double short_side = 0.1;
 
-double wedge(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
 Vector2 quarter_turn(const Vector2& a) { return {-a.y(), a.x()}; }
 Vector2 on_circle(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
@@ -135,7 +134,7 @@ class FarIntegrals {
   void add_side_by(const Vector2& from, const Vector2& to) {
     const auto& rule = unit_rule<points>();
     for (unsigned i = 0; i < points; ++i) {
-      add(from + rule.nodes[i] * (to - from), rule.weights[i] * wedge(from, to));
+      add(from + rule.nodes[i] * (to - from), rule.weights[i] * cross(from, to));
     }
   }
   /// The sector from the centre to a boundary point, `area` = ξ × dξ there.
@@ -151,9 +150,9 @@ class FarIntegrals {
       return Vector2((factor * t).sum() * turn - (factor * back).sum() * slip_);
     };
     const Vector2 once = row(weight), twice = row(first), thrice = row(second);
-    sum.col(0) += Vector3(once.x(), once.y(), wedge(point, twice));
-    sum.col(1) += point.x() * Vector3(twice.x(), twice.y(), wedge(point, thrice));
-    sum.col(2) += point.y() * Vector3(twice.x(), twice.y(), wedge(point, thrice));
+    sum.col(0) += Vector3(once.x(), once.y(), cross(point, twice));
+    sum.col(1) += point.x() * Vector3(twice.x(), twice.y(), cross(point, thrice));
+    sum.col(2) += point.y() * Vector3(twice.x(), twice.y(), cross(point, thrice));
   }
 
   Vector2 slip_;
@@ -166,7 +165,7 @@ bool ContactArea::contains(const Vector2& point) const {
   if (radius > 0) return (point - corners.front()).norm() <= radius;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vector2& from = corners[i];
-    if (!(wedge(corners[(i + 1) % corners.size()] - from, point - from) >= 0)) return false;
+    if (!(cross(corners[(i + 1) % corners.size()] - from, point - from) >= 0)) return false;
   }
   return corners.size() > 2;
 }
@@ -231,7 +230,7 @@ Matrix3 PressedArea::moments() const {
   };
   for (const auto& [a, b] : sides_) {
     const Vector2 sum = a + b;
-    const double twice = wedge(a, b);
+    const double twice = cross(a, b);
     add(twice / 2, twice / 6 * sum, twice / 24 * (sum * sum.transpose() + a * a.transpose() + b * b.transpose()));
   }
   for (const auto& [from, to] : arcs_) {

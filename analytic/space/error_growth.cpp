@@ -57,6 +57,12 @@ double bound(const Image& image) {
   return std::isfinite(value) ? value : infinite;
 }
 
+/// Rounding of the row's impulse by its path, relative, as a standard deviation.
+double path_rounding(const ImpactRow& row) {
+  if (row.impact.path == PathKind::frictionless) return 8 * epsilon;
+  return row.group ? face_rounding : friction_rounding;
+}
+
 /// Whether the row's corner has returned from a hop with an approach speed of relative accuracy.
 bool is_hop(const ImpactRow& row) {
   return !row.group && row.flight.is_hop && row.impact.contact_before.z() == row.flight.normal_velocity;
@@ -99,9 +105,7 @@ ErrorGrowth::Factor ErrorGrowth::impulse_rounding(const ImpactRow& row) const {
   if (is_hop(row)) {
     speed *= std::fmin(1, row.impact.impulse.norm() / (body_.mass * row.impact.contact_before.norm()));
   }
-  const double rubbed = row.group ? face_rounding : friction_rounding;
-  const double share = row.impact.path == PathKind::frictionless ? 8 * epsilon : rubbed;
-  const double rounding = share * row.impact.impulse.norm() + 8 * epsilon * body_.mass * speed;
+  const double rounding = path_rounding(row) * row.impact.impulse.norm() + 8 * epsilon * body_.mass * speed;
   const Matrix3 axes = row.before.attitude.toRotationMatrix();
   const Matrix3 lever = axes * inverse_inertia_ * axes.transpose() * cross_matrix(axes * row.corners.front().place);
   // The inverse inertia in world axes errs by its largest element.
@@ -273,9 +277,8 @@ void ErrorGrowth::carry(const StrikeDerivatives& derivatives, const ImpactRow& r
   rounding << impulse_rounding(row), diagonal(d);
   if (row.group) return append(rounding);
   const Impact& impact = row.impact;
-  const double share = impact.path == PathKind::frictionless ? 8 * epsilon : friction_rounding;
   append(without_approach(rounding, approach_gradient(row, impact.angular_velocity_after),
-                          share * impact.impulse.norm() / body_.mass + approach_rounding(row)));
+                          path_rounding(row) * impact.impulse.norm() / body_.mass + approach_rounding(row)));
 }
 
 // Growth of errors along a flight, up to the touch that ends it.

@@ -226,7 +226,7 @@ bool slides_straight(const SlidingFace& face) {
   if (!(turns * radius <= rounding * face.velocity_scale)) return false;
   const Vector2 line = face.slip.norm() > rounding * face.velocity_scale ? face.slip : drift;
   if (line == Vector2::Zero()) return true;
-  const auto off = [&](const Vector2& v) { return std::fabs(line.x() * v.y() - line.y() * v.x()) / line.norm(); };
+  const auto off = [&](const Vector2& v) { return std::fabs(cross(line, v)) / line.norm(); };
   return face.normal_impulse * off(drift) <= rounding * face.velocity_scale &&
          off(turning.point) <= rounding * (turning.point.norm() + radius);
 }

@@ -67,7 +67,7 @@ class CoulombPath {
   void slip_straight(const SlipRates<Number>& rates);
   void slip_along_arc(double angle);
   void go_on_from_rest(bool has_slipped);
-  void turn_straight_slip(double start_slip, double start_impulse);
+  void turn_straight_slip(double start_slip);
   void stick_from_slip();
   void forget_slopes();
   [[nodiscard]] Number initial_slip() const;
@@ -189,7 +189,7 @@ void CoulombPath<Number>::slip_straight(const SlipRates<Number>& s) {
 ///     ∫ ψ dp = ψ₀ K₁ + δg K₂,   K₁ = ∫ e^{γτ} dp,   K₂ = ∫ (e^{γτ} − 1)/γ dp,   σ = σ₀ e^{fτ}.
 /// In a plane of symmetry f and h keep their values to first order; elsewhere slip that turns has no closed form here.
 template <class Number>
-void CoulombPath<Number>::turn_straight_slip(double start_slip, double start_impulse) {
+void CoulombPath<Number>::turn_straight_slip(double start_slip) {
   const Direction& s = direction_;
   const double f = field_.slip_rate(s), turning = field_.turning_slope(s), slowing = -f - turning;
   const double asymmetry = std::fabs(field_.slip_rate_slope(s)) + std::fabs(field_.normal_rate_slope(s));
@@ -199,7 +199,7 @@ void CoulombPath<Number>::turn_straight_slip(double start_slip, double start_imp
   double of_start = start_slip / slowing, of_turning = of_start / -f;  // where slip stops
   if (progress_.is_done()) {
     using Gauss = boost::math::quadrature::gauss<double, 15>;
-    const double impulse = value_of(progress_.at.impulse) - start_impulse, growth = f * impulse / start_slip;
+    const double impulse = value_of(progress_.at.impulse), growth = f * impulse / start_slip;
     const double time = std::fabs(growth) > epsilon ? std::log1p(growth) / f : impulse / start_slip;
     of_start *= -std::expm1(-slowing * time);
     const auto rate = [&](double t) {
@@ -252,7 +252,7 @@ void CoulombPath<Number>::slip() {
   if (!is_invariant(angle)) return slip_along_arc(angle);
   const double slip = value_of(progress_.slip);
   slip_straight(rates({angle, velocity_.x() / slip, velocity_.y() / slip}, Row::Zero()));
-  if constexpr (follows_slopes) turn_straight_slip(slip, 0);
+  if constexpr (follows_slopes) turn_straight_slip(slip);
 }
 
 /// P_t/p and du/dp of a point that does not slip.

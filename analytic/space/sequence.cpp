@@ -133,7 +133,8 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     FirstContact flown;
     for (;;) {
       record(arriving, flown);
-      if (accumulates() || (is_full() && note_slow_contacts())) return;
+      if (accumulates()) return;
+      if (is_full()) return note_slow_contacts();
       const ImpactRow& last = result_.rows.back();
       const FreeFlight flight(principal_, state_, drop_.gravity);
       flown = first_contact(body_, flight, touches_);
@@ -235,9 +236,10 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 
   /// Whether the body already had to come to rest on that face after the last impact that can be predicted.
   bool rests_for_certain() {
-    const auto lost = std::ranges::find_if(result_.rows, [](const ImpactRow& row) { return !row.error.predictable; });
-    if (!result_.rest || lost == result_.rows.begin()) return false;
-    const auto then = settles(drop_, state_after(*(lost - 1)), (lost - 1)->start);
+    const std::size_t known = known_rows(result_.rows);
+    if (!result_.rest || known == 0) return false;
+    const ImpactRow& last = result_.rows[known - 1];
+    const auto then = settles(drop_, state_after(last), last.start);
     if (!then || !std::ranges::is_permutation(then->corners, result_.rest->corners)) return false;
     result_.rest->latest = std::fmax(result_.rest->latest, then->latest);
     return true;
@@ -261,11 +263,9 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   }
 
   /// Of damped ground, whose hops are no geometric series.
-  bool note_slow_contacts() {
-    if (drop_.law.law.law == RestitutionLaw::viscoelastic) {
-      result_.message += "; on damped ground slow contacts lose next to nothing, so that hops last for ever";
-    }
-    return true;
+  void note_slow_contacts() {
+    if (drop_.law.law.law != RestitutionLaw::viscoelastic) return;
+    result_.message += "; on damped ground slow contacts lose next to nothing, so that hops last for ever";
   }
 
   /// Corners approach, but so slowly that no impulse comes of it.

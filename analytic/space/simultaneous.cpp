@@ -18,8 +18,6 @@ namespace {
 /// Corners nearer to a line than this part of the extent lie on the line.
 constexpr double flat = 1e-12;
 
-double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 /// Indices of the points on the corners of the convex hull, counter-clockwise; two if all lie on one line to rounding
 /// (the outermost ones), one if all coincide.
 std::vector<int> convex_hull(const std::vector<Vector2>& points) {

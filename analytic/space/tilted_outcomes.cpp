@@ -43,7 +43,7 @@ struct Sector {
 
   [[nodiscard]] double width() const {
     const Vector2 &a = from.rise, &b = to.rise;
-    return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+    return std::atan2(cross(a, b), a.dot(b));
   }
   [[nodiscard]] double middle() const {
     const Vector2 sum = from.rise.normalized() + to.rise.normalized();

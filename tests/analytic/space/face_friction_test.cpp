@@ -6,13 +6,14 @@
 #include <numbers>
 
 #include "analytic/space/sequence.hpp"
+#include "tests/analytic/space/flat_landing.hpp"
 #include "tests/analytic/space/random_contact.hpp"
 
 namespace {
 
 using namespace clatter::analytic::space;
-using clatter::analytic::FrictionKind;
 using clatter::analytic::Outcome;
+using clatter::oracle::coulomb;
 using clatter::oracle::Random;
 
 const ContactArea disc{.corners = {Vector2::Zero()}, .radius = 1};
@@ -52,14 +53,6 @@ Body body_of(const Landing& l) {
   return body;
 }
 
-Law coulomb_law(double e, double friction) {
-  Law law;
-  law.law.restitution = e;
-  law.law.friction = FrictionKind::coulomb;
-  law.law.friction_value = friction;
-  return law;
-}
-
 Vector3 of_box(double a, double b, double c) {
   return mass / 12 * Vector3(b * b + c * c, a * a + c * c, a * a + b * b);
 }
@@ -82,7 +75,7 @@ std::optional<GroupImpact> land(const Landing& l, double angle = 0) {
       corners.push_back({.index = static_cast<int>(corners.size()), .place = {c.x(), c.y(), -l.depth}});
     }
   }
-  return rebound_as_a_whole(body, before, corners, coulomb_law(l.restitution, l.friction));
+  return rebound_as_a_whole(body, before, corners, coulomb(l.restitution, l.friction));
 }
 
 }  // namespace
@@ -402,7 +395,7 @@ BOOST_AUTO_TEST_CASE(the_errors_of_a_landing_with_slide_and_spin_are_those_of_it
                   .velocity = {0.3, 0, -1},
                   .angular_velocity = {0, 0, 20},
                   .gravity = 9.81,
-                  .law = coulomb_law(0.5, 0.3)};
+                  .law = coulomb(0.5, 0.3)};
   const Sequence sequence = impact_sequence(drop, {.impacts = 1});
   const ImpactRow& row = sequence.rows.at(0);
   BOOST_TEST(row.error.predictable);

@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "tests/analytic/space/flat_landing.hpp"
 #include "tests/analytic/space/random_contact.hpp"
 #include "tests/analytic/space/reference_impact.hpp"
 #include "tests/oracles/reference_table.hpp"
@@ -13,43 +14,7 @@ namespace {
 
 using namespace clatter::analytic;
 using namespace clatter::analytic::space;
-using clatter::oracle::Random;
-
-std::vector<Corner> corners_of(const std::vector<Vector3>& places) {
-  std::vector<Corner> corners;
-  for (const Vector3& place : places) corners.push_back({static_cast<int>(corners.size()), place});
-  return corners;
-}
-
-Law frictionless(double e) {
-  Law law;
-  law.law.restitution = e;
-  return law;
-}
-
-Law coulomb(double e, double friction, RestitutionLaw restitution = RestitutionLaw::newton) {
-  Law law = frictionless(e);
-  law.law.law = restitution;
-  law.law.friction = FrictionKind::coulomb;
-  law.law.friction_value = friction;
-  return law;
-}
-
-/// A box with its bottom face on the ground.
-struct Box {
-  double length, width, height;
-  Body body;
-  std::vector<Corner> bottom;
-
-  Box(double l, double w, double h, double mass) : length(l), width(w), height(h) {
-    const Vector3 inertia = mass / 12 * Vector3(w * w + h * h, h * h + l * l, l * l + w * w);
-    body = {.mass = mass, .inertia = inertia.asDiagonal(), .vertices = {}, .rims = {}};
-    bottom = corners_of(
-        {{-l / 2, -w / 2, -h / 2}, {l / 2, -w / 2, -h / 2}, {l / 2, w / 2, -h / 2}, {-l / 2, w / 2, -h / 2}});
-  }
-};
-
-double normal_velocity(const Vector3& v, const Vector3& spin, const Vector3& arm) { return (v + spin.cross(arm)).z(); }
+using namespace clatter::oracle;
 
 double kinetic_energy(const Body& body, const Matrix3& axes, const Vector3& v, const Vector3& spin) {
   const Vector3 own = axes.transpose() * spin;
@@ -91,7 +56,7 @@ BOOST_AUTO_TEST_CASE(every_reference_edge_and_face_rebounds_as_a_whole_if_pushes
 BOOST_AUTO_TEST_CASE(a_rocking_block_without_rebound_keeps_housners_part_of_its_spin) {
   constexpr double tolerance = 1e-14;
   for (const double slenderness : {0.05, 0.2, 0.4, 0.6}) {  // tan α = width over height
-    const Box block(slenderness, 0.3, 1, 2.5);
+    const FlatBox block(slenderness, 0.3, 1, 2.5);
     State before;
     before.angular_velocity = {0, -0.7, 0};  // about the corners at x > 0; those at x < 0 come down
     const Vector3 pivot = block.bottom[1].place;
@@ -113,7 +78,7 @@ BOOST_AUTO_TEST_CASE(corners_of_a_face_or_an_edge_that_rebounds_as_a_whole_leave
   Random random(5);
   int faces = 0, edges = 0;
   for (int i = 0; i < 3000; ++i) {
-    const Box box(random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.2, 3));
+    const FlatBox box(random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.2, 3));
     const bool is_edge = i % 2 == 0;
     State before;
     before.attitude = Quaternion(Eigen::AngleAxisd(random.uniform(0, 6), Vector3::UnitZ()));
@@ -180,7 +145,7 @@ BOOST_AUTO_TEST_CASE(corners_that_cannot_rebound_as_a_whole_strike_one_after_the
   Random random(6);
   int several = 0;
   for (int i = 0; i < 1000; ++i) {
-    const Box box(random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.1, 4), random.uniform(0.2, 3));
+    const FlatBox box(random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.1, 4), random.uniform(0.2, 3));
     State before;
     before.velocity = random.vector(1) - Vector3(0, 0, 0.5);
     before.angular_velocity = random.vector(6);
@@ -214,7 +179,7 @@ BOOST_AUTO_TEST_CASE(a_planar_flat_landing_with_friction_agrees_with_the_planar_
   Random random(7);
   int compared = 0;
   for (int i = 0; i < 3000; ++i) {
-    const Box box(random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.2, 3));
+    const FlatBox box(random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.2, 3));
     const double gyration = (box.length * box.length + box.height * box.height) / 12;
     const PlanarBody body{.mass = box.body.mass, .gyration_square = gyration};
     const PlanarVelocity v{random.uniform(-2, -0.1), random.uniform(-1, 1), random.uniform(-2, 2)};
@@ -245,7 +210,7 @@ BOOST_AUTO_TEST_CASE(faces_and_edges_on_damped_ground_bounce_as_a_mass_at_their_
   Random random(9);
   int faces = 0, edges = 0;
   for (int i = 0; i < 400; ++i) {
-    const Box box(random.uniform(0.3, 1), random.uniform(0.3, 1), random.uniform(0.1, 0.4), random.uniform(0.2, 3));
+    const FlatBox box(random.uniform(0.3, 1), random.uniform(0.3, 1), random.uniform(0.1, 0.4), random.uniform(0.2, 3));
     State before;
     before.velocity = {random.uniform(-1, 1), random.uniform(-1, 1), -random.uniform(0.5, 1.5)};
     before.angular_velocity = random.vector(0.8);
@@ -276,7 +241,7 @@ BOOST_AUTO_TEST_CASE(an_edge_that_lands_level_strikes_as_the_corner_of_the_plana
   constexpr double tolerance = 1e-13;
   Random random(8);
   for (int i = 0; i < 2000; ++i) {
-    const Box box(random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.2, 3));
+    const FlatBox box(random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.2, 3));
     State before;
     before.attitude = Eigen::AngleAxisd(random.uniform(0.05, 1.5), Vector3::UnitY());
     const PlanarVelocity v{random.uniform(-2, -1), random.uniform(-1, 1), random.uniform(-0.5, 0.5)};
@@ -297,7 +262,7 @@ BOOST_AUTO_TEST_CASE(an_edge_that_lands_level_strikes_as_the_corner_of_the_plana
 }
 
 BOOST_AUTO_TEST_CASE(touching_corners_of_which_none_approaches_get_no_impulse) {
-  const Box box(1, 1, 1, 1);
+  const FlatBox box(1, 1, 1, 1);
   State before;
   before.velocity = {0.3, 0, 0.1};
   BOOST_CHECK(!rebound_as_a_whole(box.body, before, box.bottom, frictionless(1)));

@@ -9,49 +9,14 @@
 #include <numbers>
 
 #include "analytic/space/simultaneous.hpp"
+#include "tests/analytic/space/flat_landing.hpp"
 #include "tests/analytic/space/random_contact.hpp"
 
 namespace {
 
 using namespace clatter::analytic;
 using namespace clatter::analytic::space;
-using clatter::oracle::Random;
-
-std::vector<Corner> corners_of(const std::vector<Vector3>& places) {
-  std::vector<Corner> corners;
-  for (const Vector3& place : places) corners.push_back({static_cast<int>(corners.size()), place});
-  return corners;
-}
-
-Law frictionless(double e) {
-  Law law;
-  law.law.restitution = e;
-  return law;
-}
-
-Law coulomb(double e, double friction, RestitutionLaw restitution = RestitutionLaw::newton) {
-  Law law = frictionless(e);
-  law.law.law = restitution;
-  law.law.friction = FrictionKind::coulomb;
-  law.law.friction_value = friction;
-  return law;
-}
-
-/// A box with its bottom face on the ground.
-struct Box {
-  double length, width, height;
-  Body body;
-  std::vector<Corner> bottom;
-
-  Box(double l, double w, double h, double mass) : length(l), width(w), height(h) {
-    const Vector3 inertia = mass / 12 * Vector3(w * w + h * h, h * h + l * l, l * l + w * w);
-    body = {.mass = mass, .inertia = inertia.asDiagonal(), .vertices = {}, .rims = {}};
-    bottom = corners_of(
-        {{-l / 2, -w / 2, -h / 2}, {l / 2, -w / 2, -h / 2}, {l / 2, w / 2, -h / 2}, {-l / 2, w / 2, -h / 2}});
-  }
-};
-
-double normal_velocity(const Vector3& v, const Vector3& spin, const Vector3& arm) { return (v + spin.cross(arm)).z(); }
+using namespace clatter::oracle;
 
 /// A uniform thin rod along x, flat.
 struct FlatRod {
@@ -95,7 +60,7 @@ BOOST_AUTO_TEST_CASE(tilts_to_either_side_of_a_damped_rod_give_two_outcomes_that
 }
 
 BOOST_AUTO_TEST_CASE(a_slippery_rocking_block_has_several_outcomes_and_a_face_that_drops_level_and_elastic_one) {
-  const Box block(0.4, 0.3, 1, 1);
+  const FlatBox block(0.4, 0.3, 1, 1);
   State rocking;
   rocking.angular_velocity = {0, -1, 0};
   rocking.velocity = {0, 0, -0.2};
@@ -220,7 +185,7 @@ BOOST_AUTO_TEST_CASE(no_direction_of_the_tilt_has_an_outcome_beyond_the_set_and_
 
 BOOST_AUTO_TEST_CASE(a_face_whose_narrowest_sector_has_eight_degrees_has_all_four_outcomes) {
   const double angle = 2 * std::atan2(0.8097135568321546, -0.5868253197351159);
-  const Box block(0.1514, 0.08958, 0.1433, 0.584);
+  const FlatBox block(0.1514, 0.08958, 0.1433, 0.584);
   State before;
   before.attitude = Eigen::AngleAxisd(angle, Vector3::UnitZ());
   before.velocity = {0, 0, -1};
@@ -236,7 +201,7 @@ BOOST_AUTO_TEST_CASE(a_face_whose_narrowest_sector_has_eight_degrees_has_all_fou
 }
 
 BOOST_AUTO_TEST_CASE(a_light_body_that_rattles_on_has_a_set_that_says_what_is_left_out) {
-  Box light(1, 1, 0.7, 1);
+  FlatBox light(1, 1, 0.7, 1);
   light.body.inertia = Vector3(6e-4, 5.5e-3, 5e-3).asDiagonal();
   State before;
   before.velocity = {0, 0, -1};
