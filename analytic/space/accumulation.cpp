@@ -46,8 +46,9 @@ double jump_of(const Body& body, double impulse) {
 std::optional<Tail> bouncing_tail(const Drop& drop, const ImpactRow& last) {
   const double e = drop.law.law.restitution;
   const Impact& impact = last.impact;
-  if (impact.angular_velocity_after != Vector3::Zero() || !(drop.gravity > 0) || !(e < 1)) return {};
-  const Vector3 arm = last.before.attitude * last.corners.front().place;
+  const bool is_ball = drop.body.is_ball();  // which may turn: without slip, or friction, that stays as it is
+  if ((impact.angular_velocity_after != Vector3::Zero() && !is_ball) || !(drop.gravity > 0) || !(e < 1)) return {};
+  const Vector3 arm = is_ball ? Vector3(Vector3::Zero()) : last.before.attitude * last.corners.front().place;
   if (!last.group && (arm.head<2>() != Vector2::Zero() || impact.impulse.head<2>() != Vector2::Zero())) return {};
   const double w = impact.velocity_after.z(), mass = drop.body.mass;
   if (!(w >= 0)) return {};
@@ -59,6 +60,7 @@ std::optional<Tail> bouncing_tail(const Drop& drop, const ImpactRow& last) {
   for (const Corner& corner : last.corners) tail.corners.push_back(corner.index);
   tail.closed_form = true;
   tail.velocity_after.head<2>() = slip + tail.tangential_impulse / mass;
+  tail.angular_velocity_after = impact.angular_velocity_after;
   return tail;
 }
 
@@ -204,6 +206,7 @@ void end_state(const Drop& drop, const ImpactRow& last, const Vector3& lever, Ta
   const Vector3 drift = axes * (body.inertia.inverse() * (body.inertia * w).cross(w)) * tail.end_time;
   tail.velocity_after = impact.velocity_after + impulse / body.mass + fall;
   tail.angular_velocity_after = impact.angular_velocity_after + change + drift;
+  if (body.is_centred_sphere()) tail.velocity_after.z() = 0;
   if (tail.corners.size() < 3 && !(last.corners.front().radius > 0)) return;  // neither a face nor a level rim
   tail.velocity_after.z() = 0;
   tail.angular_velocity_after.head<2>().setZero();
@@ -219,7 +222,7 @@ bool keeps_slipping(const Body& body, const ImpactRow& last, const Tail& tail) {
 
 void add_errors(const Drop& drop, const ImpactRow& last, Tail& tail) {
   const RowErrors& e = last.error;
-  const double reach = drop.body.reach(), turning = last.impact.angular_velocity_after.norm();
+  const double reach = drop.body.reach(), turning = drop.body.is_ball() ? 0 : last.impact.angular_velocity_after.norm();
   const double normal = tail.normal_impulse, left = tail.end_time - last.start;
   // A hop takes 2u/|h″|.
   const double bend = 4 * reach * turning * (e.angular_velocity_after + turning * e.attitude);
@@ -257,7 +260,7 @@ std::optional<LowestFace> lowest_face(const Body& body, const State& now) {
   }
   const auto arm = [&](int i) -> const Vector3& { return arms[static_cast<std::size_t>(i)]; };
   std::ranges::sort(order, {}, [&](int i) { return arm(i).z(); });
-  if (order.size() < 4 || !body.rims.empty()) return {};
+  if (order.size() < 4 || !body.rims.empty() || !body.ellipsoids.empty()) return {};
   const Vector3& first = arm(order[0]);
   LowestFace face;
   for (std::size_t k = 2; k < order.size(); ++k) {

@@ -10,9 +10,10 @@
 
 namespace clatter::analytic::space {
 
-/// Bouncing of a body that does not turn: after an impact with rebound speed w that leaves the body so, flight times
-/// form a geometric series. Remaining time 2w/(g(1−e)), normal impulse m (1+e) w/(1−e), tangential impulse by the
-/// friction law until slip stops.  Nothing if the body turns, is elastic, has no gravity, or would be turned.
+/// Bouncing of a body that does not turn, or of a ball without slip or friction: after an impact with rebound speed w
+/// that leaves the body so, flight times form a geometric series. Remaining time 2w/(g(1−e)), normal impulse m (1+e)
+/// w/(1−e), tangential impulse by the friction law until slip stops.  Nothing if the body turns otherwise, is elastic,
+/// has no gravity, or would be turned.
 [[nodiscard]] std::optional<Tail> bouncing_tail(const Drop& drop, const ImpactRow& last);
 
 /// Recognises accumulations of one corner, of an edge or of corners in turn, by accumulation.hpp: impacts whose corners

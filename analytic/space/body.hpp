@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rigid bodies in space that touch the ground with vertices and rims, and the state of their motion.
+// Rigid bodies in space that touch the ground with vertices, rims and round surfaces, and the state of their motion.
 //
 // World frame: x right, y into the page, z up, ground z = 0.  Body frame: origin at the centre of mass.
 #pragma once
@@ -25,21 +25,59 @@ struct Rim {
   double radius = 0;                 ///< > 0 [m]
 };
 
-/// A rigid body: what its impacts and flights depend on.
-struct Body {
-  double mass = 1;                        ///< m [kg]
-  Matrix3 inertia = Matrix3::Identity();  ///< about the centre of mass, body axes, symmetric [kg·m²]
-  std::vector<Vector3> vertices;          ///< corners of the hull, body frame [m]
-  std::vector<Rim> rims;                  ///< circles of the hull
+/// An ellipsoid of the surface, its axes parallel to the body's; with equal ones a sphere.
+struct Ellipsoid {
+  Vector3 centre = Vector3::Zero();    ///< body frame [m]
+  Vector3 semiaxes = Vector3::Ones();  ///< along x, y, z; the least above 1e-9 of the largest [m]
 
-  /// Largest distance of a point of the hull from the centre of mass [m].
+  [[nodiscard]] bool is_sphere() const { return semiaxes == Vector3::Constant(semiaxes.x()); }
+  /// Of revolution, unit: of a sphere that through the origin; zero if no two axes are equal, or any will do.
+  [[nodiscard]] Vector3 axis() const;
+};
+
+/// What rims and ellipsoids have in common: the points c + ρ S u, |u| = 1.  Below the vertical e, in body axes, the
+/// lowest lies at
+///     r = c − ρ S²e/|S e|,   h = e·c − ρ |S e|.                                                          (1)
+/// S = 1 − a aᵀ of a rim with the axis a, diagonal of an ellipsoid with its semiaxes over the largest, ρ.
+struct Round {
+  Vector3 centre, axis, shares;  ///< c [m]; a, zero of an ellipsoid; diagonal of S + a aᵀ
+  double radius;                 ///< ρ [m]
+
+  /// S x.
+  [[nodiscard]] Vector3 across(const Vector3& x) const { return x.cwiseProduct(shares) - x.dot(axis) * axis; }
+  /// S²x from S x.
+  [[nodiscard]] Vector3 twice(const Vector3& across) const { return across.cwiseProduct(shares); }
+  /// Whether it has a point that is not lower than others: a rim, level.
+  [[nodiscard]] bool is_rim() const { return axis != Vector3::Zero(); }
+};
+
+/// A rigid body: what its impacts and flights depend on.  A point of the surface that can touch is an index into
+/// vertices, then rims, then ellipsoids.
+struct Body {
+  double mass = 1;                         ///< m [kg]
+  Matrix3 inertia = Matrix3::Identity();   ///< about the centre of mass, body axes, symmetric [kg·m²]
+  std::vector<Vector3> vertices;           ///< corners of the hull, body frame [m]
+  std::vector<Rim> rims;                   ///< circles of the hull
+  std::vector<Ellipsoid> ellipsoids = {};  ///< parts of the hull
+
+  [[nodiscard]] int points() const { return static_cast<int>(vertices.size() + rims.size() + ellipsoids.size()); }
+  /// Null unless the point is the lowest of a sphere.
+  [[nodiscard]] const Ellipsoid* sphere(int point) const;
+  /// The rim or ellipsoid that the point is of.  Domain: no vertex.
+  [[nodiscard]] Round round(int point) const;
+  /// A sphere about its centre of mass: no turn moves its lowest point.
+  [[nodiscard]] bool is_centred_sphere() const;
+  /// The same with equal moments of inertia: its attitude does not matter at all.
+  [[nodiscard]] bool is_ball() const;
+
+  /// Largest distance of a point of the hull from the centre of mass, of an ellipsoid off it a bound on that [m].
   [[nodiscard]] double reach() const;
-  /// Moment of inertia across the axis of a body of revolution, the surface of which is rims about one axis through
-  /// the centre of mass that is one of the inertia, to rounding; nothing for any other body [kg·m²].
+  /// Moment of inertia across the axis of a body of revolution, the surface of which is rims and ellipsoids about one
+  /// axis through the centre of mass that is one of the inertia, to rounding; nothing for any other body [kg·m²].
   [[nodiscard]] std::optional<double> transverse_moment() const;
   /// @throws std::domain_error naming the field, its value and what is allowed: mass > 0; inertia symmetric with
-  ///         principal values > 0 that hold the triangle inequality to rounding; at least one vertex or rim; all
-  ///         finite.
+  ///         principal values > 0 that hold the triangle inequality to rounding; at least one vertex, rim or ellipsoid;
+  ///         all finite.
   void validate() const;
 };
 
@@ -51,9 +89,9 @@ struct State {
   Vector3 angular_velocity = Vector3::Zero();    ///< world frame [rad/s]
 };
 
-/// A point of the hull, a vertex or the lowest point of a rim; or all of a rim that lies level.
+/// A point of the hull, a vertex or the lowest point of a rim or ellipsoid; or all of a rim that lies level.
 struct Corner {
-  int index = 0;                    ///< into Body::vertices, or vertices.size() + index into Body::rims
+  int index = 0;                    ///< of the point, as Body counts them
   Vector3 place = Vector3::Zero();  ///< body frame, from the centre of mass; the centre of a level rim [m]
   double radius = 0;                ///< of a level rim; 0: a point [m]
 };
@@ -107,6 +145,17 @@ struct Cylinder {
 /// so that the third moment takes the value of the others, which makes its free rotation that of a fixed axis.
 /// @throws std::domain_error for a length that is not above 0 or a radius below 0.
 [[nodiscard]] Body cylinder(double mass, const Cylinder& shape);
+
+/// A uniform ellipsoid: I = m/5 diag(b² + c², a² + c², a² + b²).
+/// @throws std::domain_error for a semiaxis a, b, c that is not above 0, or below 1e-9 of the largest.
+[[nodiscard]] Body ellipsoid(double mass, const Vector3& semiaxes);
+
+/// A solid capsule along x, of the length L over all: a cylinder of length l = L − 2r between two half balls.
+/// Uniform, with the part c = l/(l + 4r/3) of the mass in the cylinder:
+///     I_x = m r² (c/2 + 2(1 − c)/5),   I_y = I_z = m [c (l²/12 + r²/4) + (1 − c)(2r²/5 + l²/4 + 3lr/8)].     (2)
+/// Sphere 0 is at −l/2; for L = 2r there is one.
+/// @throws std::domain_error for r not above 0 or L below 2r.
+[[nodiscard]] Body capsule(double mass, const Cylinder& shape);
 
 /// Mass, centre and inertia of a polyhedron.
 struct MassProperties {

@@ -20,7 +20,8 @@ using detail::never;
 
 /// h(t) = t (u + t C(t) − ρ t S(t)), so that a hop keeps its relative accuracy however small its speed u beside V_z.
 /// C comes from the Taylor series of e = Aᵀ z and ω at t = 0 (Euler's equations), with the place of a vertex or the
-/// centre of a rim.  ρ S is a rim's share: with v = v₀ + v₁ t + V t² across the rim's axis, of size s, and
+/// centre of a rim or ellipsoid.  ρ S is their share: with v = v₀ + v₁ t + V t² of (2) in point_height.hpp, of size s,
+/// and
 /// s₁ = v₀·v₁/s₀ the derivative of s at t = 0,
 ///     S = (s − s₀ − s₁ t)/t² = (|v₀ × v₁|²/s₀² + 2 (v₀ + v₁ t)·V + t² V²)/(s + s₀ + s₁ t),         (1)
 /// where only the second form has its digits unless s₀ + s₁ t < 0.
@@ -29,7 +30,7 @@ class Hop {
  public:
   static constexpr double largest_turn = 0.1;  ///< [rad]
 
-  /// Of a vertex or the lowest point of a rim, which leaves with the normal velocity `speed`.
+  /// Of a vertex or the lowest point of a rim or ellipsoid, which leaves with the normal velocity `speed`.
   Hop(const Body& body, const FreeFlight& flight, int point, double speed);
 
   struct Value {
@@ -48,11 +49,11 @@ class Hop {
     double value = 0, slope = 0;
   };
   /// S of (1) and its derivative.
-  [[nodiscard]] Share share_of_rim(double time) const;
+  [[nodiscard]] Share share_of_round(double time) const;
 
   double speed_;
   std::array<double, terms> bends_{};  ///< of C
-  double radius_ = 0;                  ///< ρ; 0: a vertex, or a rim that stays level
+  double radius_ = 0;                  ///< ρ; 0: a vertex, a sphere, or a rim that stays level
   double size_ = 0, growth_ = 0;       ///< s₀, s₁
   double turn_ = 0;                    ///< |v₀ × v₁|²/s₀²
   Vector3 start_, rate_;               ///< v₀, v₁
@@ -99,9 +100,9 @@ class PointSearch {
   /// Root of h/t in (0, b].
   bool solve_quotient(int point, const PointHeight& start, const Node& b);
   Node at(int point, double time);
-  /// Whether the point is the rim that hop_ is of, at a time in its domain.
+  /// Whether the point is the rim or ellipsoid that hop_ is of, at a time in its domain.
   [[nodiscard]] bool hops(int point, double time) const {
-    return point == hopping_rim_ && time * flight_.rotation().fastest() <= Hop::largest_turn;
+    return point == hopping_round_ && time * flight_.rotation().fastest() <= Hop::largest_turn;
   }
   /// Takes a root of hop_.
   bool take_hop(int point, double time, detail::Bracket bracket);
@@ -111,7 +112,7 @@ class PointSearch {
   PointHeights heights_;
   FirstContact found_;
   std::optional<Hop> hop_;
-  int hopping_rim_ = -1;
+  int hopping_round_ = -1;
   double hop_time_ = -1, hop_velocity_ = 0;
   double best_ = detail::never, threshold_;
 };
@@ -121,10 +122,11 @@ Hop::Hop(const Body& body, const FreeFlight& flight, int point, double speed) : 
   const Matrix3 inverse = inertia.inverse();
   const State& start = flight.start();
   const auto index = static_cast<std::size_t>(point);
-  const bool is_rim = index >= body.vertices.size();
+  const Ellipsoid* const sphere = body.sphere(point);
+  const bool is_round = index >= body.vertices.size() && sphere == nullptr;
   std::array<Vector3, terms + 2> e, w, momentum;
   // Rounding of e turns the lowest point of a rim near level: that of the departure's is taken, which `speed` is of.
-  e[0] = is_rim ? start.attitude.conjugate() * Vector3::UnitZ() : flight.rotation().vertical(0).direction;
+  e[0] = is_round ? start.attitude.conjugate() * Vector3::UnitZ() : flight.rotation().vertical(0).direction;
   w[0] = flight.rotation().angular_velocity(0);
   momentum[0] = inertia * w[0];
   for (std::size_t n = 0; n + 1 < e.size(); ++n) {
@@ -138,25 +140,24 @@ Hop::Hop(const Body& body, const FreeFlight& flight, int point, double speed) : 
     momentum[n + 1] = torque / next;
     w[n + 1] = inverse * momentum[n + 1];
   }
-  const Vector3 place = is_rim ? body.rims[index - body.vertices.size()].centre : body.vertices[index];
+  const Vector3 place = is_round ? body.round(point).centre : sphere != nullptr ? sphere->centre : body.vertices[index];
   for (std::size_t k = 0; k < terms; ++k) bends_[k] = e[k + 2].dot(place);
   bends_[0] -= flight.gravity() / 2;
-  if (!is_rim) return;
+  if (!is_round) return;
   const bool level = touching_corner(body, start.attitude, point).radius > 0;
   const Vector3& spin = start.angular_velocity;
   if (level && spin.head<2>().norm() <= 64 * epsilon * std::fabs(spin.z())) return;  // it stays level
-  const Rim& rim = body.rims[index - body.vertices.size()];
-  radius_ = rim.radius;
-  const auto across = [&](const Vector3& x) { return Vector3(x - x.dot(rim.axis) * rim.axis); };
-  start_ = level ? Vector3(Vector3::Zero()) : across(e[0]);
-  rate_ = across(e[1]);
-  for (std::size_t k = 0; k < terms; ++k) across_[k] = across(e[k + 2]);
+  const Round round = body.round(point);
+  radius_ = round.radius;
+  start_ = level ? Vector3(Vector3::Zero()) : round.across(e[0]);
+  rate_ = round.across(e[1]);
+  for (std::size_t k = 0; k < terms; ++k) across_[k] = round.across(e[k + 2]);
   size_ = start_.norm();
   growth_ = level ? rate_.norm() : start_.dot(rate_) / size_;
   turn_ = level ? 0 : (start_ / size_).cross(rate_).squaredNorm();
 }
 
-Hop::Share Hop::share_of_rim(double time) const {
+Hop::Share Hop::share_of_round(double time) const {
   Vector3 bend = Vector3::Zero(), change = Vector3::Zero();  // V, V′
   for (std::size_t k = terms; k-- > 0;) {
     change = change * time + bend;
@@ -184,9 +185,9 @@ Hop::Value Hop::at(double time) const {
     bend = bend * time + bends_[k];
   }
   if (radius_ > 0) {
-    const Share rim = share_of_rim(time);
-    bend -= radius_ * rim.value;
-    slope -= radius_ * rim.slope;
+    const Share share = share_of_round(time);
+    bend -= radius_ * share.value;
+    slope -= radius_ * share.slope;
   }
   return {.quotient = speed_ + time * bend, .slope = bend + time * slope};
 }
@@ -210,9 +211,9 @@ PointSearch::PointSearch(const Body& body, const FreeFlight& flight)
 bool PointSearch::look(int point, const Node& a, const Node& b) {
   if (a.point.time >= best_) return true;
   const bool touching = a.point.time == 0 && a.point.height == 0;
-  if (touching && heights_.is_rim(point)) {
-    if (hopping_rim_ != point) hop_.emplace(body_, flight_, point, a.point.velocity);
-    hopping_rim_ = point;
+  if (touching && heights_.is_round(point)) {
+    if (hopping_round_ != point) hop_.emplace(body_, flight_, point, a.point.velocity);
+    hopping_round_ = point;
     if (!hops(point, b.point.time)) return split(point, a, b, 0.99 * Hop::largest_turn / flight_.rotation().fastest());
   }
   const HeightBounds bounds = heights_.bounds(point, {a.moment, b.moment, a.point, b.point, touching});
@@ -301,7 +302,7 @@ bool PointSearch::solve_quotient(int point, const PointHeight& start, const Node
   if (turn <= Hop::largest_turn) {
     if (!hops(point, 0)) {
       hop_.emplace(body_, flight_, point, touch.normal_velocity);
-      hopping_rim_ = -1;
+      hopping_round_ = -1;
     } else if (!(hop_->at(b.point.time).quotient < 0)) {
       return false;
     }
@@ -507,7 +508,7 @@ class Search {
     const PointHeight first =
         best == 0 ? from_[static_cast<std::size_t>(found_.point)] : heights_.at(found_.point, moment);
     found_.normal_velocity = search_.arrival_velocity(first, found_.velocity_error);
-    if (search_.hopped() && heights_.is_rim(found_.point)) {
+    if (search_.hopped() && heights_.is_round(found_.point)) {
       // Rounding of the attitude turns the lowest point of a rim by that over the rim's steepness.
       const double steep =
           std::fmin(heights_.steepness(found_.point, heights_.moment(0)), heights_.steepness(found_.point, moment));
@@ -543,12 +544,17 @@ class Search {
 }  // namespace
 
 FirstContact first_contact(const Body& body, const FreeFlight& flight, std::span<const Touch> touching) {
-  const std::optional<double> across = body.transverse_moment();
-  if (!across) return Search(body, flight, touching).run();
+  const bool turns = !body.is_centred_sphere();
+  const std::optional<double> across = turns ? body.transverse_moment() : std::nullopt;
+  if (turns && !across) return Search(body, flight, touching).run();
   const State& start = flight.start();
+  State steady = start;
+  if (!turns) {  // a parabola, whatever the spin
+    steady.angular_velocity.setZero();
+    return Search(body, FreeFlight(PrincipalAxes(body.inertia), steady, flight.gravity()), touching).run();
+  }
   Body shape = body;
   shape.inertia = *across * Matrix3::Identity();
-  State steady = start;
   const Vector3 spin = start.attitude.conjugate() * start.angular_velocity;
   steady.angular_velocity = start.attitude * (body.inertia * spin) / *across;
   return Search(shape, FreeFlight(PrincipalAxes(shape.inertia), steady, flight.gravity()), touching).run();

@@ -2,8 +2,8 @@
 // The earliest corner of a body in space to reach the ground after an impact.
 //
 // The flight is cut into pieces of a fraction of a radian.  On each, point_height.hpp bounds the height of every vertex
-// and rim from below: above the ground, the piece is clear.  Otherwise the sign of h″ tells: a concave height reaches
-// the ground if its end does, a convex one if its lowest point does; a piece with neither sign is halved.
+// and round part from below: above the ground, the piece is clear.  Otherwise the sign of h″ tells: a concave height
+// reaches the ground if its end does, a convex one if its lowest point does; a piece with neither sign is halved.
 //
 // The axis of a free symmetric top circles its momentum L at the rate |L|/I₁, I₁ across the axis.  A body of revolution
 // has the heights of its shape turning steadily with L/I₁, whatever its spin about its own axis: so they are computed.
@@ -41,7 +41,7 @@ struct FirstContact {
   int evaluations = 0;  ///< of the rotation
 };
 
-/// Earliest time t > 0 at which a vertex or rim reaches the ground.
+/// Earliest time t > 0 at which a vertex, rim or ellipsoid reaches the ground.
 /// Points at height 0 to rounding at t = 0 count as touching: they do not arrive then unless they approach.
 /// Accuracy of the time: some ulp × (1 + condition number).  Where a point that touches returns after less than a tenth
 /// of a radian, its height comes from its Taylor series at t = 0, so that small hops keep their relative accuracy.

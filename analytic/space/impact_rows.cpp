@@ -40,6 +40,10 @@ Drop SequenceUnits::to_internal(const Drop& drop) const {
     scale(rim.centre, -length_);
     scale(rim.radius, -length_);
   }
+  for (Ellipsoid& part : d.body.ellipsoids) {
+    scale(part.centre, -length_);
+    scale(part.semiaxes, -length_);
+  }
   scale(d.velocity, -speed_);
   scale(d.angular_velocity, length_ - speed_);
   scale(d.gravity, length_ - 2 * speed_);

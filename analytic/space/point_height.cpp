@@ -57,12 +57,14 @@ FlightMoment PointHeights::moment(double time) const {
 PointHeight PointHeights::at(int point, const FlightMoment& m) const {
   const auto& [e, rate, second] = m.vertical;
   const double gravity = flight_.gravity();
-  if (!is_rim(point)) {
-    const Vector3& r = body_.vertices[static_cast<std::size_t>(point)];
-    return {m.time, m.centre + e.dot(r), m.rate + rate.dot(r), second.dot(r) - gravity};
-  }
-  const auto& [c, a, radius] = rim(point);
-  const Vector3 v = e - e.dot(a) * a, v1 = rate - rate.dot(a) * a, v2 = second - second.dot(a) * a;
+  const auto fixed = [&](const Vector3& r, double lower) -> PointHeight {
+    return {m.time, m.centre + e.dot(r) - lower, m.rate + rate.dot(r), second.dot(r) - gravity};
+  };
+  if (point < static_cast<int>(body_.vertices.size())) return fixed(body_.vertices[static_cast<std::size_t>(point)], 0);
+  if (const Ellipsoid* sphere = body_.sphere(point)) return fixed(sphere->centre, sphere->semiaxes.x());
+  const Round round = body_.round(point);
+  const Vector3 &c = round.centre, v = round.across(e), v1 = round.across(rate), v2 = round.across(second);
+  const double radius = round.radius;
   const double size = v.norm(), speed = v1.norm();
   double slope = speed, bend = speed > 0 ? v1.dot(v2) / speed : v2.norm();  // of |v₁ t + v₂ t²/2| after t = 0
   if (size > level) {
@@ -76,21 +78,24 @@ PointHeight PointHeights::at(int point, const FlightMoment& m) const {
 Corner touching_corner(const Body& body, const Quaternion& attitude, int point) {
   const auto index = static_cast<std::size_t>(point);
   if (index < body.vertices.size()) return {.index = point, .place = body.vertices[index]};
-  const auto& [c, a, radius] = body.rims[index - body.vertices.size()];
-  const Vector3 e = attitude.conjugate() * Vector3::UnitZ(), v = e - e.dot(a) * a;
-  const double size = v.norm();
-  if (size <= level) return {.index = point, .place = c, .radius = radius};
-  return {.index = point, .place = c - radius / size * v};
+  const Round round = body.round(point);
+  const Vector3 e = attitude.conjugate() * Vector3::UnitZ(), v = round.across(e);
+  const double size = body.sphere(point) != nullptr ? 1 : v.norm();
+  if (round.is_rim() && size <= level) return {.index = point, .place = round.centre, .radius = round.radius};
+  return {.index = point, .place = round.centre - round.radius / size * round.twice(v)};
 }
 
 double steepness(const Body& body, const Quaternion& attitude, int point) {
   const auto index = static_cast<std::size_t>(point);
-  if (index < body.vertices.size()) return 1;
-  return (attitude.conjugate() * Vector3::UnitZ()).cross(body.rims[index - body.vertices.size()].axis).norm();
+  if (index < body.vertices.size() || body.sphere(point) != nullptr) return 1;
+  return body.round(point).across(attitude.conjugate() * Vector3::UnitZ()).norm();
 }
 
 double PointHeights::depth(int point) const {
-  return is_rim(point) ? reach_ : flight_.rotation().depth(body_.vertices[static_cast<std::size_t>(point)]);
+  const auto index = static_cast<std::size_t>(point);
+  if (index < body_.vertices.size()) return flight_.rotation().depth(body_.vertices[index]);
+  const Round round = body_.round(point);
+  return round.is_rim() ? reach_ : flight_.rotation().depth(round.centre) + round.radius;
 }
 
 double PointHeights::noise(double time) const {
@@ -115,6 +120,11 @@ double PointHeights::lowest_between(const FlightMoment& a, const FlightMoment& b
     reaches(along, (c - along * axis).norm() + radius);
     if (tilt > 0) reaches(along, (c - along * axis).norm() + radius * (1 + tilt));
   }
+  for (const auto& [c, semiaxes] : body_.ellipsoids) {
+    const double along = c.dot(axis);
+    deepest =
+        std::fmax(deepest, (c - along * axis).norm() - std::fmin(along * low, along * high) + semiaxes.maxCoeff());
+  }
   return std::fmin(a.centre, b.centre) - deepest - noise(b.time);
 }
 
@@ -126,7 +136,7 @@ double PointHeights::lowest_of_vertex(const Piece& piece, double tolerance) cons
 }
 
 /// With the coefficients of v in place of v: the bound is exact at the ends only.
-double PointHeights::lowest_of_rim(const Rim& rim, const Piece& piece, double tolerance) const {
+double PointHeights::lowest_of_round(const Round& round, const Piece& piece, double tolerance) const {
   const FlightMoment &a = piece.start, &b = piece.end;
   const double s = b.time - a.time;
   const Vector3 start[3] = {a.vertical.direction, a.vertical.rate, a.vertical.second};
@@ -135,8 +145,7 @@ double PointHeights::lowest_of_rim(const Rim& rim, const Piece& piece, double to
   const double fall[3] = {a.centre, a.rate, -flight_.gravity()}, fell[3] = {b.centre, b.rate, -flight_.gravity()};
   auto h = coefficients(s, fall, fell);
   for (std::size_t k = 0; k < 6; ++k) {
-    const Vector3 v = e[k] - e[k].dot(rim.axis) * rim.axis;
-    h[k] += e[k].dot(rim.centre) - rim.radius * v.norm();
+    h[k] += e[k].dot(round.centre) - round.radius * round.across(e[k]).norm();
   }
   // What is known of the start better than its terms.
   const double known = piece.from.height - h[0];
@@ -166,33 +175,29 @@ void PointHeights::bend_of_vertex(const Piece& piece, HeightBounds& bounds) cons
 }
 
 /// From f = |v|: f f′ = v·v′, f′² + f f″ = |v′|² + v·v″ (so that f″ >= −|v″|), 3 f′f″ + f f‴ = 3 v′·v″ + v·v‴.
-void PointHeights::bend_of_rim(const Rim& rim, const Piece& piece, HeightBounds& bounds) const {
+void PointHeights::bend_of_round(const Round& round, const Piece& piece, HeightBounds& bounds) const {
   const PointHeight &a = piece.from, &b = piece.to;
   const double s = b.time - a.time;
-  const auto across = [&](const FlightMoment& m) {
-    const Vector3& e = m.vertical.direction;
-    return (e - e.dot(rim.axis) * rim.axis).norm();
-  };
-  const double size = std::fmax(across(piece.start), across(piece.end)) - rates_[1] * s;
-  const auto pull = [&](const FlightMoment& m) {
-    const Vector3& second = m.vertical.second;
-    return (second - second.dot(rim.axis) * rim.axis).norm();
-  };
-  const auto lift = [&](const FlightMoment& m) { return m.vertical.second.dot(rim.centre) + rim.radius * pull(m); };
-  const double drift = (rim.centre.norm() + rim.radius) * rates_[3] * s / 2;
+  const auto across = [&](const FlightMoment& m) { return round.across(m.vertical.direction).norm(); };
+  const double least = round.is_rim() ? 0 : round.shares.minCoeff();
+  const double size = std::fmax(std::fmax(across(piece.start), across(piece.end)) - rates_[1] * s, least);
+  const auto pull = [&](const FlightMoment& m) { return round.across(m.vertical.second).norm(); };
+  const auto lift = [&](const FlightMoment& m) { return m.vertical.second.dot(round.centre) + round.radius * pull(m); };
+  const double drift = (round.centre.norm() + round.radius) * rates_[3] * s / 2;
   bounds.least_bend = -infinite;
   bounds.largest_bend = std::fmax(lift(piece.start), lift(piece.end)) - flight_.gravity() + drift;
   const FreeRotation& rotation = flight_.rotation();
-  const double off_axis = rim.centre.cross(rim.axis).norm(), off_spin = rim.axis.cross(rotation.spin_axis()).norm();
-  if (off_axis <= 4 * epsilon * reach_ && off_spin <= 4 * epsilon) {
-    // The rim's axis is all that moves, however fast the body spins about this axis.
+  const double off_axis = round.centre.cross(round.axis).norm(),
+               off_spin = round.axis.cross(rotation.spin_axis()).norm();
+  if (round.is_rim() && off_axis <= 4 * epsilon * reach_ && off_spin <= 4 * epsilon) {
+    // The axis is all that moves, however fast the body spins about this axis.
     const double turning = rotation.axis_speed() + 8 * epsilon * rotation.fastest();
-    const double most = 2 * (rim.centre.norm() + rim.radius) * turning * rotation.fastest() - flight_.gravity();
+    const double most = 2 * (round.centre.norm() + round.radius) * turning * rotation.fastest() - flight_.gravity();
     bounds.largest_bend = std::fmin(bounds.largest_bend, most);
   }
   if (!(size > 0)) return;
   const double third = rates_[3] + 3 * rates_[1] * (2 * rates_[2] + rates_[1] * rates_[1] / size) / size;
-  const double near = (rim.centre.norm() * rates_[3] + rim.radius * third) * s / 2;
+  const double near = (round.centre.norm() * rates_[3] + round.radius * third) * s / 2;
   bounds.least_bend = std::fmin(a.acceleration, b.acceleration) - near;
   bounds.largest_bend = std::fmin(bounds.largest_bend, std::fmax(a.acceleration, b.acceleration) + near);
 }
@@ -204,9 +209,10 @@ HeightBounds PointHeights::bounds(int point, const Piece& piece) const {
   const double tolerance =
       piece.touching ? quotient_error * sixth + 2 * rounding / s : value_error * sixth * s + rounding;
   HeightBounds bounds;
-  if (is_rim(point)) {
-    bounds.lowest = lowest_of_rim(rim(point), piece, tolerance);
-    bend_of_rim(rim(point), piece, bounds);
+  if (is_round(point)) {
+    const Round round = body_.round(point);
+    bounds.lowest = lowest_of_round(round, piece, tolerance);
+    bend_of_round(round, piece, bounds);
   } else {
     bounds.lowest = lowest_of_vertex(piece, tolerance);
     bend_of_vertex(piece, bounds);

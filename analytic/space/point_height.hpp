@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Height above the ground of a body's vertices and rims during a free flight, and bounds between two moments.
+// Height above the ground of a body's vertices, rims and ellipsoids during a free flight, and bounds between two
+// moments.
 //
 // With e = Aᵀ z, the vertical in body axes, a vertex at r has
 //     h = z + e·r,                                                                                  (1)
-// and the lowest point of a rim with centre c, unit axis a and radius ρ
-//     h = z + e·c − ρ |v|,   v = e − (e·a) a.                                                       (2)
+// and the lowest point of a rim or ellipsoid, with S of (1) in body.hpp,
+//     h = z + e·c − ρ |v|,   v = S e.                                                               (2)
+// A sphere is a vertex at its centre, ρ lower: |v| = 1.
 // Between two moments, s apart, e is within M₆ s⁶/46080 of the polynomial of degree 5 with the same e, ė, ë at both.
 // With ω̇ = B(ω, ω), |B(x, y)| <= γ |x| |y| and w >= |ω| at all times, ė = e × ω gives
 //     |e⁽ⁿ⁾| <= M_n = wⁿ (1 + γ)(1 + 2γ) … (1 + (n−1)γ).                                            (3)
@@ -48,29 +50,33 @@ struct Piece {
   bool touching = false;  ///< from: h = 0 at t = 0
 };
 
-/// Where a point touches the ground or is nearest to it: a vertex, the lowest point of a rim, or all of a rim that lies
-/// level to rounding, no point of it lower than another.
+/// Where a point touches the ground or is nearest to it: a vertex, the lowest point of a rim or ellipsoid, or all of a
+/// rim that lies level to rounding, no point of it lower than another.
 [[nodiscard]] Corner touching_corner(const Body& body, const Quaternion& attitude, int point);
 /// Corner::place of the same.
 [[nodiscard]] inline Vector3 touching_place(const Body& body, const Quaternion& attitude, int point) {
   return touching_corner(body, attitude, point).place;
 }
-/// Sine of the angle between the plane of the rim that the point is and the ground; 1 for a vertex.
+/// |v| of (2): of a rim the sine of the angle between its plane and the ground; 1 for a vertex and a sphere.  Rounding
+/// of the attitude moves the lowest point by that over it.
 [[nodiscard]] double steepness(const Body& body, const Quaternion& attitude, int point);
 
-/// The heights of a body's vertices and rims.
+/// The heights of a body's points.
 class PointHeights {
  public:
   PointHeights(const Body& body, const FreeFlight& flight);
 
-  [[nodiscard]] int count() const { return static_cast<int>(body_.vertices.size() + body_.rims.size()); }
-  [[nodiscard]] bool is_rim(int point) const { return point >= static_cast<int>(body_.vertices.size()); }
+  [[nodiscard]] int count() const { return body_.points(); }
+  /// Whether the point moves over the surface with the attitude in other ways than that of a sphere.
+  [[nodiscard]] bool is_round(int point) const {
+    return point >= static_cast<int>(body_.vertices.size()) && body_.sphere(point) == nullptr;
+  }
   [[nodiscard]] FlightMoment moment(double time) const;
   [[nodiscard]] PointHeight at(int point, const FlightMoment& moment) const;
   [[nodiscard]] HeightBounds bounds(int point, const Piece& piece) const;
   /// As steepness() of the body at a moment.
   [[nodiscard]] double steepness(int point, const FlightMoment& moment) const {
-    return is_rim(point) ? moment.vertical.direction.cross(rim(point).axis).norm() : 1;
+    return is_round(point) ? body_.round(point).across(moment.vertical.direction).norm() : 1;
   }
   /// Largest distance of a point from the centre of mass [m].
   [[nodiscard]] double reach() const { return reach_; }
@@ -85,13 +91,10 @@ class PointHeights {
   [[nodiscard]] double noise(double time) const;
 
  private:
-  [[nodiscard]] const Rim& rim(int point) const {
-    return body_.rims[static_cast<std::size_t>(point) - body_.vertices.size()];
-  }
   [[nodiscard]] double lowest_of_vertex(const Piece& piece, double tolerance) const;
-  [[nodiscard]] double lowest_of_rim(const Rim& rim, const Piece& piece, double tolerance) const;
+  [[nodiscard]] double lowest_of_round(const Round& round, const Piece& piece, double tolerance) const;
   void bend_of_vertex(const Piece& piece, HeightBounds& bounds) const;
-  void bend_of_rim(const Rim& rim, const Piece& piece, HeightBounds& bounds) const;
+  void bend_of_round(const Round& round, const Piece& piece, HeightBounds& bounds) const;
 
   const Body& body_;
   const FreeFlight& flight_;

@@ -37,11 +37,21 @@ Impact impact_of(const GroupImpact& group, const State& before, const Vector3& p
 
 }  // namespace
 
+namespace {
+
+/// Without an attitude, which a ball does not need, rounding cannot move its lowest point out of the vertical.
+State aligned(const Body& body, State state) {
+  if (body.is_ball()) state.attitude.setIdentity();
+  return state;
+}
+
+}  // namespace
+
 /// Fills in the impact of the row's corners from the state before: one corner, or a group of corners or a level rim.
 /// @throws as strike() and strike_together()
 /// @param derivatives  of the impact, if asked for; NaN for a group or a level rim
 void strike_row(const Body& body, const Law& law, ImpactRow& row, StrikeDerivatives* derivatives) {
-  const Corner& corner = row.corners.front();
+  Corner corner = row.corners.front();
   if (row.corners.size() > 1 || corner.radius > 0) {
     row.group = strike_together(body, row.before, row.corners, law);
     row.impact = impact_of(*row.group, row.before, corner.place);
@@ -49,16 +59,22 @@ void strike_row(const Body& body, const Law& law, ImpactRow& row, StrikeDerivati
     if (derivatives != nullptr) derivatives->setConstant(missing);
     return;
   }
-  ContactVelocity velocity = contact_velocity(row.before, corner.place);
+  const State before = aligned(body, row.before);
+  if (body.is_ball()) corner = touching_corner(body, before.attitude, corner.index);
+  ContactVelocity velocity = contact_velocity(before, corner.place);
+  // Slip that is rounding would have a ball that rolls slip again.
+  if (body.is_ball() && velocity.value.head<2>().norm() <= 16 * epsilon * velocity.scale) {
+    velocity.value.head<2>().setZero();
+  }
   // A small hop knows its normal velocity better; but an impact keeps the energy only with the velocity of its place,
   // which the attitude's rounding turns along a rim that is almost level.
-  const double steep = steepness(body, row.before.attitude, corner.index);
+  const double steep = steepness(body, before.attitude, corner.index);
   if (row.flight.time > 0 && row.flight.velocity_error < 2 * epsilon * velocity.scale / steep &&
       std::fabs(row.flight.normal_velocity) <= 1e3 * steep * velocity.scale) {
     velocity.value.z() = row.flight.normal_velocity;
   }
-  row.impact = derivatives != nullptr ? strike(body, row.before, velocity, corner, law, *derivatives)
-                                      : strike(body, row.before, velocity, corner.place, law);
+  row.impact = derivatives != nullptr ? strike(body, before, velocity, corner, law, *derivatives)
+                                      : strike(body, before, velocity, corner.place, law);
   row.approach_speed = -velocity.value.z();
 }
 
@@ -66,7 +82,8 @@ void strike_row(const Body& body, const Law& law, ImpactRow& row, StrikeDerivati
 Impact struck_again(const Body& body, const Law& law, const ImpactRow& row, const State& before) {
   const Corner& corner = row.corners.front();
   if (row.group) return impact_of(strike_together(body, before, row.corners, law), before, corner.place);
-  return strike(body, before, touching_place(body, before.attitude, corner.index), law);
+  const State state = aligned(body, before);
+  return strike(body, state, touching_place(body, state.attitude, corner.index), law);
 }
 
 /// Sets `touches` to the row's corners with their normal velocities in the state after the impact; what is rounding of
@@ -230,7 +247,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     const bool turns = !result_.rest && tail.angular_velocity_after != Vector3::Zero();
     const bool spins = tail.angular_velocity_after.z() != 0;
     const bool comes_down = result_.rest && tail.corners.size() < result_.rest->corners.size();
-    const std::string stays = which_stays(tail.corners);
+    const std::string stays = which_stays(tail.corners, end);
     end_in(std::move(tail), turns, slides || spins, stays, comes_down ? ", then the body settles on a face" : "");
   }
 
@@ -250,7 +267,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     std::vector<int> corners;
     for (const Touch& touch : touches_) corners.push_back(touch.point);
     const bool turns = !result_.rest && state_.angular_velocity != Vector3::Zero();
-    rest(turns, state_.velocity.head<2>() != Vector2::Zero(), how, which_stays(corners));
+    rest(turns, state_.velocity.head<2>() != Vector2::Zero(), how, which_stays(corners, state_));
   }
 
   void end_without_contact(const FirstContact& flown) {
@@ -274,9 +291,15 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     rest_as_it_is("what is left of the corners' approach is rounding");
   }
 
-  [[nodiscard]] std::string which_stays(const std::vector<int>& corners) const {
-    const bool is_rim = corners.front() >= static_cast<int>(body_.vertices.size());
-    const char* const which = is_rim                ? "its rim rolls or slides"
+  [[nodiscard]] std::string which_stays(const std::vector<int>& corners, const State& end) const {
+    const auto before = body_.vertices.size(), first = static_cast<std::size_t>(corners.front());
+    if (first >= before + body_.rims.size()) {
+      const ContactVelocity v = contact_velocity(end, touching_place(body_, end.attitude, corners.front()));
+      return v.value.head<2>().norm() > 1e-6 * v.scale
+                 ? "the body slides and turns on its round surface"
+                 : "the body rolls or spins on without slip (Coulomb's law takes no energy from that)";
+    }
+    const char* const which = first >= before       ? "its rim rolls or slides"
                               : corners.size() == 1 ? "a corner stays"
                               : corners.size() == 2 ? "two corners stay"
                                                     : "it stays";

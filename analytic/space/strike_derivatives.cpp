@@ -5,14 +5,25 @@
 
 namespace clatter::analytic::space {
 
-/// r = c − ρ v/|v| in body axes, v = e − (e·a) a, e = Aᵀ z, δe = −Aᵀ (δθ × z).
+/// r of (1) in body.hpp with e = Aᵀ z, δe = −Aᵀ (δθ × z):
+///     S δθ = −ρ/|v| A (S² − S²e (S²e)ᵀ/|v|²) Aᵀ (z × δθ),   v = S e.  ([z]×³ = −[z]× makes it a sphere's.)
 Matrix3 shift_of_lowest_point(const Body& body, const Quaternion& attitude, int point) {
   const auto index = static_cast<std::size_t>(point);
   if (index < body.vertices.size()) return Matrix3::Zero();
-  const Rim& rim = body.rims[index - body.vertices.size()];
-  const Vector3 axis = attitude * rim.axis, across = Vector3::UnitZ() - axis.z() * axis;
+  const Round round = body.round(point);
+  const Matrix3 turning = cross_matrix(Vector3::UnitZ());
+  if (body.sphere(point) != nullptr) return round.radius * turning * turning * turning;
+  if (!round.is_rim()) {
+    const Vector3 v = round.across(attitude.conjugate() * Vector3::UnitZ());
+    const double size = v.norm();
+    const Vector3 lowest = attitude * round.twice(v) / size;  // from the centre, upward, over ρ
+    const Matrix3 axes = attitude.toRotationMatrix();
+    const Matrix3 squares = axes * round.shares.cwiseAbs2().asDiagonal() * axes.transpose();
+    return -round.radius / size * (squares - lowest * lowest.transpose()) * turning;
+  }
+  const Vector3 axis = attitude * round.axis, across = Vector3::UnitZ() - axis.z() * axis;
   const Vector3 along = axis.cross(across) / across.norm();  // of the rim: the one direction in which its point moves
-  return -rim.radius / across.norm() * along * along.transpose() * cross_matrix(Vector3::UnitZ());
+  return -round.radius / across.norm() * along * along.transpose() * turning;
 }
 
 namespace {

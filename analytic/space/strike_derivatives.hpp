@@ -3,8 +3,8 @@
 //
 // A turn δθ of the body at r, place and v = V + ω × r being those of impact.hpp, changes
 //     δW = [δθ]× W − W [δθ]×,   δv = ω × (δθ × r),                                                     (1)
-// and where the point is the lowest of a rim, the turn also moves the place by δr; W and v change as (1) of impact.hpp
-// says.  With δP from impulse_path.hpp, Δω = I⁻¹ (r × P),
+// and where the point is the lowest of a rim or ellipsoid, the turn also moves the place by δr; W and v change as (1)
+// of impact.hpp says.  With δP from impulse_path.hpp, Δω = I⁻¹ (r × P),
 //     δV′ = δV + δP/m,   δω′ = δω + δθ × Δω + I⁻¹ (r × (δP − δθ × P) + δr × P).                        (2)
 #pragma once
 

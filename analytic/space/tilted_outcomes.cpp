@@ -69,11 +69,14 @@ class OutcomeCollection {
     for (std::size_t i = 0; i < found_.size(); ++i) {
       if (!same(found_[i].impact, outcome.impact)) continue;
       const double share = found_[i].share + outcome.share;
+      std::vector<TiltSector> sectors = std::move(found_[i].sectors);
+      sectors.push_back(outcome.sectors.front());
       if (outcome.share > widest_[i]) {
         widest_[i] = outcome.share;
         found_[i] = std::move(outcome);
       }
       found_[i].share = share;
+      found_[i].sectors = std::move(sectors);
       return;
     }
     widest_.push_back(outcome.share);
@@ -298,7 +301,11 @@ void SectorSearch::follow(Sector& sector) {
   }
   GroupImpact impact = sector.struck.result();
   impact.is_whole = impact.order.size() == 1;
-  found_.add({sector.middle(), sector.width() / full_turn, std::move(impact)});
+  const double width = sector.width();
+  found_.add({.tilt_direction = sector.middle(),
+              .share = width / full_turn,
+              .sectors = {{std::atan2(sector.from.rise.y(), sector.from.rise.x()), width}},
+              .impact = std::move(impact)});
 }
 
 /// Directions of the tilt of a level rim.
@@ -306,8 +313,12 @@ constexpr int sampled_directions = 64;
 
 void sample_tilts(const LevelRim& rim, OutcomeCollection& found) {
   for (int i = 0; i < sampled_directions; ++i) {
-    const double direction = 0.0123 + i * full_turn / sampled_directions;
-    found.add({direction, 1.0 / sampled_directions, rim.tilted(direction)});
+    constexpr double width = full_turn / sampled_directions;
+    const double direction = 0.0123 + i * width;
+    found.add({.tilt_direction = direction,
+               .share = 1.0 / sampled_directions,
+               .sectors = {{direction - width / 2, width}},
+               .impact = rim.tilted(direction)});
   }
 }
 

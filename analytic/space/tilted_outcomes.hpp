@@ -23,11 +23,18 @@
 
 namespace clatter::analytic::space {
 
+/// Directions of tilts, counter-clockwise from `from`.
+struct TiltSector {
+  double from = 0;   ///< [rad]
+  double width = 0;  ///< [rad]
+};
+
 /// What the tilts of one or more sectors make of it.
 struct TiltedOutcome {
-  double tilt_direction = 0;  ///< of the middle of the widest sector: in which corners lie higher [rad]
-  double share = 0;           ///< of all directions of the tilt
-  GroupImpact impact;         ///< in the widest sector; is_whole: one corner alone struck
+  double tilt_direction = 0;        ///< of the middle of the widest sector: in which corners lie higher [rad]
+  double share = 0;                 ///< of all directions of the tilt
+  std::vector<TiltSector> sectors;  ///< that have it; of a level rim those around single directions
+  GroupImpact impact;               ///< in the widest sector; is_whole: one corner alone struck
 };
 
 /// Largest less least of the outcomes, component by component, world frame.

@@ -135,7 +135,61 @@ void add_box_elements(Mesh& mesh, const BoxMesh& box, double density) {
   }
 }
 
+void validate(const RoundMesh& shape) {
+  detail::require_positive("semiaxes.x", shape.semiaxes.x());
+  detail::require_positive("semiaxes.y", shape.semiaxes.y());
+  detail::require_positive("semiaxes.z", shape.semiaxes.z());
+  if (shape.straight != 0) detail::require_positive("straight", shape.straight);
+  detail::require_positive("mass", shape.mass);
+  detail::require_at_least("sectors", shape.sectors, 3);
+  detail::require_at_least("rings", shape.rings, 1);
+  require_countable("sectors, rings", 4. * (1. + shape.rings) * shape.sectors);
+}
+
+/// Node 0 in the middle, 1 and 2 the poles at −x and +x, then circle by circle from −x to +x; returns how many circles.
+int add_round_nodes(Mesh& mesh, const RoundMesh& shape) {
+  const double half = shape.straight / 2;
+  const Vector3& a = shape.semiaxes;
+  mesh.nodes = {{0, 0, 0}, {-half - a.x(), 0, 0}, {half + a.x(), 0, 0}};
+  int circles = 0;
+  const auto add_circle = [&](double sign, int ring) {
+    const auto [across, along] = spoke(ring, 4 * shape.rings);
+    for (int sector = 0; sector < shape.sectors; ++sector) {
+      const auto [y, z] = spoke(sector, shape.sectors);
+      mesh.nodes.emplace_back(sign * (half - a.x() * along), a.y() * (across * y), a.z() * (across * z));
+    }
+    ++circles;
+  };
+  for (int ring = 1; ring <= shape.rings; ++ring) add_circle(-1, ring);
+  for (int ring = shape.straight > 0 ? shape.rings : shape.rings - 1; ring > 0; --ring) add_circle(1, ring);
+  return circles;
+}
+
 }  // namespace
+
+Mesh round_mesh(const RoundMesh& shape) {
+  validate(shape);
+  Mesh mesh;
+  const int circles = add_round_nodes(mesh, shape), n = shape.sectors;
+  double volume = 0;
+  const auto add = [&](int i, int j, int k) {
+    const auto at = [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)]; };
+    volume += at(i).cross(at(j)).dot(at(k)) / 6;
+    mesh.elements.push_back({ElementShape::tetrahedron, {0, i, j, k, -1, -1, -1, -1}, 1});
+  };
+  for (int s = 0; s < n; ++s) {
+    const auto node = [&](int circle, int sector) { return 3 + circle * n + sector % n; };
+    add(1, node(0, s + 1), node(0, s));
+    for (int c = 0; c + 1 < circles; ++c) {
+      add(node(c, s), node(c, s + 1), node(c + 1, s + 1));
+      add(node(c, s), node(c + 1, s + 1), node(c + 1, s));
+    }
+    add(2, node(circles - 1, s), node(circles - 1, s + 1));
+  }
+  const double rho = density(shape.mass, volume);
+  for (Element& element : mesh.elements) element.density = rho;
+  return mesh;
+}
 
 Mesh rod_mesh(const RodMesh& rod) {
   validate(rod);

@@ -24,10 +24,21 @@ struct BoxMesh {
   int nx = 1, ny = 1, nz = 1;  ///< hexahedra along each edge, >= 1
 };
 
+/// An ellipsoid centred at the origin with its axes along x, y, z, or two halves of one with a straight part of the
+/// same section in between: a capsule.  Tetrahedra about the middle; the nodes of the surface lie on the shape.
+struct RoundMesh {
+  Vector3 semiaxes{1, 1, 1};  ///< [m], each > 0
+  double straight = 0;        ///< length between the two halves [m], >= 0
+  double mass = 1;            ///< [kg], > 0
+  int sectors = 16;           ///< around x, >= 3; as of a rod
+  int rings = 4;              ///< of equal angles from each pole to the equator, >= 1
+};
+
 /// Coordinates are exactly symmetric about the planes y = 0 (both), x = 0 and z = 0 (both, for an even
 /// number of sectors) to the bit.
 /// @throws std::domain_error naming the field, its value and what is allowed.
 [[nodiscard]] Mesh rod_mesh(const RodMesh& rod);
 [[nodiscard]] Mesh box_mesh(const BoxMesh& box);
+[[nodiscard]] Mesh round_mesh(const RoundMesh& shape);
 
 }  // namespace clatter::numeric::inline mesh

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <vector>
 
+#include "analytic/batch/batch.hpp"
+#include "analytic/batch/lane_kernels.hpp"
 #include "analytic/plane/contact_angles.hpp"
 #include "analytic/plane/sequence.hpp"
 #include "analytic/space/body.hpp"
@@ -104,6 +106,30 @@ void three_impact_box_with_gravity_and_friction(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(impact_sequence(drop, {.impacts = 3, .amplification = false}));
 }
 BENCHMARK(three_impact_box_with_gravity_and_friction);
+
+/// Three impacts of 4096 drops at once, for each instruction set; the time of one is items_per_second's inverse.
+void batch_of_drops(benchmark::State& state, const PlanarBody& body, double gravity, double least_restitution) {
+  const auto kernels = batch::kernels();
+  const auto& kernel = kernels[std::min<std::size_t>(static_cast<std::size_t>(state.range(0)), kernels.size() - 1)];
+  std::vector<double> angle, restitution;
+  for (int i = 0; i < 4096; ++i) {
+    angle.push_back((i + 0.5) / 4096 * pi / 2);
+    restitution.push_back(least_restitution + (1 - least_restitution) * (i % 64) / 64);
+  }
+  const std::vector<double> fall{-1}, still{0}, g{gravity};
+  const BatchDrops drops{body, angle, fall, still, still, g, restitution, still};
+  std::vector<BatchOutcome> outcomes(angle.size());
+  for (auto _ : state) {
+    run_batch(drops, 3, 0, outcomes, kernel.run);
+    benchmark::DoNotOptimize(outcomes.data());
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(angle.size()));
+  state.SetLabel(kernel.name);
+}
+BENCHMARK_CAPTURE(batch_of_drops, elastic_rod, make_rod({}), 0, 1)->DenseRange(0, 2);
+BENCHMARK_CAPTURE(batch_of_drops, rod_with_restitution, make_rod({}), 0, 0.3)->DenseRange(0, 2);
+BENCHMARK_CAPTURE(batch_of_drops, rod_with_gravity, make_rod({}), 1, 1)->DenseRange(0, 2);
+BENCHMARK_CAPTURE(batch_of_drops, box, make_box({.length = 0.15, .thickness = 0.03}), 0, 0.5)->DenseRange(0, 2);
 
 void fold_angle(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(regime_boundary(ImpactNumber::second, {}));

@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_CASE(a_body_that_cannot_be_is_refused_by_the_name_of_its_field) 
   body.vertices[3].y() = nan;
   BOOST_TEST(refusal(body).starts_with("vertex = nan"));
   body.vertices.clear();
-  BOOST_TEST(refusal(body).starts_with("number of vertices and rims = 0"));
+  BOOST_TEST(refusal(body).starts_with("number of vertices, rims and ellipsoids = 0"));
   body.rims = {{.centre = Vector3::Zero(), .axis = {1, 1, 0}, .radius = 1}};
   BOOST_TEST(refusal(body).find("axis") != std::string::npos);
   body.rims[0] = {.centre = Vector3::Zero(), .axis = Vector3::UnitX(), .radius = 0};

@@ -112,6 +112,40 @@ State after_tilt(const Body& body, const State& before, const std::vector<Corner
   return state;
 }
 
+/// Whether a direction lies in a sector.
+bool holds(const TiltSector& sector, double direction) {
+  const double turn = 2 * std::numbers::pi, along = std::fmod(direction - sector.from, turn);
+  return (along < 0 ? along + turn : along) < sector.width;
+}
+
+BOOST_AUTO_TEST_CASE(each_direction_lies_in_one_sector_the_outcome_of_which_its_tilt_gives) {
+  const FlatBox block(0.4, 0.3, 1, 1);
+  State before;
+  before.angular_velocity = {0.3, -1, 0.1};
+  before.velocity = {0, 0, -0.6};
+  const Law law = frictionless(0.7);
+  const OutcomeSet set = tilted_outcomes(block.body, before, block.bottom, law);
+  BOOST_REQUIRE_GE(set.outcomes.size(), 3u);
+  for (const TiltedOutcome& outcome : set.outcomes) {
+    double width = 0;
+    for (const TiltSector& sector : outcome.sectors) width += sector.width;
+    BOOST_TEST(std::fabs(width - 2 * std::numbers::pi * outcome.share) <= 1e-12);
+  }
+  for (int k = 0; k < 500; ++k) {
+    const double direction = -3 + 0.0125 * k;
+    int found = 0;
+    for (const TiltedOutcome& outcome : set.outcomes) {
+      for (const TiltSector& sector : outcome.sectors) {
+        if (!holds(sector, direction)) continue;
+        ++found;
+        const State after = after_tilt(block.body, before, block.bottom, law, direction);
+        BOOST_TEST(agree(after.velocity, after.angular_velocity, outcome.impact, 1e-5));
+      }
+    }
+    BOOST_TEST(found == 1, "direction " << direction);
+  }
+}
+
 double kinetic_energy(const Body& body, const State& state) {
   const Vector3 spin = state.attitude.conjugate() * state.angular_velocity;
   return (body.mass * state.velocity.squaredNorm() + spin.dot(body.inertia * spin)) / 2;
@@ -168,7 +202,7 @@ BOOST_AUTO_TEST_CASE(no_direction_of_the_tilt_has_an_outcome_beyond_the_set_and_
     const GroupImpact by_rule = strike_together(face.body, face.before, face.touching, law);
     double sum = 0, by_rule_share = 0, least = 1e300, most = -1e300;
     for (std::size_t j = 0; j < shares.size(); ++j) {
-      const auto& [direction, share, impact] = set.outcomes[j];
+      const auto& [direction, share, sectors, impact] = set.outcomes[j];
       sum += share;
       BOOST_CHECK_LE(std::fabs(shares[j] - share), share_tolerance);
       const State after = after_tilt(face.body, face.before, face.touching, law, direction);

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
 #include <stdexcept>
 
+#include "numeric/body/mass_properties.hpp"
 #include "numeric/mesh/generators.hpp"
 #include "numeric/surface/surface.hpp"
 #include "tests/numeric/support.hpp"
@@ -165,4 +168,34 @@ BOOST_AUTO_TEST_CASE(bodies_beyond_the_numbers_of_the_machine_are_refused) {
   BOOST_CHECK_EXCEPTION(static_cast<void>(rod_mesh({.radius = 1e-200})), std::domain_error, mentions("mass / volume"));
   BOOST_CHECK_EXCEPTION(static_cast<void>(box_mesh({.size = {1e200, 1e200, 1}})), std::domain_error,
                         mentions("mass / volume"));
+}
+
+BOOST_AUTO_TEST_CASE(round_meshes_are_closed_lie_on_their_shape_and_come_to_it_with_the_second_order) {
+  // A capsule, as the ellipsoid with a straight part of the length l: V = 4/3 π a b c + π b c l.
+  for (const double straight : {0.0, 0.7}) {
+    double error[2];
+    for (const int fine : {1, 2}) {
+      const Mesh mesh = round_mesh({{0.5, 0.3, 0.2}, straight, 2, 16 * fine, 6 * fine});
+      BOOST_CHECK_NO_THROW(check_closed(boundary_surface(mesh)));
+      BOOST_TEST(is_symmetric(mesh, 0));
+      BOOST_TEST(is_symmetric(mesh, 1));
+      BOOST_TEST(is_symmetric(mesh, 2));
+      BOOST_TEST(has_node(mesh, {-straight / 2, 0, -0.2}));
+      const MassProperties properties = mass_properties(mesh);
+      BOOST_TEST(std::fabs(properties.mass - 2) <= 1e-13);  // a sum over elements
+      for (std::size_t i = 1; i < mesh.nodes.size(); ++i) {
+        Vector3 node = mesh.nodes[i];
+        node.x() -= std::copysign(std::fmin(std::fabs(node.x()), straight / 2), node.x());
+        BOOST_TEST(std::fabs(node.cwiseQuotient(Vector3(0.5, 0.3, 0.2)).norm() - 1) <= 1e-15);
+      }
+      const double volume = 2 / mesh.elements[0].density;
+      error[fine - 1] = std::numbers::pi * 0.06 * (4. / 3 * 0.5 + straight) - volume;
+    }
+    BOOST_TEST(error[1] > 0);
+    BOOST_TEST(std::fabs(error[0] / error[1] - 4) <= 0.1);
+  }
+  check_refused(&RoundMesh::straight, {-1., inf, not_a_number}, "straight", round_mesh);
+  check_refused(&RoundMesh::mass, {0., inf}, "mass", round_mesh);
+  check_refused(&RoundMesh::sectors, {2, -1}, "sectors", round_mesh);
+  check_refused(&RoundMesh::rings, {0}, "rings", round_mesh);
 }

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Many planar drops at once: counts and first impacts for maps and arrays.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "analytic/batch/lanes.hpp"
+#include "analytic/law/impact_law.hpp"
+#include "analytic/plane/impact_rows.hpp"
+
+namespace clatter::analytic {
+
+/// Drops of one body, as arrays; each array has as many numbers as there are drops, or one for all of them.  An
+/// impact's law is Newton's, or one of those that agree with it here, and P_t = μ_i P_n.
+struct BatchDrops {
+  PlanarBody body;
+  std::span<const double> inclination;                  ///< [rad]
+  std::span<const double> normal, tangential, angular;  ///< velocity before the first impact [m/s, rad/s]
+  std::span<const double> gravity;                      ///< [m/s²]
+  std::span<const double> restitution, impulse_ratio;   ///< e, μ_i
+
+  [[nodiscard]] std::size_t count() const;
+  /// Drop i for the scalar code.
+  [[nodiscard]] Drop drop(std::size_t i) const;
+  /// @throws std::invalid_argument if two arrays have different lengths, neither of them 1.
+  void validate() const;
+};
+
+/// How a drop of a batch ended.
+enum class BatchEnd : std::uint8_t {
+  finished,      ///< nothing reaches the ground any more
+  at_limit,      ///< as many impacts as asked for
+  infinite,      ///< infinitely many impacts in a finite time, of which `impacts` were listed
+  stays,         ///< an end stays on the ground: e = 0
+  refused,       ///< no such drop, or its first contact does not approach the ground
+  outside,       ///< an impact jams
+  not_computed,  ///< a number could not be had
+};
+/// That of a sequence of the plane or of space.
+[[nodiscard]] BatchEnd batch_end(Outcome outcome, bool has_tail);
+
+/// What came out of a drop.  Numbers that it has not are NaN.
+struct BatchOutcome {
+  int impacts = 0;
+  BatchEnd end = BatchEnd::finished;
+  bool is_open = false;                                       ///< rounding, or a fold, leaves another sequence possible
+  bool is_scalar = false;                                     ///< by the scalar code
+  double total = 0;                                           ///< sum of the normal impulses [N·s]
+  double largest = 0;                                         ///< normal impulse [N·s]
+  int hardest = 0;                                            ///< impact with the largest normal impulse, from 1
+  VertexSet last_vertices = 0;                                ///< which struck last
+  double last_start = 0;                                      ///< of the last impact [s]
+  double energy_loss = 0;                                     ///< over the impacts [J]
+  std::array<double, 3> impulse{}, contact_angle{}, start{};  ///< of the first three impacts [N·s, rad, s]
+};
+
+/// The scalar code's sequence of up to `limit` impacts as such an outcome.
+[[nodiscard]] BatchOutcome scalar_outcome(const Drop& drop, int limit);
+
+/// The outcomes of drops first … first + outcomes.size() − 1, each as impact_sequence() has it, up to `limit` impacts.
+///
+/// Vectors of drops take a fixed number of Halley steps from a guess to each root.  A drop's root counts if a last
+/// step of Newton proves it to half an ulp beside the rounding of h, within a piece of h in which it is the first, and
+/// if h of every other vertex is clear of zero before; clear by 2⁻⁴² and what rounding has grown to, 2⁻⁴⁵ × the
+/// product of (1 + condition number) over the flights.  All other drops (nearer to a fold, flat, upright, e = 0, longer
+/// than rounding allows) are the scalar code's.
+/// Accuracy: within the scalar code's error bars.
+/// @param kernel  of batch::kernels(); none: the widest
+/// @throws std::invalid_argument as BatchDrops::validate(), or if limit < 1.
+void run_batch(const BatchDrops& drops, int limit, std::size_t first, std::span<BatchOutcome> outcomes,
+               batch::Kernel kernel = nullptr);
+
+/// The same without the scalar code: a drop that is that one's has `is_scalar` and no numbers.
+void run_lanes(const BatchDrops& drops, int limit, std::size_t first, std::span<BatchOutcome> outcomes,
+               batch::Kernel kernel = nullptr);
+
+}  // namespace clatter::analytic

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the batch and its kernels for each instruction set hand to one another: blocks of eight drops.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "analytic/plane/body.hpp"
+
+namespace clatter::analytic::batch {
+
+inline constexpr int block_size = 8;
+
+/// A number for each drop of a block.
+using Block = std::array<double, block_size>;
+
+/// A planar body as the kernels see it; the same for all drops.
+struct LaneBody {
+  double mass = 1;                      ///< [kg]
+  double inverse_gyration_square = 12;  ///< 1/k² [1/m²]
+  int vertex_count = 2;
+  std::array<double, max_vertices> x{}, z{};  ///< [m]
+  std::array<double, max_vertices> reach{};   ///< √(x² + z²) [m]
+  std::array<double, max_vertices> polar{};   ///< of the vertex in the body's frame [rad]
+};
+
+/// Eight drops.  Ones that fill a block up may repeat others.
+struct alignas(64) LaneDrops {
+  Block inclination;                  ///< [rad]
+  Block normal, tangential, angular;  ///< before the first impact [m/s, rad/s]
+  Block gravity;                      ///< [m/s²]
+  Block restitution, impulse_ratio;   ///< e, μ_i
+};
+
+/// What came out of eight drops; numbers of a drop that is not certain mean nothing.
+struct alignas(64) LaneResults {
+  std::array<bool, block_size> is_certain;             ///< every root and every decision is certified
+  std::array<bool, block_size> is_at_limit;            ///< more impacts may follow
+  Block impacts;                                       ///< how many
+  Block total, largest, hardest;                       ///< sum of P_n, largest P_n [N·s], its impact from 1
+  Block last_vertex, last_start, loss;                 ///< index; [s]; energy lost [J]
+  std::array<Block, 3> impulse, contact_angle, start;  ///< of the first three impacts [N·s, rad, s]
+};
+
+/// Most impacts that a kernel follows; rounding has grown too far after more.
+using Kernel = void (*)(const LaneBody& body, const LaneDrops& drops, int limit, LaneResults& results);
+
+/// An instruction set and its kernel.
+struct KernelChoice {
+  const char* name;  ///< "sse2", "avx2", "avx512"; "portable" beside x86
+  Kernel run;
+};
+
+}  // namespace clatter::analytic::batch
