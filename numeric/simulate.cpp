@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 
@@ -70,6 +71,15 @@ DropRun run_checked(const Body& body, const World& world, const MotionState& sta
   }
 }
 
+/// The second run, until its impacts go another way than `rows` do.
+DropRun run_again(const Body& body, const World& world, const MotionState& start, std::span<const ImpactRecord> rows,
+                  const SecondRun& second) {
+  const Request alone{.impacts = static_cast<int>(rows.size()), .error_estimates = false, .amplification = false};
+  std::size_t place = 0;
+  const auto goes_on = [&](const ImpactRecord& row) { return !goes_another_way(rows[place++], row); };
+  return run_checked(body, world, start, alone, second.integration, {.history = nullptr, .impact = goes_on});
+}
+
 void check_start(const Body& body, const MotionState& start) {
   const bool finite = start.centre.allFinite() && start.attitude.coeffs().allFinite() && start.velocity.allFinite() &&
                       start.angular_velocity.allFinite();
@@ -125,17 +135,16 @@ Simulation simulate(const Body& body, const World& world, const MotionState& sta
   simulation.impacts = std::move(main.impacts);
   simulation.message = words_for(simulation, request, accuracy, main.end_time);
   const bool wants_estimates = request.error_estimates && simulation.outcome != Outcome::interrupted;
-  if (wants_estimates && !simulation.impacts.empty()) {
-    const Request same_impacts{
-        .impacts = static_cast<int>(simulation.impacts.size()), .error_estimates = false, .amplification = false};
-    const SecondRun second = second_run(integration, main.step);
-    const DropRun other = run_checked(body, world, start, same_impacts, second.integration, {});
-    simulation.force_evaluations += other.force_evaluations;
-    simulation.root_evaluations += other.root_evaluations;
-    estimate_errors(body, second.error_per_distance, simulation.impacts, other.impacts);
-  } else {
+  const auto last = std::ranges::find(simulation.impacts, false, &ImpactRecord::predictable);
+  if (!wants_estimates || last == simulation.impacts.begin()) {
     forget_errors(simulation.impacts);
+    return simulation;
   }
+  const SecondRun second = second_run(integration, main.step);
+  const DropRun other = run_again(body, world, start, {simulation.impacts.begin(), last}, second);
+  simulation.force_evaluations += other.force_evaluations;
+  simulation.root_evaluations += other.root_evaluations;
+  estimate_errors(body, second.error_per_distance, simulation.impacts, other.impacts);
   return simulation;
 }
 

@@ -20,6 +20,7 @@ constexpr double shorter_steps = 0.7;
 /// Errors of single numbers scatter about the power of the tolerance: of random drops 95 of 100 lie within these.
 constexpr double error_per_distance_of_finer = 4;
 constexpr double error_per_distance_of_coarser = 4;
+constexpr double another_way = 0.1;  ///< relative distance of impulses: what follows such impacts differs altogether
 constexpr double step_part = 0.5;
 constexpr double error_per_distance_of_steps = 3;  ///< 8/7 where the step is short enough for the order to show
 
@@ -112,20 +113,35 @@ SecondRun second_run(const Integration& main, double used_step) {
   return second;
 }
 
+bool goes_another_way(const ImpactRecord& row, const ImpactRecord& second) {
+  if (second.end != row.end || second.touches != row.touches) return true;
+  return !((second.value.impulse - row.value.impulse).norm() <= another_way * row.value.impulse.norm());
+}
+
 void estimate_errors(const Body& body, double error_per_distance, std::vector<ImpactRecord>& rows,
                      const std::vector<ImpactRecord>& second) {
   assert(error_per_distance > 0);
+  bool parted = false;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     ImpactRecord& row = rows[i];
-    const bool same_kind = i < second.size() && second[i].end == row.end && second[i].touches == row.touches;
-    const ImpactNumbers& other = same_kind ? second[i].value : row.value;
+    parted = parted || i >= second.size();
+    const bool known = !parted && second[i].end == row.end && second[i].touches == row.touches;
+    parted = parted || goes_another_way(row, second[i]);
+    const ImpactNumbers& other = known ? second[i].value : row.value;
     for_each_number(row.value, other, row.error, [&](double value, double other_value) {
-      return same_kind ? error_per_distance * std::fabs(value - other_value) : not_known;
+      return known ? error_per_distance * std::fabs(value - other_value) : not_known;
     });
-    if (!same_kind) continue;
+    row.predictable = row.predictable && known;
+    if (!known) continue;
     widen(row.value, other, row.error);
     add_rounding(body, row, row.error);
   }
+}
+
+ImpactNumbers rounding_errors(const Body& body, const ImpactRecord& row) {
+  ImpactNumbers error;
+  add_rounding(body, row, error);
+  return error;
 }
 
 void forget_errors(std::vector<ImpactRecord>& rows) {

@@ -12,6 +12,9 @@ namespace {
 
 constexpr double radians_per_step = 0.1;
 constexpr double most_steps = 100'000;
+/// The deviation with which a neighbour starts a contact: this part of its depth over the body's radius.
+constexpr double part_of_depth = 1e-3, least_size = 1e-9, largest_size = 1e-5;
+constexpr double tolerance_per_size = 0.02;  ///< of the neighbour's steps: errors of some per cent of the deviation
 
 /// Angular velocity, its deviation and the deviation of the attitude, all in the body frame.
 struct Turning {
@@ -124,12 +127,12 @@ void ErrorGrowth::fly(const MotionState& start, double time) {
   take(moved);
 }
 
-void ErrorGrowth::touch(ContactRun& run, const ContactControl& control, const MotionState& touch,
+void ErrorGrowth::touch(const ContactRuns& runs, const ContactControl& control, const MotionState& touch,
                         const ContactResult& contact) {
   const double approach = -point_velocity(touch, touch_point(body_, touch)).z();
   if (!(approach > 0)) return;
   const double depth_part = contact.scales.depth / body_.radius();
-  const double size = std::clamp(1e-3 * depth_part, 1e-9, 1e-6);
+  const double size = std::clamp(part_of_depth * depth_part, least_size, largest_size);
   const MotionState other = moved(touch, size);
   // The neighbour starts a little above the ground, before or after the touch-down.
   const double back = 4 * size * body_.radius() / approach;
@@ -141,7 +144,10 @@ void ErrorGrowth::touch(ContactRun& run, const ContactControl& control, const Mo
   const MotionState start = approach_flight.at(down.time);
   ContactControl rough = control;
   rough.estimate_local_slip = false;
-  rough.steps.tolerance = std::max(control.steps.tolerance, 0.02 * size);
+  rough.steps.tolerance = std::max(control.steps.tolerance, tolerance_per_size * size);
+  // A contact whose own errors are as large as the deviation is compared with one that has the same.
+  const bool is_fine = contact.step == 0 && control.steps.tolerance <= tolerance_per_size * size;
+  ContactRun& run = is_fine ? runs.rough : runs.same;
   const ContactResult result = run.run(start, touch_point(body_, start), rough);
   if (result.ending != ContactEnding::lift_off) return;
   const double other_end = down.time - back + result.duration;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <limits>
 
 #include "numeric/base/linear_algebra.hpp"
 #include "numeric/body/body.hpp"
@@ -45,15 +46,23 @@ struct ImpactRecord {
   /// What FrictionLaw::local would change in the tangential impulse of this contact, estimated to a factor of about 3;
   /// 0 for the other laws, where it is not asked for, and where a bound says that it cannot matter [N·s].
   double local_slip = 0;
-  /// Growth of a relative error of the start until the end of this impact; NaN if not asked for.
+  /// Growth of a relative error of the start until the end of this impact; NaN if not asked for.  Contacts after one
+  /// that is not predictable count as if they let errors be.
   double amplification = 0;
-  /// Whether rounding errors, so grown, stay below one part in a hundred.
+  /// Whether rounding errors, so grown, stay below one part in a hundred, and a second run, if errors were asked for,
+  /// has not gone another way before.
   bool predictable = true;
   double energy_stored = 0;  ///< left in the ground's springs: 0 after a lift-off, not at rest [J]
   /// energy_loss − work_damping − work_friction − work_released − energy_stored, over the energy at the start or
   /// that stored, whichever is larger: the ledger's gap.
   double ledger_gap = 0;
 };
+
+/// Whether rounding errors of double precision, grown by `amplification`, spare the second digit; so does one not
+/// known.
+[[nodiscard]] inline bool is_predictable(double amplification) {
+  return !(amplification >= 0.01 / std::numeric_limits<double>::epsilon());
+}
 
 enum class Outcome {
   no_further_impact,  ///< nothing reaches the ground any more

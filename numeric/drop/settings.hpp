@@ -6,6 +6,7 @@
 
 #include "numeric/contact/ground.hpp"
 #include "numeric/drop/history.hpp"
+#include "numeric/drop/impact_record.hpp"
 #include "numeric/stepping/stepper.hpp"
 
 namespace clatter::numeric::inline drop {
@@ -29,9 +30,10 @@ struct World {
 
 /// What is asked for.
 struct Request {
-  int impacts = 6;              ///< most impacts to report, >= 1
-  bool error_estimates = true;  ///< by a second run, at another tolerance or half the step
-  bool amplification = true;    ///< growth of a small error of the start, by a neighbouring run
+  int impacts = 6;  ///< most impacts to report, >= 1
+  /// By a second run, at another tolerance or half the step, until it goes another way.
+  bool error_estimates = true;
+  bool amplification = true;  ///< growth of a small error of the start, by a neighbouring run
   /// ImpactRecord::local_slip however small it is.  Otherwise it comes with the error estimates, of those parts of
   /// contacts where the laws of friction may differ by more than 10^−digits of the contact's mean force.
   bool local_slip = false;
@@ -61,6 +63,8 @@ struct Observer {
   HistoryRecorder* history = nullptr;  ///< takes the time history, if any
   /// Called now and then with (impacts so far, contact force evaluations so far); return false to end the run.
   std::function<bool(int, long)> progress = nullptr;
+  /// Called with each impact, without its errors; return false to end the run with it.
+  std::function<bool(const ImpactRecord&)> impact = nullptr;
 };
 
 }  // namespace clatter::numeric::inline drop

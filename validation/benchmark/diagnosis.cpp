@@ -230,6 +230,7 @@ class ImpactCauses {
     const Change lever = [](Reference& reference, DeclaredLaw&, double factor) {
       for (Vector3& vertex : reference.body.vertices) vertex *= factor;
       for (space::Rim& rim : reference.body.rims) rim.centre *= factor, rim.radius *= factor;
+      for (space::Ellipsoid& part : reference.body.ellipsoids) part.centre *= factor, part.semiaxes *= factor;
     };
     const auto each = all();
     const Fitted heavy = least_of(0.3, 3, [&](double factor) { return misfit(inertia, factor, each); });

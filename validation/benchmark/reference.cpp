@@ -66,6 +66,7 @@ void set_space(Reference& reference, const Scene& scene, const space::Drop& drop
     reference.points.push_back(corner_name(scene, {static_cast<int>(i), drop.body.vertices[i]}));
   }
   for (const space::Rim& rim : drop.body.rims) reference.points.push_back(corner_name(scene, {0, rim.centre}));
+  for (const auto& [centre, axes] : drop.body.ellipsoids) reference.points.push_back(corner_name(scene, {0, centre}));
   reference.start.attitude = drop.attitude.normalized();
   reference.start.velocity = drop.velocity;
   reference.start.angular_velocity = drop.angular_velocity;
@@ -246,6 +247,8 @@ std::vector<Vector3> Reference::arms(const space::Quaternion& attitude) const {
     arms.emplace_back(turned * rim.centre + (down.norm() > 0 ? Vector3(rim.radius * down.normalized())
                                                              : Vector3(rim.radius * Vector3::UnitX())));
   }
+  for (int i = static_cast<int>(arms.size()); i < body.points(); ++i)
+    arms.emplace_back(turned * space::touching_place(body, attitude, i));
   return arms;
 }
 

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
+#include "analytic/law/viscoelastic.hpp"
 #include "validation/output/number.hpp"
 #include "validation/record/names.hpp"
 #include "validation/scene/shortfall.hpp"
@@ -129,6 +131,7 @@ void add_impact(Comparison& comparison, double radius, std::size_t i) {
   if (comparison.as_given && i < comparison.as_given->impacts.size()) {
     impact.as_given = comparison.as_given->impacts[i].numbers;
     impact.as_given_error = comparison.as_given->impacts[i].errors;
+    impact.as_given_end = comparison.as_given->impacts[i].end;
   }
   if (i < records.size()) {
     impact.continuous = motion_numbers(impact_of(records[i]).value);
@@ -244,6 +247,37 @@ void find_discrete_sides(Comparison& comparison, const Scene& scene, const numer
   comparison.discrete = discrete_side(scene, of_mesh);
 }
 
+/// Where [impact] gives the discrete model another law than the ground's, one clause; empty: it does not.
+std::string other_law_of(const Scene& scene, double approach) {
+  const DiscreteLaw found = discrete_law(scene);
+  const analytic::ImpactLaw& law = found.law;
+  const numeric::Ground& ground = scene.world.ground;
+  std::string words;
+  if (found.restitution_from == LawSource::impact) {
+    const double e = analytic::restitution_of_damping(ground.damping / ground.stiffness * approach);
+    if (law.restitution != e) {
+      words = fmt::format("e = {} where the ground has {} at {} m/s", shortest(law.restitution), significant(e, 3),
+                          significant(approach, 3));
+    }
+  }
+  const bool is_own = law.friction != analytic::FrictionKind::coulomb || law.friction_value != ground.sliding_friction;
+  if (found.friction_from == LawSource::impact && is_own) {
+    words += fmt::format("{}friction of {} where the ground has {}", words.empty() ? "" : ", ",
+                         shortest(law.friction_value), shortest(ground.sliding_friction));
+  }
+  return words.empty() ? "" : "the law of [impact] is not the ground's: " + words;
+}
+
+/// Whether the same end of the body strikes with the mesh's corners as with the body as given: a level rim is many of
+/// those corners.
+bool is_same_end(const ComparedImpact& impact) {
+  const auto ends = [](std::string names) {
+    std::erase(names, ' ');
+    return std::set<char>(names.begin(), names.end());
+  };
+  return ends(impact.as_given_end) == ends(impact.discrete_end);
+}
+
 }  // namespace
 
 bool ComparedImpact::lands() const {
@@ -262,6 +296,19 @@ double ComparedImpact::bars_off() const {
     if (!(bars <= worst)) worst = std::isnan(bars) ? std::numeric_limits<double>::infinity() : bars;
   }
   return worst;
+}
+
+CornersApart Comparison::corners_apart() const {
+  CornersApart apart;
+  for (const ComparedImpact& impact : impacts) {
+    if (!impact.as_given || !impact.discrete || !is_same_end(impact)) break;
+    ++apart.same_count;
+    for (const auto& [name, heading, q] : discrete.quantities) {
+      const double off = std::fabs((*impact.discrete)[q] - (*impact.as_given)[q]) / discrete.scales[q];
+      if (!(off <= apart.largest)) apart = {off, impact.n, heading, apart.same_count};
+    }
+  }
+  return apart;
 }
 
 bool Comparison::has_content() const {
@@ -304,6 +351,7 @@ Comparison compare_models(const Scene& scene, const numeric::Body& body) {
     comparison.impacts[i].explanation = explanation_of(comparison, scene, radius, i);
   }
   comparison.shortfall = shortfall_of(comparison, scene);
+  comparison.other_law = other_law_of(scene, comparison.approach_speed);
   return comparison;
 }
 

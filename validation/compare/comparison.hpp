@@ -23,6 +23,7 @@ struct ComparedImpact {
   MotionNumbers as_given_error{};
   MotionNumbers discrete_error{}, continuous_error{};  ///< of these; not finite: not known
   std::string discrete_end, continuous_end;            ///< in space the corner
+  std::string as_given_end;                            ///< the same of `as_given`
   double contact_time = 0;                             ///< of the continuous model [s]
   PredictedSize predicted;
   std::optional<LimitRow> limit;  ///< of the continuous model for k_G → ∞, if it has the impact apart from others
@@ -39,6 +40,14 @@ struct ComparedImpact {
   [[nodiscard]] bool has_landing() const { return limit && discrete; }
 };
 
+/// How far the discrete model of the mesh's corners is from that of the body as given.
+struct CornersApart {
+  double largest = 0;          ///< of the numbers, relative to DiscreteSide::scales
+  int impact = 0;              ///< that has it; 0: all are equal
+  const char* quantity = "";   ///< its heading
+  std::size_t same_count = 0;  ///< of the first impacts, in which the same end strikes; the others do not count
+};
+
 struct Comparison {
   DiscreteSide discrete;                 ///< with the corners that the continuous model has
   std::optional<DiscreteSide> as_given;  ///< `sequence`'s, where the mesh has other corners than the body as given
@@ -51,6 +60,11 @@ struct Comparison {
   /// Why a number that could not be computed or a limit on the work left one of the models fewer impacts than asked
   /// for, or required digits are not known; empty: neither.
   std::string shortfall;
+  /// By what the law that [impact] gives the discrete model is not the ground's, whose limit then differs; empty: by
+  /// nothing.
+  std::string other_law;
+  /// @pre as_given
+  [[nodiscard]] CornersApart corners_apart() const;
   /// No impact whose limit misses the discrete value.
   [[nodiscard]] bool agrees() const;
 };

@@ -23,9 +23,14 @@ constexpr double small = 0.02;  // what turning, gravity and indentation may be 
 double feature_of(const Scene& scene, const numeric::Body& body) {
   switch (scene.body.shape) {
     case BodyScene::Shape::rod:
-      return scene.body.meshed_radius() * (1 - std::cos(2 * std::numbers::pi / scene.body.sectors));
+      return scene.body.meshed_radius() * (1 - std::cos(2 * std::numbers::pi / scene.body.meshed_sectors()));
     case BodyScene::Shape::box: return scene.body.size.minCoeff();
     case BodyScene::Shape::mesh: break;
+    case BodyScene::Shape::sphere:
+    case BodyScene::Shape::ellipsoid:
+    case BodyScene::Shape::capsule:
+      return scene.body.extents(scene.body.radius).minCoeff() / 2 *
+             (1 - std::cos(std::numbers::pi / std::max(scene.body.meshed_sectors(), 4 * scene.body.rings)));
   }
   return body.radius() / 100;
 }

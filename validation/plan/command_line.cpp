@@ -3,29 +3,14 @@
 #include <fmt/format.h>
 
 #include "validation/output/number.hpp"
+#include "validation/output/shell_word.hpp"
 #include "validation/plan/plan.hpp"
 
 namespace clatter::validation::inline plan {
-namespace {
-
-/// A file name as a shell takes it.
-std::string quoted(const std::string& name) {
-  const char* const plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./+,@%";
-  if (!name.empty() && name.find_first_not_of(plain) == std::string::npos) return name;
-  std::string text = "'";
-  for (const char c : name) {
-    if (c == '\'') text += "'\\''";
-    else text += c;
-  }
-  return text + "'";
-}
-
-}  // namespace
-
 std::string command_line(const Plan& plan) {
   const Scene& scene = plan.scene;
   std::string line = fmt::format("clatter {} {}", is_continuous(plan.choice.level) ? "simulate" : "compare",
-                                 quoted(name_of_source(scene.path)));
+                                 shell_word(name_of_source(scene.path)));
   if (!is_continuous(plan.choice.level)) return line;
   line += fmt::format(" --method {} --tolerance {}", method_name(plan.choice.method), shortest(plan.choice.tolerance));
   if (plan.choice.level == ModelLevel::planar && !scene.world.planar) line += " --planar";

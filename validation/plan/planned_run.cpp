@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "numeric/drop/error_estimates.hpp"
 #include "validation/plan/cost_table.hpp"
 #include "validation/plan/symmetry.hpp"
 #include "validation/plan/tolerance_search.hpp"
@@ -27,24 +29,59 @@ constexpr long evaluations_of_a_pilot = 200'000;
 constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
 constexpr double estimate_margin = 4;  // what error estimates exceed errors by; a first run that they accept is cheaper
 constexpr double different_ways = 0.1;
+constexpr double power_of_tolerance = 0.9;  // with which errors fall
+constexpr double far_from_asked = 2;  // errors, times what is asked, for which no run is repeated without their growth
 constexpr double usual_error_constant = 1;  // median over many scenes, for one whose pilots go different ways
+
+/// Largest error of an impact over the sequence's sizes.
+double relative_error(const numeric::ImpactRecord& row, const MotionNumbers& sizes) {
+  return row_distance(motion_numbers(impact_of(row).error), {}, sizes);
+}
+
+/// Whether errors have grown so far at row i that the digits asked are lost: by amplification, or where that is not
+/// known, by the errors of an adaptive method themselves.
+bool has_outgrown(const PlannedRun& planned, std::size_t i) {
+  const numeric::ImpactRecord& row = planned.run.impacts[i];
+  if (!row.predictable) return true;
+  if (!std::isnan(row.amplification)) return rounding * row.amplification > planned.asked;
+  const bool estimated = planned.run.tolerance > 0 && !std::isnan(planned.run.impacts[0].error.impulse.z());
+  return i > 0 && estimated && !(relative_error(row, planned.sizes) <= far_from_asked * planned.asked);
+}
 
 /// Fills in what was achieved.
 void judge(const numeric::Body& body, PlannedRun& planned) {
   const std::vector<numeric::ImpactRecord>& rows = planned.run.impacts;
   if (!rows.empty()) planned.sizes = motion_sizes(planned.run, rows.size(), body);
-  const auto last = std::find_if(rows.begin(), rows.end(), [&](const numeric::ImpactRecord& row) {
-    return rounding * row.amplification > planned.asked;
-  });
-  const auto count = static_cast<std::size_t>(last - rows.begin());
+  std::size_t count = 0;
+  while (count < rows.size() && !has_outgrown(planned, count)) ++count;
   planned.known_impacts = static_cast<int>(count);
   planned.achieved = std::numeric_limits<double>::quiet_NaN();
   if (count == 0 || std::isnan(rows[0].error.impulse.z())) return;
   const MotionNumbers sizes = motion_sizes(planned.run, count, body);
   planned.achieved = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    planned.achieved = std::max(planned.achieved, row_distance(motion_numbers(impact_of(rows[i]).error), {}, sizes));
+  for (std::size_t i = 0; i < count; ++i) planned.achieved = std::max(planned.achieved, relative_error(rows[i], sizes));
+}
+
+/// Largest error of the first impacts, those that the least tolerance would bring to half of what is asked.
+/// No more than `count` of them, which becomes how many they are.
+double error_within_reach(const numeric::Body& body, const PlannedRun& planned, std::size_t& count) {
+  const std::vector<numeric::ImpactRecord>& rows = planned.run.impacts;
+  const double gain = std::pow(numeric::least_tolerance / planned.run.tolerance, power_of_tolerance);
+  double worst = 0;
+  for (std::size_t i = 0; i < std::min(count, rows.size()); ++i) {
+    numeric::ImpactRecord rounded = rows[i];
+    rounded.error = numeric::rounding_errors(body, rows[i]);
+    const double error = relative_error(rows[i], planned.sizes), floor = relative_error(rounded, planned.sizes);
+    const double growth = rows[i].amplification;
+    const double least = std::isfinite(error) ? (error - floor) * gain : numeric::least_tolerance * growth;
+    const bool is_lost = std::isnan(growth) && has_outgrown(planned, i);
+    if (is_lost || !(floor + least <= planned.asked / 2)) {
+      count = i;
+      break;
+    }
+    worst = std::max(worst, error);
   }
+  return worst;
 }
 
 /// One run after another of the same drop.
@@ -58,23 +95,25 @@ class Runner {
     Accuracy accuracy = accuracy_;
     take_cheapest(accuracy);
     PlannedRun planned{.run = {}, .planned = true, .asked = std::pow(10.0, -accuracy.digits), .warnings = {}};
+    planned.run = simulate(request_, accuracy);
+    std::size_t within_reach = planned.run.impacts.size();
     for (int repeat = 0;; ++repeat) {
-      planned.run = simulate(request_, accuracy);
       judge(body_, planned);
-      if (planned.run.outcome == Outcome::step_too_small && repeat < most_repeats) {  // as in Planner::run_pilots
+      if (repeat == most_repeats) break;
+      const double error = std::isnan(planned.achieved) ? 0 : error_within_reach(body_, planned, within_reach);
+      if (planned.run.outcome == Outcome::step_too_small) {  // as in Planner::run_pilots
         accuracy.method = Method::rk8pd;
         accuracy.tolerance = std::max(0.01 * accuracy.tolerance, numeric::least_tolerance);
-        continue;
+        planned.run = simulate(request_, accuracy);
+      } else if (error > planned.asked && accuracy.tolerance > numeric::least_tolerance) {
+        const double part = std::clamp(0.5 * planned.asked / error, 1e-3, 0.3);
+        accuracy.tolerance = std::max(part * accuracy.tolerance, numeric::least_tolerance);
+        planned.run = simulate(request_, accuracy);
+      } else {
+        break;
       }
-      const bool serves = std::isnan(planned.achieved) || planned.achieved <= planned.asked;
-      if (serves || repeat == most_repeats || accuracy.tolerance == numeric::least_tolerance) break;
-      const double part = std::clamp(0.5 * planned.asked / planned.achieved, 1e-3, 0.3);
-      accuracy.tolerance = std::max(part * accuracy.tolerance, numeric::least_tolerance);
     }
-    if (observer_.history && planned.run.outcome != Outcome::interrupted) {
-      // The same run again: what recording costs does not count.
-      planned.run = numeric::simulate(body_, world_, start_, request_, accuracy, observer_);
-    }
+    if (observer_.history && planned.run.outcome != Outcome::interrupted) record(accuracy, planned);
     planned.run.force_evaluations = evaluations_;
     return planned;
   }
@@ -84,6 +123,14 @@ class Runner {
     Simulation run = numeric::simulate(body_, world_, start_, request, accuracy, {.progress = observer_.progress});
     evaluations_ += run.force_evaluations;
     return run;
+  }
+
+  /// The same run again, without errors: what recording costs does not count.
+  void record(const Accuracy& accuracy, PlannedRun& planned) const {
+    numeric::Request alone = request_;
+    alone.error_estimates = alone.amplification = false;
+    Simulation again = numeric::simulate(body_, world_, start_, alone, accuracy, observer_);
+    if (again.outcome == Outcome::interrupted) planned.run = std::move(again);
   }
 
   Simulation pilot(double tolerance) {

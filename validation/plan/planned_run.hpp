@@ -17,7 +17,8 @@ struct PlannedRun {
   /// Largest estimated error of the motion's numbers (MotionNumbers) over `known_impacts`, relative to the sequence's
   /// sizes; NaN: there is no estimate, infinite: a second run goes another way.
   double achieved = 0;
-  /// The first impacts, before rounding errors have grown beyond what is asked.
+  /// The first impacts, before rounding errors have grown beyond what is asked, or a second run goes another way;
+  /// without amplification, before estimated errors are twice what is asked.
   int known_impacts = 0;
   std::vector<std::string> warnings;  ///< of what the run leaves out although the scene has it, and of bodies that sink
   MotionNumbers sizes{};              ///< of all impacts, against which a number counts as zero; 0 without impacts
@@ -29,7 +30,8 @@ struct PlannedRun {
 
 /// Runs the scene.  With `run.method = "auto"`, no step and no tolerance, two pilot runs with rkck (at 1e-4 and 1e-6)
 /// give the scene's error constant, the measured table (CostTable) the cheapest method and tolerance for the digits;
-/// if the estimated errors are then larger than asked, the run is repeated with a tighter tolerance, at most thrice.
+/// if the estimated errors are then larger than asked, and a tolerance is allowed that would serve, the run is repeated
+/// with a tighter one, at most thrice.
 /// The count of evaluations includes all of these.  Otherwise as numeric::simulate.
 /// `observer.history` takes the last run only, by a repetition that does not count.
 /// @throws as numeric::simulate.

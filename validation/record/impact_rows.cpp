@@ -100,27 +100,19 @@ Known known_of(const ImpactQuantity& quantity, RunModel model, const Impact& imp
   return impact.is_tail ? std::min(known, quantity.tail) : known;
 }
 
-void append_part(std::string& out, double number) {
-  out += ',';
-  append_number(out, number);
+void append_error(CellWriter& out, const Entry& entry) {
+  for (std::size_t part = 0; part < width_of(entry); ++part) out.number(rounded_up(part_of(entry, part)));
 }
 
-void append_error(std::string& out, const Entry& entry) {
-  for (std::size_t part = 0; part < width_of(entry); ++part) append_part(out, rounded_up(part_of(entry, part)));
-}
-
-void append_entry(std::string& out, const Entry& entry) {
-  for (const double part : list_of(entry)) append_part(out, part);
+void append_entry(CellWriter& out, const Entry& entry) {
+  for (const double part : list_of(entry)) out.number(part);
   if (!list_of(entry).empty()) return;
-  out += ',';
-  if (const auto* number = std::get_if<double>(&entry)) append_number(out, *number);
-  else if (const auto* text = std::get_if<std::string>(&entry)) out += *text;
-  else if (const auto* whole = std::get_if<int>(&entry)) out += std::to_string(*whole);
-  else if (const auto* truth = std::get_if<bool>(&entry)) out += *truth ? "true" : "false";
+  if (const auto* number = std::get_if<double>(&entry)) out.number(*number);
+  else if (const auto* text = std::get_if<std::string>(&entry)) out.word(*text);
+  else if (const auto* whole = std::get_if<int>(&entry)) out.whole(*whole);
+  else if (const auto* truth = std::get_if<bool>(&entry)) out.truth(*truth);
+  else out.nothing();
 }
-
-/// Nothing in the places of an entry.
-void append_nothing(std::string& out, const Entry& kind) { out.append(width_of(kind), ','); }
 
 }  // namespace
 
@@ -179,19 +171,19 @@ Row impact_row(const Impact& impact, RunModel model, const ImpactDigits& digits)
   return row;
 }
 
-void append_impact(std::string& out, const Impact& impact, const ImpactText& text) {
+void append_impact(CellWriter& out, const Impact& impact, const ImpactText& text) {
   for (const ImpactQuantity& quantity : impact_quantities()) {
     if (quantity.known_to(text.columns) == Known::absent) continue;
     const bool is_known = known_of(quantity, text.model, impact) >= Known::value_only;
     const bool is_asked = text.errors || quantity.name != std::string_view("predictable");
     if (is_known && is_asked) append_entry(out, quantity.value(impact));
-    else append_nothing(out, quantity.kind());
+    else out.nothing(width_of(quantity.kind()));
   }
   for (const ImpactQuantity& quantity : impact_quantities()) {
     if (quantity.known_to(text.columns) != Known::with_error) continue;
     const bool is_known = known_of(quantity, text.model, impact) == Known::with_error;
     if (is_known && text.errors) append_error(out, quantity.error(impact));
-    else append_nothing(out, quantity.kind());
+    else out.nothing(width_of(quantity.kind()));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "validation/output/cells.hpp"
 #include "validation/output/report.hpp"
 #include "validation/record/impact_quantities.hpp"
 
@@ -31,12 +32,12 @@ struct ImpactDigits {
 /// The cells of an impact under the columns of its model, or of a tail, which leaves empty what no tail knows.
 [[nodiscard]] Row impact_row(const Impact& impact, RunModel model, const ImpactDigits& digits);
 
-/// An impact, or a tail, as CSV.
+/// An impact, or a tail, in rows that are written by the million.
 struct ImpactText {
   RunModel model, columns;  ///< of the impact, and of the columns: one in the plane may stand under those of space
   bool errors = true;       ///< whether they were asked for; else they are left empty, as is `predictable`
 };
-/// Appends the cells, each after a comma; what the impact has no value of is left empty.
-void append_impact(std::string& out, const Impact& impact, const ImpactText& text);
+/// Appends the cells; what the impact has no value of is left empty.
+void append_impact(CellWriter& out, const Impact& impact, const ImpactText& text);
 
 }  // namespace clatter::validation::inline record

@@ -132,10 +132,19 @@ numeric::Mesh own_mesh(const BodyScene& body) {
   if (body.shape == BodyScene::Shape::box) {
     return numeric::box_mesh({.size = body.size, .mass = body.mass, .nx = body.nx, .ny = body.ny, .nz = body.nz});
   }
+  if (body.is_round()) {
+    const double straight = body.has_length() ? body.length - 2 * body.radius : 0;
+    const Vector3 ball = Vector3::Constant(body.radius);
+    return numeric::round_mesh({.semiaxes = body.has_size() ? Vector3(body.size / 2) : ball,
+                                .straight = straight,
+                                .mass = body.mass,
+                                .sectors = body.meshed_sectors(),
+                                .rings = body.rings});
+  }
   return numeric::rod_mesh({.length = body.length,
                             .radius = body.meshed_radius(),
                             .mass = body.mass,
-                            .sectors = body.sectors,
+                            .sectors = body.meshed_sectors(),
                             .rings = body.rings,
                             .layers = body.layers});
 }
@@ -158,20 +167,36 @@ BodyProperties of_solid(const SolidBody& solid) {
           without_rounding(k2, k2.cwiseAbs().maxCoeff())};
 }
 
-/// Of a rod of this radius or of a box.
+/// Of a centre in an ellipsoid, or in the capsule of its spheres.
+Bounds round_bounds(const analytic::space::Body& body, const Vector3& centre) {
+  Bounds bounds;
+  for (const auto& [middle, semiaxes] : body.ellipsoids) {
+    bounds.reach = std::fmax(bounds.reach, (middle - centre).norm() + semiaxes.maxCoeff());
+  }
+  const auto& [end, semiaxes] = body.ellipsoids.back();
+  Vector3 off = centre;
+  off.x() -= std::clamp(centre.x(), -end.x(), end.x());
+  bounds.is_outside = !(off.cwiseQuotient(semiaxes).norm() <= 1 + typed_rounding);
+  return bounds;
+}
+
+/// Of a rod of this radius or of another shape by its sizes.
 BodyProperties shape_properties(const Scene& scene, double radius) {
   const BodyScene& body = scene.body;
   const bool is_rod = body.shape == BodyScene::Shape::rod;
   BodyProperties properties{.mass = body.mass};
-  properties.extents = is_rod ? Vector3(body.length, 2 * radius, 2 * radius) : body.size;
+  properties.extents = body.extents(radius);
   const Vector3 s = properties.extents.cwiseProduct(properties.extents) / (is_rod ? 16 : 12);
   const double along = is_rod ? body.length * body.length / 12 : s.x();
   properties.gyration_square = Vector3(s.y() + s.z(), s.z() + along, along + s.y()).asDiagonal();
+  if (body.is_round()) properties.gyration_square = round_body(body).inertia / body.mass;
   if (!body.centre.empty()) properties.centre = vector_of(body.centre);
   if (!body.inertia.empty()) properties.gyration_square = symmetric(body.inertia) / body.mass;
   const Vector3 half = properties.extents / 2, off = properties.centre.cwiseAbs();
   Bounds bounds{.is_thin = is_rod && radius == 0};
-  if (is_rod) {
+  if (body.is_round()) {
+    bounds = round_bounds(round_body(body), properties.centre);
+  } else if (is_rod) {
     const double across = std::hypot(off.y(), off.z());
     bounds.reach = std::hypot(half.x() + off.x(), radius + across);
     bounds.is_outside = std::max(off.x() - half.x(), across - radius) > typed_rounding * bounds.reach;
@@ -202,6 +227,13 @@ class MeshFile {
   std::optional<Key> key_;
   std::optional<SolidBody> solid_;
 };
+
+analytic::space::Body round_body(const BodyScene& body) {
+  if (body.shape == BodyScene::Shape::capsule) {
+    return analytic::space::capsule(body.mass, {.length = body.length, .radius = body.radius});
+  }
+  return analytic::space::ellipsoid(body.mass, body.extents(body.radius) / 2);
+}
 
 std::shared_ptr<MeshFile> unread_mesh() { return std::make_shared<MeshFile>(); }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analytic/space/body.hpp"
 #include "numeric/body/mass_properties.hpp"
 #include "validation/output/value.hpp"
 #include "validation/scene/scene.hpp"
@@ -14,7 +15,7 @@ namespace clatter::validation::inline scene {
 /// The vector of a key's three components.
 [[nodiscard]] inline numeric::Vector3 vector_of(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
 
-/// Axes and origin of the body frame: the geometric centre of a rod or box, the origin of a mesh's file.
+/// Axes and origin of the body frame: the geometric centre, the origin of a mesh's file.
 struct BodyProperties {
   double mass = 0;                                              ///< [kg]
   numeric::Vector3 extents = numeric::Vector3::Zero();          ///< largest less smallest coordinates [m]
@@ -39,8 +40,10 @@ struct SolidBody {
 /// Begins with a file that has not been read.
 [[nodiscard]] std::shared_ptr<MeshFile> unread_mesh();
 
-/// Of the body that the model drops: a rod (a round cylinder) or box by its sizes alone.  A rod of radius 0 is thin in
-/// the discrete model and has the radius of its mesh in the continuous one.  @throws as solid_body.
+/// A sphere, ellipsoid or capsule by its sizes alone, uniform.
+[[nodiscard]] analytic::space::Body round_body(const BodyScene& body);
+/// Of the body that the model drops: a shape by its sizes alone, a rod as a round cylinder.  A rod of radius 0 is thin
+/// in the discrete model and has the radius of its mesh in the continuous one.  @throws as solid_body.
 [[nodiscard]] BodyProperties body_properties(const Scene& scene, Model model);
 
 /// "mass", "extents", "centre", "principal_inertia" (ascending), "inertia" (xx, yy, zz, xy, xz, yz), SI.

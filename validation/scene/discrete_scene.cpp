@@ -107,13 +107,15 @@ std::vector<Vector3> hull_corners(const std::vector<Vector3>& points, double siz
   return corners;
 }
 
-/// Height of the centre of mass above the lowest vertex or rim.
+/// Height of the centre of mass above the lowest point.
 double touch_height(const space::Body& body, const space::Quaternion& attitude) {
   const space::Vector3 up = attitude.conjugate() * space::Vector3::UnitZ();
   double lowest = std::numeric_limits<double>::infinity();
   for (const space::Vector3& vertex : body.vertices) lowest = std::fmin(lowest, up.dot(vertex));
   for (const space::Rim& rim : body.rims)
     lowest = std::fmin(lowest, up.dot(rim.centre) - rim.radius * up.cross(rim.axis).norm());
+  for (const auto& [centre, semiaxes] : body.ellipsoids)
+    lowest = std::fmin(lowest, up.dot(centre) - semiaxes.cwiseProduct(up).norm());
   return -lowest;
 }
 
@@ -121,16 +123,18 @@ double touch_height(const space::Body& body, const space::Quaternion& attitude) 
 space::Body simple_body(const Scene& scene) {
   const BodyScene& body = scene.body;
   const BodyProperties properties = body_properties(scene, Model::discrete);
-  space::Body made = body.shape == BodyScene::Shape::rod
+  space::Body made = body.is_round() ? round_body(body)
+                     : body.shape == BodyScene::Shape::rod
                          ? space::cylinder(body.mass, {.length = body.length, .radius = body.radius})
                          : space::box(body.mass, {.size = body.size, .centre = Vector3::Zero()});
   if (!body.inertia.empty()) made.inertia = body.mass * properties.gyration_square;
   for (space::Vector3& vertex : made.vertices) vertex -= properties.centre;
   for (space::Rim& rim : made.rims) rim.centre -= properties.centre;
+  for (space::Ellipsoid& part : made.ellipsoids) part.centre -= properties.centre;
   return made;
 }
 
-/// The outline by sizes alone, about the centre of mass.
+/// The outline by sizes alone, about the centre of mass.  Domain: a rod or box.
 analytic::PlanarBody simple_outline(const Scene& scene) {
   const BodyScene& body = scene.body;
   analytic::PlanarBody planar =
@@ -210,9 +214,10 @@ Vector3 from_geometric_centre(const Scene& scene, const Vector3& place) {
   return is_moved ? Vector3(place + vector_of(centre)) : place;
 }
 
-/// Name of the corner of a box, or of the end of a rod, on one side of the geometric centre along each axis.
+/// Name of the corner of a box, or of the end of a rod or capsule, on one side of the geometric centre along each axis.
 std::string side_name(BodyScene::Shape shape, const Vector3& side) {
-  if (shape == BodyScene::Shape::rod) return side.x() < 0 ? "a" : "b";
+  if (shape == BodyScene::Shape::sphere || shape == BodyScene::Shape::ellipsoid) return "surface";
+  if (shape != BodyScene::Shape::box) return side.x() < 0 ? "a" : "b";
   const auto sign = [](double coordinate) { return coordinate < 0 ? '-' : '+'; };
   return fmt::format("{}x{}y{}z", sign(side.x()), sign(side.y()), sign(side.z()));
 }
@@ -300,6 +305,7 @@ std::string reason_in_space(const Scene& scene) {
   const auto given = [&](const char* key) {
     return fmt::format("{} = {}", key, compact_json(key_named(key).get(scene)));
   };
+  if (scene.body.is_round()) return given("body.shape") + " has no corners in a plane";
   const Eigen::Quaterniond turn = scene.touch_attitude();
   if (scene.attitude.empty() && scene.tilt_deg != 0) return "drop.tilt_deg turns it out of its plane";
   if (!scene.attitude.empty() && !vanish({turn.x(), turn.z()}, 1)) {
@@ -374,6 +380,9 @@ double first_approach_speed(const DiscreteDrop& drop) {
     const Vector3 down = axis * axis.z() - Vector3::UnitZ();  // within the rim's plane
     at(in_space.attitude * rim.centre + (down.norm() > 0 ? Vector3(rim.radius * down.normalized()) : Vector3::Zero()));
   }
+  for (int i = in_space.body.points() - static_cast<int>(in_space.body.ellipsoids.size()); i < in_space.body.points();
+       ++i)
+    at(in_space.attitude * space::touching_place(in_space.body, in_space.attitude, i));
   return speed;
 }
 
@@ -420,7 +429,7 @@ bool has_other_corners(const DiscreteDrop& drop, const DiscreteDrop& mesh) {
            !same_places(places_of(one->body), places_of(other.body), one->body.reach());
   }
   const auto &one = std::get<space::Drop>(drop), &other = std::get<space::Drop>(mesh);
-  return !one.body.rims.empty() ||
+  return !one.body.rims.empty() || !one.body.ellipsoids.empty() ||
          !((one.body.inertia - other.body.inertia).norm() <= same * one.body.inertia.norm()) ||
          !same_places(one.body.vertices, other.body.vertices, one.body.reach());
 }
@@ -493,8 +502,9 @@ std::string corner_names(const Scene& scene, const Vector3& place) {
   constexpr double middle = 1e-9;  // of the size: below it the mean is that of corners on both sides
   const BodyScene& body = scene.body;
   if (body.shape == BodyScene::Shape::mesh) return "";
-  const bool is_rod = body.shape == BodyScene::Shape::rod;
+  const bool is_rod = body.has_length();
   const Vector3 mean = from_geometric_centre(scene, place), size = is_rod ? Vector3(body.length, 0, 0) : body.size;
+  if (body.is_round() && !is_rod) return side_name(body.shape, mean);
   std::string names;
   for (int corner = 0; corner < 8; corner += is_rod ? 4 : 1) {
     const auto sign = [&](int bit) { return (corner & bit) != 0 ? 1.0 : -1.0; };

@@ -75,10 +75,12 @@ class DiscreteBody {
   /// Of mass, in the body's frame [m].
   [[nodiscard]] const numeric::Vector3& centre() const { return centre_; }
 
- private:
+  /// In the plane y = 0; none of a body that is not symmetric about it.  @throws as planar_body
   [[nodiscard]] const std::optional<analytic::PlanarBody>& outline();
+  /// About the centre of mass.
   [[nodiscard]] const analytic::space::Body& in_space();
 
+ private:
   std::optional<Scene> scene_;                  ///< of a shape by its sizes
   std::shared_ptr<const numeric::Body> solid_;  ///< of a mesh
   numeric::Vector3 centre_ = numeric::Vector3::Zero();

@@ -2,6 +2,8 @@
 // What an exception says of a run: one classification for the command line, sweeps, the server and Python.
 #pragma once
 
+#include <new>
+#include <optional>
 #include <string>
 
 namespace clatter::validation::inline scene {
@@ -24,6 +26,22 @@ inline constexpr int check_failed = 1;
 /// Of the exception that is being handled.  A std::domain_error is a value that a library refuses, any other
 /// std::logic_error a defect.  @pre called in a handler
 [[nodiscard]] Failure current_failure();
+
+/// Computes one scene among many.  @returns why it failed; nothing if it did not.
+/// @throws what is not the scene's fault: a defect, or memory that is lacking, which another time may be there
+template <class Compute>
+[[nodiscard]] std::optional<Failure> failure_of_scene(Compute&& compute) {
+  try {
+    compute();
+    return {};
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (...) {
+    Failure failure = current_failure();
+    if (failure.kind == FailureKind::defect) throw;
+    return failure;
+  }
+}
 
 /// 2, 3, 4 or 70.
 [[nodiscard]] int exit_status(FailureKind kind);

@@ -41,8 +41,9 @@ void put_given(const SceneValues& values, const Key& key, Scene& scene, Model mo
       key.value);
 }
 
-/// Puts in what the discrete model takes without being told.
-void settle_law(Scene& scene) {
+/// Puts in what the models take without being told.
+void settle_defaults(Scene& scene) {
+  scene.body.sectors = scene.body.meshed_sectors();
   scene.impact.law = restitution_law(scene);
   if (!scene.impact.restitution) scene.impact.restitution = 1;
 }
@@ -73,7 +74,7 @@ Echo echo_of(const Key& key, const Scene& scene, Model model) {
 }  // namespace
 
 const std::vector<std::string>& shape_names() {
-  static const std::vector<std::string> names{"rod", "box", "mesh"};
+  static const std::vector<std::string> names{"rod", "box", "mesh", "sphere", "ellipsoid", "capsule"};
   return names;
 }
 
@@ -117,7 +118,7 @@ std::string Key::allowed() const {
 
 Value Key::get(const Scene& scene) const {
   Scene shown = scene;  // the places are those of a scene that may be changed
-  settle_law(shown);
+  settle_defaults(shown);
   const Echo shows = echo_of(*this, scene, Model::continuous);
   return shows == Echo::value ? value_of(*this, shown) : Value();
 }
@@ -211,7 +212,7 @@ void add_keys(const Scene& scene, Model model, Value& fields) {
   Scene shown = scene;  // the places are those of a scene that may be changed
   // What the discrete model takes without being told: no friction is a ratio of 0.
   if (model == Model::discrete && !shown.impact.impulse_ratio) shown.impact.impulse_ratio = 0;
-  settle_law(shown);
+  settle_defaults(shown);
   for (const Key& key : all_keys()) {
     if (!key.is_for(model)) continue;
     const Echo echo = echo_of(key, scene, model);

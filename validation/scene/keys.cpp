@@ -48,6 +48,10 @@ Echo in_discrete_only_if(bool given, Model model) {
   return given || model == Model::continuous ? Echo::value : Echo::absent;
 }
 Echo of_rod(const Scene& scene, Model) { return only_if(scene.body.shape == BodyScene::Shape::rod); }
+Echo of_length(const Scene& scene, Model) { return only_if(scene.body.has_length()); }
+Echo of_radius(const Scene& scene, Model) { return only_if(scene.body.has_radius()); }
+Echo of_size(const Scene& scene, Model) { return only_if(scene.body.has_size()); }
+Echo of_sectors(const Scene& scene, Model) { return only_if(scene.body.has_radius() || scene.body.is_round()); }
 Echo of_box(const Scene& scene, Model) { return only_if(scene.body.shape == BodyScene::Shape::box); }
 Echo of_mesh(const Scene& scene, Model) { return only_if(scene.body.shape == BodyScene::Shape::mesh); }
 
@@ -153,84 +157,88 @@ void append_impact(std::vector<Key>& keys) {
 }
 
 void append_shape(std::vector<Key>& keys) {
-  keys.insert(keys.end(),
-              {
-                  {"body.shape", Use::both, "--body", "rod|box|mesh", "", "shape of what falls",
-                   NameValue{&shape_names(), [](const Scene& s) { return index_of(s.body.shape); },
-                             [](Scene& s, std::size_t i) { s.body.shape = static_cast<BodyScene::Shape>(i); }}},
-                  {"body.mass", Use::both, "--mass", "KG", "kg", "mass",
-                   NumberValue{[](Scene& s) -> double& { return s.body.mass; }, masses, &wide_masses}},
-                  {"body.length", Use::both, "--length", "M", "m", "of the rod",
-                   NumberValue{[](Scene& s) -> double& { return s.body.length; }, sizes, &wide_sizes}, of_rod},
-                  {"body.radius", Use::both, "--radius", "M", "m", "of the rod",
-                   NumberValue{[](Scene& s) -> double& { return s.body.radius; }, radii, &wide_radii}, of_rod},
-                  {"body.size", Use::both, "--size", "LxWxT", "m",
-                   "of the box: along the inclination, across, upright at 0 degrees",
-                   ListValue{[](const Scene& s) {
-                               return std::vector<double>{s.body.size.x(), s.body.size.y(), s.body.size.z()};
-                             },
-                             [](Scene& s, const std::vector<double>& v) {
-                               s.body.size = {v[0], v[1], v[2]};
-                             },
-                             {3},
-                             sizes,
-                             "three lengths in m greater than 0, as in [0.106, 0.044, 0.019]",
-                             "[0.106, 0.044, 0.019]",
-                             &wide_sizes},
-                   of_box},
-              });
-}
-
-void append_mesh(std::vector<Key>& keys) {
-  keys.insert(keys.end(),
-              {
-                  {"body.mesh.sectors", Use::continuous, "", "N", "", "elements around the rod",
-                   WholeNumber{[](Scene& s) -> int& { return s.body.sectors; }, 3, most}, of_rod},
-                  {"body.mesh.rings", Use::continuous, "", "N", "", "from its axis outward",
-                   WholeNumber{[](Scene& s) -> int& { return s.body.rings; }, 1, most}, of_rod},
-                  {"body.mesh.layers", Use::continuous, "", "N", "", "along it",
-                   WholeNumber{[](Scene& s) -> int& { return s.body.layers; }, 1, most}, of_rod},
-                  {"body.mesh.nx", Use::continuous, "", "N", "", "elements along the box",
-                   WholeNumber{[](Scene& s) -> int& { return s.body.nx; }, 1, most}, of_box},
-                  {"body.mesh.ny", Use::continuous, "", "N", "", "across it",
-                   WholeNumber{[](Scene& s) -> int& { return s.body.ny; }, 1, most}, of_box},
-                  {"body.mesh.nz", Use::continuous, "", "N", "", "through its thickness",
-                   WholeNumber{[](Scene& s) -> int& { return s.body.nz; }, 1, most}, of_box},
-                  {"body.mesh.file", Use::both, "", "FILE", "", "Gmsh (.msh, .geo) or STL",
-                   TextValue{[](Scene& s) -> std::string& { return s.body.file; }}, of_mesh},
-                  {"body.mesh.unit", Use::both, "", "M", "m", "of the file's coordinates",
-                   NumberValue{[](Scene& s) -> double& { return s.body.unit; }, positive_number}, of_mesh},
-                  {"body.mesh.density", Use::both, "", "KG/M3", "kg/m³", "of a file's body, or body.mass",
-                   OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.body.density; }, positive_number},
-                   [](const Scene& s, Model) { return only_if(s.body.density.has_value()); }, false, mass_of_body},
-              });
-}
-
-void append_mass_properties(std::vector<Key>& keys) {
   keys.insert(
       keys.end(),
       {
-          {"body.inertia", Use::both, "--inertia", "LIST", "kg m²",
-           "about the centre of mass, principal or xx, yy, zz, xy, xz, yz in body axes; without it the uniform "
-           "body's about its own centre",
-           ListValue{[](const Scene& s) { return s.body.inertia; },
-                     [](Scene& s, const std::vector<double>& v) { s.body.inertia = v; },
-                     {3, 6},
-                     finite,
-                     "three principal moments in kg m2, or six numbers xx, yy, zz, xy, xz, yz",
-                     "[1, 1, 1]"}},
-          {"body.centre", Use::both, "--centre", "X,Y,Z", "m",
-           "of mass, from the geometric centre of a rod or box, of a mesh in its file's frame and unit; without "
-           "it that of the enclosed volume",
-           ListValue{[](const Scene& s) { return s.body.centre; },
-                     [](Scene& s, const std::vector<double>& v) { s.body.centre = v; },
+          {"body.shape", Use::both, "--body", "rod|box|mesh|sphere|ellipsoid|capsule", "", "shape of what falls",
+           NameValue{&shape_names(), [](const Scene& s) { return index_of(s.body.shape); },
+                     [](Scene& s, std::size_t i) { s.body.shape = static_cast<BodyScene::Shape>(i); }}},
+          {"body.mass", Use::both, "--mass", "KG", "kg", "mass",
+           NumberValue{[](Scene& s) -> double& { return s.body.mass; }, masses, &wide_masses}},
+          {"body.length", Use::both, "--length", "M", "m", "of the rod; of the capsule over all",
+           NumberValue{[](Scene& s) -> double& { return s.body.length; }, sizes, &wide_sizes}, of_length},
+          {"body.radius", Use::both, "--radius", "M", "m", "of the rod, sphere or capsule",
+           NumberValue{[](Scene& s) -> double& { return s.body.radius; }, radii, &wide_radii}, of_radius},
+          {"body.size", Use::both, "--size", "LxWxT", "m",
+           "of the box or ellipsoid, whole axes: along the inclination, across, upright at 0 degrees",
+           ListValue{[](const Scene& s) {
+                       return std::vector<double>{s.body.size.x(), s.body.size.y(), s.body.size.z()};
+                     },
+                     [](Scene& s, const std::vector<double>& v) {
+                       s.body.size = {v[0], v[1], v[2]};
+                     },
                      {3},
-                     finite,
-                     "three coordinates in m, of a mesh in its file's unit",
-                     "[0, 0, 0]"}},
-          {"body.merge", Use::continuous, "", "true|false", "", "coplanar elements become one facet",
-           TruthValue{[](Scene& s) -> bool& { return s.body.merge; }}},
+                     sizes,
+                     "three lengths in m greater than 0, as in [0.106, 0.044, 0.019]",
+                     "[0.106, 0.044, 0.019]",
+                     &wide_sizes},
+           of_size},
       });
+}
+
+void append_mesh(std::vector<Key>& keys) {
+  keys.insert(
+      keys.end(),
+      {
+          {"body.mesh.sectors", Use::continuous, "", "N", "",
+           "elements around the x axis of what is round; without it 16, or 64 for a rod whose radius is above a "
+           "twentieth of its length",
+           WholeNumber{[](Scene& s) -> int& { return s.body.sectors; }, 3, most}, of_sectors},
+          {"body.mesh.rings", Use::continuous, "", "N", "",
+           "from a rod's axis outward; else from each pole to the equator",
+           WholeNumber{[](Scene& s) -> int& { return s.body.rings; }, 1, most}, of_sectors},
+          {"body.mesh.layers", Use::continuous, "", "N", "", "along it",
+           WholeNumber{[](Scene& s) -> int& { return s.body.layers; }, 1, most}, of_rod},
+          {"body.mesh.nx", Use::continuous, "", "N", "", "elements along the box",
+           WholeNumber{[](Scene& s) -> int& { return s.body.nx; }, 1, most}, of_box},
+          {"body.mesh.ny", Use::continuous, "", "N", "", "across it",
+           WholeNumber{[](Scene& s) -> int& { return s.body.ny; }, 1, most}, of_box},
+          {"body.mesh.nz", Use::continuous, "", "N", "", "through its thickness",
+           WholeNumber{[](Scene& s) -> int& { return s.body.nz; }, 1, most}, of_box},
+          {"body.mesh.file", Use::both, "", "FILE", "", "Gmsh (.msh, .geo) or STL",
+           TextValue{[](Scene& s) -> std::string& { return s.body.file; }}, of_mesh},
+          {"body.mesh.unit", Use::both, "", "M", "m", "of the file's coordinates",
+           NumberValue{[](Scene& s) -> double& { return s.body.unit; }, positive_number}, of_mesh},
+          {"body.mesh.density", Use::both, "", "KG/M3", "kg/m³", "of a file's body, or body.mass",
+           OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.body.density; }, positive_number},
+           [](const Scene& s, Model) { return only_if(s.body.density.has_value()); }, false, mass_of_body},
+      });
+}
+
+void append_mass_properties(std::vector<Key>& keys) {
+  keys.insert(keys.end(),
+              {
+                  {"body.inertia", Use::both, "--inertia", "LIST", "kg m²",
+                   "about the centre of mass, principal or xx, yy, zz, xy, xz, yz in body axes; without it the uniform "
+                   "body's about its own centre",
+                   ListValue{[](const Scene& s) { return s.body.inertia; },
+                             [](Scene& s, const std::vector<double>& v) { s.body.inertia = v; },
+                             {3, 6},
+                             finite,
+                             "three principal moments in kg m2, or six numbers xx, yy, zz, xy, xz, yz",
+                             "[1, 1, 1]"}},
+                  {"body.centre", Use::both, "--centre", "X,Y,Z", "m",
+                   "of mass, from the geometric centre, of a mesh in its file's frame and unit; without "
+                   "it that of the enclosed volume",
+                   ListValue{[](const Scene& s) { return s.body.centre; },
+                             [](Scene& s, const std::vector<double>& v) { s.body.centre = v; },
+                             {3},
+                             finite,
+                             "three coordinates in m, of a mesh in its file's unit",
+                             "[0, 0, 0]"}},
+                  {"body.merge", Use::continuous, "", "true|false", "", "coplanar elements become one facet",
+                   TruthValue{[](Scene& s) -> bool& { return s.body.merge; }}},
+              });
 }
 
 void append_ground(std::vector<Key>& keys) {

@@ -51,18 +51,31 @@ void check_mesh(const SceneValues& values, BodyScene& body) {
 
 void check_body(const SceneValues& values, BodyScene& body) {
   using Shape = BodyScene::Shape;
-  if (body.shape != Shape::rod) {
-    only_for(values, {"body.length", "body.radius", "body.mesh.sectors", "body.mesh.rings", "body.mesh.layers"},
-             "a rod");
+  if (body.shape != Shape::rod) only_for(values, {"body.mesh.layers"}, "a rod");
+  if (!body.has_length()) only_for(values, {"body.length"}, "a rod or capsule");
+  if (!body.has_radius()) only_for(values, {"body.radius"}, "a rod, sphere or capsule");
+  if (!body.has_radius() && !body.is_round()) {
+    only_for(values, {"body.mesh.sectors", "body.mesh.rings"}, "a rod, sphere, ellipsoid or capsule");
   }
-  if (body.shape != Shape::box) {
-    only_for(values, {"body.size", "body.mesh.nx", "body.mesh.ny", "body.mesh.nz"}, "a box");
-  }
+  if (!body.has_size()) only_for(values, {"body.size"}, "a box or ellipsoid");
+  if (body.shape != Shape::box) only_for(values, {"body.mesh.nx", "body.mesh.ny", "body.mesh.nz"}, "a box");
   if (body.shape != Shape::mesh) {
     only_for(values, {"body.mesh.file", "body.mesh.unit", "body.mesh.density"}, "a mesh");
   }
   if (body.shape == Shape::box) values.require("body.size", "the box's [L, W, T] in m");
   if (body.shape == Shape::mesh) check_mesh(values, body);
+  if (body.shape == Shape::ellipsoid) {
+    values.require("body.size", "the ellipsoid's axes [L, W, T] in m");
+    if (!(body.size.minCoeff() >= 1e-6 * body.size.maxCoeff())) {
+      values.refuse("body.size", "an ellipsoid's, with no axis below 1e-6 of the largest");
+    }
+  }
+  if (!body.is_round() || !body.has_radius()) return;
+  values.require("body.radius", "in m");
+  if (!(body.radius > 0)) values.refuse("body.radius", "greater than 0 here");
+  if (!body.has_length()) return;
+  values.require("body.length", "the capsule's, over all, in m");
+  if (!(body.length >= 2 * body.radius)) values.refuse("body.length", "at least twice body.radius");
 }
 
 void check_ground(const SceneValues& values, numeric::Ground& ground, Model model) {
@@ -110,7 +123,7 @@ void check_drop(const SceneValues& values, Scene& scene) {
   scene.settle();
   if (!scene.attitude.empty()) {
     if (!is_attitude(scene.attitude)) values.refuse("drop.attitude", key_named("drop.attitude").allowed());
-  } else if (!swept) {
+  } else if (!swept && scene.body.shape != BodyScene::Shape::sphere) {
     values.require("drop.angle_deg", "the inclination at the first impact");
   }
   for (const auto& [key, is_given] : {std::pair{"drop.height", scene.height}, {"drop.clearance", scene.clearance}}) {

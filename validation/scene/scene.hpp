@@ -32,16 +32,17 @@ class MeshFile;
 
 /// What the body is made of.
 struct BodyScene {
-  enum class Shape { rod, box, mesh } shape = Shape::rod;
-  double mass = 1;                           ///< [kg]
-  double length = 1, radius = 0;             ///< of a rod; radius 0: a thin one [m]
-  numeric::Vector3 size{0, 0, 0};            ///< of a box [m]
-  int sectors = 16, rings = 4, layers = 30;  ///< of a rod's mesh
-  int nx = 1, ny = 1, nz = 1;                ///< of a box's mesh
-  std::string file;                          ///< Gmsh (.msh, .geo) or STL, resolved
-  std::shared_ptr<MeshFile> mesh_file;       ///< shared by copies of the scene
-  double unit = 1;                           ///< of the file's coordinates [m]
-  std::optional<double> density;             ///< of a file's body, instead of a mass [kg/m³]
+  enum class Shape { rod, box, mesh, sphere, ellipsoid, capsule } shape = Shape::rod;
+  double mass = 1;                      ///< [kg]
+  double length = 1, radius = 0;        ///< of a rod, radius 0: a thin one; of a capsule, over all [m]
+  numeric::Vector3 size{0, 0, 0};       ///< of a box, or the axes of an ellipsoid [m]
+  int sectors = 0;                      ///< around the mesh of what is round; 0: as meshed_sectors() says
+  int rings = 4, layers = 30;           ///< of a rod's mesh; rings from pole to equator of another round one's
+  int nx = 1, ny = 1, nz = 1;           ///< of a box's mesh
+  std::string file;                     ///< Gmsh (.msh, .geo) or STL, resolved
+  std::shared_ptr<MeshFile> mesh_file;  ///< shared by copies of the scene
+  double unit = 1;                      ///< of the file's coordinates [m]
+  std::optional<double> density;        ///< of a file's body, instead of a mass [kg/m³]
   /// About the centre of mass, axes of the body frame: three principal moments, or xx, yy, zz, xy, xz, yz [kg·m²];
   /// empty: that of the uniform body about its own centre, wherever `centre` has moved the mass to.
   std::vector<double> inertia;
@@ -51,10 +52,23 @@ struct BodyScene {
   bool merge = true;
 
   [[nodiscard]] bool is_stl() const;
+  /// Without vertices: a sphere, an ellipsoid, a capsule.
+  [[nodiscard]] bool is_round() const { return shape >= Shape::sphere; }
+  [[nodiscard]] bool has_length() const { return shape == Shape::rod || shape == Shape::capsule; }
+  [[nodiscard]] bool has_radius() const { return has_length() || shape == Shape::sphere; }
+  [[nodiscard]] bool has_size() const { return shape == Shape::box || shape == Shape::ellipsoid; }
+  /// Extents along the body axes, of a rod or capsule with this radius [m].  Domain: no mesh.
+  [[nodiscard]] numeric::Vector3 extents(double of_radius) const;
   /// A rod without thickness, which the continuous model gives `meshed_radius()`.
   [[nodiscard]] bool is_thin_rod() const { return shape == Shape::rod && !(radius > 0); }
   /// Of the rod's mesh: its radius, 0.01 of the length of a thin one [m].
   [[nodiscard]] double meshed_radius() const { return is_thin_rod() ? 0.01 * length : radius; }
+  /// Of a mesh around an axis: the paper's 16, but 64 where a rod's rim is so wide beside the length that its corners
+  /// turn the body noticeably otherwise than the rim does.
+  [[nodiscard]] int meshed_sectors() const {
+    if (sectors > 0) return sectors;
+    return shape == Shape::rod && meshed_radius() > length / 20 ? 64 : 16;
+  }
 };
 
 /// Values of one quantity for which the drop is repeated: a list, or those from `from` to `to` by equal steps, equal

@@ -28,6 +28,11 @@ bool BodyScene::is_stl() const {
   return extension == ".stl";
 }
 
+numeric::Vector3 BodyScene::extents(double of_radius) const {
+  if (has_size()) return size;
+  return {has_length() ? length : 2 * of_radius, 2 * of_radius, 2 * of_radius};
+}
+
 numeric::Body Scene::make_body() const {
   const SolidBody solid = solid_body(*this);
   return {solid.properties, solid.surface, body.merge};

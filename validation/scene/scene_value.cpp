@@ -52,30 +52,33 @@ std::string shape_words(const BodyScene& body, Model model, const KeyNames& unse
   if (body.shape == BodyScene::Shape::mesh) return fmt::format("mesh {}", body.file);
   const bool is_rod = body.shape == BodyScene::Shape::rod;
   Phrases words(unsettled);
-  if (is_rod) words.add(fmt::format("{} m", shortest(body.length)), {"body.length"});
+  if (body.has_length()) words.add(fmt::format("{} m", shortest(body.length)), {"body.length"});
   const bool is_thin = body.is_thin_rod(), has_mesh = model == Model::continuous;
   const std::string radius = fmt::format("radius {} m", shortest(body.meshed_radius()));
-  if (is_rod && !is_thin) words.add(radius, {"body.radius"});
+  if (body.has_radius() && !is_thin) words.add(radius, {"body.radius"});
   else if (is_rod && has_mesh) words.add(radius + " (thin: 0.01 of the length)", {"body.radius", "body.length"});
   const numeric::Vector3& size = body.size;
-  if (!is_rod) {
+  if (body.has_size()) {
     words.add(fmt::format("{} × {} × {} m", shortest(size.x()), shortest(size.y()), shortest(size.z())), {"body.size"});
   }
   words.add(fmt::format("{} kg", shortest(body.mass)), {"body.mass"});
   const bool says_thin = is_thin && !has_mesh && !words.is_unsettled("body.radius");
-  return after(!is_rod ? "box" : says_thin ? "thin rod" : "rod", words.text());
+  return after(says_thin ? "thin rod" : shape_names()[static_cast<std::size_t>(body.shape)], words.text());
 }
 
 std::string body_words(const BodyScene& body, const KeyNames& unsettled) {
   Phrases mesh(unsettled);
   if (body.shape == BodyScene::Shape::rod) {
+    const int sectors = body.meshed_sectors();
     mesh.add(fmt::format("{} elements ({} sectors, {} rings, {} layers)",
-                         static_cast<long long>(body.sectors) * body.rings * body.layers, body.sectors, body.rings,
-                         body.layers),
+                         static_cast<long long>(sectors) * body.rings * body.layers, sectors, body.rings, body.layers),
              {"body.mesh.sectors", "body.mesh.rings", "body.mesh.layers"});
   } else if (body.shape == BodyScene::Shape::box) {
     mesh.add(fmt::format("{} × {} × {} elements", body.nx, body.ny, body.nz),
              {"body.mesh.nx", "body.mesh.ny", "body.mesh.nz"});
+  } else if (body.is_round()) {
+    mesh.add(fmt::format("{} sectors, {} rings to the equator", body.meshed_sectors(), body.rings),
+             {"body.mesh.sectors", "body.mesh.rings"});
   }
   return shape_words(body, Model::continuous, unsettled) + (mesh.text().empty() ? "" : "; " + mesh.text());
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -148,6 +149,33 @@ BOOST_AUTO_TEST_CASE(a_number_in_which_two_runs_agree_by_chance_is_not_taken_for
   BOOST_TEST(error.peak_force > distance / 100);
   BOOST_TEST(error.work_friction > distance / 100);
   BOOST_TEST(error.work_damping < rounding);  // 0 in both runs: nothing damps
+}
+
+/// What follows says nothing of errors, and costs as much.
+BOOST_AUTO_TEST_CASE(the_second_run_ends_where_it_goes_another_way_and_nothing_is_predictable_from_there) {
+  ImpactRecord row;
+  row.value.impulse = Vector3(0, 0, 2);
+  ImpactRecord near = row, far = row, other_end = row, unknown = row;
+  near.value.impulse.x() = 0.19;
+  far.value.impulse.x() = 0.21;
+  other_end.end = ContactEnd::b;
+  unknown.value.impulse.z() = std::numeric_limits<double>::quiet_NaN();
+  BOOST_TEST(!goes_another_way(row, near));
+  for (const ImpactRecord& second : {far, other_end, unknown}) BOOST_TEST(goes_another_way(row, second));
+  std::vector<ImpactRecord> rows{row, row, row};
+  estimate_errors(phone(), 1, rows, {near, far, near});
+  BOOST_TEST((rows[0].predictable && rows[1].predictable && !rows[2].predictable));
+  BOOST_TEST((std::isfinite(rows[1].error.impulse.x()) && std::isnan(rows[2].error.impulse.x())));
+  const Body body = phone();
+  const World world{.ground = {.stiffness = 1e8}};
+  const Simulation space = simulate(body, world, dropped(body, 10), {.impacts = 6, .amplification = false});
+  const Simulation plain_run = simulate(body, world, dropped(body, 10), plain_impacts(6));
+  BOOST_REQUIRE(space.impacts.size() == 6);
+  for (const ImpactRecord& impact : space.impacts) {
+    BOOST_TEST(impact.predictable == std::isfinite(impact.error.impulse.z()));
+  }
+  BOOST_TEST((space.impacts[0].predictable && !space.impacts[5].predictable));
+  BOOST_TEST(space.force_evaluations < 2 * plain_run.force_evaluations);
 }
 
 /// Steps are then as long as they may be, whatever the tolerance: a second run at a tenth of it alone would be the same

@@ -3,9 +3,10 @@
 """clatter compare of drops in space: every body, every format, and one line for each impact that has no limit."""
 
 import csv
+import math
 import unittest
 
-from space_folder import BOX, INERTIA, SpaceFolder, l_shape, product, turn, words
+from space_folder import BOX, INERTIA, SpaceFolder, cross, l_shape, product, rotated, turn, words
 
 QUANTITIES = ["start", "contact_angle_deg", "impulse_x", "impulse_y", "impulse_z", "velocity_after_x", "velocity_after_y",
               "velocity_after_z", "angular_velocity_after_x", "angular_velocity_after_y", "angular_velocity_after_z"]
@@ -75,6 +76,69 @@ class Compare(SpaceFolder):
             self.assertIn(mark, self.run_program("compare", "phone-corner", "--impacts", "2", "--format", form).stdout)
         swept = self.run_program("compare", "phone-sweep", "--tilt", "20", "--impacts", "1", "--format", "csv", "--bare").stdout
         self.assertEqual(len(swept.splitlines()) % 11, 1)
+
+    DISC = ["--body", "rod", "--mass", "2", "--length", "0.1", "--radius", "0.2", "--gravity", "9.81", "--stiffness", "1e9"]
+
+    def struck(self, attitude, place):
+        """Normal impulse and angular velocity after it of the disc that falls with 1 m/s on this point of its rim, by hand."""
+        moments = [2 * 0.2**2 / 2] + 2 * [2 * (3 * 0.2**2 + 0.1**2) / 12]
+        back = (attitude[0], *(-x for x in attitude[1:]))
+        lever = cross(place, rotated(back, (0, 0, 1)))
+        impulse = 2 / (1 / 2 + sum(x * x / i for x, i in zip(lever, moments)))
+        return impulse, rotated(attitude, [impulse * x / i for x, i in zip(lever, moments)])
+
+    def test_a_disc_is_judged_by_its_meshs_corners_and_its_own_rim_stands_beside(self):
+        attitude = product(turn(2, -35), turn(1, 5))
+        up = rotated((attitude[0], *(-x for x in attitude[1:])), (0, 0, 1))
+        across = math.hypot(*up[1:])
+        rim = (-0.05, -0.2 * up[1] / across, -0.2 * up[2] / across)
+        off = {}
+        for sectors in (16, 64):
+            self.write("disc.toml", "[body]\nmesh = { sectors = %d }\n" % sectors if sectors != 64 else "")
+            done = self.agrees("disc.toml", *self.DISC, "--angle", "35", "--tilt", "5", "--impacts", "2", least=2)
+            self.assertEqual(done["scene"]["body"]["mesh"]["sectors"], sectors)
+            nodes = [(-0.05, 0.2 * math.sin(a), -0.2 * math.cos(a)) for a in (2 * math.pi * k / sectors for k in range(sectors))]
+            lowest = min(nodes, key=lambda node: rotated(attitude, node)[2])
+            numbers = done["impacts"][0]["numbers"]
+            for column, place in (("discrete", rim), ("mesh_corners", lowest)):
+                impulse, turning = self.struck(attitude, place)
+                self.assertAlmostEqual(numbers["impulse_z"][column], impulse, delta=1e-13 * impulse)
+                for axis, expected in zip("xyz", turning):
+                    self.assertAlmostEqual(numbers["angular_velocity_after_" + axis][column], expected, delta=1e-12 * 10)
+            turned = numbers["angular_velocity_after_x"]
+            self.assertAlmostEqual(turned["mesh_corners_off"], turned["mesh_corners"] - turned["discrete"], delta=1e-13)
+            self.assertEqual(done["mesh_corners"]["same_impacts"], 2)
+            off[sectors] = abs(turned["mesh_corners_off"])
+            self.assertIn("the discrete value of the mesh's corners for 2 of 2 impacts", done["message"])
+        self.assertLess(off[64], off[16] / 4)
+        table = self.run_program("compare", *self.DISC, "--angle", "35", "--tilt", "5", "--impacts", "2").stdout
+        self.assertRegex(table, r"discrete +corners")
+        self.assertRegex(" ".join(table.split()), r"the two are up to [0-9.]+ of the scale apart \(\S+ of impact [12]\)")
+        self.assertLessEqual(max(map(len, table.splitlines())), 80)
+
+    def test_a_body_without_corners_of_its_own_kind_says_where_the_impacts_part(self):
+        done = self.json_of("compare", *self.DISC, "--angle", "60", "--angular-velocity", "9,4,30", "--impacts", "8", status=(0,))
+        apart, ends = done["mesh_corners"], [impact["discrete_end"] for impact in done["impacts"]]
+        self.assertGreater(apart["largest_off"], 0)
+        self.assertLessEqual(apart["same_impacts"], len(ends))
+        self.assertIsNone(self.json_of("compare", "phone-corner", "--impacts", "1", status=(0,))["mesh_corners"])
+
+    def test_needles_tubes_and_lopsided_round_bodies_agree(self):
+        tube = ["--body", "rod", "--mass", "0.2", "--length", "0.3", "--radius", "0.02", "--stiffness", "1e9", "--gravity", "9.81"]
+        for given in (["--inertia", "7e-5,1.5e-3,1.5e-3"], ["--inertia", "7e-5,1.5e-3,1.45e-3"], ["--centre", "0.01,0.004,-0.003"],
+                      ["--radius", "4e-4"]):
+            flags = dict(zip(tube[::2], tube[1::2])) | dict(zip(given[::2], given[1::2]))
+            done = self.agrees(*(word for pair in flags.items() for word in pair), "--angle", "30", "--tilt", "3",
+                               "--angular-velocity", "1,2,0.5", "--impacts", "2", "--sliding-friction", "0.2")
+            self.assertGreater(done["mesh_corners"]["same_impacts"], 0, given)
+
+    def test_a_law_of_the_impact_keys_that_is_not_the_grounds_is_named_where_the_models_differ(self):
+        for case, words_of in (("coin", "e = 0.5 where the ground has 0.5"), ("die", "e = 0.5 where the ground has 0.")):
+            done = self.json_of("compare", case, "--impacts", "1", status=(1,))
+            self.assertIn("the law of [impact] is not the ground's: " + words_of, done["message"])
+        done = self.json_of("compare", *self.DISC, "--angle", "35", "--tangential-velocity", "1", "--friction", "0.3", "--impacts", "1",
+                            "--tilt", "5", status=(1,))
+        self.assertIn("not the ground's: friction of 0.3 where the ground has 0.", done["message"])
 
 
 if __name__ == "__main__":

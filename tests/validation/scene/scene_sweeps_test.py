@@ -75,7 +75,7 @@ class Sweeps(WithScenes):
                              ("angle_deg = { from = 1, to = 5, count = 1 }", "a whole number from 2"),
                              ('angle_deg = { from = 1, to = 5, step = 1, scale = "log" }', "left out with step"),
                              ('angle_deg = { from = 0, to = 5, count = 3, scale = "log" }', "greater than 0"),
-                             ('angle_deg = { from = 1, to = 5, count = 3, scale = "lin" }', "did you mean log"),
+                             ('angle_deg = { from = 1, to = 5, count = 3, scale = "lin" }', "did you mean linear"),
                              ("angle_deg = { from = 1, to = 5, numbers = 3 }", "unknown key"),
                              ("angle_deg = [1]\nsliding_friction = [0.1]", "only one quantity")):
             with self.subTest(sweep=sweep):
