@@ -12,10 +12,10 @@ ROOT = Path(__file__).resolve().parent.parent
 
 # The folders of each room from the bottom up; "." is the room's own folder.  A room that is not listed is not checked.
 ORDERS = {
-    "analytic": ("base", "law", "plane", "space"),
+    "analytic": ("base", "law", "near_flat", "plane", "space", "batch"),
     "numeric": ("base", "mesh", "surface", "files", "body", "motion", "contact", "stepping", "drop", "."),
     "validation": ("embedded", "output", "record", "tables", "scene", "benchmark", "compare",
-                   "figures", "plan", "sweep", "tradeoff", "measured", "verify", "extremes", "explain",
+                   "figures", "plan", "sweep", "map", "tradeoff", "measured", "verify", "extremes", "explain",
                    "reports", "demo", "cli"),
 }
 APART = {"benchmark/engines/native"}  # programs of their own, which include nothing from here

@@ -422,6 +422,27 @@ test_gnuplot_comes_when_a_picture_is_first_asked_for() {
   expect "calls" "" "$(<"$settings/calls")"
 }
 
+test_hdf5_comes_when_it_is_first_asked_for() {
+  build_first
+  launch sweep rod-sweep --output rows.h5
+  expect "what is installed" "libhdf5-dev" "$(what_is_installed)"
+  touch "$tree/build/release/validation/clatter-hdf5.so"
+  launch sweep rod-sweep --output rows.h5
+  expect "calls" "" "$(<"$settings/calls")"
+}
+
+test_mpi_comes_when_it_is_first_asked_for_and_its_program_is_named() {
+  build_first
+  launch --mpi
+  expect "what is installed" "libopenmpi-dev openmpi-bin" "$(what_is_installed)"
+  expect_calls 1 "cmake --preset release -DCLATTER_MPI=ON"
+  touch "$tree/build/release/validation/clatter-mpi"
+  chmod +x "$tree/build/release/validation/clatter-mpi"
+  launch --mpi
+  expect "calls" "" "$(<"$settings/calls")"
+  expect "program" "$tree/build/release/validation/clatter-mpi" "$(<"$settings/out")"
+}
+
 test_user_without_sudo_builds_without_the_page() {
   become_user
   launch demo

@@ -17,14 +17,18 @@ page_packages=(nodejs npm)
 # shellcheck disable=SC2034
 picture_packages=(gnuplot-nox)
 # shellcheck disable=SC2034
+hdf5_packages=(libhdf5-dev)
+# shellcheck disable=SC2034
+mpi_packages=(libopenmpi-dev openmpi-bin)
+# shellcheck disable=SC2034
 test_packages=(libboost-test-dev python3)
 # What `tests/run --full` alone needs.  Without the shells and groff the tests of completion and man page would be
 # skipped; help2man writes the packages' manual pages; Chromium opens the pages; OpenMPI shares a sweep among processes.
 # clang-format holds the form of C++ files, ctags the length of their functions.  The Python module, the figures and the
 # notebooks take the line of Python packages.
 # shellcheck disable=SC2034
-full_packages=(clang-format universal-ctags libgmsh-dev libbenchmark-dev zsh fish groff-base chromium chromium-driver
-               libopenmpi-dev openmpi-bin
+full_packages=(clang-format universal-ctags libgmsh-dev libbenchmark-dev zsh fish groff-base chromium chromium-driver "${mpi_packages[@]}"
+               "${hdf5_packages[@]}" python3-h5py
                pybind11-dev python3-dev python3-numpy python3-matplotlib python3-mpmath jupyter-nbconvert python3-ipykernel mypy
                python3-venv doxygen pkg-config dpkg-dev lintian mmdebstrap help2man reuse)
 # Engines of others that the tests put through the league, the smallest two; validation/benchmark/engines/run installs the

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Debian packages by cpack: clatter (program), libclatter-dev (libraries), python3-clatter (Python module).
+# Debian packages by cpack: clatter (program), clatter-mpi (the program for clusters), libclatter-dev (libraries),
+# python3-clatter (Python module).
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME clatter)
 set(CPACK_PACKAGE_VENDOR clatter)
@@ -11,6 +12,9 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL program development)
 if(CLATTER_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
+if(CLATTER_MPI)
+  list(APPEND CPACK_COMPONENTS_ALL mpi)
 endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -27,6 +31,15 @@ A rod, a phone or any rigid body that falls on the floor at an angle
 strikes it again and again.  This program prints the sequence of impacts
 by a discrete model (impulse and momentum) and by a continuous-contact
 simulation in space, and compares the two.")
+
+set(CPACK_DEBIAN_MPI_PACKAGE_NAME clatter-mpi)
+set(CPACK_DEBIAN_MPI_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "clatter (= ${PROJECT_VERSION}-1)")
+set(CPACK_DEBIAN_MPI_PACKAGE_SUGGESTS openmpi-bin)
+set(CPACK_COMPONENT_MPI_DESCRIPTION
+    "impacts of a falling rigid body: sweeps shared among processes
+With this package mpirun and srun share the scenes of clatter sweep
+among the processes that they start, on one machine or many.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libclatter-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
@@ -87,6 +100,7 @@ License: GPL-3+
  On Debian systems the full text of the licence is in /usr/share/common-licenses/GPL-3.
 ]])
 set(package_of_program clatter)
+set(package_of_mpi clatter-mpi)
 set(package_of_development libclatter-dev)
 set(package_of_python python3-clatter)
 file(TIMESTAMP ${PROJECT_SOURCE_DIR}/CHANGELOG.md date "%a, %d %b %Y 00:00:00 +0000" UTC)

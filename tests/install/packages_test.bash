@@ -72,7 +72,7 @@ make_packages() {
 }
 
 dependencies() {
-  dpkg-deb -f "$1" Depends | tr ',' '\n' | sed -E 's/\(.*\)//; s/\|.*//; s/ //g' | grep -vE '^(clatter|libclatter-dev|python3-clatter)$'
+  dpkg-deb -f "$1" Depends | tr ',' '\n' | sed -E 's/\(.*\)//; s/\|.*//; s/ //g' | grep -vE '^(clatter|clatter-mpi|libclatter-dev|python3-clatter)$'
 }
 
 in_chroot() { chroot "$folder/system" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 "$@"; }
@@ -98,7 +98,7 @@ test_the_packages() {
   in_chroot python3 -c 'import clatter; assert len(clatter.sequence(angle=10)) == 3' || fail "the packaged module does not work"
   grep -q 'Redistributions in binary form' "$folder/system/usr/share/doc/clatter/copyright" ||
     fail "the package does not tell the licence of the measured drops"
-  in_chroot dpkg --purge clatter libclatter-dev python3-clatter >/dev/null 2>&1
+  in_chroot dpkg --purge clatter clatter-mpi libclatter-dev python3-clatter >/dev/null 2>&1
   in_chroot find / -xdev -not -path '/proc/*' -not -path '/var/lib/dpkg/*' -not -path '/var/log/*' | sort >"$folder/after"
   diff "$folder/before" "$folder/after" || fail "files are left after the purge"
 }

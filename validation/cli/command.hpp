@@ -59,10 +59,12 @@ struct Command {
 [[nodiscard]] Command sequence_command();
 [[nodiscard]] Command angles_command();
 [[nodiscard]] Command regimes_command();
+[[nodiscard]] Command atlas_command();
 [[nodiscard]] Command explain_command();
 [[nodiscard]] Command simulate_command();
 [[nodiscard]] Command compare_command();
 [[nodiscard]] Command sweep_command();
+[[nodiscard]] Command map_command();
 [[nodiscard]] Command verify_command();
 [[nodiscard]] Command figures_command();
 [[nodiscard]] Command plan_command();

@@ -205,7 +205,8 @@ Command extremes_command() {
   command.footer =
       "Example: clatter extremes --only angle restitution --plot extremes.svg\n"
       "Quantities: angle, stiffness, damping, restitution, ratio, friction, speed,\n"
-      "gravity, size, mass, turns, impacts, squares, cubes, long.\n"
+      "gravity, size, mass, turns, impacts, disc, needle, slenderness, bounces, hops,\n"
+      "squares, cubes, long.\n"
       "The table has one row per region, --format csv and json all cells. Each cell\n"
       "ends within a second with a number and its error or with a typed refusal;\n"
       "exit status 1 if one does not, or if an error is beyond its bound.";

@@ -11,6 +11,7 @@
 #include "validation/cli/command.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/cli/parser.hpp"
+#include "validation/map/map_plan.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
@@ -20,6 +21,7 @@
 #include "validation/record/history_file.hpp"
 #include "validation/record/impact_rows.hpp"
 #include "validation/reports/angles_report.hpp"
+#include "validation/reports/atlas_report.hpp"
 #include "validation/reports/benchmark_report.hpp"
 #include "validation/reports/comparison_report.hpp"
 #include "validation/reports/explanation_report.hpp"
@@ -244,11 +246,14 @@ const std::vector<ColumnsOf>& all_columns() {
   static const std::vector<ColumnsOf> all{{"sequence", sequence_all},
                                           {"angles", angles_all},
                                           {"regimes", regimes_columns},
+                                          {"atlas", atlas_space_columns},
+                                          {"atlas-plane", atlas_plane_columns},
                                           {"explain", explain_columns},
                                           {"simulate", simulation_columns},
                                           {"history", history_columns},
                                           {"compare", comparison_columns},
                                           {"sweep", sweep_all},
+                                          {"map", map_columns},
                                           {"verify", verify_columns},
                                           {"plan", plan_columns},
                                           {"tradeoff", tradeoff_columns},
@@ -275,7 +280,8 @@ Report columns_report(const std::string& command) {
   }
   report.notes = {
       "history: of simulate --history.  sweep: one row per scene; with --rows impact the columns of sequence or "
-      "simulate.  Before them come the swept keys, which clatter keys explains.  The files of figures explain theirs.",
+      "simulate.  map: one quantity.  Before them come the swept keys, which clatter keys explains.  The files of "
+      "figures explain theirs.",
       "corners, place, attitude and touches of a sequence are those of a drop in space; in the plane they are left "
       "out."};
   report.fields["columns"] = row_objects(report.grid);

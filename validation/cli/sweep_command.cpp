@@ -6,15 +6,17 @@
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <thread>
 
 #include "validation/cli/command.hpp"
 #include "validation/cli/options.hpp"
+#include "validation/cli/processes.hpp"
 #include "validation/cli/progress.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/sink.hpp"
+#include "validation/sweep/column_file.hpp"
 #include "validation/sweep/rows.hpp"
+#include "validation/sweep/summary.hpp"
 #include "validation/sweep/sweep_file.hpp"
 #include "validation/sweep/sweep_plan.hpp"
 #include "validation/sweep/sweep_run.hpp"
@@ -29,6 +31,7 @@ struct SweepInput {
   SweepRequest request;
   std::optional<std::string> output, threads;
   bool restart = false;
+  bool summary = false;
   OutputTexts form;
 };
 
@@ -72,30 +75,35 @@ class SweepProgress {
   Progress progress_;
 };
 
-/// The rows are CSV unless another form is named.
+bool is_hdf5(const SweepInput& input) {
+  return input.output && (input.output->ends_with(".h5") || input.output->ends_with(".hdf5"));
+}
+
+/// The rows are CSV unless another form is named, a summary a table.
 TextStyle style_of(const SweepInput& input) {
   OutputTexts texts = input.form;
-  if (!texts.format) texts.format = "csv";
+  if (!texts.format) texts.format = input.summary ? "table" : "csv";
   return read_output(texts).style;
 }
 
 /// Whether the rows go to a file that can be taken up again.
 bool writes_file(const SweepInput& input) {
-  return input.output && style_of(input).format == Format::csv &&
+  return input.output && !input.summary && style_of(input).format == Format::csv &&
          !destination_of({"--output", *input.output}).is_stream;
 }
 
 /// Where the rows go: a file that can be taken up again, or stdout or a device; forms other than CSV are written when
-/// all rows are there.
+/// all rows are there, and a summary keeps none.
 class SweepOutput {
  public:
-  SweepOutput(const SweepInput& input, const SweepPlan& plan) : shortfalls_(plan.layout) {
+  SweepOutput(const SweepInput& input, const SweepPlan& plan)
+      : plan_(plan), style_(style_of(input)), hdf5_(is_hdf5(input)), shortfalls_(plan.layout, plan.packed) {
     report_ = plan.report();
-    style_ = style_of(input);
     const std::string head = csv_head(report_, style_.bare);
+    if (input.summary) summary_.emplace(sweep_columns(plan.layout), plan.layout.swept.size());
     if (writes_file(input)) {
       file_.emplace(*input.output, SweepFileForm{head, plan.points.count()}, input.restart);
-      if (file_->scenes() > 0) file_->for_each_row([this](const std::string& row) { shortfalls_.add(row); });
+      file_->with_rows([this](std::string_view rows) { shortfalls_.add(rows); });
     } else {
       stream_.emplace(input.output.value_or(""));
       if (is_csv()) stream_->write(head);
@@ -107,11 +115,13 @@ class SweepOutput {
   void write(const RangeRows& rows) {
     shortfalls_.add(rows.text);
     if (file_) file_->write(rows.text, rows.scenes);
+    else if (summary_) summary_->add(rows.text);
     else if (is_csv()) stream_->write(rows.text);
     else collected_ += rows.text;
   }
 
   void commit() {
+    if (file_ && hdf5_) return file_->commit([this](const std::string& path) { write_hdf5(path); });
     if (file_) return file_->commit();
     if (!is_csv()) write_report();
     stream_->commit();
@@ -126,30 +136,54 @@ class SweepOutput {
   }
 
  private:
-  [[nodiscard]] bool is_csv() const { return style_.format == Format::csv; }
+  [[nodiscard]] bool is_csv() const { return style_.format == Format::csv && !summary_; }
 
   void write_report() {
-    report_.grid.rows = read_csv_rows(collected_);
+    if (summary_) {
+      report_.grid.columns = Summary::columns();
+      summary_->fill(report_, [this](long long index) { return plan_.command_of(index); });
+    } else {
+      report_.grid.rows = read_csv_rows(collected_);
+    }
     report_.fields["rows"] = row_objects(report_.grid);
     stream_->write(report_text(report_, style_));
   }
 
+  void write_hdf5(const std::string& path) {
+    ColumnFileHead head{report_.grid.columns, {{"title", report_.title}}};
+    for (const char* name : {"scene", "body"}) {
+      const Value* const value = report_.fields.find(name);
+      if (value != nullptr) head.attributes.emplace_back(name, compact_json(*value));
+    }
+    head.attributes.emplace_back("sweep", fmt::format("{}", fmt::join(plan_.words, "\n")));
+    const std::unique_ptr<ColumnFile> columns = open_hdf5(path, head);
+    std::vector<PackedCell> row(head.columns.size());
+    file_->with_rows([&](std::string_view rows) {
+      for (PackedRows packed(rows); packed.next(row);) columns->add(row);
+    });
+    columns->close();
+  }
+
+  const SweepPlan& plan_;
   Report report_;
   TextStyle style_;
+  bool hdf5_;
   std::string collected_;
   std::optional<Sink> stream_;
   std::optional<SweepFile> file_;
+  std::optional<Summary> summary_;
   ShortfallCount shortfalls_;
 };
 
-int read_threads(const SweepInput& input, const Ranks& ranks) {
-  if (!input.threads) return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  const int threads = read_integer_option("--threads", *input.threads, 1, 1024);
-  if (!ranks.several()) return threads;
-  throw BadInput(fmt::format("--threads {}: must be left out under mpirun, where each process is one thread", threads));
-}
-
 void check_output(const SweepInput& input) {
+  if (is_hdf5(input)) {
+    if (input.summary) throw BadInput(fmt::format("--output {}: a summary has no rows for HDF5", *input.output));
+    if (input.form.format) {
+      throw BadInput(
+          fmt::format("--format {}: must be left out, --output {} is HDF5", *input.form.format, *input.output));
+    }
+    require_hdf5();
+  }
   if (writes_file(input)) {
     note_written({"--output", *input.output});
     for (const RunFile& file : SweepFile::files_beside(*input.output)) note_written(file);
@@ -171,8 +205,7 @@ void fill(SweepOutput& output, RangeQueue& queue, const SweepWork& what, Ranks& 
     progress.tick();
   };
   hooks.stop = [&] { return what.interrupt.requested(); };
-  if (ranks.several()) ranks.hand_out(queue, hooks);
-  else run_on_threads(queue, what.threads, runners_of(what.plan, what.body), hooks);
+  compute_ranges(queue, what.threads, runners_of(what.plan, what.body), hooks, ranks);
 }
 
 /// The part of the process that writes.
@@ -192,32 +225,14 @@ int run_sweep(const SweepInput& input, const SweepPlan& plan, const SweepBody& b
   return interrupted_status;
 }
 
-int serve(const SweepPlan& plan, const SweepBody& body, Ranks& ranks) {
-  const CooperativeInterrupt interrupt;
-  SceneRunner runner(plan, body, [&] { return interrupt.requested(); });
-  ranks.serve([&](const SceneRange& range) { return runner(range); });
-  return interrupt.requested() ? interrupted_status : 0;
-}
-
 int run_command(const SweepInput& input, Ranks& ranks) {
-  const SweepPlan plan = read_sweep_plan(input.request);
-  const int threads = read_threads(input, ranks);
+  SweepPlan plan = read_sweep_plan(input.request);
+  plan.packed = input.summary || is_hdf5(input);
+  const int threads = read_threads(input.threads, ranks);
   check_output(input);
   // A body that cannot be made is bad input, but a row's where it is swept.
   const SweepBody body = plan.body_values.empty() ? make_sweep_body(plan, plan.scene) : SweepBody{};
-  return ranks.writes() ? run_sweep(input, plan, body, threads, ranks) : serve(plan, body, ranks);
-}
-
-/// Of several processes only the one that writes has something to say, and a status: at another's mpirun would end it
-/// before it has spoken.
-int run_processes(const SweepInput& input) {
-  Ranks ranks;
-  try {
-    return run_command(input, ranks);
-  } catch (const std::exception&) {
-    if (ranks.writes()) throw;
-    return 0;
-  }
+  return ranks.writes() ? run_sweep(input, plan, body, threads, ranks) : serve_ranges(runners_of(plan, body), ranks);
 }
 
 constexpr const char* sweep_footer =
@@ -258,17 +273,19 @@ Command sweep_command() {
   command.add_text(
       "--columns", request.columns, "NAME,...",
       "more columns of rows of scenes: QUANTITY_N of impact N, QUANTITY of each, hardest, hardest_QUANTITY");
-  command.add_text("--output", input->output, "FILE", "write there; until it is complete the rows are in FILE.part");
+  command.add_text("--output", input->output, "FILE",
+                   "write there; until it is complete the rows are in FILE.part; FILE.h5 is HDF5, columns with units");
+  command.add_flag("--summary", input->summary,
+                   "no rows: counts, percentiles, and extremes with the command that shows each");
   command.add_text("--format", input->form.format, "table|csv|json|markdown|latex",
                    "form of the output (csv); others are written at the end, and not taken up again");
   command.add_flag("--ascii", input->form.ascii, "plain ASCII in tables");
   command.add_flag("--bare", input->form.bare, "CSV without comments");
   command.add_flag("--no-errors", request.no_errors, "neither errors nor whether rows can be predicted; half the cost");
   command.add_flag("--require-digits", request.require_digits, "a scene of which fewer digits are known falls short");
-  command.add_flag("--restart", input->restart, "begin anew where FILE.part is there, instead of going on");
-  command.add_text("--threads", input->threads, "N", "computing threads (all cores)");
+  add_process_options(command, input->restart, input->threads);
   command.footer = sweep_footer;
-  command.run = [input] { return run_processes(*input); };
+  command.run = [input] { return run_in_processes([&](Ranks& ranks) { return run_command(*input, ranks); }); };
   return command;
 }
 

@@ -79,6 +79,7 @@ std::optional<SceneValues> case_values(NamedTexts& texts) {
 void require_drawable(const Scene& scene) {
   if (scene.body.shape == BodyScene::Shape::mesh)
     throw BadInput("body 'mesh': must be rod or box; a page can name no file");
+  if (scene.body.is_round()) throw BadInput("body: must be rod or box; the page draws no other shape");
   if (scene.sweep) throw BadInput("case: sweeps a quantity; give another");
   limit("impacts", scene.request.impacts, most_impacts);
 }
@@ -208,7 +209,7 @@ std::string cases_json() {
   Value cases;
   for (const std::string& name : case_names()) {
     const Scene scene = case_scene(name);
-    if (!scene.sweep) cases[name] = scene_value(scene);
+    if (!scene.sweep && !scene.body.is_round()) cases[name] = scene_value(scene);
   }
   return json_text(Value::Fields{{"cases", cases}});
 }

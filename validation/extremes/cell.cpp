@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include "analytic/base/errors.hpp"
@@ -145,6 +146,29 @@ std::vector<AxisValue> arm_angles() {
   return angles;
 }
 
+/// Angles from lying flat to standing upright [rad].
+Values elevations() {
+  constexpr double upright = std::numbers::pi / 2;
+  return plain({0}) + decades({-300, -30, -16, -15, -12, -9, -6, -3, -2, -1}) + plain({0.5, 1, 1.5}) +
+         Values{{upright - 1e-6, "up-1e-6"}, {upright - 1e-12, "up-1e-12"}, {upright, "upright"}};
+}
+
+/// Of round bodies in space.
+std::vector<MapAxis> round_axes() {
+  return {
+      {"disc", "disc", "angle between the ground and the face of a spinning disc, a tenth as thick as wide [rad]",
+       elevations()},
+      {"needle", "needle", "angle between the ground and the axis of a spinning needle, 50 times as long as wide [rad]",
+       elevations()},
+      {"slenderness", "L/2R", "length over diameter of a spinning cylinder", decades(range(-9, 9, 1))},
+      {"bounces", "e level", "coefficient of restitution of a disc that bounces level to its rest",
+       plain({0}) + decades({-300, -100, -16, -9, -3, -1}) + plain({0.5, 0.9, 0.999}) +
+           Values{{1 - 1e-6, "1-1e-6"}, {1 - 1e-9, "1-1e-9"}, {1 - 1e-12, "1-1e-12"}, {1, "1"}}},
+      {"hops", "e rim", "coefficient of restitution of a tilted disc that rattles on its rim",
+       decades({-16, -9, -3, -1}) + plain({0.3, 0.5, 0.7, 0.9, 0.95})},
+  };
+}
+
 std::vector<MapAxis> make_axes() {
   return {
       {"angle", "θ", "inclination at the first impact [°]; F2, F3: the folds at 58.488442288312° and 27.577809606636°",
@@ -235,7 +259,12 @@ std::string cell_failure(const ExtremeCell& cell, double seconds) {
 }
 
 const std::vector<MapAxis>& map_axes() {
-  static const std::vector<MapAxis> axes = make_axes();
+  static const std::vector<MapAxis> axes = [] {
+    std::vector<MapAxis> all = make_axes();
+    const std::vector<MapAxis> round = round_axes();
+    all.insert(all.end() - 3, round.begin(), round.end());  // before those that are measured, and the long runs
+    return all;
+  }();
   return axes;
 }
 

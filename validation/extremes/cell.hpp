@@ -28,8 +28,8 @@ struct MapAxis {
   std::vector<AxisValue> values;
 };
 
-/// angle, stiffness, damping, restitution, ratio, friction, speed, gravity, size, mass, turns, impacts, squares, cubes;
-/// long has no values of its own.
+/// angle, stiffness, damping, restitution, ratio, friction, speed, gravity, size, mass, turns, impacts, disc,
+/// needle, slenderness, bounces, hops, squares, cubes; long has no values of its own.
 [[nodiscard]] const std::vector<MapAxis>& map_axes();
 /// @throws std::out_of_range if there is none of that name.
 [[nodiscard]] const MapAxis& map_axis(const std::string& name);

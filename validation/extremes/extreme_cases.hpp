@@ -20,6 +20,10 @@ namespace clatter::validation::inline extremes {
 /// All models' cells on the axis "turns".
 [[nodiscard]] std::vector<ExtremeCase> turn_cases(const MapAxis& axis);
 
+/// The axes "disc", "needle", "slenderness", "bounces" and "hops": round bodies of the discrete model in space, and how
+/// their bouncing ends.
+[[nodiscard]] std::vector<ExtremeCase> rim_cases(const MapAxis& axis);
+
 /// The axes "squares" and "cubes": predictions held against the tracked drops that the program carries, to see where a
 /// rigid body that strikes with one corner stops describing them.
 [[nodiscard]] std::vector<ExtremeCase> measured_cases(const MapAxis& axis);

@@ -23,6 +23,8 @@ std::vector<ExtremeCase> cases_of(const MapAxis& axis, const ExtremesOptions& op
                                   const std::function<bool()>& goes_on) {
   if (axis.name == "long") return long_cases(options.runs, goes_on);
   if (axis.name == "turns") return turn_cases(axis);
+  const char* const of_round[] = {"disc", "needle", "slenderness", "bounces", "hops"};
+  if (std::ranges::find(of_round, axis.name) != std::end(of_round)) return rim_cases(axis);
   if (axis.name == "squares" || axis.name == "cubes") return measured_cases(axis);
   std::vector<ExtremeCase> cases = discrete_cases(axis);
   for (ExtremeCase& extreme : continuous_cases(axis)) cases.push_back(std::move(extreme));

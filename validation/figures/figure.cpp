@@ -24,7 +24,8 @@ std::size_t column_index(const std::vector<FigureColumn>& columns, const std::st
 }
 
 std::vector<std::string> curve_colours(const FigurePlot& plot) {
-  static const char* const palette[]{blue, red, green, pink, "#e69f00", "#56b4e9", "#000000", "#8c564b", "#7f7f7f"};
+  static const char* const of_curves[]{blue,         red,       green,     pink,     palette::ochre,
+                                       palette::sky, "#000000", "#8c564b", "#7f7f7f"};
   std::vector<std::string> colours;
   std::size_t next = 0;
   bool is_first = true;
@@ -34,7 +35,7 @@ std::vector<std::string> curve_colours(const FigurePlot& plot) {
     if (!is_area) is_first = false;
     // Points without a name lie on the line before them.
     const bool is_on_line = curve.style == FigureCurve::Style::points && curve.legend.empty();
-    const char* const own = is_area ? "" : is_on_line ? ink : palette[next % std::size(palette)];
+    const char* const own = is_area ? "" : is_on_line ? ink : of_curves[next % std::size(of_curves)];
     colours.push_back(curve.colour.empty() ? own : curve.colour);
   }
   return colours;
@@ -82,8 +83,8 @@ namespace {
 Value range_value(const Range2& range) { return Value::List{range.low, range.high}; }
 
 Value curve_fields(const FigureCurve& curve, const std::string& colour) {
-  static const char* const styles[]{"line", "dashed",      "dotted", "points", "squares", "crosses",
-                                    "bars", "line-points", "marks",  "sticks", "area",    "segments"};
+  static const char* const styles[]{"line",        "dashed", "dotted", "points", "squares",  "crosses", "bars",
+                                    "line-points", "marks",  "sticks", "area",   "segments", "regions"};
   Value::Fields fields{{"x", curve.x}, {"y", curve.y}, {"style", styles[static_cast<std::size_t>(curve.style)]}};
   for (const auto& [name, text] : {std::pair<const char*, const std::string&>{"legend", curve.legend},
                                    {"colour", colour},
@@ -114,6 +115,7 @@ Value plot_fields(const FigurePlot& plot) {
                        {"legend_place", plot.legend_place},
                        {"equal_scales", plot.equal_scales},
                        {"curves", curves}};
+  if (plot.ring) fields.push_back({"ring", true});
   if (plot.zoom) {
     const FigureZoom& z = *plot.zoom;
     fields.push_back({"zoom", Value::Fields{{"place", Value::List{z.left, z.bottom, z.width, z.height}},

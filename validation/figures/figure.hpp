@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "validation/compare/case_runs.hpp"
+#include "validation/output/palette.hpp"
 #include "validation/output/report.hpp"
 
 namespace clatter::validation::inline figures {
@@ -26,14 +27,28 @@ struct FigureColumn {
 using RowFilter = std::vector<std::pair<std::string, double>>;
 
 /// Colours that colour-blind readers can tell apart, and ink.
-inline constexpr const char *blue = "#0072b2", *red = "#d55e00", *green = "#009e73", *pink = "#cc79a7",
-                            *ink = "#222222";
+inline constexpr const char *blue = palette::discrete, *red = palette::continuous, *green = palette::ground,
+                            *pink = palette::gamma, *ink = palette::ink;
 
 /// One line or set of points of a plot.
 struct FigureCurve {
   /// marks: large points, each curve with a shape of its own; sticks: from zero up; area: between `y_low` and `y`;
-  /// segments: each row from (x, y) to (x_end, y_end), from light to dark blue.
-  enum class Style { line, dashed, dotted, points, squares, crosses, bars, line_points, marks, sticks, area, segments };
+  /// segments: each row from (x, y) to (x_end, y_end), from light to dark blue; regions: filled outlines, gaps between.
+  enum class Style {
+    line,
+    dashed,
+    dotted,
+    points,
+    squares,
+    crosses,
+    bars,
+    line_points,
+    marks,
+    sticks,
+    area,
+    segments,
+    regions
+  };
   std::string x, y;         ///< names of columns
   std::string legend = {};  ///< empty: not in the legend
   Style style = Style::line;
@@ -70,6 +85,7 @@ struct FigurePlot {
   bool logarithmic_y = false;
   bool whole_x = false;       ///< x counts something: no fractions on its axis
   bool equal_scales = false;  ///< a metre is as long on both axes
+  bool ring = false;          ///< directions around the origin in place of axes; of the last panel alone
 };
 
 /// The colour of each curve; "" for areas.

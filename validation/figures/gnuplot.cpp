@@ -100,6 +100,11 @@ std::string run_gnuplot(const std::string& script) {
   return text;
 }
 
+std::string run_gnuplot(const std::string& script, const std::string& data) {
+  const TemporaryFile file(data);
+  return run_gnuplot(fmt::format("data = {}\n{}", gnuplot_quoted(file.path()), script));
+}
+
 void require_gnuplot(const std::string& purpose, const std::string& terminal) {
   try {
     static_cast<void>(run_gnuplot(fmt::format("set terminal {}\n", terminal)));
@@ -228,7 +233,7 @@ std::vector<CurvePoint> points_of(const PlotData& data, const FigurePlot& plot, 
 
 bool has_gaps(Style style) {
   return style == Style::line || style == Style::dashed || style == Style::dotted || style == Style::line_points ||
-         style == Style::area;
+         style == Style::area || style == Style::regions;
 }
 
 bool has_numbers(const PlotData& data, const FigurePlot& plot, const FigureCurve& curve) {
@@ -288,6 +293,7 @@ std::string style_text(Style style, const std::string& colour, const Used& used)
           fmt::format("points pt {} ps {} lw 1.8", shapes[used.marks % shapes.size()], used.marks == 0 ? 1.5 : 1)
               .c_str());
     case Style::sticks: return drawn("impulses lw 2");
+    case Style::regions: return drawn("filledcurves closed fs solid noborder");
     case Style::segments: return "with vectors nohead lw 2 lc palette";
     case Style::area:
       return fmt::format("with filledcurves fs solid noborder lc rgb '{}'",
@@ -347,6 +353,11 @@ std::string axes_text(const PlotData& data, const FigurePlot& plot) {
                                         [](const FigureCurve& curve) { return curve.style == Style::segments; });
   if (has_segments) text += "set palette defined (0 '#c6dbef', 1 '#0072b2', 2 '#08306b')\nunset colorbox\n";
   if (plot.equal_scales) text += "set size ratio -1\nset offsets 0, 0, 0, 0\n";
+  if (plot.ring) {
+    text +=
+        "unset border\nunset tics\nunset grid\nset label 11 '0°' at 1.05, 0 left\nset label 12 '90°' at 0, 1.14 "
+        "center\nset label 13 '180°' at -1.05, 0 right\nset label 14 '270°' at 0, -1.14 center\n";
+  }
   if (plot.logarithmic_x) text += "set logscale x\nset format x '10^{%T}'\n";
   if (plot.logarithmic_y) text += "set logscale y\nset format y '10^{%T}'\n";
   return text;

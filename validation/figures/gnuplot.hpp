@@ -13,6 +13,8 @@ namespace clatter::validation::inline figures {
 /// @throws BadInput if gnuplot is not there; std::runtime_error with its first line of complaint if it fails, or if no
 /// temporary file can be made.
 [[nodiscard]] std::string run_gnuplot(const std::string& script);
+/// The same with binary data in a temporary file, whose name the script has as the variable `data`.
+[[nodiscard]] std::string run_gnuplot(const std::string& script, const std::string& data);
 
 /// @param purpose what needs it, such as "--plot FILE", for the message
 /// @param terminal that gnuplot must have

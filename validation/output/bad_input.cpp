@@ -28,9 +28,13 @@ std::size_t edit_distance(const std::string& from, const std::string& to) {
 }  // namespace
 
 std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates) {
-  const auto nearest = std::min_element(
-      candidates.begin(), candidates.end(),
-      [&](const std::string& a, const std::string& b) { return edit_distance(name, a) < edit_distance(name, b); });
+  const auto nearest =
+      std::min_element(candidates.begin(), candidates.end(), [&](const std::string& a, const std::string& b) {
+        const auto rank = [&](const std::string& known) {  // what was typed may be a part of it
+          return std::pair(known.find(name) == std::string::npos, edit_distance(name, known));
+        };
+        return rank(a) < rank(b);
+      });
   return nearest == candidates.end() ? std::string() : *nearest;
 }
 

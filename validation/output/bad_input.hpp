@@ -13,7 +13,7 @@ class BadInput : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The candidate nearest to `name` by edit distance.
+/// The candidate nearest to `name` by edit distance, of those that have it as a part if there are any.
 [[nodiscard]] std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates);
 
 /// Writes "clatter: WORDS" as one line, foreign characters printable.  Nobody may be there to read (stderr closed, full

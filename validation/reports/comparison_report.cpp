@@ -86,22 +86,6 @@ std::vector<std::string> explanations(const Comparison& comparison) {
   return notes;
 }
 
-/// How far the mesh's corners are from the body's, in the normal impulse of each impact that both have.
-std::string mesh_words(const Comparison& comparison) {
-  if (!comparison.as_given) return "";
-  double worst = 0;
-  for (const ComparedImpact& impact : comparison.impacts) {
-    if (!impact.as_given || !impact.discrete) continue;
-    const std::size_t q = normal_impulse_place;
-    worst = std::max(worst, std::fabs((*impact.discrete)[q] - (*impact.as_given)[q]) / comparison.discrete.scales[q]);
-  }
-  return fmt::format(
-      "corners: the discrete model with the mesh's corners, which are not the body's; the limit is held against it, "
-      "and "
-      "its Pₙ is up to {} of its size off the discrete column",
-      significant(worst, 2));
-}
-
 std::string limit_words(const Comparison& comparison) {
   const StiffLimit& limit = comparison.limit;
   if (limit.rows.empty()) return "No limit: the impacts do not come apart on stiffer ground either.";
@@ -114,10 +98,13 @@ std::string limit_words(const Comparison& comparison) {
 std::string verdict_words(const Comparison& comparison) {
   const auto landed = std::count_if(comparison.impacts.begin(), comparison.impacts.end(),
                                     [](const ComparedImpact& impact) { return impact.has_landing(); });
-  if (!comparison.agrees()) return "The models DIFFER: a limit (!) misses the discrete value.";
+  if (!comparison.agrees()) {
+    return "The models DIFFER: a limit (!) misses the discrete value" +
+           (comparison.other_law.empty() ? "." : "; " + comparison.other_law + ".");
+  }
   if (landed == 0) return "Nothing could be compared.";
-  return fmt::format("The models agree: the limit is the discrete value for {} of {} impacts.", landed,
-                     comparison.impacts.size());
+  return fmt::format("The models agree: the limit is the discrete value {}for {} of {} impacts.",
+                     comparison.as_given ? "of the mesh's corners " : "", landed, comparison.impacts.size());
 }
 
 /// Whether every number of either model is known to its error.
@@ -211,6 +198,15 @@ Value impact_fields(const Comparison& comparison, const ComparedImpact& impact, 
   return fields;
 }
 
+/// How far the mesh's corners are from the body's; null: they are the same.
+Value corners_value(const Comparison& comparison) {
+  if (!comparison.as_given) return {};
+  const CornersApart apart = comparison.corners_apart();
+  return Value::Fields{{"largest_off", apart.largest},
+                       {"impact", apart.impact > 0 ? Value(apart.impact) : Value()},
+                       {"same_impacts", static_cast<long long>(apart.same_count)}};
+}
+
 }  // namespace
 
 std::vector<Column> comparison_columns() {
@@ -235,6 +231,23 @@ Cell miss_cell(const Estimated& miss) {
   return digits > 0 || !miss.is_known() ? Cell(miss.value, std::min(digits, 2)) : Cell(miss.value, std::string("0"));
 }
 
+std::string corners_words(const Comparison& comparison) {
+  if (!comparison.as_given) return "";
+  const CornersApart apart = comparison.corners_apart();
+  const std::size_t count = comparison.impacts.size();
+  std::string words =
+      "corners: the discrete model with the mesh's corners, to which the limit k → ∞ is held; the discrete column has "
+      "the body itself";
+  if (apart.impact > 0) {
+    words += fmt::format("; the two are up to {} of the scale apart ({} of impact {})", significant(apart.largest, 2),
+                         apart.quantity, apart.impact);
+  } else if (apart.same_count > 0) {
+    words += "; the two are equal";
+  }
+  if (apart.same_count == count) return words;
+  return words + fmt::format("; from impact {} on they are other impacts", apart.same_count + 1);
+}
+
 Report begun_comparison(const Scene& scene, std::optional<double> approach) {
   Report report = begun_report("compare", "discrete and continuous model, impact by impact");
   report.head = scene_head(scene, Model::continuous, approach);
@@ -257,6 +270,7 @@ void add_comparison(const Comparison& comparison, const Row& front, Value& field
   fields["continuous_ended"] = comparison.run.message;
   fields["agrees"] = comparison.agrees();
   fields["shortfall"] = text_or_nothing(comparison.shortfall);
+  fields["mesh_corners"] = corners_value(comparison);
   fields["message"] = verdict_words(comparison);
 }
 
@@ -284,7 +298,7 @@ Report comparison_report(const Scene& scene, const Comparison& comparison) {
       "t in s, angles in °, P in N·s, V in m/s, Ω in rad/s; predicted: the size, no bound, of what gravity, turning "
       "and indentation do during contacts, carried on from impact to impact");
   for (const std::string& words :
-       {comparison.shortfall, mesh_words(comparison), limit_words(comparison), verdict_words(comparison)}) {
+       {comparison.shortfall, corners_words(comparison), limit_words(comparison), verdict_words(comparison)}) {
     if (!words.empty()) report.notes.push_back(words);
   }
   return report;

@@ -19,6 +19,8 @@ namespace clatter::validation::inline reports {
 /// @param approach  speed of the first contact in the discrete model [m/s]; none: it is swept
 [[nodiscard]] Report begun_comparison(const Scene& scene, std::optional<double> approach);
 void add_comparison(const Comparison& comparison, const Row& front, Value& fields, Grid& grid);
+/// What the column of the mesh's corners is, and how far it is from the body's; empty: they are the same.
+[[nodiscard]] std::string corners_words(const Comparison& comparison);
 /// A difference, to two digits at most.
 [[nodiscard]] Cell difference_cell(const Estimated& difference, double scale);
 /// By how much the limit is off; 0 where the error bar, which stands beside it, leaves no digit.

@@ -10,6 +10,7 @@
 
 #include "analytic/space/free_flight.hpp"
 #include "validation/output/number.hpp"
+#include "validation/reports/tilt_panel.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/discrete_scene.hpp"
 
@@ -216,6 +217,9 @@ double lowest_point(const analytic::space::Body& body, const analytic::space::St
   for (const auto& rim : body.rims)
     lowest =
         std::min(lowest, height(rim.centre) - rim.radius * std::sqrt(std::max(0.0, 1 - std::pow(height(rim.axis), 2))));
+  const analytic::space::Vector3 up = state.attitude.conjugate() * analytic::space::Vector3::UnitZ();
+  for (const auto& [centre, semiaxes] : body.ellipsoids)
+    lowest = std::min(lowest, height(centre) - semiaxes.cwiseProduct(up).norm());
   return state.position.z() + lowest;
 }
 
@@ -342,6 +346,10 @@ Picture sequence_picture(const PreparedScene& prepared, const DiscreteRun& found
   }
   if (window.is_all()) show_all(picture, (run.tail ? run.tail->sum : run.impacts.back()).value.start);
   else show_window(picture, window);
+  if (const auto* const drop = std::get_if<analytic::space::Drop>(&prepared.drop)) {
+    auto tilts = tilt_panel(*drop, std::get<SpaceSequence>(found.sequence).rows);
+    if (tilts) picture.panels.push_back(std::move(*tilts));
+  }
   return picture;
 }
 

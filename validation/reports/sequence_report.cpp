@@ -65,7 +65,7 @@ std::string names_of(const Scene& scene, const space::Body& body, const std::vec
 /// Which corners stay on the ground, on which face and by when the body settles, and how far it slides there.
 void add_end_notes(const Scene& scene, const space::Drop& drop, const space::Sequence& sequence,
                    std::vector<std::string>& notes) {
-  if (sequence.tail && drop.body.rims.empty()) {
+  if (sequence.tail && drop.body.rims.empty() && drop.body.ellipsoids.empty()) {
     notes.push_back("the further impacts are those of " + names_of(scene, drop.body, sequence.tail->corners));
   }
   if (!sequence.rest) return;
@@ -176,9 +176,15 @@ Value order_value(const Scene& scene, const space::ImpactRow& row, const space::
 }
 
 Value outcome_fields(const Scene& scene, const space::ImpactRow& row, const space::TiltedOutcome& outcome) {
+  constexpr double degree = std::numbers::pi / 180;
   const space::GroupImpact& impact = outcome.impact;
+  Value::List sectors;
+  for (const space::TiltSector& sector : outcome.sectors) {
+    sectors.emplace_back(std::vector<double>{sector.from / degree, (sector.from + sector.width) / degree});
+  }
   return Value::Fields{{"share", outcome.share},
-                       {"tilt_direction_deg", outcome.tilt_direction * 180 / std::numbers::pi},
+                       {"tilt_direction_deg", outcome.tilt_direction / degree},
+                       {"tilt_sectors_deg", sectors},
                        {"velocity_after", numbers_of(impact.velocity_after)},
                        {"angular_velocity_after", numbers_of(impact.angular_velocity_after)},
                        {"energy_loss", impact.energy_loss},

@@ -26,6 +26,17 @@ void add_swept_reasons(const std::vector<SweptComparison>& swept, Report& report
   }
 }
 
+/// How far the mesh's corners are from the body's at most, where they are not the same.
+void add_swept_corners(const std::vector<SweptComparison>& swept, Report& report) {
+  const auto off = [](const SweptComparison& one) {
+    return one.comparison.as_given ? one.comparison.corners_apart().largest : -1;
+  };
+  const auto worst = std::ranges::max_element(swept, {}, off);
+  if (worst == swept.end() || off(*worst) < 0) return;
+  report.notes.push_back(fmt::format("corners, at {} {}: {}", report.grid.columns.front().name, shortest(worst->value),
+                                     corners_words(worst->comparison).substr(std::string("corners: ").size())));
+}
+
 std::string landing_word(const ComparedImpact& impact) {
   return !impact.has_landing() ? "" : impact.lands() ? "agrees" : "DIFFERS";
 }
@@ -96,6 +107,7 @@ Report swept_comparison_report(const Scene& scene, const std::vector<SweptCompar
   report.fields["agrees"] = agreeing == static_cast<std::ptrdiff_t>(swept.size());
   report.notes.push_back(fmt::format("{} of {} values agree.", agreeing, swept.size()));
   add_swept_reasons(swept, report);
+  add_swept_corners(swept, report);
   add_interruption(*scene.sweep, swept.size(), report);
   return report;
 }

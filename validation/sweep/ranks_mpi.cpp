@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <mpi.h>
 
-#include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstdlib>
 #include <cstring>
-#include <iterator>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -21,8 +18,9 @@ enum Tag : int { ready, rows, gone, range };
 
 using RangeMessage = std::array<long long, 2>;
 
-/// Asked for often enough, and seldom enough to leave the processor to the others.
-constexpr std::chrono::microseconds between_looks{100};
+/// Short beside the work of a range, of which each process has one in hand meanwhile; long beside a look, for the
+/// thread that looks shares its core with the one that computes.
+constexpr std::chrono::milliseconds between_looks{1};
 
 void send_range(int to, const SceneRange& one) {
   const RangeMessage message{one.first, one.count};
@@ -54,18 +52,14 @@ bool receive(MPI_Status& status, std::vector<char>& message) {
   return true;
 }
 
-/// A process that mpirun did not start is alone, and spares itself the third of a second that MPI_Init takes.
-bool is_started_by_mpirun() {
-  constexpr const char* variables[] = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_SIZE", "PMI_RANK"};
-  return std::any_of(std::begin(variables), std::end(variables),
-                     [](const char* name) { return std::getenv(name) != nullptr; });
-}
-
 }  // namespace
 
+void become_mpi_program(char**) {}
+
 Ranks::Ranks() {
-  if (!is_started_by_mpirun()) return;
-  MPI_Init(nullptr, nullptr);
+  if (!is_started_by_mpirun()) return;  // spares itself the third of a second that MPI_Init takes
+  int provided = 0;
+  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
   MPI_Comm_size(MPI_COMM_WORLD, &count_);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   if (writes()) working_ = count_ - 1;
@@ -87,40 +81,48 @@ Ranks::~Ranks() {
   MPI_Finalize();
 }
 
-void Ranks::hand_out(RangeQueue& queue, const SweepHooks& hooks) {
+void Ranks::take_message(RangeQueue& queue) {
   MPI_Status status;
   std::vector<char> message;
-  while (working_ > 0) {
-    if (!receive(status, message)) {
-      std::this_thread::sleep_for(between_looks);
-    } else {
-      if (status.MPI_TAG == rows) add_rows(message, queue);
-      if (status.MPI_TAG == gone) --working_;
-      else idle_.push_back(status.MPI_SOURCE);
-    }
-    while (const auto next = queue.take()) hooks.write(*next);
-    hooks.tick();
-    std::erase_if(idle_, [&](int process) {
-      const bool stop = hooks.stop();
-      const auto next = stop ? std::nullopt : queue.hand_out();
-      const bool over = stop || queue.all_handed_out();
-      if (next || over) send_range(process, next.value_or(SceneRange{}));
-      return next || over;
-    });
+  if (!receive(status, message)) return std::this_thread::sleep_for(between_looks);
+  if (status.MPI_TAG == rows) add_rows(message, queue);
+  if (status.MPI_TAG == gone) --working_;
+  else idle_.push_back(status.MPI_SOURCE);
+}
+
+void Ranks::answer_idle(RangeQueue& queue, bool stop) {
+  std::erase_if(idle_, [&](int process) {
+    const auto next = stop ? std::nullopt : queue.hand_out();
+    const bool over = stop || queue.all_handed_out();
+    if (next || over) send_range(process, next.value_or(SceneRange{}));
+    return next || over;
+  });
+}
+
+void Ranks::hand_out(RangeQueue& queue, const MakeCompute& make, const SweepHooks& hooks) {
+  Crew crew(queue, hooks);
+  crew.start(1, make);
+  while (working_ > 0 || crew.works()) {
+    if (working_ > 0) take_message(queue);
+    answer_idle(queue, crew.stops());
+    crew.write_next();
   }
+  crew.finish();
   if (!hooks.stop() && !queue.is_complete()) {
     throw std::runtime_error("the other processes of the sweep ended before its scenes were done");
   }
 }
 
 void Ranks::serve(const ComputeRange& compute) {
-  MPI_Send(nullptr, 0, MPI_CHAR, 0, ready, MPI_COMM_WORLD);
-  for (;;) {
+  // With one range in hand and one under way no process waits for process 0.
+  int expected = 2;
+  for (int i = 0; i < expected; ++i) MPI_Send(nullptr, 0, MPI_CHAR, 0, ready, MPI_COMM_WORLD);
+  while (expected > 0) {
     RangeMessage message{};
     MPI_Recv(message.data(), 2, MPI_LONG_LONG, 0, range, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
     const SceneRange one{message[0], message[1]};
-    if (one.count == 0) return;
-    send_rows(one, compute(one));
+    if (one.count == 0) --expected;
+    else send_rows(one, compute(one));
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <string_view>
 
 #include "validation/output/bad_input.hpp"
@@ -14,15 +15,6 @@
 
 namespace clatter::validation::inline sweep {
 namespace {
-
-void append_cell(std::string& out, std::string_view text) {
-  out += ',';
-  out += text;
-}
-void append_cell(std::string& out, double number) {
-  out += ',';
-  append_number(out, number);
-}
 
 /// A sum over the impacts of a scene, which has a column for its error.
 struct SceneNumber {
@@ -45,9 +37,7 @@ void for_each_number(Model model, Use&& use) {
   }
 }
 
-Column outcome_column() {
-  return {.name = "outcome", .heading = "outcome", .unit = "", .meaning = "how the scene ended"};
-}
+Column outcome_column() { return word_column("outcome", "outcome", "how the scene ended"); }
 
 /// The error of a column in a row of a scene, which in JSON, too, is a field of its own.
 Column error_beside(const Column& number) {
@@ -65,7 +55,14 @@ RunModel columns_model(const RowLayout& layout) {
 }
 
 std::vector<Column> columns_of_impacts(const RowLayout& layout) {
-  return impact_columns(columns_model(layout), shown_of_impacts);
+  std::vector<Column> columns = impact_columns(columns_model(layout), shown_of_impacts);
+  for (const ImpactQuantity& quantity : impact_quantities()) {
+    if (!std::holds_alternative<std::string>(quantity.kind())) continue;
+    const auto column =
+        std::find_if(columns.begin(), columns.end(), [&](const Column& one) { return one.name == quantity.name; });
+    if (column != columns.end()) column->words = true;
+  }
+  return columns;
 }
 
 bool has_error(const ImpactQuantity& quantity, const RowLayout& layout) {
@@ -150,6 +147,7 @@ class AskedColumns {
         impact == 0 ? "the impact with the largest normal impulse" : fmt::format("impact {}", impact);
     ImpactColumn asked{.column = {name, name, quantity.unit, fmt::format("of {}: {}", which, quantity.meaning)},
                        .impact = impact};
+    asked.column.words = quantity.words;
     const auto quantities = impact_quantities();
     asked.quantity = &*std::find_if(quantities.begin(), quantities.end(),
                                     [&](const ImpactQuantity& one) { return one.name == quantity.json_key(); });
@@ -166,20 +164,20 @@ class AskedColumns {
   std::vector<ImpactColumn> asked_;
 };
 
-/// Appends one cell: the part of an entry, empty where there is none.
+/// Appends one cell: the part of an entry, nothing where there is none.
 /// @param written  what a number becomes in the output
 template <class Written>
-void append_part_of(std::string& out, const Entry& entry, std::size_t part, Written&& written) {
+void append_part_of(CellWriter& out, const Entry& entry, std::size_t part, Written&& written) {
   const auto append = [&](const auto& content) {
     using Content = std::decay_t<decltype(content)>;
     if constexpr (std::is_same_v<Content, EntryVector> || std::is_same_v<Content, EntryParameters>) {
-      append_number(out, written(content[part]));
-    } else if constexpr (std::is_same_v<Content, double>) append_number(out, written(content));
-    else if constexpr (std::is_same_v<Content, bool>) out += content ? "true" : "false";
-    else if constexpr (std::is_same_v<Content, int>) out += std::to_string(content);
-    else if constexpr (std::is_same_v<Content, std::string>) out += content;
+      out.number(written(content[part]));
+    } else if constexpr (std::is_same_v<Content, double>) out.number(written(content));
+    else if constexpr (std::is_same_v<Content, bool>) out.truth(content);
+    else if constexpr (std::is_same_v<Content, int>) out.whole(content);
+    else if constexpr (std::is_same_v<Content, std::string>) out.word(content);
+    else out.nothing();
   };
-  out += ',';
   std::visit(append, entry);
 }
 
@@ -209,49 +207,51 @@ void append_asked(const RowForm& form, const Run& run, bool of_errors) {
       if (of_errors) append_part_of(form.out, quantity.error(impact), asked.part, rounded_up);
       else append_part_of(form.out, quantity.value(impact), asked.part, [](double number) { return number; });
     } else {
-      form.out += ',';
+      form.out.nothing();
     }
   }
 }
 
 /// Ends a row of an impact.
 void append_ending(const RowForm& form, const char* outcome) {
-  append_cell(form.out, outcome);
-  append_cell(form.out, csv_text(form.reason));
-  form.out += '\n';
+  form.out.word(outcome);
+  form.out.word(form.reason);
+  form.out.end_row();
 }
 
-void append_empty_row(const RowForm& form, std::string_view impacts, const char* outcome) {
+void append_empty_row(const RowForm& form, std::optional<int> impacts, const char* outcome) {
   const std::size_t columns = result_columns(form.layout).size();
-  form.out += form.prefix;
+  form.out.copy(form.prefix);
   if (form.layout.rows == RowKind::impact) {
-    form.out.append(columns - 2, ',');
+    form.out.nothing(columns - 2);
     return append_ending(form, outcome);
   }
-  append_cell(form.out, impacts);
-  append_cell(form.out, outcome);
-  form.out.append(columns - 3, ',');
-  append_cell(form.out, csv_text(form.reason));
-  form.out += '\n';
+  if (impacts) form.out.whole(*impacts);
+  else form.out.nothing();
+  form.out.word(outcome);
+  form.out.nothing(columns - 3);
+  form.out.word(form.reason);
+  form.out.end_row();
 }
 
 /// The one row of a scene with its sums.
 void append_scene_row(const RowForm& form, const Run& run) {
   const Model model = form.layout.model;
   const Totals sums = totals(run);
-  form.out += form.prefix;
-  append_cell(form.out, std::to_string(sums.impacts));
-  append_cell(form.out, run.outcome);
-  for_each_number(model, [&](const SceneNumber& n) { append_cell(form.out, (sums.*n.sum).value); });
-  append_cell(form.out, !form.predictions ? "" : sums.predictable ? "true" : "false");
+  form.out.copy(form.prefix);
+  form.out.whole(sums.impacts);
+  form.out.word(run.outcome);
+  for_each_number(model, [&](const SceneNumber& n) { form.out.number((sums.*n.sum).value); });
+  if (form.predictions) form.out.truth(sums.predictable);
+  else form.out.nothing();
   append_asked(form, run, false);
   for_each_number(model, [&](const SceneNumber& n) {
-    if (form.errors) append_cell(form.out, rounded_up((sums.*n.sum).error));
-    else form.out += ',';
+    if (form.errors) form.out.number(rounded_up((sums.*n.sum).error));
+    else form.out.nothing();
   });
   append_asked(form, run, true);
-  append_cell(form.out, csv_text(form.reason));
-  form.out += '\n';
+  form.out.word(form.reason);
+  form.out.end_row();
 }
 
 }  // namespace
@@ -276,18 +276,21 @@ std::vector<Column> sweep_columns(const RowLayout& layout) {
   return columns;
 }
 
-std::string row_prefix(long long index, const std::vector<double>& values) {
-  std::string prefix = std::to_string(index);
-  for (const double value : values) append_cell(prefix, value);
+std::string row_prefix(long long index, const std::vector<double>& values, bool packed) {
+  std::string prefix;
+  CellWriter out(prefix, packed);
+  out.whole(index);
+  for (const double value : values) out.number(value);
+  if (!packed) prefix.erase(0, 1);  // no comma before the first cell
   return prefix;
 }
 
 void append_rows(const RowForm& form, const Run& run) {
-  if (run.impacts.empty()) return append_empty_row(form, "0", run.outcome);
+  if (run.impacts.empty()) return append_empty_row(form, 0, run.outcome);
   if (form.layout.rows == RowKind::scene) return append_scene_row(form, run);
   const auto append = [&](const Impact& impact) {
     const bool is_continuous = run.model == RunModel::continuous;  // errors are none where none were asked for
-    form.out += form.prefix;
+    form.out.copy(form.prefix);
     append_impact(form.out, impact,
                   {.model = run.model, .columns = columns_model(form.layout), .errors = is_continuous || form.errors});
     append_ending(form, run.outcome);
@@ -296,15 +299,20 @@ void append_rows(const RowForm& form, const Run& run) {
   if (run.tail) append(run.tail->sum);
 }
 
-void append_failure(const RowForm& form, const char* outcome) { append_empty_row(form, "", outcome); }
+void append_failure(const RowForm& form, const char* outcome) { append_empty_row(form, {}, outcome); }
 
-ShortfallCount::ShortfallCount(const RowLayout& layout) {
+ShortfallCount::ShortfallCount(const RowLayout& layout, bool packed) : packed_(packed) {
   const std::vector<Column> columns = sweep_columns(layout);
   while (columns.at(outcome_).name != "outcome") ++outcome_;
+  cells_.resize(columns.size());
 }
 
 void ShortfallCount::add(std::string_view rows) {
-  while (!rows.empty()) {
+  for (PackedRows packed(rows); packed_ && packed.next(cells_);) {
+    if (!cells_.back().is_text) continue;
+    count(std::to_string(static_cast<long long>(cells_.front().number)), cells_[outcome_].text, cells_.back().text);
+  }
+  while (!packed_ && !rows.empty()) {
     const std::size_t end = std::min(rows.find('\n'), rows.size());
     const std::string_view row = rows.substr(0, end);
     if (!row.empty() && row.front() >= '0' && row.front() <= '9') add_row(row);
@@ -312,20 +320,22 @@ void ShortfallCount::add(std::string_view rows) {
   }
 }
 
-void ShortfallCount::add_row(std::string_view row) {
-  if (row.back() == ',') return;  // no reason
-  const std::string_view index = row.substr(0, row.find(','));
-  std::string_view rest = row;
-  for (std::size_t i = 0; i < outcome_; ++i) rest.remove_prefix(rest.find(',') + 1);
-  const std::string_view outcome = rest.substr(0, rest.find(','));
+void ShortfallCount::count(std::string_view index, std::string_view outcome, std::string_view reason) {
   if (outcome == "refused" || outcome == "outside-model" || index == last_) return;
   last_ = index;
-  if (found_.count() > 0) return found_.add("", "falls short");
+  if (found_.count() > 0) found_.add("", "falls short");
+  else found_.add(last_, std::string(reason));
+}
+
+void ShortfallCount::add_row(std::string_view row) {
+  if (row.back() == ',') return;  // no reason
+  std::string_view rest = row;
+  for (std::size_t i = 0; i < outcome_; ++i) rest.remove_prefix(rest.find(',') + 1);
   const bool is_quoted = row.back() == '"';
   const std::size_t begin = is_quoted ? row.find('"') : row.rfind(',');
   std::string_view reason = row.substr(begin + 1);
   if (is_quoted) reason.remove_suffix(1);
-  found_.add(std::string(index), std::string(reason));
+  count(row.substr(0, row.find(',')), rest.substr(0, rest.find(',')), reason);
 }
 
 }  // namespace clatter::validation::inline sweep

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rows of a sweep: CSV with numbers in their shortest round-trip form.
+// The rows of a sweep: CSV with numbers in their shortest round-trip form, or packed.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "validation/output/cells.hpp"
 #include "validation/output/report.hpp"
 #include "validation/record/impact_quantities.hpp"
 #include "validation/scene/scene.hpp"
@@ -50,11 +51,11 @@ struct RowLayout {
 [[nodiscard]] std::vector<Column> sweep_columns(const RowLayout& layout);
 
 /// What all rows of a scene begin with.
-[[nodiscard]] std::string row_prefix(long long index, const std::vector<double>& values);
+[[nodiscard]] std::string row_prefix(long long index, const std::vector<double>& values, bool packed);
 
 /// Where the rows of one scene go, and what they hold besides its numbers.
 struct RowForm {
-  std::string& out;
+  CellWriter& out;
   const std::string& prefix;
   const RowLayout& layout;
   bool errors = true;       ///< whether errors were asked for
@@ -70,17 +71,20 @@ void append_failure(const RowForm& form, const char* outcome);
 /// model.
 class ShortfallCount {
  public:
-  explicit ShortfallCount(const RowLayout& layout);
+  ShortfallCount(const RowLayout& layout, bool packed);
 
-  /// Takes whole rows; lines of a head are skipped.
+  /// Takes whole rows; lines of a head of CSV are skipped.
   void add(std::string_view rows);
 
   [[nodiscard]] const Shortfalls& found() const { return found_; }
 
  private:
   void add_row(std::string_view row);
+  void count(std::string_view index, std::string_view outcome, std::string_view reason);
 
+  bool packed_;
   std::size_t outcome_ = 0;  ///< place of that column
+  std::vector<PackedCell> cells_;
   Shortfalls found_;
   std::string last_;  ///< index of the last of them
 };

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -12,6 +13,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <memory>
 #include <sstream>
 
 #include "validation/output/bad_input.hpp"
@@ -84,7 +86,7 @@ bool truncate_to(int file, long long bytes) {
 
 std::vector<RunFile> SweepFile::files_beside(const std::string& path) {
   const std::string part = destination_of({"--output", path}).path + ".part";
-  return {{"--output's part", part}, {"--output's digests", part + ".digests"}};
+  return {{"--output's part", part}, {"--output's digests", part + ".digests"}, {"--output's columns", part + ".made"}};
 }
 
 SweepFile::SweepFile(const std::string& path, const SweepFileForm& form, bool restart)
@@ -174,10 +176,13 @@ void SweepFile::take_up(const SweepFileForm& form) {
   if (!truncate_to(digests_file_, 0)) fail(digests_, "cannot be written");
 }
 
-void SweepFile::for_each_row(const std::function<void(const std::string& row)>& take) const {
-  std::ifstream file(part_, std::ios::binary);
-  file.seekg(head_bytes_);
-  for (std::string row; std::getline(file, row);) take(row + "\n");
+void SweepFile::with_rows(const std::function<void(std::string_view rows)>& take) const {
+  if (bytes_ == head_bytes_) return;
+  const auto size = static_cast<std::size_t>(bytes_);
+  void* const bytes = mmap(nullptr, size, PROT_READ, MAP_SHARED, part_file_, 0);
+  if (bytes == MAP_FAILED) fail(part_, "cannot be read");
+  const std::unique_ptr<void, std::function<void(void*)>> mapped(bytes, [size](void* one) { munmap(one, size); });
+  take(std::string_view(static_cast<const char*>(bytes), size).substr(static_cast<std::size_t>(head_bytes_)));
 }
 
 void SweepFile::write(std::string_view rows, long long scenes) {
@@ -199,11 +204,35 @@ void SweepFile::flush() {
   pending_scenes_ = 0;
 }
 
+void SweepFile::put_in_place(const std::string& file) {
+  if (std::rename(file.c_str(), destination_.path.c_str()) != 0) fail(file, "cannot be put in place");
+  is_own_ = false;
+  unlink(digests_.c_str());
+}
+
 void SweepFile::commit() {
   flush();
   if (fsync(part_file_) != 0) fail(part_, "cannot be written");
-  if (std::rename(part_.c_str(), destination_.path.c_str()) != 0) fail(part_, "cannot be put in place");
+  put_in_place(part_);
+}
+
+void SweepFile::commit(const std::function<void(const std::string& path)>& make) {
+  flush();
+  const std::string made = part_ + ".made";
+  try {
+    make(made);
+    if (destination_.mode) chmod(made.c_str(), *destination_.mode);
+    put_in_place(made);
+  } catch (...) {
+    unlink(made.c_str());
+    throw;
+  }
+  unlink(part_.c_str());
+}
+
+void SweepFile::discard() {
   is_own_ = false;
+  unlink(part_.c_str());
   unlink(digests_.c_str());
 }
 

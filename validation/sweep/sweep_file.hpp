@@ -41,11 +41,15 @@ class SweepFile {
   /// Takes the rows of so many whole scenes, or none; they are in the file after half a second or a mebibyte, or after
   /// flush().  @throws BadInput if they cannot be written.
   void write(std::string_view rows, long long scenes);
-  /// Calls take(row) for each row that was taken up, its end of line included.
-  void for_each_row(const std::function<void(const std::string& row)>& take) const;
+  /// Calls take(rows) with all rows that are in the part.
+  void with_rows(const std::function<void(std::string_view rows)>& take) const;
   void flush();
   /// Ends the file and gives it its name.
   void commit();
+  /// Likewise, for a file of another form: make(path) writes that from with_rows().
+  void commit(const std::function<void(const std::string& path)>& make);
+  /// Removes the part, when what its rows were for is written elsewhere.
+  void discard();
 
  private:
   void open();
@@ -53,6 +57,7 @@ class SweepFile {
   [[nodiscard]] bool has_head(const std::string& head);
   void keep_whole_rows(const SweepFileForm& form);
   void close_all();
+  void put_in_place(const std::string& file);
   [[noreturn]] void fail(const std::string& file, const char* what) const;
   [[noreturn]] void refuse(const std::string& why) const;
 

@@ -10,6 +10,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/digest.hpp"
 #include "validation/output/number.hpp"
+#include "validation/output/shell_word.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/orientation.hpp"
@@ -322,7 +323,11 @@ SweepPlan read_sweep_plan(const SweepRequest& request) {
   if (request.require_digits) sets.emplace_back("run.require_digits=true");
   std::vector<Setting> settings = read_settings(sets, request.random.has_value());
   read_scene(request, settings, values, plan);
-  for (const Setting& setting : settings) plan.words.push_back(fmt::format("set: {} = {}", setting.key, setting.text));
+  plan.fixed_words = shell_word(request.file) + " --model " + model_names[static_cast<std::size_t>(plan.layout.model)];
+  for (const Setting& setting : settings) {
+    plan.words.push_back(fmt::format("set: {} = {}", setting.key, setting.text));
+    if (!setting.axis) plan.fixed_words += " --set " + shell_word(setting.key + "=" + setting.text);
+  }
   read_points(request, settings, plan);
   choose_setters(values, settings, plan);
   choose_columns(request, plan);
@@ -336,6 +341,21 @@ void SweepPlan::put_point(const std::vector<double>& values, Scene& into) const 
     put[i](into, rest.first(width));
     rest = rest.subspan(width);
   }
+}
+
+std::string SweepPlan::command_of(long long index) const {
+  std::string command = "clatter sweep " + fixed_words;
+  std::vector<double> values;
+  points.at(index, values);
+  std::span<const double> rest(values);
+  for (const SweepAxis& axis : points.axes()) {
+    const auto own = rest.first(axis.width());
+    std::string text = shortest(own.front());
+    for (const double value : own.subspan(1)) text += "," + shortest(value);
+    command += " --set " + shell_word(axis.key + "=" + (own.size() > 1 ? "[" + text + "]" : text));
+    rest = rest.subspan(axis.width());
+  }
+  return command + " --rows impact";
 }
 
 Report SweepPlan::report() const {

@@ -31,6 +31,7 @@ struct SweepPlan {
   Scene scene;  ///< the swept keys have their first values
   RowLayout layout;
   SweepPoints points;
+  bool packed = false;  ///< rows are not CSV but packed cells
   /// What puts the value of each axis into a scene.
   std::vector<std::function<void(Scene&, std::span<const double>)>> put;
   /// Places, among the numbers of a point, of those that make the body another one.
@@ -41,6 +42,11 @@ struct SweepPlan {
   /// Keys of which a head says nothing: the swept ones and what follows from them.
   std::vector<std::string> unsettled;
 
+  /// The scene's file or name and what is set to one value, as words of a command.
+  std::string fixed_words;
+
+  /// The command that shows the impacts of one scene.
+  [[nodiscard]] std::string command_of(long long index) const;
   /// Puts the numbers of a point into a scene.
   void put_point(const std::vector<double>& values, Scene& into) const;
   /// The report without rows.  Equal for equal sweeps; a mesh and lists of attitudes are in it by digests of their

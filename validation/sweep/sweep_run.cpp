@@ -2,14 +2,10 @@
 #include "validation/sweep/sweep_run.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <condition_variable>
-#include <exception>
-#include <mutex>
-#include <new>
-#include <thread>
-#include <vector>
+#include <cstdlib>
+#include <iterator>
+#include <string_view>
 
 #include "validation/plan/planned_run.hpp"
 #include "validation/scene/failure.hpp"
@@ -20,82 +16,6 @@ namespace {
 
 constexpr std::size_t most_waiting_bytes = 64 << 20;
 constexpr std::chrono::milliseconds between_ticks{100};
-
-/// The threads that compute, around one queue.
-class Crew {
- public:
-  Crew(RangeQueue& queue, const SweepHooks& hooks) : queue_(queue), hooks_(hooks) {}
-  ~Crew() { dismiss(); }
-  Crew(const Crew&) = delete;
-  Crew& operator=(const Crew&) = delete;
-
-  void start(int threads, const MakeCompute& make) {
-    working_ = threads;
-    for (int i = 0; i < threads; ++i) threads_.emplace_back([this, &make] { work(make); });
-  }
-
-  /// Writes rows as they come, until nobody works any more.
-  void write() {
-    std::unique_lock lock(mutex_);
-    for (;;) {
-      came_.wait_for(lock, between_ticks, [this] { return queue_.has_next() || working_ == 0; });
-      const std::optional<RangeRows> rows = queue_.take();
-      if (!rows && working_ == 0) break;
-      lock.unlock();
-      room_.notify_all();
-      if (rows) hooks_.write(*rows);
-      hooks_.tick();
-      lock.lock();
-    }
-    if (failure_) std::rethrow_exception(failure_);
-  }
-
- private:
-  [[nodiscard]] bool stops() const { return dismissed_ || hooks_.stop(); }
-
-  void work(const MakeCompute& make) {
-    try {
-      const ComputeRange compute = make([this] { return stops(); });
-      while (const std::optional<SceneRange> range = next()) {
-        RangeRows rows = compute(*range);
-        const std::lock_guard lock(mutex_);
-        queue_.add(*range, std::move(rows));
-        came_.notify_one();
-      }
-    } catch (...) {
-      const std::lock_guard lock(mutex_);
-      failure_ = std::current_exception();
-      dismissed_ = true;
-    }
-    const std::lock_guard lock(mutex_);
-    --working_;
-    came_.notify_one();
-    room_.notify_all();
-  }
-
-  /// Waits while too many rows do.
-  std::optional<SceneRange> next() {
-    std::unique_lock lock(mutex_);
-    std::optional<SceneRange> range;
-    while (!stops() && !(range = queue_.hand_out()) && !queue_.all_handed_out()) room_.wait_for(lock, between_ticks);
-    return range;
-  }
-
-  void dismiss() {
-    dismissed_ = true;
-    room_.notify_all();
-    threads_.clear();
-  }
-
-  RangeQueue& queue_;
-  const SweepHooks& hooks_;
-  std::mutex mutex_;
-  std::condition_variable came_, room_;
-  int working_ = 0;
-  std::atomic<bool> dismissed_ = false;
-  std::exception_ptr failure_;
-  std::vector<std::jthread> threads_;
-};
 
 const char* outcome_of(FailureKind kind) {
   switch (kind) {
@@ -108,20 +28,33 @@ const char* outcome_of(FailureKind kind) {
 }  // namespace
 
 std::optional<SceneRange> RangeQueue::hand_out() {
+  const std::lock_guard lock(mutex_);
   // The rows that the waiting ones wait for are on their way already.
-  if (all_handed_out() || bytes_ > most_waiting_bytes) return std::nullopt;
-  const SceneRange range{handed_out_, std::min(size_, all_.first + all_.count - handed_out_)};
+  if (handed_out_ == end_ || bytes_ > most_waiting_bytes) return std::nullopt;
+  const SceneRange range{handed_out_, std::min(size_, end_ - handed_out_)};
   handed_out_ += range.count;
   return range;
 }
 
+bool RangeQueue::all_handed_out() const {
+  const std::lock_guard lock(mutex_);
+  return handed_out_ == end_;
+}
+
 void RangeQueue::add(const SceneRange& range, RangeRows rows) {
+  const std::lock_guard lock(mutex_);
   bytes_ += rows.text.size();
   waiting_.try_emplace(range.first, range, std::move(rows));
 }
 
+bool RangeQueue::has_next() const {
+  const std::lock_guard lock(mutex_);
+  return !broken_ && waiting_.contains(taken_);
+}
+
 std::optional<RangeRows> RangeQueue::take() {
-  if (!has_next()) return std::nullopt;
+  const std::lock_guard lock(mutex_);
+  if (broken_ || !waiting_.contains(taken_)) return std::nullopt;
   auto node = waiting_.extract(taken_);
   auto& [range, rows] = node.mapped();
   bytes_ -= rows.text.size();
@@ -130,10 +63,80 @@ std::optional<RangeRows> RangeQueue::take() {
   return std::move(rows);
 }
 
+Crew::Crew(RangeQueue& queue, const SweepHooks& hooks) : queue_(queue), hooks_(hooks) {}
+Crew::~Crew() { dismiss(); }
+
+void Crew::start(int threads, const MakeCompute& make) {
+  working_ = threads;
+  for (int i = 0; i < threads; ++i) threads_.emplace_back([this, &make] { work(make); });
+}
+
+bool Crew::works() {
+  const std::lock_guard lock(mutex_);
+  return working_ > 0;
+}
+
+bool Crew::write_next() {
+  const std::optional<RangeRows> rows = queue_.take();
+  if (rows) {
+    room_.notify_all();
+    hooks_.write(*rows);
+  }
+  hooks_.tick();
+  return rows.has_value();
+}
+
+void Crew::wait() {
+  std::unique_lock lock(mutex_);
+  came_.wait_for(lock, between_ticks, [this] { return queue_.has_next() || working_ == 0; });
+}
+
+void Crew::finish() {
+  dismiss();
+  while (write_next()) continue;
+  if (failure_) std::rethrow_exception(failure_);
+}
+
+void Crew::work(const MakeCompute& make) {
+  try {
+    const ComputeRange compute = make([this] { return stops(); });
+    while (const std::optional<SceneRange> range = next()) {
+      queue_.add(*range, compute(*range));
+      const std::lock_guard lock(mutex_);
+      came_.notify_one();
+    }
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    failure_ = std::current_exception();
+    dismissed_ = true;
+  }
+  const std::lock_guard lock(mutex_);
+  --working_;
+  came_.notify_one();
+  room_.notify_all();
+}
+
+std::optional<SceneRange> Crew::next() {
+  std::unique_lock lock(mutex_);
+  std::optional<SceneRange> range;
+  while (!stops() && !(range = queue_.hand_out()) && !queue_.all_handed_out()) room_.wait_for(lock, between_ticks);
+  return range;
+}
+
+void Crew::dismiss() {
+  dismissed_ = true;
+  room_.notify_all();
+  threads_.clear();
+}
+
 void run_on_threads(RangeQueue& queue, int threads, const MakeCompute& make, const SweepHooks& hooks) {
   Crew crew(queue, hooks);
   crew.start(threads, make);
-  crew.write();
+  while (crew.works()) {
+    crew.wait();
+    crew.write_next();
+  }
+  crew.finish();
 }
 
 SweepBody make_sweep_body(const SweepPlan& plan, const Scene& scene) {
@@ -142,7 +145,7 @@ SweepBody make_sweep_body(const SweepPlan& plan, const Scene& scene) {
 }
 
 SceneRunner::SceneRunner(const SweepPlan& plan, const SweepBody& body, std::function<bool()> stop)
-    : plan_(plan), stop_(std::move(stop)), scene_(plan.scene), body_(body) {}
+    : plan_(plan), stop_(std::move(stop)), scene_(plan.scene), body_(plan, body) {}
 
 RangeRows SceneRunner::operator()(const SceneRange& range) {
   RangeRows rows;
@@ -150,32 +153,34 @@ RangeRows SceneRunner::operator()(const SceneRange& range) {
   return rows;
 }
 
-void SceneRunner::renew_body() {
-  bool same = !body_values_.empty();
-  for (std::size_t i = 0; same && i < body_values_.size(); ++i) same = body_values_[i] == values_[plan_.body_values[i]];
-  if (same || plan_.body_values.empty()) return;
-  body_values_.clear();  // so that a body that cannot be made is tried again
-  body_ = make_sweep_body(plan_, scene_);
-  for (const std::size_t place : plan_.body_values) body_values_.push_back(values_[place]);
+bool SweptBody::renew(const Scene& scene, const std::vector<double>& values) {
+  const std::vector<std::size_t>& places = plan_.body_values;
+  bool same = !values_.empty();
+  for (std::size_t i = 0; same && i < places.size(); ++i) same = values_[i] == values[places[i]];
+  if (same || places.empty()) return false;
+  values_.clear();  // so that a body that cannot be made is tried again
+  body_ = make_sweep_body(plan_, scene);
+  for (const std::size_t place : places) values_.push_back(values[place]);
+  return true;
 }
 
 /// The sequence of the scene, in the plane or in space.
 DiscreteSequence SceneRunner::sequence(bool with_errors) {
   const analytic::SequenceOptions options{
       .impacts = scene_.most_impacts(), .digits = scene_.accuracy.digits, .amplification = with_errors};
-  const DiscreteDrop drop = body_.discrete->drop(scene_);
+  const DiscreteDrop drop = body_->discrete->drop(scene_);
   return std::visit([&](const auto& one) -> DiscreteSequence { return impact_sequence(one, options); }, drop);
 }
 
 bool SceneRunner::append_result(RowForm& form) {
-  renew_body();
+  body_.renew(scene_, values_);
   if (plan_.layout.model == Model::discrete) {
-    const Run run = named_run(scene_, sequence(form.errors), body_.discrete->centre());
+    const Run run = named_run(scene_, sequence(form.errors), body_->discrete->centre());
     form.reason = shortfall(scene_, run);
     append_rows(form, run);
     return true;
   }
-  const PlannedRun planned = run_to_digits(*body_.solid, scene_.world, scene_.start(*body_.solid), scene_.request,
+  const PlannedRun planned = run_to_digits(*body_->solid, scene_.world, scene_.start(*body_->solid), scene_.request,
                                            scene_.accuracy, {.progress = [this](int, long) { return !stop_(); }});
   if (planned.run.outcome == numeric::Outcome::interrupted) return false;
   form.reason = shortfall(scene_, planned);
@@ -183,7 +188,7 @@ bool SceneRunner::append_result(RowForm& form) {
   return true;
 }
 
-RowForm SceneRunner::form_of(const std::string& prefix, std::string& out) const {
+RowForm SceneRunner::form_of(const std::string& prefix, CellWriter& out) const {
   const numeric::Request& request = scene_.request;
   const bool both = request.error_estimates && request.amplification;
   return {.out = out,
@@ -197,21 +202,24 @@ RowForm SceneRunner::form_of(const std::string& prefix, std::string& out) const 
 bool SceneRunner::append_scene(long long index, std::string& out) {
   plan_.points.at(index, values_);
   plan_.put_point(values_, scene_);
-  const std::string prefix = row_prefix(index, values_);
-  RowForm form = form_of(prefix, out);
-  const char* outcome = nullptr;
-  try {
-    return append_result(form);
-  } catch (const std::bad_alloc&) {
-    throw;  // not the scene's fault, and another time it may have enough
-  } catch (...) {
-    const Failure failure = current_failure();
-    if (failure.kind == FailureKind::defect) throw;
-    outcome = outcome_of(failure.kind);
-    form.reason = failure.message;
-  }
-  append_failure(form, outcome);
+  const std::string prefix = row_prefix(index, values_, plan_.packed);
+  CellWriter cells(out, plan_.packed);
+  RowForm form = form_of(prefix, cells);
+  bool is_whole = true;
+  const std::optional<Failure> failure = failure_of_scene([&] { is_whole = append_result(form); });
+  if (!failure) return is_whole;
+  form.reason = failure->message;
+  append_failure(form, outcome_of(failure->kind));
   return true;
+}
+
+bool is_started_by_mpirun() {
+  constexpr const char* counts[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"};
+  const auto says_several = [](const char* name) {
+    const char* const value = std::getenv(name);
+    return value != nullptr && std::string_view(value) != "1";
+  };
+  return std::any_of(std::begin(counts), std::end(counts), says_several) || std::getenv("PMIX_RANK") != nullptr;
 }
 
 MakeCompute runners_of(const SweepPlan& plan, const SweepBody& body) {

@@ -3,11 +3,16 @@
 // order.
 #pragma once
 
+#include <atomic>
+#include <condition_variable>
+#include <exception>
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "numeric/body.hpp"
@@ -28,26 +33,28 @@ struct RangeRows {
 };
 
 /// Hands out ranges in order and gives their rows back in order, in whatever order they come in between.  The rows that
-/// wait for earlier ones take at most some 64 MB: then nothing is handed out until those have come.
+/// wait for earlier ones take at most some 64 MB: then nothing is handed out until those have come.  Any thread may
+/// call any function.
 class RangeQueue {
  public:
   /// @param size scenes of a range, >= 1
   RangeQueue(const SceneRange& all, long long size)
-      : all_(all), size_(size), handed_out_(all.first), taken_(all.first) {}
+      : end_(all.first + all.count), size_(size), handed_out_(all.first), taken_(all.first) {}
 
   /// The next range; none if all are handed out, or too many rows wait.
   [[nodiscard]] std::optional<SceneRange> hand_out();
-  [[nodiscard]] bool all_handed_out() const { return handed_out_ == all_.first + all_.count; }
+  [[nodiscard]] bool all_handed_out() const;
   void add(const SceneRange& range, RangeRows rows);
   /// The next rows in order, if they are there; none any more after a range that was stopped.
   [[nodiscard]] std::optional<RangeRows> take();
-  [[nodiscard]] bool has_next() const { return !broken_ && waiting_.contains(taken_); }
-  /// The first scene whose rows were not taken.
+  [[nodiscard]] bool has_next() const;
+  /// The first scene whose rows were not taken; for the thread that takes them.
   [[nodiscard]] long long taken() const { return taken_; }
-  [[nodiscard]] bool is_complete() const { return taken_ == all_.first + all_.count; }
+  [[nodiscard]] bool is_complete() const { return taken_ == end_; }
 
  private:
-  SceneRange all_;
+  mutable std::mutex mutex_;
+  long long end_;  ///< one past the last scene
   long long size_;
   long long handed_out_;  ///< first scene not handed out
   long long taken_;       ///< first scene not taken
@@ -67,6 +74,41 @@ using ComputeRange = std::function<RangeRows(const SceneRange&)>;
 /// Makes what one thread computes with, from the function that tells it to stop.
 using MakeCompute = std::function<ComputeRange(std::function<bool()> stop)>;
 
+/// The threads of one process that compute what a queue hands out; the thread that owns the crew writes.
+class Crew {
+ public:
+  Crew(RangeQueue& queue, const SweepHooks& hooks);
+  /// Stops the threads after the scenes that they compute.
+  ~Crew();
+  Crew(const Crew&) = delete;
+  Crew& operator=(const Crew&) = delete;
+
+  void start(int threads, const MakeCompute& make);
+  [[nodiscard]] bool works();
+  [[nodiscard]] bool stops() const { return dismissed_ || hooks_.stop(); }
+  /// Writes the next rows and ticks.  @returns whether there were rows.
+  bool write_next();
+  /// Waits a while for rows, or for the end of the last thread.
+  void wait();
+  /// Writes what is left.  @throws what a computation threw
+  void finish();
+
+ private:
+  void work(const MakeCompute& make);
+  /// Waits while too many rows do.
+  std::optional<SceneRange> next();
+  void dismiss();
+
+  RangeQueue& queue_;
+  const SweepHooks& hooks_;
+  std::mutex mutex_;
+  std::condition_variable came_, room_;
+  int working_ = 0;
+  std::atomic<bool> dismissed_ = false;
+  std::exception_ptr failure_;
+  std::vector<std::jthread> threads_;
+};
+
 /// Computes all ranges on `threads` threads.  What write() or a computation throws ends the run and is thrown on.
 void run_on_threads(RangeQueue& queue, int threads, const MakeCompute& make, const SweepHooks& hooks);
 
@@ -77,6 +119,23 @@ struct SweepBody {
 };
 /// The body of one scene of the plan, swept sizes and all.  @throws as Scene::make_body and DiscreteBody.
 [[nodiscard]] SweepBody make_sweep_body(const SweepPlan& plan, const Scene& scene);
+
+/// The body of the scenes that one thread computes, made anew where a swept key makes it another one.
+class SweptBody {
+ public:
+  /// @param body  of all scenes, where no key of the body is swept
+  SweptBody(const SweepPlan& plan, const SweepBody& body) : plan_(plan), body_(body) {}
+
+  /// Makes the body of a scene, whose point has these numbers.  @returns whether it is another one than before
+  /// @throws as make_sweep_body
+  bool renew(const Scene& scene, const std::vector<double>& values);
+  [[nodiscard]] SweepBody* operator->() { return &body_; }
+
+ private:
+  const SweepPlan& plan_;
+  SweepBody body_;
+  std::vector<double> values_;  ///< those numbers of the point that body_ was made with
+};
 
 /// One thread's part in a sweep.  A scene that the model refuses or cannot compute is a row whose outcome is "refused"
 /// (speed and spin do not bring the contact down, a size is out of range, ...), "outside-model" (jamming, ...) or
@@ -96,15 +155,13 @@ class SceneRunner {
   bool append_scene(long long index, std::string& out);
   bool append_result(RowForm& form);
   [[nodiscard]] DiscreteSequence sequence(bool with_errors);
-  [[nodiscard]] RowForm form_of(const std::string& prefix, std::string& out) const;
-  void renew_body();
+  [[nodiscard]] RowForm form_of(const std::string& prefix, CellWriter& out) const;
 
   const SweepPlan& plan_;
   std::function<bool()> stop_;
   Scene scene_;
-  SweepBody body_;
+  SweptBody body_;
   std::vector<double> values_;
-  std::vector<double> body_values_;  ///< those numbers of the point that body_ was made with
 };
 
 /// A runner for each thread.
@@ -112,11 +169,18 @@ class SceneRunner {
 /// Scenes handed out at a time: some milliseconds' work.
 [[nodiscard]] long long range_size(const SweepPlan& plan);
 
-/// This process among those that share a sweep: one, or those that mpirun started (CMake option CLATTER_MPI).  Process
-/// 0 writes; the others compute what it hands out to them, one thread each. Whatever ends process 0 early lets the
-/// others end, too.
+/// Whether mpirun or srun started this process as one of several (variables of PMI, PMIx and OpenMPI).
+[[nodiscard]] bool is_started_by_mpirun();
+/// Under mpirun the program without MPI becomes clatter-mpi, if that lies beside it; else nothing happens.
+/// @param words those of main, ended by a null pointer
+void become_mpi_program(char** words);
+
+/// This process among those that share a sweep: one, or those that mpirun or srun started (program clatter-mpi).  All
+/// compute, one thread each; process 0 hands out the ranges and writes.  Whatever ends process 0 early lets the others
+/// end, too.
 class Ranks {
  public:
+  /// @throws BadInput under mpirun in a program without MPI, each process of which would compute all scenes
   Ranks();
   ~Ranks();
   Ranks(const Ranks&) = delete;
@@ -125,16 +189,21 @@ class Ranks {
   [[nodiscard]] bool several() const { return count_ > 1; }
   [[nodiscard]] bool writes() const { return rank_ == 0; }
 
-  /// Process 0 of several: hands out all ranges, takes their rows.
+  /// Process 0 of several: hands out all ranges, computes some itself, takes their rows.
   /// @throws std::runtime_error if the others end before.
-  void hand_out(RangeQueue& queue, const SweepHooks& hooks);
+  void hand_out(RangeQueue& queue, const MakeCompute& make, const SweepHooks& hooks);
   /// Lets any other process compute until process 0 has nothing more to hand out.
   void serve(const ComputeRange& compute);
 
  private:
+  /// Process 0: takes one message, or looks again a little later.
+  void take_message(RangeQueue& queue);
+  /// Process 0: gives those that wait a range, or tells them that there is none any more.
+  void answer_idle(RangeQueue& queue, bool stop);
+
   int count_ = 1, rank_ = 0;
   int working_ = 0;        ///< known to process 0: others that have not ended
-  std::vector<int> idle_;  ///< likewise: those of them that wait for a range
+  std::vector<int> idle_;  ///< likewise: those of them that wait for a range, once for each
 };
 
 }  // namespace clatter::validation::inline sweep

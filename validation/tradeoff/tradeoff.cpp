@@ -135,7 +135,7 @@ class Bench {
     for (const int factor : mesh_factors) {
       Scene scene = ladder_.scene();
       std::string mesh;
-      if (scene.body.shape == BodyScene::Shape::rod) {
+      if (scene.body.shape == BodyScene::Shape::rod || scene.body.is_round()) {
         scene.body.sectors = 8 * factor;
         mesh = fmt::format("{} sectors", scene.body.sectors);
       } else if (scene.body.shape == BodyScene::Shape::box) {

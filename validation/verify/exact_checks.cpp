@@ -6,8 +6,11 @@
 #include <cmath>
 
 #include "analytic/law/viscoelastic.hpp"
+#include "analytic/near_flat/footprint.hpp"
+#include "analytic/near_flat/two_contacts.hpp"
 #include "analytic/plane/contact_angles.hpp"
 #include "analytic/plane/sequence.hpp"
+#include "analytic/space/sequence.hpp"
 #include "numeric/contact/contact_load.hpp"
 #include "numeric/mesh/generators.hpp"
 #include "numeric/motion/free_rotation.hpp"
@@ -231,6 +234,62 @@ Measured contact_time_powers(CaseRuns&) {
   return {corner, worst, Answer::holds, found};
 }
 
+// Close to flat: the billiard in a wedge or cone against the full model at a small tilt.
+
+Measured impulses_close_to_flat(CaseRuns&) {
+  analytic::PlanarBody body{.mass = 1, .gyration_square = 0.04, .vertex_count = 2, .vertices = {}};
+  body.vertices[0] = {-0.3, -0.05};
+  body.vertices[1] = {0.7, -0.05};
+  const auto limit = analytic::near_flat::strikes({0.3, 0.7, 0.2}, 1, analytic::near_flat::End::a, 9);
+  const auto full = analytic::impact_sequence(
+      {.body = body, .inclination = Angle::from_radians(1e-13), .velocity = {.normal = -1}, .law = {}},
+      {.impacts = 9, .amplification = false});
+  double worst = full.rows.size() == limit.size() ? 0 : INFINITY;
+  for (std::size_t i = 0; i < std::min(limit.size(), full.rows.size()); ++i) {
+    worst = std::fmax(worst, std::fabs(full.rows[i].impact.normal_impulse - limit[i].impulse));
+  }
+  return {limit[1].impulse, worst, Answer::holds, fmt::format("{} impacts, arms 0.3 and 0.7, κ = 0.2", limit.size())};
+}
+
+Measured hardest_blow_of_the_phone(CaseRuns&) {
+  namespace space = analytic::space;
+  constexpr double tilt = 1e-8;
+  const Eigen::Vector3d size(0.15, 0.075, 0.008);
+  space::Drop drop;
+  drop.body = space::box(1, {.size = size, .centre = Eigen::Vector3d::Zero()});
+  analytic::near_flat::Footprint face;
+  for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+    face.corners.emplace_back(x * size.x() / 2, y * size.y() / 2);
+  }
+  face.mobility = analytic::near_flat::slope_mobility(1, drop.body.inertia);
+  const auto found = analytic::near_flat::tilt_sectors(face, 1);
+  const auto hardest =
+      std::ranges::max_element(found.sectors, {}, [](const auto& s) { return s.strikes[s.hardest()].approach; });
+  const std::size_t at = hardest->hardest();
+  const double direction = (hardest->from + hardest->to) / 2;
+  drop.attitude = Eigen::AngleAxisd(tilt, Eigen::Vector3d(std::sin(direction), -std::cos(direction), 0));
+  drop.velocity = {0, 0, -1};
+  const auto full = impact_sequence(drop, {.impacts = static_cast<int>(at) + 1, .amplification = false});
+  const double speed = full.rows.size() > at ? full.rows[at].approach_speed : NAN;
+  return {speed, std::fabs(speed - hardest->strikes[at].approach), Answer::holds,
+          fmt::format("impact {} of an elastic phone tilted by {} rad", at + 1, tilt)};
+}
+
+/// Of a thin rectangle, whose corners strike around it: 7 λ³ + (e − 6) λ² + (1 − 6 e) λ + 7 e has a double root there.
+Measured endless_strikes(CaseRuns&) {
+  const analytic::near_flat::Footprint face{.corners = {{-1, -0.5}, {1, -0.5}, {1, 0.5}, {-1, 0.5}},
+                                            .mobility = Eigen::Vector2d(3, 12).asDiagonal()};
+  double low = 0.02, high = 0.04;
+  for (int i = 0; i < 60; ++i) {
+    const double e = (low + high) / 2, b = e - 6, c = 1 - 6 * e, d = 7 * e;
+    const double discriminant = 126 * b * c * d - 4 * b * b * b * d + b * b * c * c - 28 * c * c * c - 1323 * d * d;
+    (discriminant > 0 ? low : high) = e;
+  }
+  const auto found = analytic::near_flat::critical_restitution(face);
+  const double e = found ? found->restitution : NAN;
+  return {e, std::fabs(e - low), Answer::holds, "four corners in turn"};
+}
+
 }  // namespace
 
 Measures exact_measures() {
@@ -247,7 +306,10 @@ Measures exact_measures() {
           {"X11", runge_kutta_order},
           {"X12", free_rotation},
           {"X13", hydrostatic_force},
-          {"X14", contact_time_powers}};
+          {"X14", contact_time_powers},
+          {"X15", impulses_close_to_flat},
+          {"X16", hardest_blow_of_the_phone},
+          {"X17", endless_strikes}};
 }
 
 }  // namespace clatter::validation::inline verify

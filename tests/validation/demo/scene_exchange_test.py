@@ -7,6 +7,7 @@ CLATTER_PROGRAM is the program, CLATTER_ROOT the folder of the source.
 import json
 import math
 import os
+import re
 import tempfile
 import unittest
 from pathlib import Path
@@ -21,6 +22,10 @@ class SceneFiles(WithServer):
         count = 0
         for file in sorted(folder.glob("*.toml")):
             if "sweep" in file.name:
+                continue
+            if not re.search(r'shape = "(rod|box)"', file.read_text(encoding="utf-8")):
+                status, _, answer = self.demo.post("/api/scene", {"name": file.name, "text": file.read_text(encoding="utf-8")})
+                self.assertEqual((status, "must be rod or box" in answer), (400, True), file.name)
                 continue
             with self.subTest(case=file.stem), tempfile.TemporaryDirectory() as scratch:
                 opened = json.loads(self.demo.post("/api/scene", {"name": file.name, "text": file.read_text(encoding="utf-8")})[2])

@@ -4,9 +4,12 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
+#include <string>
 
 #include "numeric/motion/free_rotation.hpp"
 #include "validation/extremes/extremes.hpp"
@@ -69,9 +72,15 @@ BOOST_AUTO_TEST_CASE(every_cell_ends_with_a_number_and_its_error_or_a_typed_refu
   for (const ExtremeCell& cell : map.cells) BOOST_TEST((cell.has_number() || !cell.reason.empty()));
 }
 
+/// Of the axes that one model alone has.
+bool is_of_one_model(const std::string& axis) {
+  const char* const names[] = {"squares", "cubes", "disc", "needle", "slenderness", "bounces", "hops"};
+  return std::ranges::find(names, axis) != std::end(names);
+}
+
 BOOST_AUTO_TEST_CASE(every_axis_has_cells_of_both_continuous_models_and_of_the_discrete_one_where_it_has_the_quantity) {
   for (const MapAxis& axis : map_axes()) {
-    if (axis.name == "squares" || axis.name == "cubes") continue;  // held against measurement, by one model each
+    if (is_of_one_model(axis.name)) continue;
     for (const ModelLevel model : {ModelLevel::discrete, ModelLevel::planar, ModelLevel::spatial}) {
       if (axis.name == "ratio" && model != ModelLevel::discrete) continue;
       const auto& cells = whole_map().cells;
@@ -92,6 +101,16 @@ BOOST_AUTO_TEST_CASE(tracked_squares_are_met_up_to_20_degrees_and_beyond_30_most
       BOOST_TEST(cell.measure.bound > 0.2, cell.label);
     }
     if (cell.value >= 30) BOOST_TEST((cell.verdict == CellVerdict::outside_model), cell.label);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(round_bodies_have_a_number_in_every_cell_from_flat_to_upright_and_from_discs_to_needles) {
+  std::map<std::string, long> numbers;
+  for (const ExtremeCell& cell : whole_map().cells) {
+    if (cell.model == ModelLevel::discrete_in_space && cell.has_number()) ++numbers[cell.axis];
+  }
+  for (const char* axis : {"disc", "needle", "slenderness", "bounces", "hops"}) {
+    BOOST_TEST(numbers[axis] == static_cast<long>(map_axis(axis).values.size()), axis);
   }
 }
 

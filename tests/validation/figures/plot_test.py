@@ -15,11 +15,17 @@ import xml.etree.ElementTree as ElementTree
 from run_folder import PROGRAM, EmptyFolder, case, records, run
 from waiting import sizes, until
 
+# A level face whose small tilts have four outcomes.
+FACE = ["--body", "box", "--size", "0.1514x0.08958x0.1433", "--mass", "0.584", "--velocity=0,0,-1",
+        "--attitude=-0.5868253197351159,0,0,0.8097135568321546", "--angular-velocity=20.31,-4.001,-25.12", "--restitution", "0.4",
+        "--gravity", "9.81", "--impacts", "1"]
 # For each command: arguments, axis names, legends.
 COMMANDS = {
     "sequence": (["sequence", "--angle", "10", "--gravity", "9.81", "--restitution", "0.8", "--impacts", "20"],
                  ["time since the first impact [s]", "lowest point [m]", "normal impulse [N·s]"],
                  ["end a", "end b", "at end a", "at end b"]),
+    "sequence, tilts": (["sequence", *FACE], ["time since the first impact [s]", "height [m]", "small tilts"],
+                        ["centre of mass", "lowest point", "corners"]),
     "angles": (["angles", "--step", "2"],
                ["contact angle θ of the first impact [°]", "contact angle [°]", "normal impulse [m|vₙ|]"],
                ["β, second impact", "γ, third impact", "P₁", "P₂", "P₃"]),
@@ -97,6 +103,21 @@ class Pictures(InFolder):
                 self.assertTrue(500 < height < 1600, height)
                 self.assertGreater(len(picture), 20000)
                 self.assertEqual(os.listdir(self.folder), ["p.png"])
+
+    def test_the_ring_of_tilts_gives_each_outcome_its_share_of_the_circle(self):
+        text, data = self.plotted("sequence", *FACE, "--format", "json")
+        shares = [outcome["share"] for outcome in json.loads(text)["impacts"][0]["outcomes"]]
+        self.assertEqual(len(shares), 4)
+        script = self.read("p.gnuplot")
+        for number, share in enumerate(shares):
+            body = re.search(r"^\$panel3_%d << END\n(.*?)^END$" % number, script, re.M | re.S)[1]
+            outlines = [[tuple(map(float, line.split())) for line in part.splitlines() if not line.startswith("#")]
+                        for part in re.split(r"\n\n", body)]
+            area = sum((a[0] * b[1] - a[1] * b[0]) / 2 for part in outlines for a, b in zip(part, part[1:] + part[:1]))
+            ring = share * math.pi * (1 - 0.62**2)
+            self.assertAlmostEqual(abs(area) / ring, 1, delta=2e-3)  # chords of two degrees
+            self.assertIn("title '%s %%:" % format(100 * share, ".2g"), script)
+        self.assertEqual(len(data["panel3_4"]), 4)
 
     def test_standard_output_is_the_same_with_and_without(self):
         for name in QUICK:
@@ -383,7 +404,7 @@ class Options(unittest.TestCase):
         self.assertRegex(run("completion", "zsh").stdout, r"'--plot\[[^\]]*\]:file:_files'")
         self.assertRegex(run("completion", "fish").stdout, r"-l plot -r -F ")
         page = run("man").stdout
-        self.assertEqual(page.count("\n.TP\n\\&\\-\\-plot\\-script "), 7)
+        self.assertEqual(page.count("\n.TP\n\\&\\-\\-plot\\-script "), 8)
 
 
 if __name__ == "__main__":

@@ -18,6 +18,7 @@ COMMANDS = {
     "sequence": (["sequence", "--angle", "33", "--gravity", "9.81", "--friction", "0.1", "--impacts", "4"], "impacts"),
     "angles": (["angles", "--gravity-number", "0.1"], "rows"),
     "regimes": (["regimes"], "rows"),
+    "atlas": (["atlas", "phone"], "rows"),
     "explain": (["explain", "2", "--angle", "10"], "steps"),
     "simulate": (["simulate", PHONE, "--impacts", "2"], "impacts"),
     "compare": (["compare", PHONE, "--impacts", "1"], "impacts"),

@@ -340,7 +340,9 @@ class Output(Folder):
 
     def test_a_step_too_long_for_the_contact_knows_few_digits(self):
         for row in self.json(self.scene(), "--step", "1e300")["impacts"]:
-            self.assertGreater(row["error_estimate"]["impulse_normal"], 1e-4 * abs(row["impulse_normal"]))
+            error = row["error_estimate"]["impulse_normal"]
+            self.assertEqual(error is None, not row["predictable"])
+            self.assertGreater(math.inf if error is None else error, 1e-4 * abs(row["impulse_normal"]))
 
 
 class History(Folder):
@@ -408,6 +410,19 @@ class Claims(Folder):
         rows = self.case("phone-elastic.toml")["impacts"]
         self.assertEqual([row["predictable"] for row in rows[:3]], [True, True, False])
         self.assertGreater(rows[2]["amplification"], 1e13)
+
+    def test_errors_of_damped_phones_cost_little_more_than_the_runs_and_less_without_their_growth(self):
+        with open(os.path.join(CASES, "phone-damped.toml"), encoding="utf-8") as file:
+            scene = file.read()
+
+        def cost(*keys):
+            path = self.write("phone.toml", scene + "".join("%s = false\n" % key for key in keys))
+            return sum(self.json(path, "--angle", str(angle))["cost"]["force_evaluations"] for angle in (5, 13, 21, 29, 37))
+
+        plain, errors, both = cost("errors", "amplification"), cost("amplification"), cost()
+        self.assertLess(plain, errors)
+        self.assertLess(errors, both)
+        self.assertLess(both, 2.7 * plain)
 
     def test_in_its_plane_the_elastic_phone_can_be_predicted(self):
         self.assertTrue(all(row["predictable"] for row in self.case("phone-elastic.toml", "--planar")["impacts"]))

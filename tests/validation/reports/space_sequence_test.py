@@ -34,6 +34,37 @@ class Sequence(SpaceFolder):
             self.assertAlmostEqual(row["impulse_normal"], (1 + e) * 1 / inverse, delta=1e-14 * row["impulse_normal"])
             self.assertEqual((row["mode"], row["impulse"][:2]), ("frictionless", [0, 0]))
 
+    def test_the_sectors_of_the_outcomes_of_tilts_cover_the_circle_once(self):
+        row = self.json_of("sequence", *FACE, "--attitude=" + words(TURN), "--impacts", "1")["impacts"][0]
+        ends = []
+        for outcome in row["outcomes"]:
+            widths = [high - low for low, high in outcome["tilt_sectors_deg"]]
+            self.assertAlmostEqual(sum(widths), 360 * outcome["share"], delta=1e-9)
+            self.assertGreater(min(widths), 0)
+            ends += [(low % 360, high % 360) for low, high in outcome["tilt_sectors_deg"]]
+        ends.sort()
+        for (_, high), (low, _) in zip(ends, ends[1:] + ends[:1]):
+            self.assertAlmostEqual((high - low + 180) % 360, 180, delta=1e-6)
+
+    def test_the_cases_that_come_to_rest_end_and_their_momentum_balances(self):
+        masses = {"coin": 0.0075, "tube": 0.1934, "needle": 1.578e-4, "cube": 0.0875, "die": 4.83e-3}
+        for case, mass in masses.items():
+            done = self.json_of("sequence", case, status=(0,))
+            self.assertIn(done["outcome"], ("at-rest",) if case in ("cube", "die") else ("sustained-contact",), case)
+            self.assertGreater(len(done["impacts"]), 10)
+            tail, first = done["tail"], done["impacts"][0]
+            arrived = first["velocity_after"][2] - first["impulse"][2] / mass
+            given = done["total_normal_impulse"] / mass
+            self.assertAlmostEqual(tail["velocity_after"][2], arrived + given - 9.81 * tail["end_time"], delta=1e-8, msg=case)
+            energies = [row["energy_after"] for row in done["impacts"]]
+            self.assertEqual(energies, sorted(energies, reverse=True), case)
+        tube = self.json_of("sequence", "tube", "--impacts", "1")["body"]
+        outer, inner = 0.02, 0.018
+        mass = 2700 * math.pi * (outer**2 - inner**2) * 0.3
+        self.assertAlmostEqual(tube["mass"] / mass, 1, delta=1e-3)
+        self.assertAlmostEqual(tube["inertia"][0] / (mass / 2 * (outer**2 + inner**2)), 1, delta=1e-3)
+        self.assertAlmostEqual(tube["inertia"][1] / (mass / 12 * (3 * (outer**2 + inner**2) + 0.3**2)), 1, delta=1e-3)
+
     def test_energy_and_momentum_follow_from_the_impulses(self):
         inertia = [*box_moments(SIZE, MASS), 0, 0, 0]
         rows = self.json_of("sequence", *CORNER, "--impacts", "5", "--gravity", "9.81")["impacts"]

@@ -2,8 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter sweep` as its users meet it: the same file however it came about, rows as the other commands have them."""
 
+import importlib.util
+import json
+import math
 import os
+import shlex
+import shutil
 import signal
+import struct
 import subprocess
 import unittest
 
@@ -12,6 +18,7 @@ from stl_text import stl
 from waiting import until
 
 MPIEXEC = os.environ.get("CLATTER_MPIEXEC", "")
+HDF5 = os.path.exists(os.path.join(os.path.dirname(PROGRAM), "clatter-hdf5.so")) and importlib.util.find_spec("h5py")
 
 THIN_ROD = "[drop]\nangle_deg = 10\n[world]\ngravity = 9.81\n[body]\nradius = 0\n[run]\nimpacts = 4\n"
 PHONE = os.path.join(CASES, "phone-damped.toml")
@@ -419,6 +426,119 @@ class SameBytes(Folder):
                              capture_output=True, text=True, timeout=3000, check=False)
         self.assertNotEqual(bad.returncode, 0)
         self.assertEqual(bad.stderr.count("did you mean"), 1)
+
+    @unittest.skipUnless(MPIEXEC, "a build without MPI")
+    def test_a_killed_process_costs_its_scenes_only(self):
+        arguments = [PHONE, "--set", "drop.angle_deg=3:89:0.05", *QUICK_PHONE]
+        whole = self.sweep(*arguments)
+        command = [PROGRAM, "sweep", *arguments, "--output", self.path("out.csv")]
+        part = self.path("out.csv.part")
+        for count in ("2", "3", "2"):
+            size = os.path.getsize(part) if os.path.exists(part) else 0
+            mpirun = subprocess.Popen([MPIEXEC, "--allow-run-as-root", "--oversubscribe", "-n", count, *command],
+                                      stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            until(lambda: mpirun.poll() is not None or os.path.exists(part) and os.path.getsize(part) > size + 20000)
+            children = subprocess.run(["pgrep", "--parent", str(mpirun.pid)], capture_output=True, text=True, check=False)
+            for child in children.stdout.split()[-1:]:
+                os.kill(int(child), signal.SIGKILL)
+            mpirun.wait(timeout=3000)
+            if os.path.exists(self.path("out.csv")):  # all was written when the process was killed
+                break
+        if not os.path.exists(self.path("out.csv")):
+            self.run_program(*command[1:])
+        self.assertEqual(self.read("out.csv").decode(), whole)
+
+    @unittest.skipUnless(MPIEXEC, "a build without MPI")
+    def test_a_program_without_mpi_does_not_compute_all_scenes_in_each_process(self):
+        alone = os.path.join(self.folder, "clatter")
+        shutil.copy(PROGRAM, alone)
+        result = subprocess.run([MPIEXEC, "--allow-run-as-root", "--oversubscribe", "-n", "2", alone, "sweep", self.scene, "--set",
+                                 "drop.angle_deg=1:2:1"], capture_output=True, text=True, timeout=3000, check=False)
+        self.assertNotEqual(result.returncode, 0)
+        self.assertEqual(result.stdout, "")
+        self.assertIn("install clatter-mpi", result.stderr)
+
+
+class RowsTogether(Folder):
+    """Summaries and HDF5, against the rows as CSV."""
+
+    def numbers(self, text, name):
+        return [float(row[name]) for row in records(text) if row[name]]
+
+    def test_a_summary_has_counts_percentiles_and_extremes_of_the_rows(self):
+        arguments = [self.scene, "--set", "drop.angle_deg=0.5:89:0.5", "--set", "impact.restitution=0.3:1:0.1"]
+        rows = self.sweep(*arguments)
+        summary = json.loads(self.sweep(*arguments, "--summary", "--format", "json"))
+        self.assertEqual([row["quantity"] for row in summary["rows"]],
+                         ["impacts", "total_normal_impulse", "energy_loss", "last_start", "predictable"])
+        for row in summary["rows"][:-1]:
+            values = sorted(self.numbers(rows, row["quantity"]))
+            self.assertEqual((row["count"], row["least"], row["largest"]), (len(values), values[0], values[-1]))
+            for percent in (1, 5, 25, 50, 75, 95, 99):
+                exact = values[-(-percent * len(values) // 100) - 1]
+                error = row["error_estimate"][f"p{percent}"]
+                self.assertLessEqual(abs(row[f"p{percent}"] - exact), error, (row["quantity"], percent))
+                self.assertLessEqual(error, 2.0**-12 * abs(exact))
+            at = [record for record in records(rows) if int(record["index"]) == row["largest_index"]][0]
+            self.assertEqual(float(at[row["quantity"]]), row["largest"])
+        outcomes = {}
+        for row in records(rows):
+            outcomes[row["outcome"]] = outcomes.get(row["outcome"], 0) + 1
+        self.assertEqual(summary["texts"]["outcome"], outcomes)
+
+    def test_the_command_of_an_extreme_shows_it(self):
+        for arguments in ([self.scene, "--set", "drop.angle_deg=5:80:5"],
+                          [os.path.join(CASES, "phone-corner.toml"), "--model", "discrete", "--set", "drop.attitude=uniform",
+                           "--random", "20"]):
+            summary = json.loads(self.sweep(*arguments, "--summary", "--format", "json"))
+            row = [row for row in summary["rows"] if row["quantity"] == "total_normal_impulse"][0]
+            words = shlex.split(row["largest_command"])
+            self.assertEqual(words[:2], ["clatter", "sweep"])
+            impacts = self.numbers(self.sweep(*words[2:]), "impulse_normal")
+            self.assertAlmostEqual(sum(impacts), row["largest"], delta=1e-12 * row["largest"])
+
+    @unittest.skipUnless(HDF5, "a build without HDF5")
+    def test_hdf5_holds_the_numbers_of_csv_bit_for_bit(self):
+        import h5py  # pylint: disable=import-outside-toplevel
+        for arguments in ([self.scene, "--set", "drop.angle_deg=0.5:89:0.5", "--columns", "hardest,end_1"],
+                          [self.scene, "--set", "drop.angle_deg=0.5:89:0.5", "--rows", "impact"],
+                          [self.scene, "--set", "drop.angle_deg=0.0005:60:0.0005"]):
+            rows = records(self.sweep(*arguments))
+            self.assertEqual(self.sweep(*arguments, "--output", self.path("rows.h5")), "")
+            self.assertEqual(sorted(os.listdir(self.folder)), ["rod.toml", "rows.h5"])
+            with h5py.File(self.path("rows.h5")) as file:
+                self.assertEqual(json.loads(file.attrs["scene"])["world"]["gravity"], 9.81)
+                for name in rows[0]:
+                    column = file[name][:]
+                    if name in file.get("words", {}):
+                        texts = [text.decode() for text in file["words"][name][:]] + [""]
+                        self.assertEqual([texts[code] for code in column], [row[name] for row in rows], name)
+                    else:
+                        values = [{"true": 1.0, "false": 0.0, "": math.nan}.get(row[name]) for row in rows]
+                        values = [float(row[name]) if value is None else value for row, value in zip(rows, values)]
+                        self.assertEqual(struct.pack(f"{len(values)}d", *column), struct.pack(f"{len(values)}d", *values), name)
+                self.assertEqual(file["last_start" if "last_start" in file else "start"].attrs["unit"], "s")
+
+    @unittest.skipUnless(HDF5, "a build without HDF5")
+    def test_an_interrupted_sweep_to_hdf5_goes_on(self):
+        arguments = [self.scene, "--set", "drop.angle_deg=0.0004:60:0.0004", "--output", self.path("rows.h5")]
+        process = subprocess.Popen([PROGRAM, "sweep", *arguments], stderr=subprocess.DEVNULL)
+        part = self.path("rows.h5.part")
+        until(lambda: process.poll() is not None or os.path.exists(part) and os.path.getsize(part) > 20000)
+        process.kill()
+        self.assertEqual(process.wait(timeout=3000), -signal.SIGKILL, "too short a sweep to interrupt")
+        self.assertFalse(os.path.exists(self.path("rows.h5")))
+        self.sweep(*arguments)
+        stopped = self.read("rows.h5")
+        self.sweep(*arguments)
+        self.assertEqual(stopped, self.read("rows.h5"))
+
+    def test_what_cannot_be_is_refused_in_a_line(self):
+        arguments = [self.scene, "--set", "drop.angle_deg=10:30:5"]
+        self.assertIn("no rows", self.refuse(*arguments, "--summary", "--output", self.path("rows.h5")))
+        self.assertIn("left out", self.refuse(*arguments, "--format", "csv", "--output", self.path("rows.h5")))
+        self.assertIn("--restart", self.refuse(*arguments, "--summary", "--output", self.path("a.txt"), "--restart"))
+        self.assertEqual(os.listdir(self.folder), ["rod.toml"])
 
 
 class Manners(Folder):

@@ -1,0 +1,224 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`clatter map`: its counts change where the paper's folds are, its pixels are what a sweep has, its picture shows them."""
+
+import math
+import os
+import re
+import signal
+import subprocess
+import unittest
+
+import numpy
+from matplotlib.image import imread
+from run_folder import PROGRAM, ROOT, EmptyFolder, records, run
+from waiting import until
+
+# Of the elastic rod without gravity, to 12 digits by 60-digit bisection.
+FOLDS = {2: 58.488442288312, 3: 27.577809606636}
+ANGLE = ["--over", "drop.angle_deg=0:60"]
+ELASTIC = [*ANGLE, "--over", "drop.speed=1:2"]
+FRICTION = [*ANGLE, "--over", "impact.restitution=0.3:0.9", "--set", "impact.friction=0.1", "--set", "run.impacts=4"]
+
+BAD = {
+    "": "--over",
+    "--over drop.angle_deg=0:60": "--over: must be given twice",
+    "--over drop.angle_deg=0:60 --over impact.restitution=0:1 --samples 3 --quantity impacts=banana": "a number from 1",
+    "--over drop.angle_deg=0:60 --over impact.restitution=0:1 --samples 3 --quantity outcome=end": "did you mean ends?",
+    "--over drop.angle=0:60 --over drop.speed=1:2": "--over drop.angle: unknown key; did you mean drop.angle_deg?",
+    "--over drop.angle_deg=0:60 --over drop.angle_deg=0:60": "twice",
+    "--over drop.angle_deg=60:0 --over drop.speed=1:2": "LOW",
+    "--over drop.angle_deg=0:95 --over drop.speed=1:2": "from 0 to 90",
+    "--over drop.angle_deg=5 --over drop.speed=1:2": "KEY=LOW:HIGH",
+    "--over drop.speed=1:2 --over world.gravity=1:2": "drop.angle_deg",
+    "--over drop.angle_deg=0:60 --over drop.speed=1:2 --size 0x5": "--size",
+    "--over drop.angle_deg=0:60 --over drop.speed=1:2 --size 5": "WIDTHxHEIGHT",
+    "--over drop.angle_deg=0:60 --over drop.speed=1:2 --quantity impact": "did you mean impacts?",
+    "--over drop.angle_deg=0:60 --over drop.speed=1:2 --quantity impacts=2": "--samples N",
+    "--over drop.angle_deg=0:60 --over drop.speed=1:2 --samples 5": "must be a class",
+    "--over drop.angle_deg=0:60 --over drop.speed=1:2 --quantity ratio=2 --samples 5": "must be a class",
+    "--over drop.angle_deg=0:60 --over drop.speed=1:2 --seed 5": "--samples N",
+    "--over drop.angle_deg=0:60 --over drop.speed=1:2 --set world.gravity=1:2": "--samples N",
+    "--over drop.angle_deg=0:60 --over drop.speed=1:2 --threads 0": "--threads",
+    "no-such-case --over drop.angle_deg=0:60 --over drop.speed=1:2": "no-such-case",
+}
+
+
+def expected_count(angle):
+    return 3 if angle < FOLDS[3] else 2 if angle < FOLDS[2] else 1
+
+
+class Map(EmptyFolder):
+    def made(self, name, *arguments):
+        done = run("map", *arguments, "--output", self.path(name))
+        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+        return self.path(name)
+
+    def rows(self, *arguments):
+        self.made("map.csv", *arguments)
+        return records(self.read("map.csv"))
+
+    def test_the_count_changes_at_the_folds(self):
+        rows = self.rows(*ELASTIC, "--size", "240x3")
+        self.assertEqual(len(rows), 720)
+        for row in rows:
+            self.assertEqual(row["impacts"], str(expected_count(float(row["drop.angle_deg"]))), row)
+            self.assertEqual(row["open"], "false")
+
+    def test_a_zoom_to_the_fold_shows_it_between_neighbouring_angles(self):
+        rows = self.rows("--over", f"drop.angle_deg={FOLDS[2] - 1e-9}:{FOLDS[2] + 1e-9}", "--over", "drop.speed=1:2", "--size", "40x1")
+        counts = [row["impacts"] for row in rows]
+        self.assertEqual((counts[:18], counts[22:]), (["2"] * 18, ["1"] * 18))
+
+    def test_pixels_are_the_rows_of_a_sweep(self):
+        for over in (["impact.restitution=0.2:1"], ["impact.impulse_ratio=-0.2:0.2"], ["world.gravity=0.1:2", "--set", "run.impacts=3"]):
+            with self.subTest(over=over):
+                for row in self.rows(*ANGLE, "--over", *over, "--size", "7x5", "--quantity", "total"):
+                    names = list(row)
+                    sets = [text for name in names[:2] for text in ("--set", f"{name}={row[name]}")]
+                    alone, = records(run("sweep", "--model", "discrete", self.write("rod.toml", ""), *sets,
+                                         *([] if "--set" in over else ["--set", "run.impacts=100"]), *over[1:]).stdout)
+                    error = float(alone["total_normal_impulse_error"] or "inf")
+                    self.assertLessEqual(abs(float(row["total"]) - float(alone["total_normal_impulse"])), error, (row, alone))
+
+    def test_drops_with_friction_and_in_space_are_those_of_a_sweep(self):
+        for scene, arguments in (("", FRICTION), ("phone-corner", ["--over", "drop.height=0.5:2", "--over", "impact.restitution=0.2:0.9",
+                                                                   "--set", "run.impacts=3"])):
+            with self.subTest(scene=scene):
+                rows = self.rows(*[scene][:len(scene)], *arguments, "--size", "4x3", "--quantity", "largest")
+                for row in rows:
+                    sets = [text for name in list(row)[:2] for text in ("--set", f"{name}={row[name]}")]
+                    given = [text for text in arguments if text.startswith(("impact.friction", "run."))]
+                    alone, = records(run("sweep", "--model", "discrete", scene or self.write("rod.toml", ""), *sets,
+                                         *[text for one in given for text in ("--set", one)], "--columns", "hardest_impulse_normal"
+                                         if not scene else "hardest_impulse_z").stdout)
+                    hardest = [value for name, value in alone.items() if name in ("hardest_impulse_normal", "hardest_impulse_z")]
+                    self.assertEqual([row["largest"]], hardest, alone)
+
+    def test_the_array_holds_what_the_csv_has(self):
+        for quantity, kind in (("impacts", "f"), ("ratio", "f"), ("last_end", "S")):
+            rows = self.rows(*ELASTIC, "--size", "30x4", "--quantity", quantity)
+            array = numpy.load(self.made("map.npy", *ELASTIC, "--size", "30x4", "--quantity", quantity))
+            self.assertEqual((array.shape, array.dtype.kind), ((4, 30), kind))
+            texts = [row[quantity] for row in rows]
+            found = [value.decode() for value in array.ravel()] if kind == "S" else array.ravel()
+            numpy.testing.assert_array_equal(found, texts if kind == "S" else [float(text or "nan") for text in texts])
+
+    def test_the_picture_has_the_classes_colours_and_the_fold_between_them(self):
+        image = imread(self.made("map.png", *ELASTIC, "--size", "600x300"))[..., :3]
+        with open(os.path.join(ROOT, "validation/output/palette.hpp"), encoding="utf-8") as file:
+            palette = re.search(r"classes\{(.*?)\}", file.read(), re.DOTALL).group(1)
+        colours = [tuple(int(text[i:i + 2], 16) for i in (0, 2, 4)) for text in re.findall(r"#(\w{6})", palette)]
+        pixels = numpy.rint(image * 255).astype(int)
+        row = [tuple(pixel) for pixel in pixels[len(pixels) // 2].tolist()]
+        left = round(115 * 0.75)
+        for angle in (10, 20, 35, 50):
+            self.assertEqual(row[left + round(angle * 10)], colours[expected_count(angle) - 1], angle)
+        for fold in FOLDS.values():
+            middle = left + round(fold * 10)
+            near = pixels[100:200, middle - 3:middle + 4].sum(axis=2)  # some rows: one of the curves is dashed
+            self.assertLess(near.min(), 250, f"no dark curve at {fold}")
+
+    def test_samples_give_the_part_of_the_class_with_wilsons_interval(self):
+        arguments = ["--over", "drop.speed=1:2", "--over", "body.length=1:2", "--set", "drop.angle_deg=0:60", "--samples", "200",
+                     "--quantity", "impacts=3", "--size", "20x10"]
+        rows = self.rows(*arguments)
+        exact, covered, z = FOLDS[3] / 60, 0, 1.959963984540054
+        for row in rows:
+            part, low, high = (float(row[name]) for name in ("probability", "low", "high"))
+            # The ends are where the part is z standard deviations away.
+            for end in (low, high):
+                self.assertAlmostEqual(abs(part - end), z * math.sqrt(end * (1 - end) / 200), delta=1e-12)
+            covered += low <= exact <= high
+        self.assertGreaterEqual(covered, 0.9 * len(rows))
+        self.assertLess(covered, len(rows), "no interval misses: they are too wide, or the drops are not random")
+        array = numpy.load(self.made("map.npy", *arguments))
+        self.assertEqual(array.shape, (3, 10, 20))
+        self.assertEqual(array[0].ravel().tolist(), [float(row["probability"]) for row in rows])
+        self.assertNotEqual(rows, self.rows(*arguments, "--seed", "2"))
+
+    def test_threads_do_not_matter(self):
+        for name in ("map.csv", "map.npy"):
+            found = set()
+            for threads in ("1", "3"):
+                with open(self.made(name, *FRICTION, "--size", "40x30", "--threads", threads), "rb") as file:
+                    found.add(file.read())
+            self.assertEqual(len(found), 1)
+
+    def test_an_interrupted_map_goes_on_with_the_same_bytes(self):
+        arguments = ["map", *FRICTION, "--size", "900x600", "--threads", "1", "--output"]
+        for name in ("map.npy", "map.csv"):
+            running = subprocess.Popen([PROGRAM, *arguments, self.path(name)], stderr=subprocess.PIPE, text=True)
+            until(lambda: os.path.exists(self.path(name + ".part")) and os.path.getsize(self.path(name + ".part")) > 10000)
+            running.send_signal(signal.SIGINT)
+            words = running.communicate()[1]
+            self.assertEqual(running.returncode, 130, words)
+            self.assertIn("the same command goes on", words)
+            self.assertFalse(os.path.exists(self.path(name)))
+            self.assertEqual(run(*arguments, self.path(name)).returncode, 0)
+            self.assertFalse(os.path.exists(self.path(name + ".part")))
+            other = "again" + name[-4:]
+            self.assertEqual(run(*arguments, self.path(other)).returncode, 0)
+            with open(self.path(name), "rb") as one, open(self.path(other), "rb") as two:
+                self.assertEqual(one.read(), two.read())
+
+    def test_counts_are_not_capped_unless_run_impacts_is_given(self):
+        arguments = ["--over", "drop.angle_deg=5:6", "--over", "impact.restitution=0.05:0.06", "--size", "2x2"]
+        self.assertEqual({row["impacts"] for row in self.rows(*arguments)}, {"infinite"})
+        self.assertEqual({row["impacts"] for row in self.rows(*arguments, "--set", "run.impacts=3")}, {">=3"})
+
+    def test_refused_drops_are_a_class_and_no_number(self):
+        arguments = ["--over", "drop.angle_deg=50:70", "--over", "impact.impulse_ratio=1:3", "--size", "8x8"]
+        classes = {row["outcome"] for row in self.rows(*arguments, "--quantity", "outcome")}
+        self.assertIn("outside-model", classes)
+        numbers = [row["total"] for row in self.rows(*arguments, "--quantity", "total")]
+        self.assertIn("", numbers)
+
+    def test_bad_input_is_one_line_and_writes_nothing(self):
+        for text, words in BAD.items():
+            with self.subTest(text):
+                done = run("map", *text.split(), "--output", self.path("map.csv"))
+                self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
+                self.assertIn(words, done.stderr)
+                self.assertEqual(os.listdir(self.folder), [])
+        for output in ([], ["--output", self.path("map.svg")], ["--output", "-"]):
+            done = run("map", *ELASTIC, *output)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+            self.assertIn("--output", done.stderr)
+
+
+class Palette(unittest.TestCase):
+    def test_page_and_notebooks_have_the_palettes_colours(self):
+        def text(path):
+            with open(os.path.join(ROOT, path), encoding="utf-8") as file:
+                return file.read()
+        palette = dict(re.findall(r"\*(\w+) = \"(#\w{6})\"", text("validation/output/palette.hpp")))
+        page = dict(re.findall(r"^  (\w+): \"(#\w{6})\"", text("validation/demo/page/colours.ts"), re.MULTILINE))
+        for of_page, name in (("discrete", "discrete"), ("continuous", "continuous"), ("beta", "beta"), ("gamma", "gamma"),
+                              ("speed", "ground"), ("tangential", "sky")):
+            self.assertEqual(page[of_page], palette[name])
+        look = re.search(r"PALETTE = \((.*)\)", text("notebooks-data/look.py")).group(1)
+        self.assertEqual(re.findall(r"#\w{6}", look),
+                         [palette[name] for name in ("discrete", "continuous", "ground", "gamma", "ochre", "sky")])
+
+    def test_classes_and_numbers_stay_apart_in_grey(self):
+        with open(os.path.join(ROOT, "validation/output/palette.hpp"), encoding="utf-8") as file:
+            text = file.read()
+        for name, step in (("classes", 0.02), ("numbers", 0.08)):
+            colours = re.findall(r"#\w{6}", re.search(name + r"\{(.*?)\}", text, re.DOTALL).group(1))
+            lightness = [grey(colour) for colour in colours]
+            steps = [abs(b - a) for a, b in zip(lightness, lightness[1:])]
+            self.assertIn(lightness, (sorted(lightness), sorted(lightness, reverse=True)))
+            self.assertGreater(min(steps), step, list(zip(colours, lightness)))
+
+
+def grey(colour):
+    """CIE lightness of sRGB over 100."""
+    parts = [int(colour[i:i + 2], 16) / 255 for i in (1, 3, 5)]
+    linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
+    light = sum(weight * part for weight, part in zip((0.2126, 0.7152, 0.0722), linear))
+    return 1.16 * light ** (1 / 3) - 0.16
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "validation/cli/command.hpp"
+#include "validation/cli/options.hpp"
+#include "validation/cli/processes.hpp"
+#include "validation/cli/progress.hpp"
+#include "validation/figures/gnuplot.hpp"
+#include "validation/map/map_picture.hpp"
+#include "validation/output/bad_input.hpp"
+#include "validation/output/interrupt.hpp"
+#include "validation/output/sink.hpp"
+#include "validation/sweep/sweep_file.hpp"
+
+namespace clatter::validation::inline cli {
+namespace {
+
+struct MapInput {
+  MapRequest request;
+  std::optional<std::string> output, threads;
+  bool restart = false;
+};
+
+enum class MapFile { png, npy, csv };
+
+MapFile file_kind(const std::string& path) {
+  const std::vector<std::string> endings{".png", ".npy", ".csv"};
+  for (std::size_t i = 0; i < endings.size(); ++i) {
+    if (path.ends_with(endings[i])) return static_cast<MapFile>(i);
+  }
+  throw BadInput(fmt::format("--output {}: must end in .png, .npy or .csv", path));
+}
+
+/// The file of a map, whose rows are kept in FILE.part until all are there.
+class MapOutput {
+ public:
+  MapOutput(const MapInput& input, const MapPlan& plan)
+      : plan_(plan), path_(*input.output), kind_(file_kind(path_)),
+        file_(path_, {csv_head(plan.report(), false), plan.rows}, input.restart) {
+    if (!is_csv()) file_.with_rows([this](std::string_view rows) { keep_all(rows); });
+  }
+
+  [[nodiscard]] bool is_csv() const { return kind_ == MapFile::csv; }
+  [[nodiscard]] long long first() const { return file_.scenes(); }
+
+  void write(const RangeRows& rows) {
+    file_.write(rows.text, rows.scenes);
+    if (!is_csv()) keep_all(rows.text);
+  }
+
+  /// The part goes last: a picture that fails to be drawn or written needs it again.
+  void commit() {
+    if (is_csv()) return file_.commit();
+    const std::string made = kind_ == MapFile::png ? map_picture(plan_, image_) : map_array(plan_, image_);
+    const long long open = image_.open();
+    if (open > 0)
+      say(fmt::format("{} of {} pixels are left open by rounding or a fold", open, plan_.columns * plan_.rows));
+    Sink sink(path_);
+    sink.write(made);
+    sink.commit();
+    file_.discard();
+  }
+
+  void leave() { file_.flush(); }
+
+ private:
+  void keep_all(std::string_view rows) {
+    for (; !rows.empty(); rows.remove_prefix(rows.find('\n') + 1)) {
+      image_.rows.push_back(read_map_row(std::string(rows.substr(0, rows.find('\n') + 1))));
+    }
+  }
+
+  const MapPlan& plan_;
+  std::string path_;
+  MapFile kind_;
+  MapImage image_;
+  SweepFile file_;
+};
+
+void check_map_output(const MapInput& input) {
+  if (!input.output) throw BadInput("--output: must be given, FILE.png, FILE.npy or FILE.csv");
+  if (file_kind(*input.output) == MapFile::png) require_gnuplot("--output " + *input.output, "pngcairo");
+  if (destination_of({"--output", *input.output}).is_stream) {
+    throw BadInput(fmt::format("--output {}: must be a file, which a map is written to as it grows", *input.output));
+  }
+  note_written({"--output", *input.output});
+  for (const RunFile& file : SweepFile::files_beside(*input.output)) note_written(file);
+}
+
+/// The part of the process that writes.
+int write_map(const MapInput& input, const MapPlan& plan, int threads, const MakeCompute& make, Ranks& ranks) {
+  const CooperativeInterrupt interrupt;
+  MapOutput output(input, plan);
+  RangeQueue queue({output.first(), plan.rows - output.first()}, map_range(plan));
+  Progress progress;
+  SweepHooks hooks;
+  hooks.write = [&](const RangeRows& rows) { output.write(rows); };
+  hooks.tick = [&] {
+    output.write({});
+    progress.show(progress_bar(static_cast<std::size_t>(queue.taken()), static_cast<std::size_t>(plan.rows)));
+  };
+  hooks.stop = [&] { return interrupt.requested(); };
+  compute_ranges(queue, threads, make, hooks, ranks);
+  if (queue.is_complete()) {
+    output.commit();
+    return 0;
+  }
+  output.leave();
+  say(fmt::format("interrupted after {} of {} rows; the same command goes on", queue.taken(), plan.rows));
+  return interrupted_status;
+}
+
+int run_map(const MapInput& input, Ranks& ranks) {
+  const MapPlan plan = read_map_plan(input.request);
+  const int threads = read_threads(input.threads, ranks);
+  check_map_output(input);
+  const SweepBody body = plan.sweep.body_values.empty() ? make_sweep_body(plan.sweep, plan.sweep.scene) : SweepBody{};
+  const bool is_csv = file_kind(*input.output) == MapFile::csv;
+  const MakeCompute make = map_runners(plan, body, is_csv ? MapForm::csv : MapForm::compact);
+  return ranks.writes() ? write_map(input, plan, threads, make, ranks) : serve_ranges(make, ranks);
+}
+
+constexpr const char* map_footer =
+    "Example: clatter map --over drop.angle_deg=0:60 --over impact.restitution=0:1 --quantity impacts --output "
+    "map.png\n"
+    "Example: clatter map phone-corner --over drop.height=0.5:2 --over impact.restitution=0.2:0.9 "
+    "--set drop.attitude=uniform --samples 200 --quantity impacts=3 --size 80x60 --output phone.png\n"
+    "Without SCENE a thin rod drops. Each pixel is the drop at its middle, by the discrete model; curves are the folds "
+    "of clatter regimes,\n"
+    "computed as such. Planar drops without friction, or with an impulse ratio, take the batch, millions in a second.\n"
+    "Up to 100 impacts are followed unless run.impacts is given. A pixel that rounding or a fold leaves open is marked "
+    "and counted.\n"
+    "With --samples N each pixel is the part of N drops that are of the class, random in what --set KEY=LOW:HIGH "
+    "leaves open; CSV and\n"
+    "NPY have Wilson's interval beside it. An interrupted map goes on when the same command is given again.";
+
+}  // namespace
+
+Command map_command() {
+  auto input = std::make_shared<MapInput>();
+  Command command{.name = "map", .help = "a picture of outcomes over two keys"};
+  MapRequest& request = input->request;
+  add_scene_argument(command, request.file, false);
+  command.add({.name = "--over",
+               .target = &request.over,
+               .type = "KEY=LOW:HIGH[:log]",
+               .help = "range of a key of the scene file; given twice, across and upward",
+               .repeats = true});
+  command.add({.name = "--set",
+               .target = &request.sets,
+               .type = "KEY=VALUE|LOW:HIGH",
+               .help = "value of another key; with --samples a range, too, or drop.attitude=uniform",
+               .repeats = true});
+  std::string names;
+  for (const MapQuantity& quantity : map_quantities()) names += (names.empty() ? "" : "|") + std::string(quantity.name);
+  command.add_text("--quantity", request.quantity, names, "what the colours show (impacts); with --samples NAME=CLASS");
+  command.add_text("--size", request.size, "WIDTHxHEIGHT", "pixels of the map (800x600)");
+  command.add_text("--samples", request.samples, "N",
+                   "random drops for each pixel, of which the class's part is shown");
+  command.add_text("--seed", request.seed, "S", "of the random drops (1)");
+  command.add_text("--output", input->output, "FILE", ".png (needs gnuplot), .npy or .csv");
+  add_process_options(command, input->restart, input->threads);
+  command.footer = map_footer;
+  command.run = [input] { return run_in_processes([&](Ranks& ranks) { return run_map(*input, ranks); }); };
+  return command;
+}
+
+}  // namespace clatter::validation::inline cli

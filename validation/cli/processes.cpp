@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/cli/processes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "validation/cli/options.hpp"
+#include "validation/output/bad_input.hpp"
+#include "validation/output/interrupt.hpp"
+
+namespace clatter::validation::inline cli {
+
+int run_in_processes(const std::function<int(Ranks& ranks)>& command) {
+  Ranks ranks;
+  try {
+    return command(ranks);
+  } catch (const std::exception&) {
+    if (ranks.writes()) throw;
+    return 0;
+  }
+}
+
+void add_process_options(Command& command, bool& restart, std::optional<std::string>& threads) {
+  command.add_flag("--restart", restart, "begin anew where FILE.part is there, instead of going on");
+  command.add_text("--threads", threads, "N", "computing threads (all cores)");
+}
+
+int read_threads(const std::optional<std::string>& given, const Ranks& ranks) {
+  if (!given) return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int threads = read_integer_option("--threads", *given, 1, 1024);
+  if (!ranks.several()) return threads;
+  throw BadInput(fmt::format("--threads {}: must be left out under mpirun, where each process is one thread", threads));
+}
+
+void compute_ranges(RangeQueue& queue, int threads, const MakeCompute& make, const SweepHooks& hooks, Ranks& ranks) {
+  if (ranks.several()) ranks.hand_out(queue, make, hooks);
+  else run_on_threads(queue, threads, make, hooks);
+}
+
+int serve_ranges(const MakeCompute& make, Ranks& ranks) {
+  const CooperativeInterrupt interrupt;
+  ranks.serve(make([&] { return interrupt.requested(); }));
+  return interrupt.requested() ? interrupted_status : 0;
+}
+
+}  // namespace clatter::validation::inline cli

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/output/cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "validation/output/number.hpp"
+#include "validation/output/report.hpp"
+
+namespace clatter::validation::inline output {
+
+void CellWriter::pack(double value) {
+  char bytes[1 + sizeof value] = {'d'};
+  std::memcpy(bytes + 1, &value, sizeof value);
+  out_.append(bytes, sizeof bytes);
+}
+
+void CellWriter::number(double value) {
+  if (packed_ && std::isfinite(value)) return pack(value + 0.0);
+  out_ += packed_ ? '-' : ',';
+  if (!packed_) append_number(out_, value);
+}
+
+void CellWriter::whole(long long value) {
+  if (packed_) return pack(static_cast<double>(value));
+  out_ += ',';
+  out_ += std::to_string(value);
+}
+
+void CellWriter::truth(bool value) {
+  if (packed_) return pack(value ? 1 : 0);
+  out_ += value ? ",true" : ",false";
+}
+
+void CellWriter::word(std::string_view text) {
+  if (text.empty()) return nothing();
+  if (!packed_) {
+    const auto is_plain = [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == ' ';
+    };
+    out_ += ',';
+    if (std::all_of(text.begin(), text.end(), is_plain)) out_ += text;
+    else out_ += csv_text(std::string(text));
+    return;
+  }
+  const auto size = static_cast<std::uint32_t>(text.size());
+  char head[1 + sizeof size] = {'w'};
+  std::memcpy(head + 1, &size, sizeof size);
+  out_.append(head, sizeof head);
+  out_ += text;
+}
+
+void CellWriter::nothing(std::size_t cells) { out_.append(cells, packed_ ? '-' : ','); }
+
+bool PackedRows::read(PackedCell& cell, std::string_view& from) const {
+  cell = {std::numeric_limits<double>::quiet_NaN(), {}};
+  if (from.empty()) return false;
+  const char kind = from.front();
+  from.remove_prefix(1);
+  if (kind == '-') return true;
+  std::uint32_t size = 0;
+  const std::size_t width = kind == 'd' ? sizeof cell.number : sizeof size;
+  if (from.size() < width) return false;
+  std::memcpy(kind == 'd' ? static_cast<void*>(&cell.number) : &size, from.data(), width);
+  from.remove_prefix(width);
+  if (from.size() < size) return false;
+  cell.is_text = kind == 'w';
+  cell.text = from.substr(0, size);
+  from.remove_prefix(size);
+  return true;
+}
+
+bool PackedRows::next(std::vector<PackedCell>& row) {
+  std::string_view from = rest_;
+  for (PackedCell& cell : row) {
+    if (!read(cell, from)) return false;
+  }
+  rest_ = from;
+  return true;
+}
+
+}  // namespace clatter::validation::inline output

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The module that writes HDF5.
+#include <hdf5.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <unordered_map>
+#include <utility>
+
+#include "validation/sweep/column_file.hpp"
+
+namespace clatter::validation::inline sweep {
+namespace {
+
+constexpr hsize_t chunk_rows = 65536;
+
+/// An identifier of the library, given back at the end.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
+    if (id < 0) throw std::runtime_error("the HDF5 file cannot be written");
+  }
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Handle& operator=(Handle&&) = delete;
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  operator hid_t() const { return id_; }  // NOLINT: the library's functions take it as it is
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+void require(herr_t status) {
+  if (status < 0) throw std::runtime_error("the HDF5 file cannot be written");
+}
+
+Handle text_type() {
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  require(H5Tset_size(type, H5T_VARIABLE));
+  require(H5Tset_cset(type, H5T_CSET_UTF8));
+  return type;
+}
+
+void write_attribute(hid_t object, const std::string& name, const std::string& text) {
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose), type = text_type();
+  const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const char* const bytes = text.c_str();
+  require(H5Awrite(attribute, type, &bytes));
+}
+
+/// One column: its dataset, and the rows that were not written yet.
+class Dataset {
+ public:
+  Dataset(hid_t file, const Column& column) : file_(file), column_(column) {}
+
+  void add(const PackedCell& cell) {
+    if (column_.words) {
+      const auto next = static_cast<std::int32_t>(words_.size());
+      codes_.push_back(cell.is_text ? words_.try_emplace(std::string(cell.text), next).first->second : -1);
+    } else {
+      numbers_.push_back(cell.number);
+    }
+    if (std::max(codes_.size(), numbers_.size()) == chunk_rows) flush();
+  }
+
+  void close() {
+    flush();
+    if (!column_.words) return;
+    std::vector<const char*> texts(words_.size());
+    for (const auto& [text, code] : words_) texts[static_cast<std::size_t>(code)] = text.c_str();
+    const hsize_t count = texts.size();
+    const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose), type = text_type();
+    const Handle options(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    require(H5Pset_obj_track_times(options, false));
+    const Handle words(
+        H5Dcreate2(file_, ("words/" + column_.name).c_str(), type, space, H5P_DEFAULT, options, H5P_DEFAULT), H5Dclose);
+    if (count > 0) require(H5Dwrite(words, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data()));
+  }
+
+ private:
+  /// Whole numbers, texts and errors of two digits compress well; what measures something has random last bits.
+  [[nodiscard]] bool is_compressible() const {
+    const auto is_whole = [](double number) { return !std::isfinite(number) || number == std::floor(number); };
+    return column_.words || column_.name.ends_with("_error") || std::all_of(numbers_.begin(), numbers_.end(), is_whole);
+  }
+
+  void create() {
+    const hsize_t none = 0, most = H5S_UNLIMITED;
+    const Handle space(H5Screate_simple(1, &none, &most), H5Sclose), options(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    require(H5Pset_chunk(options, 1, &chunk_rows));
+    require(H5Pset_obj_track_times(options, false));  // the same rows are the same bytes
+    if (is_compressible()) {
+      require(H5Pset_shuffle(options));
+      require(H5Pset_deflate(options, 1));
+    }
+    dataset_.emplace(H5Dcreate2(file_, column_.name.c_str(), column_.words ? H5T_STD_I32LE : H5T_IEEE_F64LE, space,
+                                H5P_DEFAULT, options, H5P_DEFAULT),
+                     H5Dclose);
+    write_attribute(*dataset_, "unit", column_.unit);
+    write_attribute(*dataset_, "meaning", column_.meaning);
+  }
+
+  void flush() {
+    if (!dataset_) create();
+    const hsize_t count = std::max(codes_.size(), numbers_.size()), first = std::exchange(rows_, rows_ + count);
+    if (count == 0) return;
+    require(H5Dset_extent(*dataset_, &rows_));
+    const Handle memory(H5Screate_simple(1, &count, nullptr), H5Sclose), place(H5Dget_space(*dataset_), H5Sclose);
+    require(H5Sselect_hyperslab(place, H5S_SELECT_SET, &first, nullptr, &count, nullptr));
+    const void* const rows = column_.words ? static_cast<const void*>(codes_.data()) : numbers_.data();
+    require(
+        H5Dwrite(*dataset_, column_.words ? H5T_NATIVE_INT32 : H5T_NATIVE_DOUBLE, memory, place, H5P_DEFAULT, rows));
+    codes_.clear();
+    numbers_.clear();
+  }
+
+  hid_t file_;
+  Column column_;
+  std::optional<Handle> dataset_;
+  hsize_t rows_ = 0;
+  std::vector<double> numbers_;
+  std::vector<std::int32_t> codes_;
+  std::unordered_map<std::string, std::int32_t> words_;
+};
+
+class Hdf5File final : public ColumnFile {
+ public:
+  Hdf5File(const std::string& path, const ColumnFileHead& head)
+      : file_(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose) {
+    for (const auto& [name, text] : head.attributes) write_attribute(file_, name, text);
+    const Handle options(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+    require(H5Pset_obj_track_times(options, false));
+    const Handle words(H5Gcreate2(file_, "words", H5P_DEFAULT, options, H5P_DEFAULT), H5Gclose);
+    datasets_.reserve(head.columns.size());
+    for (const Column& column : head.columns) datasets_.emplace_back(file_, column);
+  }
+
+  void add(const std::vector<PackedCell>& row) override {
+    for (std::size_t i = 0; i < datasets_.size(); ++i) datasets_[i].add(row[i]);
+  }
+  void close() override {
+    for (Dataset& dataset : datasets_) dataset.close();
+    require(H5Fflush(file_, H5F_SCOPE_GLOBAL));
+  }
+
+ private:
+  Handle file_;
+  std::vector<Dataset> datasets_;
+};
+
+}  // namespace
+}  // namespace clatter::validation::inline sweep
+
+extern "C" clatter::validation::ColumnFile* clatter_open_hdf5(const std::string& path,
+                                                              const clatter::validation::ColumnFileHead& head) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // failures are told once, by who catches them
+  return new clatter::validation::Hdf5File(path, head);
+}

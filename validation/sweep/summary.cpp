@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/sweep/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <stdexcept>
+
+namespace clatter::validation::inline sweep {
+namespace {
+
+/// The sign, the exponent and the first twelve bits of the fraction, in the order of the numbers.
+long long bin_of(double number) {
+  constexpr int dropped_bits = 40;
+  const auto bits = std::bit_cast<std::int64_t>(std::fabs(number)) >> dropped_bits;
+  return number < 0 ? -1 - bits : bits;
+}
+
+std::string percent_name(double percent) { return fmt::format("p{:g}", percent); }
+
+bool is_summarised(const Column& column) { return !column.words && !column.name.ends_with("_error"); }
+
+}  // namespace
+
+void Histogram::add(double number) {
+  Bin& bin = bins_[bin_of(number)];
+  bin.least = bin.count == 0 ? number : std::min(bin.least, number);
+  bin.largest = bin.count == 0 ? number : std::max(bin.largest, number);
+  ++bin.count;
+  ++count_;
+}
+
+Estimated Histogram::percentile(double part) const {
+  if (count_ == 0) throw std::invalid_argument("Histogram::percentile: no numbers");
+  const std::map<long long, Bin> ordered(bins_.begin(), bins_.end());
+  const auto rank = std::clamp(static_cast<long long>(std::ceil(part * static_cast<double>(count_))), 1LL, count_);
+  long long before = 0;
+  auto bin = ordered.begin();
+  while (before + bin->second.count < rank) before += (bin++)->second.count;
+  const double middle = bin->second.least / 2 + bin->second.largest / 2;
+  return {middle, std::max(middle - bin->second.least, bin->second.largest - middle)};
+}
+
+Summary::Summary(std::vector<Column> columns, std::size_t swept)
+    : columns_(std::move(columns)), first_(1 + swept), numbers_(columns_.size()), texts_(columns_.size()),
+      row_(columns_.size()) {}
+
+void Summary::add(std::string_view rows) {
+  for (PackedRows packed(rows); packed.next(row_);) {
+    const auto index = static_cast<long long>(row_.front().number);
+    for (std::size_t i = first_; i < row_.size(); ++i) {
+      const PackedCell& cell = row_[i];
+      if (cell.is_text) ++texts_[i][std::string(cell.text)];
+      if (!std::isfinite(cell.number) || !is_summarised(columns_[i])) continue;
+      Numbers& numbers = numbers_[i];
+      const bool first = numbers.histogram.count() == 0;
+      if (first || cell.number < numbers.least.value) numbers.least = {cell.number, index};
+      if (first || cell.number > numbers.largest.value) numbers.largest = {cell.number, index};
+      numbers.histogram.add(cell.number);
+    }
+  }
+}
+
+std::vector<Column> Summary::columns() {
+  std::vector<Column> columns{word_column("quantity", "quantity", "column of the sweep's rows"),
+                              word_column("unit", "unit", "its unit"),
+                              {"count", "count", "", "rows that have it"},
+                              {"least", "least", "", "least value"}};
+  std::vector<Column> errors;
+  for (const double percent : summary_percents) {
+    const bool shown = percent == 5 || percent == 50 || percent == 95;
+    columns.push_back({percent_name(percent), fmt::format("{:g} %", percent), "",
+                       fmt::format("value that {:g} % of them do not exceed", percent), shown});
+    errors.push_back(error_column(columns.back()));
+  }
+  columns.push_back({"largest", "largest", "", "largest value"});
+  columns.push_back({"least_index", "least at", "", "scene that has the least value", false});
+  columns.push_back({"largest_index", "largest at", "", "scene that has the largest value", false});
+  columns.insert(columns.end(), errors.begin(), errors.end());
+  for (const char* extreme : {"least", "largest"}) {
+    Column command = word_column(fmt::format("{}_command", extreme), "command",
+                                 fmt::format("command that shows the scene with the {} value", extreme));
+    command.shown = false;
+    columns.push_back(command);
+  }
+  return columns;
+}
+
+void Summary::add_number(Report& report, std::size_t column, const std::string& least,
+                         const std::string& largest) const {
+  const Numbers& numbers = numbers_[column];
+  Row row{Cell(columns_[column].name), Cell(columns_[column].unit), Cell(numbers.histogram.count()),
+          Cell(numbers.least.value, 6)};
+  Row errors;
+  for (const double percent : summary_percents) {
+    const Estimated value = numbers.histogram.percentile(percent / 100);
+    row.push_back(known_cell(value, {}));
+    errors.emplace_back(rounded_up(value.error));
+  }
+  row.insert(row.end(), {Cell(numbers.largest.value, 6), Cell(numbers.least.index), Cell(numbers.largest.index)});
+  row.insert(row.end(), errors.begin(), errors.end());
+  row.insert(row.end(), {Cell(least), Cell(largest)});
+  report.notes.push_back(fmt::format("largest {}: {}", columns_[column].name, largest));
+  report.grid.rows.push_back(std::move(row));
+}
+
+void Summary::add_texts(Report& report) const {
+  report.fields["texts"] = Value(Value::Fields{});
+  for (std::size_t i = 0; i < texts_.size(); ++i) {
+    if (texts_[i].empty()) continue;
+    Value counts(Value::Fields{});
+    std::string words;
+    for (const auto& [text, count] : std::map<std::string, long long>(texts_[i].begin(), texts_[i].end())) {
+      counts[text] = count;
+      if (columns_[i].name != "reason") words += fmt::format("{}{} {}", words.empty() ? "" : ", ", text, count);
+    }
+    report.fields["texts"][columns_[i].name] = counts;
+    if (!words.empty()) report.notes.insert(report.notes.begin(), fmt::format("{}: {}", columns_[i].name, words));
+  }
+}
+
+}  // namespace clatter::validation::inline sweep

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a sweep says of all its rows together, where they are too many to be kept.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "validation/output/cells.hpp"
+#include "validation/output/estimated.hpp"
+#include "validation/output/report.hpp"
+
+namespace clatter::validation::inline sweep {
+
+/// Counts numbers in bins of a relative width of 2⁻¹², each with the least and the largest of its numbers.
+class Histogram {
+ public:
+  void add(double number);
+  [[nodiscard]] long long count() const { return count_; }
+  /// The number that a part of all numbers does not exceed, part in (0, 1]: the middle of what its bin holds.
+  /// `error` bounds its distance from the exact one: half of what the bin spans, 0 where that is a single number.
+  /// @throws std::invalid_argument without numbers
+  [[nodiscard]] Estimated percentile(double part) const;
+
+ private:
+  struct Bin {
+    long long count = 0;
+    double least = 0, largest = 0;
+  };
+  std::unordered_map<long long, Bin> bins_;
+  long long count_ = 0;
+};
+
+/// The percentiles that a summary lists.
+inline constexpr double summary_percents[]{1, 5, 25, 50, 75, 95, 99};
+
+/// Takes rows, keeps for each column of numbers their count, percentiles and extremes, for each column of texts how
+/// often each occurs.  The order of the rows changes nothing; of equal extremes the first row's is kept.
+class Summary {
+ public:
+  /// @param swept  how many columns after the first are keys that were swept, which nobody needs to be told
+  Summary(std::vector<Column> columns, std::size_t swept);
+
+  /// Takes whole packed rows, whose first cell is the scene's number.
+  void add(std::string_view rows);
+  /// Puts the summary into a report that has its head: a row for each number, `texts` in JSON, and a note for each
+  /// text.
+  /// @param command  the command that shows a scene, of its number
+  template <class Command>
+  void fill(Report& report, const Command& command) const {
+    for (std::size_t i = 0; i < numbers_.size(); ++i) {
+      if (numbers_[i].histogram.count() > 0)
+        add_number(report, i, command(numbers_[i].least.index), command(numbers_[i].largest.index));
+    }
+    add_texts(report);
+  }
+  /// The columns of fill()'s rows.
+  [[nodiscard]] static std::vector<Column> columns();
+
+ private:
+  struct Extreme {
+    double value = 0;
+    long long index = 0;
+  };
+  struct Numbers {
+    Histogram histogram;
+    Extreme least, largest;
+  };
+  using Texts = std::unordered_map<std::string, long long>;
+
+  void add_number(Report& report, std::size_t column, const std::string& least, const std::string& largest) const;
+  void add_texts(Report& report) const;
+
+  std::vector<Column> columns_;
+  std::size_t first_;  ///< column that is summarised
+  std::vector<Numbers> numbers_;
+  std::vector<Texts> texts_;
+  std::vector<PackedCell> row_;
+};
+
+}  // namespace clatter::validation::inline sweep
