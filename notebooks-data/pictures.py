@@ -173,8 +173,9 @@ EXTREMES = Source("extremes.csv", ("extremes", "--quick"), ("axis", "model", "la
 MODELS = ("closed form", "discrete", "discrete 3D", "planar", "spatial")
 AXES = {"angle": "θ [°]", "stiffness": "k_G [N/m³]", "damping": "c_G [N·s/m⁴]", "restitution": "e [–]", "ratio": "μᵢ [–]",
         "friction": "μ [–]", "speed": "speed [m/s]", "gravity": "g [m/s²]", "size": "size [× L]", "mass": "mass [× m]",
-        "turns": "turns in a flight [–]", "impacts": "impacts in a run [–]", "squares": "tracked squares, arm [°]",
-        "cubes": "tracked cubes, arm [°]"}
+        "turns": "turns in a flight [–]", "impacts": "impacts in a run [–]", "disc": "disc off level [rad]",
+        "needle": "needle off level [rad]", "slenderness": "length over diameter [–]", "bounces": "e, flat bounces [–]",
+        "hops": "e, hops of a rim [–]", "squares": "tracked squares, arm [°]", "cubes": "tracked cubes, arm [°]"}
 DIGITS = (0, 3, 6, 9, 12, 17)  # bounds of the classes
 HATCHES = {"bad-input": ("////", "bad input"), "ended-early": ("---", "run ends early"), "not-computed": ("\\\\\\\\", "not computed"),
            "outside-model": ("xxx", "outside the model")}
@@ -184,7 +185,7 @@ def extremes_map(data):
     """Right digits of each model from the low to the high end of each quantity; hatched where there is no number."""
     table = Table.read(data / "figures" / EXTREMES.file)
     shades = matplotlib.colormaps["viridis"](np.linspace(0, 1, len(DIGITS) - 1))
-    figure = new_figure(10.4, 5.4)
+    figure = new_figure(10.4, 6.8)
     panels = figure.subplots(1, len(MODELS), sharey=True)
     names = []
     for place, (axis, words) in enumerate(AXES.items()):

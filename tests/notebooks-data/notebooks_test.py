@@ -48,8 +48,8 @@ def solutions():
 
 
 class Lectures(unittest.TestCase):
-    def test_there_are_ten_and_each_has_its_parts(self):
-        self.assertEqual([path.name.split("_")[0] for path in LECTURES], [str(number) for number in range(1, 11)])
+    def test_there_are_thirteen_and_each_has_its_parts(self):
+        self.assertEqual([path.name.split("_")[0] for path in LECTURES], [str(number) for number in range(1, 14)])
         for path in LECTURES:
             with self.subTest(notebook=path.name):
                 found = headings(path)

@@ -7,6 +7,7 @@ PYTHONPATH holds the built package, CLATTER_PROGRAM the program, CLATTER_ROOT th
 import ast
 import json
 import os
+import pickle
 import re
 import shutil
 import subprocess
@@ -198,10 +199,104 @@ class TheSameBits(unittest.TestCase):
                     expected = np.array([np.nan if row[name] is None else row[name] for row in rows])
                     np.testing.assert_array_equal(result[name], expected)
 
-    def test_angles_of_an_array_are_those_of_each_angle(self):
-        theta = np.array([[1.0, 27.5], [58.4, 0.1]])
+    def test_angles_of_a_list_are_those_of_each_angle(self):
+        theta = [1.0, 27.5, 58.4, 0.1]
         result = clatter.angles(theta)
-        self.assertEqual(result.beta_deg.tolist(), [clatter.angles(value).beta_deg[0] for value in theta.ravel()])
+        self.assertEqual(result.beta_deg.tolist(), [clatter.angles(value).beta_deg[0] for value in theta])
+
+
+BATCHED = ("beta_deg", "gamma_deg", "P1", "P2", "P3", "T1", "T2", "impacts")
+
+
+class ArraysOfAngles(unittest.TestCase):
+    """What goes through the batch."""
+
+    def test_a_hundred_thousand_angles_are_within_the_error_bars_of_the_list(self):
+        for given in ({}, {"restitution": 0.6}, {"gravity_number": 0.7}, {"impulse_ratio": 0.2},
+                      {"gravity": 2.0, "restitution": 0.85, "impulse_ratio": -0.1}):
+            with self.subTest(given=given):
+                theta = np.random.default_rng(7).uniform(0, 90, 20_000)
+                many, each = clatter.angles(theta, **given), clatter.angles(theta.tolist(), **given)
+                np.testing.assert_array_equal(many.theta_deg, each.theta_deg)
+                np.testing.assert_array_equal(many.impacts, each.impacts)
+                rows = each.to_dict()["rows"]
+                for name in BATCHED[:-1]:
+                    there = ~np.isnan(each[name])
+                    np.testing.assert_array_equal(np.isnan(many[name]), ~there)
+                    # Without a bar only next to a fold.
+                    bars = np.array([np.inf if bar is None else bar for bar in (row["error_estimate"][name] for row in rows)])
+                    self.assertLess(np.count_nonzero(np.isinf(bars[there])), 3)
+                    beyond = there & ~(np.abs(many[name] - each[name]) <= bars)
+                    self.assertFalse(beyond.any(), (name, theta[beyond][:3]))
+                self.assertGreater(np.count_nonzero(many.impacts == 3), 100)
+                self.assertGreater(np.count_nonzero(many.impacts == 1), 100)
+
+    def test_arrays_obey_equations_8_and_12(self):
+        theta = np.linspace(0.5, 89.5, 100_000)
+        rod = clatter.angles(theta)
+        t, beta = np.radians(theta), np.radians(rod.beta_deg)
+        struck = rod.impacts > 1
+        k = (1 - 3 * np.cos(t) ** 2) / (6 * np.cos(t))
+        left = np.sin(t) + k * (t + beta) - np.sin(beta)
+        slope = k - np.cos(beta)
+        self.assertTrue((np.abs(left)[struck] <= 1e-14 * (1 + np.abs(slope[struck]))).all())
+        self.assertAlmostEqual(theta[struck].max(), 58.488442288312, delta=0.001)
+        np.testing.assert_allclose(rod.P1, 2 / (1 + 3 * np.cos(t) ** 2), rtol=4e-15)
+        # The flight turns the rod by theta + beta at the speed that impulse 1 gives it, 6 P1 cos(theta).
+        np.testing.assert_allclose(rod.T1[struck], ((t + beta) / (6 * rod.P1 * np.cos(t)))[struck], rtol=1e-13)
+        self.assertTrue(np.isnan(rod.beta_deg[~struck]).all())
+
+    def test_special_angles_in_an_array_are_those_of_the_list(self):
+        fold = 58.488442288312
+        theta = np.array([0, 90, 1e-9, 1e-300, fold, np.nextafter(fold, 0), 27.577809606636, 89.9999999])
+        for given in ({}, {"restitution": 0}, {"gravity_number": 0.5}):
+            many, each = clatter.angles(theta, **given), clatter.angles(theta.tolist(), **given)
+            for name in BATCHED:
+                np.testing.assert_allclose(many[name], each[name], rtol=1e-14, err_msg=f"{name} {given}")
+
+    def test_the_other_columns_and_the_table_are_the_lists(self):
+        theta = np.array([10.0, 30, 70])
+        many, each = clatter.angles(theta, as_printed=True, gravity=1), clatter.angles(theta.tolist(), as_printed=True, gravity=1)
+        for name in ("V1", "Omega3", "impulse_deficit", "beta_printed_deg"):
+            np.testing.assert_array_equal(many[name], each[name])
+        self.assertEqual(many.to_text("csv"), each.to_text("csv"))
+        self.assertEqual(many, clatter.angles(theta, as_printed=True, gravity=1))
+        for again in (pickle.loads(pickle.dumps(clatter.angles(theta))), pickle.loads(pickle.dumps(many))):
+            self.assertEqual(again.gamma_minus_theta_deg.shape, (3,))
+        with self.assertRaisesRegex(AttributeError, "no 'beta_printed_deg' here; there are theta_deg"):
+            clatter.angles(theta).beta_printed_deg
+        with self.assertRaises(KeyError):
+            many["gama"]
+
+    def test_out_is_filled_and_seen_in_the_result(self):
+        theta = np.linspace(1, 80, 12).reshape(3, 4)
+        expected = clatter.angles(theta)
+        out = {"beta_deg": np.empty((3, 4)), "impacts": np.empty((3, 4), dtype=np.int32)}
+        result = clatter.angles(theta, out=out)
+        np.testing.assert_array_equal(out["beta_deg"].ravel(), expected.beta_deg)
+        np.testing.assert_array_equal(out["impacts"].ravel(), expected.impacts)
+        self.assertTrue(np.shares_memory(result.beta_deg, out["beta_deg"]))
+        self.assertTrue(out["beta_deg"].flags.writeable and not result.beta_deg.flags.writeable)
+        table = np.zeros(12, dtype=[(name, float) for name in BATCHED])
+        clatter.angles(theta.ravel(), out={name: table[name] for name in BATCHED})
+        for name in BATCHED:
+            np.testing.assert_array_equal(table[name], expected[name])
+
+    def test_out_that_does_not_fit_is_refused_and_not_written(self):
+        theta, good = np.array([10.0, 20]), np.zeros(2)
+        for words, wrong in (("out\\['V1'\\]: must be one of beta_deg", {"V1": np.zeros(2)}), ("shape \\(2,\\)", {"P1": np.zeros(3)}),
+                             ("takes float64", {"P1": np.zeros(2, dtype=int)}), ("out\\['P1'\\]", {"P1": [0, 0]})):
+            with self.subTest(words), self.assertRaisesRegex(clatter.BadInput, words):
+                clatter.angles(theta, out={"beta_deg": good, **wrong})
+            self.assertEqual(good.tolist(), [0, 0])
+        with self.assertRaisesRegex(clatter.BadInput, "unless theta is an array"):
+            clatter.angles([10], out={})
+        with self.assertRaisesRegex(clatter.BadInput, "theta 91"):
+            clatter.angles(np.array([10.0, 91]))
+        with self.assertRaisesRegex(clatter.BadInput, "theta: excludes start"):
+            clatter.angles(theta, start=1)
+        with self.assertRaisesRegex(clatter.OutsideModel, "jam"):
+            clatter.angles(np.full(9, np.degrees(np.arctan(2))), impulse_ratio=4 / 3)
 
 
 class ClosedForms(unittest.TestCase):

@@ -53,7 +53,7 @@ struct SceneSource {
 
 /// The class Report, keys.
 void add_reports(pybind11::module_& module);
-/// sequence, explain; regimes, angles.
+/// sequence, explain; regimes, angles, angle_arrays.
 void add_discrete_functions(pybind11::module_& module);
 /// simulate, compare, plan, tradeoff, sweep; cases.
 void add_scene_functions(pybind11::module_& module);

@@ -6,7 +6,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <span>
 
+#include "analytic/batch/rod_batch.hpp"
 #include "analytic/plane/sequence.hpp"
 #include "binding.hpp"
 #include "validation/output/bad_input.hpp"
@@ -107,6 +110,57 @@ py::tuple angles(const std::optional<Numbers>& theta, const NamedTexts& given, c
   return py::make_tuple(Report{[request] { return validation::angles_report(request); }}, arrays);
 }
 
+constexpr std::array batch_columns{"beta_deg", "gamma_deg", "P1", "P2", "P3", "T1", "T2", "impacts"};
+using BatchColumns = std::array<std::vector<double>, batch_columns.size()>;
+
+/// Column after column.
+std::shared_ptr<BatchColumns> rod_columns(const Numbers& theta, const AnglesRequest& request,
+                                          const py::object& progress) {
+  using analytic::degrees_per_radian;
+  const std::vector<double> angles(theta.data(), theta.data() + theta.size());
+  return run_interruptible(
+      [angles, rod = request.rod](const Watch& watch) {
+        const std::size_t all = angles.size();
+        auto columns = std::make_shared<BatchColumns>();
+        for (std::vector<double>& column : *columns) column.resize(all);
+        std::vector<analytic::RodContacts> rows(std::min<std::size_t>(4096, all));
+        for (std::size_t first = 0; first < all && watch.tell(first, all); first += rows.size()) {
+          const std::size_t some = std::min(rows.size(), all - first);
+          analytic::batch_contact_angles(std::span(angles).subspan(first, some), rod, std::span(rows).first(some));
+          for (std::size_t i = 0; i < some; ++i) {
+            const analytic::RodContacts& row = rows[i];
+            const double numbers[] = {row.angle[0] * degrees_per_radian,
+                                      row.angle[1] * degrees_per_radian,
+                                      row.impulse[0],
+                                      row.impulse[1],
+                                      row.impulse[2],
+                                      row.time[0],
+                                      row.time[1],
+                                      static_cast<double>(row.impacts)};
+            for (std::size_t k = 0; k < columns->size(); ++k) (*columns)[k][first + i] = numbers[k];
+          }
+        }
+        watch.tell(all, all);
+        return columns;
+      },
+      progress);
+}
+
+/// (report, column name to array), by the batch
+py::tuple angle_arrays(const Numbers& theta, const NamedTexts& given, const py::object& progress) {
+  const AnglesRequest request = request_of(theta, given);
+  const auto columns = rod_columns(theta, request, progress);
+  const py::capsule owner(new std::shared_ptr(columns),
+                          [](void* held) { delete static_cast<std::shared_ptr<BatchColumns>*>(held); });
+  py::dict arrays;
+  for (std::size_t k = 0; k < columns->size(); ++k) {
+    const std::vector<double>& column = (*columns)[k];
+    py::array_t<double> array(static_cast<py::ssize_t>(column.size()), column.data(), owner);
+    arrays[batch_columns[k]] = k + 1 == columns->size() ? py::object(array.attr("astype")("int64")) : array;
+  }
+  return py::make_tuple(Report{[request] { return validation::angles_report(request); }}, arrays);
+}
+
 }  // namespace
 
 void add_discrete_functions(py::module_& module) {
@@ -117,6 +171,8 @@ void add_discrete_functions(py::module_& module) {
   module.def("regimes", &regimes, py::arg("options"), "Number of impacts of the thin rod, and its fold angles.");
   module.def("angles", &angles, py::arg("theta"), py::arg("options"), py::arg("progress"),
              "Contact angles of the thin rod.");
+  module.def("angle_arrays", &angle_arrays, py::arg("theta"), py::arg("options"), py::arg("progress"),
+             "Contact angles of the thin rod for many angles, by the batch.");
 }
 
 }  // namespace clatter::python

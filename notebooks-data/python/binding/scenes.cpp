@@ -218,7 +218,7 @@ py::tuple sweep(const std::string& name, const std::optional<std::string>& text,
   const auto work = [request](const Watch& watch) {
     const validation::SweepPlan plan = validation::read_sweep_plan(request);
     const std::string rows = swept_rows(plan, watch);
-    validation::ShortfallCount shortfalls(plan.layout);
+    validation::ShortfallCount shortfalls(plan.layout, plan.packed);
     shortfalls.add(rows);
     validation::Report report = plan.report();
     report.grid.rows = validation::read_csv_rows(rows);

@@ -14,8 +14,8 @@
 >>> clatter.measured_score("cube-tosses")           # impact laws against tracked drops
 >>> clatter.benchmark_score(["run.csv"])            # another program's run of a problem with a certified answer
 
-Numbers are those of the program `clatter`, bit for bit; names are those of its JSON; SI units, angles in degrees where
-a name says so.  Results show themselves as tables, can be pickled and copied.  Wherever numbers are listed, arrays do.  Errors are BadInput, NotComputed and OutsideModel; Ctrl-C ends a
+Numbers are those of the program `clatter`, bit for bit (of an array of angles() within their error bars); names are those
+of its JSON; SI units, angles in degrees where a name says so.  Results show themselves as tables, can be pickled and copied.  Wherever numbers are listed, arrays do.  Errors are BadInput, NotComputed and OutsideModel; Ctrl-C ends a
 long call with KeyboardInterrupt; progress=print shows how far it is.  Other Python threads run while a call computes.
 """
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from clatter import _clatter
@@ -25,6 +26,9 @@ class Angles:
     theta_deg, beta_deg, gamma_deg [°]; P1, P2, P3 [m |v_n|]; V1, V2, V3 [|v_n|] and Omega1, Omega2, Omega3 [|v_n|/L]
     after each impact; T1, T2 [L/|v_n|] between them; gamma_minus_theta_deg [°] and impulse_deficit = 2 - P1 - P2 - P3,
     free of cancellation; impacts: how many there are; as printed: beta_printed_deg, beta_printed_negative_g_deg [°].
+
+    Of angles that came as an array the batch has beta_deg, gamma_deg, P1, P2, P3, T1, T2 and impacts; the others, and the
+    table, are computed one angle after the other when they are first asked for.
     """
 
     theta_deg: Array
@@ -47,17 +51,30 @@ class Angles:
     beta_printed_deg: Array
     beta_printed_negative_g_deg: Array
 
-    def __init__(self, report: Report, arrays: dict[str, Array]) -> None:
-        self._report = report
+    def __init__(self, report: Report, arrays: dict[str, Array], given: dict[str, str] | None = None) -> None:
+        """given: options of a batch, which has not all arrays."""
+        self._report, self._given, self._is_whole = report, given, given is None
         self._names = list(arrays)
+        self._keep(arrays)
+
+    def _keep(self, arrays: dict[str, Array]) -> None:
         for name, array in arrays.items():
             setattr(self, name, frozen(array))
 
     def _arrays(self) -> dict[str, Array]:
         return {name: self[name] for name in self._names}
 
+    def __getattr__(self, name: str) -> Array:
+        if name in type(self).__annotations__ and self._given is not None and not self._is_whole:
+            _, arrays = _called(_clatter.angles, self.theta_deg, self._given, None)
+            self._is_whole = True
+            self._keep({other: array for other, array in arrays.items() if other not in self._names})
+            if name in arrays:
+                return self[name]
+        raise AttributeError(f"no '{name}' here; there are {', '.join(key for key in vars(self) if not key.startswith('_'))}")
+
     def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (self._report, self._arrays())
+        return type(self), (self._report, self._arrays(), self._given)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Angles) and same_arrays(self._arrays(), other._arrays())
@@ -66,9 +83,9 @@ class Angles:
         return len(self.theta_deg)
 
     def __getitem__(self, name: str) -> Array:
-        if name not in self._names:
+        array: Array | None = getattr(self, name, None) if name in type(self).__annotations__ else None
+        if array is None:
             raise KeyError(name)
-        array: Array = getattr(self, name)
         return array
 
     def to_dict(self) -> dict[str, Any]:
@@ -90,6 +107,31 @@ class Angles:
         return self._report.html() if len(self) <= _MOST_ROWS_SHOWN else f"<p>{self._summary()}</p>"
 
 
+def _called(function: Any, theta: Array | None, given: dict[str, str], progress: Progress | None) -> Any:
+    return called(function, theta, given, progress, renamed={"from": "start", "to": "stop"})
+
+
+def _filled(out: Mapping[str, Array], arrays: dict[str, Array], shape: tuple[int, ...]) -> dict[str, Array]:
+    """The arrays, those of `out` written there and seen there.  @raise BadArgument: one does not fit, and none is written."""
+    np = numpy_for("angles()")
+    for name, place in out.items():
+        if name not in arrays:
+            raise BadArgument(f"out[{name!r}]: must be one of {', '.join(arrays)}")
+        kind = arrays[name].dtype
+        if not (isinstance(place, np.ndarray) and place.shape == shape and place.flags.writeable and np.can_cast(kind, place.dtype, "same_kind")):
+            raise BadArgument(f"out[{name!r}]: must be an array of shape {shape} that takes {kind}")
+    for name, place in out.items():
+        np.copyto(place, arrays[name].reshape(shape), casting="same_kind")
+    return arrays | {name: place.reshape(-1) for name, place in out.items()}
+
+
+def _batched(theta: Array, given: dict[str, str], out: Mapping[str, Array], progress: Progress | None) -> Angles:
+    np = numpy_for("angles()")
+    flat = np.array(theta, dtype=float).reshape(-1)
+    report, arrays = _called(_clatter.angle_arrays, flat, given, progress)
+    return Angles(report, {"theta_deg": flat} | _filled(out, arrays, theta.shape), given)
+
+
 @checked
 def angles(
     theta: ArrayLike | None = None,
@@ -106,18 +148,24 @@ def angles(
     impulse_ratio: float | None = None,
     as_printed: bool = False,
     digits: int | None = None,
+    out: Mapping[str, Array] | None = None,
     progress: Progress | None = None,
 ) -> Angles:
     """Contact angles beta and gamma (Eq. 12) and impulses of the thin rod's first three impacts.
 
-    theta: angles of the first impact [°]; or start (0), stop (90) and step (5) or count.
+    theta: angles of the first impact [°]; or start (0), stop (90) and step (5) or count.  An array (of NumPy, a column of
+    a data frame) goes through the batch, many angles at once, and its numbers are within the error bars of those that a
+    list gives, which are the program's bit for bit.
     gravity_number: G = g L/v_n^2 (0); or gravity [m/s²] with length (1 m) and speed (1 m/s).
     restitution (1), impulse_ratio: Eq. 8's mu_i (0).
     as_printed: also beta by the paper's printed gravity term, whose sign and factor are wrong.
     digits: shown in the table (6).  progress(done, of): of the angles.  Raises BadInput, NotComputed.
+    out: for an array theta a dict of arrays of its shape, which are filled when all is computed and are those of the result:
+    any of beta_deg, gamma_deg, P1, P2, P3, T1, T2, impacts.  Of a structured array {name: table[name] for name in table.dtype.names}.
 
     >>> clatter.angles([10]).beta_deg
     array([5.08198288])
+    >>> clatter.angles(np.linspace(1, 89, 10**6), restitution=0.5, out={"beta_deg": beta}).impacts
     """
     given = texts_of({"from": start, "to": stop, "step": step, "count": count, "gravity_number": gravity_number,
                       "gravity": gravity, "length": length, "speed": speed, "restitution": restitution,
@@ -125,11 +173,16 @@ def angles(
     np = numpy_for("angles()")
     if theta is not None and not (is_number(plain(theta)) or is_list(theta)):
         raise BadArgument(f"theta {shown(theta)}: must be a number or an array of numbers")
+    many = plain(theta)
+    if isinstance(many, np.ndarray) and many.dtype.kind in "fiu":
+        return _batched(many, given, out or {}, progress)
+    if out is not None:
+        raise BadArgument(f"out {shown(out)}: must be left out unless theta is an array")
     try:
         values = None if theta is None else np.asarray(plain(theta) if is_number(plain(theta)) else list(plain(theta)), dtype=float).ravel()
     except (TypeError, ValueError):
         raise BadArgument(f"theta {shown(theta)}: must be a number or an array of numbers") from None
-    return Angles(*called(_clatter.angles, values, given, progress, renamed={"from": "start", "to": "stop"}))
+    return Angles(*_called(_clatter.angles, values, given, progress))
 
 
 @checked

@@ -149,6 +149,7 @@ _TYPES: dict[str, tuple[Callable[[Any], bool], str]] = {
     "Iterable[Path]": (lambda value: is_list(value) and all(isinstance(part, (str, os.PathLike)) for part in value), "a list of paths"),
     "Mapping[str, Swept]": (lambda value: isinstance(value, Mapping) and all(isinstance(key, str) for key in value),
                             "a dict of values by the keys of scenes"),
+    "Mapping[str, Array]": (lambda value: isinstance(value, Mapping), "a dict of arrays by the names of a result's"),
 }
 
 
