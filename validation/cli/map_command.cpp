@@ -57,8 +57,11 @@ class MapOutput {
     if (is_csv()) return file_.commit();
     const std::string made = kind_ == MapFile::png ? map_picture(plan_, image_) : map_array(plan_, image_);
     const long long open = image_.open();
-    if (open > 0)
-      say(fmt::format("{} of {} pixels are left open by rounding or a fold", open, plan_.columns * plan_.rows));
+    const long long pixels = plan_.columns * plan_.rows, without = image_.without_drop();
+    if (open > 0) say(fmt::format("{} of {} pixels are left open by rounding or a fold", open, pixels));
+    if (without > 0) {
+      say(fmt::format("{} of {} pixels have no drop: refused, outside the model or not computed", without, pixels));
+    }
     Sink sink(path_);
     sink.write(made);
     sink.commit();

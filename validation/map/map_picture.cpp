@@ -326,6 +326,17 @@ long long MapImage::open() const {
   return count;
 }
 
+long long MapImage::without_drop() const {
+  const auto has_none = [](const MapPixel& pixel) {
+    using analytic::BatchEnd;
+    return std::ranges::any_of(std::array{BatchEnd::refused, BatchEnd::outside, BatchEnd::not_computed},
+                               [&](BatchEnd end) { return pixel.value == end_words(end); });
+  };
+  long long count = 0;
+  for (const auto& row : rows) count += std::ranges::count_if(row, has_none);
+  return count;
+}
+
 std::vector<FoldCurve> fold_curves(const MapPlan& plan) {
   const bool is_across = plan.across().key == "drop.angle_deg";
   if (!is_across && plan.upward().key != "drop.angle_deg") return {};

@@ -14,6 +14,8 @@ struct MapImage {
   std::vector<std::vector<MapPixel>> rows;
 
   [[nodiscard]] long long open() const;
+  /// Pixels whose drop is refused, outside the model or not computed.
+  [[nodiscard]] long long without_drop() const;
 };
 
 /// Where the thin rod's second and third impacts end, as curves: regime_boundary() at values of the other axis.

@@ -29,10 +29,13 @@ bool names_key(const std::string& setting, const std::string& key) { return sett
 
 void read_size(const std::string& text, MapPlan& plan) {
   const std::size_t cross = text.find('x');
-  const auto side = [&](const std::string& part) { return read_integer_option("--size", part, 1, most_pixels_across); };
-  if (cross == std::string::npos) throw BadInput(fmt::format("--size {}: must be WIDTHxHEIGHT in pixels", text));
-  plan.columns = side(text.substr(0, cross));
-  plan.rows = side(text.substr(cross + 1));
+  const bool is_size = cross != std::string::npos && read_integer(text.substr(0, cross), plan.columns) &&
+                       read_integer(text.substr(cross + 1), plan.rows);
+  const auto fits = [](long long side) { return side >= 1 && side <= most_pixels_across; };
+  if (!is_size || !fits(plan.columns) || !fits(plan.rows)) {
+    throw BadInput(
+        fmt::format("--size '{}': must be WIDTHxHEIGHT in pixels, each from 1 to {}", text, most_pixels_across));
+  }
 }
 
 /// A class that no drop can have is refused, or its probability would be told as 0.

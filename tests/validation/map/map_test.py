@@ -33,6 +33,8 @@ BAD = {
     "--over drop.speed=1:2 --over world.gravity=1:2": "drop.angle_deg",
     "--over drop.angle_deg=0:60 --over drop.speed=1:2 --size 0x5": "--size",
     "--over drop.angle_deg=0:60 --over drop.speed=1:2 --size 5": "WIDTHxHEIGHT",
+    "--over drop.angle_deg=0:60 --over drop.speed=1:2 --size 5x": "--size '5x': must be WIDTHxHEIGHT",
+    "--over drop.angle_deg=0:60 --over drop.speed=1:2 --size 5x20001": "from 1 to 20000",
     "--over drop.angle_deg=0:60 --over drop.speed=1:2 --quantity impact": "did you mean impacts?",
     "--over drop.angle_deg=0:60 --over drop.speed=1:2 --quantity impacts=2": "--samples N",
     "--over drop.angle_deg=0:60 --over drop.speed=1:2 --samples 5": "must be a class",
@@ -173,6 +175,11 @@ class Map(EmptyFolder):
         self.assertIn("outside-model", classes)
         numbers = [row["total"] for row in self.rows(*arguments, "--quantity", "total")]
         self.assertIn("", numbers)
+
+    def test_pixels_without_a_drop_are_counted_in_words(self):
+        lifts_off = ["--over", "drop.angle_deg=0:60", "--over", "drop.spin=50:100", "--size", "4x3"]
+        done = run("map", *lifts_off, "--quantity", "impacts", "--output", self.path("map.npy"))
+        self.assertIn("12 of 12 pixels have no drop", done.stderr)
 
     def test_bad_input_is_one_line_and_writes_nothing(self):
         for text, words in BAD.items():
