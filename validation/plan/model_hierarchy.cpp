@@ -129,13 +129,16 @@ std::string ModelHierarchy::reason_against_planar() const {
 }
 
 Simulation ModelHierarchy::simulate(const LevelSetting& setting, int impacts) const {
+  return simulate(setting, {.impacts = impacts, .error_estimates = false, .amplification = false});
+}
+
+Simulation ModelHierarchy::simulate(const LevelSetting& setting, const numeric::Request& request) const {
   numeric::World world = scene_.world;
   world.planar = setting.level == ModelLevel::planar;
   numeric::Accuracy accuracy = scene_.accuracy;
   accuracy.method = setting.method;
   accuracy.tolerance = setting.step > 0 ? 0 : setting.tolerance;
   accuracy.step = setting.step;
-  const numeric::Request request{.impacts = impacts, .error_estimates = false, .amplification = false};
   return numeric::simulate(body_, world, start_, request, accuracy, observer_);
 }
 

@@ -88,6 +88,8 @@ class ModelHierarchy {
   [[nodiscard]] LevelResult run(const LevelSetting& setting, int impacts) const;
   /// The same of a continuous level with all its numbers; neither error estimates nor amplification.
   [[nodiscard]] numeric::Simulation simulate(const LevelSetting& setting, int impacts) const;
+  /// With what the request asks for besides.
+  [[nodiscard]] numeric::Simulation simulate(const LevelSetting& setting, const numeric::Request& request) const;
 
  private:
   void find_discrete();

@@ -51,6 +51,7 @@ class Planner {
     weigh_continuous();
     weigh_the_rest();
     choose();
+    price_estimates();
     return std::move(plan_);
   }
 
@@ -263,6 +264,17 @@ class Planner {
       }
     }
     take(best);
+  }
+
+  void price_estimates() {
+    numeric::Request request = plan_.scene.request;
+    const bool asks = request.error_estimates || request.amplification;
+    if (!asks || !is_continuous(plan_.choice.level) || !std::isfinite(plan_.error)) return;
+    request.impacts = impacts();
+    const long evaluations = ladder_.simulate(plan_.choice, request).force_evaluations;
+    plan_.planning_evaluations += evaluations;
+    plan_.evaluations_with_estimates = static_cast<double>(evaluations);
+    plan_.seconds_with_estimates = plan_.seconds * static_cast<double>(evaluations) / plan_.evaluations;
   }
 
   ModelHierarchy ladder_;

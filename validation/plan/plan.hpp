@@ -51,6 +51,9 @@ struct Plan {
   double error = std::numeric_limits<double>::quiet_NaN();  ///< predicted, relative; NaN: nothing could be planned
   double evaluations = 0;
   double seconds = 0;
+  /// The same of a continuous choice with the error estimates and the growth of errors that the scene asks for; 0: it
+  /// asks for neither.
+  double evaluations_with_estimates = 0, seconds_with_estimates = 0;
   int impacts = 0;              ///< that happen, at most as many as the scene asks for
   int known_impacts = 0;        ///< the first impacts, which can be had to what was asked by the full level
   int predictable_impacts = 0;  ///< those before which errors out of the plane have not outgrown what was asked

@@ -44,6 +44,22 @@ std::string choice_words(const Plan& plan) {
                      setting, error_words(plan.error), significant(1e3 * plan.seconds, 2));
 }
 
+/// What the estimates of errors add to the choice, and which keys turn them off; empty: the scene asks for none.
+std::string price_words(const Plan& plan) {
+  if (!(plan.evaluations_with_estimates > 0)) return "";
+  const numeric::Request& request = plan.scene.request;
+  const bool both = request.error_estimates && request.amplification;
+  return fmt::format("With {}: {} ms, {} times the force evaluations; {} = false leaves them out",
+                     both                      ? "error estimates and the growth of errors"
+                     : request.error_estimates ? "error estimates"
+                                               : "the growth of errors",
+                     significant(1e3 * plan.seconds_with_estimates, 2),
+                     significant(plan.evaluations_with_estimates / plan.evaluations, 2),
+                     both                      ? "run.errors, run.amplification"
+                     : request.error_estimates ? "run.errors"
+                                               : "run.amplification");
+}
+
 std::string part_words(const WeighedPart& part) {
   if (part.part == Part::unmerged_faces) return "elements of flat faces (they change nothing)";
   return fmt::format("{} ({})", part_name(part.part), error_words(part.error));
@@ -89,12 +105,15 @@ Row level_row(const WeighedLevel& level, const Plan& plan) {
 
 Value choice_fields(const Plan& plan) {
   const bool continuous = is_continuous(plan.choice.level);
+  const auto positive = [](double number) { return number > 0 ? Value(number) : Value(); };
   return Value::Fields{{"model", level_name(plan.choice.level)},
                        {"method", continuous ? Value(method_name(plan.choice.method)) : Value()},
                        {"tolerance", continuous ? Value(plan.choice.tolerance) : Value()},
                        {"error", plan.error},
                        {"force_evaluations", plan.evaluations},
                        {"seconds", plan.seconds},
+                       {"force_evaluations_with_estimates", positive(plan.evaluations_with_estimates)},
+                       {"seconds_with_estimates", positive(plan.seconds_with_estimates)},
                        {"serves", plan.serves},
                        {"command", command_line(plan)}};
 }
@@ -112,7 +131,7 @@ std::string level_words(const WeighedLevel& level, const Plan& plan) {
 std::vector<std::string> notes_of(const Plan& plan) {
   const std::string shortfall = plan_shortfall(plan);
   const bool has_choice = !std::isnan(plan.error);
-  std::vector<std::string> notes{has_choice ? choice_words(plan) : "",
+  std::vector<std::string> notes{has_choice ? choice_words(plan) : "", price_words(plan),
                                  shortfall.empty() ? "" : "Not as asked: " + shortfall,
                                  has_choice ? "Run it: " + command_line(plan) : ""};
   for (const WeighedLevel& level : plan.levels) notes.push_back(level_words(level, plan));

@@ -128,6 +128,12 @@ BOOST_AUTO_TEST_CASE(plan_leaves_out_what_changes_less_than_asked) {
   BOOST_TEST(plan.scene.world.ground.damping == 0);
   BOOST_TEST(plan.serves);
   BOOST_TEST(true_error(scene, ModelHierarchy(plan.scene).simulate(plan.choice, 1)) <= 1e-5);
+  // A growth of errors and a second run for the bars cost at least a run each.
+  BOOST_TEST(plan.evaluations_with_estimates > 2 * plan.evaluations);
+  Scene bare = scene;
+  bare.request.error_estimates = bare.request.amplification = false;
+  BOOST_TEST(make_plan(bare, {.digits = 5}).evaluations_with_estimates == 0);
+
   const Plan strict = make_plan(scene, {.digits = 10});
   BOOST_TEST(strict.scene.world.ground.has_friction());
 }
