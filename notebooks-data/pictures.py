@@ -197,6 +197,7 @@ def extremes_map(data):
         axes.set_title(model, loc="left")
         axes.set(xlim=(0, 1), ylim=(len(AXES) - 0.4, -0.6), xticks=(0, 1), xticklabels=("low", "high"), xlabel="rank of the value [–]")
         axes.grid(False)
+        axes.tick_params(axis="y", left=False)
     panels[0].set_yticks(range(len(AXES)), names)
     panels[0].set_ylabel("quantity, its ends [unit]")
     classes = [Patch(facecolor=shade, label=f"{low}–{min(high, 16)} digits") for shade, low, high in zip(shades, DIGITS, DIGITS[1:])]
