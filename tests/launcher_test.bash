@@ -422,6 +422,14 @@ test_gnuplot_comes_when_a_picture_is_first_asked_for() {
   expect "calls" "" "$(<"$settings/calls")"
 }
 
+test_gnuplot_comes_when_a_map_is_first_drawn() {
+  build_first
+  launch map --over drop.angle_deg=0:60 --over drop.speed=1:2 --output map.npy
+  expect "calls" "" "$(<"$settings/calls")"
+  launch map --over drop.angle_deg=0:60 --over drop.speed=1:2 --output map.png
+  expect "what is installed" "gnuplot-nox" "$(what_is_installed)"
+}
+
 test_hdf5_comes_when_it_is_first_asked_for() {
   build_first
   launch sweep rod-sweep --output rows.h5

@@ -32,6 +32,7 @@ batch::LaneBody lane_body(const PlanarBody& body) {
     lanes.z[j] = z;
     lanes.reach[j] = std::hypot(x, z);
     lanes.polar[j] = std::atan2(z, x);
+    lanes.most_reach = std::fmax(lanes.most_reach, lanes.reach[j]);
   }
   return lanes;
 }
@@ -52,7 +53,7 @@ batch::LaneDrops lane_drops(const BatchDrops& drops, std::size_t first) {
 /// Within what the kernels are for; the scalar code has an answer, or words, for all else.
 bool is_lane_drop(const batch::LaneDrops& lanes, std::size_t i) {
   const double e = lanes.restitution[i];
-  return e > 0 && e <= 1 && lanes.gravity[i] >= 0 && std::fabs(lanes.inclination[i]) <= pi;
+  return e > 0 && e <= 1 && lanes.gravity[i] >= 0 && std::fabs(lanes.inclination[i]) <= pi / 2;
 }
 
 BatchOutcome outcome_of(const batch::LaneResults& lanes, std::size_t i) {

@@ -65,10 +65,11 @@ struct BatchOutcome {
 ///
 /// Vectors of drops take a fixed number of Halley steps from a guess to each root.  A drop's root counts if a last
 /// step of Newton proves it to half an ulp beside the rounding of h, within a piece of h in which it is the first, and
-/// if h of every other vertex is clear of zero before; clear by 2⁻⁴² and what rounding has grown to, 2⁻⁴⁵ × the
-/// product of (1 + condition number) over the flights.  All other drops (nearer to a fold, flat, upright, e = 0, longer
-/// than rounding allows) are the scalar code's.
-/// Accuracy: within the scalar code's error bars.
+/// if h of every other vertex is clear of zero before: by 2⁻⁴² of its terms and what an ulp of the start and rounding
+/// have grown to, which is carried to first order through flights and impacts.  All other drops (nearer to a fold,
+/// flat, upright, e = 0, errors of an angle beyond 1e-4) are the scalar code's, and where `limit` >= 5 cuts off what
+/// may be the beginning of infinitely many impacts. Accuracy: within the scalar code's error bars; sums of four impacts
+/// or more of one drop in 10⁴ by up to ten times those, where gravity and turns lose three digits.
 /// @param kernel  of batch::kernels(); none: the widest
 /// @throws std::invalid_argument as BatchDrops::validate(), or if limit < 1.
 void run_batch(const BatchDrops& drops, int limit, std::size_t first, std::span<BatchOutcome> outcomes,

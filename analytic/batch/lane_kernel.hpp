@@ -110,6 +110,16 @@ inline Value value_at(const Height& h, Vector angle) {
           (h.height + magnitude(a)) + (b + magnitude(c) + magnitude(d))};
 }
 
+/// What errors of the state add to the height of a vertex at the angle τ: constant + slope τ.
+struct Blur {
+  Vector constant, slope;
+
+  /// What the height must differ from zero by for its sign to be certain: rounding of its terms is below 2⁻⁴² of them.
+  [[nodiscard]] Vector margin(const Value& h, Vector angle) const {
+    return 0x1p-42 * h.scale + (constant + slope * angle);
+  }
+};
+
 /// Where a vertex may strike first.
 struct Prospect {
   Mask strikes;        ///< h has its first root in [low, high], where it falls once through zero
@@ -134,10 +144,10 @@ inline Swing swing_without_gravity(Vector k) {
 /// Without gravity h falls from ψ = −ψ_m to ψ_m, cos ψ_m = K = V/(ωR), and rises to the next maximum; its
 /// inflection at ψ = 0 is a centre of symmetry.  With g(ψ) = sin ψ − Kψ the root is where g = y g(ψ_m), y in [−1, 1]: a
 /// function of y and K alone, and smooth in √(1 − |y|) as far as the fold at y = 1.
-inline Prospect prospect_without_gravity(const Height& h, const Swing& swing, Vector relative_error) {
+inline Prospect prospect_without_gravity(const Height& h, const Swing& swing, const Blur& blur) {
   const Vector k = swing.k, bottom = within_turn(swing.half_width - h.phase);
   const Value least_value = value_at(h, bottom);
-  const Vector margin = relative_error * least_value.scale;
+  const Vector margin = blur.margin(least_value, bottom);
   Prospect found;
   const Mask passes = (least_value.height > margin) | (k >= 1);
   found.strikes = (least_value.height < -margin) & (k < 1);
@@ -201,12 +211,11 @@ inline void find_bottom(const Height& h, Pieces& p) {
 }
 
 /// The first of the pieces in which h falls through zero.
-inline Prospect prospect_with_gravity(const Height& h, const Swing& swing, Vector base, Vector last,
-                                      Vector relative_error) {
+inline Prospect prospect_with_gravity(const Height& h, const Swing& swing, Vector base, Vector last, const Blur& blur) {
   Pieces p = pieces_of(h, swing, base, last);
-  const Vector m1 = relative_error * p.one.scale, m2 = relative_error * p.two.scale;
+  const Vector m1 = blur.margin(p.one, p.first), m2 = blur.margin(p.two, p.second);
   if (any(p.has_bottom & (p.two.height > -m2))) find_bottom(h, p);
-  const Vector m3 = relative_error * p.three.scale, low_margin = relative_error * p.low.scale;
+  const Vector m3 = blur.margin(p.three, p.third), low_margin = blur.margin(p.low, p.bottom);
   const Mask above_first = (p.one.height > m1) | (p.first <= base), in_first = p.one.height < -m1;
   const Mask dips = above_first & p.has_bottom & (p.two.height > -m2) & (p.low.height < -low_margin);
   const Mask falls = above_first & (p.two.height < -m2);
@@ -236,14 +245,16 @@ class Lanes {
       : body_(body), first_(first), limit_(limit), inclination_(load(drops.inclination, first)),
         normal_(load(drops.normal, first)), tangential_(load(drops.tangential, first)),
         angular_(load(drops.angular, first)), gravity_(load(drops.gravity, first)),
-        restitution_(load(drops.restitution, first)), ratio_(load(drops.impulse_ratio, first)) {}
+        restitution_(load(drops.restitution, first)), ratio_(load(drops.impulse_ratio, first)),
+        inclination_error_(ulp * magnitude(inclination_)), normal_error_(ulp * magnitude(normal_)),
+        angular_error_(ulp * magnitude(angular_)) {}
 
   void run(LaneResults& results) {
     turn_to(inclination_);
     choose_lowest();
     while (any(active_)) {
       strike(results);
-      active_ &= ~(impacts_ >= (double)limit_);
+      stop_at_limit();
       if (!any(active_)) break;
       fly();
     }
@@ -251,6 +262,15 @@ class Lanes {
   }
 
  private:
+  /// What may be the beginning of infinitely many impacts is the scalar code's, which sums them up from four shrinking
+  /// ones of one vertex, or periods of several, after the first.
+  void stop_at_limit() {
+    const Mask stops = active_ & (impacts_ >= (double)limit_);
+    const Mask shrinks = limit_ < 5 ? Mask{} : (limit_ < 9 ? repeats_ : ~Mask{});
+    fail(stops & (restitution_ < 1) & shrinks);
+    active_ &= ~stops;
+  }
+
   void turn_to(Vector inclination) {
     inclination_ = inclination;
     const SineCosine turned = sine_cosine(inclination);
@@ -289,11 +309,14 @@ class Lanes {
     const Vector x = of_touching(body_.x), z = of_touching(body_.z), inverse = all(body_.inverse_gyration_square);
     const Vector along = x * cosine_ - z * sine_, up = x * sine_ + z * cosine_;
     const Vector approach = struck_ ? approach_ : angular_ * along - normal_, slip = tangential_ + angular_ * up;
-    fail(active_ & ~(approach > relative_error_ * (magnitude(normal_) + magnitude(angular_ * along))));
+    const Vector approach_error =
+        normal_error_ + body_.most_reach * (angular_error_ + magnitude(angular_) * inclination_error_);
+    fail(active_ & ~(approach > 0x1p-42 * (magnitude(normal_) + magnitude(angular_ * along)) + 4 * approach_error));
     const Vector inertia = 1 + along * along * inverse, coupling = along * up * inverse;
     const Vector denominator = inertia - ratio_ * coupling;
     fail(active_ & ~(denominator > 1e-3 * inertia));
     const Vector impulse = (1 + restitution_) * approach / denominator;
+    spread_errors(along, up, impulse, approach_error / approach, 1 / denominator);
     rebound_ = restitution_ * approach;
     normal_ += impulse;
     tangential_ += ratio_ * impulse;
@@ -302,11 +325,25 @@ class Lanes {
     record(results, impulse, approach, slip + (tangential_ + angular_ * up));
   }
 
+  /// Errors of the velocities after an impulse, to first order.
+  void spread_errors(Vector along, Vector up, Vector impulse, Vector approach_part, Vector per_denominator) {
+    const Vector inverse = all(body_.inverse_gyration_square), ratio = magnitude(ratio_);
+    const Vector turned =
+        inverse * (2 * magnitude(along * up) + ratio * body_.most_reach * body_.most_reach) * inclination_error_;
+    const Vector impulse_error = impulse * (approach_part + turned * per_denominator + 4 * ulp);
+    const Vector arm = magnitude(along) + ratio * magnitude(up), other_arm = magnitude(up) + ratio * magnitude(along);
+    normal_error_ += impulse_error + ulp * magnitude(normal_);
+    angular_error_ +=
+        inverse * (impulse_error * arm + impulse * other_arm * inclination_error_) + ulp * magnitude(angular_);
+  }
+
   void record(LaneResults& results, Vector per_mass, Vector approach, Vector slips) {
     const Vector impulse = body_.mass * per_mass;
     loss_ += active_ ? 0.5 * impulse * (approach - rebound_ - ratio_ * slips) : Vector{};
     impacts_ += active_ ? all(1) : Vector{};
     total_ += active_ ? impulse : Vector{};
+    repeats_ = (touching_ == last_vertex_) & (impulse < last_impulse_);
+    last_impulse_ = impulse;
     const Mask harder = active_ & (impulse > largest_);
     largest_ = harder ? impulse : largest_;
     hardest_ = harder ? impacts_ : hardest_;
@@ -342,13 +379,13 @@ class Lanes {
   [[nodiscard]] Prospect prospect_in_fall(const Height& h, const Swing& swing, Vector rise) const {
     const Vector twice = 2 * h.gravity, square = rise * rise;
     const Vector last = (rise + root(square + 2 * twice * (h.reach - up_))) / twice;
-    Prospect found = prospect_with_gravity(h, swing, Vector{}, last, relative_error_);
+    Prospect found = prospect_with_gravity(h, swing, Vector{}, last, blur_);
     const Mask later = active_ & ~found.strikes & ~found.open & (found.none_before < 1e300);
     if (!any(later)) return found;
     const Vector span = root(square - 2 * twice * (h.reach + up_));
     const Vector reached = (rise - span) / twice, left = (rise + span) / twice;
     const Vector base = greatest(left, found.none_before);
-    const Prospect next = prospect_with_gravity(h, swing, base, last, relative_error_);
+    const Prospect next = prospect_with_gravity(h, swing, base, last, blur_);
     const Mask takes = later & (found.none_before >= reached);
     return {(takes & next.strikes) | (~takes & found.strikes),
             (takes & next.open) | (~takes & found.open),
@@ -360,7 +397,9 @@ class Lanes {
 
   void fly() {
     const Vector rate = magnitude(angular_), per_rate = 1 / rate, rise = normal_ * per_rate;
-    const Mask falls = gravity_ > 0, turns = rate * body_.reach[0] > 1e-9 * (magnitude(normal_) + rebound_);
+    const Mask falls = gravity_ > 0, turns = (rate * body_.reach[0] > 1e-9 * (magnitude(normal_) + rebound_)) &
+                                             (angular_error_ < 1e-3 * rate);
+    blur_ = {2 * body_.most_reach * inclination_error_, (normal_error_ + body_.most_reach * angular_error_) * per_rate};
     // An end that hardly leaves the ground, or a body that hardly turns and does not just rise, is the scalar code's.
     fail(active_ & ~((rebound_ > 0) & (turns | ((normal_ > 0) & ~falls))));
     any_falls_ = any(active_ & falls);
@@ -375,7 +414,7 @@ class Lanes {
             any_falls_ ? Swing{bend, rough_arccos(least(bend, all(1))), bend} : swing_without_gravity(rise * per_reach);
       }
       const Prospect& p = prospects_[j] =
-          any_falls_ ? prospect_in_fall(h, swing, rise) : prospect_without_gravity(h, swing, relative_error_);
+          any_falls_ ? prospect_in_fall(h, swing, rise) : prospect_without_gravity(h, swing, blur_);
       fail(active_ & p.open);
       const Mask sooner = p.strikes & (p.guess < earliest);
       earliest = sooner ? p.guess : earliest;
@@ -413,14 +452,15 @@ class Lanes {
     return {h, low, high};
   }
 
-  /// No other vertex with a root may have had it before.
-  void check_others(Vector touch, Vector chosen) {
+  /// No other vertex with a root may have had it before, or within the error of the angle of touch.
+  void check_others(Vector touch, Vector error, Vector chosen) {
     for (int j = 0; j < body_.vertex_count; ++j) {
       const Prospect& p = prospects_[j];
-      const Mask late = active_ & (chosen != (double)j) & p.strikes & ~(touch < p.low);
+      const Mask late = active_ & (chosen != (double)j) & p.strikes & ~(touch + error < p.low);
       if (!any(late)) continue;
       const Value other = value_at(heights_[j], touch);
-      fail(late & ~((touch < p.high) & (other.height > relative_error_ * other.scale)));
+      const Vector margin = blur_.margin(other, touch) + 2 * magnitude(other.velocity) * error;
+      fail(late & ~((touch < p.high) & (other.height > margin)));
     }
   }
 
@@ -434,18 +474,17 @@ class Lanes {
     }
     const Value v = value_at(h, angle);
     const Vector per_velocity = 1 / v.velocity, step = v.height * per_velocity;
-    const Vector curvature = magnitude(v.acceleration * per_velocity), spread = v.scale * magnitude(per_velocity);
-    const Vector touch = angle - step;
+    const Vector curvature = magnitude(v.acceleration * per_velocity), touch = angle - step;
+    const Vector error = (2 * ulp * v.scale + blur_.constant + blur_.slope * touch) * magnitude(per_velocity);
     // After a Newton step of this length the root is within half an ulp, and within the piece where it is the first.
-    const Vector blur = 4 * 0x1p-53 * spread;
-    fail(active_ & ~((v.velocity < 0) & (step * step * curvature <= 0x1p-53 * angle) & (blur * curvature < 1e-3) &
-                     (touch > low) & (touch < high) & (touch < first_open)));
-    check_others(touch, chosen);
-    const Vector condition = spread / touch;
-    relative_error_ = (relative_error_ + 0x1p-45) * (1 + condition);
-    fail(active_ & ~(relative_error_ < 1e-6));
+    fail(active_ & ~((v.velocity < 0) & (step * step * curvature <= 0x1p-53 * angle) & (error * curvature < 1e-3) &
+                     (touch > low) & (touch < high) & (touch + error < first_open)));
+    check_others(touch, error, chosen);
     const Vector flight = touch * per_rate;
     time_ += flight;
+    inclination_error_ += error + flight * angular_error_ + ulp * (magnitude(inclination_) + touch);
+    normal_error_ += gravity_ * error * per_rate + ulp * (magnitude(normal_) + gravity_ * flight);
+    fail(active_ & ~(inclination_error_ < 1e-4));  // errors stay small enough to be added up to first order
     normal_ -= gravity_ * flight;
     // From h′, since V_n − Ω d_t cancels where bounces become small.
     approach_ = (step * v.acceleration - v.velocity) * magnitude(angular_);
@@ -471,10 +510,12 @@ class Lanes {
   int first_, limit_;
   Vector inclination_, normal_, tangential_, angular_, gravity_, restitution_, ratio_;
   Vector sine_{}, cosine_{}, touching_{}, rebound_{}, up_{}, approach_{}, time_{};
-  Vector impacts_{}, total_{}, largest_{}, hardest_{}, last_vertex_{}, last_start_{}, loss_{};
-  /// Beyond what decisions must be clear of zero, as a part of the terms that they are the difference of.
-  Vector relative_error_ = all(0x1p-42);
-  Mask active_ = ~Mask{}, certain_ = ~Mask{};
+  Vector impacts_{}, total_{}, largest_{}, hardest_{}, last_vertex_{}, last_start_{}, loss_{}, last_impulse_{};
+  static constexpr double ulp = 0x1p-52;
+  /// Bounds to first order of an ulp of the start and of rounding since [rad, m/s, rad/s].
+  Vector inclination_error_, normal_error_, angular_error_;
+  Blur blur_{};
+  Mask active_ = ~Mask{}, certain_ = ~Mask{}, repeats_{};
   std::size_t struck_ = 0;
   bool any_falls_ = false;
   Height heights_[max_vertices];

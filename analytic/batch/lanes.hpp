@@ -22,6 +22,7 @@ struct LaneBody {
   std::array<double, max_vertices> x{}, z{};  ///< [m]
   std::array<double, max_vertices> reach{};   ///< √(x² + z²) [m]
   std::array<double, max_vertices> polar{};   ///< of the vertex in the body's frame [rad]
+  double most_reach = 0;                      ///< the largest [m]
 };
 
 /// Eight drops.  Ones that fill a block up may repeat others.

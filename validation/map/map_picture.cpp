@@ -223,17 +223,24 @@ std::string curve_commands(const std::vector<FoldCurve>& curves, double scale) {
   return text;
 }
 
-/// The picture's parts in pixels.  A small map's pixels are squares, so that there is room for the words beside it.
+/// The picture's parts in pixels.  A small map's pixels are squares, so that there is room for the words beside it;
+/// those of a narrow one are only as wide and as high as that takes.
 struct Sheet {
-  long long square;  ///< side of one
+  long long across, upward;  ///< sides of a pixel of the map
   double scale, left, right, top, bottom, width, height;
 
   explicit Sheet(const MapPlan& plan)
-      : square(std::max({1LL, least_side / plan.columns, least_side / plan.rows})),
-        scale(std::clamp(static_cast<double>(plan.rows * square) / 600, 0.75, 3.0)), left(115 * scale),
+      : across(side(plan.columns, plan.rows)), upward(side(plan.rows, plan.columns)),
+        scale(std::clamp(static_cast<double>(plan.rows * upward) / 600, 0.75, 3.0)), left(115 * scale),
         right(250 * scale), top(64 * scale), bottom(72 * scale),
-        width(left + static_cast<double>(plan.columns * square) + right),
-        height(top + static_cast<double>(plan.rows * square) + bottom) {}
+        width(left + static_cast<double>(plan.columns * across) + right),
+        height(top + static_cast<double>(plan.rows * upward) + bottom) {}
+
+  /// Of a pixel, where the map has so many along it and so many beside it.
+  static long long side(long long along, long long beside) {
+    const long long square = std::max({1LL, least_side / along, least_side / beside});
+    return along * square <= 4 * least_side ? square : std::max(1LL, least_side / along);
+  }
 
   [[nodiscard]] std::string text() const {
     return fmt::format(
@@ -372,17 +379,17 @@ std::string key_text(const Sheet& sheet, const Legend& legend, std::size_t curve
                      std::clamp(room, 0.7, 1.4));
 }
 
-/// Each pixel of three bytes as a square of this side.
-std::string magnified(const std::string& bytes, long long columns, long long square) {
-  if (square == 1) return bytes;
+/// Each pixel of three bytes as a rectangle.
+std::string magnified(const std::string& bytes, long long columns, const Sheet& sheet) {
+  if (sheet.across == 1 && sheet.upward == 1) return bytes;
   std::string out;
   const auto width = static_cast<std::size_t>(3 * columns);
   for (std::size_t begin = 0; begin < bytes.size(); begin += width) {
     std::string line;
     for (std::size_t i = begin; i < begin + width; i += 3) {
-      for (long long k = 0; k < square; ++k) line.append(bytes, i, 3);
+      for (long long k = 0; k < sheet.across; ++k) line.append(bytes, i, 3);
     }
-    for (long long k = 0; k < square; ++k) out += line;
+    for (long long k = 0; k < sheet.upward; ++k) out += line;
   }
   return out;
 }
@@ -408,7 +415,7 @@ std::string map_picture(const MapPlan& plan, const MapImage& image) {
     rest = ", \\\n  NaN with points palette notitle";
   }
   script += key_text(sheet, legend, curves.size());
-  const long long columns = plan.columns * sheet.square, rows = plan.rows * sheet.square;
+  const long long columns = plan.columns * sheet.across, rows = plan.rows * sheet.upward;
   const double left = placed(plan.across(), plan.across().first), right = placed(plan.across(), plan.across().last);
   const double low = placed(plan.upward(), plan.upward().first), high = placed(plan.upward(), plan.upward().last);
   const double dx = (right - left) / static_cast<double>(columns), dy = (high - low) / static_cast<double>(rows);
@@ -416,7 +423,7 @@ std::string map_picture(const MapPlan& plan, const MapImage& image) {
       "plot data binary array=({},{}) format='%uchar%uchar%uchar' origin=({},{}) dx={} dy={} using 1:2:3 with rgbimage "
       "notitle{}{}\n",
       columns, rows, left + dx / 2, low + dy / 2, dx, dy, rest, curve_commands(curves, sheet.scale));
-  return run_gnuplot(script, magnified(bytes, plan.columns, sheet.square));
+  return run_gnuplot(script, magnified(bytes, plan.columns, sheet));
 }
 
 namespace {

@@ -67,7 +67,11 @@ Amplification amplification_of(const Atlas& atlas) {
 }
 
 std::string critical_words(const Atlas& atlas) {
-  if (!atlas.critical) return "never infinitely many impacts, at any restitution e > 0";
+  if (!atlas.critical) {
+    return atlas.in_plane()
+               ? "never infinitely many impacts, at any restitution e > 0"
+               : "infinitely many impacts: none found, at 127 restitutions e > 0 and 16 directions of the tilt";
+  }
   const auto& [e, error, cycle] = *atlas.critical;
   std::string turns;
   for (const int corner : cycle) turns += fmt::format("{}{}", turns.empty() ? "" : " ", corner + 1);

@@ -22,7 +22,7 @@ void become_mpi_program(char** words) {
 Ranks::Ranks() {
   if (!is_started_by_mpirun()) return;
   throw BadInput(
-      "sweep: started by mpirun, but this program has no MPI, and each process would compute all scenes; install "
+      "started by mpirun or srun, but this program has no MPI, and each process would compute everything; install "
       "clatter-mpi beside it (./clatter --mpi builds it)");
 }
 Ranks::~Ranks() = default;

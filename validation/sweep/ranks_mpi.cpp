@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
 #include <mpi.h>
 
 #include <array>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <stdexcept>
+#include <string_view>
 #include <thread>
 #include <vector>
 
+#include "validation/output/bad_input.hpp"
 #include "validation/sweep/sweep_run.hpp"
 
 namespace clatter::validation::inline sweep {
@@ -63,6 +67,14 @@ Ranks::Ranks() {
   MPI_Comm_size(MPI_COMM_WORLD, &count_);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   if (writes()) working_ = count_ - 1;
+  const char* const tasks = std::getenv("SLURM_STEP_NUM_TASKS");
+  if (several() || std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || tasks == nullptr || std::string_view(tasks) == "1")
+    return;
+  MPI_Finalize();
+  throw BadInput(
+      fmt::format("srun started {} processes that MPI does not join, and each would compute everything; "
+                  "srun --mpi=pmix joins them",
+                  tasks));
 }
 
 Ranks::~Ranks() {

@@ -214,7 +214,7 @@ bool SceneRunner::append_scene(long long index, std::string& out) {
 }
 
 bool is_started_by_mpirun() {
-  constexpr const char* counts[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"};
+  constexpr const char* counts[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"};
   const auto says_several = [](const char* name) {
     const char* const value = std::getenv(name);
     return value != nullptr && std::string_view(value) != "1";

@@ -169,7 +169,7 @@ class SceneRunner {
 /// Scenes handed out at a time: some milliseconds' work.
 [[nodiscard]] long long range_size(const SweepPlan& plan);
 
-/// Whether mpirun or srun started this process as one of several (variables of PMI, PMIx and OpenMPI).
+/// Whether mpirun or srun started this process as one of several (variables of PMI, PMIx, OpenMPI and Slurm).
 [[nodiscard]] bool is_started_by_mpirun();
 /// Under mpirun the program without MPI becomes clatter-mpi, if that lies beside it; else nothing happens.
 /// @param words those of main, ended by a null pointer
@@ -180,7 +180,8 @@ void become_mpi_program(char** words);
 /// end, too.
 class Ranks {
  public:
-  /// @throws BadInput under mpirun in a program without MPI, each process of which would compute all scenes
+  /// @throws BadInput where each of several processes would compute all scenes: in a program without MPI, and where
+  ///         srun started them without the interface that MPI joins them by
   Ranks();
   ~Ranks();
   Ranks(const Ranks&) = delete;

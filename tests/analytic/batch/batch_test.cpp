@@ -114,6 +114,30 @@ BOOST_AUTO_TEST_CASE(counts_are_the_scalar_codes_and_numbers_within_its_error_ba
   }
 }
 
+BOOST_AUTO_TEST_CASE(drops_of_many_turns_and_bounces_have_the_scalar_codes_counts_or_are_its_own) {
+  const Kind wild[]{{"box of many turns", make_box({.length = 200, .thickness = 60}), 6, 0.2, 0.01, 0, 20},
+                    {"rod near jamming", make_rod({}), 5, 0.3, 1, 1.3, 1},
+                    {"box that rattles", make_box({.length = 0.01, .thickness = 0.006}), 7, 0.6, 1e8, 0, 100},
+                    {"rod of many bounces", make_rod({}), 11, 0.002}};
+  for (const Kind& kind : wild) {
+    const RandomDrops random(kind, drop_count);
+    std::vector<BatchOutcome> outcomes(drop_count);
+    run_lanes(random.drops, kind.limit, 0, outcomes);
+    std::size_t wrong = 0, scalar = 0;
+    for (std::size_t i = 0; i < drop_count; ++i) {
+      scalar += outcomes[i].is_scalar ? 1 : 0;
+      if (outcomes[i].is_scalar) continue;
+      const Sequence sequence = impact_sequence(random.drops.drop(i), {.impacts = kind.limit, .amplification = false});
+      if (outcomes[i].impacts != static_cast<int>(sequence.rows.size()) || sequence.tail ||
+          outcomes[i].last_vertices != sequence.rows.back().vertices) {
+        ++wrong;
+      }
+    }
+    BOOST_TEST(wrong == 0u, kind.name << ": " << wrong << " wrong");
+    BOOST_TEST(scalar < drop_count, kind.name);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(every_instruction_set_gives_the_same_bits) {
   for (const Kind& kind : kinds) {
     const RandomDrops random(kind, 203);  // not a multiple of the block

@@ -14,6 +14,7 @@ from matplotlib.image import imread
 from run_folder import PROGRAM, ROOT, EmptyFolder, records, run
 from waiting import until
 
+MPIEXEC = os.environ.get("CLATTER_MPIEXEC")
 # Of the elastic rod without gravity, to 12 digits by 60-digit bisection.
 FOLDS = {2: 58.488442288312, 3: 27.577809606636}
 ANGLE = ["--over", "drop.angle_deg=0:60"]
@@ -146,6 +147,22 @@ class Map(EmptyFolder):
                 with open(self.made(name, *FRICTION, "--size", "40x30", "--threads", threads), "rb") as file:
                     found.add(file.read())
             self.assertEqual(len(found), 1)
+
+    @unittest.skipUnless(MPIEXEC, "a build without MPI")
+    def test_processes_do_not_matter(self):
+        arguments = [*FRICTION, "--size", "40x30"]
+        with open(self.made("alone.npy", *arguments), "rb") as file:
+            alone = file.read()
+        done = subprocess.run([MPIEXEC, "--allow-run-as-root", "--oversubscribe", "-n", "2", PROGRAM, "map", *arguments, "--output",
+                               self.path("shared.npy")], capture_output=True, text=True, timeout=3000, check=False)
+        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+        with open(self.path("shared.npy"), "rb") as file:
+            self.assertEqual(file.read(), alone)
+
+    def test_a_map_one_pixel_wide_is_no_huge_picture(self):
+        for size in ("1x600", "600x1", "1x1"):
+            with self.subTest(size=size):
+                self.assertLess(max(imread(self.made("map.png", *ELASTIC, "--size", size)).shape), 2400)
 
     def test_an_interrupted_map_goes_on_with_the_same_bytes(self):
         arguments = ["map", *FRICTION, "--size", "900x600", "--threads", "1", "--output"]
