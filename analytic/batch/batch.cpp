@@ -50,10 +50,13 @@ batch::LaneDrops lane_drops(const BatchDrops& drops, std::size_t first) {
   return lanes;
 }
 
+/// Below this an end hardly leaves the ground, and rounding may decide what its flight begins with.
+constexpr double least_restitution = 1e-4;
+
 /// Within what the kernels are for; the scalar code has an answer, or words, for all else.
 bool is_lane_drop(const batch::LaneDrops& lanes, std::size_t i) {
   const double e = lanes.restitution[i];
-  return e > 0 && e <= 1 && lanes.gravity[i] >= 0 && std::fabs(lanes.inclination[i]) <= pi / 2;
+  return e >= least_restitution && e <= 1 && lanes.gravity[i] >= 0 && std::fabs(lanes.inclination[i]) <= pi / 2;
 }
 
 BatchOutcome outcome_of(const batch::LaneResults& lanes, std::size_t i) {

@@ -67,7 +67,7 @@ struct BatchOutcome {
 /// step of Newton proves it to half an ulp beside the rounding of h, within a piece of h in which it is the first, and
 /// if h of every other vertex is clear of zero before: by 2⁻⁴² of its terms and what an ulp of the start and rounding
 /// have grown to, which is carried to first order through flights and impacts.  All other drops (nearer to a fold,
-/// flat, upright, e = 0, errors of an angle beyond 1e-4) are the scalar code's, and where `limit` >= 5 cuts off what
+/// flat, upright, e < 1e-4, errors of an angle beyond 1e-4) are the scalar code's, and where `limit` >= 5 cuts off what
 /// may be the beginning of infinitely many impacts. Accuracy: within the scalar code's error bars; sums of four impacts
 /// or more of one drop in 10⁴ by up to ten times those, where gravity and turns lose three digits.
 /// @param kernel  of batch::kernels(); none: the widest

@@ -21,8 +21,8 @@ struct RodContacts {
 /// contact_angles() for each θ [°], by the batch where that is certain of all impacts and of which end strikes: the
 /// inclination after a flight is θ − Ω₁T₁ (β + Ω₂T₂ over the other end) with
 ///     Ω₁ = 6 P₁ (cos θ − μ_i sin θ),   Ω₂ = Ω₁ − 6 P₂ (cos β + μ_i sin β)   [|v_n|/L],
-/// and must be the contact angle below the horizontal.  θ near 0° and 90°, near folds and e = 0 are contact_angles()'s.
-/// Accuracy: as contact_angles().
+/// and must be the contact angle below the horizontal.  θ near 0° and 90°, near folds and e < 1e-4 are
+/// contact_angles()'s. Accuracy: as contact_angles().
 /// @throws as contact_angles(); std::invalid_argument unless both spans have one length.
 void batch_contact_angles(std::span<const double> theta, const RodParameters& rod, std::span<RodContacts> rows);
 

@@ -272,7 +272,8 @@ std::string title_text(const MapPlan& plan, const MapImage& image, const Sheet& 
 const char* impact_word(const std::string& text) { return text == "1" ? " impact" : " impacts"; }
 
 std::string class_word(const MapQuantity& quantity, const std::string& text) {
-  const bool counts = std::string(quantity.name) == "impacts" && (text == "infinite" || !std::isnan(count_in(text)));
+  if (std::string(quantity.name) == "impacts" && text == "infinite") return "infinitely many";
+  const bool counts = std::string(quantity.name) == "impacts" && !std::isnan(count_in(text));
   if (counts) return (text.starts_with(at_least) ? "≥ " + text.substr(2) : text) + impact_word(text);
   return std::string(quantity.name) == "hardest" ? "impact " + text : text;
 }

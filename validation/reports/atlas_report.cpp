@@ -300,7 +300,7 @@ void add_strike_columns(PicturePanel& panel, std::size_t count) {
   }
 }
 
-/// Two rows for each sector, at its ends.
+/// Two rows for each sector, at its ends, and one without numbers.
 PicturePanel tilt_panel(const Atlas& atlas) {
   PicturePanel panel{.columns = {{"tilt_deg", "°", "direction of the tilt"}, {"impacts", "1", "number of impacts"}},
                      .rows = {},
@@ -319,7 +319,11 @@ PicturePanel tilt_panel(const Atlas& atlas) {
       row[0] = end * degrees_per_radian;
       panel.rows.push_back(row);
     }
+    std::fill(row.begin() + 1, row.end(), no_number);  // no line leads to the next sector's numbers
+    panel.rows.push_back(row);
   }
+  panel.plot.x = {atlas.tilts.sectors.front().from * degrees_per_radian,
+                  atlas.tilts.sectors.back().to * degrees_per_radian};
   return panel;
 }
 
