@@ -9,6 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include "analytic/base/errors.hpp"
+#include "analytic/space/sustained_contact.hpp"
 #include "validation/output/number.hpp"
 #include "validation/record/impact_rows.hpp"
 #include "validation/record/totals.hpp"
@@ -62,11 +64,38 @@ std::string names_of(const Scene& scene, const space::Body& body, const std::vec
   return names;
 }
 
+/// How the body goes on where a corner or an edge stays on the ground; nothing also where that cannot be computed.
+std::optional<space::SustainedContact> lasting_contact(const space::Drop& drop, const space::Sequence& sequence) {
+  try {
+    return contact_after(drop, sequence);
+  } catch (const analytic::NumericalError&) {
+    return {};
+  }
+}
+
+std::string contact_words(const Scene& scene, const space::Body& body, const space::SustainedContact& contact,
+                          int digits) {
+  const Estimated end{contact.begin + contact.duration, contact.error.time};
+  const std::string corners = names_of(scene, body, contact.corners);
+  const std::string until = with_error(end, {.digits = std::min(digits, 6)}) + " s";
+  switch (contact.end) {
+    case space::ContactEnd::arrival:
+      return fmt::format("the body turns on {} until {} strikes at {}, {} m/s fast", corners,
+                         names_of(scene, body, contact.arriving), until, significant(contact.approach_speed, 3));
+    case space::ContactEnd::lift_off: return fmt::format("the body turns on {}, which lifts off at {}", corners, until);
+    case space::ContactEnd::open: break;
+  }
+  return fmt::format("the body turns on {} until {}: {}", corners, until, contact.reason);
+}
+
 /// Which corners stay on the ground, on which face and by when the body settles, and how far it slides there.
 void add_end_notes(const Scene& scene, const space::Drop& drop, const space::Sequence& sequence,
                    std::vector<std::string>& notes) {
   if (sequence.tail && drop.body.rims.empty() && drop.body.ellipsoids.empty()) {
     notes.push_back("the further impacts are those of " + names_of(scene, drop.body, sequence.tail->corners));
+  }
+  if (const auto contact = lasting_contact(drop, sequence)) {
+    notes.push_back(contact_words(scene, drop.body, *contact, scene.accuracy.digits));
   }
   if (!sequence.rest) return;
   notes.push_back(fmt::format("the body settles on the face of {} before {} s",
@@ -212,9 +241,53 @@ void add_outcomes(const Scene& scene, const DiscreteRun& found, const OutcomeSet
   }
 }
 
-/// Which corners stay, and the face that the body settles on.
+/// How friction acts on corners that stay on the ground.
+const char* contact_mode(const space::Drop& drop, const space::SustainedContact& contact) {
+  const analytic::ImpactLaw& law = drop.law.law;
+  if (law.friction == analytic::FrictionKind::none || law.friction_value == 0) return "frictionless";
+  return contact.slips && contact.sticks ? "slip-stick" : contact.slips ? "slip" : "stick";
+}
+
+Value contact_value(const Scene& scene, const space::Drop& drop, const space::SustainedContact& contact) {
+  const space::Quaternion& q = contact.after.attitude;
+  const space::StateErrors& error = contact.error;
+  const char* const ends[] = {"impact", "lift-off", "open"};
+  return Value::Fields{
+      {"start", contact.begin},
+      {"duration", contact.duration},
+      {"corners", names_of(scene, drop.body, contact.corners)},
+      {"mode", contact_mode(drop, contact)},
+      {"end", ends[static_cast<std::size_t>(contact.end)]},
+      {"message", text_or_nothing(contact.reason)},
+      {"corners_at_end", names_of(scene, drop.body, contact.pivots)},
+      {"arriving", names_of(scene, drop.body, contact.arriving)},
+      {"approach_speed", contact.approach_speed},
+      {"impulse_normal", contact.normal_impulse},
+      {"energy_loss", contact.energy_loss},
+      {"attitude", std::vector<double>{q.w(), q.x(), q.y(), q.z()}},
+      {"velocity_after", numbers_of(contact.after.velocity)},
+      {"angular_velocity_after", numbers_of(contact.after.angular_velocity)},
+      {"error_estimate", Value::Fields{{"end", rounded_up(error.time)},
+                                       {"attitude", rounded_up(error.attitude)},
+                                       {"velocity_after", rounded_up(error.velocity)},
+                                       {"angular_velocity_after", rounded_up(error.angular_velocity)}}}};
+}
+
+/// Energy lost in impacts of one point, of two corners, and of more or a level rim [J].
+Value losses_by_contact(const space::Sequence& sequence) {
+  double points = 0, edges = 0, faces = 0;
+  for (const space::ImpactRow& row : sequence.rows) {
+    const std::size_t corners = row.corners.front().radius > 0 ? 3 : row.corners.size();
+    (corners == 1 ? points : corners == 2 ? edges : faces) += row.impact.energy_loss;
+  }
+  return Value::Fields{{"point", points}, {"edge", edges}, {"face", faces}};
+}
+
+/// Which corners stay, how the body goes on there, and the face that it settles on; energy by kind of contact.
 void add_end(const Scene& scene, const space::Drop& drop, const space::Sequence& sequence, Value& fields) {
   if (sequence.tail) fields["tail"]["corners"] = names_of(scene, drop.body, sequence.tail->corners);
+  fields["energy_losses"] = losses_by_contact(sequence);
+  if (const auto contact = lasting_contact(drop, sequence)) fields["contact"] = contact_value(scene, drop, *contact);
   if (!sequence.rest) return;
   fields["rest"] =
       Value::Fields{{"face", names_of(scene, drop.body, sequence.rest->corners)}, {"latest", sequence.rest->latest}};

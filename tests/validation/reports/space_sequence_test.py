@@ -108,6 +108,24 @@ class Sequence(SpaceFolder):
         self.assertGreaterEqual(all_of_it["rest"]["latest"], all_of_it["tail"]["end_time"])
         self.assertGreater(all_of_it["tail"]["end_time_error"], 0)
 
+    def test_where_a_corner_stays_the_run_tells_how_the_body_turns_on_it_to_the_next_impact(self):
+        run = self.json_of("sequence", *CORNER, "--gravity", "9.81", "--restitution", "0")
+        self.assertEqual(run["outcome"], "sustained-contact")
+        row, contact = run["impacts"][-1], run["contact"]
+        self.assertEqual((contact["mode"], contact["end"], contact["corners"]), ("frictionless", "impact", row["corners"]))
+        self.assertEqual(contact["start"], row["start"])
+        self.assertGreater(contact["approach_speed"], 0)
+        rise = contact["velocity_after"][2] - row["velocity_after"][2] + 9.81 * contact["duration"]
+        self.assertAlmostEqual(contact["impulse_normal"], MASS * rise, delta=1e-12)
+        inertia = (*box_moments(SIZE, MASS), 0, 0, 0)
+        height = -rotated(contact["attitude"], row["place"])[2]
+        energy = self.energy(contact, "", inertia) + MASS * 9.81 * height
+        self.assertAlmostEqual(energy, row["energy_after"], delta=1e-11)  # no friction takes any
+        self.assertEqual(set(run["energy_losses"]), {"point", "edge", "face"})
+        self.assertAlmostEqual(run["energy_losses"]["point"], sum(r["energy_loss"] for r in run["impacts"]), delta=1e-15)
+        table = self.run_program("sequence", *CORNER, "--gravity", "9.81", "--restitution", "0").stdout
+        self.assertIn("the body turns on " + row["corners"], " ".join(table.split()))
+
     def test_the_corner_that_strikes_is_named_and_placed(self):
         for n in range(19, 27):
             row = self.json_of("sequence", *PHONE, "--orientation", str(n), "--impacts", "1")["impacts"][0]

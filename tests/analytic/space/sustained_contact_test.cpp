@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bodies that turn on a corner or an edge, against quadratures of their energy, conserved quantities and the equation
+// of motion of a rod in its plane.
+#include "analytic/space/sustained_contact.hpp"
+
+#include <array>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "analytic/base/errors.hpp"
+#include "analytic/space/sequence.hpp"
+
+namespace {
+
+using namespace clatter::analytic::space;
+using clatter::analytic::FrictionKind;
+
+constexpr double g = 9.81;
+
+double integral(const auto& f, double from, double to) {
+  return boost::math::quadrature::gauss_kronrod<double, 61>::integrate(f, from, to, 12, 1e-14);
+}
+
+Drop drop_of(const Body& body, double friction) {
+  Drop drop;
+  drop.body = body;
+  drop.gravity = g;
+  drop.law.law.restitution = 0.5;
+  if (friction > 0) drop.law.law.friction = FrictionKind::coulomb, drop.law.law.friction_value = friction;
+  return drop;
+}
+
+/// The state in which the vertex is at rest but for the slip.
+State standing(const Body& body, const Quaternion& attitude, int vertex, const Vector3& turning,
+               const Vector3& slip = Vector3::Zero()) {
+  const Vector3 arm = attitude * body.vertices[static_cast<std::size_t>(vertex)];
+  return {.position = {0, 0, -arm.z()},
+          .attitude = attitude,
+          .velocity = slip - turning.cross(arm),
+          .angular_velocity = turning};
+}
+
+double energy(const Drop& drop, const State& s) {
+  const Vector3 w = s.attitude.conjugate() * s.angular_velocity;
+  return drop.body.mass * (s.velocity.squaredNorm() / 2 + g * s.position.z()) + w.dot(drop.body.inertia * w) / 2;
+}
+
+Vector3 angular_momentum(const Drop& drop, const State& s) {
+  return s.attitude * (drop.body.inertia * (s.attitude.conjugate() * s.angular_velocity));
+}
+
+/// A thin rod at this inclination, its lower end, vertex 0, on the ground; it falls over with ω_y < 0.
+constexpr double length = 0.4;
+Body rod() { return cylinder(0.3, {.length = length}); }
+Quaternion inclined(double angle) { return Quaternion(Eigen::AngleAxisd(-angle, Vector3::UnitY())); }
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_box_that_rocks_on_an_edge_comes_down_when_the_quadrature_of_its_energy_says) {
+  const Vector3 size(0.3, 0.2, 0.1);
+  const Drop drop = drop_of(box(1, {.size = size}), 1000);
+  const double d = std::hypot(0.15, 0.05), inertia = (0.09 + 0.01) / 12 + d * d, rest = std::atan2(0.05, 0.15);
+  for (const double lifted : {0.02, 0.3, 0.9}) {
+    const double begin = rest + lifted;  // of the centre, above the edge at −x, −z: vertices 0 and 2
+    const State s = standing(drop.body, inclined(lifted), 0, {0, 0.5, 0});
+    const SustainedContact contact = follow_contact(drop, s, {0, 2});
+    const auto rate = [&](double angle) {
+      return std::sqrt(0.25 + 2 * g * d / inertia * (std::sin(begin) - std::sin(angle)));
+    };
+    BOOST_TEST_CONTEXT("lifted by " << lifted) {
+      BOOST_CHECK(contact.end == ContactEnd::arrival);
+      BOOST_TEST(contact.arriving == (std::vector<int>{4, 6}), boost::test_tools::per_element());
+      BOOST_TEST(contact.sticks);
+      const double time = integral([&](double angle) { return 1 / rate(angle); }, rest, begin);
+      BOOST_TEST(std::fabs(contact.duration - time) <= 1e-11 * time);
+      BOOST_TEST((contact.after.angular_velocity - Vector3(0, rate(rest), 0)).norm() <= 1e-10);
+      BOOST_TEST(std::fabs(energy(drop, s) - energy(drop, contact.after)) <= 1e-11);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_rod_that_slides_without_friction_falls_as_its_energy_says) {
+  const Drop drop = drop_of(rod(), 0);
+  const double m = 0.3, half = length / 2, inertia = m * length * length / 12, begin = 1.1;
+  const SustainedContact contact = follow_contact(drop, standing(drop.body, inclined(begin), 0, {0, 0, 0}), {0});
+  const auto rate = [&](double angle) {
+    const double moving = inertia + m * half * half * std::cos(angle) * std::cos(angle);
+    return std::sqrt(2 * m * g * half * (std::sin(begin) - std::sin(angle)) / moving);
+  };
+  BOOST_CHECK(contact.end == ContactEnd::arrival);
+  // angle = begin − x²: without the root at the start.
+  const double time = integral([&](double x) { return 2 * x / rate(begin - x * x); }, 1e-7, std::sqrt(begin)) +
+                      1e-7 * 2 /
+                          std::sqrt(2 * m * g * half * std::cos(begin) /
+                                    (inertia + m * half * half * std::cos(begin) * std::cos(begin)));
+  BOOST_TEST(std::fabs(contact.duration - time) <= 1e-9 * time);
+  BOOST_TEST((contact.after.angular_velocity - Vector3(0, rate(0), 0)).norm() <= 1e-9);
+  BOOST_TEST(contact.after.velocity.head<2>().norm() <= 1e-11);
+}
+
+BOOST_AUTO_TEST_CASE(a_rod_that_slides_with_friction_moves_by_its_equation_in_the_plane) {
+  const double m = 0.3, half = length / 2, inertia = m * length * length / 12, mu = 0.2;
+  const Drop drop = drop_of(rod(), mu);
+  for (const double slip : {2.0, -2.0}) {
+    // (angle, rate upwards, slip); with the end at (−half cos, −half sin) from the centre the ground pushes with N and
+    // −μ N sgn(slip): m z″ = N − m g, z = half sin, I angle″ = −N half cos + F half sin.
+    std::array<double, 4> y{1.0, 0, slip, 0};
+    const double s = slip > 0 ? 1 : -1;
+    const auto derivative = [&](const std::array<double, 4>& v) {
+      const double c = std::cos(v[0]), n = std::sin(v[0]), w = v[1];
+      const double lever = half * (c + s * mu * n);  // angle″ = −N lever/I
+      const double push = m * (g - half * n * w * w) / (1 + m * half * c * lever / inertia);
+      const double a = -push * lever / inertia;
+      // x of the end: x_c − half cos angle.
+      const double end = -s * mu * push / m + half * (n * a + c * w * w);
+      return std::array<double, 4>{w, a, end, 0};
+    };
+    const SustainedContact contact =
+        follow_contact(drop, standing(drop.body, inclined(1.0), 0, {0, 0, 0}, {slip, 0, 0}), {0});
+    const int steps = 20000;
+    const double h = contact.duration / steps;
+    for (int i = 0; i < steps; ++i) {
+      const auto along = [&](const std::array<double, 4>& k, double t) {
+        std::array<double, 4> z{};
+        for (std::size_t j = 0; j < 4; ++j) z[j] = y[j] + t * k[j];
+        return z;
+      };
+      const auto k1 = derivative(y), k2 = derivative(along(k1, h / 2)), k3 = derivative(along(k2, h / 2)),
+                 k4 = derivative(along(k3, h));
+      for (std::size_t j = 0; j < 4; ++j) y[j] += h / 6 * (k1[j] + 2 * k2[j] + 2 * k3[j] + k4[j]);
+    }
+    BOOST_TEST_CONTEXT("slip " << slip) {
+      BOOST_CHECK(contact.end == ContactEnd::arrival);
+      BOOST_TEST(contact.slips);
+      BOOST_TEST(!contact.sticks);
+      BOOST_TEST(std::fabs(y[0]) <= 1e-11);
+      BOOST_TEST(std::fabs(y[1] + contact.after.angular_velocity.y()) <= 1e-9);
+      const Vector3 end =
+          contact.after.velocity + contact.after.angular_velocity.cross(contact.after.attitude * drop.body.vertices[0]);
+      BOOST_TEST(std::fabs(y[2] - end.x()) <= 1e-9);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_body_that_turns_on_a_corner_keeps_its_energy_and_what_no_force_has_a_couple_about) {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal;
+  const Body body = box(0.7, {.size = {0.3, 0.2, 0.12}});
+  int arrivals = 0;
+  for (int n = 0; n < 60; ++n) {
+    const Drop drop = drop_of(body, n % 2 == 0 ? 0 : 1000);  // without friction, or held
+    Quaternion attitude(normal(random), normal(random), normal(random), normal(random));
+    attitude.normalize();
+    int lowest = 0;
+    for (int i = 1; i < 8; ++i) {
+      const auto height = [&](int k) { return (attitude * body.vertices[static_cast<std::size_t>(k)]).z(); };
+      if (height(i) < height(lowest)) lowest = i;
+    }
+    const Vector3 turning(normal(random), normal(random), normal(random));
+    const State s = standing(body, attitude, lowest, turning);
+    const SustainedContact contact = follow_contact(drop, s, {lowest});
+    if (contact.end == ContactEnd::open) continue;
+    arrivals += contact.end == ContactEnd::arrival ? 1 : 0;
+    const State& end = contact.after;
+    BOOST_TEST_CONTEXT("body " << n) {
+      BOOST_TEST(std::fabs(energy(drop, s) - energy(drop, end)) <= 1e-11);
+      const bool held = drop.law.law.friction == FrictionKind::coulomb;
+      const auto about_vertical = [&](const State& at) {
+        const Vector3 arm = at.attitude * body.vertices[static_cast<std::size_t>(lowest)];
+        const Vector3 orbital = held ? Vector3(body.mass * (-arm).cross(at.velocity)) : Vector3(Vector3::Zero());
+        return (angular_momentum(drop, at) + orbital).z();
+      };
+      BOOST_TEST(std::fabs(about_vertical(s) - about_vertical(end)) <= 1e-12);
+      if (!held) BOOST_TEST((s.velocity - end.velocity).head<2>().norm() <= 1e-11);
+    }
+  }
+  BOOST_TEST(arrivals > 40);
+}
+
+BOOST_AUTO_TEST_CASE(ends_of_contacts_change_within_their_errors_when_their_beginning_does) {
+  std::mt19937_64 random(12);
+  std::normal_distribution<double> normal;
+  const Body body = box(0.7, {.size = {0.3, 0.2, 0.12}});
+  int judged = 0;
+  for (int n = 0; n < 40; ++n) {
+    const Drop drop = drop_of(body, n % 2 == 0 ? 0 : 0.3);
+    const Quaternion attitude = Quaternion(1, 0.3 * normal(random), 0.3 * normal(random), normal(random)).normalized();
+    int lowest = 0;
+    for (int i = 1; i < 8; ++i) {
+      const auto height = [&](int k) { return (attitude * body.vertices[static_cast<std::size_t>(k)]).z(); };
+      if (height(i) < height(lowest)) lowest = i;
+    }
+    const Vector3 slip(normal(random), normal(random), 0), turning(normal(random), normal(random), normal(random));
+    const double size = 1e-9;
+    const StateErrors errors{.time = 0, .attitude = size, .velocity = size, .angular_velocity = size};
+    const State s = standing(body, attitude, lowest, turning, slip);
+    const SustainedContact contact = follow_contact(drop, s, {lowest}, errors);
+    if (!std::isfinite(contact.error.velocity)) continue;
+    const Vector3 other = turning + size * Vector3(normal(random), normal(random), normal(random)).normalized();
+    const SustainedContact near = follow_contact(drop, standing(body, attitude, lowest, other, slip), {lowest});
+    ++judged;
+    BOOST_TEST(std::fabs(near.duration - contact.duration) <= contact.error.time);
+    BOOST_TEST((near.after.velocity - contact.after.velocity).norm() <= contact.error.velocity);
+    BOOST_TEST((near.after.angular_velocity - contact.after.angular_velocity).norm() <= contact.error.angular_velocity);
+    BOOST_TEST(contact.error.velocity <= 1e3 * size);
+  }
+  BOOST_TEST(judged > 30);
+}
