@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analytic/space/error_growth.hpp"
 
-#include <gsl/gsl_linalg.h>
-
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -83,19 +81,31 @@ ErrorGrowth::ErrorGrowth(const Body& body, const State& start, double gravity)
   }
 }
 
-/// F Fᵀ = Rᵀ R with Fᵀ = Q R: F's columns are the rows of Fᵀ, as GSL stores them.
+/// L of F = L Qᵀ, Q orthogonal, so that L Lᵀ = F Fᵀ: by reflections of the rows of F, which lie in memory as columns.
+ErrorGrowth::Factor ErrorGrowth::triangular(const Factor& factor) {
+  Eigen::Matrix<double, Eigen::Dynamic, size, Eigen::ColMajor, most_columns, size> rows = factor.transpose();
+  for (int k = 0; k < size; ++k) {
+    auto row = rows.col(k).tail(rows.rows() - k);
+    const double largest = row.cwiseAbs().maxCoeff();  // squares of the rest would underflow without it
+    if (!(largest > 0)) continue;
+    Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_columns, 1> mirror = row / largest;
+    const double length = std::copysign(mirror.norm(), mirror[0]);
+    mirror[0] += length;
+    const double twice = 2 / mirror.squaredNorm();
+    for (int j = k + 1; j < size; ++j) {
+      auto other = rows.col(j).tail(rows.rows() - k);
+      other -= twice * mirror.dot(other) * mirror;
+    }
+    row.setZero();
+    row[0] = -length * largest;
+  }
+  return rows.topRows<size>().transpose();
+}
+
 void ErrorGrowth::append(const Factor& columns) {
   Factor wider(size, factor_.cols() + columns.cols());
   wider << factor_, columns;
-  if (wider.cols() > 2 * size) {
-    double scales[size];
-    gsl_matrix_view rows = gsl_matrix_view_array(wider.data(), static_cast<std::size_t>(wider.cols()), size);
-    gsl_vector_view tau = gsl_vector_view_array(scales, size);
-    gsl_linalg_QR_decomp(&rows.matrix, &tau.vector);
-    wider.conservativeResize(Eigen::NoChange, size);
-    for (int i = 0; i < size; ++i) wider.col(i).head(i).setZero();
-  }
-  factor_ = wider;
+  factor_ = wider.cols() > 2 * size ? triangular(wider) : wider;
 }
 
 /// What rounding of the impulse, δP in each direction, does to the state: δV = δP/m, δω = I⁻¹ (r × δP).
@@ -131,11 +141,6 @@ ErrorGrowth::Factor ErrorGrowth::without_approach(Factor columns, const Gradient
   columns.rightCols<1>().setZero();
   columns(6, columns.cols() - 1) = rounding;
   return columns;
-}
-
-void ErrorGrowth::advance(const Jacobian& jacobian) {
-  factor_ = jacobian.lazyProduct(factor_).eval();
-  of_drop_ = jacobian.lazyProduct(of_drop_).eval();
 }
 
 /// δu, u = V_z + (ω × r)_z at the row's corner, for the angular velocity before or after; a turn moves the lowest point
@@ -203,14 +208,12 @@ ErrorGrowth::EnergyGradients ErrorGrowth::energy_gradients(const ImpactRow& row,
   return e;
 }
 
-void ErrorGrowth::fill(const StrikeDerivatives& derivatives, ImpactRow& row) const {
+void ErrorGrowth::fill(const Struck& struck, ImpactRow& row) const {
   const State& before = row.before;
   const Vector3& w = before.angular_velocity;
   const Matrix3 axes = before.attitude.toRotationMatrix(), inertia = axes * body_.inertia * axes.transpose();
   const auto [energy, energy_of_turn] = energy_gradients(row, inertia);
   const Vector3 momentum_after = inertia * row.impact.angular_velocity_after;
-  const Eigen::Matrix<double, 9, Eigen::Dynamic, Eigen::ColMajor, 9, most_columns> struck =
-      derivatives.lazyProduct(factor_.bottomRows<9>());
   const Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, most_columns> energy_after =
       energy_of_turn.lazyProduct(factor_) +
       body_.mass * row.impact.velocity_after.transpose().lazyProduct(struck.middleRows<3>(3)) +
@@ -257,18 +260,18 @@ void ErrorGrowth::strike(const Strike& strike, const StrikeDerivatives& closed, 
     predictable_ = false;
     return;
   }
-  fill(derivatives, row);
+  const Struck struck = derivatives.lazyProduct(factor_.bottomRows<9>());
+  fill(struck, row);
+  const Eigen::Matrix<double, 9, 9> struck_drop = derivatives.lazyProduct(of_drop_.bottomRows<9>());
   const double of_time = row.start > 0 ? of_drop_.row(0).norm() / row.start : 0;
-  const double of_impulse =
-      derivatives.topRows(3).lazyProduct(of_drop_.bottomRows(9)).norm() / row.impact.impulse.norm();
-  row.amplification = std::fmax(std::fmax(of_time, of_impulse), of_drop_.middleRows(1, 3).norm());
-  carry(derivatives, row);
+  const double of_impulse = struck_drop.topRows<3>().norm() / row.impact.impulse.norm();
+  row.amplification = std::fmax(std::fmax(of_time, of_impulse), of_drop_.middleRows<3>(1).norm());
+  factor_.bottomRows<6>() = struck.bottomRows<6>();
+  of_drop_.bottomRows<6>() = struck_drop.bottomRows<6>();
+  append_rounding(row);
 }
 
-void ErrorGrowth::carry(const StrikeDerivatives& derivatives, const ImpactRow& row) {
-  Jacobian jacobian = Jacobian::Identity();
-  jacobian.bottomRightCorner(6, 9) = derivatives.bottomRows(6);
-  advance(jacobian);
+void ErrorGrowth::append_rounding(const ImpactRow& row) {
   Deviations d;
   d << epsilon / 4 * row.start, Vector3::Constant(epsilon),
       Vector3::Constant(epsilon * (row.before.velocity.norm() + row.impact.velocity_after.norm())),
@@ -317,7 +320,8 @@ void ErrorGrowth::fly(const FreeFlight& flight, const FirstContact& contact, con
   j.middleRows(1, 3) += now.angular_velocity * shift;
   j.row(6) -= gravity_ * shift;
   j.bottomRows(3) += acceleration * shift;
-  advance(j);
+  factor_ = j.lazyProduct(factor_).eval();
+  of_drop_ = j.lazyProduct(of_drop_).eval();
   const double size_of_height = body_.reach() + t * (flight.start().velocity.norm() + gravity_ * t);
   const double turned_by = 1 + 1e-3 * flight.rotation().fastest() * t;
   Deviations d;

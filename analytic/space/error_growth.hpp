@@ -49,9 +49,12 @@ class ErrorGrowth {
   using Deviations = Eigen::Matrix<double, size, 1>;
   using Gradient = Eigen::Matrix<double, 1, size>;
 
+  /// Changes of impulse, velocity and angular velocity after an impact for the columns of a factor.
+  using Struck = Eigen::Matrix<double, 9, Eigen::Dynamic, Eigen::ColMajor, 9, most_columns>;
+
+  [[nodiscard]] static Factor triangular(const Factor& factor);
   void append(const Factor& columns);
   [[nodiscard]] Factor impulse_rounding(const ImpactRow& row) const;
-  void advance(const Jacobian& jacobian);
   [[nodiscard]] static Factor without_approach(Factor columns, const Gradient& approach, double rounding);
   [[nodiscard]] double approach_rounding(const ImpactRow& row) const;
   [[nodiscard]] Gradient approach_gradient(const ImpactRow& row, const Vector3& turning) const;
@@ -63,9 +66,8 @@ class ErrorGrowth {
     Gradient before = Gradient::Zero(), after = Gradient::Zero();
   };
   [[nodiscard]] EnergyGradients energy_gradients(const ImpactRow& row, const Matrix3& inertia) const;
-  void fill(const StrikeDerivatives& derivatives, ImpactRow& row) const;
-  /// The errors through the impact, and its rounding.
-  void carry(const StrikeDerivatives& derivatives, const ImpactRow& row);
+  void fill(const Struck& struck, ImpactRow& row) const;
+  void append_rounding(const ImpactRow& row);  ///< of the impact
   [[nodiscard]] Jacobian flight_jacobian(const FreeFlight& flight, double time) const;
   void check_others(const FreeFlight& flight, const FirstContact& contact);
   [[nodiscard]] double height_bound(double time) const;
