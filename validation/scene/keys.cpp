@@ -314,12 +314,15 @@ void append_estimates(std::vector<Key>& keys) {
           {"run.evaluation_limit", Use::continuous, "", "N", "",
            "of the contact forces; then the run ends with the rows so far",
            LongNumber{[](Scene& s) -> long& { return s.accuracy.evaluation_limit; }, 1, 1'000'000'000'000}},
-          {"run.errors", Use::continuous, "", "true|false", "", "estimate errors by a second run",
+          {"run.errors", Use::continuous, "", "true|false", "",
+           "errors by a finer run, which costs more than the run itself; false leaves them out",
            TruthValue{[](Scene& s) -> bool& { return s.request.error_estimates; }}},
-          {"run.amplification", Use::continuous, "", "true|false", "", "and the growth of errors by a neighbouring one",
+          {"run.amplification", Use::continuous, "", "true|false", "",
+           "their growth by a neighbouring run, a quarter of the run itself; false leaves it out",
            TruthValue{[](Scene& s) -> bool& { return s.request.amplification; }}},
           {"run.note_local_slip", Use::continuous, "--note-local-slip", "", "",
-           "estimate what each place's own slip would change, however little",
+           "estimate what each place's own slip would change, however little; else only with run.errors, where it may "
+           "matter",
            TruthValue{[](Scene& s) -> bool& { return s.request.local_slip; }}},
       });
 }
