@@ -30,7 +30,6 @@ constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
 constexpr double estimate_margin = 4;  // what error estimates exceed errors by; a first run that they accept is cheaper
 constexpr double different_ways = 0.1;
 constexpr double power_of_tolerance = 0.9;  // with which errors fall
-constexpr double far_from_asked = 2;  // errors, times what is asked, for which no run is repeated without their growth
 constexpr double usual_error_constant = 1;  // median over many scenes, for one whose pilots go different ways
 
 /// Largest error of an impact over the sequence's sizes.
@@ -39,13 +38,13 @@ double relative_error(const numeric::ImpactRecord& row, const MotionNumbers& siz
 }
 
 /// Whether errors have grown so far at row i that the digits asked are lost: by amplification, or where that is not
-/// known, by the errors of an adaptive method themselves.
+/// known, by the errors of an adaptive method themselves, which then say nothing of what a repeated run would reach.
 bool has_outgrown(const PlannedRun& planned, std::size_t i) {
   const numeric::ImpactRecord& row = planned.run.impacts[i];
   if (!row.predictable) return true;
   if (!std::isnan(row.amplification)) return rounding * row.amplification > planned.asked;
   const bool estimated = planned.run.tolerance > 0 && !std::isnan(planned.run.impacts[0].error.impulse.z());
-  return i > 0 && estimated && !(relative_error(row, planned.sizes) <= far_from_asked * planned.asked);
+  return i > 0 && estimated && !(relative_error(row, planned.sizes) <= planned.asked);
 }
 
 /// Fills in what was achieved.
