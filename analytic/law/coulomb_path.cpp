@@ -255,6 +255,10 @@ template detail::Dual<1> restitution_at(const ImpactLaw&, const detail::Dual<1>&
 template PathEnd<double> point_impulse(const PathCoefficients<double>&, const PathStart<double>&, const ImpactLaw&);
 template PathEnd<ImpactDual> point_impulse(const PathCoefficients<ImpactDual>&, const PathStart<ImpactDual>&,
                                            const ImpactLaw&);
+template PathEnd<detail::Dual<2>> point_impulse(const PathCoefficients<detail::Dual<2>>&,
+                                                const PathStart<detail::Dual<2>>&, const ImpactLaw&);
+template PathEnd<detail::Dual<2>> flat_impulse(const PathStart<detail::Dual<2>>&, const detail::Dual<2>&,
+                                               const ImpactLaw&);
 template PathEnd<double> flat_impulse(const PathStart<double>&, const double&, const ImpactLaw&);
 template PathEnd<ImpactDual> flat_impulse(const PathStart<ImpactDual>&, const ImpactDual&, const ImpactLaw&);
 

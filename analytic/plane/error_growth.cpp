@@ -168,6 +168,8 @@ ContactPoint partner(const BodyMotion& motion, VertexSet vertices, int reference
   return farthest;
 }
 
+}  // namespace
+
 StruckState struck_state(const BodyMotion& motion, const ImpactLaw& law, const ImpactRow& row) {
   const int vertex = motion.local_departure().reference;
   const ContactPoint d = motion.contact_point(vertex);
@@ -181,6 +183,8 @@ StruckState struck_state(const BodyMotion& motion, const ImpactLaw& law, const I
           .second = flat ? partner(motion, row.vertices, vertex) : ContactPoint{},
           .flat = flat};
 }
+
+namespace {
 
 /// Relative rounding of P_n from that of A − (P_t/P_n) B.
 double impulse_rounding(const StruckState& struck, const Impact& impact) {

@@ -15,6 +15,9 @@
 
 namespace clatter::analytic {
 
+/// The impact of `row` that `motion` has just had, of which the row has vertices, velocity before and impact.
+[[nodiscard]] StruckState struck_state(const BodyMotion& motion, const ImpactLaw& law, const ImpactRow& row);
+
 class ErrorGrowth {
  public:
   /// @param motion before its first impact, in internal units (impact_rows.hpp); angle of the drop [rad]

@@ -91,6 +91,64 @@ ImpactDerivatives impact_derivatives(const StruckState& struck, ImpactMode mode)
   return d;
 }
 
+namespace {
+
+/// @param push_of_friction |P_t| over the friction, per unit mass
+void set_parts(const StruckState& struck, double push_of_friction, LawColumn& column) {
+  const ContactPoint& d = struck.place;
+  const double square = struck.body.gyration_square;
+  const auto [a, b, c] = contact_inertia(square, d);
+  column.part = struck.body.mass * push_of_friction + std::fabs(column.normal) + std::fabs(column.tangential);
+  const double push = column.part / struck.body.mass;
+  column.parts[at_normal] = (a + std::fabs(b)) * push;
+  column.parts[at_slip] = (c + std::fabs(b)) * push;
+  column.parts[at_turn] = (std::fabs(d.normal) + std::fabs(d.tangential)) / square * push;
+  column.parts[at_sum] = column.part;
+}
+
+}  // namespace
+
+LawDerivatives law_derivatives(const StruckState& struck, ImpactMode mode) {
+  using Number = detail::Dual<2>;          // of e and of the friction
+  constexpr double from_above = 0x1p-400;  // friction without which impulses and velocities are the same
+  ImpactLaw law = struck.law;
+  if (law.friction == FrictionKind::none) law.friction = FrictionKind::coulomb;
+  if (law.friction_value == 0) law.friction_value = from_above;
+  // A path with λ times the friction is that of the friction given, with the tangential impulse in units of λ.
+  const Number scale(1, {0, 1 / law.friction_value});
+  const ContactPoint& d = struck.place;
+  const double square = struck.body.gyration_square, turning = struck.before.angular * d.normal;
+  const auto [a, b, c] = contact_inertia(square, d);
+  const bool is_damped = law.law == RestitutionLaw::viscoelastic;
+  const double approach =
+      struck.flat ? -(struck.contact.normal + struck.before.angular * d.tangential) : -struck.contact.normal;
+  const double damped =
+      restitution_at(law, struck.flat ? pressure_centre_speed(approach, struck.before.angular, square) : approach);
+  const Number e(is_damped ? damped : law.restitution, {is_damped ? 0.0 : 1.0, 0});
+  PathStart<Number> start{.approach_speed = approach, .slip = struck.contact.slip, .restitution = e};
+  const PathCoefficients<Number> path{
+      .normal = a, .normal_coupling = b * scale, .slip_drift = b, .tangential = c * scale};
+  if (struck.flat) start.slip = start.slip / scale;  // whose path has its own coefficients
+  const PathEnd<Number> end =
+      struck.flat ? flat_impulse<Number>(start, turning / scale, law) : point_impulse<Number>(path, start, law);
+  const Number tangential = scale * end.tangential_impulse;
+  const Number separation = struck.flat ? -e * struck.contact.normal : end.separation_speed;
+  const Number push = struck.flat ? tangential - (1 + e) * turning : c * tangential - b * end.normal_impulse;
+  const Number turn = struck.flat ? -(1 + e) * struck.before.angular
+                                  : (tangential * d.normal - end.normal_impulse * d.tangential) / square;
+  const auto column = [&](std::size_t i) {
+    LawColumn one{.normal = struck.body.mass * end.normal_impulse.slope[i],
+                  .tangential = struck.body.mass * tangential.slope[i]};
+    one.state[at_normal] = separation.slope[i];
+    one.state[at_slip] = sticks(mode) && !struck.flat ? 0 : push.slope[i];
+    one.state[at_turn] = turn.slope[i];
+    one.state[at_sum] = one.normal;
+    set_parts(struck, i == 1 ? std::fabs(end.tangential_impulse.value) / law.friction_value : 0, one);
+    return one;
+  };
+  return {.restitution = column(0), .friction = column(1)};
+}
+
 StateVector height_gradient(const FlownState& flown, int vertex, const Moment& moment) {
   const Departure& from = flown.departure;
   const ContactPoint d = flown.body.contact_point(vertex, from.sine, from.cosine);

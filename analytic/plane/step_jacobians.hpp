@@ -36,6 +36,20 @@ struct ImpactDerivatives {
 /// of the law that the impact has taken.  Relative accuracy: 1e-9.
 [[nodiscard]] ImpactDerivatives impact_derivatives(const StruckState& struck, ImpactMode mode);
 
+/// Derivatives of an impact with respect to one number of its law.
+struct LawColumn {
+  double normal = 0, tangential = 0;
+  StateVector state{};  ///< of the state after it
+  double part = 0;      ///< size of the parts of `normal` and `tangential`, which may cancel
+  StateVector parts{};  ///< likewise of `state`
+};
+/// With respect to e, and to Coulomb's μ or the impulse ratio; without friction those of Coulomb's μ from above.  Of
+/// the branch of the law that the impact has taken.
+struct LawDerivatives {
+  LawColumn restitution, friction;
+};
+[[nodiscard]] LawDerivatives law_derivatives(const StruckState& struck, ImpactMode mode);
+
 /// A flight for its Jacobian.
 struct FlownState {
   PlanarBody body;      ///< as turned_body() at the departure

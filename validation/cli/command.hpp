@@ -61,6 +61,7 @@ struct Command {
 [[nodiscard]] Command regimes_command();
 [[nodiscard]] Command atlas_command();
 [[nodiscard]] Command explain_command();
+[[nodiscard]] Command gradient_command();
 [[nodiscard]] Command simulate_command();
 [[nodiscard]] Command compare_command();
 [[nodiscard]] Command sweep_command();

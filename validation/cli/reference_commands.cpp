@@ -26,6 +26,7 @@
 #include "validation/reports/comparison_report.hpp"
 #include "validation/reports/explanation_report.hpp"
 #include "validation/reports/extremes_report.hpp"
+#include "validation/reports/gradient_report.hpp"
 #include "validation/reports/measured_report.hpp"
 #include "validation/reports/plan_report.hpp"
 #include "validation/reports/regimes_report.hpp"
@@ -249,6 +250,7 @@ const std::vector<ColumnsOf>& all_columns() {
                                           {"atlas", atlas_space_columns},
                                           {"atlas-plane", atlas_plane_columns},
                                           {"explain", explain_columns},
+                                          {"gradient", gradient_columns},
                                           {"simulate", simulation_columns},
                                           {"history", history_columns},
                                           {"compare", comparison_columns},

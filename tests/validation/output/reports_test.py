@@ -20,6 +20,7 @@ COMMANDS = {
     "regimes": (["regimes"], "rows"),
     "atlas": (["atlas", "phone"], "rows"),
     "explain": (["explain", "2", "--angle", "10"], "steps"),
+    "gradient": (["gradient", "--angle", "33", "--gravity", "9.81", "--friction", "0.1", "--impacts", "2"], "gradients"),
     "simulate": (["simulate", PHONE, "--impacts", "2"], "impacts"),
     "compare": (["compare", PHONE, "--impacts", "1"], "impacts"),
     "sweep": (["sweep", PHONE, "--model", "discrete", "--set", "drop.angle_deg=10:50:20"], "rows"),

@@ -1,0 +1,93 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""clatter gradient: its derivatives are the slopes of clatter sequence, and it says where there are none."""
+
+import json
+import math
+import random
+import unittest
+
+from run_folder import run
+
+NUMBERS = {"start": "start", "velocity_after_z": ("velocity_after", 2), "velocity_after_x": ("velocity_after", 0),
+           "angular_velocity_after_y": ("angular_velocity_after", 1), "impulse_normal": "impulse_normal",
+           "impulse_tangential": "impulse_tangential"}
+STEP = 1e-5  # of each number, beside its size: curvature and rounding balance
+
+
+def told(command, flags):
+    arguments = [word for key, value in flags.items() for word in (f"--{key}", repr(value) if isinstance(value, float) else str(value))]
+    done = run(command, *arguments, "--format", "json")
+    return done, json.loads(done.stdout) if done.stdout else None
+
+
+def number(impact, key):
+    return impact[key] if isinstance(key, str) else impact[key[0]][key[1]]
+
+
+class Gradient(unittest.TestCase):
+    def slopes(self, flags, flag, step):
+        low, high = (told("sequence", {**flags, flag: flags[flag] + way * step})[1]["impacts"] for way in (-1, 1))
+        self.assertEqual([i["end"] for i in low], [i["end"] for i in high])
+        return [{name: (number(b, key) - number(a, key)) / (2 * step) for name, key in NUMBERS.items()} for a, b in zip(low, high)]
+
+    def check(self, flags, parameter, flag, per=1.0):
+        done, found = told("gradient", flags)
+        self.assertEqual(done.returncode, 0, (flags, done.stderr))
+        rows = [row for row in found["gradients"] if row["parameter"] == parameter]
+        slopes = self.slopes(flags, flag, STEP * flags[flag])
+        self.assertGreaterEqual(len(slopes), len(rows))
+        for row, slope in zip(rows, slopes):
+            size = max(1.0, *(abs(row[name]) for name in NUMBERS))
+            for name in NUMBERS:
+                self.assertAlmostEqual(row[name], slope[name] * per, delta=1e-4 * size, msg=(flags, parameter, row["n"], name))
+
+    def test_derivatives_are_the_slopes_of_the_sequence(self):
+        rng = random.Random(3)
+        for _ in range(4):
+            flags = {"angle": rng.uniform(5, 50), "speed": rng.uniform(0.5, 2), "gravity": 9.81,
+                     "restitution": rng.uniform(0.3, 0.9), "friction": rng.uniform(0.1, 0.3), "impacts": 2}
+            self.check(flags, "angle", "angle", 180 / math.pi)
+            for name in ("speed", "restitution", "friction"):
+                self.check(flags, name, name)
+
+    def test_of_a_drop_from_a_height_they_are_those_at_that_height(self):
+        for flag in ("height", "clearance"):
+            flags = {"body": "box", "size": "0.3x0.1x0.1", "angle": 25.0, flag: 0.8, "restitution": 0.6, "impacts": 2}
+            self.check(flags, flag, flag)
+            self.check(flags, "angle", "angle", 180 / math.pi)
+
+    def test_a_fold_has_none_and_the_exit_status_says_so(self):
+        done, found = told("gradient", {"angle": 58.488442288312, "impacts": 2})
+        self.assertEqual(done.returncode, 3)
+        self.assertEqual({row["n"] for row in found["gradients"]}, {1})
+        self.assertIn("impact 2", found["shortfall"])
+        self.assertEqual(done.stderr.count("\n"), 1)
+
+    def test_a_flat_landing_has_none_by_the_angle(self):
+        done, found = told("gradient", {"angle": 0, "gravity": 9.81, "restitution": 0.5, "impacts": 2})
+        self.assertEqual(done.returncode, 3)
+        self.assertEqual({row["parameter"] for row in found["gradients"]}, {"speed", "restitution", "friction"})
+        self.assertEqual([(one["parameter"], one["from_impact"]) for one in found["refused"]], [("angle", 1)])
+
+    def test_ground_that_gives_the_restitution_has_no_derivative_of_it(self):
+        done, found = told("gradient", {"angle": 20, "stiffness": "1e9", "damping": "1e7", "gravity": 9.81, "impacts": 2})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual({row["parameter"] for row in found["gradients"]}, {"angle", "speed", "friction"})
+
+    def test_drops_in_space_are_refused(self):
+        done = run("gradient", "phone-corner")
+        self.assertEqual((done.returncode, done.stdout), (4, ""))
+        self.assertEqual(done.stderr.count("\n"), 1)
+
+    def test_errors_hold_the_derivative_of_another_precision(self):
+        """Of the first impact of the thin rod, by Eq. 9."""
+        _, found = told("gradient", {"angle": 30, "impacts": 1})
+        row = next(row for row in found["gradients"] if row["parameter"] == "angle")
+        c, s = math.cos(math.pi / 6), 0.5
+        wanted = 2 * 6 * c * s / (1 + 3 * c * c) ** 2
+        self.assertLessEqual(abs(row["impulse_normal"] - wanted), row["error_estimate"]["impulse_normal"] + 1e-16)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `clatter gradient SCENE`: how the state after each impact changes with the drop.
+#include <memory>
+
+#include "validation/cli/command.hpp"
+#include "validation/cli/options.hpp"
+#include "validation/output/bad_input.hpp"
+#include "validation/reports/gradient_report.hpp"
+#include "validation/scene/failure.hpp"
+
+namespace clatter::validation::inline cli {
+namespace {
+
+struct GradientInput {
+  SceneFlags scene;
+  OutputTexts output;
+};
+
+int run_gradient(const GradientInput& input) {
+  const PreparedScene prepared = read_discrete_flags(input.scene);
+  const OutputChoice choice = read_output(input.output);
+  check_files(choice);
+  const GradientReport made = gradient_report(prepared);
+  write_report(choice, made.report);
+  if (made.shortfall.empty()) return 0;
+  say(made.shortfall);
+  return exit_status(FailureKind::not_computed);
+}
+
+}  // namespace
+
+Command gradient_command() {
+  auto input = std::make_shared<GradientInput>();
+  Command command{.name = "gradient", .help = "derivatives of the state after each impact"};
+  add_scene_flags(command, input->scene, Model::discrete);
+  add_output_options(command, input->output);
+  command.footer =
+      "Example: clatter gradient --angle 10 --gravity 9.81 --restitution 0.8 --impacts 3\n"
+      "With respect to the angle (per radian), the speed or height, restitution and friction. None at\n"
+      "a fold, where an impact grazes, and where drops on both sides have other impacts: exit status 3.";
+  command.run = [input] { return run_gradient(*input); };
+  return command;
+}
+
+}  // namespace clatter::validation::inline cli
