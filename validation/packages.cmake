@@ -44,7 +44,6 @@ among the processes that they start, on one machine or many.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libclatter-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libgsl-dev, libboost-dev, libeigen3-dev")
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "libcli11-dev, libtomlplusplus-dev, nlohmann-json3-dev, libfmt-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
     "libraries of clatter: impact sequences of falling rigid bodies
 Headers and static libraries of the discrete model and of the

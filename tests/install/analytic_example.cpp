@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A rod at 10°: the impact sequence of the discrete model.
-#include <clatter/analytic/plane/sequence.hpp>
+#include <clatter/analytic.hpp>
 #include <cstdio>
 
 int main() {

@@ -29,6 +29,17 @@ with_pkg_config() {
   done
 }
 
+# Whoever has the include path sees clatter/ alone, and no header but the public ones and what they need.
+with_one_folder() {
+  local folder shown
+  folder=$(PKG_CONFIG_PATH=$(dirname -- "$(find "$prefix" -name clatter.pc)") pkg-config --variable=includedir clatter)
+  shown=$(cd -- "$folder" && echo *)
+  [[ $shown == clatter ]] || { printf 'the include path shows %s\n' "$shown" >&2; return 1; }
+  shown=$(cd -- "$folder/clatter" && echo *)
+  [[ $shown == 'analytic analytic.hpp numeric numeric.hpp' ]] || { printf 'clatter/ holds %s\n' "$shown" >&2; return 1; }
+  [[ ! -e $folder/clatter/analytic/plane/first_root.cpp && ! -e $folder/clatter/analytic/space/level_rim.hpp ]]
+}
+
 # A component that is not there ends the configuration with a line that names it.
 without_a_component() {
   mkdir "$prefix/unknown"
@@ -54,10 +65,12 @@ assert os.path.dirname(clatter.__file__) == sys.argv[1], clatter.__file__
 assert clatter.sequence(angle=10).outcome == "no-further-impact"
 assert os.path.exists(os.path.join(sys.argv[1], "py.typed"))
 PYTHON
+  PYTHONPATH=${package%/*} /usr/bin/python3 -B "$source/python_example.py"
 }
 
 with_cmake
 with_pkg_config
+with_one_folder
 without_a_component
 with_python
 printf 'the installed libraries and the Python module work\n'

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A box on its corner: the impacts of the continuous model in space.
-#include <clatter/numeric/mesh/generators.hpp>
-#include <clatter/numeric/simulate.hpp>
+#include <clatter/numeric.hpp>
 #include <cstdio>
 
 int main() {
