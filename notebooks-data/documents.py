@@ -1,17 +1,18 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes what the documents show of the program's output: blocks of README.md, verification.md, the figures' data,
-extremes.md with figures/extremes.svg.
+"""Writes what the documents show of the program's output: blocks of README.md and of the reference's pages,
+verification.md, the figures' data, extremes.md with figures/extremes.svg.
 
     notebooks-data/documents.py PROGRAM            writes them
     notebooks-data/documents.py PROGRAM --check    says which are not what PROGRAM prints, and changes nothing
 
-A block of README.md stands between "<!-- output: COMMAND -->", "<!-- measurement -->" or "<!-- costs -->" and
+A block stands between "<!-- output: COMMAND -->", "<!-- code: FILE -->", "<!-- measurement -->" or "<!-- costs -->" and
 "<!-- end -->".  The costs are those of tradeoff.csv, which tradeoff.py measures.  The paper's figures and other pictures
 are drawn from the data by figures.py, to be run after this.
 """
 
 import csv
+import functools
 import itertools
 import json
 import re
@@ -24,13 +25,20 @@ ROOT = Path(__file__).resolve().parent.parent
 README = ROOT / "README.md"
 VERIFICATION = ROOT / "notebooks-data" / "verification.md"
 TRADEOFF = ROOT / "notebooks-data" / "tradeoff.csv"
-BLOCK = re.compile(r"(<!-- ((?P<kind>output|measurement|costs)(: (?P<command>[^>]+?))?) -->\n).*?(?P<end><!-- end -->)", re.DOTALL)
+PAGES = ROOT / "notebooks-data" / "reference"
+BLOCK = re.compile(r"(<!-- ((?P<kind>output|code|measurement|costs)(: (?P<what>[^\n]+?))?) -->\n).*?(?P<end><!-- end -->)", re.DOTALL)
+LANGUAGES = {".cpp": "cpp", ".py": "python", ".toml": "toml"}
 EXTREMES = ROOT / "notebooks-data" / "extremes.md"
 FIGURES = ROOT / "notebooks-data" / "figures"
 COSTS_OF = ("rod-10", "rod-45", "phone-damped")
 GROUPS = {"C": "Claims of the paper", "E": "Errata", "F": "Figures", "X": "Exact results",
           "M": "Both models over every scene", "R": "Random scenes", "B": "Error bars",
           "S": "The discrete model in space"}
+
+
+@functools.cache
+def printed_once(program, command):
+    return printed(program, shlex.split(command)[1:])
 
 
 def printed(program, arguments):
@@ -51,8 +59,8 @@ def cell(text):
 
 
 def settled(text):
-    """Without rounding errors and what hangs on them, which differ from machine to machine."""
-    return re.sub(r"\d(\.\d+)?e[-−]\d\d|\d+ force evaluations", "", text)
+    """Without rounding errors and what hangs on them, which differ from machine to machine, and without times."""
+    return re.sub(r"\d(\.\d+)?e[-−]\d\d|\d+ force evaluations|[\d.]+ s of processor time", "", text)
 
 
 MEASURED = {  # rows of `clatter measured score` as README shows them
@@ -66,6 +74,7 @@ MEASURED = {  # rows of `clatter measured score` as README shows them
 }
 
 
+@functools.cache
 def measurement(program):
     """Median misses of the predicted motion after impact 1, for both sets of tracked drops."""
     sets = {name: {row["quantity"]: row for row in
@@ -156,13 +165,21 @@ def extremes(result):
     return "\n".join(lines) + "\n"
 
 
-def readme(program, text):
+def code(name):
+    """A file of the source tree as a listing, without its line on the licence."""
+    text = (ROOT / name).read_text(encoding="utf-8")
+    kept = "".join(line for line in text.splitlines(keepends=True) if "SPDX-License-Identifier" not in line and not line.startswith("#!"))
+    return f"```{LANGUAGES[Path(name).suffix]}\n{kept}```\n"
+
+
+def renewed(program, text):
+    """The text of a document with what its blocks show now."""
     def block(found):
-        kind = found.group("kind")
+        kind, what = found.group("kind"), found.group("what")
         if kind == "output":
-            content = f"```\n{printed(program, shlex.split(found.group('command'))[1:])}```\n"
+            content = f"```\n{printed_once(program, what)}```\n"
         else:
-            content = measurement(program) if kind == "measurement" else costs()
+            content = code(what) if kind == "code" else measurement(program) if kind == "measurement" else costs()
         return found.group(1) + content + found.group("end")
     return BLOCK.sub(block, text)
 
@@ -173,8 +190,8 @@ def main():
         return 2
     program = str(Path(sys.argv[1]).resolve())
     result = json.loads(printed(program, ["verify", "--format", "json"]))
-    old = README.read_text(encoding="utf-8")
-    wanted = {README: readme(program, old), VERIFICATION: verification(result)}
+    shown = [README, *sorted(PAGES.rglob("*.md"))]
+    wanted = {path: renewed(program, path.read_text(encoding="utf-8")) for path in shown} | {VERIFICATION: verification(result)}
     stale = [path for path, text in wanted.items() if not path.exists() or settled(path.read_text(encoding="utf-8")) != settled(text)]
     if sys.argv[2:]:
         for path in stale:

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes what the league's numbers say: league.md, league.html, two pictures and the README's block "<!-- league -->", from
+"""Writes what the league's numbers say: league.md, league.html, two pictures and the blocks "<!-- league -->" of README.md and the reference, from
 league.csv and league_costs.csv.
 
     notebooks-data/league_documents.py            writes them
@@ -22,9 +22,9 @@ from plotting import svg
 
 DATA = Path(__file__).resolve().parent
 ENGINES = DATA.parent / "validation" / "benchmark" / "engines"
-README = DATA.parent / "README.md"
-README_BLOCK = re.compile(r"(?<=<!-- league -->\n).*?(?=<!-- end -->)", re.DOTALL)
-README_ROWS = 5
+SHOWN_IN = (DATA.parent / "README.md", DATA / "reference" / "benchmark.md")
+BLOCK = re.compile(r"(?<=<!-- league -->\n).*?(?=<!-- end -->)", re.DOTALL)
+FIRST_ROWS = 5
 COMMAND = "validation/benchmark/engines/run"
 PICTURES = {"league_steps.svg": against_step, "league_costs.svg": against_cost}
 
@@ -52,7 +52,7 @@ def first_lines(league):
     """The head of the table: the best settings, and the error with the engine's own."""
     head = ["engine", "V, Ω off by", "impulse off by", "sequences right", "V, Ω by default"]
     rows = []
-    for engine in league.ranked()[:README_ROWS]:
+    for engine in league.ranked()[:FIRST_ROWS]:
         best, last = league.best(engine), league.last_step(engine)
         rows.append([engine["name"], power(league.median(engine, best, last, "velocities")),
                      power(league.median(engine, best, last, "law_error")), "{} of {}".format(*league.right(engine, best, last)),
@@ -124,8 +124,8 @@ def documents():
     page = blocks(league, told["finding"], told["notes"])
     pictures = {DATA / "figures" / name: svg(draw(league)) for name, draw in PICTURES.items()}
     drawn = {f"figures/{path.name}": text for path, text in pictures.items()}
-    readme = README.read_text(encoding="utf-8")
-    return pictures | {README: README_BLOCK.sub(lambda _: first_lines(league), readme, count=1), DATA / "league.md": as_markdown(page), DATA / "league.html": as_html(page, drawn)}
+    shown = {path: BLOCK.sub(lambda _: first_lines(league), path.read_text(encoding="utf-8"), count=1) for path in SHOWN_IN}
+    return pictures | shown | {DATA / "league.md": as_markdown(page), DATA / "league.html": as_html(page, drawn)}
 
 
 def main():

@@ -6,6 +6,7 @@ import math
 from plotting import BLUE, GREEN, GREY, ORANGE, RED, STYLES, common_legend, logarithmic, new_figure, with_look
 
 SETTINGS = {"default": (RED, "o", "the engine's own settings"), "tuned": (BLUE, "s", "tuned")}
+LAW_MARKS = {"o": "x", "s": "+"}  # so that colour is not all that tells the settings apart
 SECONDS = {"1/60": 1 / 60, "1/240": 1 / 240, "1/960": 1 / 960}
 ACROSS = 5
 KINDS = {"native": (BLUE, "from Debian"), "node": (ORANGE, "from npm"), "program": (GREEN, "this program")}
@@ -25,7 +26,8 @@ def draw_steps(panel, league, engine):
     for settings, (colour, mark, words) in SETTINGS.items():
         for column, style in COLUMNS.items():
             points = medians(league, engine, settings, column)
-            look = {"color": colour} | STYLES[style] | ({"marker": mark, "markersize": 3.5} if style == "line" else {})
+            look = {"color": colour, "markersize": 3.5, "markerfacecolor": "white" if settings == "default" else colour} | STYLES[style]
+            look["marker"] = mark if style == "line" else LAW_MARKS[mark]
             label = f"V and Ω, {words}" if style == "line" else f"law, {words}"
             if points and points[0][0]:
                 panel.plot([SECONDS[step] for step, _ in points], [error for _, error in points], label=label, **look)
@@ -57,18 +59,17 @@ def against_step(league):
 
 @with_look
 def against_cost(league):
-    """A panel for each of the settings; a line goes through an engine's three steps."""
-    figure = new_figure(9.6, 5.6)
-    panels = figure.subplots(1, 2, sharex=True, sharey=True)
+    """A panel for each of the settings; a line goes through an engine's three steps, its name stands at the right."""
+    figure = new_figure(9.6, 7.2)
+    panels = figure.subplots(2, 1, sharex=True)
     for panel, (settings, (_, _, words)) in zip(panels, SETTINGS.items()):
-        for engine in league.engines:
-            draw_costs(panel, league, engine, settings)
+        ends = [end for engine in league.engines if (end := draw_costs(panel, league, engine, settings))]
         logarithmic(panel.xaxis)
         logarithmic(panel.yaxis)
-        panel.set(xlabel="time of the steps for a second of motion [s]", ylim=(SHOWN / 2, LIMITS[1]))
-        panel.margins(x=0.15)
+        panel.set(ylabel=f"error of V and Ω [–] (least: {SHOWN:.0e})", ylim=(SHOWN / 2, LIMITS[1]))
         panel.set_title(words, loc="left")
-    panels[0].set_ylabel(f"error of V and Ω, median of the problems (below {SHOWN:.0e} drawn there)")
+        write_names(panel, ends)
+    panels[1].set_xlabel("time of the steps for a second of motion [s]")
     for colour, words in KINDS.values():
         panels[0].plot([], [], color=colour, marker="o", markersize=3, label=words)
     common_legend(figure, panels[0].get_legend_handles_labels(), len(KINDS))
@@ -76,9 +77,20 @@ def against_cost(league):
 
 
 def draw_costs(panel, league, engine, settings):
+    """@return the engine's name, colour and last point, None without points."""
     points = [(league.cost(engine, settings, step), max(error, SHOWN)) for step, error in medians(league, engine, settings)]
     points = [point for point in points if math.isfinite(point[0])]
     if not points:
-        return
-    panel.plot(*zip(*points), color=KINDS[engine["adapter"]][0], marker="o", markersize=2.5, linewidth=0.7)
-    panel.annotate(engine["name"], points[-1], (3, 0), textcoords="offset points", fontsize=6, va="center", color=GREY)
+        return None
+    colour = KINDS[engine["adapter"]][0]
+    panel.plot(*zip(*points), color=colour, marker="o", markersize=2.5, linewidth=0.7)
+    return engine["name"], colour, points[-1]
+
+
+def write_names(panel, ends):
+    """A column of names at the right, in the order of their points' heights, each with a thin line to its point."""
+    ends = sorted(ends, key=lambda end: end[2][1])
+    for place, (name, colour, (x, y)) in enumerate(ends):
+        at = (place + 0.5) / len(ends)
+        panel.annotate(name, (x, y), (1.06, at), textcoords="axes fraction", fontsize=7, va="center", color=colour,
+                       arrowprops={"arrowstyle": "-", "color": GREY, "linewidth": 0.3, "shrinkA": 0, "shrinkB": 2})

@@ -10,6 +10,10 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator  # type: ig
 #: Colours that colour-blind eyes can tell apart.
 BLUE, RED, GREEN, PINK, ORANGE, SKY = PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
 INK, GREY = "#222222", "#777777"
+#: What a colour means wherever it means one thing.
+DISCRETE, CONTINUOUS, GROUND, BETA, GAMMA = BLUE, RED, GREEN, BLUE, PINK
+#: Right digits, two a class from 0 on: dark for few, told apart by lightness alone.
+DIGITS = ("#440154", "#46327e", "#365c8d", "#277f8e", "#1fa187", "#4ac16d", "#a0da39", "#fde725")
 
 LOOK = {
     "font.size": 9, "font.sans-serif": ["DejaVu Sans"], "axes.titlesize": 9, "legend.fontsize": 8, "legend.frameon": False, "legend.handlelength": 1.8,

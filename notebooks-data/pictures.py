@@ -5,11 +5,11 @@ import itertools
 from dataclasses import dataclass
 from typing import Callable
 
-import matplotlib
 import numpy as np
 from matplotlib.patches import Patch, Polygon
 
-from plotting import BLUE, GREY, INK, PALETTE, RED, STYLES, Table, common_legend, logarithmic, new_figure, panel_legend
+from plotting import (BETA, BLUE, DIGITS, GAMMA, GREY, GROUND, INK, PALETTE, PINK, RED, STYLES, Table, common_legend, logarithmic, new_figure,
+                      panel_legend)
 from sources import Source
 
 
@@ -30,7 +30,7 @@ def contact_angles(data):
     figure = new_figure(6.4, 4.2)
     axes = figure.subplots()
     axes.plot([0, 90], [0, 90], color=GREY, linewidth=0.8, label="equal to θ")
-    for name, sign, colour in (("beta", "β", BLUE), ("gamma", "γ", RED)):
+    for name, sign, colour in (("beta", "β", BETA), ("gamma", "γ", GAMMA)):
         for suffix, words, style in (("", "no gravity", "line"), ("_G0_1", "G = 0.1", "dashed")):
             axes.plot(table["theta"], table[name + suffix], color=colour, label=f"{sign}, {words}", **STYLES[style])
         there = np.isfinite(table[f"{name}_continuous"])
@@ -46,6 +46,52 @@ def contact_angles(data):
              ylabel="contact angle β of the second, γ of the third [°]")
     panel_legend(axes, {"loc": "upper left"})
     return figure
+
+
+def conventions(_):
+    """Angles, ends and signs, drawn at a rod's first impact."""
+    theta, half = np.radians(28), 1.0
+    a, b = np.zeros(2), 2 * half * np.array([np.cos(theta), np.sin(theta)])
+    centre = (a + b) / 2
+    figure = new_figure(6.4, 3.2)
+    axes = figure.subplots()
+    axes.axhline(0, color=GROUND, linewidth=2)
+    axes.plot(*zip(a, b), color=INK, linewidth=5, solid_capstyle="round")
+    axes.plot(*centre, color="white", marker="o", markersize=5)
+    for at, end, name in ((centre, (0, -0.36), "$V_n<0$"), (centre, (0.42, 0), "$V_t>0$")):
+        write_arrow(axes, at, end, BLUE, name)
+    for end, name in (((0, 0.75), "$P_n>0$"), ((0.4, 0), "$P_t>0$")):
+        write_arrow(axes, a, end, RED, name)
+    write_arrow(axes, np.array([-1.15, 0.35]), (0.35, 0), GREY, "x")
+    write_arrow(axes, np.array([-1.15, 0.35]), (0, 0.35), GREY, "z")
+    turn = np.radians(np.linspace(150, 40, 60))
+    around = centre + 0.42 * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
+    axes.plot(*around[:-2].T, color=PINK)
+    axes.annotate("", around[-1], around[-4], arrowprops={"arrowstyle": "-|>", "color": PINK, "shrinkA": 0, "shrinkB": 0})
+    axes.annotate("Ω > 0", centre + [0.05, 0.47], ha="center", va="bottom", color=PINK)
+    arc = np.linspace(0, theta, 30)
+    axes.plot(0.62 * np.cos(arc), 0.62 * np.sin(arc), color=INK, linewidth=1)
+    axes.annotate("θ", 0.7 * np.array([np.cos(theta / 2), np.sin(theta / 2)]), ha="center", va="center")
+    axes.annotate("end a", a + [-0.06, 0.03], ha="right", va="bottom")
+    axes.annotate("end b", b + [0.06, 0.0], ha="left", va="center")
+    for (start, end), words, shift in ((((0, -0.22), (centre[0], -0.22)), "$|d_t|$", (0, -0.05)),):
+        axes.annotate("", end, start, arrowprops={"arrowstyle": "<->", "color": GREY, "shrinkA": 0, "shrinkB": 0})
+        axes.annotate(words, (np.add(start, end) / 2) + shift, ha="center", va="top", color=GREY)
+    axes.plot([centre[0]] * 2, [-0.26, centre[1]], color=GREY, **STYLES["dotted"] | {"linewidth": 0.8})
+    axes.annotate("ground, z = 0", (2.2, -0.03), ha="right", va="top", color=GROUND)
+    axes.set(aspect="equal", xlim=(-1.3, 2.35), ylim=(-0.5, 1.25), xticks=(), yticks=())
+    axes.grid(False)
+    for side in axes.spines.values():
+        side.set_visible(False)
+    return figure
+
+
+def write_arrow(axes, start, by, colour, name):
+    end = np.add(start, by)
+    axes.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "color": colour, "linewidth": 1.5, "shrinkA": 0, "shrinkB": 0})
+    upright = by[0] == 0
+    axes.annotate(name, end, (4, 0) if upright else (0, 4), textcoords="offset points", ha="left" if upright else "center",
+                  va="center" if upright else "bottom", color=colour)
 
 
 THETA_2, THETA_3 = "theta_2_deg", "theta_3_deg"
@@ -69,8 +115,8 @@ def regimes(data):
                                         (second, 90, "#eeeeee", "one impact")):
             axes.fill_between(x, low, high, color=colour, linewidth=0, label=name)
         for kind, (words, style) in KINDS.items():
-            axes.plot(x, np.where(table["kind_2"] == kind, second, np.nan), color=BLUE, label=f"θ₂: {words}", **STYLES[style])
-        axes.plot(x, np.where(third < second, third, np.nan), color=RED, label="θ₃: no third impact above")
+            axes.plot(x, np.where(table["kind_2"] == kind, second, np.nan), color=BETA, label=f"θ₂: {words}", **STYLES[style])
+        axes.plot(x, np.where(third < second, third, np.nan), color=GAMMA, label="θ₃: no third impact above")
         axes.set(xlim=(x[0], x[-1]), ylim=(0, 90), xlabel=label, ylabel="contact angle θ of the first impact [°]")
         axes.label_outer()
     logarithmic(panels[1].xaxis)
@@ -176,7 +222,7 @@ AXES = {"angle": "θ [°]", "stiffness": "k_G [N/m³]", "damping": "c_G [N·s/m�
         "turns": "turns in a flight [–]", "impacts": "impacts in a run [–]", "disc": "disc off level [rad]",
         "needle": "needle off level [rad]", "slenderness": "length over diameter [–]", "bounces": "e, flat bounces [–]",
         "hops": "e, hops of a rim [–]", "squares": "tracked squares, arm [°]", "cubes": "tracked cubes, arm [°]"}
-DIGITS = (0, 3, 6, 9, 12, 17)  # bounds of the classes
+BOUNDS = (0, 2, 4, 6, 8, 10, 12, 14, 17)  # of the classes of right digits, as in the picture of `clatter extremes`
 HATCHES = {"bad-input": ("////", "bad input"), "ended-early": ("---", "run ends early"), "not-computed": ("\\\\\\\\", "not computed"),
            "outside-model": ("xxx", "outside the model")}
 
@@ -184,7 +230,6 @@ HATCHES = {"bad-input": ("////", "bad input"), "ended-early": ("---", "run ends 
 def extremes_map(data):
     """Right digits of each model from the low to the high end of each quantity; hatched where there is no number."""
     table = Table.read(data / "figures" / EXTREMES.file)
-    shades = matplotlib.colormaps["viridis"](np.linspace(0, 1, len(DIGITS) - 1))
     figure = new_figure(10.4, 6.8)
     panels = figure.subplots(1, len(MODELS), sharey=True)
     names = []
@@ -192,7 +237,7 @@ def extremes_map(data):
         rows = table.where(table["axis"] == axis)
         names.append(f"{words}: {rows['label'][0]} … {rows['label'][-1]}")
         for axes, model in zip(panels, MODELS):
-            draw_strip(axes, place, rows.where(rows["model"] == model), shades)
+            draw_strip(axes, place, rows.where(rows["model"] == model))
     for axes, model in zip(panels, MODELS):
         axes.set_title(model, loc="left")
         axes.set(xlim=(0, 1), ylim=(len(AXES) - 0.4, -0.6), xticks=(0, 1), xticklabels=("low", "high"), xlabel="rank of the value [–]")
@@ -200,25 +245,25 @@ def extremes_map(data):
         axes.tick_params(axis="y", left=False)
     panels[0].set_yticks(range(len(AXES)), names)
     panels[0].set_ylabel("quantity, its ends [unit]")
-    classes = [Patch(facecolor=shade, label=f"{low}–{min(high, 16)} digits") for shade, low, high in zip(shades, DIGITS, DIGITS[1:])]
+    classes = [Patch(facecolor=shade, label=f"{low}–{min(high, 16)} digits") for shade, low, high in zip(DIGITS, BOUNDS, BOUNDS[1:])]
     refusals = [Patch(facecolor="white", edgecolor=GREY, hatch=hatch, label=words) for hatch, words in HATCHES.values()]
     refusals.append(Patch(facecolor="none", label="blank: does not apply"))
     common_legend(figure, (classes + refusals, [patch.get_label() for patch in classes + refusals]), 5)
     return figure
 
 
-def draw_strip(axes, place, rows, shades):
+def draw_strip(axes, place, rows):
     """A strip from left to right; neighbours of one class are one box."""
     def kind(i):
         verdict = rows["verdict"][i]
-        return verdict if verdict in HATCHES else np.searchsorted(DIGITS, rows["digits"][i], side="right") - 1
+        return verdict if verdict in HATCHES else np.searchsorted(BOUNDS, rows["digits"][i], side="right") - 1
 
     count = len(rows["axis"])
     for what, run in itertools.groupby(range(count), key=kind):
         run = list(run)
         refused = what in HATCHES
         axes.broken_barh([(run[0] / count, len(run) / count)], (place - 0.38, 0.76),
-                         facecolor="white" if refused else shades[what], edgecolor=GREY if refused else "none", linewidth=0.4,
+                         facecolor="white" if refused else DIGITS[what], edgecolor=GREY if refused else "none", linewidth=0.4,
                          hatch=HATCHES[what][0] if refused else None)
 
 
@@ -284,6 +329,7 @@ def draw_struck_box(axes, place, attitude, at, impulse):
 
 
 PICTURES = {"contact_angles": Picture("contact_angles.svg", contact_angles),
+            "conventions": Picture("figures/conventions.svg", conventions),
             "regimes": Picture("figures/regimes.svg", regimes, REGIMES),
             "corner_sequence": Picture("figures/corner_sequence.svg", corner_sequence, (CORNERS,)),
             "fold": Picture("figures/fold.svg", fold),

@@ -1,11 +1,21 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Builds the reference, pages that open offline, from headers, keys, columns and --help.  A warning is an error.
+"""Builds the reference, a site that opens offline and is searched offline.  A warning is an error.
 
-Usage: reference.py PROGRAM FOLDER    (then open FOLDER/html/index.html)
+Usage: reference.py PROGRAM FOLDER    (then open FOLDER/index.html)
+
+A page is a Markdown file of notebooks-data/reference/ (index.md has their order; one that it does not name comes under
+"More"), of reference/commands/ for a command of the program, or of notebooks-data/ for tables that programs wrote; the
+notebooks are pages, too.  What each command prints as help, keys, columns, Python's docstrings and the public headers
+are added from the program and the sources.
 """
 
 import argparse
+import importlib.util
+import itertools
+import os
+import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -13,7 +23,24 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
-INPUT = ("analytic", "numeric", "notebooks-data/reference")
+PAGES = HERE / "reference"
+LIBRARIES = ("analytic", "numeric")
+TABLES = ("accuracy", "extremes", "league", "seeded_faults", "tradeoff", "verification")  # pages that programs wrote
+MODULES = {"sphinx": "python3-sphinx", "furo": "furo", "myst_parser": "python3-myst-parser",
+           "nbconvert": "jupyter-nbconvert"}
+TOOLS = {"node": "nodejs"}
+FILES = {"/usr/share/javascript/katex/katex.js": "libjs-katex"}
+
+
+class Unbuilt(Exception):
+    """Why there is no reference, in one line."""
+
+
+def missing():
+    """Debian packages of what is not there."""
+    return sorted([package for name, package in MODULES.items() if importlib.util.find_spec(name) is None]
+                  + [package for name, package in TOOLS.items() if shutil.which(name) is None]
+                  + [package for name, package in FILES.items() if not Path(name).exists()])
 
 
 def printed(program, *arguments):
@@ -26,38 +53,125 @@ def commands(program):
     return [line.split()[0] for line in listed.splitlines() if line.startswith("  ") and not line.startswith("   ")]
 
 
-def command_page(program):
-    parts = ["# Commands {#commands}\n"]
-    for name in ["", *commands(program)]:
-        arguments = [name] if name else []
-        parts.append(f"## clatter {name}\n\n~~~~{{.txt}}\n{printed(program, *arguments, '--help')}~~~~\n")
-    return "\n".join(parts)
+def as_myst(text, name, depth=0):
+    """A page as Sphinx reads it, from a folder `depth` levels below reference/, beside which the tables lie here.
+
+    "# Title {#name}" and "@ref name" of doxygen are understood, too; a page without a title is called by its name.
+    """
+    text = re.sub(r"^(# .*?) \{#(\w+)\}$", r"(\2)=\n\1", text, count=1, flags=re.M)
+    text = re.sub(r"@(?:sub)?(?:ref|page) (\w+)", r"[](\1.md)", text)
+    if not re.search("^# ", text, re.M):
+        text = f"# {name.replace('_', ' ').capitalize()}\n\n{text}"
+    return text.replace("](" + "../" * (depth + 1), "](" + "../" * depth)
 
 
-def table_page(program, title, command):
-    """A command's table as a page: its name is the page's."""
+def command_page(program, name):
+    """What a page of reference/commands/ says, then the help."""
+    own = PAGES / "commands" / f"{name}.md"
+    head = own.read_text(encoding="utf-8") if own.exists() else f"# clatter {name}\n"
+    arguments = [name] if name != "clatter" else []
+    return f"{head}\n## Options\n\n```text\n{printed(program, *arguments, '--help')}```\n"
+
+
+def table_page(program, title, words, command):
+    """A command's table as a page."""
     table = "\n".join(line for line in printed(program, command, "--format", "markdown").splitlines() if line.startswith("|"))
-    return f"# {title} {{#{command}}}\n\n{table}\n"
+    return f"# {title}\n\n{words}\n\n{table}\n"
 
 
-def pages(program):
-    yield "commands.md", command_page(program)
-    yield "keys.md", table_page(program, "Keys of scenes", "keys")
-    yield "columns.md", table_page(program, "Columns", "columns")
+def public_headers(library):
+    """As its CMakeLists.txt lists them."""
+    text = (ROOT / library / "CMakeLists.txt").read_text(encoding="utf-8")
+    return re.search(r"PUBLIC_HEADERS\s+([^)]*?)\)", text)[1].split()
+
+
+def header_text(library, header):
+    """What it is about, from its first lines, and the header itself, whose comments are the contract."""
+    lines = (ROOT / library / header).read_text(encoding="utf-8").splitlines()[1:]  # without the licence
+    about = list(itertools.takewhile(lambda line: line.startswith("// "), lines))
+    code = "\n".join(lines[len(about):]).replace("#pragma once\n", "").strip()
+    words = " ".join(line.removeprefix("// ") for line in about)
+    return f"{words}\n\n```cpp\n{code}\n```\n"
+
+
+def header_pages():
+    """The public headers of a library by folder, each with its folder's name."""
+    for library in LIBRARIES:
+        folders = {}
+        for header in public_headers(library):
+            folders.setdefault(str(Path(header).parent), []).append(header)
+        for folder, headers in folders.items():
+            name = library if folder == "." else f"{library}/{folder}"
+            body = "\n\n".join(f"## {library}/{header}\n\n{header_text(library, header)}" for header in headers)
+            yield f"headers/{name.replace('/', '_')}.md", f"# {name}\n\n{body}\n"
+
+
+def notebook_pages(folder):
+    """Each notebook as Markdown with its pictures beside it."""
+    from nbconvert import MarkdownExporter
+    for path in sorted((HERE / "notebooks").glob("*.ipynb")):
+        text, resources = MarkdownExporter().from_filename(str(path))
+        for name, data in resources["outputs"].items():
+            (folder / f"{path.stem}_{name}").write_bytes(data)
+            text = text.replace(f"]({name})", f"]({path.stem}_{name})")
+        (folder / f"{path.stem}.md").write_text(re.sub(r"</?style[^>]*>", "", text), encoding="utf-8")
+
+
+def stage(program, source):
+    """All pages in one folder."""
+    for path in [*PAGES.glob("*.md"), *(HERE / f"{name}.md" for name in TABLES)]:
+        (source / path.name).write_text(as_myst(path.read_text(encoding="utf-8"), path.stem), encoding="utf-8")
+    shutil.copytree(PAGES / "theme", source / "theme")
+    for path in PAGES.glob("*.py"):
+        shutil.copy(path, source)
+    shutil.copytree(HERE / "figures", source / "figures", ignore=shutil.ignore_patterns("*.csv"))
+    for picture in HERE.glob("*.svg"):
+        shutil.copy(picture, source)
+    for folder in ("commands", "headers", "notebooks"):
+        (source / folder).mkdir()
+    for name in ["clatter", *commands(program)]:
+        (source / "commands" / f"{name}.md").write_text(as_myst(command_page(program, name), name, 1), encoding="utf-8")
+    (source / "keys.md").write_text(table_page(program, "Keys of scenes", KEYS, "keys"), encoding="utf-8")
+    (source / "columns.md").write_text(table_page(program, "Columns", COLUMNS, "columns"), encoding="utf-8")
+    for name, text in header_pages():
+        (source / name).write_text(text, encoding="utf-8")
+    notebook_pages(source / "notebooks")
+    index = (source / "index.md").read_text(encoding="utf-8")
+    more = sorted(path.stem for path in source.glob("*.md") if path.stem != "index" and not re.search(rf"^{path.stem}$", index, re.M))
+    (source / "index.md").write_text(index.replace("<!-- more -->", "\n".join(more)), encoding="utf-8")
+
+
+KEYS = ("What a scene file may hold.  A key is also a flag of the commands and, with `_` for the dot or by its last part, an "
+        "argument of the Python functions; [scenes](scenes.md) says how they belong together.")
+COLUMNS = "What the columns of tables and CSV and the fields of JSON mean."
+
+
+def python_module(program, folder):
+    """The Python files of the module beside a stand-in for its compiled part, of which docstrings need nothing."""
+    package = folder / "clatter"
+    shutil.copytree(HERE / "python" / "clatter", package, ignore=shutil.ignore_patterns("__pycache__", "*.pyi"))
+    shutil.copy(HERE / "look.py", package)
+    (package / "_clatter.py").write_text(f"version = {version(program)!r}\ndef keys():\n    return []\n"
+                                         "def __getattr__(name):\n    return None\n", encoding="utf-8")
+
+
+def version(program):
+    return printed(program, "--version").split()[1]
 
 
 def build(program, folder):
-    """@raise CalledProcessError: doxygen found a warning."""
-    folder.mkdir(parents=True, exist_ok=True)
+    """@raise CalledProcessError: Sphinx found a warning."""
     with tempfile.TemporaryDirectory() as scratch:
-        for name, text in pages(program):
-            (Path(scratch) / name).write_text(text, encoding="utf-8")
-        settings = (HERE / "reference" / "Doxyfile").read_text(encoding="utf-8")
-        inputs = " ".join(f'"{path}"' for path in [*(ROOT / name for name in INPUT), scratch])
-        settings += (f'PROJECT_NUMBER = {printed(program, "--version").split()[1]}\nINPUT = {inputs}\n'
-                     f'OUTPUT_DIRECTORY = "{folder}"\nEXAMPLE_PATH = "{ROOT / "tests/install"}"\n'
-                     f'STRIP_FROM_PATH = "{ROOT}" "{scratch}"\n')
-        subprocess.run(["doxygen", "-"], input=settings, text=True, check=True)
+        source, module = Path(scratch, "source"), Path(scratch, "python")
+        source.mkdir()
+        module.mkdir()
+        stage(program, source)
+        python_module(program, module)
+        settings = {"CLATTER_REFERENCE_PYTHON": str(module), "CLATTER_REFERENCE_VERSION": version(program), "PYTHONDONTWRITEBYTECODE": "1"}
+        subprocess.run([sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html", "-d", f"{scratch}/trees", source, folder],
+                       env=os.environ | settings, check=True)
+    for made_by_sphinx in (".buildinfo", "objects.inv"):
+        (folder / made_by_sphinx).unlink(missing_ok=True)
 
 
 def main():
@@ -66,8 +180,10 @@ def main():
     parser.add_argument("folder", type=Path)
     given = parser.parse_args()
     try:
+        if packages := missing():
+            raise Unbuilt(f"packages are missing: apt-get install --no-install-recommends {' '.join(packages)}")
         build(given.program.resolve(), given.folder.resolve())
-    except (OSError, subprocess.CalledProcessError) as error:
+    except (OSError, Unbuilt, subprocess.CalledProcessError) as error:
         sys.exit(f"reference.py: {error}")
 
 

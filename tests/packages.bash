@@ -30,7 +30,8 @@ test_packages=(libboost-test-dev python3)
 full_packages=(clang-format universal-ctags libgmsh-dev libbenchmark-dev zsh fish groff-base chromium chromium-driver "${mpi_packages[@]}"
                "${hdf5_packages[@]}" python3-h5py
                pybind11-dev python3-dev python3-numpy python3-matplotlib python3-mpmath jupyter-nbconvert python3-ipykernel mypy
-               python3-venv doxygen pkg-config dpkg-dev lintian mmdebstrap help2man reuse)
+               python3-venv python3-sphinx furo python3-myst-parser libjs-katex pkg-config dpkg-dev lintian
+               mmdebstrap help2man reuse)
 # Engines of others that the tests put through the league, the smallest two; validation/benchmark/engines/run installs the
 # rest.
 # shellcheck disable=SC2034

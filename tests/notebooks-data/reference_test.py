@@ -1,66 +1,145 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The reference is built without a warning, opens offline, and holds every command, key and column."""
+"""The reference is built without a warning, opens and is searched offline, has no broken link, and holds every command, key,
+column, public function and public header."""
 
 import html
 import os
 import re
 import subprocess
+import sys
 import tempfile
 import unittest
+import urllib.parse
+from html.parser import HTMLParser
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = os.environ["CLATTER_PROGRAM"]
+BUILDER = ROOT / "notebooks-data/reference.py"
+THEME = "https://github.com/pradyunsg/furo"  # named in the foot of each page, the only way out of the site
 
 
 def printed(*arguments):
     return subprocess.run([PROGRAM, *arguments], check=True, capture_output=True, text=True).stdout
 
 
+class Page(HTMLParser):
+    """Where a page's links and files lead, and what can be linked to."""
+
+    def __init__(self, path):
+        super().__init__()
+        self.links, self.files, self.names = [], [], set()
+        self.feed(path.read_text(encoding="utf-8"))
+
+    def handle_starttag(self, tag, attributes):
+        given = dict(attributes)
+        self.names |= {given[name] for name in ("id", "name") if given.get(name)}
+        if tag == "a" and "href" in given:
+            self.links.append(given["href"])
+        elif tag != "use":  # of the page itself
+            self.files += [given[name] for name in ("href", "src") if given.get(name)]
+
+
 class Reference(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.folder.cleanup)
-        cls.built = subprocess.run(["/usr/bin/python3", "-B", ROOT / "notebooks-data/reference.py", PROGRAM, cls.folder.name],
-                                   capture_output=True, text=True)
+        scratch = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(scratch.cleanup)
+        cls.folder = Path(scratch.name)
+        cls.built = subprocess.run(["/usr/bin/python3", "-B", BUILDER, PROGRAM, cls.folder], capture_output=True, text=True)
+        cls.pages = {path: Page(path) for path in cls.folder.rglob("*.html")}
 
-    def page(self, name):
-        return html.unescape(re.sub(r"<[^>]*>", "", (Path(self.folder.name) / "html" / name).read_text(encoding="utf-8")))
+    def text(self, name):
+        return html.unescape(re.sub(r"<[^>]*>", "", (self.folder / name).read_text(encoding="utf-8")))
 
     def test_it_is_built_without_a_warning(self):
         self.assertEqual((self.built.returncode, self.built.stderr), (0, ""))
 
-    def test_it_holds_the_help_of_every_command(self):
-        page = self.page("commands.html")
-        for command in ("sequence", "simulate", "sweep", "keys", "columns"):
-            self.assertIn(f"Usage: clatter {command} ", page)
+    def test_no_link_or_anchor_is_broken(self):
+        broken = []
+        for path, page in self.pages.items():
+            for link in page.links:
+                if link == THEME:
+                    continue
+                place, _, anchor = urllib.parse.unquote(link).partition("#")
+                target = (path.parent / place).resolve() if place else path
+                if not target.exists() or (anchor and anchor not in self.pages[target].names):
+                    broken.append(f"{path.relative_to(self.folder)}: {link}")
+        self.assertEqual(broken, [])
+        self.assertGreater(sum(len(page.links) for page in self.pages.values()), 1000)
+
+    def test_its_pages_ask_for_nothing_from_outside(self):
+        for path, page in self.pages.items():
+            for file in page.files:
+                with self.subTest(page=path.name, file=file):
+                    if not file.startswith("data:"):
+                        self.assertTrue((path.parent / urllib.parse.unquote(re.sub(r"[?#].*", "", file))).exists())
+
+    def test_no_page_tells_where_it_was_built(self):
+        for path in self.pages:
+            self.assertNotIn(str(ROOT), path.read_text(encoding="utf-8"), path.name)
+
+    def test_formulas_are_drawn_by_the_browser_itself(self):
+        page = (self.folder / "discrete_model.html").read_text(encoding="utf-8")
+        self.assertGreater(page.count("<math"), 40)
+        self.assertIn(r"P_n = -\frac{(1 + e)\, m\, u}{A - \mu_i B}", html.unescape(page))  # beside what is drawn, for readers' tools
+        for path in self.pages:
+            self.assertNotIn("katex-error", path.read_text(encoding="utf-8"), path.name)
+
+    def test_every_command_has_a_page_with_its_help(self):
+        for command in re.findall(r"^  (\w+) ", printed("--help").split("Subcommands:\n")[1].split("\n\n")[0], re.M):
+            self.assertIn(f"Usage: clatter {command} ", self.text(f"commands/{command}.html"))
+
+    def test_help_keeps_its_two_dashes(self):
+        self.assertIn("--angle", self.text("commands/sequence.html"))
 
     def test_it_holds_every_key_and_column(self):
         for command in ("keys", "columns"):
             names = [line.split(",")[0] for line in printed(command, "--format", "csv", "--bare").splitlines()[1:]]
             self.assertGreater(len(names), 20)
-            page = self.page(f"{command}.html")
+            page = self.text(f"{command}.html")
             self.assertEqual([name for name in names if name not in page], [])
 
-    def test_it_has_a_page_of_theory_and_an_example_for_each_model(self):
-        examples = sorted(path.stem for path in (ROOT / "tests/install").glob("*_example.cpp"))
-        first = self.page("index.html")
-        self.assertEqual(examples, ["analytic_example", "numeric_example", "space_example"])
-        for page, equation, example in (("discrete_model", "P_n = −(1 + e) m u / (A − μ_i B)", "analytic_example"),
-                                        ("space_model", "dv/dp = W (n − μ s)", "space_example"),
-                                        ("continuous_model", "f_n", "numeric_example")):
-            with self.subTest(model=page):
-                self.assertIn(equation, self.page(f"{page}.html"))
-                main = (ROOT / "tests/install" / f"{example}.cpp").read_text(encoding="utf-8").split("int main() {")[1]
-                lines = [line.strip() for line in main.splitlines() if line.strip()]
-                self.assertEqual([line for line in lines if line not in first], [])
+    def test_it_holds_all_that_the_python_module_offers(self):
+        source = (ROOT / "notebooks-data/python/clatter/__init__.py").read_text(encoding="utf-8")
+        names = re.findall(r'"(\w+)"', source.split("__all__ =")[1])
+        self.assertGreater(len(names), 40)
+        described = self.pages[self.folder / "python.html"].names
+        self.assertEqual([name for name in names if not any(one.endswith(f".{name}") for one in described)], [])
 
-    def test_its_pages_ask_for_nothing_from_outside(self):
-        for path in (Path(self.folder.name) / "html").glob("*.html"):
-            self.assertNotRegex(path.read_text(encoding="utf-8"), r'(src|href)="https?://(?!www\.doxygen\.org)', path.name)
+    def test_it_holds_every_public_header(self):
+        for library in ("analytic", "numeric"):
+            listed = re.search(r"PUBLIC_HEADERS\s+([^)]*?)\)", (ROOT / library / "CMakeLists.txt").read_text(encoding="utf-8"))[1].split()
+            self.assertGreater(len(listed), 10)
+            for header in listed:
+                folder = os.path.dirname(header).replace("/", "_")
+                page = " ".join(self.text(f"headers/{library}{'_' + folder if folder else ''}.html").split())
+                self.assertIn(f"{library}/{header}", page)
+                text = (ROOT / library / header).read_text(encoding="utf-8")
+                for contract in re.findall(r"^/// (.*)", text, re.M):
+                    self.assertIn(" ".join(contract.split()), page)
+
+    def test_each_notebook_is_a_page(self):
+        notebooks = sorted((ROOT / "notebooks-data/notebooks").glob("*.ipynb"))
+        self.assertGreater(len(notebooks), 10)
+        for notebook in notebooks:
+            self.assertIn("import clatter", self.text(f"notebooks/{notebook.stem}.html"))
+
+    def test_search_finds_what_a_reader_asks_for(self):
+        # The words of the index, which the browser reads without a server.
+        index = (self.folder / "searchindex.js").read_text(encoding="utf-8")
+        self.assertTrue(index.startswith("Search.setIndex("))
+        for word in ("fold", "jamming", "restitut", "stiff", "angle_deg", "quaternion"):
+            self.assertRegex(index, rf'\b"?{word}\w*"?:')
+
+    def test_a_missing_tool_is_named_with_its_package(self):
+        with tempfile.TemporaryDirectory() as empty:
+            run = subprocess.run(["/usr/bin/python3", "-B", BUILDER, PROGRAM, f"{empty}/site"], capture_output=True, text=True,
+                                 env={"PATH": empty})
+        self.assertNotEqual(run.returncode, 0)
+        self.assertRegex(run.stderr, r"apt-get install .*nodejs")
 
 
 if __name__ == "__main__":
-    unittest.main()
+    unittest.main(argv=sys.argv)
