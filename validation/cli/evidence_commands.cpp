@@ -44,7 +44,7 @@ int run_verify(const VerifyInput& input) {
   {
     Progress progress;
     results = verify_checks(selection.checks, case_runs, [&](std::size_t done, std::size_t of, const std::string& id) {
-      progress.show(fmt::format("{} {}", progress_bar(done, of), id));
+      progress.show(fmt::format("{}{} {}", progress_bar(done, of), progress.time_left(done, of), id));
       return !interrupt.requested();
     });
   }

@@ -7,6 +7,7 @@
 
 #include "validation/figures/gnuplot.hpp"
 #include "validation/output/bad_input.hpp"
+#include "validation/output/colours.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/output/symbols.hpp"
@@ -49,7 +50,12 @@ void write_out(const OutputChoice& choice, const std::string& text) {
 }
 
 void write_report(const OutputChoice& choice, const Report& report) {
-  write_out(choice, report_text(report, choice.style));
+  const std::string text = report_text(report, choice.style);
+  const bool coloured = choice.style.format == Format::table && choice.path.empty() && shows_colours();
+  if (!coloured) return write_out(choice, text);
+  Sink sink("");
+  sink.write(with_colours(printable(text, Lines::kept)));
+  sink.commit();
 }
 
 void add_sweep_options(Command& command, SweepTexts& t, const std::string& what) {

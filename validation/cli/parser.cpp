@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <set>
+#include <sstream>
 
 #include "validation/output/bad_input.hpp"
+#include "validation/output/report.hpp"
 #include "validation/output/version.hpp"
 
 namespace clatter::validation::inline cli {
@@ -114,7 +116,6 @@ bool is_short_option(const std::string& argument) {
 std::vector<std::string> checked_arguments(const std::vector<Command>& commands,
                                            const std::vector<std::string>& arguments) {
   std::vector<std::string> out;
-  if (arguments.empty()) throw BadInput("a command is required; clatter --help lists them");
   const Command* command = &program_options();
   std::size_t begin = 0;
   if (!arguments[0].starts_with('-')) {
@@ -168,14 +169,47 @@ std::vector<std::string> with_help_as_flag(std::vector<std::string> given) {
   return given;
 }
 
+/// A line of help within the width of a terminal; what explains an option goes on below its explanation.
+std::string folded_line(const std::string& line) {
+  constexpr std::size_t width = 79;
+  if (display_width(line) <= width) return line;
+  const std::size_t name = line.find_first_not_of(' ');
+  const std::size_t end = name == 0 || name == std::string::npos ? std::string::npos : line.find("  ", name);
+  // A line of its own below a long name goes on where it begins.
+  if (end == std::string::npos) return wrapped(line, width, name == 0 ? "  " : "");
+  const std::size_t words = line.find_first_not_of(' ', end);
+  const std::size_t column = display_width(line.substr(0, words));
+  const std::string indent(column, ' ');
+  std::istringstream explained(wrapped(line.substr(words), width - column, ""));
+  std::string out = line.substr(0, words), part;
+  for (bool first = true; std::getline(explained, part); first = false) out += (first ? "" : "\n" + indent) + part;
+  return out;
+}
+
 std::string help_of(const CLI::App& app) {
   const auto chosen = app.get_subcommands();
-  return chosen.empty() ? app.help() : chosen[0]->help(app.get_name());
+  std::istringstream lines(chosen.empty() ? app.help() : chosen[0]->help(app.get_name()));
+  std::string out;
+  for (std::string line; std::getline(lines, line);) out += folded_line(line) + "\n";
+  return out;
+}
+
+/// For who calls the program without knowing more.
+std::string short_help(const std::vector<Command>& commands) {
+  std::string names;
+  for (const Command& command : commands) names += (names.empty() ? "" : ", ") + command.name;
+  return std::string("clatter ") + version + ": " + program_summary +
+         "\n\n"
+         "  clatter sequence --angle 10        the impacts of a rod that falls at 10 degrees\n"
+         "  clatter simulate phone-damped      a phone on a yielding floor: forces over time\n"
+         "  clatter demo phone-corner          a page to play with, in the browser\n\n" +
+         wrapped("Commands: " + names) + "\n\nclatter --help says what each does, clatter help COMMAND how.\n";
 }
 
 }  // namespace
 
 ParsedLine parse_line(const std::vector<Command>& commands, const std::vector<std::string>& given) {
+  if (given.empty()) return {.text = short_help(commands)};
   CLI::App app(program_summary, "clatter");
   app.footer(program_notes);
   app.set_help_flag("--help", "print this help and exit");

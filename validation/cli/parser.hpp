@@ -31,7 +31,7 @@ Exit status:
   130                  interrupted
 
 Environment:
-  NO_COLOR, TERM=dumb  no progress is shown, nor is any off a terminal)";
+  NO_COLOR, TERM=dumb  no colours and no progress, nor are any off a terminal)";
 
 /// @throws BadInput with one line.
 [[nodiscard]] ParsedLine parse_line(const std::vector<Command>& commands, const std::vector<std::string>& arguments);

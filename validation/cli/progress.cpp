@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 
 #include "validation/output/interrupt.hpp"
@@ -17,6 +18,18 @@ void Progress::show(const std::string& text) {
 
 Progress::~Progress() {
   if (shown_) std::fputs("\r\033[K", stderr);
+}
+
+std::string Progress::time_left(std::size_t done, std::size_t of) const {
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  if (done == 0 || seconds < 2) return "";
+  return ", " + cli::time_left(seconds * static_cast<double>(of - done) / static_cast<double>(done));
+}
+
+std::string time_left(double seconds) {
+  if (seconds < 100) return fmt::format("{:.0f} s left", std::ceil(seconds));
+  if (seconds < 6000) return fmt::format("{:.0f} min left", std::ceil(seconds / 60));
+  return fmt::format("{:.0f} h left", std::ceil(seconds / 3600));
 }
 
 std::string progress_bar(std::size_t done, std::size_t of) {

@@ -290,6 +290,18 @@ Report columns_report(const std::string& command) {
   return report;
 }
 
+/// A column a paragraph, under the command that has it.
+std::string columns_text(const Report& report, bool ascii) {
+  std::string text = report.title + "\n", command;
+  for (const Row& row : report.grid.rows) {
+    if (shown_text(row[0]) != command) text += fmt::format("\n{}\n", command = shown_text(row[0]));
+    const std::string unit = shown_text(row[2]).empty() ? "" : fmt::format(" [{}]", shown_text(row[2]));
+    text += wrapped(fmt::format("  {}{}: {}", shown_text(row[1]), unit, shown_text(row[3])), 79, "    ") + "\n";
+  }
+  for (const std::string& note : report.notes) text += "\n" + wrapped(note) + "\n";
+  return ascii ? to_ascii(text) : text;
+}
+
 int run_columns(const ColumnsInput& input) {
   const OutputChoice choice = read_output(input.output);
   if (input.command) {
@@ -298,7 +310,9 @@ int run_columns(const ColumnsInput& input) {
     static_cast<void>(read_name_option("--only", *input.command, names));
   }
   check_files(choice);
-  write_report(choice, columns_report(input.command.value_or("")));
+  const Report report = columns_report(input.command.value_or(""));
+  if (choice.style.format == Format::table) write_out(choice, columns_text(report, choice.style.ascii));
+  else write_report(choice, report);
   return 0;
 }
 
@@ -431,10 +445,24 @@ std::string roff(const std::string& text) {
   return out + "\n";
 }
 
+/// "clatter sequence [SCENE] [OPTION]...", a command a line.
+std::string synopsis() {
+  std::string lines;
+  for (const Command& command : all_commands()) {
+    std::string line = "clatter " + command.name;
+    for (const Argument& argument : command.arguments) {
+      if (!argument.is_option()) line += argument.required ? " " + argument.name : " [" + argument.name + "]";
+    }
+    lines += (lines.empty() ? "" : ".br\n") + roff(line + " [OPTION]...");
+  }
+  return lines;
+}
+
 std::string man_page() {
-  std::string page =
-      fmt::format(".TH CLATTER 1 \"\" \"clatter {}\" \"User Commands\"\n.SH NAME\nclatter \\- {}\n.SH DESCRIPTION\n{}",
-                  version, program_summary, roff(program_notes));
+  std::string page = fmt::format(
+      ".TH CLATTER 1 \"\" \"clatter {}\" \"User Commands\"\n.SH NAME\nclatter \\- {}\n.SH SYNOPSIS\n{}.SH "
+      "DESCRIPTION\n{}",
+      version, program_summary, synopsis(), roff(program_notes));
   for (const Command& command : all_commands()) {
     page += ".SH clatter " + command.name + "\n" + roff(command.help);
     for (const Argument& argument : command.arguments) {

@@ -117,8 +117,7 @@ int run_regimes(const RegimesInput& input) {
   PlotFile plot(input.plot);
   write_report(choice, found.report);
   if (plot.is_wanted()) {
-    plot.write(regimes_picture(found.all, {found.name, found.words, found.logarithmic}, found.rod_words),
-               found.script_head);
+    plot.write(regimes_picture(found), found.script_head);
   }
   return 0;
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -14,6 +13,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/sink.hpp"
+#include "validation/reports/sweep_rows_picture.hpp"
 #include "validation/sweep/column_file.hpp"
 #include "validation/sweep/rows.hpp"
 #include "validation/sweep/summary.hpp"
@@ -33,6 +33,7 @@ struct SweepInput {
   bool restart = false;
   bool summary = false;
   OutputTexts form;
+  PlotTexts plot;
 };
 
 /// What is computed, by whom, and what ends it.
@@ -42,12 +43,6 @@ struct SweepWork {
   int threads;
   const CooperativeInterrupt& interrupt;
 };
-
-std::string time_left(double seconds) {
-  if (seconds < 100) return fmt::format("{:.0f} s left", std::ceil(seconds));
-  if (seconds < 6000) return fmt::format("{:.0f} min left", std::ceil(seconds / 60));
-  return fmt::format("{:.0f} h left", std::ceil(seconds / 3600));
-}
 
 /// How far the sweep is, five times a second.
 class SweepProgress {
@@ -97,13 +92,17 @@ bool writes_file(const SweepInput& input) {
 class SweepOutput {
  public:
   SweepOutput(const SweepInput& input, const SweepPlan& plan)
-      : plan_(plan), style_(style_of(input)), hdf5_(is_hdf5(input)), shortfalls_(plan.layout, plan.packed) {
+      : plan_(plan), style_(style_of(input)), hdf5_(is_hdf5(input)), plot_(input.plot),
+        random_(input.request.random.has_value()), shortfalls_(plan.layout, plan.packed) {
     report_ = plan.report();
     const std::string head = csv_head(report_, style_.bare);
     if (input.summary) summary_.emplace(sweep_columns(plan.layout), plan.layout.swept.size());
     if (writes_file(input)) {
       file_.emplace(*input.output, SweepFileForm{head, plan.points.count()}, input.restart);
-      file_->with_rows([this](std::string_view rows) { shortfalls_.add(rows); });
+      file_->with_rows([this](std::string_view rows) {
+        shortfalls_.add(rows);
+        if (plot_.is_wanted()) collected_ += rows;
+      });
     } else {
       stream_.emplace(input.output.value_or(""));
       if (is_csv()) stream_->write(head);
@@ -114,6 +113,7 @@ class SweepOutput {
   [[nodiscard]] const Shortfalls& shortfalls() const { return shortfalls_.found(); }
   void write(const RangeRows& rows) {
     shortfalls_.add(rows.text);
+    if (plot_.is_wanted() && (file_ || is_csv())) collected_ += rows.text;
     if (file_) file_->write(rows.text, rows.scenes);
     else if (summary_) summary_->add(rows.text);
     else if (is_csv()) stream_->write(rows.text);
@@ -121,21 +121,27 @@ class SweepOutput {
   }
 
   void commit() {
+    write_rows();
+    if (plot_.is_wanted()) write_picture();
+  }
+
+  /// @param words how far it came; a part says that by itself
+  void leave(const std::string& words) {
+    plot_.leave_out("interrupted");
+    if (file_) return file_->flush();
+    if (is_csv()) stream_->write(fmt::format("# {}\n", words));
+    else report_.notes.push_back(words);
+    write_rows();
+  }
+
+ private:
+  void write_rows() {
     if (file_ && hdf5_) return file_->commit([this](const std::string& path) { write_hdf5(path); });
     if (file_) return file_->commit();
     if (!is_csv()) write_report();
     stream_->commit();
   }
 
-  /// @param words how far it came; a part says that by itself
-  void leave(const std::string& words) {
-    if (file_) return file_->flush();
-    if (is_csv()) stream_->write(fmt::format("# {}\n", words));
-    else report_.notes.push_back(words);
-    commit();
-  }
-
- private:
   [[nodiscard]] bool is_csv() const { return style_.format == Format::csv && !summary_; }
 
   void write_report() {
@@ -164,10 +170,25 @@ class SweepOutput {
     columns->close();
   }
 
+  /// Of the columns asked for, or else of what tells most of a drop.
+  void write_picture() {
+    Report rows = plan_.report();
+    rows.grid.rows = read_csv_rows(collected_);
+    SweepRowsView view{.swept = plan_.layout.swept.size(), .random = random_, .quantities = {}};
+    for (const ImpactColumn& asked : plan_.layout.asked) {
+      if (!asked.column.words && view.quantities.size() < most_panels) view.quantities.push_back(asked.column.name);
+    }
+    if (view.quantities.empty()) view.quantities = {"impacts", "total_normal_impulse", "energy_loss"};
+    plot_.write(sweep_rows_picture(rows, view), {rows.title});
+  }
+
+  static constexpr std::size_t most_panels = 4;
   const SweepPlan& plan_;
   Report report_;
   TextStyle style_;
   bool hdf5_;
+  PlotFile plot_;
+  bool random_;
   std::string collected_;
   std::optional<Sink> stream_;
   std::optional<SweepFile> file_;
@@ -183,6 +204,10 @@ void check_output(const SweepInput& input) {
           fmt::format("--format {}: must be left out, --output {} is HDF5", *input.form.format, *input.output));
     }
     require_hdf5();
+  }
+  for (const RunFile& file : plot_files(input.plot)) note_written(file);
+  if (input.plot.plot && (input.summary || is_hdf5(input) || input.request.rows == "impact")) {
+    throw BadInput("--plot: draws rows of scenes, which --summary, HDF5 and --rows impact have not");
   }
   if (writes_file(input)) {
     note_written({"--output", *input.output});
@@ -283,6 +308,7 @@ Command sweep_command() {
   command.add_flag("--bare", input->form.bare, "CSV without comments");
   command.add_flag("--no-errors", request.no_errors, "neither errors nor whether rows can be predicted; half the cost");
   command.add_flag("--require-digits", request.require_digits, "a scene of which fewer digits are known falls short");
+  add_plot_options(command, input->plot);
   add_process_options(command, input->restart, input->threads);
   command.footer = sweep_footer;
   command.run = [input] { return run_in_processes([&](Ranks& ranks) { return run_command(*input, ranks); }); };

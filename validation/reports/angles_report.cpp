@@ -240,8 +240,9 @@ namespace {
 
 using Style = FigureCurve::Style;
 
-constexpr long long most_rows = 4000;
 constexpr long long most_with_points = 60;  // so few rows are marked on their curves
+constexpr long long drawn_angles = 720;     // of a curve, so that it is smooth between them
+constexpr long long fineness = 1 << 20;     // angles between two of these: a curve ends no farther from its fold
 using Existing = std::bitset<std::tuple_size_v<AnglesRow>>;
 
 /// Which numbers a row has.
@@ -251,7 +252,12 @@ Existing existing(const AnglesRow& row) {
   return bits;
 }
 
-std::vector<double> as_vector(const AnglesRow& row) { return {row.begin(), row.end()}; }
+/// A row with whether it is one of the table.
+std::vector<double> as_vector(const AnglesRow& row, bool of_table = false) {
+  std::vector<double> numbers(row.begin(), row.end());
+  numbers.push_back(of_table ? 1 : 0);
+  return numbers;
+}
 
 /// Adds the rows on both sides of each change in what exists between row `low`, which is there already, and `high`.
 void add_ends(const AnglesRequest& request, long long low, long long high, std::vector<std::vector<double>>& rows) {
@@ -271,14 +277,31 @@ void add_ends(const AnglesRequest& request, long long low, long long high, std::
   }
 }
 
+/// The range of the table in steps so small that the curves reach their folds.
+AnglesRequest finely(const AnglesRequest& request) {
+  const double first = request.theta(0), last = request.theta(request.count - 1);
+  constexpr long long steps = drawn_angles * fineness;
+  AnglesRequest fine = request;
+  fine.count = steps + 1;
+  fine.theta = [first, last](long long i) {
+    return i == steps ? last : first + (last - first) * static_cast<double>(i) / static_cast<double>(steps);
+  };
+  return fine;
+}
+
+/// The curves, and the rows of the table if they are so few that each is marked.
 std::vector<std::vector<double>> drawn_rows(const AnglesRequest& request) {
-  const long long last = request.count - 1, step = last / most_rows + 1;
-  std::vector<std::vector<double>> rows{as_vector(angles_row(request, 0))};
-  for (long long i = 0; i < last;) {
-    const long long next = std::min(i + step, last);
-    if (step > 1) add_ends(request, i, next, rows);
-    rows.push_back(as_vector(angles_row(request, next)));
-    i = next;
+  std::vector<std::vector<double>> rows;
+  if (request.count > 1) {
+    const AnglesRequest fine = finely(request);
+    rows.push_back(as_vector(angles_row(fine, 0)));
+    for (long long i = 0; i + 1 < fine.count; i += fineness) {
+      add_ends(fine, i, i + fineness, rows);
+      rows.push_back(as_vector(angles_row(fine, i + fineness)));
+    }
+  }
+  for (long long i = 0; request.count <= most_with_points && i < request.count; ++i) {
+    rows.push_back(as_vector(angles_row(request, i), true));
   }
   return rows;
 }
@@ -288,6 +311,8 @@ std::vector<FigureColumn> figure_columns(const AnglesRequest& request) {
   for (const Column& column : angles_columns(request)) {
     columns.push_back({column.name, column.unit.empty() ? "1" : column.unit, column.heading});
   }
+  columns.resize(std::tuple_size_v<AnglesRow>);  // the printed forms may be left out
+  columns.push_back({"of_table", "1", "1: a row of the table, 0: between them"});
   return columns;
 }
 
@@ -299,36 +324,37 @@ Range2 range_of(const AnglesRequest& request) {
 }  // namespace
 
 Picture angles_picture(const AnglesRequest& request) {
-  const long long count = request.count;
-  const Style style = count > most_with_points ? Style::line : count > 1 ? Style::line_points : Style::marks;
-  const auto curve = [&](const char* column, const char* legend) {
-    return FigureCurve{.x = "theta_deg", .y = column, .legend = legend, .style = style};
-  };
-  const std::vector<FigureColumn> columns = figure_columns(request);
-  const auto rows = drawn_rows(request);
+  const bool alone = request.count == 1, marked = request.count <= most_with_points;
   const Range2 range = range_of(request);
-  PicturePanel angles{.columns = columns,
-                      .rows = rows,
-                      .plot = {.title = "",
-                               .x_label = "",
-                               .y_label = "contact angle [°]",
-                               .curves = {curve("beta_deg", "β, second impact")},
-                               .x = range,
-                               .y = {0, 90}}};
+  PicturePanel angles{.columns = figure_columns(request),
+                      .rows = drawn_rows(request),
+                      .plot = {.title = "", .x_label = "", .y_label = "contact angle [°]", .x = range, .y = {0, 90}}};
+  PicturePanel impulses{.columns = angles.columns,
+                        .rows = angles.rows,
+                        .plot = {.title = "",
+                                 .x_label = "contact angle θ of the first impact [°]",
+                                 .y_label = "normal impulse [m|vₙ|]",
+                                 .x = range,
+                                 .y = {0, no_number}}};
+  // A curve, and marks of its colour at the rows of the table.
+  const auto add = [&](PicturePanel& panel, const char* column, const char* legend, const char* colour) {
+    FigureCurve curve{.x = "theta_deg", .y = column, .legend = legend, .where = {{"of_table", 0}}, .colour = colour};
+    if (!alone) panel.plot.curves.push_back(curve);
+    curve.style = alone ? Style::marks : Style::points;
+    curve.where = {{"of_table", 1}};
+    if (!alone) curve.legend = "";
+    if (marked) panel.plot.curves.push_back(curve);
+  };
+  add(angles, "beta_deg", "β, second impact", palette::beta);
   if (request.as_printed) {
-    angles.plot.curves.push_back(curve("beta_printed_deg", "β as printed, g > 0"));
-    angles.plot.curves.push_back(curve("beta_printed_negative_g_deg", "β as printed, g < 0"));
+    add(angles, "beta_printed_deg", "β as printed, g > 0", palette::ochre);
+    add(angles, "beta_printed_negative_g_deg", "β as printed, g < 0", palette::sky);
   } else {
-    angles.plot.curves.push_back(curve("gamma_deg", "γ, third impact"));
+    add(angles, "gamma_deg", "γ, third impact", palette::gamma);
   }
-  const PicturePanel impulses{.columns = columns,
-                              .rows = rows,
-                              .plot = {.title = "",
-                                       .x_label = "contact angle θ of the first impact [°]",
-                                       .y_label = "normal impulse [m|vₙ|]",
-                                       .curves = {curve("P1", "P₁"), curve("P2", "P₂"), curve("P3", "P₃")},
-                                       .x = range,
-                                       .y = {0, no_number}}};
+  add(impulses, "P1", "P₁", palette::ground);
+  add(impulses, "P2", "P₂", palette::beta);
+  add(impulses, "P3", "P₃", palette::gamma);
   return {.what = "Contact angles and impulses of the first three impacts",
           .scene = {rod_summary(request.rod)},
           .panels = {angles, impulses}};

@@ -145,6 +145,20 @@ bool spans_decades(const std::vector<double>& values) {
   return greatest >= 100 * least;
 }
 
+/// Values from the least (on a logarithmic axis the least positive one) to the greatest, evenly spaced on the axis.
+std::vector<double> between(std::vector<double> values, bool logarithmic) {
+  constexpr int steps = 240;
+  if (logarithmic) std::erase_if(values, [](double value) { return !(value > 0); });
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  std::vector<double> all;
+  for (int i = 0; low != high && i <= steps; ++i) {
+    const double part = static_cast<double>(i) / steps;
+    const double value = logarithmic ? *low * std::pow(*high / *low, part) : *low + (*high - *low) * part;
+    all.push_back(std::fmin(value, *high));
+  }
+  return all;
+}
+
 /// The parameters that all rows share.
 std::string rod_words(const RodParameters& rod, const Quantity& quantity) {
   std::string words = "thin rod, m = L = |vₙ| = 1";
@@ -173,12 +187,20 @@ FoundRegimes find_regimes(const RegimesTexts& input) {
   found.script_head = {headline("regimes", regimes_summary),
                        fmt::format("{}; {} from {} to {}, {} values", found.rod_words, quantity.heading,
                                    shortest(found.values.front()), shortest(found.values.back()), found.values.size())};
-  for (const double value : found.values) {
-    RodParameters varied = rod;
-    varied.*quantity.member = value;
-    found.all.push_back({value, analytic::regime_boundary(ImpactNumber::second, varied),
-                         analytic::regime_boundary(ImpactNumber::third, varied)});
-  }
+  const auto regimes_of = [rod, member = quantity.member](const std::vector<double>& values) {
+    std::vector<Regimes> all;
+    for (const double value : values) {
+      RodParameters varied = rod;
+      varied.*member = value;
+      all.push_back({value, analytic::regime_boundary(ImpactNumber::second, varied),
+                     analytic::regime_boundary(ImpactNumber::third, varied)});
+    }
+    return all;
+  };
+  found.all = regimes_of(found.values);
+  found.curve = [regimes_of, values = found.values, logarithmic = found.logarithmic] {
+    return regimes_of(between(values, logarithmic));
+  };
   found.report = report_of(found.all, quantity, rod, digits);
   found.report.head = {rod_summary(rod) + ", but for the first column"};
   return found;
@@ -219,18 +241,20 @@ constexpr std::size_t most_marked = 60;  // so few values are marked on their cu
 /// [°]; without such an impact the area of fewer impacts begins at 0.
 double boundary(const RegimeBoundary& b) { return b.kind == BoundaryKind::never ? 0 : b.theta * degrees_per_radian; }
 
-std::vector<double> row_of(const Regimes& one) {
+std::vector<double> row_of(const Regimes& one, bool of_table) {
   const auto angle = [](const RegimeBoundary& b) {
     return b.kind == BoundaryKind::never ? std::nan("") : b.theta * degrees_per_radian;
   };
-  return {one.value, angle(one.second), angle(one.third), 0, boundary(one.third), boundary(one.second), 90};
+  return {one.value, angle(one.second), angle(one.third), 0, boundary(one.third), boundary(one.second),
+          90,        of_table ? 1. : 0.};
 }
 
-FigureCurve area(const RegimesAxis& axis, const char* low, const char* high, const char* legend) {
-  return {.x = axis.name, .y = high, .legend = legend, .style = Style::area, .y_low = low};
+FigureCurve area(const FoundRegimes& axis, const char* low, const char* high, const char* legend) {
+  return {.x = axis.name, .y = high, .legend = legend, .style = Style::area, .where = {{"of_table", 0}}, .y_low = low};
 }
 
-Range2 range_of(const std::vector<Regimes>& all, const RegimesAxis& axis) {
+Range2 range_of(const FoundRegimes& axis) {
+  const std::vector<Regimes>& all = axis.all;
   const auto [low, high] = std::minmax_element(
       all.begin(), all.end(), [](const Regimes& one, const Regimes& other) { return one.value < other.value; });
   if (axis.logarithmic) return {};
@@ -239,37 +263,54 @@ Range2 range_of(const std::vector<Regimes>& all, const RegimesAxis& axis) {
   return {low->value, high->value};
 }
 
+/// θ₂ and θ₃: curves if there are any, and marks at the values of the table if these are few.
+void add_boundaries(const FoundRegimes& found, bool has_curve, std::vector<FigureCurve>& curves) {
+  const bool marked = found.all.size() <= most_marked;
+  for (const auto& [column, legend, colour] :
+       {std::tuple{"theta_2_deg", "θ₂", blue}, std::tuple{"theta_3_deg", "θ₃", pink}}) {
+    const FigureCurve line{
+        .x = found.name, .y = column, .legend = legend, .where = {{"of_table", 0}}, .colour = colour};
+    if (has_curve) curves.push_back(line);
+    if (!marked) continue;
+    FigureCurve marks = line;
+    marks.style = has_curve ? Style::points : Style::marks;
+    marks.where = {{"of_table", 1}};
+    if (has_curve) marks.legend = "";
+    curves.push_back(marks);
+  }
+}
+
 }  // namespace
 
-Picture regimes_picture(const std::vector<Regimes>& all, const RegimesAxis& axis, const std::string& rod) {
-  const bool leaves_out =
-      axis.logarithmic && std::any_of(all.begin(), all.end(), [](const Regimes& one) { return !(one.value > 0); });
-  const Style style = all.size() > most_marked ? Style::line : all.size() > 1 ? Style::line_points : Style::marks;
-  PicturePanel panel{.columns = {{axis.name, "1", axis.words},
+Picture regimes_picture(const FoundRegimes& found) {
+  const std::vector<Regimes> curve = found.curve();
+  const bool leaves_out = found.logarithmic && std::any_of(found.all.begin(), found.all.end(),
+                                                           [](const Regimes& one) { return !(one.value > 0); });
+  PicturePanel panel{.columns = {{found.name, "1", found.words},
                                  {"theta_2_deg", "°", "largest θ with a second impact"},
                                  {"theta_3_deg", "°", "largest θ with a third impact"},
                                  {"zero", "°", "least θ"},
                                  {"below_3", "°", "three impacts below"},
                                  {"below_2", "°", "two impacts or more below"},
-                                 {"upright", "°", "greatest θ"}},
+                                 {"upright", "°", "greatest θ"},
+                                 {"of_table", "1", "1: a row of the table, 0: between them"}},
                      .rows = {},
                      .plot = {.title = "",
-                              .x_label = axis.words + (leaves_out ? " (0 lies off this axis)" : ""),
+                              .x_label = found.words + std::string(leaves_out ? " (0 lies off this axis)" : ""),
                               .y_label = "contact angle θ of the first impact [°]",
                               .curves = {},
-                              .x = range_of(all, axis),
+                              .x = range_of(found),
                               .y = {0, 90},
-                              .logarithmic_x = axis.logarithmic}};
-  for (const Regimes& one : all) panel.rows.push_back(row_of(one));
-  if (all.size() > 1) {
-    panel.plot.curves = {area(axis, "zero", "below_3", "three impacts"),
-                         area(axis, "below_3", "below_2", "two impacts"),
-                         area(axis, "below_2", "upright", "one impact")};
+                              .logarithmic_x = found.logarithmic}};
+  for (const Regimes& one : curve) panel.rows.push_back(row_of(one, false));
+  for (const Regimes& one : found.all) panel.rows.push_back(row_of(one, true));
+  if (!curve.empty()) {
+    panel.plot.curves = {area(found, "zero", "below_3", "three impacts"),
+                         area(found, "below_3", "below_2", "two impacts"),
+                         area(found, "below_2", "upright", "one impact")};
   }
-  for (const auto& [column, legend] : {std::pair{"theta_2_deg", "θ₂"}, std::pair{"theta_3_deg", "θ₃"}}) {
-    panel.plot.curves.push_back({.x = axis.name, .y = column, .legend = legend, .style = style});
-  }
-  return {.what = "How many impacts, and where that changes", .scene = {rod}, .panels = {panel}};
+  add_boundaries(found, !curve.empty(), panel.plot.curves);
+  return {.what = "How many impacts, and where that changes", .scene = {found.rod_words}, .panels = {panel}};
 }
 
 }  // namespace clatter::validation::inline reports

@@ -2,6 +2,7 @@
 // What `clatter regimes` says, in words and as a picture: how many impacts happen, over a parameter of the rod.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,11 +34,12 @@ struct Regimes {
 struct FoundRegimes {
   const char* name = "";     ///< of the quantity
   const char* words = "";    ///< for an axis of a picture
-  bool logarithmic = false;  ///< that axis
+  bool logarithmic = false;  ///< that axis; a value that is not positive is then left out, and the axis says so
   std::vector<double> values;
   std::vector<Regimes> all;
-  std::string rod_words;                 ///< the parameters that all rows share
-  std::vector<std::string> script_head;  ///< of a picture's script
+  std::function<std::vector<Regimes>()> curve;  ///< as many values from the least to the greatest as a picture needs
+  std::string rod_words;                        ///< the parameters that all rows share
+  std::vector<std::string> script_head;         ///< of a picture's script
   Report report;
 };
 /// @throws BadInput as the command.
@@ -49,12 +51,8 @@ struct FoundRegimes {
 /// @throws BadInput as the command.
 [[nodiscard]] Report regimes_report(const NamedTexts& given);
 
-struct RegimesAxis {
-  std::string name, words;  ///< in JSON; for readers
-  bool logarithmic;         ///< a value that is not positive is then left out, and the axis says so
-};
-
-/// θ₂ and θ₃ over the parameter, and the areas of one, two and three impacts.
-[[nodiscard]] Picture regimes_picture(const std::vector<Regimes>& all, const RegimesAxis& axis, const std::string& rod);
+/// θ₂ and θ₃ over the parameter, and the areas of one, two and three impacts: curves through many values, and marks at
+/// those of the table.
+[[nodiscard]] Picture regimes_picture(const FoundRegimes& found);
 
 }  // namespace clatter::validation::inline reports

@@ -126,6 +126,50 @@ void PictureHistory::record(const numeric::HistorySample& s) {
                    s.energy_rotation, s.energy_potential, s.energy_ground, s.energy_total()});
 }
 
+namespace {
+
+/// From when to when blows follow each other so fast that the whole picture shows them as one spike: the first such
+/// group of impacts, with its numbers.
+struct FastBlows {
+  std::size_t first = 0, last = 0;  ///< of the impacts, from 0; the same: none
+  double from = 0, to = 0;          ///< [s]
+};
+
+FastBlows fast_blows(const std::vector<std::vector<double>>& rows) {
+  constexpr std::size_t time = 0, force = 3;
+  constexpr double told_apart = 1. / 40;  // of the picture's width
+  std::vector<std::pair<double, double>> contacts;
+  bool touching = false;
+  for (const std::vector<double>& row : rows) {
+    const bool touches = row[force] > 0;
+    if (touches && !touching) contacts.emplace_back(row[time], row[time]);
+    if (touches) contacts.back().second = row[time];
+    touching = touches;
+  }
+  const double near = told_apart * rows.back()[time];
+  for (std::size_t i = 0; i + 1 < contacts.size(); ++i) {
+    std::size_t last = i;
+    while (last + 1 < contacts.size() && contacts[last + 1].first - contacts[last].first < near) ++last;
+    if (last > i) return {i, last, contacts[i].first, contacts[last].second};
+  }
+  return {};
+}
+
+/// Their force once more, over these times alone.
+PicturePanel panel_of_fast_blows(const PictureHistory& kept, const FastBlows& blows) {
+  const double margin = 0.1 * (blows.to - blows.from);
+  const TimeWindow window{blows.from - margin, blows.to + margin};
+  PicturePanel panel = history_panel(shown_history(kept, window), "force [N]", {over_time("force", "")});
+  panel.plot.curves[0].legend =
+      fmt::format("normal contact force of impacts {} to {}", blows.first + 1, blows.last + 1);
+  panel.plot.curves[0].colour = palette::continuous;
+  panel.plot.y = {0, no_number};
+  panel.plot.x_label = "time since the first touch-down [s]";
+  return panel;
+}
+
+}  // namespace
+
 Picture simulation_picture(const Scene& scene, const PictureHistory& kept, const TimeWindow& window) {
   const ShownHistory history = shown_history(kept, window);
   Picture picture{.what = "Impact sequence, continuous contact",
@@ -138,7 +182,10 @@ Picture simulation_picture(const Scene& scene, const PictureHistory& kept, const
                                             over_time("potential", "potential"), over_time("ground", "ground"),
                                             over_time("total", "total")})}};
   for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) picture.panels[i].plot.y = {0, no_number};
+  picture.panels[1].plot.curves[0].colour = palette::continuous;
   picture.panels.back().plot.x_label = "time since the first touch-down [s]";
+  const FastBlows blows = window.is_all() ? fast_blows(kept.rows()) : FastBlows{};
+  if (blows.last > blows.first) picture.panels.push_back(panel_of_fast_blows(kept, blows));
   return picture;
 }
 

@@ -54,12 +54,31 @@ class Tables(unittest.TestCase):
                 self.assertEqual([line for line in text.splitlines() if len(line) > TERMINAL], [])
 
     def test_a_folded_text_keeps_all_its_words_in_their_order(self):
-        rows = list(csv.DictReader(io.StringIO(printed("columns", "--only", "sweep", "--format", "csv", "--bare"))))
-        table = printed("columns", "--only", "sweep")
-        start = next(line for line in table.splitlines() if "meaning" in line).index("meaning")
-        body = table.split("─\n")[1].split("history: of")[0]
-        shown = " ".join(line[start:] for line in body.splitlines())
-        self.assertEqual(shown.split(), " ".join(row["meaning"] for row in rows).split())
+        arguments = ["sweep", "rod-45", "--model", "discrete", "--set", "impact.impulse_ratio=0,5"]
+        rows = list(csv.DictReader(io.StringIO(printed(*arguments, "--format", "csv", "--bare"))))
+        block = printed(*arguments, "--format", "table").split("index  reason")[1]
+        shown = " ".join(block.split("─\n")[1].split("\n\n")[0].split())
+        self.assertGreater(len(rows[1]["reason"]), TERMINAL)
+        self.assertIn("1 " + rows[1]["reason"], shown)
+
+    def test_columns_are_paragraphs_with_every_word(self):
+        rows = list(csv.DictReader(io.StringIO(printed("columns", "--format", "csv", "--bare"))))
+        shown = " ".join(printed("columns").split())
+        for row in rows:
+            unit = f" [{row['unit']}]" if row["unit"] else ""
+            self.assertIn(" ".join(f"{row['column']}{unit}: {row['meaning']}".split()), shown)
+
+    def test_help_fits_a_terminal(self):
+        names = re.findall(r"^  (\w+) ", printed("--help").split("Subcommands:\n")[1].split("\n\n")[0], re.M)
+        self.assertGreater(len(names), 15)
+        for arguments in ([], ["--help"], *([name, "--help"] for name in names)):
+            with self.subTest(arguments):
+                self.assertEqual([line for line in printed(*arguments).splitlines() if len(line) > TERMINAL], [])
+
+    def test_the_bare_program_says_what_to_begin_with(self):
+        text = printed()
+        self.assertIn("clatter sequence --angle 10", text)
+        self.assertLess(len(text.splitlines()), 20)
 
     def test_a_table_in_blocks_shows_every_column_of_every_row_and_names_the_row_in_each(self):
         arguments = ["sweep", "phone-damped", "--set", "drop.angle_deg=5,40,70", "--set", "run.impacts=2"]
