@@ -200,8 +200,8 @@ std::string short_help(const std::vector<Command>& commands) {
   for (const Command& command : commands) names += (names.empty() ? "" : ", ") + command.name;
   return std::string("clatter ") + version + ": " + program_summary +
          "\n\n"
-         "  clatter sequence --angle 10        the impacts of a rod that falls at 10 degrees\n"
-         "  clatter simulate phone-damped      a phone on a yielding floor: forces over time\n"
+         "  clatter sequence --angle 10        impacts of a rod that falls at 10 degrees\n"
+         "  clatter simulate phone-damped      a phone on a yielding floor, with forces\n"
          "  clatter demo phone-corner          a page to play with, in the browser\n\n" +
          wrapped("Commands: " + names) + "\n\nclatter --help says what each does, clatter help COMMAND how.\n";
 }

@@ -17,13 +17,13 @@ constexpr std::size_t most_curves = 8;
 constexpr std::size_t most_marked_scenes = 60;  // of a curve whose points are marked
 
 /// With blanks for underlines, behind which gnuplot lowers what follows.
-std::string words_of(std::string name) {
+std::string with_blanks(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
 }
 
 std::string named(const Column& column) {
-  return words_of(column.name) + (column.unit.empty() ? "" : fmt::format(" [{}]", column.unit));
+  return with_blanks(column.name) + (column.unit.empty() ? "" : fmt::format(" [{}]", column.unit));
 }
 
 std::vector<double> numbers_of(const Grid& grid, std::size_t column) {
@@ -87,7 +87,7 @@ PicturePanel curves(const Grid& grid, const SweepRowsView& view, std::size_t qua
     panel.plot.curves.push_back(
         {.x = "x",
          .y = "y",
-         .legend = view.swept > 1 ? words_of(grid.columns[view.first_swept].name) + " = " + shortest(value) : "",
+         .legend = view.swept > 1 ? with_blanks(grid.columns[view.first_swept].name) + " = " + shortest(value) : "",
          .style = x.size() > most_marked_scenes ? FigureCurve::Style::line : FigureCurve::Style::line_points,
          .where = {{"of", value}}});
   }
