@@ -15,7 +15,7 @@ ORDERS = {
     "analytic": ("base", "law", "near_flat", "plane", "space", "batch"),
     "numeric": ("base", "mesh", "surface", "files", "body", "motion", "contact", "stepping", "drop", "."),
     "validation": ("embedded", "output", "record", "tables", "scene", "benchmark", "compare",
-                   "figures", "plan", "sweep", "map", "tradeoff", "measured", "verify", "extremes", "explain",
+                   "figures", "plan", "shock", "sweep", "map", "tradeoff", "measured", "verify", "extremes", "explain",
                    "reports", "demo", "cli"),
 }
 APART = {"benchmark/engines/native"}  # programs of their own, which include nothing from here

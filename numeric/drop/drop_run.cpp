@@ -6,9 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
+#include <span>
 
 #include "numeric/drop/error_growth.hpp"
-#include "numeric/drop/history.hpp"
+#include "numeric/drop/history_pieces.hpp"
 #include "numeric/motion/free_flight.hpp"
 #include "numeric/stepping/contact_run.hpp"
 
@@ -69,6 +71,62 @@ void HistoryWriter::flight(const FreeFlight& flight, double start, double durati
   }
 }
 
+/// Gives the pieces of contacts and flights to a recorder that takes them.
+class PieceWriter {
+ public:
+  /// `recorder` may be null, or take no pieces: then nothing is done.
+  PieceWriter(const Body& body, bool planar, HistoryRecorder* recorder)
+      : body_(body), planar_(planar), recorder_(dynamic_cast<PieceRecorder*>(recorder)) {}
+
+  [[nodiscard]] bool is_wanted() const { return recorder_ != nullptr; }
+  /// An accepted step of the contact `impact`, which began at `origin` [s].
+  void step(const ContactSystem& system, std::span<const ContactInstant> instants, int impact, double origin);
+  /// The flight after that impact, in pieces in which the body turns by half a radian, if they are not too many.
+  void flight(const FreeFlight& flight, int impact, double origin, double duration);
+
+ private:
+  [[nodiscard]] Vector3 free_acceleration(const Vector3& omega) const;
+
+  const Body& body_;
+  bool planar_;
+  PieceRecorder* recorder_;
+  std::vector<PieceSample> row_;
+};
+
+void PieceWriter::step(const ContactSystem& system, std::span<const ContactInstant> instants, int impact,
+                       double origin) {
+  row_.clear();
+  for (const ContactInstant& at : instants) {
+    const ContactDiagnosis& load = at.diagnosis;
+    row_.push_back({system.motion(at.state), Vector3(load.friction.east, load.friction.north, load.load.force),
+                    angular_velocity(at.rate)});
+  }
+  const double begin = instants.front().time, length = instants.back().time - begin;
+  recorder_->record_piece({impact, true, origin, begin, length, row_});
+}
+
+/// I ω̇′ + ω′ × I ω′ = 0; in the plane nothing turns the axis.
+Vector3 PieceWriter::free_acceleration(const Vector3& omega) const {
+  if (planar_) return Vector3::Zero();
+  return -(body_.inverse_inertia() * omega.cross(body_.inertia() * omega));
+}
+
+void PieceWriter::flight(const FreeFlight& flight, int impact, double origin, double duration) {
+  if (!recorder_ || !(duration > 0)) return;
+  constexpr double most_turn = 0.5, most_pieces = 20'000;
+  const double turn = flight.at(0).angular_velocity.norm() * duration;
+  const int parts = static_cast<int>(std::clamp(std::ceil(turn / most_turn), 1.0, most_pieces));
+  const double length = duration / parts;
+  for (int i = 0; i < parts; ++i) {
+    row_.clear();
+    for (int j = 0; j < piece_points; ++j) {
+      const MotionState state = flight.at(length * (i + piece_point(j)));
+      row_.push_back({state, Vector3::Zero(), free_acceleration(state.angular_velocity)});
+    }
+    recorder_->record_piece({impact, false, origin, length * i, length, row_});
+  }
+}
+
 /// A contact must go this much deeper than the height at its touch-down is uncertain: the springs would otherwise start
 /// with more than a millionth of the energy.
 constexpr double least_depth = 1e3;
@@ -112,7 +170,8 @@ class Run {
         system_(body, world.ground, contact_gravity_, world.planar), stepper_(make_stepper(integration.method)),
         contact_(system_, *stepper_), rough_stepper_(make_stepper(Method::rkck)),
         rough_contact_(system_, *rough_stepper_), state_(world.planar ? in_plane(start) : start),
-        growth_(body, start, world.gravity, world.planar), history_(body, world.gravity, observer.history) {
+        growth_(body, start, world.gravity, world.planar), history_(body, world.gravity, observer.history),
+        pieces_(body, world.planar, observer.history) {
     control_.steps = integration.steps;
     control_.evaluation_limit = integration.evaluation_limit;
     control_.estimate_local_slip = (request.error_estimates || request.local_slip) && world.ground.has_friction() &&
@@ -122,6 +181,11 @@ class Run {
     if (observer.history || observer.progress) {
       observe_ = [this](const ContactInstant& at) { return observe(at); };
     }
+    if (!pieces_.is_wanted()) return;
+    for (int j = 0; j < piece_points; ++j) steps_.parts.push_back(piece_point(j));
+    steps_.show = [this](std::span<const ContactInstant> step) {
+      pieces_.step(system_, step, static_cast<int>(result_.impacts.size()) + 1, time_);
+    };
   }
 
   DropRun run() {
@@ -150,6 +214,7 @@ class Run {
     const bool first = result_.impacts.empty();
     if (!first) {
       history_.flight(flight, time_, down.time);
+      pieces_.flight(flight, static_cast<int>(result_.impacts.size()), time_, down.time);
       if (request_.amplification) growth_.fly(state_, down.time);
       time_ += down.time;
     }
@@ -163,7 +228,7 @@ class Run {
   /// The contact; false if it did not end in a lift-off.
   bool strike() {
     const Vector3 point = touch_point(body_, state_);
-    const ContactResult contact = contact_.run(state_, point, control_, observe_);
+    const ContactResult contact = contact_.run(state_, point, control_, observe_, steps_);
     result_.step = contact.step;
     const bool lifts = contact.ending == ContactEnding::lift_off;
     if (!lifts && contact.ending != ContactEnding::at_rest && contact.ending != ContactEnding::sustained_contact) {
@@ -244,6 +309,8 @@ class Run {
   MotionState state_;
   ErrorGrowth growth_;
   HistoryWriter history_;
+  PieceWriter pieces_;
+  StepObserver steps_;  ///< shows the steps to pieces_, if they are wanted
   double time_ = 0;
   double placement_ = 0;  ///< rounding error of the height at the touch-down, from the flight's length [m]
   long observed_ = 0;
@@ -251,6 +318,8 @@ class Run {
 };
 
 }  // namespace
+
+double piece_point(int j) { return (1 - std::cos(std::numbers::pi * j / (piece_points - 1))) / 2; }
 
 double mechanical_energy(const Body& body, const MotionState& state, double gravity) {
   const Vector3& omega = state.angular_velocity;

@@ -94,9 +94,10 @@ ContactRun::ContactRun(ContactSystem& system, Stepper& stepper)
       touches_(system.body()) {}
 
 ContactResult ContactRun::run(const MotionState& touch, const Vector3& point, const ContactControl& control,
-                              const ContactObserver& observer) {
+                              const ContactObserver& observer, const StepObserver& steps) {
   control_ = &control;
   observer_ = &observer;
+  shown_ = &steps;
   system_.begin(touch);
   result_ = {};
   result_.scales = contact_scales(system_, touch, point);
@@ -188,8 +189,23 @@ void ContactRun::accept(const ContactInstant& next) {
   result_.submerged = result_.submerged || system_.is_submerged(next.state);
   const ContactInstant* peak = peak_.look(now_, next);
   if (peak && *observer_) (*observer_)(*peak);
+  if (shown_->show) show_step(next);
   now_ = next;
   friction_.follow(now_);
+}
+
+/// A step of no length, to an event where the step before it ended, is not shown, nor one of which an instant is no
+/// number.
+void ContactRun::show_step(const ContactInstant& next) {
+  const double h = next.time - now_.time;
+  if (!(h > 0)) return;
+  inside_.resize(shown_->parts.size());
+  inside_.front() = now_;
+  inside_.back() = next;
+  for (std::size_t i = 1; i + 1 < inside_.size(); ++i) {
+    if (!step_.take(now_, shown_->parts[i] * h, inside_[i])) return;
+  }
+  shown_->show(inside_);
 }
 
 void ContactRun::collect() {

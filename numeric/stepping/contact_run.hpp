@@ -4,6 +4,8 @@
 
 #include <functional>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "numeric/stepping/contact_result.hpp"
 #include "numeric/stepping/friction_phases.hpp"
@@ -26,6 +28,12 @@ struct ContactControl {
 
 /// Called after every accepted step, and before that with a peak of the force inside it; returns false to stop.
 using ContactObserver = std::function<bool(const ContactInstant&)>;
+/// Called with each accepted step: instants at `parts` of its length, from its beginning to its end, each the end of a
+/// shorter step from that beginning.
+struct StepObserver {
+  std::vector<double> parts{};  ///< ascending, 0 first and 1 last
+  std::function<void(std::span<const ContactInstant>)> show = nullptr;
+};
 
 /// Integrates Eq. 3 of Shan et al. (2005), U̇ = R(U), over a contact:
 ///
@@ -47,13 +55,14 @@ class ContactRun {
 
   /// `touch` has its lowest vertices on the ground or in it, `point` (body frame) is their mean.
   [[nodiscard]] ContactResult run(const MotionState& touch, const Vector3& point, const ContactControl& control,
-                                  const ContactObserver& observe = nullptr);
+                                  const ContactObserver& observe = nullptr, const StepObserver& steps = {});
 
  private:
   void begin(const MotionState& touch, const Vector3& point);
   [[nodiscard]] std::optional<ContactEnding> advance();
   bool handle_friction_event(double h);
   void accept(const ContactInstant& next);
+  void show_step(const ContactInstant& next);
   [[nodiscard]] double kept_up_speed() const;
   void collect();
 
@@ -68,6 +77,8 @@ class ContactRun {
 
   const ContactControl* control_ = nullptr;    ///< of the present run
   const ContactObserver* observer_ = nullptr;  ///< of the present run
+  const StepObserver* shown_ = nullptr;        ///< of the present run
+  std::vector<ContactInstant> inside_;         ///< of the step that is shown
   ContactInstant now_, trial_, faint_;
   int switches_ = 0;  ///< of friction since the last step without one
   ContactResult result_;

@@ -64,6 +64,7 @@ struct Command {
 [[nodiscard]] Command gradient_command();
 [[nodiscard]] Command simulate_command();
 [[nodiscard]] Command compare_command();
+[[nodiscard]] Command shock_command();
 [[nodiscard]] Command sweep_command();
 [[nodiscard]] Command map_command();
 [[nodiscard]] Command verify_command();

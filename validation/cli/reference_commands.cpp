@@ -31,6 +31,7 @@
 #include "validation/reports/plan_report.hpp"
 #include "validation/reports/regimes_report.hpp"
 #include "validation/reports/sequence_report.hpp"
+#include "validation/reports/shock_report.hpp"
 #include "validation/reports/simulation_report.hpp"
 #include "validation/reports/tradeoff_report.hpp"
 #include "validation/reports/verify_report.hpp"
@@ -254,6 +255,8 @@ const std::vector<ColumnsOf>& all_columns() {
                                           {"simulate", simulation_columns},
                                           {"history", history_columns},
                                           {"compare", comparison_columns},
+                                          {"shock", shock_columns},
+                                          {"shock-spectrum", spectrum_columns},
                                           {"sweep", sweep_all},
                                           {"map", map_columns},
                                           {"verify", verify_columns},

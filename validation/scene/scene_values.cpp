@@ -64,7 +64,9 @@ class SceneParser {
       const std::string key = prefix.empty() ? std::string(name.str()) : prefix + "." + std::string(name.str());
       const std::string where = position(values_.path_, name.source());
       check_name(std::string(name.str()), where);
-      if (const toml::table* inner = node.as_table()) {
+      if (key == probes_name) {
+        add_probes(node, where);
+      } else if (const toml::table* inner = node.as_table()) {
         check_table(key, where);
         add(*inner, key);
       } else {
@@ -75,6 +77,28 @@ class SceneParser {
   }
 
  private:
+  /// [[probe]]: the keys of table i become "probe.i.name" and "probe.i.place".
+  void add_probes(const toml::node& node, const std::string& where) {
+    const toml::array* const list = node.as_array();
+    if (!list || !list->is_array_of_tables())
+      throw BadInput(
+          fmt::format("{}: {}: must be tables, each [[{}]] with name and place", where, probes_name, probes_name));
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const toml::table& table = *list->get(i)->as_table();
+      if (table.empty())
+        throw BadInput(
+            fmt::format("{}: {}: required, name and place", position(values_.path_, table.source()), probes_name));
+      for (const auto& [name, value] : table) {
+        const std::string part(name.str());
+        if (part != "name" && part != "place")
+          throw BadInput(fmt::format("{}: {}.{}: unknown key; did you mean {}.{}?",
+                                     position(values_.path_, name.source()), probes_name, part, probes_name,
+                                     nearest_name(part, {"name", "place"})));
+        add_value(fmt::format("{}.{}.{}", probes_name, i, part), value);
+      }
+    }
+  }
+
   /// A quoted name with a dot in it would look like a key of a table.
   static void check_name(const std::string& name, const std::string& where) {
     if (name.find('.') == std::string::npos) return;
@@ -119,6 +143,8 @@ class SceneParser {
     }
     return numbers;
   }
+
+  static constexpr const char* probes_name = "probe";  // as probe_table of probes.hpp, which stands above this
 
   SceneValues& values_;
   const std::vector<std::string>& known_;

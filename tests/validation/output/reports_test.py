@@ -23,6 +23,8 @@ COMMANDS = {
     "gradient": (["gradient", "--angle", "33", "--gravity", "9.81", "--friction", "0.1", "--impacts", "2"], "gradients"),
     "simulate": (["simulate", PHONE, "--impacts", "2"], "impacts"),
     "compare": (["compare", PHONE, "--impacts", "1"], "impacts"),
+    "shock": (["shock", PHONE, "--impacts", "1", "--probe", "tip:0.05,0,0", "--no-sensitivity", "--frequencies",
+               "100:1000:3"], "impacts"),
     "sweep": (["sweep", PHONE, "--model", "discrete", "--set", "drop.angle_deg=10:50:20"], "rows"),
     "verify": (["verify", "--only", "E1"], "checks"),
     "plan": (["plan", PHONE, "--impacts", "1"], "rungs"),

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What impacts do to points of the body: kinematics, closed forms of landings, both models, error bars.
+#include "validation/shock/shock_run.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+using namespace clatter::validation;
+using clatter::numeric::Vector3;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double closes = 1e-9;  // what is claimed of ∫a dt against ΔV
+
+const std::vector<Probe> box_probes{{"centre", Vector3::Zero()}, {"corner", Vector3(0.05, 0.03, 0.01)}};
+
+/// A box of 0.2 kg, 0.1 × 0.06 × 0.02 m, on an elastic ground.
+Scene box(const std::vector<SceneOverride>& overrides) {
+  std::vector<SceneOverride> all{
+      {"body.shape", "--body", "box"},  {"body.size", "--size", "0.1x0.06x0.02"},   {"body.mass", "--mass", "0.2"},
+      {"drop.speed", "--speed", "2"},   {"ground.stiffness", "--stiffness", "1e9"}, {"run.digits", "--digits", "9"},
+      {"run.impacts", "--impacts", "1"}};
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  return read_scene("", all, Model::continuous);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(the_acceleration_from_the_forces_integrates_to_the_change_of_velocity) {
+  const std::vector<Probe> probes{
+      {"centre", Vector3::Zero()}, {"corner", Vector3(0.05, 0.02, 0.009)}, {"off", Vector3(-0.2, 0.1, 0.3)}};
+  for (const char* name : {"phone-damped", "phone-corner", "phone-elastic"}) {
+    const ShockRun run =
+        run_shock(case_scene(name, {{"run.digits", "--digits", "9"}, {"run.impacts", "--impacts", "2"}}), probes,
+                  {.sensitivity = false, .count = 2});
+    BOOST_TEST_REQUIRE(run.continuous->rows.size() == 2 * probes.size());
+    for (const ShockRow& row : run.continuous->rows) {
+      BOOST_TEST_CONTEXT(name << ", impact " << row.impact << ", probe " << row.probe) {
+        BOOST_TEST(row.closure < closes);
+        BOOST_TEST(row.value.peak_size > 0);
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(at_the_centre_of_mass_the_peak_is_force_over_mass) {
+  const Scene scene = case_scene("phone-elastic", {{"run.impacts", "--impacts", "2"}, {"run.digits", "--digits", "9"}});
+  const ShockRun run = run_shock(scene, {{"centre", Vector3::Zero()}}, {.sensitivity = false, .count = 2});
+  const auto& impacts = run.continuous->planned.run.impacts;
+  for (const ShockRow& row : run.continuous->rows) {
+    const auto& force = impacts[static_cast<std::size_t>(row.impact - 1)].value;
+    BOOST_TEST(std::fabs(row.value.peak_size * scene.body.mass / force.peak_force - 1) < 1e-7);
+    const Vector3 weight(0, 0, scene.world.gravity * row.duration);  // acts in the contact, too
+    BOOST_TEST(((row.value.delta_v + weight) * scene.body.mass - force.impulse).norm() < 1e-9 * force.impulse.norm());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_elastic_flat_landing_is_a_half_sine_of_known_height_width_and_spectrum) {
+  Scene scene = box({{"drop.angle_deg", "--angle", "0"}, {"ground.area", "--area", "projected"}});
+  const double omega = std::sqrt(1e9 * 0.1 * 0.06 / 0.2), time = pi / omega, peak = 2 * omega;
+  ShockRequest request{
+      .low = 0.809936786 / time, .high = 2 / time, .count = 2, .quality = std::numeric_limits<double>::infinity()};
+  const ShockRun run = run_shock(scene, box_probes, request);
+  for (const ShockRow& row : run.continuous->rows) {
+    BOOST_TEST(std::fabs(row.value.delta_v_size - 4) < 1e-8);
+    BOOST_TEST(std::fabs(row.value.peak_size / peak - 1) < 1e-8);
+    BOOST_TEST(std::fabs(row.value.width / (time * (1 - 2 * std::asin(0.1) / pi)) - 1) < 1e-7);
+    BOOST_TEST(std::fabs(row.value.peak_time / (time / 2) - 1) < 1e-3);
+    BOOST_TEST(std::fabs(row.sensitivity->value - 0.5) < 1e-5);
+  }
+  const Spectrum* spectrum = run.spectrum(0, true, Blows::impact_1);
+  BOOST_TEST_REQUIRE(spectrum != nullptr);
+  BOOST_TEST(spectrum->axis == 2);
+  BOOST_TEST(std::fabs(spectrum->points[0].whole().acceleration.maximax() / peak - 1.768457654) < 1e-7);
+}
+
+BOOST_AUTO_TEST_CASE(the_peaks_sensitivity_is_that_of_how_the_force_grows) {
+  // F ∝ k_G δ^p: the peak grows like k_G^(1/(p + 1)), p = 2 for an edge and 3 for a corner, as the contact gets short.
+  const Scene edge = box({{"drop.orientation", "--orientation", "9"}, {"ground.stiffness", "--stiffness", "1e12"}});
+  const Scene corner = box({{"drop.orientation", "--orientation", "20"}, {"ground.stiffness", "--stiffness", "1e13"}});
+  const ShockRun on_edge = run_shock(edge, box_probes, {.count = 2}),
+                 on_corner = run_shock(corner, box_probes, {.count = 2});
+  BOOST_TEST(std::fabs(on_edge.continuous->rows[0].sensitivity->value - 1.0 / 3) < 0.01);
+  BOOST_TEST(std::fabs(on_corner.continuous->rows[0].sensitivity->value - 0.25) < 0.01);
+}
+
+BOOST_AUTO_TEST_CASE(the_far_end_of_a_nearly_flat_elastic_rod_gets_twice_the_flat_drops_change_of_velocity) {
+  Scene scene = read_scene("", {{"drop.angle_deg", "--angle", "1e-4"}}, Model::discrete);
+  const ShockRun run =
+      run_shock(scene, {{"a", Vector3(-0.5, 0, 0)}, {"b", Vector3(0.5, 0, 0)}}, {.continuous = false, .count = 2});
+  BOOST_TEST_REQUIRE(run.discrete.size() == 6U);
+  const ShockRow& far = run.discrete[3];  // impact 2, end b
+  BOOST_TEST(far.impact == 2);
+  BOOST_TEST(std::fabs(far.value.delta_v.z() - 4) < 1e-9);
+  const Spectrum* const flat = run.spectrum(1, false, Blows::flat);
+  const Spectrum* const all = run.spectrum(1, false, Blows::all);
+  BOOST_TEST_REQUIRE((flat != nullptr && all != nullptr));
+  // Oscillators so fast that each blow is over for them before the next.
+  BOOST_TEST(flat->points.back().whole().pseudo_velocity.maximax() > 1.85);
+}
+
+BOOST_AUTO_TEST_CASE(the_corner_that_strikes_changes_its_normal_velocity_by_one_plus_e_times_its_approach) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  int looked_at = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    Eigen::Quaterniond q(uniform(random), uniform(random), uniform(random), uniform(random));
+    q.normalize();
+    Scene scene = read_scene("",
+                             {{"body.shape", "--body", "box"},
+                              {"body.size", "--size", "0.1x0.06x0.02"},
+                              {"drop.angle_deg", "--angle", "10"}},
+                             Model::discrete);
+    const double e = 0.5 * (1 + uniform(random));
+    scene.impact.restitution = e;
+    scene.attitude = {q.w(), q.x(), q.y(), q.z()};
+    scene.body.centre = {0.01 * uniform(random), 0.005 * uniform(random), 0.002 * uniform(random)};
+    scene.request.impacts = 1;
+    const Vector3 normal = q.conjugate() * Vector3::UnitZ();
+    Vector3 lowest;  // corner of the box, from its geometric centre
+    for (int i = 0; i < 3; ++i) lowest[i] = normal[i] > 0 ? -scene.body.size[i] / 2 : scene.body.size[i] / 2;
+    const ShockRun run = run_shock(scene, {{"corner", lowest}}, {.continuous = false, .count = 2});
+    BOOST_TEST_REQUIRE(run.discrete.size() == 1U);
+    const ShockRow& row = run.discrete[0];
+    BOOST_TEST(std::fabs(row.value.delta_v.z() - (1 + e)) < 1e-13 + row.error.delta_v_size);
+    if (std::isfinite(row.error.delta_v_size)) ++looked_at;
+  }
+  BOOST_TEST(looked_at > 290);
+}
+
+BOOST_AUTO_TEST_CASE(the_continuous_change_of_velocity_tends_to_the_discrete_one) {
+  double last = 1;
+  for (const char* stiffness : {"1e10", "1e12", "1e14"}) {
+    Scene scene = box({{"drop.orientation", "--orientation", "20"},
+                       {"ground.stiffness", "--stiffness", stiffness},
+                       {"drop.speed", "--speed", "1"},
+                       {"drop.angular_velocity", "--angular-velocity", "1,2,3"}});
+    const ShockRun run = run_shock(scene, box_probes, {.sensitivity = false, .count = 2});
+    BOOST_TEST_REQUIRE(run.discrete.size() == 2U);
+    const double apart = (run.continuous->rows[1].value.delta_v - run.discrete[1].value.delta_v).norm();
+    BOOST_TEST(apart < 0.6 * last);  // like the contact's duration, k^(-1/4): 0.32 for each factor of 100
+    last = apart;
+  }
+}
+
+BOOST_AUTO_TEST_CASE(numbers_of_few_digits_lie_within_their_errors) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  int within = 0, all = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const std::string angle = std::to_string(5 + 80 * uniform(random)), tilt = std::to_string(20 * uniform(random)),
+                      damping = std::to_string(1e5 * uniform(random));
+    const std::vector<SceneOverride> overrides{{"drop.angle_deg", "--angle", angle},
+                                               {"drop.tilt_deg", "--tilt", tilt},
+                                               {"ground.damping", "--damping", damping}};
+    Scene scene = box(overrides), finer = scene;
+    scene.accuracy.digits = 4;
+    finer.accuracy.digits = 11;
+    const ShockRequest request{.sensitivity = false, .low = 50, .high = 5000, .count = 3};
+    const ShockRun rough = run_shock(scene, box_probes, request), fine = run_shock(finer, box_probes, request);
+    const auto count = [&](double one, double other, double error) {
+      ++all;
+      if (std::fabs(one - other) <= error) ++within;
+    };
+    for (std::size_t i = 0; i < rough.continuous->rows.size(); ++i) {
+      const ShockRow &one = rough.continuous->rows[i], &other = fine.continuous->rows[i];
+      count(one.value.delta_v_size, other.value.delta_v_size, one.error.delta_v_size);
+      count(one.value.peak_size, other.value.peak_size, one.error.peak_size);
+      count(one.value.peak_alpha, other.value.peak_alpha, one.error.peak_alpha);
+      count(one.value.width, other.value.width, one.error.width);
+      count(one.value.peak_time, other.value.peak_time, one.error.peak_time);
+    }
+    const Spectrum *one = rough.spectrum(1, true, Blows::impact_1), *other = fine.spectrum(1, true, Blows::impact_1);
+    if (!one || !other) continue;  // an impact in which rounding decides has none
+    for (std::size_t i = 0; i < one->points.size(); ++i) {
+      count(one->points[i].whole().pseudo_velocity.maximax(), other->points[i].whole().pseudo_velocity.maximax(),
+            one->points[i].pseudo_velocity_error);
+      count(one->points[i].whole().acceleration.maximax(), other->points[i].whole().acceleration.maximax(),
+            one->points[i].acceleration_error);
+    }
+  }
+  BOOST_TEST(all > 400);
+  BOOST_TEST(within >= 0.95 * all);  // as the simulator's own bars
+}

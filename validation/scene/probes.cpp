@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/scene/probes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+
+#include "validation/output/bad_input.hpp"
+#include "validation/output/number.hpp"
+#include "validation/scene/body_properties.hpp"
+
+namespace clatter::validation::inline scene {
+namespace {
+
+constexpr Range places{-1e100, 1e100, false, "from -1e100 to 1e100"};
+const char* const three_places = "three coordinates in m, body frame, from -1e100 to 1e100";
+const char* const names_allowed = "letters, digits, \"_\", \"-\" and \".\", from 1 to 40 of them";
+
+bool is_name(const std::string& text) {
+  const auto fits = [](unsigned char c) { return c < 128 && (std::isalnum(c) || c == '_' || c == '-' || c == '.'); };
+  return !text.empty() && text.size() <= 40 && std::all_of(text.begin(), text.end(), fits);
+}
+
+bool has_name(const std::vector<Probe>& probes, const std::string& name) {
+  return std::any_of(probes.begin(), probes.end(), [&](const Probe& probe) { return probe.name == name; });
+}
+
+/// "X,Y,Z"
+bool read_place(const std::string& text, numeric::Vector3& place) {
+  std::istringstream parts(text + ",");  // so that an empty last part counts
+  int count = 0;
+  for (std::string part; std::getline(parts, part, ','); ++count) {
+    if (count == 3 || !read_number(part, place[count]) || !places.holds(place[count])) return false;
+  }
+  return count == 3;
+}
+
+}  // namespace
+
+std::vector<Probe> read_probes(const SceneValues& values) {
+  std::vector<Probe> probes;
+  for (int i = 0; values.has_table(fmt::format("{}.{}", probe_table, i)); ++i) {
+    const std::string name = fmt::format("{}.{}.name", probe_table, i);
+    const std::string place = fmt::format("{}.{}.place", probe_table, i);
+    values.require(name, "the probe's");
+    values.require(place, "the probe's [x, y, z] in m");
+    const std::string text = values.text(name);
+    if (!is_name(text)) values.refuse(name, names_allowed);
+    if (has_name(probes, text)) values.refuse(name, "another name than those of the probes before it");
+    probes.push_back({text, vector_of(values.numbers(place, {3}, places, three_places))});
+  }
+  return probes;
+}
+
+std::vector<Probe> read_probes(const std::string& flag, const std::vector<std::string>& texts) {
+  std::vector<Probe> probes;
+  for (const std::string& text : texts) {
+    const std::size_t colon = text.find(':');
+    Probe probe{text.substr(0, colon), {}};
+    const bool is_whole =
+        colon != std::string::npos && is_name(probe.name) && read_place(text.substr(colon + 1), probe.place);
+    if (!is_whole) {
+      throw BadInput(
+          fmt::format("{} '{}': must be NAME:X,Y,Z, the name {}, then {}", flag, text, names_allowed, three_places));
+    }
+    if (has_name(probes, probe.name))
+      throw BadInput(fmt::format("{} '{}': there is a probe of this name already", flag, text));
+    probes.push_back(probe);
+  }
+  return probes;
+}
+
+Value probe_fields(const std::vector<Probe>& probes) {
+  Value::List list;
+  for (const Probe& probe : probes) {
+    const std::vector<double> place(probe.place.begin(), probe.place.end());
+    list.emplace_back(Value::Fields{{"name", probe.name}, {"place", place}});
+  }
+  return list;
+}
+
+}  // namespace clatter::validation::inline scene

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The points of a scene's body of which the shock is asked.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "validation/scene/scene.hpp"
+
+namespace clatter::validation::inline scene {
+
+/// The table of which a file may have several, [[probe]]; their keys are "probe.0.name" and so on.
+inline constexpr const char* probe_table = "probe";
+
+/// A point of the body.
+struct Probe {
+  std::string name;
+  numeric::Vector3 place = numeric::Vector3::Zero();  ///< body frame, as BodyProperties has it [m]
+};
+
+/// Those of a file, which other commands than `shock` leave alone:
+///     [[probe]]
+///     name = "camera"              letters, digits, "_", "-" and ".", at most 40; no two alike
+///     place = [0.05, 0.02, 0.009]  body frame, from the geometric centre; a mesh: in its file's frame [m]
+/// @throws BadInput naming the key, what was given and what is allowed.
+[[nodiscard]] std::vector<Probe> read_probes(const SceneValues& values);
+
+/// Those of flags "NAME:X,Y,Z".  @throws BadInput naming the flag.
+[[nodiscard]] std::vector<Probe> read_probes(const std::string& flag, const std::vector<std::string>& texts);
+
+/// As the JSON echo has them.
+[[nodiscard]] Value probe_fields(const std::vector<Probe>& probes);
+
+}  // namespace clatter::validation::inline scene

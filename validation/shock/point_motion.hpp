@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The motion of a point of a rigid body, from the forces of the simulator, and its dense history.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "numeric/drop/history_pieces.hpp"
+#include "validation/shock/chebyshev.hpp"
+
+namespace clatter::validation::inline shock {
+
+using numeric::Vector3;
+
+/// What an accelerometer at the body's point r (from the centre of mass, body frame) reads, in body axes [m/s²]:
+///     s = Aᵀ F/m + ω̇′ × r + ω′ × (ω′ × r),
+/// the acceleration of the point less that of free fall.  Forces and ω̇′ are those of the equations of motion; nothing
+/// is differenced.
+[[nodiscard]] Vector3 specific_force(const numeric::PieceSample& at, const Vector3& r, double mass);
+
+/// One piece of the history, which keeps its samples.
+struct MotionPiece {
+  numeric::HistoryPiece piece;  ///< without its span
+  std::vector<numeric::PieceSample> samples;
+
+  [[nodiscard]] double begin() const { return piece.origin + piece.start; }  ///< after the first touch-down [s]
+};
+
+/// The components of a vector over a piece.
+using VectorPolynomial = std::array<ChebyshevPolynomial, 3>;
+[[nodiscard]] Vector3 value_at(const VectorPolynomial& vector, double x);
+/// Of `value(sample)`, a vector.
+template <class Function>
+[[nodiscard]] VectorPolynomial polynomial_of(const MotionPiece& piece, const Function& value) {
+  std::array<Samples, 3> samples{};
+  for (std::size_t j = 0; j < sample_count; ++j) {
+    const Vector3 v = value(piece.samples[j]);
+    for (int i = 0; i < 3; ++i) samples[static_cast<std::size_t>(i)][j] = v[i];
+  }
+  return {ChebyshevPolynomial(samples[0]), ChebyshevPolynomial(samples[1]), ChebyshevPolynomial(samples[2])};
+}
+
+/// Keeps a drop's pieces.
+class MotionRecorder : public numeric::PieceRecorder {
+ public:
+  void record_piece(const numeric::HistoryPiece& piece) override;
+  [[nodiscard]] const std::vector<MotionPiece>& pieces() const { return pieces_; }
+
+ private:
+  std::vector<MotionPiece> pieces_;
+};
+
+}  // namespace clatter::validation::inline shock

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/shock/shock_rows.hpp"
+
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace clatter::validation::inline shock {
+namespace {
+
+constexpr double width_level = 0.1;  ///< of the peak, at which its width is measured
+
+/// The size of a vector over a piece.
+double size_at(const VectorPolynomial& vector, double x) { return value_at(vector, x).norm(); }
+
+/// Where a vector is largest over a piece, and its size there.
+struct Largest {
+  std::size_t piece = 0;
+  double x = 0;
+  double size = -1;
+};
+
+/// Looks through one piece at points closer than its samples, then refines about the best: the size near a smooth
+/// maximum is known to rounding where its place is known to the root of that.
+void look(const VectorPolynomial& vector, std::size_t piece, Largest& best) {
+  constexpr int points = 4 * numeric::piece_points;
+  int at = 0;
+  double size = -1;
+  for (int i = 0; i <= points; ++i) {
+    const double found = size_at(vector, static_cast<double>(i) / points);
+    if (found > size) {
+      size = found;
+      at = i;
+    }
+  }
+  if (!(size > 0.9 * best.size)) return;
+  const double low = std::max(at - 1, 0) / static_cast<double>(points),
+               high = std::min(at + 1, points) / static_cast<double>(points);
+  const auto [x, least] =
+      boost::math::tools::brent_find_minima([&](double t) { return -size_at(vector, t); }, low, high, 30);
+  const bool is_inside = -least > size;
+  const Largest found{piece, is_inside ? x : static_cast<double>(at) / points, is_inside ? -least : size};
+  if (found.size > best.size) best = found;
+}
+
+template <class Function>
+Largest largest(std::span<const MotionPiece> contact, const Function& value) {
+  Largest best;
+  for (std::size_t i = 0; i < contact.size(); ++i) look(polynomial_of(contact[i], value), i, best);
+  return best;
+}
+
+double time_at(const MotionPiece& piece, double x) { return piece.piece.start + x * piece.piece.length; }
+
+/// Time after the touch-down at which the size first falls to `level` from the peak on, forward or backward; the
+/// contact's end where it does not.
+template <class Function>
+double crossing(std::span<const MotionPiece> contact, const Largest& peak, double level, bool forward,
+                const Function& value) {
+  constexpr int points = 4 * numeric::piece_points;
+  std::size_t i = peak.piece;
+  double above = peak.x;
+  for (;;) {
+    const VectorPolynomial vector = polynomial_of(contact[i], value);
+    const double end = forward ? 1 : 0;
+    const int parts = std::max(1, static_cast<int>(std::ceil(std::fabs(end - above) * points)));
+    const double from = above;
+    for (int k = 1; k <= parts; ++k) {
+      const double x = from + (end - from) * k / parts;
+      if (size_at(vector, x) > level) {
+        above = x;
+        continue;
+      }
+      double below = x;
+      for (int halvings = 0; halvings < 60; ++halvings) {
+        const double middle = (above + below) / 2;
+        (size_at(vector, middle) > level ? above : below) = middle;
+      }
+      return time_at(contact[i], above);
+    }
+    if (forward ? i + 1 == contact.size() : i == 0) return time_at(contact[i], end);
+    i = forward ? i + 1 : i - 1;
+    above = forward ? 0 : 1;
+  }
+}
+
+/// World velocity of the body's point.
+Vector3 velocity_of(const numeric::PieceSample& at, const Vector3& r) {
+  return at.state.velocity + at.state.attitude * at.state.angular_velocity.cross(r);
+}
+
+Vector3 world_spin(const numeric::PieceSample& at) { return at.state.attitude * at.state.angular_velocity; }
+
+/// ∫a dt of the point, world.
+Vector3 integral_of_acceleration(std::span<const MotionPiece> contact, const Vector3& r, double mass, double gravity) {
+  Vector3 sum = Vector3::Zero();
+  for (const MotionPiece& piece : contact) {
+    const VectorPolynomial acceleration = polynomial_of(piece, [&](const numeric::PieceSample& at) {
+      return Vector3(at.state.attitude * specific_force(at, r, mass) - Vector3(0, 0, gravity));
+    });
+    for (int i = 0; i < 3; ++i) {
+      sum[i] += piece.piece.length * acceleration[static_cast<std::size_t>(i)].integral();
+    }
+  }
+  return sum;
+}
+
+/// How far the polynomials about the peak may be from what they stand for [m/s²].
+double tail_of(const VectorPolynomial& vector) {
+  return std::hypot(vector[0].tail(), vector[1].tail(), vector[2].tail());
+}
+
+ShockRow row_of(std::span<const MotionPiece> contact, const Vector3& r, double mass, double gravity) {
+  const numeric::PieceSample &first = contact.front().samples.front(), &last = contact.back().samples.back();
+  const auto felt = [&](const numeric::PieceSample& at) { return specific_force(at, r, mass); };
+  const auto turning = [&](const numeric::PieceSample& at) { return at.angular_acceleration; };
+  ShockRow row;
+  row.impact = contact.front().piece.impact;
+  row.start = contact.front().piece.origin;
+  row.duration = contact.back().piece.start + contact.back().piece.length;
+  ShockNumbers& n = row.value;
+  n.delta_v = velocity_of(last, r) - velocity_of(first, r);
+  n.delta_v_size = n.delta_v.norm();
+  row.delta_v_body = first.state.attitude.conjugate() * n.delta_v;
+  n.delta_omega = world_spin(last) - world_spin(first);
+  n.delta_omega_size = n.delta_omega.norm();
+  const Largest peak = largest(contact, felt);
+  const VectorPolynomial about = polynomial_of(contact[peak.piece], felt);
+  n.peak = value_at(about, peak.x);
+  n.peak_size = n.peak.norm();
+  n.peak_time = time_at(contact[peak.piece], peak.x);
+  n.width = crossing(contact, peak, width_level * n.peak_size, true, felt) -
+            crossing(contact, peak, width_level * n.peak_size, false, felt);
+  const Largest turn = largest(contact, turning);
+  n.peak_alpha = turn.size;
+  row.error.peak_size = tail_of(about);
+  row.error.peak_alpha = tail_of(polynomial_of(contact[turn.piece], turning));
+  row.closure = (integral_of_acceleration(contact, r, mass, gravity) - n.delta_v).norm() / n.delta_v_size;
+  return row;
+}
+
+using Number = double ShockNumbers::*;
+using Vector = Vector3 ShockNumbers::*;
+
+/// Adds to the errors of a row those that the other run tells, and what rounding leaves.
+void add_errors(const ShockRow& other, double error_per_distance, double trust, double rounding, ShockRow& row) {
+  const auto add = [&](double& error, double distance, double size) {
+    error += error_per_distance * distance + (trust + rounding) * size;
+  };
+  for (const Number number : {&ShockNumbers::delta_v_size, &ShockNumbers::peak_size, &ShockNumbers::width,
+                              &ShockNumbers::delta_omega_size, &ShockNumbers::peak_alpha}) {
+    add(row.error.*number, std::fabs(row.value.*number - other.value.*number), std::fabs(row.value.*number));
+  }
+  for (const Vector vector : {&ShockNumbers::delta_v, &ShockNumbers::peak, &ShockNumbers::delta_omega}) {
+    const double distance = (row.value.*vector - other.value.*vector).norm(), size = (row.value.*vector).norm();
+    for (int i = 0; i < 3; ++i) add((row.error.*vector)[i], distance, size);
+  }
+  row.error.peak += Vector3::Constant(row.error.peak_size);
+  // The time of a flat maximum is known to the root of what its height is known to; that is also how far the vector
+  // there may have turned.
+  const double slack = std::sqrt(row.error.peak_size / row.value.peak_size) * row.value.width;
+  add(row.error.peak_time, std::fabs(row.value.peak_time - other.value.peak_time), row.duration);
+  row.error.peak_time += slack;
+  row.error.width += row.value.width * row.error.peak_size / row.value.peak_size;
+}
+
+/// The runs of pieces that belong to one contact.
+std::vector<std::span<const MotionPiece>> contacts_of(const MotionRecorder& motion) {
+  std::vector<std::span<const MotionPiece>> contacts;
+  const std::vector<MotionPiece>& pieces = motion.pieces();
+  for (std::size_t i = 0; i < pieces.size();) {
+    std::size_t end = i;
+    while (end < pieces.size() && pieces[end].piece.impact == pieces[i].piece.impact &&
+           pieces[end].piece.in_contact == pieces[i].piece.in_contact) {
+      ++end;
+    }
+    if (pieces[i].piece.in_contact) contacts.emplace_back(pieces.data() + i, end - i);
+    i = end;
+  }
+  return contacts;
+}
+
+/// The settings that a planned run ended with.
+numeric::Accuracy settled(const Scene& scene, const numeric::Simulation& run) {
+  numeric::Accuracy accuracy = scene.accuracy;
+  accuracy.method = run.method;
+  accuracy.tolerance = run.tolerance;
+  accuracy.step = run.step;
+  accuracy.evaluation_limit *= 2 * numeric::piece_points;  // the samples count
+  return accuracy;
+}
+
+/// A recorded drop, without estimates.
+numeric::Simulation record(const Scene& scene, const numeric::Body& body, int impacts,
+                           const numeric::Accuracy& accuracy, MotionRecorder& motion,
+                           const numeric::Observer& observer) {
+  numeric::Request alone = scene.request;
+  alone.impacts = impacts;
+  alone.error_estimates = alone.amplification = alone.local_slip = false;
+  return numeric::simulate(body, scene.world, scene.start(body), alone, accuracy,
+                           {.history = &motion, .progress = observer.progress});
+}
+
+/// Relative error of each impact's impulse; infinite from the impact on that cannot be predicted, or in which the
+/// second run of the plan went another way.
+std::vector<double> trust_of(const numeric::Simulation& run) {
+  std::vector<double> trust;
+  bool lost = false;
+  for (const numeric::ImpactRecord& row : run.impacts) {
+    const double error = row.error.impulse.norm() / row.value.impulse.norm();
+    lost = lost || !row.predictable || !std::isfinite(error);
+    trust.push_back(lost ? unknown_error : error);
+  }
+  return trust;
+}
+
+/// ln(peak) of each row at a stiffness e^shift times the scene's, c_G/k_G held; empty where the impacts are others.
+std::vector<double> shifted_peaks(const Scene& scene, const numeric::Body& body, const std::vector<Vector3>& places,
+                                  const ContinuousShock& shock, double shift, const numeric::Observer& observer) {
+  Scene other = scene;
+  other.world.ground.stiffness *= std::exp(shift);
+  other.world.ground.damping *= std::exp(shift);
+  const std::vector<numeric::ImpactRecord>& impacts = shock.planned.run.impacts;
+  MotionRecorder motion;
+  const numeric::Simulation run =
+      record(other, body, static_cast<int>(impacts.size()), settled(scene, shock.planned.run), motion, observer);
+  std::vector<double> peaks;
+  for (const ShockRow& row : shock_rows(motion, places, body.mass(), 0)) {
+    const auto i = static_cast<std::size_t>(row.impact - 1);
+    if (i >= run.impacts.size() || run.impacts[i].end != impacts[i].end || run.impacts[i].touches != impacts[i].touches)
+      break;
+    peaks.push_back(std::log(row.value.peak_size));
+  }
+  return peaks;
+}
+
+/// Central differences at two steps, extrapolated; the error is what that changed, and what the peaks' errors make of
+/// the smaller step.
+void add_sensitivities(const Scene& scene, const numeric::Body& body, const std::vector<Vector3>& places,
+                       const numeric::Observer& observer, ContinuousShock& shock) {
+  constexpr double step = 0.02;
+  std::vector<double> peaks[4];
+  const double shifts[4] = {-2 * step, -step, step, 2 * step};
+  for (int i = 0; i < 4; ++i) peaks[i] = shifted_peaks(scene, body, places, shock, shifts[i], observer);
+  for (std::size_t i = 0; i < shock.rows.size(); ++i) {
+    ShockRow& row = shock.rows[i];
+    row.sensitivity = Estimated{0, unknown_error};
+    if (std::any_of(std::begin(peaks), std::end(peaks), [&](const auto& some) { return some.size() <= i; })) continue;
+    const double near = (peaks[2][i] - peaks[1][i]) / (2 * step), far = (peaks[3][i] - peaks[0][i]) / (4 * step);
+    const double value = near + (near - far) / 3;
+    const double noise = 2 * row.error.peak_size / row.value.peak_size / step;
+    row.sensitivity = Estimated{value, std::fabs(value - near) + noise};
+  }
+}
+
+}  // namespace
+
+ShockNumbers ShockNumbers::unknown() {
+  constexpr double x = unknown_error;
+  const Vector3 all = Vector3::Constant(x);
+  return {all, x, all, x, x, x, all, x, x};
+}
+
+std::vector<ShockRow> shock_rows(const MotionRecorder& motion, const std::vector<Vector3>& places, double mass,
+                                 double gravity) {
+  std::vector<ShockRow> rows;
+  for (const std::span<const MotionPiece> contact : contacts_of(motion)) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      rows.push_back(row_of(contact, places[i], mass, gravity));
+      rows.back().probe = i;
+    }
+  }
+  return rows;
+}
+
+ContinuousShock continuous_shock(const Scene& scene, const numeric::Body& body, const std::vector<Vector3>& places,
+                                 bool with_sensitivity, const numeric::Observer& observer) {
+  ContinuousShock shock;
+  shock.planned = run_to_digits(body, scene.world, scene.start(body), scene.request, scene.accuracy,
+                                {.progress = observer.progress});
+  const numeric::Simulation& run = shock.planned.run;
+  const int impacts = static_cast<int>(run.impacts.size());
+  if (impacts == 0) return shock;
+  numeric::Accuracy accuracy = settled(scene, run), other = accuracy;
+  const bool is_fixed = run.step > 0 && !(run.tolerance > 0);
+  if (is_fixed) other.step /= 2;
+  else other.tolerance *= 0.1 * run.tolerance >= numeric::least_tolerance ? 0.1 : 10;
+  shock.error_per_distance = 4;  // as the simulator's own estimates take for a tenth of the tolerance
+  const double gravity = scene.world.gravity_in_contact ? scene.world.gravity : 0;
+  record(scene, body, impacts, accuracy, shock.motion, observer);
+  record(scene, body, impacts, other, shock.other, observer);
+  shock.rows = shock_rows(shock.motion, places, body.mass(), gravity);
+  const std::vector<ShockRow> others = shock_rows(shock.other, places, body.mass(), gravity);
+  shock.trust = trust_of(run);
+  for (std::size_t i = 0; i < shock.rows.size(); ++i) {
+    ShockRow& row = shock.rows[i];
+    const auto n = static_cast<std::size_t>(row.impact - 1);
+    row.predictable = n < run.impacts.size() && run.impacts[n].predictable;
+    const bool is_known = i < others.size() && n < shock.trust.size() && std::isfinite(shock.trust[n]);
+    const double growth = is_known && std::isfinite(run.impacts[n].amplification) ? run.impacts[n].amplification : 1;
+    const double rounding = 4 * std::numeric_limits<double>::epsilon() * (1 + growth);
+    row.start_error = is_known ? run.impacts[n].error.start : unknown_error;
+    if (is_known) add_errors(others[i], shock.error_per_distance, shock.trust[n], rounding, row);
+    else row.error = ShockNumbers::unknown();
+  }
+  if (with_sensitivity) add_sensitivities(scene, body, places, observer, shock);
+  return shock;
+}
+
+}  // namespace clatter::validation::inline shock

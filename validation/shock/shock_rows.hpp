@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What each impact does to points of the body: its numbers, and those of the continuous model.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "validation/output/estimated.hpp"
+#include "validation/plan/planned_run.hpp"
+#include "validation/shock/point_motion.hpp"
+
+namespace clatter::validation::inline shock {
+
+/// The numbers of one impact at one point; the same struct holds their errors, not finite where not known.  The
+/// discrete model has the two changes alone, the rest is 0.
+struct ShockNumbers {
+  Vector3 delta_v = Vector3::Zero();      ///< change of the point's velocity over the impact, world [m/s]
+  double delta_v_size = 0;                ///< |ΔV| [m/s]
+  Vector3 peak = Vector3::Zero();         ///< specific force when it is largest, body axes [m/s²]
+  double peak_size = 0;                   ///< its size [m/s²]
+  double peak_time = 0;                   ///< when, after the touch-down [s]
+  double width = 0;                       ///< how long it stays above a tenth of that about it, within the contact [s]
+  Vector3 delta_omega = Vector3::Zero();  ///< change of the body's angular velocity, world [rad/s]
+  double delta_omega_size = 0;            ///< [rad/s]
+  double peak_alpha = 0;                  ///< largest |ω̇| of the body [rad/s²]
+
+  [[nodiscard]] static ShockNumbers unknown();
+};
+
+struct ShockRow {
+  int impact = 0;  ///< from 1
+  std::size_t probe = 0;
+  double start = 0;     ///< of the touch-down [s]
+  double duration = 0;  ///< [s]
+  ShockNumbers value, error;
+  Vector3 delta_v_body = Vector3::Zero();  ///< ΔV in body axes at the touch-down [m/s]
+  double start_error = 0;                  ///< [s]
+  bool predictable = true;
+  /// |∫a dt − ΔV| over |ΔV|, a the acceleration of the point by specific_force(): what the polynomials of the history
+  /// leave open.
+  double closure = 0;
+  /// ∂ ln(peak)/∂ ln k_G with c_G/k_G held, which keeps the restitution.
+  std::optional<Estimated> sensitivity;
+};
+
+/// The rows of a recorded drop, an impact after the other, and in each a probe after the other, without errors.
+/// @param places  of the probes, from the centre of mass, body frame [m]
+/// @param gravity  that acts in contacts [m/s²]
+[[nodiscard]] std::vector<ShockRow> shock_rows(const MotionRecorder& motion, const std::vector<Vector3>& places,
+                                               double mass, double gravity);
+
+/// The continuous model's shock at the scene's probes.
+struct ContinuousShock {
+  PlannedRun planned;
+  std::vector<ShockRow> rows;
+  MotionRecorder motion;  ///< of the drop by the settings of `planned`
+  MotionRecorder other;   ///< of the drop by a tenth of its tolerance (ten times it where there is none below) or step
+  double error_per_distance = 0;  ///< how many times the distance of the two an error may be
+  std::vector<double> trust;      ///< relative error of each impact's impulse, infinite from where the runs part
+};
+/// Runs the scene to its digits, then again twice, recorded, and with the sensitivity four times more at neighbouring
+/// stiffness.
+/// @param places  of the probes, from the centre of mass, body frame [m]
+/// @throws as run_to_digits.
+[[nodiscard]] ContinuousShock continuous_shock(const Scene& scene, const numeric::Body& body,
+                                               const std::vector<Vector3>& places, bool with_sensitivity,
+                                               const numeric::Observer& observer = {});
+
+}  // namespace clatter::validation::inline shock

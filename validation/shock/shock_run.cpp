@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/shock/shock_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/scene/failure.hpp"
+
+namespace clatter::validation::inline shock {
+namespace {
+
+/// Of the probes, from the centre of mass of the body that a model drops [m].
+std::vector<Vector3> places_of(const Scene& scene, const std::vector<Probe>& probes, Model model) {
+  const Vector3 centre = body_properties(scene, model).centre;
+  std::vector<Vector3> places;
+  for (const Probe& probe : probes) places.push_back(probe.place - centre);
+  return places;
+}
+
+/// Impacts from the first on that can be predicted.
+int known_impacts(const std::vector<ShockRow>& rows) {
+  int known = 0;
+  for (const ShockRow& row : rows) {
+    if (!row.predictable || !std::isfinite(row.error.delta_v_size)) break;
+    known = row.impact;
+  }
+  return known;
+}
+
+/// The axis along which the probe's velocity changes most in one impact.
+int main_axis(const std::vector<ShockRow>& rows, std::size_t probe) {
+  Vector3 largest = Vector3::Zero();
+  for (const ShockRow& row : rows) {
+    if (row.probe == probe) largest = largest.cwiseMax(row.delta_v_body.cwiseAbs());
+  }
+  int axis = 0;
+  largest.maxCoeff(&axis);
+  return axis;
+}
+
+/// The parts of a drop of which spectra are made, and how many impacts each has.
+std::vector<std::pair<Blows, int>> parts_of(int known, int first) {
+  if (known == 0) return {};
+  std::vector<std::pair<Blows, int>> parts{{Blows::impact_1, 1}};
+  if (known > 1) parts.emplace_back(Blows::first, std::min(first, known));
+  if (known > 1) parts.emplace_back(Blows::all, known);
+  return parts;
+}
+
+/// Adds to the errors of points by the polynomials how far the other recorded run is.
+void add_distance(const std::vector<BasePiece>& other, double quality, double error_per_distance,
+                  ResponsePoint& point) {
+  const ResponseExtremes mine = point.whole(), theirs = response(other, point.frequency, quality).whole();
+  point.acceleration_error +=
+      error_per_distance * std::fabs(mine.acceleration.maximax() - theirs.acceleration.maximax());
+  point.pseudo_velocity_error +=
+      error_per_distance * std::fabs(mine.pseudo_velocity.maximax() - theirs.pseudo_velocity.maximax());
+}
+
+/// Of a probe in the continuous model.
+void add_continuous(const ContinuousShock& shock, double mass, const Vector3& place, const ShockRequest& request,
+                    const Spectrum& begun, std::vector<Spectrum>& spectra) {
+  const Vector3 axis = Vector3::Unit(begun.axis);
+  const std::vector<BasePiece> pieces = base_pieces(shock.motion, place, mass, axis);
+  const std::vector<BasePiece> others = base_pieces(shock.other, place, mass, axis);
+  for (const auto& [blows, impacts] : parts_of(known_impacts(shock.rows), request.first)) {
+    Spectrum spectrum = begun;
+    spectrum.blows = begun.blows == Blows::flat ? Blows::flat : blows;
+    spectrum.impacts = impacts;
+    const std::vector<BasePiece> part = first_pieces(pieces, impacts), other = first_pieces(others, impacts);
+    for (const double frequency : frequencies(request.low, request.high, request.count)) {
+      spectrum.points.push_back(response(part, frequency, request.quality));
+      add_distance(other, request.quality, shock.error_per_distance, spectrum.points.back());
+    }
+    spectra.push_back(std::move(spectrum));
+  }
+}
+
+std::vector<VelocityStep> steps_of(const std::vector<ShockRow>& rows, std::size_t probe, int axis) {
+  std::vector<VelocityStep> steps;
+  for (const ShockRow& row : rows) {
+    if (row.probe != probe) continue;
+    steps.push_back({row.start, row.delta_v_body[axis], row.error.delta_v_size, row.start_error});
+  }
+  return steps;
+}
+
+void add_discrete(const std::vector<ShockRow>& rows, const ShockRequest& request, const Spectrum& begun,
+                  std::vector<Spectrum>& spectra) {
+  const std::vector<VelocityStep> steps = steps_of(rows, begun.probe, begun.axis);
+  for (const auto& [blows, impacts] : parts_of(known_impacts(rows), request.first)) {
+    Spectrum spectrum = begun;
+    spectrum.continuous = false;
+    spectrum.blows = begun.blows == Blows::flat ? Blows::flat : blows;
+    spectrum.impacts = impacts;
+    const std::span<const VelocityStep> part(steps.data(), static_cast<std::size_t>(impacts));
+    for (const double frequency : frequencies(request.low, request.high, request.count)) {
+      spectrum.points.push_back(response(part, frequency, request.quality));
+    }
+    spectra.push_back(std::move(spectrum));
+  }
+}
+
+/// The scene dropped flat: at 0°, without spin or motion along the ground, from the same height or with the same speed.
+Scene flat_scene(const Scene& scene) {
+  Scene flat = scene;
+  flat.angle_deg = flat.tilt_deg = flat.spin = flat.tangential_velocity = 0;
+  flat.attitude.clear();
+  flat.orientation.reset();
+  flat.angular_velocity.clear();
+  if (!scene.velocity.empty()) flat.velocity = {0, 0, scene.velocity[2]};
+  flat.request.impacts = 1;
+  flat.until_rest = false;
+  return flat;
+}
+
+/// Rows of the discrete model; why there are none.
+std::string run_discrete_side(const Scene& scene, const std::vector<Probe>& probes, std::vector<ShockRow>& rows,
+                              std::optional<Run>* run) {
+  const auto failure = failure_of_scene([&] {
+    const PreparedScene drop = prepared(scene);
+    const DiscreteRun found = run_discrete(drop, SequenceMethod::automatic);
+    rows = discrete_shock(drop, found, places_of(scene, probes, Model::discrete));
+    if (run) *run = found.run;
+  });
+  return failure ? failure->message : "";
+}
+
+/// The spectra of the flat drop, where it can be run.
+void add_flat(const numeric::Body* body, const numeric::Observer& observer, ShockRun& run) {
+  const Scene flat = flat_scene(run.scene);
+  ShockRequest request = run.request;
+  request.first = 1;
+  std::vector<ShockRow> rows;
+  if (!run.discrete.empty()) static_cast<void>(run_discrete_side(flat, run.probes, rows, nullptr));
+  std::optional<ContinuousShock> shock;
+  const std::vector<Vector3> places = places_of(flat, run.probes, body ? Model::continuous : Model::discrete);
+  if (body) {
+    static_cast<void>(failure_of_scene([&] { shock = continuous_shock(flat, *body, places, false, observer); }));
+  }
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Spectrum begun{.probe = i, .blows = Blows::flat, .points = {}};
+    const std::vector<ShockRow>& first = shock ? shock->rows : rows;
+    begun.axis = main_axis(first, i);
+    if (shock) add_continuous(*shock, body->mass(), places[i], request, begun, run.spectra);
+    add_discrete(rows, request, begun, run.spectra);
+  }
+}
+
+}  // namespace
+
+const Spectrum* ShockRun::spectrum(std::size_t probe, bool of_continuous, Blows blows) const {
+  const auto found = std::find_if(spectra.begin(), spectra.end(), [&](const Spectrum& one) {
+    return one.probe == probe && one.continuous == of_continuous && one.blows == blows;
+  });
+  return found == spectra.end() ? nullptr : &*found;
+}
+
+ShockRun run_shock(const Scene& scene, const std::vector<Probe>& probes, const ShockRequest& request,
+                   const numeric::Observer& observer) {
+  ShockRun run;
+  run.scene = scene;
+  run.probes = probes;
+  run.request = request;
+  std::optional<numeric::Body> body;
+  if (request.continuous) {
+    body.emplace(scene.make_body());
+    run.continuous =
+        continuous_shock(scene, *body, places_of(scene, probes, Model::continuous), request.sensitivity, observer);
+    run.discrete_reason = run_discrete_side(scene, probes, run.discrete, &run.discrete_run);
+    if (run.continuous->planned.run.outcome == numeric::Outcome::interrupted) return run;
+  } else {
+    const PreparedScene drop = prepared(scene);
+    const DiscreteRun found = run_discrete(drop, SequenceMethod::automatic);
+    run.discrete = discrete_shock(drop, found, places_of(scene, probes, Model::discrete));
+    run.discrete_run = found.run;
+  }
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    Spectrum begun{.probe = i, .points = {}};
+    begun.axis = request.axis ? *request.axis : main_axis(run.rows(), i);
+    if (run.continuous) {
+      add_continuous(*run.continuous, body->mass(), places_of(scene, probes, Model::continuous)[i], request, begun,
+                     run.spectra);
+    }
+    add_discrete(run.discrete, request, begun, run.spectra);
+    const std::vector<VelocityStep> steps = steps_of(run.discrete, i, begun.axis);
+    run.envelopes.emplace_back();
+    if (known_impacts(run.discrete) >= 2) {
+      run.envelopes.back() = envelope(steps[0].delta_v, steps[1].delta_v, request.quality);
+    }
+  }
+  add_flat(body ? &*body : nullptr, observer, run);
+  return run;
+}
+
+}  // namespace clatter::validation::inline shock

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// All that `clatter shock` computes of a scene: rows of both models, response spectra, and the flat drop beside them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/scene/probes.hpp"
+#include "validation/shock/discrete_shock.hpp"
+#include "validation/shock/response_spectrum.hpp"
+
+namespace clatter::validation::inline shock {
+
+/// What of a shock is asked for.
+struct ShockRequest {
+  bool continuous = true;       ///< the continuous model, too
+  bool sensitivity = true;      ///< of peaks, four more runs
+  double low = 10, high = 1e4;  ///< natural frequencies [Hz]
+  int count = 61;
+  double quality = 10;        ///< Q; infinite: undamped
+  int first = 2;              ///< so many impacts are the "first" ones
+  std::optional<int> axis{};  ///< of the body: 0, 1, 2; none: that with the largest change of velocity of each probe
+};
+
+/// Which part of the drop a spectrum is of.
+enum class Blows { impact_1, first, all, flat };
+
+struct Spectrum {
+  std::size_t probe = 0;
+  int axis = 2;  ///< of the body
+  bool continuous = true;
+  Blows blows = Blows::all;
+  int impacts = 1;  ///< so many are in it
+  std::vector<ResponsePoint> points{};
+};
+
+struct ShockRun {
+  Scene scene;
+  std::vector<Probe> probes;
+  ShockRequest request;
+  std::optional<ContinuousShock> continuous;
+  std::optional<Run> discrete_run;
+  std::vector<ShockRow> discrete;
+  std::string discrete_reason;  ///< why there is no discrete run; empty: there is one
+  std::vector<Spectrum> spectra;
+  std::vector<std::optional<Envelope>> envelopes;  ///< of each probe, after its first two impacts; the discrete model's
+
+  [[nodiscard]] const Spectrum* spectrum(std::size_t probe, bool of_continuous, Blows blows) const;
+  /// The model that comes first: the continuous one where it ran.
+  [[nodiscard]] const std::vector<ShockRow>& rows() const { return continuous ? continuous->rows : discrete; }
+};
+
+/// Runs the scene's probes through one model or both.  Spectra take the impacts that can be predicted alone.  A
+/// discrete model that cannot take the scene beside the continuous one leaves its reason.
+/// @throws as continuous_shock and run_discrete.
+[[nodiscard]] ShockRun run_shock(const Scene& scene, const std::vector<Probe>& probes, const ShockRequest& request,
+                                 const numeric::Observer& observer = {});
+
+}  // namespace clatter::validation::inline shock
