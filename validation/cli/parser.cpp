@@ -176,7 +176,7 @@ std::string folded_line(const std::string& line) {
   const std::size_t name = line.find_first_not_of(' ');
   const std::size_t end = name == 0 || name == std::string::npos ? std::string::npos : line.find("  ", name);
   // A line of its own below a long name goes on where it begins.
-  if (end == std::string::npos) return wrapped(line, width, name == 0 ? "  " : "");
+  if (end == std::string::npos) return wrapped(line, width, "");
   const std::size_t words = line.find_first_not_of(' ', end);
   const std::size_t column = display_width(line.substr(0, words));
   const std::string indent(column, ' ');
@@ -186,12 +186,33 @@ std::string folded_line(const std::string& line) {
   return out;
 }
 
+/// An example goes on in its next line as a shell reads it; other text of several wide lines is one paragraph.
+std::string folded(const std::vector<std::string>& lines) {
+  constexpr std::size_t width = 79;
+  std::string out;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    std::string text = lines[i];
+    if (text.starts_with("Example: ")) {
+      std::istringstream parts(wrapped(text, width - 2, "  "));
+      for (std::string part, before; std::getline(parts, part); before = " \\\n") out += before + part;
+    } else if (text.empty() || text.starts_with(' ')) {
+      out += folded_line(text);
+    } else {
+      const auto goes_on = [&] { return i + 1 < lines.size() && !lines[i + 1].empty() && lines[i + 1][0] != ' '; };
+      while (display_width(lines[i]) > width && goes_on() && !lines[i + 1].starts_with("Ex")) text += " " + lines[++i];
+      out += wrapped(text, width, "");
+    }
+    out += "\n";
+  }
+  return out;
+}
+
 std::string help_of(const CLI::App& app) {
   const auto chosen = app.get_subcommands();
-  std::istringstream lines(chosen.empty() ? app.help() : chosen[0]->help(app.get_name()));
-  std::string out;
-  for (std::string line; std::getline(lines, line);) out += folded_line(line) + "\n";
-  return out;
+  std::istringstream text(chosen.empty() ? app.help() : chosen[0]->help(app.get_name()));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return folded(lines);
 }
 
 /// For who calls the program without knowing more.

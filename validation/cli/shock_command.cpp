@@ -147,7 +147,8 @@ Command shock_command() {
   add_plot_options(command, input->plot);
   command.footer =
       "Example: clatter shock phone-damped --impacts 2 --probe camera:0.048,0.016,0.0095\n"
-      "ΔV is what a fragile part inside feels of a blow that is short to it; the peak depends on the floor.\n"
+      "The change of velocity is what a fragile part inside feels of a blow that is short to it; the peak depends on "
+      "the floor.\n"
       "Peaks are specific forces, what an accelerometer reads, of a rigid body: parts that bend are left out.";
   command.run = [input] { return run_shock_command(*input); };
   return command;

@@ -82,7 +82,6 @@ class BadInput(unittest.TestCase):
         self.refuse("sequence", "--angle", "10", "-x")
         self.refuse("sequence", "--angle", "10", "--step", "1")
         self.refuse("sequence")
-        self.refuse()
 
     def test_options_that_exclude_each_other_are_refused(self):
         self.refuse("sequence", "--angle", "10", "--impulse-ratio", "0.1", "--friction", "0.1")
