@@ -255,7 +255,7 @@ def extremes_map(data):
 def draw_strip(axes, place, rows):
     """A strip from left to right; neighbours of one class are one box."""
     def kind(i):
-        verdict = rows["verdict"][i]
+        verdict = {"time-limit": "ended-early"}.get(rows["verdict"][i], rows["verdict"][i])
         return verdict if verdict in HATCHES else np.searchsorted(BOUNDS, rows["digits"][i], side="right") - 1
 
     count = len(rows["axis"])
@@ -264,7 +264,7 @@ def draw_strip(axes, place, rows):
         refused = what in HATCHES
         axes.broken_barh([(run[0] / count, len(run) / count)], (place - 0.38, 0.76),
                          facecolor="white" if refused else DIGITS[what], edgecolor=GREY if refused else "none", linewidth=0.4,
-                         hatch=HATCHES[what][0] if refused else None)
+                         hatch=HATCHES[what][0] if refused else None, clip_on=False)
 
 
 CORNERS = Source("corner_sequence.csv", ("sequence", "phone-corner"),
