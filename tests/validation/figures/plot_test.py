@@ -461,7 +461,7 @@ class Options(unittest.TestCase):
         self.assertRegex(run("completion", "zsh").stdout, r"'--plot\[[^\]]*\]:file:_files'")
         self.assertRegex(run("completion", "fish").stdout, r"-l plot -r -F ")
         page = run("man").stdout
-        self.assertEqual(page.count("\n.TP\n\\&\\-\\-plot\\-script "), 8)
+        self.assertEqual(page.count("\n.TP\n\\&\\-\\-plot\\-script "), 10)
 
 
 if __name__ == "__main__":
