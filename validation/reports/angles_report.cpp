@@ -241,7 +241,7 @@ namespace {
 using Style = FigureCurve::Style;
 
 constexpr long long most_with_points = 60;  // so few rows are marked on their curves
-constexpr long long drawn_angles = 720;     // of a curve, so that it is smooth between them
+constexpr long long drawn_angles = 4000;    // of a curve: a branch shorter than a step between two would be missed
 constexpr long long fineness = 1 << 20;     // angles between two of these: a curve ends no farther from its fold
 using Existing = std::bitset<std::tuple_size_v<AnglesRow>>;
 
