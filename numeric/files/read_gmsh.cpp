@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <gmsh.h>
+#include <dlfcn.h>
+#include <gmshc.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <unordered_map>
 
@@ -16,18 +19,85 @@
 namespace clatter::numeric::inline files {
 namespace {
 
-namespace mesh_api = gmsh::model::mesh;
-
 using Tag = std::size_t;
+
+/// Gmsh's library.  It is loaded when a file asks for it: with the hundred that it needs it takes longer than most
+/// runs.
+class Library {
+ public:
+  /// The function is called by its name in gmshc.h, whose declaration gives its type, and must report no error.
+  template <class Function, class... Arguments>
+  static void call(const char* name, Arguments... arguments) {
+    int error = 0;
+    reinterpret_cast<Function*>(symbol(name))(arguments..., &error);
+    if (error) throw MeshError("Gmsh says: " + last_error());
+  }
+
+  static void free(void* memory) { reinterpret_cast<decltype(gmshFree)*>(symbol("gmshFree"))(memory); }
+
+ private:
+  static void* symbol(const char* name) {
+    // It stays loaded: some of its libraries cannot be loaded twice.
+    static void* const library = dlopen(CLATTER_GMSH_LIBRARY, RTLD_NOW | RTLD_LOCAL);
+    void* const found = library ? dlsym(library, name) : nullptr;
+    if (!found) throw MeshError("Gmsh's library cannot be loaded: " + std::string(dlerror()));
+    return found;
+  }
+
+  static std::string last_error() {
+    char* text = nullptr;
+    int error = 0;
+    reinterpret_cast<decltype(gmshLoggerGetLastError)*>(symbol("gmshLoggerGetLastError"))(&text, &error);
+    const std::string copy = text && *text ? text : "no more than that it failed";
+    free(text);
+    return copy;
+  }
+};
+
+/// An array that Gmsh hands over.
+template <class Value>
+class Array {
+ public:
+  Array() = default;
+  Array(const Array&) = delete;
+  Array& operator=(const Array&) = delete;
+  ~Array() { Library::free(first_); }
+  [[nodiscard]] Value** first() { return &first_; }
+  [[nodiscard]] std::size_t* count() { return &count_; }
+  [[nodiscard]] std::span<const Value> values() const { return {first_, count_}; }
+  [[nodiscard]] Value operator[](std::size_t i) const { return first_[i]; }
+
+ private:
+  Value* first_ = nullptr;
+  std::size_t count_ = 0;
+};
+
+/// Arrays of one sort of element each.
+class Arrays {
+ public:
+  Arrays() = default;
+  Arrays(const Arrays&) = delete;
+  Arrays& operator=(const Arrays&) = delete;
+  ~Arrays() {
+    for (std::size_t i = 0; i < number; ++i) Library::free(first[i]);
+    Library::free(first);
+    Library::free(counts);
+  }
+  [[nodiscard]] std::span<const Tag> operator[](std::size_t i) const { return {first[i], counts[i]}; }
+
+  Tag** first = nullptr;
+  std::size_t* counts = nullptr;
+  std::size_t number = 0;
+};
 
 /// Gmsh without a word on the terminal and without the user's configuration files.
 class Session {
  public:
   Session() {
-    gmsh::initialize(0, nullptr, false);
-    gmsh::option::setNumber("General.Terminal", 0);
+    Library::call<decltype(gmshInitialize)>("gmshInitialize", 0, nullptr, 0);
+    Library::call<decltype(gmshOptionSetNumber)>("gmshOptionSetNumber", "General.Terminal", 0.0);
   }
-  ~Session() { gmsh::finalize(); }
+  ~Session() { Library::call<decltype(gmshFinalize)>("gmshFinalize"); }
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 };
@@ -53,14 +123,19 @@ std::optional<double> density_in(const std::string& name) {
   return value;
 }
 
+std::string group_name(int group) {
+  Array<char> name;
+  Library::call<decltype(gmshModelGetPhysicalName)>("gmshModelGetPhysicalName", 3, group, name.first());
+  return *name.first();
+}
+
 double volume_density(int volume, double otherwise) {
-  std::vector<int> groups;
-  gmsh::model::getPhysicalGroupsForEntity(3, volume, groups);
+  Array<int> groups;
+  Library::call<decltype(gmshModelGetPhysicalGroupsForEntity)>("gmshModelGetPhysicalGroupsForEntity", 3, volume,
+                                                               groups.first(), groups.count());
   std::optional<double> found;
-  for (const int group : groups) {
-    std::string name;
-    gmsh::model::getPhysicalName(3, group, name);
-    const std::optional<double> density = density_in(name);
+  for (const int group : groups.values()) {
+    const std::optional<double> density = density_in(group_name(group));
     if (density && found && *density != *found) {
       throw MeshError("volume " + std::to_string(volume) + ": its physical volumes give two densities");
     }
@@ -74,19 +149,23 @@ ElementShape shape_of(int type, Tag first_tag) {
   if (type == tetrahedron) return ElementShape::tetrahedron;
   if (type == hexahedron) return ElementShape::hexahedron;
   if (type == prism) return ElementShape::prism;
-  std::string name;
+  Array<char> name;
+  Array<double> parametric;
   int dimension = 0, order = 0, nodes = 0, primary = 0;
-  std::vector<double> parametric;
-  mesh_api::getElementProperties(type, name, dimension, order, nodes, parametric, primary);
-  throw MeshError("the element with tag " + std::to_string(first_tag) + " is of type \"" + name +
+  Library::call<decltype(gmshModelMeshGetElementProperties)>("gmshModelMeshGetElementProperties", type, name.first(),
+                                                             &dimension, &order, &nodes, parametric.first(),
+                                                             parametric.count(), &primary);
+  throw MeshError("the element with tag " + std::to_string(first_tag) + " is of type \"" + *name.first() +
                   "\"; only first-order tetrahedra, prisms and hexahedra can be read");
 }
 
 void add_volume(int volume, double density, std::vector<TaggedElement>& elements) {
-  std::vector<int> types;
-  std::vector<std::vector<Tag>> tags, nodes;
-  mesh_api::getElements(types, tags, nodes, 3, volume);
-  for (std::size_t t = 0; t < types.size(); ++t) {
+  Array<int> types;
+  Arrays tags, nodes;
+  Library::call<decltype(gmshModelMeshGetElements)>("gmshModelMeshGetElements", types.first(), types.count(),
+                                                    &tags.first, &tags.counts, &tags.number, &nodes.first,
+                                                    &nodes.counts, &nodes.number, 3, volume);
+  for (std::size_t t = 0; t < types.values().size(); ++t) {
     if (tags[t].empty()) continue;
     TaggedElement element{.shape = shape_of(types[t], tags[t].front()), .density = density};
     const auto count = reference_element(element.shape).node_count;
@@ -102,11 +181,11 @@ void add_volume(int volume, double density, std::vector<TaggedElement>& elements
 
 /// In the order of the tags, so that the file's numbering survives.
 std::vector<TaggedElement> solid_elements(double density) {
-  gmsh::vectorpair volumes;
-  gmsh::model::getEntities(volumes, 3);
+  Array<int> entities;  // dimension, tag, dimension, tag, ...
+  Library::call<decltype(gmshModelGetEntities)>("gmshModelGetEntities", entities.first(), entities.count(), 3);
   std::vector<TaggedElement> elements;
-  for (const auto& [dimension, volume] : volumes) {
-    add_volume(volume, volume_density(volume, density), elements);
+  for (std::size_t i = 1; i < entities.values().size(); i += 2) {
+    add_volume(entities[i], volume_density(entities[i], density), elements);
   }
   if (elements.empty()) throw MeshError("has no solid element");
   std::sort(elements.begin(), elements.end(),
@@ -116,11 +195,13 @@ std::vector<TaggedElement> solid_elements(double density) {
 
 /// Positions of all nodes by their tags.
 std::unordered_map<Tag, Vector3> tagged_nodes(double unit) {
-  std::vector<Tag> tags;
-  std::vector<double> coordinates, parametric;
-  mesh_api::getNodes(tags, coordinates, parametric);
-  std::unordered_map<Tag, Vector3> nodes(tags.size());
-  for (std::size_t i = 0; i < tags.size(); ++i) {
+  Array<Tag> tags;
+  Array<double> coordinates, parametric;
+  Library::call<decltype(gmshModelMeshGetNodes)>("gmshModelMeshGetNodes", tags.first(), tags.count(),
+                                                 coordinates.first(), coordinates.count(), parametric.first(),
+                                                 parametric.count(), -1, -1, 0, 0);
+  std::unordered_map<Tag, Vector3> nodes(tags.values().size());
+  for (std::size_t i = 0; i < tags.values().size(); ++i) {
     nodes[tags[i]] = unit * Vector3(coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]);
   }
   return nodes;
@@ -152,8 +233,8 @@ Mesh read(const std::string& path, double density, double unit) {
   if (!geometry && !path.ends_with(".msh")) throw MeshError("is neither a .msh nor a .geo file");
   if (!std::ifstream(path)) throw MeshError("cannot be opened");
   const Session session;
-  gmsh::open(path);
-  if (geometry) mesh_api::generate(3);
+  Library::call<decltype(gmshOpen)>("gmshOpen", path.c_str());
+  if (geometry) Library::call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate", 3);
   return assemble(solid_elements(density), tagged_nodes(unit));
 }
 
@@ -168,10 +249,6 @@ Mesh read_gmsh(const std::string& path, double density, double unit) {
     return read(path, density, unit);
   } catch (const MeshError& error) {
     throw MeshError(path + ": " + error.what());
-  } catch (const std::string& complaint) {  // Gmsh throws these
-    throw MeshError(path + ": Gmsh says: " + complaint);
-  } catch (const std::runtime_error& error) {
-    throw MeshError(path + ": Gmsh says: " + error.what());
   }
 }
 
