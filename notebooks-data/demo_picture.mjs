@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Draws notebooks-data/figures/demo.png, the page of `clatter demo` at the second impact of the rod.
-//   DEMO_URL=http://127.0.0.1:8318/ DEMO_PAGE=build/dev/page node notebooks-data/demo_picture.mjs
+//   DEMO_PAGE=build/page node notebooks-data/demo_picture.mjs     the folder in which validation/demo/build_page.py built it
 import { createRequire } from "node:module";
 import path from "node:path";
-import { fileURLToPath } from "node:url";
+import { fileURLToPath, pathToFileURL } from "node:url";
 
 const { chromium } = createRequire(path.resolve(process.env.DEMO_PAGE, "package.json"))("playwright-core");
 const here = path.dirname(fileURLToPath(import.meta.url));
@@ -13,7 +13,7 @@ const browser = await chromium.launch({
     "--disable-background-networking", "--no-first-run"],
 });
 const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, reducedMotion: "reduce" });
-await page.goto(new URL("?predict=0&angle=10&impact=2", process.env.DEMO_URL).href);
+await page.goto(`${pathToFileURL(path.resolve(process.env.DEMO_PAGE, "page.html")).href}#predict=0&angle=10&impact=2`);
 await page.waitForSelector('#impact-table tr[data-model="continuous"]');
 await page.screenshot({ path: path.join(here, "figures", "demo.png") });
 await browser.close();

@@ -141,7 +141,9 @@ Simulation simulate(const Body& body, const World& world, const MotionState& sta
     return simulation;
   }
   const SecondRun second = second_run(integration, main.step);
-  const DropRun other = run_again(body, world, start, {simulation.impacts.begin(), last}, second);
+  const std::span<const ImpactRecord> known(simulation.impacts.data(),
+                                            static_cast<std::size_t>(last - simulation.impacts.begin()));
+  const DropRun other = run_again(body, world, start, known, second);
   simulation.force_evaluations += other.force_evaluations;
   simulation.root_evaluations += other.root_evaluations;
   estimate_errors(body, second.error_per_distance, simulation.impacts, other.impacts);

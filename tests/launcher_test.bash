@@ -399,18 +399,6 @@ test_user_without_sudo_is_told_one_line_to_run() {
 
 what_is_installed() { sed -n 's/^apt-get .*--no-install-recommends //p' "$settings/calls"; }
 
-test_the_page_s_packages_come_when_the_page_is_first_asked_for() {
-  build_first
-  launch demo
-  expect "exit status" 0 "$status"
-  expect "what is installed" "nodejs npm" "$(what_is_installed)"
-  expect_calls 1 "cmake --build"
-  mkdir -p "$tree/build/release/page"
-  touch "$tree/build/release/page/installed"
-  launch demo
-  expect "calls" "" "$(<"$settings/calls")"
-}
-
 test_gnuplot_comes_when_a_picture_is_first_asked_for() {
   build_first
   launch sequence --plot a.svg
@@ -449,13 +437,6 @@ test_mpi_comes_when_it_is_first_asked_for_and_its_program_is_named() {
   launch --mpi
   expect "calls" "" "$(<"$settings/calls")"
   expect "program" "$tree/build/release/validation/clatter-mpi" "$(<"$settings/out")"
-}
-
-test_user_without_sudo_builds_without_the_page() {
-  become_user
-  launch demo
-  expect "exit status" 0 "$status"
-  expect_calls 0 "apt-get"
 }
 
 test_system_without_dpkg_just_builds() {

@@ -10,10 +10,7 @@
 # shellcheck disable=SC2034  # the lists are read by the callers
 program_packages=(cmake ninja-build g++ libgsl-dev libboost-dev libeigen3-dev libcli11-dev
                   nlohmann-json3-dev libfmt-dev libtomlplusplus-dev librandom123-dev)
-# Node.js bundles the page of clatter demo, gnuplot draws pictures.  They come when they are first asked for:
-# without them all else is there.
-# shellcheck disable=SC2034
-page_packages=(nodejs npm)
+# gnuplot draws pictures.  It comes when it is first asked for: without it all else is there.
 # shellcheck disable=SC2034
 picture_packages=(gnuplot-nox)
 # shellcheck disable=SC2034
@@ -23,11 +20,12 @@ mpi_packages=(libopenmpi-dev openmpi-bin)
 # shellcheck disable=SC2034
 test_packages=(libboost-test-dev python3)
 # What `tests/run --full` alone needs.  Without the shells and groff the tests of completion and man page would be
-# skipped; help2man writes the packages' manual pages; Chromium opens the pages; OpenMPI shares a sweep among processes.
+# skipped; help2man writes the packages' manual pages; emscripten, with Node.js, builds the page of clatter demo from the
+# program's sources and those of GSL; Chromium and Firefox open it; OpenMPI shares a sweep among processes.
 # clang-format holds the form of C++ files, ctags the length of their functions.  The Python module, the figures and the
 # notebooks take the line of Python packages.
 # shellcheck disable=SC2034
-full_packages=(clang-format universal-ctags libgmsh-dev libbenchmark-dev zsh fish groff-base chromium chromium-driver "${mpi_packages[@]}"
+full_packages=(clang-format universal-ctags libgmsh-dev libbenchmark-dev zsh fish groff-base chromium chromium-driver emscripten firefox-esr nodejs npm "${mpi_packages[@]}"
                "${hdf5_packages[@]}" python3-h5py
                pybind11-dev python3-dev python3-numpy python3-matplotlib python3-mpmath jupyter-nbconvert python3-ipykernel mypy
                python3-venv python3-sphinx furo python3-myst-parser libjs-katex pkg-config dpkg-dev lintian

@@ -55,7 +55,7 @@ FlightMoment PointHeights::moment(double time) const {
 }
 
 PointHeight PointHeights::at(int point, const FlightMoment& m) const {
-  const auto& [e, rate, second] = m.vertical;
+  const Vector3 &e = m.vertical.direction, &rate = m.vertical.rate, &second = m.vertical.second;
   const double gravity = flight_.gravity();
   const auto fixed = [&](const Vector3& r, double lower) -> PointHeight {
     return {m.time, m.centre + e.dot(r) - lower, m.rate + rate.dot(r), second.dot(r) - gravity};

@@ -104,7 +104,7 @@ def build_and_install(stage: Path, settings: Settings) -> None:
     if not os.access(ROOT, os.W_OK) and not settings:
         work = stage.parent / "build"
     jobs = int(os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL") or len(os.sched_getaffinity(0)))
-    run("cmake", "--preset", "release", "-S", ROOT, "-B", work, "-DCLATTER_PYTHON=ON", "-DCLATTER_DEMO=OFF",
+    run("cmake", "--preset", "release", "-S", ROOT, "-B", work, "-DCLATTER_PYTHON=ON",
         f"-DCLATTER_PYTHON_EXECUTABLE={sys.executable}", "-DCLATTER_PYTHON_DIR=.")
     compile_in(work, jobs)
     run("cmake", "--install", work, "--prefix", stage, "--component", "python", "--strip")

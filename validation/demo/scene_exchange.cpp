@@ -43,14 +43,14 @@ std::vector<const Key*> said_keys(const Scene& scene) {
   return said;
 }
 
+}  // namespace
+
 void require_shown(const Scene& scene) {
   if (scene.body.shape == BodyScene::Shape::mesh)
     throw BadInput("body.shape 'mesh': must be rod or box; a page can name no file");
   if (scene.body.is_round()) throw BadInput("body.shape: must be rod or box; the page draws no other shape");
   if (scene.sweep) throw BadInput("sweep: must be left out; the page shows one drop, and this scene sweeps a quantity");
 }
-
-}  // namespace
 
 SceneArguments scene_arguments(const Scene& scene) {
   require_shown(scene);
@@ -61,6 +61,15 @@ SceneArguments scene_arguments(const Scene& scene) {
 }
 
 namespace {
+
+/// A list as flags have it, numbers with commas between; in an address "+" means a blank.
+std::string text_of(const Value& value) {
+  const auto* const list = std::get_if<Value::List>(&value.content());
+  std::string text = list ? "" : value.text();
+  for (const Value& part : list ? *list : Value::List{}) text += (text.empty() ? "" : ",") + part.text();
+  for (std::size_t at = 0; (at = text.find('+', at)) != std::string::npos;) text.replace(at, 1, "%2B");
+  return text;
+}
 
 /// Reads `values` for the model that they are for.
 Scene read_for_page(const SceneValues& values, const std::vector<SceneOverride>& overrides) {
@@ -77,6 +86,13 @@ std::string line_of(const Key& key, const Scene& scene) {
 }
 
 }  // namespace
+
+std::string page_fragment(const Scene& scene) {
+  std::string fragment = "given=1";
+  for (const Field& argument : scene_arguments(scene).arguments)
+    fragment += "&" + argument.name + "=" + text_of(argument.value);
+  return fragment;
+}
 
 SceneArguments opened_scene(const std::string& name, const std::string& text) {
   return scene_arguments(read_for_page(SceneValues(name, text, scene_keys()), {}));

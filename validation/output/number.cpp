@@ -80,7 +80,7 @@ double clean_step(double from, double step, long long i) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 15).ptr;
   double rounded = 0;
-  return read_number({text, end}, rounded) ? rounded : value;
+  return read_number({text, static_cast<std::size_t>(end - text)}, rounded) ? rounded : value;
 }
 
 long long count_of_steps(double steps) { return static_cast<long long>(std::floor(steps * (1 + 1e-12) + 1e-12)) + 1; }

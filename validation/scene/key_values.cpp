@@ -14,6 +14,8 @@ template <class... Cases>
 struct Overloaded : Cases... {
   using Cases::operator()...;
 };
+template <class... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;
 
 const Range& allowed(const Range& range, const Range* wide, Model model) {
   return wide && model == Model::discrete ? *wide : range;

@@ -6,10 +6,10 @@ import { test } from "node:test";
 import { LARGE, NARROW, axeSource, onPage } from "./page_browser.mjs";
 
 const SHOWN = "#explain-steps .katex";
-const CORNER = "/?predict=0&body=phone&angle=30&tilt=40&height=1&gravity=9.81&e=0.75&stiffness=1e8&impacts=4&with.centre=0,0,0.001";
-const EDGE = "/?predict=0&body=own-box&mass=1&length=0.1&width=0.05&thickness=0.02&orientation=7&gravity=9.81&e=0.5&friction=0.2&impact=2";
-const ANY = "/?predict=0&body=phone&turn=attitude&q0=0.8&q1=0.36&q2=-0.48&q3=0&vx=0.1&vy=0&vz=-1&wx=1&wy=0&wz=0";
-const STATES = [["/", "#prediction:not([hidden])"], ["/?predict=0&friction=0.2&layout=side", SHOWN], [CORNER, SHOWN], [EDGE, SHOWN], [ANY, SHOWN]];
+const CORNER = "#predict=0&body=phone&angle=30&tilt=40&height=1&gravity=9.81&e=0.75&stiffness=1e8&impacts=4&with.centre=0,0,0.001";
+const EDGE = "#predict=0&body=own-box&mass=1&length=0.1&width=0.05&thickness=0.02&orientation=7&gravity=9.81&e=0.5&friction=0.2&impact=2";
+const ANY = "#predict=0&body=phone&turn=attitude&q0=0.8&q1=0.36&q2=-0.48&q3=0&vx=0.1&vy=0&vz=-1&wx=1&wy=0&wz=0";
+const STATES = [["", "#prediction:not([hidden])"], ["#predict=0&friction=0.2&layout=side", SHOWN], [CORNER, SHOWN], [EDGE, SHOWN], [ANY, SHOWN]];
 
 async function nothingSerious(page) {
   // The page's own policy lets no script in from a tag; through the debugger it may come.
@@ -19,28 +19,42 @@ async function nothingSerious(page) {
   assert.deepEqual(serious.map(({ id, nodes }) => [id, nodes.map(({ target }) => target.join(" "))]), []);
 }
 
-for (const [name, viewport] of [["large", LARGE], ["narrow", NARROW]]) {
-  for (const [query, ready] of STATES) {
-    test(`axe finds nothing serious on a ${name} screen at ${query}, and nothing sticks out of it`, () => onPage(query, async (page) => {
+const MIDDLE = { width: 800, height: 900 };
+const SIZES = [LARGE, MIDDLE, NARROW];
+/** The states take turns; CLATTER_THEMES=all: each in both. */
+const themesOf = (state) => (process.env.CLATTER_THEMES === "all" ? ["light", "dark"] : [["light", "dark"][state % 2]]);
+
+async function nothingSeriousInAnySize(page) {
+  for (const viewport of SIZES) {
+    await page.setViewportSize(viewport);
+    await nothingSerious(page);
+    const width = await page.evaluate(() => document.documentElement.scrollWidth);
+    assert.ok(width <= viewport.width, `${width} px are more than ${viewport.width}`);
+  }
+}
+
+for (const [state, [query, ready]] of STATES.entries()) {
+  for (const colorScheme of themesOf(state)) {
+    test(`axe finds nothing serious at ${query} in ${colorScheme}, and nothing sticks out`, () => onPage(query, async (page) => {
       await page.waitForSelector(ready);
       if (ready === SHOWN) await page.waitForSelector('[data-strip="continuous-1"]');
-      await nothingSerious(page);
-      const width = await page.evaluate(() => document.documentElement.scrollWidth);
-      assert.ok(width <= viewport.width, `${width} px are more than ${viewport.width}`);
-    }, { viewport }));
+      await nothingSeriousInAnySize(page);
+    }, { colorScheme }));
   }
+}
 
-  test(`axe finds nothing serious on a ${name} screen with the sound on and a bad file told`, () => onPage("/?predict=0", async (page) => {
+for (const colorScheme of themesOf(STATES.length)) {
+  test(`axe finds nothing serious with the sound on and a bad file told in ${colorScheme}`, () => onPage("#predict=0", async (page) => {
     await page.waitForSelector('tr[data-model="continuous"]');
     await page.check("#sound");
     assert.match(await page.textContent("#sound-caption"), /^♪ Louder/);
     await page.setInputFiles("#scene-file", { name: "bad.toml", mimeType: "application/toml", buffer: Buffer.from("bad") });
     await page.waitForSelector("#file-error:not([hidden])");
-    await nothingSerious(page);
-  }, { viewport, mayFail: true }));
+    await nothingSeriousInAnySize(page);
+  }, { colorScheme }));
 }
 
-test("scene files, attitude, strip and story can be reached by the keyboard alone", () => onPage("/?predict=0&body=phone&turn=attitude&q0=1&q1=0&q2=0&q3=0", async (page) => {
+test("scene files, attitude, strip and story can be reached by the keyboard alone", () => onPage("#predict=0&body=phone&turn=attitude&q0=1&q1=0&q2=0&q3=0", async (page) => {
   await page.waitForSelector('[data-strip="discrete-1"]');
   const reached = new Set();
   for (let i = 0; i < 200; i++) {

@@ -1,73 +1,90 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A browser on the page of `clatter demo`, for its tests.
-// DEMO_URL: where the page is served. DEMO_PAGE: the folder in which it was built. CLATTER_PROGRAM: the program to compare
-// with. CHROMIUM: the browser.
+// DEMO_PAGE: the folder in which it was built. CLATTER_PROGRAM: the program to compare with. CHROMIUM, FIREFOX: the browsers.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import path from "node:path";
-import { after, before } from "node:test";
+import { after, test } from "node:test";
+import { pathToFileURL } from "node:url";
 
 export const folder = process.env.DEMO_PAGE;
 assert.ok(folder, "DEMO_PAGE is the folder in which the page was built");
 const require = createRequire(path.join(folder, "package.json"));
-export const { chromium } = require("playwright-core");
+export const { chromium, firefox } = require("playwright-core");
 export const axeSource = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
 
-export const address = process.env.DEMO_URL;
+export const file = path.join(folder, "page.html");
+export const address = pathToFileURL(file).href;
 export const program = process.env.CLATTER_PROGRAM;
-assert.ok(address, "DEMO_URL says where the page is served");
 assert.ok(program, "CLATTER_PROGRAM is the program to compare with");
 
 export const LARGE = { width: 1280, height: 900 };
 export const NARROW = { width: 360, height: 740 };
-/** Answers come from a program that may share two cores with everything else. */
+/** The models may share two cores with everything else. */
 const PATIENCE = 600_000;
 /** Of what the table shows: half a unit of the sixth digit. */
 export const SHOWN = 5e-6;
 
-let browser;
-
-before(async () => {
-  browser = await chromium.launch({
+const LAUNCHED = {
+  chromium: () => chromium.launch({
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", headless: true,
     args: ["--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
       "--disable-background-networking", "--no-first-run"],
-  });
-});
+  }),
+  firefox: () => firefox.launch({
+    channel: "moz-firefox", executablePath: process.env.FIREFOX ?? "/usr/bin/firefox-esr", headless: true,
+    // Firefox takes no `reducedMotion` from a context.
+    firefoxUserPrefs: { "ui.prefersReducedMotion": 1 },
+  }),
+};
 
-after(() => browser?.close());
+const browsers = new Map();
+const browserOf = (name) => {
+  if (!browsers.has(name)) browsers.set(name, LAUNCHED[name]());
+  return browsers.get(name);
+};
+
+after(async () => { for (const browser of browsers.values()) await (await browser).close(); });
 
 /**
- * Opens the page, with a script before its own if `before` is one. Afterwards nothing may have gone wrong in its console, and
- * nothing been asked of another host.
+ * Opens the page, with all controls unless `more` is false, with a script before its own if `before` is one. Afterwards nothing may have gone wrong in its console, and
+ * nothing been asked of anybody.
  */
-export async function onPage(query, use, { viewport = LARGE, reducedMotion = "reduce", mayFail = false, script = true, before: prepare } = {}) {
-  const context = await browser.newContext({ viewport, reducedMotion, javaScriptEnabled: script });
+export async function onPage(fragment, use, { browser = "chromium", at = address, before: prepare, more = true, ...options } = {}) {
+  const context = await (await browserOf(browser)).newContext({ viewport: LARGE, reducedMotion: "reduce", ...options });
   const page = await context.newPage();
   page.setDefaultTimeout(PATIENCE);
   const wrong = [];
   const foreign = [];
   page.on("console", (message) => {
-    // The browser itself reports an answer 400 as an error; drivers report how fast they are as warnings.
-    const expected = mayFail && /status of 4\d\d/.test(message.text());
-    if (message.type() === "error" && !expected) wrong.push(message.text());
+    // Drivers report how fast they are as warnings.
+    if (message.type() === "error") wrong.push(message.text());
   });
   page.on("pageerror", (error) => wrong.push(error.message));
   page.on("request", (request) => {
-    const { protocol, origin } = new URL(request.url());
-    if (protocol !== "data:" && protocol !== "file:" && protocol !== "blob:" && origin !== new URL(address).origin) foreign.push(request.url());
+    const [place] = request.url().split("#");
+    if (!/^(data|blob):/.test(place) && place !== at) foreign.push(place);
   });
   try {
     if (prepare) await page.addInitScript(prepare);
-    await page.goto(new URL(query, address).href);
+    await page.goto(at + fragment);
+    // All controls, not only the first.
+    if (more && options.javaScriptEnabled !== false) await page.evaluate(() => { document.getElementById("more").open = true; });
     await use(page, context);
     assert.deepEqual(wrong, []);
     assert.deepEqual(foreign, []);
   } finally {
     await context.close();
   }
+}
+
+/** One page for several tests in a row, each of which begins where the one before it ended: opening the page is what takes long. */
+export function onOnePage(title, fragment, parts, options = {}) {
+  test(title, (t) => onPage(fragment, async (page, context) => {
+    for (const [name, part] of Object.entries(parts)) await t.test(name, () => part(page, context));
+  }, options));
 }
 
 /** What a command of the program prints as JSON. */

@@ -25,9 +25,9 @@ test("no module of the page leads back to itself, not even by a type", () => {
   for (const name of modules.keys()) walk(name, []);
 });
 
-test("no module of the page has more than 300 lines", () => {
+test("no module of the page has more than 400 lines", () => {
   for (const name of modules.keys()) {
     const lines = readFileSync(path.join(folder, `${name}.ts`), "utf8").split("\n").length - 1;
-    assert.ok(lines <= 300, `${name}.ts has ${lines}`);
+    assert.ok(lines <= 400, `${name}.ts has ${lines}`);
   }
 });

@@ -219,7 +219,7 @@ class Palette(unittest.TestCase):
         palette = dict(re.findall(r"\*(\w+) = \"(#\w{6})\"", text("validation/output/palette.hpp")))
         page = dict(re.findall(r"^  (\w+): \"(#\w{6})\"", text("validation/demo/page/colours.ts"), re.MULTILINE))
         for of_page, name in (("discrete", "discrete"), ("continuous", "continuous"), ("beta", "beta"), ("gamma", "gamma"),
-                              ("speed", "ground"), ("tangential", "sky")):
+                              ("ground", "ground"), ("speed", "ochre"), ("tangential", "sky")):
             self.assertEqual(page[of_page], palette[name])
         look = re.search(r"PALETTE = \((.*)\)", text("notebooks-data/look.py")).group(1)
         self.assertEqual(re.findall(r"#\w{6}", look),

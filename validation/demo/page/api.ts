@@ -1,61 +1,126 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Questions to the program that serves the page, or their answers from an offline copy.
-import { keyOf, type Json, type Request } from "./requests";
-import type { Parameters } from "./parameters";
-
-export interface PrecomputedScene {
-  name: string;
-  title: string;
-  parameters: Parameters;
-  angles: number[];
-  answers: Record<string, Json>;
-}
-
-interface Precomputed {
-  clatter?: string;
-  scenes?: PrecomputedScene[];
-}
+// Questions to the program, which runs in the page itself: WebAssembly in workers, so that the page never waits for it.
+import type { Argument, Path, Request } from "./requests";
+import { answerRequests } from "./worker";
 
 /** What the program says is wrong, and the name of the quantity that it blames, if it blames one. */
 export class ApiError extends Error {
   readonly blames: string | undefined;
 
   constructor(message: string) {
-    super(message);
+    super(asArguments(message));
     this.name = "ApiError";
     this.blames = /^([a-z][a-z_]*) [^ ]+: /.exec(this.message)?.[1];
   }
 }
 
-const precomputed = JSON.parse(document.getElementById("precomputed")?.textContent ?? "{}") as Precomputed;
-export const offlineScenes: readonly PrecomputedScene[] = precomputed.scenes ?? [];
-export const isOffline = offlineScenes.length > 0;
-const answers = new Map(offlineScenes.flatMap((scene) => Object.entries(scene.answers)));
-
-/** Whether an answer can be had; without a server only what was precomputed. */
-export function isAvailable(request: Request): boolean {
-  return !isOffline || answers.has(keyOf(request));
+/** Arguments as the page calls them: "tangential_velocity" for "--tangential-velocity". */
+function asArguments(message: string): string {
+  return message.replace(/--([a-z][a-z-]*)/g, (_flag, name: string) => name.replace(/-/g, "_"));
 }
 
-export async function ask<Answer>(request: Request, signal?: AbortSignal): Promise<Answer> {
-  if (isOffline) {
-    const answer = answers.get(keyOf(request));
-    if (answer === undefined) throw new ApiError("this offline copy does not hold that answer");
-    return answer as Answer;
+/** As the program takes them: texts. */
+function textOf(argument: Argument): string {
+  return Array.isArray(argument) ? argument.join("x") : String(argument);
+}
+
+interface Job {
+  request: Request;
+  resolve: (answer: unknown) => void;
+  reject: (error: unknown) => void;
+  signal: AbortSignal | null;
+}
+
+/** A text beyond this is no scene; the module's stack would have to hold it. */
+const LONGEST = 200_000;
+/** A computation that nobody waits for any more may end by itself for so long; then its worker is ended [ms]. */
+const PATIENCE = 400;
+
+/** One worker, which answers one request after the other. */
+class Lane {
+  private worker: Worker | null = null;
+  private readonly waiting: Job[] = [];
+  private running: Job | null = null;
+
+  ask(job: Job): void {
+    this.waiting.push(job);
+    job.signal?.addEventListener("abort", () => this.leave(job));
+    this.next();
   }
-  let response: Response;
-  try {
-    response = await fetch(`/api/${request.path}`, {
-      method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(request.body), signal: signal ?? null,
-    });
-  } catch (error) {
-    if (signal?.aborted) throw error;
-    throw new ApiError("the program does not answer; is clatter demo still running?");
+
+  private leave(job: Job): void {
+    job.reject(new DOMException("left", "AbortError"));
+    const place = this.waiting.indexOf(job);
+    if (place >= 0) this.waiting.splice(place, 1);
+    if (this.running === job) setTimeout(() => { if (this.running === job) this.restart(); }, PATIENCE);
   }
-  const answer = (await response.json().catch(() => ({ error: `the program answered with status ${response.status}` }))) as
-    Answer & { error?: string };
-  if (!response.ok) throw new ApiError(answer.error ?? `the program answered with status ${response.status}`);
-  return answer;
+
+  private next(): void {
+    if (this.running || !this.waiting.length) return;
+    this.running = this.waiting.shift() ?? null;
+    if (!this.running) return;
+    const { path, body } = this.running.request;
+    const texts = Object.fromEntries(Object.entries(body).map(([name, argument]) => [name, textOf(argument)]));
+    this.worker ??= this.start();
+    this.worker.postMessage([path, JSON.stringify(texts)]);
+  }
+
+  private start(): Worker {
+    const worker = new Worker(workerAddress());
+    compiled ??= unpacked().then((code) => WebAssembly.compile(code));
+    void compiled.then((code) => worker.postMessage(code));
+    worker.onmessage = ({ data }: MessageEvent<string>) => this.answer(JSON.parse(data) as { error?: string });
+    worker.onerror = (event) => {
+      event.preventDefault();
+      this.running?.reject(new ApiError("the computation broke off: it needs more memory than the browser gives"));
+      this.restart();
+    };
+    return worker;
+  }
+
+  private answer(answer: { error?: string }): void {
+    if (answer.error === undefined) this.running?.resolve(answer);
+    else this.running?.reject(new ApiError(answer.error));
+    this.running = null;
+    this.next();
+  }
+
+  private restart(): void {
+    this.worker?.terminate();
+    this.worker = null;
+    this.running = null;
+    this.next();
+  }
+}
+
+const textWithin = (id: string): string => document.getElementById(id)?.textContent ?? "";
+
+/** Compiled once for all workers. */
+let compiled: Promise<WebAssembly.Module> | null = null;
+/** The models, which the page holds as base64 of gzip. */
+function unpacked(): Promise<ArrayBuffer> {
+  const bytes = Uint8Array.from(atob(textWithin("module-code")), (letter) => letter.charCodeAt(0));
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+}
+
+let address = "";
+/** Of the worker's program, a text within the page. */
+function workerAddress(): string {
+  const text = textWithin("module");
+  address ||= URL.createObjectURL(new Blob([text, `(${answerRequests.toString()})();`], { type: "text/javascript" }));
+  return address;
+}
+
+/** The slower model has its own worker: the other one does not wait for it. */
+const lanes = { quick: new Lane(), slow: new Lane() };
+const SLOW: readonly Path[] = ["simulate", "compare"];
+
+export function ask<Answer>(request: Request, signal: AbortSignal | null = null): Promise<Answer> {
+  return new Promise((resolve, reject) => {
+    if (String(request.body["text"] ?? "").length > LONGEST) throw new ApiError(`a scene file has at most ${LONGEST} characters`);
+    const lane = SLOW.includes(request.path) ? lanes.slow : lanes.quick;
+    lane.ask({ request, resolve: resolve as (answer: unknown) => void, reject, signal });
+  });
 }
 
 /**
@@ -82,7 +147,7 @@ export class Latest<Answer, Context> {
       // A slow model is not worth finishing for a situation that is gone.
       this.running?.abort();
       clearTimeout(this.timer);
-      this.timer = window.setTimeout(() => void this.next(), isOffline ? 0 : this.delay);
+      this.timer = window.setTimeout(() => void this.next(), this.delay);
     } else if (!this.running) void this.next();
   }
 

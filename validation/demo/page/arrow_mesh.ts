@@ -23,6 +23,7 @@ export class ArrowMesh {
     if (!arrow || !this.group.visible) return;
     const radius = arrow.kind === "blow" ? thickness : 0.55 * thickness;
     const head = Math.min(5 * radius, 0.6 * length);
+    this.material.opacity = arrow.isPast ? 0.4 : 1;
     this.material.color.set(arrow.kind === "speed" ? COLOURS.speed : COLOURS.blow[arrow.model]);
     this.group.position.set(...arrow.from);
     const direction = new Vector3(x, y, z).divideScalar(length);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How the body is turned at the first touch: by angles, by the part of a box that points down, or by Euler parameters.
-import { isOffline } from "./api";
 import { attitudeOf, orientationName } from "./attitude";
 import { make } from "./dom";
 import { bodyOf, type Parameters } from "./parameters";
@@ -32,7 +31,7 @@ export class AttitudeControls {
     const { parameters, lock } = this.state;
     const isBox = bodyOf(parameters).shape === "box";
     this.select.value = parameters.turn;
-    this.select.disabled = isOffline || ["turn", "angle", "tilt", "orientation"].some((name) => lock.includes(name));
+    this.select.disabled = ["turn", "angle", "tilt", "orientation"].some((name) => lock.includes(name));
     for (const option of this.select.options) option.disabled = option.value === "orientation" && !isBox;
     this.turns.hidden = parameters.turn !== "attitude";
     const locked = ["q0", "q1", "q2", "q3", "turn"].some((name) => lock.includes(name));

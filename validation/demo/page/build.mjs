@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Builds dist/index.html, the whole page in one file, and dist/requests.json, what an offline copy has to hold.
+// Builds the whole page in one file: node build.mjs MODULE VERSION MODELS PAGE NOTICES OUTPUT, the module that has the models, the
+// project's version, digests of the sources of models and page, and a text that names what is compiled in.
 import { build } from "esbuild";
-import { mkdir, readFile, readdir, writeFile } from "node:fs/promises";
+import { readFile, readdir, writeFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import path from "node:path";
-import { fileURLToPath, pathToFileURL } from "node:url";
+import { fileURLToPath } from "node:url";
+import { gzipSync } from "node:zlib";
+import { storyHtml } from "./story_build.mjs";
 
 const here = path.dirname(fileURLToPath(import.meta.url));
-const dist = path.join(here, "dist");
 const require = createRequire(import.meta.url);
+const [modulePath, version, modelsDigest, pageDigest, noticesPath, output] = process.argv.slice(2);
 
 /** The faces of KaTeX that the equations of `explain` use; the others would only make the page heavier. */
 const KATEX_FACES = ["KaTeX_Main-Regular", "KaTeX_Math-Italic", "KaTeX_Size1-Regular", "KaTeX_Size2-Regular",
@@ -50,25 +53,36 @@ async function notices() {
     const file = (await readdir(folder)).find((entry) => /^licen[cs]e/i.test(entry));
     return `${name}\n\n${(await readFile(path.join(folder, file), "utf8")).trim()}`;
   }));
-  return texts.join("\n\n----\n\n").replace(/&/g, "&amp;").replace(/</g, "&lt;");
+  return [...texts, (await readFile(noticesPath, "utf8")).trim()].join("\n\n----\n\n").replace(/&/g, "&amp;").replace(/</g, "&lt;");
 }
 
-/** Runs the page's own code, so that the keys of the answers are those that the page will look up. */
-async function requests() {
-  const result = await build({
-    entryPoints: [path.join(here, "offline_scenes.ts")], bundle: true, write: false, format: "esm", target: "es2022",
-  });
-  const file = path.join(dist, "offline_scenes.mjs");
-  await writeFile(file, result.outputFiles[0].text);
-  const { offlineScenes } = await import(pathToFileURL(file).href);
-  return JSON.stringify({ scenes: offlineScenes() }, null, 1) + "\n";
+/** The models, from the module that the page will have. */
+async function models() {
+  const { ccall } = await require(path.resolve(modulePath))();
+  return (name, texts) => {
+    const answer = JSON.parse(ccall("clatter_answer", "string", ["string", "string"], [name, JSON.stringify(texts)]));
+    if (answer.error) throw new Error(`${name} ${JSON.stringify(texts)}: ${answer.error}`);
+    return answer;
+  };
 }
 
-await mkdir(dist, { recursive: true });
+/** The module's JavaScript, and the compiled models in it, packed: half of the room that they take there. */
+async function unwrapped() {
+  const text = await readFile(modulePath, "utf8");
+  const data = /(data:application\/octet-stream;base64,)([A-Za-z0-9+/=]+)/;
+  const code = gzipSync(Buffer.from(data.exec(text)[2], "base64"), { level: 9 }).toString("base64");
+  return { loader: text.replace(data, "$1"), code };
+}
+
 const template = await readFile(path.join(here, "index.html"), "utf8");
-const parts = { "/*STYLE*/": await style(), "/*SCRIPT*/": await script(), "<!--NOTICES-->": await notices() };
+const { loader, code } = await unwrapped();
+if (loader.includes("</script")) throw new Error("the module's text would end its element");
+const parts = {
+  "/*STYLE*/": await style(), "/*SCRIPT*/": await script(), "/*MODULE*/": loader, "/*CODE*/": code, "<!--NOTICES-->": await notices(),
+  "<!--STORY-->": await storyHtml(await models()), "<!--VERSION-->": version,
+  "<!--MODELS-->": modelsDigest, "<!--PAGE-->": pageDigest,
+};
 let page = template;
-for (const [mark, text] of Object.entries(parts)) page = page.replace(mark, () => text);
-await writeFile(path.join(dist, "index.html"), page);
-await writeFile(path.join(dist, "requests.json"), await requests());
-console.log(`dist/index.html ${(Buffer.byteLength(page) / 1e3).toFixed(0)} kB`);
+for (const [mark, text] of Object.entries(parts)) page = page.replaceAll(mark, () => text);
+await writeFile(output, page);
+console.log(`${output} ${(Buffer.byteLength(page) / 1e3).toFixed(0)} kB`);

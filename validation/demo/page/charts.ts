@@ -37,6 +37,13 @@ export function upright(plot: uPlot, x: number, colour: string, dash: number[], 
   ctx.restore();
 }
 
+/** The samples of a contact are few: a monotone curve through them, as the force is one. */
+function smooth(): uPlot.Series.PathBuilder {
+  const { spline } = uPlot.paths;
+  if (!spline) throw new Error("uPlot has no splines");
+  return spline();
+}
+
 const HEIGHT = 300;
 
 export class ForceChart {
@@ -77,7 +84,7 @@ export class ForceChart {
     const tangential = fx.map((f, i) => Math.hypot(f, fy[i] ?? 0));
     const rubs = tangential.some((f) => f > 1e-9);
     const series: uPlot.Series[] = [
-      { label: "Time [ms]" }, { label: "Normal force", stroke: COLOURS.continuous, width: 2, points: { show: false } },
+      { label: "Time [ms]" }, { label: "Normal force", stroke: COLOURS.continuous, width: 2, points: { show: false }, paths: smooth() },
     ];
     const data: number[][] = [t.map((time) => time * 1e3), fz];
     if (rubs) {

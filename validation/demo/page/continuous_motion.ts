@@ -7,6 +7,7 @@ import { inclinationOf, slerp, type Rotation, type Vector } from "./rotation";
 
 export class ContinuousMotion implements Motion {
   readonly begin: number;
+  readonly near: number;
   readonly end: number;
   private readonly total: number;
   private readonly last: number;
@@ -22,13 +23,13 @@ export class ContinuousMotion implements Motion {
     this.last = t.length - 1;
     this.total = at(history.energy_total, 0);
     const falling = this.sample(touch, 0);
-    this.begin = -leadIn(impacts, -falling.velocity[2], gravity, body.length);
+    ({ begin: this.begin, near: this.near } = leadIn(impacts, -falling.velocity[2], gravity, body.length));
     this.fall = new Flight(body, falling, gravity, this.begin);
     const released = this.sample(this.last, 0);
     const stop = at(t, this.last);
-    this.after = new Flight(body, released, gravity, Math.max(0.5 * stop, -this.begin));
+    this.after = new Flight(body, released, gravity, Math.max(0.5 * stop, -this.near));
     // A body that still touches has no simple motion past its history.
-    this.end = released.inContact ? stop : leadOut(body, stop, this.begin, (time) => this.after.pose(time - stop));
+    this.end = released.inContact ? stop : leadOut(body, stop, this.near, (time) => this.after.pose(time - stop));
   }
 
   pose(time: number): Pose {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sliders, number fields and choices of the situation.
-import { isOffline, offlineScenes, type ApiError } from "./api";
+import type { ApiError } from "./api";
 import { AttitudeControls } from "./attitude_controls";
 import { BODIES, type BodyName } from "./body";
 import { byId, make } from "./dom";
-import { SCENES } from "./offline_scenes";
 import { DROPS, QUANTITIES, isInPlane, isUsed, setBody, type Choices, type Parameters, type Quantity } from "./parameters";
-import { SPECS, blamedQuantity, fieldText, fromSlider, sliderRange, toSlider, type QuantitySpec } from "./quantities";
+import { SPECS, blamedQuantity, fieldText, fromSlider, sliderRange, toSlider } from "./quantities";
 import { dampingOf, firstSpeed, restitutionOf } from "./restitution";
+import { SCENES } from "./scenes";
 import { assignUnlocked, type State } from "./state";
 
 interface Row {
@@ -18,11 +18,13 @@ interface Row {
   error: HTMLElement;
 }
 
+/** What everybody sees; the rest stands under "More". */
+const BASICS: Quantity[] = ["angle", "e", "gravity"];
 /** Where each quantity stands; the sizes show only for a body of one's own. */
 const GROUPS: readonly { title: string; quantities: Quantity[] }[] = [
-  { title: "Drop", quantities: ["angle", "tilt", "orientation", "q0", "speed", "height", "vx", "wx", "gravity"] },
+  { title: "Drop", quantities: ["tilt", "orientation", "q0", "speed", "height", "vx", "wx"] },
   { title: "Body", quantities: ["mass", "length", "radius", "width", "thickness"] },
-  { title: "Contact", quantities: ["e", "friction", "stiffness", "damping"] },
+  { title: "Contact", quantities: ["friction", "stiffness", "damping"] },
   { title: "Run", quantities: ["impacts"] },
 ];
 
@@ -61,6 +63,7 @@ export class Controls {
       state.parameters.extra = {};
       this.change();
     });
+    byId("basics").append(this.buildGroup("Drop it", BASICS));
     for (const group of GROUPS) byId("quantities").append(this.buildGroup(group.title, group.quantities));
     this.refresh();
   }
@@ -68,19 +71,18 @@ export class Controls {
   /** Shows the state: after a link, a scene or a click on the map changed it. */
   refresh(): void {
     const { parameters, lock } = this.state;
-    const offline = isOffline;
     for (const [quantity, row] of this.rows) {
       const shown = shownValue(parameters, quantity);
       if (row.slider) {
-        row.slider.value = String(this.sliderPosition(quantity, shown));
+        row.slider.value = String(toSlider(SPECS[quantity], shown));
         row.slider.setAttribute("aria-valuetext", `${fieldText(shown)} ${SPECS[quantity].unit}`.trim());
       }
       if (document.activeElement !== row.field) row.field.value = fieldText(shown);
       row.box.hidden = !isUsed(parameters, quantity);
       const followed = quantity === "damping" ? parameters.follow : quantity === "e" && parameters.ofGround;
-      const disabled = lock.includes(quantity) || followed || (offline && quantity !== "angle");
+      const disabled = lock.includes(quantity) || followed;
       if (row.slider) row.slider.disabled = disabled;
-      row.field.disabled = disabled || offline;
+      row.field.disabled = disabled;
     }
     this.body.value = parameters.body;
     this.drop.value = parameters.drop;
@@ -93,11 +95,17 @@ export class Controls {
     const extra = Object.entries(parameters.extra).map(([name, text]) => `${name} = ${text}`);
     byId("extra").hidden = extra.length === 0;
     byId("extra-keys").textContent = extra.join("; ");
+    if (extra.length > 0) this.openMore();
     this.scene.value = sceneOf(parameters) ?? "";
     this.scene.disabled = lock.includes("scene");
     for (const choice of [this.body, this.drop, this.follow, this.ofGround, this.planar, this.spinning]) {
-      choice.disabled = offline || lock.includes(choice.id);
+      choice.disabled = lock.includes(choice.id);
     }
+  }
+
+  /** What must be read must not be folded away. */
+  private openMore(): void {
+    byId<HTMLDetailsElement>("more").open = true;
   }
 
   /** Shows what a model says is wrong next to the control that it names, else below all of them. */
@@ -114,17 +122,17 @@ export class Controls {
     for (const [quantity, { error: line, field }] of this.rows) {
       setText(line, blamed.get(quantity) ?? "");
       field.toggleAttribute("aria-invalid", blamed.has(quantity));
-      if (blamed.has(quantity)) field.setAttribute("aria-invalid", "true");
+      if (!blamed.has(quantity)) continue;
+      field.setAttribute("aria-invalid", "true");
+      if (field.closest("#more")) this.openMore();
     }
     setText(byId("error"), [...general].join("; "));
   }
 
   private buildScenes(): void {
-    const scenes = isOffline ? offlineScenes : SCENES;
-    if (!isOffline) this.scene.append(make("option", { value: "" }, "Your own"));
-    this.scene.append(...scenes.map(({ name, title }) => make("option", { value: name }, title)));
+    this.scene.append(make("option", { value: "" }, "Your own"), ...SCENES.map(({ name, title }) => make("option", { value: name }, title)));
     this.scene.addEventListener("change", () => {
-      const scene = scenes.find(({ name }) => name === this.scene.value);
+      const scene = SCENES.find(({ name }) => name === this.scene.value);
       if (!scene) return;
       assignUnlocked(this.state, scene.parameters);
       this.change();
@@ -136,7 +144,7 @@ export class Controls {
     const group = make("fieldset", {}, make("legend", {}, title));
     if (title === "Body") group.append(this.buildBody());
     for (const quantity of quantities) {
-      if (quantity === "angle") group.append(this.attitude.choice);
+      if (quantity === "tilt") group.append(this.attitude.choice);
       if (quantity === "speed") group.append(this.attitude.turns, this.buildDrop());
       if (quantity === "wx") group.append(this.check(this.spinning, "Turns at the first touch", "spinning"));
       const vector = VECTORS[quantity];
@@ -191,7 +199,6 @@ export class Controls {
     const spec = SPECS[quantity];
     const name = spec.symbol ? `${spec.label} ${spec.symbol}` : spec.label;
     const slider = make("input", { type: "range", id: `${quantity}-slider`, "aria-label": `${name}, slider`, ...sliderRange(spec) });
-    if (isOffline && quantity === "angle") Object.assign(slider, { min: "0", step: "1" });
     const field = make("input", {
       type: "number", id: quantity, step: "any", inputmode: "decimal", "aria-describedby": `${quantity}-error`,
     });
@@ -199,7 +206,7 @@ export class Controls {
     const label = make("label", { for: quantity }, name);
     const box = make("div", { class: "row" }, label, field, make("span", { class: "unit" }, spec.unit), slider, error);
     if (spec.model) box.title = `Of the ${spec.model} model`;
-    slider.addEventListener("input", () => this.set(quantity, this.fromPosition(quantity, spec, Number(slider.value))));
+    slider.addEventListener("input", () => this.set(quantity, fromSlider(spec, Number(slider.value))));
     slider.addEventListener("change", () => this.onRelease());
     this.listen(field, quantity);
     this.rows.set(quantity, { box, slider, field, error });
@@ -241,33 +248,15 @@ export class Controls {
     this.refresh();
     this.onChange();
   }
-
-  /** Offline the angle slider has one position for each angle that was precomputed. */
-  private offlineAngles(): number[] {
-    return offlineScenes.find(({ name }) => name === sceneOf(this.state.parameters))?.angles ?? [];
-  }
-
-  private sliderPosition(quantity: Quantity, value: number): number {
-    if (!isOffline || quantity !== "angle") return toSlider(SPECS[quantity], value);
-    const angles = this.offlineAngles();
-    const row = this.rows.get(quantity);
-    if (row?.slider) row.slider.max = String(Math.max(0, angles.length - 1));
-    return Math.max(0, angles.indexOf(value));
-  }
-
-  private fromPosition(quantity: Quantity, spec: QuantitySpec, position: number): number {
-    return isOffline && quantity === "angle" ? (this.offlineAngles()[position] ?? 10) : fromSlider(spec, position);
-  }
 }
 
 /** The scene that the parameters are, whatever the angle. */
 function sceneOf(parameters: Parameters): string | undefined {
-  const scenes = isOffline ? offlineScenes : SCENES;
   if (Object.keys(parameters.extra).length) return undefined;
   const keys = ["body", "turn", "drop", "spinning", "follow", "planar", ...QUANTITIES.filter((q) => q !== "angle")] as const;
   const differs = (a: Parameters, b: Parameters): boolean =>
     keys.some((key) => a[key] !== b[key] && (key !== "damping" || !a.follow) && (!isQuantity(key) || isUsed(a, key)));
-  return scenes.find((scene) => !differs(parameters, scene.parameters))?.name;
+  return SCENES.find((scene) => !differs(parameters, scene.parameters))?.name;
 }
 
 function isQuantity(key: string): key is Quantity {

@@ -14,6 +14,7 @@ interface Start {
 
 export class DiscreteMotion implements Motion {
   readonly begin: number;
+  readonly near: number;
   readonly end: number;
   private readonly starts: Start[] = [];
   private readonly fall: Flight;
@@ -25,10 +26,10 @@ export class DiscreteMotion implements Motion {
     if (!first) throw new RangeError("a motion needs an impact");
     const velocity = plus(first.velocity_after, first.impulse, -1 / body.mass);
     this.total = first.energy_before;
-    this.begin = -leadIn(impacts, -velocity[2], gravity, body.length);
+    ({ begin: this.begin, near: this.near } = leadIn(impacts, -velocity[2], gravity, body.length));
     this.fall = new Flight(body, poseOf(body, first, [0, 0], velocity, spin), gravity, this.begin);
     this.addFlights();
-    this.end = leadOut(body, impacts[impacts.length - 1]?.start ?? 0, this.begin, (time) => this.pose(time));
+    this.end = leadOut(body, impacts[impacts.length - 1]?.start ?? 0, this.near, (time) => this.pose(time));
   }
 
   pose(time: number): Pose {
@@ -52,7 +53,7 @@ export class DiscreteMotion implements Motion {
     this.impacts.forEach((impact, i) => {
       const { start: time, velocity_after: velocity, angular_velocity_after: spin } = impact;
       const next = this.impacts[i + 1];
-      const lasts = next ? next.start - time : Math.max(0.5 * time, -this.begin);
+      const lasts = next ? next.start - time : Math.max(0.5 * time, -this.near);
       const pose = poseOf(this.body, impact, place, velocity, spin);
       this.starts.push({ time, flight: new Flight(this.body, pose, this.gravity, lasts) });
       place = [place[0] + velocity[0] * lasts, place[1] + velocity[1] * lasts];

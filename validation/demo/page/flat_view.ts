@@ -36,6 +36,7 @@ export class FlatView implements View {
     this.frame = frame;
     context.clearRect(0, 0, this.size.width, this.size.height);
     for (const model of frame.side ? (["discrete", "continuous"] as const) : (["discrete"] as const)) this.ground(model, frame.side);
+    for (const { model, body, pose } of frame.ghosts) this.figure(model, body, pose, frame.side, true);
     for (const { model, body, pose } of frame.figures) this.figure(model, body, pose, frame.side);
     for (const arrow of frame.arrows) this.arrow(arrow, frame.side);
   }
@@ -59,7 +60,7 @@ export class FlatView implements View {
     context.fillRect(left + 8, y, width - 16, 1);
   }
 
-  private figure(model: ModelName, body: Body, pose: Pose, side: boolean): void {
+  private figure(model: ModelName, body: Body, pose: Pose, side: boolean, isGhost = false): void {
     const { context } = this;
     const middle = middleOf(body, pose.centre, pose.rotation);
     for (const face of facesOf(body, pose.rotation, LOOK)) {
@@ -72,8 +73,10 @@ export class FlatView implements View {
       context.lineWidth = model === "discrete" ? 1 : 2;
       context.fillStyle = COLOURS.discrete;
       context.strokeStyle = model === "discrete" ? COLOURS.blow.discrete : COLOURS.continuous;
-      if (model === "discrete") context.fill();
+      context.globalAlpha = isGhost ? 0.35 : 1;
+      if (model === "discrete" && !isGhost) context.fill();
       context.stroke();
+      context.globalAlpha = 1;
     }
   }
 

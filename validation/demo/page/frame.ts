@@ -4,7 +4,7 @@ import type { Impact } from "./answers";
 import { lowestPlace, type Body } from "./body";
 import { significant } from "./format";
 import { endMotion, type Motion, type Pose } from "./motion";
-import { plus, rotate, type Vector } from "./rotation";
+import { plus, rotate, type Rotation, type Vector } from "./rotation";
 
 export type ModelName = "discrete" | "continuous";
 
@@ -14,11 +14,22 @@ export interface Arrow {
   from: Vector;
   /** In metres of the picture. */
   vector: Vector;
+  /** Of a blow before the last one. */
+  isPast?: boolean;
+}
+
+/** An angle between the body and the ground where it struck, in the plane of motion. */
+export interface Arc {
+  at: Vector;
+  radius: number;
+  /** From the ground, to the side where the body lies [rad]. */
+  angle: number;
+  toRight: boolean;
 }
 
 export interface Label {
   model: ModelName;
-  kind: "blow" | "end";
+  kind: "blow" | "end" | "angle" | "held";
   place: Vector;
   text: string;
   /** Beside its place, outwards, instead of above it. */
@@ -32,6 +43,9 @@ export interface Frame {
   /** Whether a body leaves the plane of x and z: then it is looked at from higher up. */
   inSpace: boolean;
   figures: { model: ModelName; body: Body; pose: Pose }[];
+  /** Where the body was at the blows until now. */
+  ghosts: { model: ModelName; body: Body; pose: Pose }[];
+  arcs: Arc[];
   arrows: Arrow[];
   labels: Label[];
 }
@@ -118,8 +132,8 @@ export function impactAt(impacts: readonly Impact[], time: number): Impact | nul
   return last;
 }
 
-export function frameAt(motions: Motions, time: number, scales: Scales, side: boolean): Frame {
-  const frame: Frame = { side, bounds: boundsOfParts([], side), inSpace: false, figures: [], arrows: [], labels: [] };
+export function frameAt(motions: Motions, time: number, scales: Scales, side: boolean, traces: boolean): Frame {
+  const frame: Frame = { side, bounds: boundsOfParts([], side), inSpace: false, figures: [], ghosts: [], arcs: [], arrows: [], labels: [] };
   for (const model of ["continuous", "discrete"] as const) {
     const motion = motions[model];
     if (!motion || time > motion.end + 1e-12) continue;
@@ -128,9 +142,11 @@ export function frameAt(motions: Motions, time: number, scales: Scales, side: bo
     // In the overlay two sets of speeds and names would lie on each other.
     if (side || model === "discrete" || !motions.discrete) addEnds(frame, model, motion, pose, scales);
     addBlow(frame, model, motion, pose, time, scales, side || !motions.discrete);
+    if (traces && (model === "discrete" || side || !motions.discrete)) addTraces(frame, model, motion, time, scales);
   }
   frame.bounds = boundsOfParts(frame.figures, side);
   frame.inSpace = frame.figures.some(leavesPlane);
+  if (traces && !frame.inSpace && motions.discrete && !side) addArc(frame, motions.discrete, time);
   return frame;
 }
 
@@ -168,6 +184,47 @@ function addBlow(frame: Frame, model: ModelName, motion: Motion, pose: Pose, tim
   if (Math.hypot(...vector) < 0.02 * length) return;
   const label: Label = { model, kind: "blow", text, place: [from[0] + vector[0], from[1] + vector[1], from[2] + vector[2]] };
   frame.labels.push(isSecond ? { ...label, aside: outwards < 0 ? "left" : "right" } : label);
+}
+
+/** Silhouettes at the blows, and the impulses of those before the last one. */
+function addTraces(frame: Frame, model: ModelName, motion: Motion, time: number, scales: Scales): void {
+  const past = motion.impacts.filter(({ start }) => start <= time);
+  past.forEach((impact, i) => {
+    frame.ghosts.push({ model, body: motion.body, pose: motion.pose(impact.start) });
+    if (i < past.length - 1) frame.arrows.push({ model, kind: "blow", from: struckPoint(motion, impact), vector: impact.impulse.map((part) => part * scales.impulse) as Vector, isPast: true });
+  });
+}
+
+const ARC = 0.26; // radius, in lengths of the body
+const ANGLE_NAMES = ["θ", "β", "γ"];
+
+/** θ, β, γ at the last blow. */
+function addArc(frame: Frame, motion: Motion, time: number): void {
+  const impact = impactAt(motion.impacts, time);
+  if (!impact || impact.contact_angle_deg < 0.5 || impact.contact_angle_deg > 89) return;
+  const at = struckPoint(motion, impact);
+  const toRight = motion.pose(impact.start).centre[0] > at[0];
+  const radius = ARC * motion.body.length;
+  const angle = (impact.contact_angle_deg * Math.PI) / 180;
+  frame.arcs.push({ at, radius, angle, toRight });
+  const out = (toRight ? 1.25 : -1.25) * radius;
+  const name = ANGLE_NAMES[impact.n - 1];
+  frame.labels.push({
+    model: "discrete", kind: "angle", place: [at[0] + out * Math.cos(angle / 2), at[1], Math.abs(out) * Math.sin(angle / 2)],
+    text: `${name ? `${name} = ` : ""}${significant(impact.contact_angle_deg, 3)}°`,
+  });
+}
+
+/** The body in the hand: nothing moves, and the picture stays as it is. */
+export function heldFrame(body: Body, rotation: Rotation, height: number, text: string): Frame {
+  const pose: Pose = { centre: [0, 0, height], rotation, velocity: [0, 0, 0], spin: [0, 0, 0], inclination: 0, force: [0, 0, 0], inContact: false };
+  const figures: Frame["figures"] = [{ model: "discrete", body, pose }];
+  const { length } = body;
+  const bounds = { left: -0.9 * length, right: 0.9 * length, top: Math.max(1.5 * length, height + 0.6 * length), depth: 0 };
+  return {
+    side: false, bounds: { discrete: bounds, continuous: bounds }, inSpace: leavesPlane({ model: "discrete", body, pose }), figures, ghosts: [], arcs: [], arrows: [],
+    labels: [{ model: "discrete", kind: "held", place: [0, 0, height + 0.3 * length], text }],
+  };
 }
 
 function struckPoint(motion: Motion, impact: Impact): Vector {

@@ -1,20 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page: from a change of the situation to the requests, and from their answers to the panels.
 import type { ExplainAnswer } from "./answers";
-import { Latest, isAvailable, isOffline } from "./api";
+import { Latest } from "./api";
 import { EnergyBars, ForceChart } from "./charts";
+import type { Body } from "./body";
 import { Controls } from "./controls";
 import { byId } from "./dom";
 import { Explanation } from "./explain";
 import { download } from "./files";
-import { frameAt, impactAt, scalesOf, type ModelName, type Scales } from "./frame";
+import { significant } from "./format";
+import { frameAt, heldFrame, impactAt, scalesOf, type ModelName, type Scales } from "./frame";
+import { Grab, heldRotation, type Held } from "./grab";
+import { setUpLecture } from "./lecture";
 import { AngleMap } from "./map";
 import { Models } from "./models";
 import { Numbers } from "./numbers";
-import { goOffline, hidePanels, setUpLayout } from "./panels";
-import { isInPlane } from "./parameters";
+import { OrbitControl } from "./orbit";
+import { hidePanels, setUpLayout } from "./panels";
+import { bodyOf, isInPlane, type Parameters } from "./parameters";
 import { Player, TimeWarp } from "./playback";
 import { Prediction } from "./prediction";
+import { showProfile } from "./profile";
 import { explainRequest, gravityNumber } from "./requests";
 import { firstSpeed, restitutionOf } from "./restitution";
 import { SceneFile } from "./scene_file";
@@ -31,6 +37,7 @@ import { impactInWords, outcomeInWords } from "./words";
 /** After a change, until the equations are asked for, and until the drop is played [ms]. */
 const EXPLAIN_DELAY = 80;
 const PLAY_DELAY = 350;
+const DEGREE = Math.PI / 180;
 
 class Page {
   private readonly state: State = readAddress();
@@ -42,7 +49,12 @@ class Page {
   private followsImpact = false;
   private playTimer = 0;
 
+  /** While the body is in the hand. */
+  private held: Held | null = null;
+
   private readonly stage = new Stage();
+  private readonly orbit = new OrbitControl(byId("stage"), () => this.draw());
+  private readonly traces = byId<HTMLInputElement>("traces");
   private readonly numbers = new Numbers();
   private readonly energy = new EnergyBars();
   private readonly force = new ForceChart();
@@ -56,7 +68,7 @@ class Page {
   /** When the playback showed its last frame. */
   private playedTo = -Infinity;
   private readonly map = new AngleMap((angle) => this.setAngle(angle));
-  private readonly player = new Player(new TimeWarp(0, 1, [], false), () => this.onTime());
+  private readonly player = new Player(new TimeWarp(0, 1), (_time, ended) => this.onTime(ended));
   private readonly controls = new Controls(this.state, () => this.update(), () => this.playSoon());
   private readonly prediction = new Prediction(() => this.onPredicted());
   private readonly transport = new Transport({
@@ -64,6 +76,7 @@ class Page {
     step: (direction) => this.goTo(this.state.impact + direction, direction),
     scrub: (progress) => this.scrub(progress),
     setRate: (rate) => { this.state.rate = this.player.rate = rate; this.remember(); },
+    playReal: () => this.playReal(),
     setSlow: (slow) => { this.state.slow = slow; this.rewarp(); this.remember(); },
   });
 
@@ -77,7 +90,6 @@ class Page {
 
   constructor() {
     const { state } = this;
-    goOffline(state);
     hidePanels(state);
     this.player.rate = state.rate;
     this.transport.setSettings(state.rate, state.slow, state.lock);
@@ -85,13 +97,24 @@ class Page {
     new SceneFile(state, () => this.showAnew());
     setUpStory(state, () => {
       this.prediction.dismiss();
-      goOffline(state);
       this.showAnew();
       byId("motion").scrollIntoView();
     });
     setUpSharing(state, () => this.syncTime(), (asks) => { if (asks) this.prediction.open(); });
     byId("csv").addEventListener("click", () => download("impacts.csv", csvOf(this.models.impacts), "text/csv"));
     if (state.predict) this.prediction.open();
+    new Grab(byId("stage"), {
+      body: () => this.inReach(),
+      project: (place) => this.stage.project(place),
+      hold: (held) => this.hold(held),
+      letGo: (held) => this.letGo(held),
+    }, this.orbit);
+    this.traces.addEventListener("change", () => this.draw());
+    byId("picture").addEventListener("click", () => this.stage.image((blob) => { if (blob) download("clatter.png", blob, "image/png"); }));
+    byId("print").addEventListener("click", () => print());
+    setUpLecture((on) => this.prediction.setVoting(on), () => this.onTime());
+    // Another link to this page, opened where it stands.
+    addEventListener("hashchange", () => location.reload());
     this.controls.refresh();
     this.update();
   }
@@ -136,6 +159,7 @@ class Page {
     this.strip.show(models.motions, models.pairing, this.state.impact);
     byId("outcome").textContent = models.discrete ? outcomeInWords(models.discrete.outcome) : "";
     this.force.show(models.continuous, models.motions.discrete, this.state.impact);
+    this.showProfile();
     this.explain();
     if (!this.player.playing) {
       // While a slider moves the picture stays with the chosen impact, whenever that is now.
@@ -161,11 +185,12 @@ class Page {
   }
 
   /** The time moved. */
-  private onTime(): void {
+  private onTime(ended = false): void {
     const impact = impactAt(this.models.steps, this.player.time);
     if (impact && impact.n !== this.state.impact && this.player.playing) this.choose(impact.n);
     this.hear();
     this.draw();
+    this.prediction.seen(this.player.time, ended);
     if (!this.player.playing) this.remember();
   }
 
@@ -179,16 +204,23 @@ class Page {
   private draw(): void {
     const { player, state } = this;
     const { time } = player;
+    if (this.held) {
+      const { parameters } = state;
+      const rotation = heldRotation(this.held, tiltOf(parameters));
+      this.stage.draw(heldFrame(bodyOf(parameters), rotation, this.held.height, heldInWords(this.held)), this.orbit.orbit);
+      say(`In your hand: ${heldInWords(this.held)}. Let go to drop it.`);
+      return;
+    }
     const impact = impactAt(this.models.steps, time);
     // Before the guess the picture shows the fall, not yet the blow.
     const shown = this.prediction.isOpen ? (this.models.motions.discrete?.begin ?? 0) : time;
-    this.stage.draw(frameAt(this.models.motions, shown, this.scales, state.layout === "side"));
-    this.numbers.show(this.models.motions, time);
+    this.stage.draw(frameAt(this.models.motions, shown, this.scales, state.layout === "side", this.traces.checked && !this.prediction.isOpen), this.orbit.orbit);
+    this.numbers.show(this.models.motions, this.models.pairing, time);
     for (const model of ["discrete", "continuous"] as const) {
       this.energy.show(model, this.models.motions[model]?.energies(time) ?? null);
     }
     this.force.setTime(time);
-    this.transport.show(time, player.progress, player.playing);
+    this.transport.show(time, player.progress, player.playing, player.slowness);
     say(impact ? impactInWords(this.models.steps, impact.n) : "Falling");
   }
 
@@ -197,7 +229,47 @@ class Page {
     this.table.choose(n);
     this.strip.choose(n);
     this.force.show(this.models.continuous, this.models.motions.discrete, n);
+    this.showProfile();
     this.explain();
+  }
+
+  private showProfile(): void {
+    byId("profile-title").textContent = `Along the body, at blow ${this.state.impact}`;
+    showProfile(this.models.motions.discrete, this.state.impact);
+  }
+
+  /** The body as it can be taken in the hand: where it is given by angles. */
+  private inReach(): { body: Body; held: Held; tilt: number } | null {
+    const { parameters, lock, layout } = this.state;
+    const motion = this.models.motions.discrete;
+    const isGiven = parameters.turn === "plane" || parameters.turn === "tilted";
+    if (!isGiven || layout === "side" || lock.includes("angle") || lock.includes("height") || !motion) return null;
+    const { body } = motion;
+    const tilt = tiltOf(parameters);
+    if (this.held) return { body, held: this.held, tilt };
+    const { centre, inclination } = motion.pose(this.prediction.isOpen ? motion.begin : this.player.time);
+    const angle = Math.abs(inclination) / DEGREE;
+    return { body, held: { angle: Math.min(angle, 180 - angle), height: centre[2] }, tilt };
+  }
+
+  private hold(held: Held): void {
+    this.player.pause();
+    clearTimeout(this.playTimer);
+    byId("grab-hint").hidden = true;
+    this.held = held;
+    this.draw();
+  }
+
+  /** It falls from where it was let go; where nothing fell before, gravity is switched on. */
+  private letGo(held: Held): void {
+    const { parameters } = this.state;
+    this.held = null;
+    if (parameters.gravity === 0) parameters.gravity = 9.81;
+    Object.assign(parameters, { angle: held.angle, height: held.height, drop: "height", spinning: false });
+    this.controls.refresh();
+    this.followsImpact = false;
+    this.update();
+    this.playSoon(0);
   }
 
   /** To an impact; one step back from between two impacts is to the one before. */
@@ -243,15 +315,22 @@ class Page {
     this.onTime();
   }
 
+  private playReal(): void {
+    if (this.prediction.isOpen) return;
+    this.followsImpact = false;
+    this.playedTo = -Infinity;
+    this.player.playReal();
+  }
+
   /** After a slider is let go the drop is played; with reduced motion only when asked for. */
-  private playSoon(): void {
+  private playSoon(delay = PLAY_DELAY): void {
     clearTimeout(this.playTimer);
     if (this.prediction.isOpen || matchMedia("(prefers-reduced-motion: reduce)").matches) return;
     this.playTimer = window.setTimeout(() => {
       this.player.pause();
       this.player.progress = 0;
       this.player.play();
-    }, PLAY_DELAY);
+    }, delay);
   }
 
   private onPredicted(): void {
@@ -264,7 +343,7 @@ class Page {
   }
 
   private setAngle(angle: number): void {
-    if (this.state.lock.includes("angle") || isOffline) return;
+    if (this.state.lock.includes("angle")) return;
     this.state.parameters.angle = angle;
     this.controls.refresh();
     this.update();
@@ -276,8 +355,7 @@ class Page {
     const { parameters, impact } = this.state;
     byId("explain-title").textContent = `How impact ${impact} came about`;
     const request = explainRequest(parameters, impact);
-    if (isAvailable(request)) this.explaining.ask(request, null);
-    else this.explanation.say("This offline copy holds the equations of the first impacts only.");
+    this.explaining.ask(request, null);
   }
 
   private syncTime(): void {
@@ -288,6 +366,14 @@ class Page {
     if (this.hasShown) this.syncTime();
     writeAddress(this.state);
   }
+}
+
+function tiltOf({ turn, tilt }: Parameters): number {
+  return turn === "tilted" ? tilt : 0;
+}
+
+function heldInWords({ angle, height }: Held): string {
+  return `${significant(angle, 3)}°, ${significant(height, 3)} m high`;
 }
 
 /** Words that are said again would be read aloud again. */

@@ -2,12 +2,11 @@
 // The map of contact angles: β and γ, at which the thin rod strikes again, over the first angle θ.
 import uPlot from "uplot";
 import type { AngleRow, AnglesAnswer } from "./answers";
-import { ask, isAvailable } from "./api";
+import { ask } from "./api";
 import { FONT, axis, chartSize, upright } from "./charts";
 import { COLOURS } from "./colours";
 import { byId } from "./dom";
 import { fixed } from "./format";
-import { MAP_RANGE } from "./map_range";
 import { anglesRequest, keyOf } from "./requests";
 
 type Curve = "beta_deg" | "gamma_deg";
@@ -19,6 +18,7 @@ interface Fold {
   resolution: number;
 }
 
+const MAP_RANGE = { from: 0, to: 90, count: 91 } as const;
 const HEIGHT = 300;
 const MAP_DELAY = 120; // ms
 const REFINED = 101;
@@ -43,12 +43,6 @@ export class AngleMap {
     const request = anglesRequest(gravity, e, from, to, count);
     const key = keyOf(request);
     if (key === this.shown || !Number.isFinite(gravity)) return;
-    this.box.hidden = !isAvailable(request);
-    if (this.box.hidden) {
-      this.note.textContent = "This offline copy holds no map for this scene.";
-      this.shown = "";
-      return;
-    }
     this.shown = key;
     // While a slider moves, the faster answers go first.
     await new Promise((resume) => setTimeout(resume, this.plot ? MAP_DELAY : 0));
@@ -61,7 +55,6 @@ export class AngleMap {
       for (const curve of ["beta_deg", "gamma_deg"] as const) {
         for (let fold = foldOf(rows, curve); fold && fold.resolution > RESOLVED; fold = foldOf(rows, curve)) {
           const closer = anglesRequest(gravity, e, fold.theta, fold.theta + fold.resolution, REFINED);
-          if (!isAvailable(closer)) break;
           const answer = await ask<AnglesAnswer>(closer);
           if (!isNewest()) return;
           rows = merge(rows, answer.rows);
@@ -170,7 +163,7 @@ function dot(plot: uPlot, x: number, y: number, colour: string, filled: boolean)
   ctx.save();
   ctx.beginPath();
   ctx.arc(plot.valToPos(x, "x", true), plot.valToPos(y, "y", true), 5 * devicePixelRatio, 0, 2 * Math.PI);
-  ctx.fillStyle = filled ? colour : "#ffffff";
+  ctx.fillStyle = filled ? colour : COLOURS.paper;
   ctx.strokeStyle = colour;
   ctx.lineWidth = 2 * devicePixelRatio;
   ctx.setLineDash([]);

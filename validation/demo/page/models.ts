@@ -75,8 +75,8 @@ export class Models {
     const motions = [this.motions.discrete, this.motions.continuous].filter((motion) => motion !== null);
     if (!motions.length) return null;
     const contacts = motions.flatMap((motion) => motion.impacts.map(({ start, duration }) => ({ start, end: start + duration })));
-    return new TimeWarp(
-      Math.min(...motions.map((motion) => motion.begin)), Math.max(...motions.map((motion) => motion.end)), contacts, slow);
+    const least = (name: "begin" | "near"): number => Math.min(...motions.map((motion) => motion[name]));
+    return TimeWarp.slow(least("begin"), least("near"), Math.max(...motions.map((motion) => motion.end)), contacts, slow);
   }
 
   private onSequence(answer: SequenceAnswer, parameters: Parameters): void {

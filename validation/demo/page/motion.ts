@@ -31,6 +31,8 @@ export interface Motion {
   readonly impacts: readonly Impact[];
   /** First and last time that can be shown, the touch of the first impact being 0 [s]. */
   readonly begin: number;
+  /** From when on the fall is worth to be seen in slow motion. */
+  readonly near: number;
   readonly end: number;
   pose(time: number): Pose;
   energies(time: number): Energies;
@@ -49,8 +51,17 @@ export function energyOfRotation(body: Body, { rotation, spin }: Pose): number {
   return (xx * x * x + yy * y * y + zz * z * z) / 2 + xy * x * y + xz * x * z + yz * y * z;
 }
 
-/** How long before the first touch the picture starts: a part of the whole, but not before a release from rest. */
-export function leadIn(impacts: readonly Impact[], speed: number, gravity: number, length: number): number {
+/** How long before the first touch the picture starts: at the release from rest, if there was one; and where slow motion does. */
+export function leadIn(impacts: readonly Impact[], speed: number, gravity: number, length: number): { begin: number; near: number } {
+  const near = -slowLead(impacts, speed, gravity, length);
+  // A fall that takes longer than this is better begun on its way.
+  const fall = gravity > 0 ? Math.max(0, speed) / gravity : 0;
+  return { begin: fall > 0 && fall < LONGEST_FALL ? Math.min(near, -fall) : near, near };
+}
+
+const LONGEST_FALL = 1.5; // s
+
+function slowLead(impacts: readonly Impact[], speed: number, gravity: number, length: number): number {
   const last = impacts[impacts.length - 1];
   const span = last ? last.start + last.duration : 0;
   const crossing = (0.4 * length) / Math.max(speed, 1e-9);

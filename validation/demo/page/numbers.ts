@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The numbers of the picture: both models at the time that is shown, and what lies between them.
+// The numbers of the picture: both models at the moment that is shown, aligned by blow, and what lies between them.
 import { byId, make } from "./dom";
 import { fixed } from "./format";
 import type { Motions } from "./frame";
+import { momentAt } from "./moment";
 import { endMotion, type Motion } from "./motion";
+import type { Pairing } from "./pairing";
 
 interface Shown {
   title: string;
@@ -35,16 +37,18 @@ export class Numbers {
     byId("numbers-table").append(make("thead", {}, make("tr", {}, ...head)), make("tbody", {}, ...rows));
   }
 
-  show({ discrete, continuous }: Motions, time: number): void {
+  show(motions: Motions, pairing: Pairing | null, time: number): void {
+    const { discrete, continuous } = motions;
+    const { title, times, comparable } = momentAt(motions, pairing, time);
+    byId("numbers-title").textContent = title;
     QUANTITIES.forEach(({ decimals, of: value, turn }, i) => {
       const of = (motion: Motion, at: number): number => within(value(motion, at), turn);
-      const a = discrete && of(discrete, time);
-      // Past the end of its history the continuous model has no numbers.
-      const b = continuous && time <= continuous.end ? of(continuous, time) : null;
+      const a = discrete && times.discrete !== null ? of(discrete, times.discrete) : null;
+      const b = continuous && times.continuous !== null ? of(continuous, times.continuous) : null;
       const [first, second, third] = this.cells[i] ?? [];
       if (first) first.textContent = a === null ? "–" : fixed(a, decimals);
       if (second) second.textContent = b === null ? "–" : fixed(b, decimals);
-      if (third) third.textContent = a === null || b === null ? "–" : fixed(within(b - a, turn), decimals);
+      if (third) third.textContent = a === null || b === null || !comparable ? "–" : fixed(within(b - a, turn), decimals);
     });
   }
 }

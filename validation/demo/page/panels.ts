@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Panels and switches that only show the state: what is hidden, how the models are laid out, what an offline copy lacks.
-import { offlineScenes } from "./api";
+// Panels and switches that only show the state: what is hidden, how the models are laid out.
 import { byId } from "./dom";
-import type { Parameters } from "./parameters";
 import { PANELS, type State } from "./state";
 
 export function hidePanels(state: State): void {
@@ -31,17 +29,4 @@ export function setUpLayout(state: State, onChange: () => void): () => void {
   }
   show();
   return show;
-}
-
-/** An offline copy shows what is asked for if it holds that, else the nearest of what it holds. */
-export function goOffline({ parameters }: State): void {
-  const [first] = offlineScenes;
-  if (!first) return;
-  byId("offline").hidden = false;
-  const alike = ({ parameters: held }: { parameters: Parameters }): boolean =>
-    (["body", "turn", "drop", "gravity", "e", "friction"] as const).every((key) => held[key] === parameters[key]);
-  const scene = offlineScenes.find(alike) ?? first;
-  const off = (angle: number): number => Math.abs(angle - parameters.angle);
-  const angle = scene.angles.reduce((best, one) => (off(one) < off(best) ? one : best), scene.parameters.angle);
-  Object.assign(parameters, scene.parameters, { angle });
 }

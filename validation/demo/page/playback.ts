@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Playback: which time of the motion the picture shows. It slows down through each contact, which lasts milliseconds.
+// Playback: which time of the motion the picture shows, and how much slower than life. Through each contact, which lasts
+// milliseconds, it goes by one curve for all scenes: from the pace of flights by its square root to that of contacts and back.
 // The physics is computed once for a situation; nothing here changes it.
 
 export interface Window {
@@ -7,28 +8,54 @@ export interface Window {
   end: number;
 }
 
-const FLIGHTS = 4.5; // all flights together, on the screen [s]
-const CONTACT = 1.1; // each contact, on the screen [s]
-const SHORTEST_FLIGHT = 0.35; // on the screen [s]
+const FLIGHTS = 4.5; // at least, all flights together, on the screen [s]
+const CONTACT = 1.1; // the longest contact, on the screen, and up to 2.5 times as much [s]
+/** Without a duration a blow is slowed down for this part of the whole, half of it before. */
+const MARGIN = 0.008;
+
+/** 1, 2, 5, 10, 20, …: the first that is not less. */
+export function niceSlowness(least: number): number {
+  if (!(least > 1)) return 1;
+  const power = 10 ** Math.floor(Math.log10(least));
+  return power * ([1, 2, 5].find((step) => step * power >= least * (1 - 1e-9)) ?? 10);
+}
 
 /** A monotone map between the time on the screen and the time of the motion. */
 export class TimeWarp {
-  readonly duration: number;
   private readonly screen: number[] = [0];
   private readonly motion: number[];
 
-  constructor(readonly begin: number, readonly end: number, contacts: readonly Window[], slow: boolean) {
+  constructor(readonly begin: number, readonly end: number) {
     this.motion = [begin];
-    const windows = slow ? merged(contacts, begin, end) : [];
-    const scale = FLIGHTS / (end - begin || 1);
-    let time = begin;
-    for (const { start, end: stop } of windows) {
-      this.add(start, Math.max(SHORTEST_FLIGHT, (start - time) * scale));
-      this.add(stop, CONTACT);
-      time = stop;
+  }
+
+  /** Life itself. */
+  static real(begin: number, end: number): TimeWarp {
+    const warp = new TimeWarp(begin, end);
+    warp.add(end, 1);
+    return warp;
+  }
+
+  /** @param near when what is worth seeing begins: a long fall before that is shown as it is */
+  static slow(begin: number, near: number, end: number, contacts: readonly Window[], throughContacts: boolean): TimeWarp {
+    const warp = new TimeWarp(begin, end);
+    const flights = niceSlowness(FLIGHTS / (end - near || 1));
+    warp.add(near, 1);
+    for (const { start, end: stop } of throughContacts ? merged(contacts, near, end) : []) {
+      const longest = Math.max(...contacts.map((contact) => contact.end - contact.start), MARGIN * (end - near));
+      const pace = Math.max(flights, niceSlowness(CONTACT / longest));
+      const ramp = (stop - start) / 4;
+      warp.add(start - ramp, flights);
+      warp.add(start, Math.sqrt(flights * pace));
+      warp.add(stop, pace);
+      warp.add(Math.min(end, stop + ramp), Math.sqrt(flights * pace));
     }
-    this.add(end, (end - time) * scale);
-    this.duration = this.screen[this.screen.length - 1] ?? 0;
+    warp.add(end, flights);
+    return warp;
+  }
+
+  get duration(): number {
+    return this.screen[this.screen.length - 1] ?? 0;
   }
 
   toMotion(screen: number): number {
@@ -39,16 +66,24 @@ export class TimeWarp {
     return interpolate(this.motion, this.screen, time);
   }
 
-  private add(time: number, lasts: number): void {
-    if (time <= (this.motion[this.motion.length - 1] ?? 0)) return;
+  /** How much slower than life it is there. */
+  slownessAt(screen: number): number {
+    const next = Math.max(1, this.screen.findIndex((edge) => edge > screen));
+    const [from, to] = [next - 1, next].map((i) => [this.screen[i] ?? 0, this.motion[i] ?? 0] as const);
+    return from && to && to[1] > from[1] ? (to[0] - from[0]) / (to[1] - from[1]) : 1;
+  }
+
+  private add(time: number, slowness: number): void {
+    const last = this.motion[this.motion.length - 1] ?? 0;
+    if (time <= last) return;
     this.motion.push(time);
-    this.screen.push((this.screen[this.screen.length - 1] ?? 0) + lasts);
+    this.screen.push(this.duration + (time - last) * slowness);
   }
 }
 
 /** Contacts with a margin before and after; those that then overlap are one. */
 function merged(contacts: readonly Window[], begin: number, end: number): Window[] {
-  const margin = 0.004 * (end - begin);
+  const margin = (MARGIN / 2) * (end - begin);
   const windows: Window[] = [];
   for (const contact of [...contacts].sort((a, b) => a.start - b.start)) {
     const start = Math.max(begin, contact.start - margin);
@@ -76,6 +111,8 @@ export class Player {
   playing = false;
   rate = 1;
   private position = 0;
+  /** Life itself, while that is played. */
+  private real: TimeWarp | null = null;
   /** Where it was sent, to the last digit; until the playback moves. */
   private sought: number | null = null;
   private last = 0;
@@ -84,28 +121,36 @@ export class Player {
   constructor(private warp: TimeWarp, private readonly onTime: (time: number, ended: boolean) => void) {}
 
   get time(): number {
-    return this.sought ?? this.warp.toMotion(this.position);
+    return this.sought ?? (this.real ?? this.warp).toMotion(this.position);
+  }
+
+  /** How much slower than life the picture moves, or would if it was played. */
+  get slowness(): number {
+    return this.real ? 1 : this.warp.slownessAt(this.position) / this.rate;
   }
 
   /** Another situation: a running playback goes on at the same place of the screen, a standing one keeps its time. */
   setWarp(warp: TimeWarp): void {
     const time = this.time;
+    this.real = null;
     this.warp = warp;
     if (this.playing) this.sought = null;
     this.position = this.playing ? Math.min(this.position, warp.duration) : warp.toScreen(time);
   }
 
   seek(time: number): void {
+    this.real = null;
     this.sought = Math.min(this.warp.end, Math.max(this.warp.begin, time));
     this.position = this.warp.toScreen(time);
   }
 
   /** Part of the playback that has passed, 0 to 1. */
   get progress(): number {
-    return this.warp.duration > 0 ? this.position / this.warp.duration : 0;
+    return this.progressAt(this.time);
   }
 
   set progress(part: number) {
+    this.real = null;
     this.sought = null;
     this.position = part * this.warp.duration;
   }
@@ -117,24 +162,38 @@ export class Player {
   play(): void {
     if (this.playing) return;
     if (this.position >= this.warp.duration - 1e-9) this.position = 0;
-    this.playing = true;
-    this.last = 0;
-    this.request = requestAnimationFrame((now) => this.frame(now));
+    this.start();
+  }
+
+  /** From the beginning, as fast as it happens. */
+  playReal(): void {
+    this.pause();
+    this.real = TimeWarp.real(this.warp.begin, this.warp.end);
+    this.position = 0;
+    this.start();
   }
 
   pause(): void {
     this.playing = false;
     cancelAnimationFrame(this.request);
+    if (this.real) this.seek(this.time);
+  }
+
+  private start(): void {
+    this.playing = true;
+    this.sought = null;
+    this.last = 0;
+    this.request = requestAnimationFrame((now) => this.frame(now));
   }
 
   private frame(now: number): void {
     // A tab in the background draws no frames: coming back must not jump over impacts.
     const passed = this.last ? Math.min(0.1, (now - this.last) / 1000) : 0;
     this.last = now;
-    this.sought = null;
-    this.position = Math.min(this.warp.duration, this.position + passed * this.rate);
-    const ended = this.position >= this.warp.duration;
-    if (ended) this.playing = false;
+    const { duration } = this.real ?? this.warp;
+    this.position = Math.min(duration, this.position + passed * (this.real ? 1 : this.rate));
+    const ended = this.position >= duration;
+    if (ended) this.pause();
     this.onTime(this.time, ended);
     if (this.playing) this.request = requestAnimationFrame((next) => this.frame(next));
   }

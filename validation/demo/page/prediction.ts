@@ -7,6 +7,7 @@ import { comparison } from "./words";
 
 type Guess = "harder" | "same" | "softer";
 
+const TITLES: Readonly<Record<Guess, string>> = { harder: "Yes", same: "About the same", softer: "No" };
 /** Blows that differ by less are "about the same". */
 const ALIKE = 0.1;
 
@@ -14,19 +15,32 @@ export class Prediction {
   private readonly card = byId("prediction");
   private readonly question = byId("prediction-question");
   private readonly reveal = byId("prediction-reveal");
+  private readonly skip = byId("prediction-skip");
+  /** Of a class, hand by hand; null: one reader guesses. */
+  private votes: Guess[] | null = null;
 
   private guess: Guess | null = null;
+  /** A guess was made, and the second blow has not been seen yet. */
+  private waits = false;
   private impacts: readonly Impact[] = [];
 
   constructor(private readonly onAnswered: () => void) {
-    for (const button of this.card.querySelectorAll<HTMLButtonElement>("button[data-guess]")) {
+    for (const button of this.buttons()) {
       button.addEventListener("click", () => {
-        this.guess = button.dataset["guess"] as Guess;
+        const guess = button.dataset["guess"] as Guess;
+        if (this.votes) return this.count(button, guess);
+        this.guess = guess;
+        this.wait(true);
         this.close();
-        this.tell();
       });
     }
-    byId("prediction-skip").addEventListener("click", () => this.close());
+    this.skip.addEventListener("click", () => {
+      if (this.votes) {
+        this.guess = this.votes.reduce<Guess | null>((most, guess) => (this.votesFor(guess) > this.votesFor(most) ? guess : most), null);
+        if (this.guess) this.wait(true);
+      }
+      this.close();
+    });
   }
 
   get isOpen(): boolean {
@@ -37,16 +51,48 @@ export class Prediction {
   setImpacts(impacts: readonly Impact[]): void {
     const isAnother = this.impacts.length > 0 && impacts !== this.impacts;
     this.impacts = impacts;
-    if (isAnother) this.guess = null;
-    this.tell();
+    if (isAnother) this.give(null);
+  }
+
+  /** What the picture shows now; once that is the second blow, the guess is judged. */
+  seen(time: number, ended: boolean): void {
+    if (!this.waits || !this.impacts.length) return;
+    const second = this.impacts[1];
+    if (second ? time < second.start : !ended) return;
+    this.wait(false);
+    this.reveal.textContent = this.guess ? revealed(this.guess, this.impacts) : "";
   }
 
   open(): void {
     this.card.hidden = false;
     this.question.hidden = false;
-    this.guess = null;
-    this.tell();
+    this.give(null);
     document.body.classList.add("predicting");
+  }
+
+  /** A class votes: each button counts hands, and the guess is that of the most. */
+  setVoting(on: boolean): void {
+    this.votes = on ? [] : null;
+    this.skip.textContent = on ? "Let it drop" : "Just show me";
+    for (const button of this.buttons()) this.label(button);
+  }
+
+  private buttons(): HTMLButtonElement[] {
+    return [...this.card.querySelectorAll<HTMLButtonElement>("button[data-guess]")];
+  }
+
+  private count(button: HTMLButtonElement, guess: Guess): void {
+    this.votes?.push(guess);
+    this.label(button);
+  }
+
+  private label(button: HTMLButtonElement): void {
+    const votes = this.votesFor(button.dataset["guess"] as Guess);
+    button.textContent = TITLES[button.dataset["guess"] as Guess] + (this.votes && votes ? ` · ${votes}` : "");
+  }
+
+  private votesFor(guess: Guess | null): number {
+    return this.votes?.filter((vote) => vote === guess).length ?? 0;
   }
 
   /** Without an answer and without what follows one. */
@@ -54,8 +100,16 @@ export class Prediction {
     if (this.isOpen) this.close();
   }
 
-  private tell(): void {
-    this.reveal.textContent = this.guess && this.impacts.length ? revealed(this.guess, this.impacts) : "";
+  private give(guess: Guess | null): void {
+    this.guess = guess;
+    this.reveal.textContent = "";
+    this.wait(false);
+  }
+
+  private wait(waits: boolean): void {
+    this.waits = waits;
+    if (waits) this.reveal.textContent = "Watch the second blow …";
+    document.body.classList.toggle("watching", waits);
   }
 
   private close(): void {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The requests that the page makes. Both the page and its build use them, so that the keys of an offline copy agree.
+// The requests that the page makes.
 import { dampingOf } from "./restitution";
 import { bodyOf, isInPlane, type Parameters } from "./parameters";
 
-export type Path = "sequence" | "angles" | "explain" | "simulate" | "scene" | "file";
-export type Json = string | number | boolean | null | Json[] | { [key: string]: Json };
+export type Path = "sequence" | "angles" | "explain" | "simulate" | "compare" | "scene" | "file";
+export type Argument = string | number | boolean | number[];
 export interface Request {
   path: Path;
-  body: { [key: string]: Json };
+  body: { [key: string]: Argument };
 }
 
 /** Digits asked of the continuous model: what the table shows, and a time history of moderate length. */
@@ -18,7 +18,7 @@ export function keyOf({ path, body }: Request): string {
   return `${path} ${canonical(body)}`;
 }
 
-export function canonical(body: Request["body"]): string {
+function canonical(body: Request["body"]): string {
   return JSON.stringify(Object.fromEntries(Object.entries(body).sort(([a], [b]) => (a < b ? -1 : 1))));
 }
 

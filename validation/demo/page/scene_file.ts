@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scene files: opened by a button, dropped on the page or pasted, and given back as a file or by the clipboard.
 import type { FileAnswer, SceneAnswer } from "./answers";
-import { ApiError, ask, isOffline } from "./api";
+import { ApiError, ask } from "./api";
 import { byId } from "./dom";
 import { copyText, download } from "./files";
 import type { Parameters } from "./parameters";
@@ -18,8 +18,7 @@ export class SceneFile {
   private opened = 0;
 
   constructor(private readonly state: State, private readonly onOpen: () => void) {
-    byId("file").hidden = isOffline;
-    const locked = isOffline || state.lock.includes("scene") || state.lock.includes("file");
+    const locked = state.lock.includes("scene") || state.lock.includes("file");
     const input = byId<HTMLInputElement>("scene-file");
     input.disabled = locked;
     byId("open").classList.toggle("disabled", locked);

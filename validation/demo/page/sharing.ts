@@ -1,8 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Handing on what is shown, as a link.
+// Handing on what is shown: as a link, or as the page itself with the scene in it.
 import { byId } from "./dom";
-import { copyText } from "./files";
+import { copyText, download } from "./files";
 import { addressOf, type State } from "./state";
+
+/** The page as it came, before anything on it was changed. */
+const source = document.documentElement.outerHTML;
+
+function pageWith(state: State): string {
+  const fragment = new URL(addressOf(state)).hash.slice(1).replace(/&/g, "&amp;").replace(/"/g, "&quot;");
+  return `<!doctype html>\n${source.replace(/(name="clatter-scene" content=")[^"]*/, (_all, before: string) => before + fragment)}\n`;
+}
 
 export function setUpSharing(state: State, sync: () => void, onAskFirst: (asks: boolean) => void): void {
   const button = byId<HTMLButtonElement>("copy-link");
@@ -15,6 +23,10 @@ export function setUpSharing(state: State, sync: () => void, onAskFirst: (asks: 
       done.textContent = copied ? "Link copied" : link;
       setTimeout(() => { done.textContent = ""; }, copied ? 2500 : 20_000);
     });
+  });
+  byId("save-page").addEventListener("click", () => {
+    sync();
+    download("clatter.html", pageWith(state), "text/html");
   });
   const askFirst = byId<HTMLInputElement>("ask-first");
   askFirst.checked = state.predict;

@@ -3,7 +3,9 @@
 import { byId, make } from "./dom";
 import { FlatView } from "./flat_view";
 import type { Frame } from "./frame";
-import type { View } from "./picture";
+import { STRAIGHT, type Orbit } from "./orbit";
+import type { Projection, View } from "./picture";
+import type { Vector } from "./rotation";
 import { SpaceView } from "./view";
 
 export class Stage {
@@ -11,6 +13,7 @@ export class Stage {
   private readonly labels = byId("stage-labels");
   private readonly view: View;
   private frame: Frame | null = null;
+  private orbit: Orbit = STRAIGHT;
 
   constructor() {
     this.view = this.createView();
@@ -18,9 +21,22 @@ export class Stage {
     this.resize();
   }
 
-  draw(frame: Frame): void {
+  /** Of the picture that is shown, in its first part. */
+  project(place: Vector): Projection {
+    return this.view.project("discrete", place, this.frame?.side ?? false);
+  }
+
+  /** As a picture file. */
+  image(use: (blob: Blob | null) => void): void {
+    // A canvas keeps its picture only until the browser has shown it.
+    if (this.frame) this.view.draw(this.frame, this.orbit);
+    (this.box.querySelector("canvas") as HTMLCanvasElement).toBlob(use);
+  }
+
+  draw(frame: Frame, orbit: Orbit = this.orbit): void {
     this.frame = frame;
-    this.view.draw(frame);
+    this.orbit = orbit;
+    this.view.draw(frame, orbit);
     const { width } = this.box.getBoundingClientRect();
     frame.labels.forEach((label, i) => {
       const { x, y } = this.view.project(label.model, label.place, frame.side);

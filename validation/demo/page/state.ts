@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the page shows, and its form as a link: the query string holds everything that a colleague needs to see the same.
+// What the page shows, and its form as a link: the fragment of its address holds everything that a colleague needs to see
+// the same, wherever the file lies.
 import { BODIES, type BodyName } from "./body";
 import {
   DEFAULT_PARAMETERS, DROPS, QUANTITIES, TURNS, isInPlane, isUsed, setBody, type Choices, type Parameters, type Quantity,
 } from "./parameters";
 import { numberOf, parametersOf } from "./scene_arguments";
 
-export const PANELS = ["story", "strip", "numbers", "table", "force", "energy", "map", "explain"] as const;
+export const PANELS = ["story", "strip", "numbers", "profile", "table", "force", "energy", "map", "explain"] as const;
 
 export interface State {
   parameters: Parameters;
@@ -128,17 +129,15 @@ export function stateOf(text: string): State {
   return state;
 }
 
-// An offline copy is a file: there only the fragment of its address may change.
-const inFragment = (): boolean => location.protocol === "file:";
-
+/** What the address says; else the scene that was written into the page. */
 export function readAddress(): State {
-  return stateOf(inFragment() ? location.hash.slice(1) : location.search);
+  const written = document.querySelector<HTMLMetaElement>("meta[name=clatter-scene]")?.content ?? "";
+  return stateOf(location.hash.slice(1) || written);
 }
 
 export function addressOf(state: State): string {
   const url = new URL(location.href);
-  if (inFragment()) url.hash = toQuery(state);
-  else url.search = toQuery(state);
+  url.hash = toQuery(state);
   return url.href;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Play, pause, scrub, and step from impact to impact.
 import { byId, make } from "./dom";
-import { fixed } from "./format";
+import { fixed, significant } from "./format";
 import { RATES } from "./state";
 
 export interface TransportActions {
@@ -10,6 +10,7 @@ export interface TransportActions {
   scrub(progress: number): void;
   setRate(rate: number): void;
   setSlow(slow: boolean): void;
+  playReal(): void;
 }
 
 const SCRUBBER_STEPS = 1000;
@@ -21,10 +22,12 @@ export class Transport {
   private readonly time = byId("time");
   private readonly rate = byId<HTMLSelectElement>("rate");
   private readonly slow = byId<HTMLInputElement>("slow");
+  private readonly pace = byId("pace");
 
   constructor(private readonly actions: TransportActions) {
-    this.rate.append(...RATES.map((rate) => make("option", { value: rate }, `${rate === 0.25 ? "¼" : rate === 0.5 ? "½" : rate}×`)));
+    this.rate.append(...RATES.map((rate) => make("option", { value: rate }, rate === 1 ? "as it is" : `${rate === 0.25 ? "¼" : rate === 0.5 ? "½" : rate} times`)));
     this.play.addEventListener("click", () => actions.toggle());
+    byId("real").addEventListener("click", () => actions.playReal());
     byId("previous").addEventListener("click", () => actions.step(-1));
     byId("next").addEventListener("click", () => actions.step(1));
     this.scrubber.max = String(SCRUBBER_STEPS);
@@ -51,7 +54,9 @@ export class Transport {
     }));
   }
 
-  show(time: number, progress: number, playing: boolean): void {
+  show(time: number, progress: number, playing: boolean, slowness: number): void {
+    const pace = slowness < 1.05 && slowness > 0.95 ? "as fast as it happens" : slowness > 1 ? `${significant(slowness, 2)} times slower than life` : `${significant(1 / slowness, 2)} times faster than life`;
+    if (this.pace.textContent !== pace) this.pace.textContent = pace;
     this.scrubber.value = String(Math.round(progress * SCRUBBER_STEPS));
     this.scrubber.setAttribute("aria-valuetext", `${fixed(time * 1e3, 1)} ms`);
     this.time.textContent = `${fixed(time * 1e3, Math.abs(time) < 0.1 ? 2 : 1)} ms`;
@@ -65,11 +70,13 @@ export class Transport {
     const target = event.target as HTMLElement;
     const takesKeys = /^(INPUT|SELECT|TEXTAREA)$/.test(target.tagName);
     const isCheckbox = target instanceof HTMLInputElement && target.type === "checkbox";
-    const scrolls = target.getAttribute("tabindex") === "0";
+    const scrolls = target.getAttribute("tabindex") === "0" && target.id !== "stage";
     if (event.key === " " && !/^(SELECT|BUTTON|SUMMARY|A)$/.test(target.tagName) && !isCheckbox) {
       event.preventDefault();
       this.actions.toggle();
-    } else if ((event.key === "ArrowRight" || event.key === "ArrowLeft") && (!takesKeys || isCheckbox) && !scrolls) {
+    } else if (event.key === "r" && !takesKeys) {
+      this.actions.playReal();
+    } else if (!event.shiftKey && (event.key === "ArrowRight" || event.key === "ArrowLeft") && (!takesKeys || isCheckbox) && !scrolls) {
       event.preventDefault();
       this.actions.step(event.key === "ArrowRight" ? 1 : -1);
     }

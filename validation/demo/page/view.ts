@@ -11,8 +11,9 @@ import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js
 import { ArrowMesh } from "./arrow_mesh";
 import { THINNEST, middleOf, type Body } from "./body";
 import { COLOURS } from "./colours";
-import type { Arrow, Bounds, Frame, ModelName } from "./frame";
+import type { Arc, Arrow, Bounds, Frame, ModelName } from "./frame";
 import type { Pose } from "./motion";
+import { STRAIGHT, type Orbit } from "./orbit";
 import type { Projection, View } from "./picture";
 import type { Vector } from "./rotation";
 
@@ -40,6 +41,9 @@ export class SpaceView implements View {
   private cell = 0;
   private size = { width: 1, height: 1 };
   private frame: Frame | null = null;
+  private orbit: Orbit = STRAIGHT;
+  private readonly ghosts: Record<ModelName, LineSegments[]> = { discrete: [], continuous: [] };
+  private readonly arc = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: COLOURS.ink, depthTest: false, transparent: true }));
 
   constructor(canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
@@ -48,6 +52,7 @@ export class SpaceView implements View {
     sun.position.set(-1, -3, 4);
     this.scene.add(new AmbientLight(0xffffff, 1.6), sun);
     this.figures = { discrete: emptyFigure(), continuous: emptyFigure() };
+    this.layers.discrete.add(this.arc);
     for (const model of MODELS) {
       const { group, shadow } = this.figures[model];
       this.layers[model].add(group, shadow);
@@ -61,13 +66,16 @@ export class SpaceView implements View {
     this.renderer.setSize(width, height, false);
   }
 
-  draw(frame: Frame): void {
+  draw(frame: Frame, orbit: Orbit): void {
     this.frame = frame;
+    this.orbit = orbit;
+    this.drawArc(frame.arcs[0]);
     this.makeGround(frame.figures[0]?.body.length ?? 1);
     for (const model of MODELS) {
       const figure = frame.figures.find((f) => f.model === model);
       this.layers[model].visible = figure !== undefined;
       if (figure) this.place(model, figure.body, figure.pose);
+      this.placeGhosts(model, frame.ghosts.filter((ghost) => ghost.model === model));
       this.placeArrows(model, frame.arrows.filter((arrow) => arrow.model === model));
     }
     this.renderer.setScissorTest(frame.side);
@@ -103,12 +111,13 @@ export class SpaceView implements View {
   private aim(model: ModelName | null, aspect: number): void {
     if (!this.frame) return;
     const { left, right, top, depth } = this.frame.bounds[model ?? "discrete"];
-    const { elevation, azimuth } = this.frame.inSpace ? SPACE : PLANE;
+    const own = this.frame.inSpace ? SPACE : PLANE;
+    const [elevation, azimuth] = [own.elevation + this.orbit.elevation, own.azimuth + this.orbit.azimuth];
     const margin = 1.16;
     const half = Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
     const tall = (top * margin) / 2;
     const wide = ((right - left) * margin) / 2;
-    const distance = Math.max(tall / half, wide / (half * aspect)) + 0.15 * wide;
+    const distance = (Math.max(tall / half, wide / (half * aspect)) + 0.15 * wide) / this.orbit.zoom;
     // Where width decides, the ground stays low in the picture instead of floating in its middle.
     const centre = new Vector3((left + right) / 2, depth, Math.max(top * 0.47, 0.58 * distance * half));
     const flat = Math.cos(elevation) * distance;
@@ -151,6 +160,44 @@ export class SpaceView implements View {
   private moveGround({ left, right, depth }: Bounds): void {
     const { cell } = this;
     this.ground?.position.set(Math.round((left + right) / 2 / cell) * cell, Math.round(depth / cell) * cell, 0);
+  }
+
+  /** Silhouettes at the blows. */
+  private placeGhosts(model: ModelName, wanted: Frame["ghosts"]): void {
+    const lines = this.ghosts[model];
+    while (lines.length < wanted.length) {
+      const line = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: COLOURS[model], transparent: true, opacity: 0.45 }));
+      lines.push(line);
+      this.layers[model].add(line);
+    }
+    lines.forEach((line, i) => {
+      const ghost = wanted[i];
+      line.visible = ghost !== undefined;
+      if (!ghost) return;
+      if (line.userData["of"] !== ghost.body) {
+        line.userData["of"] = ghost.body;
+        line.geometry.dispose();
+        line.geometry = silhouetteOf(ghost.body);
+      }
+      const [w, x, y, z] = ghost.pose.rotation;
+      line.position.set(...middleOf(ghost.body, ghost.pose.centre, ghost.pose.rotation));
+      line.quaternion.set(x, y, z, w);
+    });
+  }
+
+  private drawArc(arc: Arc | undefined): void {
+    this.arc.visible = arc !== undefined;
+    if (!arc) return;
+    const parts = 24;
+    const point = (i: number): number[] => {
+      const along = arc.radius * Math.cos((arc.angle * i) / parts);
+      return [arc.at[0] + (arc.toRight ? along : -along), arc.at[1], arc.radius * Math.sin((arc.angle * i) / parts)];
+    };
+    const lines = Array.from({ length: parts }, (_, i) => [...point(i), ...point(i + 1)]).flat();
+    // The ground's side of the angle, and the body's.
+    const legs = [0, parts].flatMap((i) => [...arc.at, ...point(i).map((x, k) => (arc.at[k] ?? 0) + 1.3 * (x - (arc.at[k] ?? 0)))]);
+    this.arc.geometry.dispose();
+    this.arc.geometry = new BufferGeometry().setAttribute("position", new Float32BufferAttribute([...lines, ...legs], 3));
   }
 
   private placeArrows(model: ModelName, wanted: Arrow[]): void {
@@ -214,6 +261,13 @@ function cage(half: number, radius: number): number[] {
   return [...circles, ...all.filter((i) => i % (parts / 4) === 0).flatMap((i) => [...at(-half, i), ...at(half, i)])];
 }
 
+/** Of a box its edges; of a rod, which has none along itself, its outline. */
+function silhouetteOf(body: Body): BufferGeometry {
+  if (body.shape === "box") return new EdgesGeometry(geometryOf(body), 1);
+  const radius = Math.max(body.radius, THINNEST * body.length);
+  return new BufferGeometry().setAttribute("position", new Float32BufferAttribute(cage(body.length / 2, radius), 3));
+}
+
 function shadowMaterial(): Material {
   return new MeshBasicMaterial({ color: 0x1b2430, transparent: true, opacity: 0.13, depthWrite: false, side: DoubleSide });
 }
@@ -221,10 +275,9 @@ function shadowMaterial(): Material {
 function groundGrid(cell: number): LineSegments {
   const points: number[] = [];
   const colours: number[] = [];
-  const fade = (x: number, y: number): number[] => {
-    const shade = 0.8 + 0.2 * Math.min(1, Math.hypot(x / (22 * cell), (y - 4 * cell) / (16 * cell)));
-    return [shade, shade, Math.min(1, shade * 1.02)];
-  };
+  const [near, far] = [new Color(COLOURS.floor), new Color(COLOURS.paper)];
+  const fade = (x: number, y: number): number[] =>
+    near.clone().lerp(far, Math.min(1, Math.hypot(x / (22 * cell), (y - 4 * cell) / (16 * cell)))).toArray();
   const line = (x: number, y: number, p: number, q: number): void => {
     points.push(x, y, 0, p, q, 0);
     colours.push(...fade(x, y), ...fade(p, q));

@@ -18,10 +18,18 @@ function endInWords(end: string): string {
   return end === "both" ? "both ends at once" : end;
 }
 
-/** Names such as "-x+y-z", with true minus signs. */
+const SIDES: Readonly<Record<string, string>> = { "-x": "left", "+x": "right", "-y": "front", "+y": "back", "-z": "lower", "+z": "upper" };
+
+/** "-x+y-z" as seen on the body while it lies flat: "left back lower". */
+function sidesInWords(name: string): string {
+  return (name.match(/[-+][xyz]/g) ?? [name]).map((side) => SIDES[side] ?? side).join(" ");
+}
+
+/** Corners by where they are on the body while it lies flat. */
 export function cornersInWords(corners: string): string {
-  const names = corners.split(" ").map((name) => name.replace(/-/g, "−"));
-  if (names[0] === "a" || names[0] === "b") return endInWords(names.length > 1 ? "both" : names[0]);
+  const given = corners.split(" ");
+  if (given[0] === "a" || given[0] === "b") return endInWords(given.length > 1 ? "both" : given[0]);
+  const names = given.map(sidesInWords);
   if (names.length === 1) return `corner ${names[0]}`;
   return `corners ${names.slice(0, -1).join(", ")} and ${names[names.length - 1]} at once`;
 }

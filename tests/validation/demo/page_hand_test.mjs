@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The body in the hand, honest time and the guess: taken, tilted, lifted and let go with mouse, finger and keys; how much slower than
+// life is said; no number of before a blow stands beside one of after it; and nothing gives the guess away.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { number, onOnePage, onPage, sequence, waitForCell } from "./page_browser.mjs";
+
+const NARROW = { width: 390, height: 800 };
+
+/** Where a label of the picture stands in the window. */
+const placeOf = (page, text) => page.locator(".stage-label.end", { hasText: new RegExp(`^${text}$`) }).first().evaluate((label) => {
+  const { x, y, width, height } = label.getBoundingClientRect();
+  return { x: x + width / 2, y: y + height / 2 };
+});
+
+/** The drop is the program's for what the controls now say. */
+async function isDropped(page, changed) {
+  await page.waitForFunction(() => document.getElementById("gravity").value === "9.81");
+  const [angle, height] = await Promise.all(["angle", "height"].map((id) => page.inputValue(`#${id}`)));
+  assert.ok(changed({ angle: Number(angle), height: Number(height) }), `${angle}°, ${height} m`);
+  const { impacts } = sequence("--angle", angle, "--height", height, "--gravity", "9.81");
+  await waitForCell(page, "Impulse", 1, impacts[1].impulse_normal);
+}
+
+for (const browser of ["chromium", "firefox"]) {
+  onOnePage(`in ${browser}`, "#predict=0&hide=map,explain", {
+    "the keys tilt the body, lift it and let it go, turn the view and set it back": async (page) => {
+      await page.waitForSelector("#impact-table tbody tr");
+      await page.focus("#stage");
+      for (let i = 0; i < 5; i++) await page.keyboard.press("]");
+      for (let i = 0; i < 3; i++) await page.keyboard.press("ArrowUp");
+      assert.match(await page.textContent("#caption"), /^In your hand: 15\.0°/);
+      await page.keyboard.press("Enter");
+      await isDropped(page, ({ angle, height }) => angle === 15 && Math.abs(height - (0.5 * Math.sin(Math.PI / 12) + 0.12)) < 0.02);
+      assert.equal(await page.isVisible("#view-reset"), false);
+      await page.keyboard.press("Shift+ArrowLeft");
+      await page.keyboard.press("+");
+      assert.equal(await page.isVisible("#view-reset"), true);
+      await page.keyboard.press("0");
+      assert.equal(await page.isVisible("#view-reset"), false);
+    },
+    "an end is pulled up with the mouse, the middle lifted, and the body falls from there": async (page) => {
+      const pull = async (from, to) => {
+        await page.mouse.move(from.x, from.y);
+        await page.mouse.down();
+        await page.mouse.move((from.x + to.x) / 2, (from.y + to.y) / 2);
+        await page.mouse.move(to.x, to.y);
+        assert.match(await page.textContent("#caption"), /^In your hand: \d+/);
+        await page.mouse.up();
+      };
+      const [a, b] = [await placeOf(page, "a"), await placeOf(page, "b")];
+      // By as much as makes some 10° more of it.
+      await pull(b, { x: b.x - 20, y: b.y - (b.x - a.x) * 0.17 });
+      await isDropped(page, ({ angle }) => angle > 20 && angle < 45);
+      const [c, d] = [await placeOf(page, "a"), await placeOf(page, "b")];
+      const before = Number(await page.inputValue("#height"));
+      const middle = { x: (c.x + d.x) / 2, y: (c.y + d.y) / 2 };
+      await pull(middle, { x: middle.x, y: middle.y - 60 });
+      await isDropped(page, ({ height }) => height > before);
+    },
+  }, { browser });
+}
+
+test("with a finger, too, while the picture stays above the controls of a phone", () => onPage("#predict=0&hide=map,explain", async (page, context) => {
+  await page.waitForSelector("#impact-table tbody tr");
+  const session = await context.newCDPSession(page);
+  const touch = (type, ...points) => session.send("Input.dispatchTouchEvent", { type, touchPoints: points });
+  const b = await placeOf(page, "b");
+  await touch("touchStart", b);
+  await touch("touchMove", { x: b.x - 10, y: b.y - 30 });
+  await touch("touchMove", { x: b.x - 20, y: b.y - 60 });
+  await touch("touchEnd");
+  await isDropped(page, ({ angle }) => angle > 15 && angle < 60);
+  await page.locator("#gravity").scrollIntoViewIfNeeded();
+  const { top, bottom } = await page.locator("#stage").evaluate((stage) => stage.getBoundingClientRect());
+  assert.ok(top >= 0 && bottom < 500, `${top} to ${bottom}`);
+}, { viewport: NARROW, hasTouch: true, isMobile: true }));
+
+test("no number of before a blow stands beside one of after it, at any time", () => onPage("#predict=0&stiffness=1e8&hide=map,explain", async (page) => {
+  await page.waitForSelector('tr[data-model="continuous"]');
+  const shown = await page.locator("#scrubber").evaluate((scrubber) => Array.from({ length: 41 }, (_none, step) => {
+    scrubber.value = String(25 * step);
+    scrubber.dispatchEvent(new Event("input", { bubbles: true }));
+    const spin = [...document.querySelectorAll("#numbers-table tbody tr")].find((row) => row.textContent.startsWith("Spin"));
+    return [document.getElementById("numbers-title").textContent, spin.querySelectorAll("td")[2].textContent];
+  }));
+  // A blow changes the spin by 3 rad/s and more.
+  for (const [title, difference] of shown) if (difference !== "–") assert.ok(Math.abs(number(difference)) < 0.5, `${title}: ${difference}`);
+  const seen = new Set(shown.map(([title]) => title.replace(/\d+\.\d+/, "")));
+  assert.ok([...seen].some((title) => /after blow 2, each/.test(title)), [...seen].join("; "));
+}));
+
+test("how much slower than life it is stands beside the picture, and a button plays life itself", () => onPage("#predict=0&hide=map,explain", async (page) => {
+  await page.waitForSelector('tr[data-model="continuous"]');
+  assert.match(await page.textContent("#pace"), /^\d+ times slower than life$/);
+  // By frames that the test gives, 10 ms apart.
+  const [said, moved] = await page.evaluate(() => {
+    const waiting = [];
+    window.requestAnimationFrame = (frame) => waiting.push(frame);
+    const frameAt = (now) => { for (const frame of waiting.splice(0)) frame(now); };
+    const time = () => Number(document.getElementById("time").textContent.replace("−", "-").replace(" ms", ""));
+    document.getElementById("real").click();
+    frameAt(1000);
+    const before = time();
+    for (let now = 1010; now <= 1050; now += 10) frameAt(now);
+    return [document.getElementById("pace").textContent, time() - before];
+  });
+  assert.equal(said, "as fast as it happens");
+  assert.ok(Math.abs(moved - 50) <= 0.2, `${moved} ms of 50`);
+}));
+
+test("before the second blow has been seen nothing on the page tells how hard it is", () => onPage("", async (page) => {
+  await page.waitForSelector("#prediction:not([hidden])");
+  assert.ok(!/hard|second/i.test(await page.title()));
+  const telling = ["#impact-table", "#story", "#strip-rows", "#energy-table", "#caption", "#panel-profile"];
+  for (const part of telling) assert.equal(await page.isVisible(part), false, part);
+  await page.click('button[data-guess="softer"]');
+  for (const part of telling.filter((one) => one !== "#caption")) assert.equal(await page.isVisible(part), false, part);
+  assert.equal(await page.textContent("#prediction-reveal"), "Watch the second blow …");
+  await page.waitForFunction(() => document.getElementById("impact-marks").textContent.includes("2"));
+  // The picture stands at the first blow, which is no answer yet.
+  await page.waitForFunction(() => /^Impact 1:/.test(document.getElementById("caption").textContent));
+  assert.equal(await page.textContent("#prediction-reveal"), "Watch the second blow …");
+  await page.click("#next");
+  assert.match(await page.textContent("#prediction-reveal"), /^A surprise: .*twice as hard as the first: 1\.003 N·s after 0\.5116 N·s/);
+  for (const part of telling) assert.equal(await page.isVisible(part), true, part);
+}));
+
+test("a first visit shows angle, restitution and gravity; the rest is under More", () => onPage("", async (page) => {
+  const shown = await page.locator('#panel-controls input[type="number"]:visible').evaluateAll((fields) => fields.map(({ id }) => id));
+  assert.deepEqual(shown, ["angle", "e", "gravity"]);
+  await page.click("#more > summary");
+  assert.equal(await page.isVisible("#friction"), true);
+}, { more: false }));
+
+test("in a lecture the picture is large, a class votes by hands, and the most are judged", () => onPage("", async (page) => {
+  await page.waitForSelector("#prediction:not([hidden])");
+  const before = (await page.locator("#stage").boundingBox()).height;
+  await page.click("#lecture");
+  assert.ok((await page.locator("#stage").boundingBox()).height > before);
+  assert.equal(await page.isVisible("#panel-controls"), false);
+  for (const guess of ["harder", "softer", "harder"]) await page.click(`button[data-guess="${guess}"]`);
+  assert.equal(await page.textContent('button[data-guess="harder"]'), "Yes · 2");
+  await page.click("#prediction-skip");
+  await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("ArrowRight");
+  await page.waitForFunction(() => /^You guessed it/.test(document.getElementById("prediction-reveal").textContent));
+  await page.keyboard.press("Escape");
+  await page.waitForFunction(() => !document.body.classList.contains("lecture"));
+}));
+
+test("on paper the picture is there, no table is cut, and no control stands there", () => onPage("#predict=0", async (page) => {
+  await page.waitForSelector('tr[data-model="continuous"]');
+  await page.emulateMedia({ media: "print" });
+  await page.setViewportSize({ width: 700, height: 1000 });
+  for (const part of ["#panel-controls", ".transport", "#copy-link"]) assert.equal(await page.isVisible(part), false, part);
+  const { width, height } = await page.locator("#stage canvas").boundingBox();
+  assert.ok(width > 300 && height > 100);
+  for (const table of await page.locator(".scroll").all()) {
+    assert.ok(await table.evaluate((box) => box.scrollWidth <= box.clientWidth + 1), await table.getAttribute("aria-labelledby"));
+  }
+}));

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The body in the hand: taken in the picture with mouse, pen or finger, tilted by an end, lifted by its middle, let go. By keys, too:
+// on the picture ↑ and ↓ lift, [ and ] tilt, Enter lets go.
+import { centreHeight, type Body } from "./body";
+import type { OrbitControl } from "./orbit";
+import type { Projection } from "./picture";
+import { planeRotation, product, rotate, turnAbout, type Rotation, type Vector } from "./rotation";
+
+const DEGREE = Math.PI / 180;
+/** So near the pointer has to come to the body [px]. */
+const REACH = 26;
+/** Of the length, on either side of the middle: where a grip lifts instead of tilting. */
+const MIDDLE = 0.22;
+const TILT_STEP = 1; // ° a key
+const LIFT_STEP = 0.04; // of the length a key
+const HIGHEST = 2.2; // lengths over the ground
+
+/** How the body is held. */
+export interface Held {
+  /** [°], 0 to 90 */
+  angle: number;
+  /** Of the centre of mass [m] */
+  height: number;
+}
+
+export interface Hand {
+  /** What may be taken now, and how it is held where it is; null: nothing. */
+  body(): { body: Body; held: Held; tilt: number } | null;
+  project(place: Vector): Projection;
+  hold(held: Held): void;
+  letGo(held: Held): void;
+}
+
+export function heldRotation({ angle }: Held, tilt: number): Rotation {
+  const plane = planeRotation(angle * DEGREE);
+  return tilt === 0 ? plane : product(plane, turnAbout(0, tilt * DEGREE));
+}
+
+/** Within what a hand can do: not into the ground, not out of sight. */
+export function possible(body: Body, { angle, height }: Held, tilt: number): Held {
+  const turned = { angle: Math.round(Math.min(90, Math.max(0, angle)) * 10) / 10, height };
+  const lowest = centreHeight(body, heldRotation(turned, tilt)) + 0.01 * body.length;
+  const most = lowest + HIGHEST * body.length;
+  return { ...turned, height: Number(Math.min(most, Math.max(lowest, height)).toPrecision(4)) };
+}
+
+interface Grip {
+  part: "a" | "b" | "middle";
+  from: Held;
+  start: Projection;
+  /** Where the middle of the body was [px], and pixels a metre. */
+  centre: Projection;
+  scale: number;
+}
+
+export class Grab {
+  private grip: Grip | null = null;
+  private held: Held | null = null;
+  private readonly pointers = new Map<number, Projection>();
+
+  constructor(private readonly stage: HTMLElement, private readonly hand: Hand, private readonly orbit: OrbitControl) {
+    stage.addEventListener("pointerdown", (event) => this.down(event));
+    stage.addEventListener("pointermove", (event) => this.move(event));
+    for (const kind of ["pointerup", "pointercancel"] as const) stage.addEventListener(kind, (event) => this.up(event));
+    stage.addEventListener("keydown", (event) => this.key(event));
+  }
+
+  private placeOf(event: PointerEvent): Projection {
+    const { left, top } = this.stage.getBoundingClientRect();
+    return { x: event.clientX - left, y: event.clientY - top };
+  }
+
+  /** The part of the body under a place of the picture. */
+  private gripAt(place: Projection): Grip | null {
+    const taken = this.hand.body();
+    if (!taken) return null;
+    const { body, held, tilt } = taken;
+    const along = rotate(heldRotation(held, tilt), [body.length / 2, 0, 0]);
+    const at = (part: number): Projection => this.hand.project([along[0] * part, 0, held.height + along[2] * part]);
+    const [a, b] = [at(-1), at(1)];
+    const [x, y] = [b.x - a.x, b.y - a.y];
+    const size = Math.hypot(x, y) || 1;
+    const part = ((place.x - a.x) * x + (place.y - a.y) * y) / size ** 2;
+    const across = Math.abs((place.x - a.x) * y - (place.y - a.y) * x) / size;
+    const thick = ((body.shape === "box" ? Math.hypot(body.width, body.thickness) : 2 * body.radius) / 2 / body.length) * size;
+    const margin = REACH / size;
+    if (across > Math.max(REACH, thick) || part < -margin || part > 1 + margin) return null;
+    const name = Math.abs(part - 0.5) < MIDDLE ? "middle" : part < 0.5 ? "a" : "b";
+    const up = this.hand.project([0, 0, held.height + body.length]);
+    const centre = at(0);
+    return { part: name, from: held, start: place, centre, scale: Math.hypot(up.x - centre.x, up.y - centre.y) / body.length };
+  }
+
+  private down(event: PointerEvent): void {
+    if ((event.target as HTMLElement).closest("button")) return;
+    const place = this.placeOf(event);
+    this.pointers.set(event.pointerId, place);
+    this.stage.setPointerCapture(event.pointerId);
+    if (this.pointers.size === 1) this.grip = this.gripAt(place);
+    this.stage.classList.toggle("grabbing", this.grip !== null);
+    if (this.grip) this.show(this.grip.from);
+  }
+
+  private move(event: PointerEvent): void {
+    const place = this.placeOf(event);
+    const before = this.pointers.get(event.pointerId);
+    if (!before) {
+      this.stage.classList.toggle("grabbable", this.gripAt(place) !== null);
+      return;
+    }
+    const others = [...this.pointers].filter(([id]) => id !== event.pointerId).map(([, other]) => other);
+    this.pointers.set(event.pointerId, place);
+    const [other] = others;
+    if (this.grip) this.show(this.pulled(this.grip, place));
+    else if (other) this.orbit.pinch(Math.hypot(place.x - other.x, place.y - other.y) / (Math.hypot(before.x - other.x, before.y - other.y) || 1));
+    else this.orbit.drag(place.x - before.x, place.y - before.y);
+  }
+
+  /** How the body is held when the grip is pulled there. */
+  private pulled({ part, from, start, centre, scale }: Grip, place: Projection): Held {
+    if (part === "middle") return { ...from, height: from.height + (start.y - place.y) / scale };
+    const side = part === "b" ? 1 : -1;
+    const [right, up] = [side * (place.x - centre.x), side * (centre.y - place.y)];
+    return { ...from, angle: Math.atan2(Math.max(0, up), right) / DEGREE };
+  }
+
+  private show(held: Held): void {
+    const taken = this.hand.body();
+    if (!taken) return;
+    this.held = possible(taken.body, held, taken.tilt);
+    this.hand.hold(this.held);
+  }
+
+  private up(event: PointerEvent): void {
+    this.pointers.delete(event.pointerId);
+    if (!this.grip || this.pointers.size) return;
+    this.grip = null;
+    this.stage.classList.remove("grabbing");
+    this.drop();
+  }
+
+  private drop(): void {
+    const { held } = this;
+    this.held = null;
+    if (held) this.hand.letGo(held);
+  }
+
+  private key(event: KeyboardEvent): void {
+    if (event.target !== this.stage || event.altKey || event.ctrlKey || event.metaKey) return;
+    const taken = this.hand.body();
+    const { length } = taken?.body ?? { length: 0 };
+    const from = this.held ?? taken?.held;
+    const lift = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+    const tilt = { "]": 1, "[": -1 }[event.key];
+    if (this.orbit.key(event)) event.preventDefault();
+    else if (event.key === "Enter" && this.held) this.drop();
+    else if (from && !event.shiftKey && lift !== undefined) this.show({ ...from, height: from.height + lift * LIFT_STEP * length });
+    else if (from && tilt !== undefined) this.show({ ...from, angle: from.angle + tilt * TILT_STEP });
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+}
