@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Draws notebooks-data/figures/demo.png, the page of `clatter demo` at the second impact of the rod.
+// Draws notebooks-data/figures/demo.png, the page of `clatter demo` at the second impact of a phone that fell on its corner.
 //   DEMO_PAGE=build/page node notebooks-data/demo_picture.mjs     the folder in which validation/demo/build_page.py built it
 import { createRequire } from "node:module";
 import path from "node:path";
@@ -13,7 +13,7 @@ const browser = await chromium.launch({
     "--disable-background-networking", "--no-first-run"],
 });
 const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, reducedMotion: "reduce" });
-await page.goto(`${pathToFileURL(path.resolve(process.env.DEMO_PAGE, "page.html")).href}#predict=0&angle=10&impact=2`);
+await page.goto(`${pathToFileURL(path.resolve(process.env.DEMO_PAGE, "page.html")).href}#predict=0&body=phone&angle=30&tilt=40&height=1&gravity=9.81&e=0.75&stiffness=1e8&damping=1e7&impacts=4&impact=2`);
 await page.waitForSelector('#impact-table tr[data-model="continuous"]');
 await page.screenshot({ path: path.join(here, "figures", "demo.png") });
 await browser.close();

@@ -26,12 +26,15 @@ for (const browser of ["chromium", "firefox"]) {
   onOnePage(`in ${browser}`, "#predict=0&hide=map,explain", {
     "the keys tilt the body, lift it and let it go, turn the view and set it back": async (page) => {
       await page.waitForSelector("#impact-table tbody tr");
+      assert.equal(await page.isVisible("#grab-hint"), true);
       await page.focus("#stage");
       for (let i = 0; i < 5; i++) await page.keyboard.press("]");
       for (let i = 0; i < 3; i++) await page.keyboard.press("ArrowUp");
       assert.match(await page.textContent("#caption"), /^In your hand: 15\.0°/);
       await page.keyboard.press("Enter");
       await isDropped(page, ({ angle, height }) => angle === 15 && Math.abs(height - (0.5 * Math.sin(Math.PI / 12) + 0.12)) < 0.02);
+      // Who has found out needs no hint.
+      assert.equal(await page.isVisible("#grab-hint"), false);
       assert.equal(await page.isVisible("#view-reset"), false);
       await page.keyboard.press("Shift+ArrowLeft");
       await page.keyboard.press("+");
@@ -153,7 +156,7 @@ test("on paper the picture is there, no table is cut, and no control stands ther
   await page.waitForSelector('tr[data-model="continuous"]');
   await page.emulateMedia({ media: "print" });
   await page.setViewportSize({ width: 700, height: 1000 });
-  for (const part of ["#panel-controls", ".transport", "#copy-link"]) assert.equal(await page.isVisible(part), false, part);
+  for (const part of ["#panel-controls", ".transport", "#copy-link", "#force-whole"]) assert.equal(await page.isVisible(part), false, part);
   const { width, height } = await page.locator("#stage canvas").boundingBox();
   assert.ok(width > 300 && height > 100);
   for (const table of await page.locator(".scroll").all()) {

@@ -51,6 +51,7 @@ class Page {
 
   /** While the body is in the hand. */
   private held: Held | null = null;
+  private wasHeld = false;
 
   private readonly stage = new Stage();
   private readonly orbit = new OrbitControl(byId("stage"), () => this.draw());
@@ -204,6 +205,7 @@ class Page {
   private draw(): void {
     const { player, state } = this;
     const { time } = player;
+    byId("grab-hint").hidden = this.wasHeld || !this.inReach();
     if (this.held) {
       const { parameters } = state;
       const rotation = heldRotation(this.held, tiltOf(parameters));
@@ -255,7 +257,7 @@ class Page {
   private hold(held: Held): void {
     this.player.pause();
     clearTimeout(this.playTimer);
-    byId("grab-hint").hidden = true;
+    this.wasHeld = true;
     this.held = held;
     this.draw();
   }
