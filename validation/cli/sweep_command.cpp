@@ -31,7 +31,6 @@ struct SweepInput {
   SweepRequest request;
   std::optional<std::string> output, threads;
   bool restart = false;
-  bool summary = false;
   OutputTexts form;
   PlotTexts plot;
 };
@@ -77,13 +76,13 @@ bool is_hdf5(const SweepInput& input) {
 /// The rows are CSV unless another form is named, a summary a table.
 TextStyle style_of(const SweepInput& input) {
   OutputTexts texts = input.form;
-  if (!texts.format) texts.format = input.summary ? "table" : "csv";
+  if (!texts.format) texts.format = input.request.summary ? "table" : "csv";
   return read_output(texts).style;
 }
 
 /// Whether the rows go to a file that can be taken up again.
 bool writes_file(const SweepInput& input) {
-  return input.output && !input.summary && style_of(input).format == Format::csv &&
+  return input.output && !input.request.summary && style_of(input).format == Format::csv &&
          !destination_of({"--output", *input.output}).is_stream;
 }
 
@@ -96,7 +95,7 @@ class SweepOutput {
         random_(input.request.random.has_value()), shortfalls_(plan.layout, plan.packed) {
     report_ = plan.report();
     const std::string head = csv_head(report_, style_.bare);
-    if (input.summary) summary_.emplace(sweep_columns(plan.layout), plan.layout.swept.size());
+    if (input.request.summary) summary_.emplace(sweep_columns(plan.layout), plan.layout.swept.size(), plan.points);
     if (writes_file(input)) {
       file_.emplace(*input.output, SweepFileForm{head, plan.points.count()}, input.restart);
       file_->with_rows([this](std::string_view rows) {
@@ -147,7 +146,9 @@ class SweepOutput {
   void write_report() {
     if (summary_) {
       report_.grid.columns = Summary::columns();
-      summary_->fill(report_, [this](long long index) { return plan_.command_of(index); });
+      summary_->fill(
+          report_, [this](long long index) { return plan_.command_of(index); },
+          [this](long long place) { return plan_.attitude_name(place); });
     } else {
       report_.grid.rows = read_csv_rows(collected_);
     }
@@ -198,7 +199,8 @@ class SweepOutput {
 
 void check_output(const SweepInput& input) {
   if (is_hdf5(input)) {
-    if (input.summary) throw BadInput(fmt::format("--output {}: a summary has no rows for HDF5", *input.output));
+    if (input.request.summary)
+      throw BadInput(fmt::format("--output {}: a summary has no rows for HDF5", *input.output));
     if (input.form.format) {
       throw BadInput(
           fmt::format("--format {}: must be left out, --output {} is HDF5", *input.form.format, *input.output));
@@ -206,7 +208,7 @@ void check_output(const SweepInput& input) {
     require_hdf5();
   }
   for (const RunFile& file : plot_files(input.plot)) note_written(file);
-  if (input.plot.plot && (input.summary || is_hdf5(input) || input.request.rows == "impact")) {
+  if (input.plot.plot && (input.request.summary || is_hdf5(input) || input.request.rows == "impact")) {
     throw BadInput("--plot: draws rows of scenes, which --summary, HDF5 and --rows impact have not");
   }
   if (writes_file(input)) {
@@ -252,7 +254,7 @@ int run_sweep(const SweepInput& input, const SweepPlan& plan, const SweepBody& b
 
 int run_command(const SweepInput& input, Ranks& ranks) {
   SweepPlan plan = read_sweep_plan(input.request);
-  plan.packed = input.summary || is_hdf5(input);
+  plan.packed = input.request.summary || is_hdf5(input);
   const int threads = read_threads(input.threads, ranks);
   check_output(input);
   // A body that cannot be made is bad input, but a row's where it is swept.
@@ -265,6 +267,8 @@ constexpr const char* sweep_footer =
     "--set ground.damping=0:2e7:1e6 --set run.impacts=2 --output phone.csv\n"
     "Example: clatter sweep phone-corner --set drop.attitude=uniform --random 1000 "
     "--columns hardest,hardest_corners,impulse_normal_1,impulse_normal_2\n"
+    "Example: clatter sweep phone-damped --set drop.attitude=26 --random 2600 --scatter 3 --set run.impacts=2 "
+    "--summary\n"
     "drop.attitude=26 has a box fall on each face, edge and corner (clatter keys numbers them); @FILE is a CSV file\n"
     "with columns q0, q1, q2, q3. Columns asked for are quantities that rows of impacts have; the hardest impact "
     "has\n"
@@ -293,6 +297,9 @@ Command sweep_command() {
                .repeats = true});
   command.add_text("--random", request.random, "N", "N scenes with random values, --set KEY=LOW:HIGH or LOW:HIGH:log");
   command.add_text("--seed", request.seed, "S", "of the random values (1)");
+  command.add_text("--scatter", request.scatter, "DEG",
+                   "with --random: attitudes about those of drop.attitude=26 or a list, each in its turn, turned about "
+                   "each axis by a normally distributed angle with this standard deviation");
   command.add_text("--model", request.model, "discrete|continuous", "(continuous if the scene has a ground)");
   command.add_text("--rows", request.rows, "scene|impact", "one row per scene or per impact (scene)");
   command.add_text(
@@ -300,7 +307,7 @@ Command sweep_command() {
       "more columns of rows of scenes: QUANTITY_N of impact N, QUANTITY of each, hardest, hardest_QUANTITY");
   command.add_text("--output", input->output, "FILE",
                    "write there; until it is complete the rows are in FILE.part; FILE.h5 is HDF5, columns with units");
-  command.add_flag("--summary", input->summary,
+  command.add_flag("--summary", request.summary,
                    "no rows: counts, percentiles, and extremes with the command that shows each");
   command.add_text("--format", input->form.format, "table|csv|json|markdown|latex",
                    "form of the output (csv); others are written at the end, and not taken up again");

@@ -3,10 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numbers>
 #include <set>
 
+#include "numeric/base/linear_algebra.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 
@@ -94,6 +98,63 @@ PicturePanel curves(const Grid& grid, const SweepRowsView& view, std::size_t qua
   return panel;
 }
 
+/// Mollweide's equal-area map of a unit vector: the ellipse |x| <= 2√2, |y| <= √2, +x of the body in its middle, +z at
+/// its top.
+std::pair<double, double> mapped(const numeric::Vector3& direction) {
+  const double latitude = std::asin(std::clamp(direction.z(), -1.0, 1.0)), pi = std::numbers::pi;
+  // 2θ + sin 2θ = π sin φ, by halving: θ and φ have one sign, |θ| <= π/2.
+  double low = -pi / 2, high = pi / 2;
+  for (int i = 0; i < 54; ++i) {
+    const double theta = (low + high) / 2;
+    (2 * theta + std::sin(2 * theta) < pi * std::sin(latitude) ? low : high) = theta;
+  }
+  const double longitude = std::atan2(direction.y(), direction.x());
+  return {2 * std::numbers::sqrt2 / pi * longitude * std::cos(low), std::numbers::sqrt2 * std::sin(low)};
+}
+
+/// Which direction of the body points down, coloured by a quantity in classes of as many drops each; the largest on
+/// top.
+PicturePanel sphere(const Grid& grid, std::size_t attitude, std::size_t quantity) {
+  constexpr const char* colours[] = {"#c6dbef", "#6baed6", "#2171b5", "#fd8d3c", "#d7301f"};
+  constexpr std::size_t classes = std::size(colours);
+  const std::vector<double> values = numbers_of(grid, quantity);
+  std::vector<double> q[4], known;
+  for (std::size_t i = 0; i < 4; ++i) q[i] = numbers_of(grid, attitude + i);
+  std::copy_if(values.begin(), values.end(), std::back_inserter(known), [](double v) { return std::isfinite(v); });
+  std::sort(known.begin(), known.end());
+  PicturePanel panel{.columns = {{"x", "1", "eastward on an equal-area map"},
+                                 {"y", "1", "northward on an equal-area map"},
+                                 {"class", "1", "fifth of the drops"}},
+                     .rows = {},
+                     .plot = {.x_label = "direction of the body that points down: +x in the middle, +z at the top",
+                              .y_label = named(grid.columns[quantity]),
+                              .curves = {{.x = "x", .y = "y", .where = {{"class", -1}}, .colour = ink}},
+                              .equal_scales = true}};
+  for (int i = 0; i <= 120; ++i) {
+    const double turn = 2 * std::numbers::pi * i / 120;
+    panel.rows.push_back({2 * std::numbers::sqrt2 * std::cos(turn), std::numbers::sqrt2 * std::sin(turn), -1});
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Eigen::Quaterniond attitude_of(q[0][i], q[1][i], q[2][i], q[3][i]);
+    if (!std::isfinite(values[i]) || !std::isfinite(attitude_of.norm())) continue;
+    const auto rank = std::lower_bound(known.begin(), known.end(), values[i]) - known.begin();
+    const auto [x, y] = mapped(attitude_of.normalized().conjugate() * -numeric::Vector3::UnitZ());
+    panel.rows.push_back({x, y,
+                          std::floor(static_cast<double>(classes * static_cast<std::size_t>(rank)) /
+                                     static_cast<double>(known.size()))});
+  }
+  for (std::size_t k = 0; k < classes && !known.empty(); ++k) {
+    const auto at = [&](std::size_t part) { return known[std::min(part * known.size() / classes, known.size() - 1)]; };
+    panel.plot.curves.push_back({.x = "x",
+                                 .y = "y",
+                                 .legend = fmt::format("{} to {}", significant(at(k), 3), significant(at(k + 1), 3)),
+                                 .style = FigureCurve::Style::points,
+                                 .where = {{"class", static_cast<double>(k)}},
+                                 .colour = colours[k]});
+  }
+  return panel;
+}
+
 /// Whether the rows are few curves over the last key.
 bool has_curves(const Grid& grid, const SweepRowsView& view) {
   if (view.random || view.swept == 0 || view.swept > 2) return false;
@@ -111,6 +172,10 @@ bool has_curves(const Grid& grid, const SweepRowsView& view) {
 Picture sweep_rows_picture(const Report& report, const SweepRowsView& view) {
   Picture picture{.what = "Many scenes", .scene = report.head, .panels = {}};
   const bool over_a_key = has_curves(report.grid, view);
+  for (std::size_t i = 0; i < report.grid.columns.size() && !view.quantities.empty(); ++i) {
+    if (report.grid.columns[i].name == "drop.attitude_q0")
+      picture.panels.push_back(sphere(report.grid, i, place_of(report.grid, view.quantities.front())));
+  }
   for (const std::string& name : view.quantities) {
     const std::size_t quantity = place_of(report.grid, name);
     picture.panels.push_back(over_a_key ? curves(report.grid, view, quantity)

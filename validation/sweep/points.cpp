@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -141,6 +142,15 @@ SweptAttitude uniform_attitude(const std::array<double, 3>& parts) {
   return q;
 }
 
+SweptAttitude turned(const SweptAttitude& attitude, const std::array<double, 3>& vector) {
+  const double angle = std::hypot(vector[0], vector[1], vector[2]);
+  if (angle == 0) return attitude;
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, Eigen::Vector3d(vector[0], vector[1], vector[2]) / angle));
+  const Eigen::Quaterniond q =
+      (turn * Eigen::Quaterniond(attitude[0], attitude[1], attitude[2], attitude[3])).normalized();
+  return {q.w(), q.x(), q.y(), q.z()};
+}
+
 std::vector<std::string> SweepAxis::names() const {
   if (!is_attitude()) return {key};
   std::vector<std::string> columns;
@@ -215,12 +225,38 @@ SweepPoints::SweepPoints(std::vector<SweepAxis> grid) : axes_(std::move(grid)) {
 SweepPoints::SweepPoints(std::vector<SweepAxis> ranges, long long count, std::uint64_t seed)
     : axes_(std::move(ranges)), count_(count), random_(true), seed_(seed) {}
 
+long long SweepPoints::attitudes() const {
+  for (const SweepAxis& axis : axes_) {
+    if (!axis.attitudes.empty()) return static_cast<long long>(axis.attitudes.size());
+  }
+  return 0;
+}
+
+long long SweepPoints::attitude_of(long long point) const {
+  if (attitudes() == 0) return 0;
+  for (std::size_t i = axes_.size(); !random_ && i-- > 0 && axes_[i].attitudes.empty();) point /= axes_[i].count;
+  return point % attitudes();
+}
+
 void SweepPoints::draw(long long point, std::size_t axis, double* values) const {
   const auto part = [&](std::uint32_t draw) {
     return uniform_at(seed_, static_cast<std::uint64_t>(point), static_cast<std::uint32_t>(axis), draw);
   };
-  if (axes_[axis].any_attitude) std::ranges::copy(uniform_attitude({part(0), part(1), part(2)}), values);
-  else *values = axes_[axis].drawn(part(0));
+  const SweepAxis& drawn = axes_[axis];
+  if (drawn.any_attitude) {
+    std::ranges::copy(uniform_attitude({part(0), part(1), part(2)}), values);
+  } else if (drawn.is_attitude()) {
+    // Two normal numbers from two uniform ones, by Box and Muller; 1 − part is never 0.
+    const auto normal = [&](std::uint32_t first, bool sine) {
+      const double size = drawn.scatter * std::sqrt(-2 * std::log(1 - part(first)));
+      const double angle = 2 * std::numbers::pi * part(first + 1);
+      return size * (sine ? std::sin(angle) : std::cos(angle));
+    };
+    const auto base = static_cast<std::size_t>(point % static_cast<long long>(drawn.attitudes.size()));
+    std::ranges::copy(turned(drawn.attitudes[base], {normal(0, false), normal(0, true), normal(2, false)}), values);
+  } else {
+    *values = drawn.drawn(part(0));
+  }
 }
 
 void SweepPoints::at(long long point, std::vector<double>& values) const {

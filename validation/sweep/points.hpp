@@ -18,6 +18,9 @@ using SweptAttitude = std::array<double, 4>;
 /// rotation the one with q₀ >= 0.  Source: Shoemake, Uniform random rotations, Graphics Gems III, 1992.
 [[nodiscard]] SweptAttitude uniform_attitude(const std::array<double, 3>& parts);
 
+/// An attitude turned by a vector [rad] in the world frame: (cos ½|v|, sin ½|v| v/|v|) q.
+[[nodiscard]] SweptAttitude turned(const SweptAttitude& attitude, const std::array<double, 3>& vector);
+
 /// The values that one key takes: numbers or attitudes.
 struct SweepAxis {
   std::string key;
@@ -30,6 +33,9 @@ struct SweepAxis {
 
   std::vector<SweptAttitude> attitudes{};  ///< likewise, of a key whose values are attitudes
   bool any_attitude = false;               ///< attitudes drawn uniformly over all rotations
+  /// Of drawn attitudes about the listed ones, each in its turn: standard deviation of the turn about each of the three
+  /// axes, normally distributed [rad].
+  double scatter = 0;
 
   [[nodiscard]] bool is_attitude() const { return any_attitude || !attitudes.empty(); }
   /// Columns that a value takes, and so their numbers.
@@ -65,6 +71,9 @@ class SweepPoints {
 
   [[nodiscard]] long long count() const { return count_; }
   [[nodiscard]] const std::vector<SweepAxis>& axes() const { return axes_; }
+  /// How many attitudes are listed, and which of them, from 0, a point has; 0 without a list.
+  [[nodiscard]] long long attitudes() const;
+  [[nodiscard]] long long attitude_of(long long point) const;
   /// Puts the numbers of a point into `values`, axis by axis.
   void at(long long point, std::vector<double>& values) const;
 

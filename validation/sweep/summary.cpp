@@ -8,7 +8,10 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <stdexcept>
+
+#include "validation/output/number.hpp"
 
 namespace clatter::validation::inline sweep {
 namespace {
@@ -45,9 +48,10 @@ Estimated Histogram::percentile(double part) const {
   return {middle, std::max(middle - bin->second.least, bin->second.largest - middle)};
 }
 
-Summary::Summary(std::vector<Column> columns, std::size_t swept)
-    : columns_(std::move(columns)), first_(1 + swept), numbers_(columns_.size()), texts_(columns_.size()),
-      row_(columns_.size()) {}
+Summary::Summary(std::vector<Column> columns, std::size_t swept, const SweepPoints& points)
+    : columns_(std::move(columns)), first_(1 + swept), points_(&points), numbers_(columns_.size()),
+      largest_(static_cast<std::size_t>(points.attitudes()), std::vector<Extreme>(columns_.size(), {0, -1})),
+      texts_(columns_.size()), row_(columns_.size()) {}
 
 void Summary::add(std::string_view rows) {
   for (PackedRows packed(rows); packed.next(row_);) {
@@ -61,6 +65,9 @@ void Summary::add(std::string_view rows) {
       if (first || cell.number < numbers.least.value) numbers.least = {cell.number, index};
       if (first || cell.number > numbers.largest.value) numbers.largest = {cell.number, index};
       numbers.histogram.add(cell.number);
+      if (largest_.empty()) continue;
+      Extreme& of_attitude = largest_[static_cast<std::size_t>(points_->attitude_of(index))][i];
+      if (of_attitude.index < 0 || cell.number > of_attitude.value) of_attitude = {cell.number, index};
     }
   }
 }
@@ -106,6 +113,44 @@ void Summary::add_number(Report& report, std::size_t column, const std::string& 
   row.insert(row.end(), {Cell(least), Cell(largest)});
   report.notes.push_back(fmt::format("largest {}: {}", columns_[column].name, largest));
   report.grid.rows.push_back(std::move(row));
+}
+
+void Summary::add_attitudes(Report& report, const std::function<std::string(long long)>& name) const {
+  const auto column_named = [&](std::string_view wanted) {
+    return static_cast<std::size_t>(
+        std::find_if(columns_.begin(), columns_.end(), [&](const Column& one) { return one.name == wanted; }) -
+        columns_.begin());
+  };
+  std::size_t by = columns_.size();  // by which blows are hard
+  for (const char* const wanted : {"largest_peak_force", "hardest_impulse_normal", "total_normal_impulse"}) {
+    if (by == columns_.size()) by = column_named(wanted);
+  }
+  if (by == columns_.size()) return;
+  std::vector<std::size_t> order(largest_.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const Extreme &one = largest_[a][by], &other = largest_[b][by];
+    return one.index >= 0 && (other.index < 0 || one.value > other.value);
+  });
+  constexpr std::size_t most_named = 5;
+  std::string words = fmt::format("attitudes by {}:", columns_[by].name);
+  Value::List list;
+  for (std::size_t place = 0; place < order.size(); ++place) {
+    const std::vector<Extreme>& largest = largest_[order[place]];
+    const std::string its_name = name(static_cast<long long>(order[place]));
+    if (place < most_named && largest[by].index >= 0) {
+      words += fmt::format("{} {}: {} {}", place == 0 ? "" : ";", its_name, significant(largest[by].value, 4),
+                           columns_[by].unit);
+    }
+    Value::Fields fields{{"attitude", its_name}};
+    for (std::size_t i = first_; i < columns_.size(); ++i) {
+      if (largest[i].index < 0) continue;
+      fields.emplace_back(columns_[i].name, Value::Fields{{"largest", largest[i].value}, {"index", largest[i].index}});
+    }
+    list.emplace_back(std::move(fields));
+  }
+  report.fields["attitudes"] = list;
+  report.notes.push_back(words);
 }
 
 void Summary::add_texts(Report& report) const {

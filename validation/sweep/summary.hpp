@@ -2,6 +2,7 @@
 // What a sweep says of all its rows together, where they are too many to be kept.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -10,6 +11,7 @@
 #include "validation/output/cells.hpp"
 #include "validation/output/estimated.hpp"
 #include "validation/output/report.hpp"
+#include "validation/sweep/points.hpp"
 
 namespace clatter::validation::inline sweep {
 
@@ -40,19 +42,22 @@ inline constexpr double summary_percents[]{1, 5, 25, 50, 75, 95, 99};
 class Summary {
  public:
   /// @param swept  how many columns after the first are keys that were swept, which nobody needs to be told
-  Summary(std::vector<Column> columns, std::size_t swept);
+  /// @param points  their listed attitudes, if any, are told apart by the largest of each number
+  Summary(std::vector<Column> columns, std::size_t swept, const SweepPoints& points);
 
   /// Takes whole packed rows, whose first cell is the scene's number.
   void add(std::string_view rows);
   /// Puts the summary into a report that has its head: a row for each number, `texts` in JSON, and a note for each
   /// text.
   /// @param command  the command that shows a scene, of its number
-  template <class Command>
-  void fill(Report& report, const Command& command) const {
+  /// @param attitude  the name of a listed attitude, of its place from 0
+  template <class Command, class Attitude>
+  void fill(Report& report, const Command& command, const Attitude& attitude) const {
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
       if (numbers_[i].histogram.count() > 0)
         add_number(report, i, command(numbers_[i].least.index), command(numbers_[i].largest.index));
     }
+    if (points_->attitudes() > 0) add_attitudes(report, attitude);
     add_texts(report);
   }
   /// The columns of fill()'s rows.
@@ -71,10 +76,13 @@ class Summary {
 
   void add_number(Report& report, std::size_t column, const std::string& least, const std::string& largest) const;
   void add_texts(Report& report) const;
+  void add_attitudes(Report& report, const std::function<std::string(long long)>& name) const;
 
   std::vector<Column> columns_;
   std::size_t first_;  ///< column that is summarised
+  const SweepPoints* points_;
   std::vector<Numbers> numbers_;
+  std::vector<std::vector<Extreme>> largest_;  ///< of each listed attitude, of each column; index -1: none yet
   std::vector<Texts> texts_;
   std::vector<PackedCell> row_;
 };

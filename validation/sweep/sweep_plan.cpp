@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numbers>
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/digest.hpp"
@@ -72,24 +73,50 @@ bool is_list(const std::string& name) {
                      [&](const Key& key) { return key.name == name && std::holds_alternative<ListValue>(key.value); });
 }
 
+/// How values are drawn.
+struct Drawing {
+  bool random = false;
+  std::optional<double> scatter{};  ///< of attitudes about listed ones [rad]
+};
+
+Drawing read_drawing(const SweepRequest& request) {
+  Drawing drawing{.random = request.random.has_value()};
+  if (!request.scatter) return drawing;
+  if (!drawing.random) throw BadInput(fmt::format("--scatter {}: needs --random N", *request.scatter));
+  const bool attitudes = std::any_of(request.sets.begin(), request.sets.end(), [](const std::string& given) {
+    return given.starts_with(std::string(attitude_key) + "=");
+  });
+  if (!attitudes)
+    throw BadInput(fmt::format("--scatter {}: needs --set {}=26 or a list", *request.scatter, attitude_key));
+  constexpr Range allowed{0, 180, false, "from 0 to 180 degrees"};
+  drawing.scatter = read_number_option("--scatter", *request.scatter, allowed) * std::numbers::pi / 180;
+  return drawing;
+}
+
 /// The attitudes that a --set drop.attitude=TEXT asks for; none if that is a single one.  Numbered ones wait for the
 /// size of the box.
-std::optional<SweepAxis> read_attitudes(const std::string& text, bool random) {
+std::optional<SweepAxis> read_attitudes(const std::string& text, const Drawing& drawing) {
+  const bool random = drawing.random;
   const bool any = text == any_attitude,
              listed = text == numbered_attitudes || text.starts_with('[') || text.starts_with('@');
   if (any && !random) throw BadInput(fmt::format("--set {}={}: needs --random N", attitude_key, text));
-  if (listed && random) {
-    throw BadInput(
-        fmt::format("--set {}={}: must be {} or one attitude with --random", attitude_key, text, any_attitude));
+  if (listed && random && !drawing.scatter) {
+    throw BadInput(fmt::format("--set {}={}: must be {} or one attitude with --random, or give --scatter DEG",
+                               attitude_key, text, any_attitude));
   }
+  if (drawing.scatter && !listed)
+    throw BadInput(fmt::format("--scatter: needs --set {}=26, [q0,q1,q2,q3],... or @FILE", attitude_key));
+  const double scatter = drawing.scatter.value_or(0);
   if (any) return SweepAxis{.key = attitude_key, .any_attitude = true};
   if (text == numbered_attitudes)
-    return SweepAxis{.key = attitude_key, .count = orientation_count, .attitudes = {{1, 0, 0, 0}}};
-  if (listed) return read_attitude_axis(attitude_key, text);
-  return {};
+    return SweepAxis{.key = attitude_key, .count = orientation_count, .attitudes = {{1, 0, 0, 0}}, .scatter = scatter};
+  if (!listed) return {};
+  SweepAxis axis = read_attitude_axis(attitude_key, text);
+  axis.scatter = scatter;
+  return axis;
 }
 
-Setting read_setting(const std::string& given, bool random) {
+Setting read_setting(const std::string& given, const Drawing& drawing) {
   const std::size_t equal = given.find('=');
   if (equal == std::string::npos)
     throw BadInput(fmt::format("--set '{}': must be KEY=VALUE, KEY=A,B,... or KEY=FROM:TO:STEP", given));
@@ -101,7 +128,7 @@ Setting read_setting(const std::string& given, bool random) {
   }
   if (setting.text.empty()) throw BadInput(fmt::format("--set {}: the value is empty", setting.key));
   if (setting.key == attitude_key) {
-    setting.axis = read_attitudes(setting.text, random);
+    setting.axis = read_attitudes(setting.text, drawing);
     if (setting.axis) return setting;
   }
   setting.number = find_number_key(setting.key);
@@ -109,8 +136,8 @@ Setting read_setting(const std::string& given, bool random) {
     throw BadInput(fmt::format("--set {}={}: a list cannot be swept; give one value", setting.key, setting.text));
   }
   if (setting.number == nullptr || setting.text.find_first_of(":,") == std::string::npos) return setting;
-  setting.axis = random ? read_random_axis(setting.key, setting.text, setting.number->is_whole())
-                        : read_grid_axis(setting.key, setting.text, setting.number->is_whole());
+  setting.axis = drawing.random ? read_random_axis(setting.key, setting.text, setting.number->is_whole())
+                                : read_grid_axis(setting.key, setting.text, setting.number->is_whole());
   return setting;
 }
 
@@ -118,10 +145,10 @@ bool sets(const std::vector<Setting>& settings, const std::string& key) {
   return std::any_of(settings.begin(), settings.end(), [&](const Setting& setting) { return setting.key == key; });
 }
 
-std::vector<Setting> read_settings(const std::vector<std::string>& given, bool random) {
+std::vector<Setting> read_settings(const std::vector<std::string>& given, const Drawing& drawing) {
   std::vector<Setting> settings;
   for (const std::string& text : given) {
-    Setting setting = read_setting(text, random);
+    Setting setting = read_setting(text, drawing);
     if (sets(settings, setting.key)) throw BadInput(fmt::format("--set {}: given twice", setting.key));
     settings.push_back(std::move(setting));
   }
@@ -247,6 +274,12 @@ void read_points(const SweepRequest& request, const std::vector<Setting>& settin
   const int seed = request.seed ? read_integer_option("--seed", *request.seed, 0, std::numeric_limits<int>::max()) : 1;
   plan.points = SweepPoints(std::move(axes), count, static_cast<std::uint64_t>(seed));
   plan.words.push_back(fmt::format("scenes: {} random ones, seed {}", count, seed));
+  if (request.scatter) {
+    plan.words.push_back(
+        fmt::format("scatter: each attitude in its turn, turned about each axis by a normally "
+                    "distributed angle with a standard deviation of {}°",
+                    *request.scatter));
+  }
 }
 
 void put_attitude(Scene& scene, std::span<const double> parameters) {
@@ -263,6 +296,7 @@ void choose_setters(const SceneValues& values, const std::vector<Setting>& setti
     if (setting.key.starts_with("body.")) plan.body_values.push_back(place);
     place += setting.axis->width();
     if (setting.axis->is_attitude()) {
+      plan.numbered_attitudes = setting.text == numbered_attitudes;
       plan.put.emplace_back(put_attitude);
       if (setting.text.starts_with('@'))
         plan.attitude_files.push_back({"--set " + setting.key, setting.text.substr(1)});
@@ -290,17 +324,22 @@ void choose_columns(const SweepRequest& request, SweepPlan& plan) {
   RowLayout& layout = plan.layout;
   if (request.rows) layout.rows = static_cast<RowKind>(read_name_option("--rows", *request.rows, row_names));
   layout.in_space = layout.model == Model::discrete && may_leave_its_plane(plan);
-  if (!request.columns) return;
+  std::optional<std::string> columns = request.columns;
+  const std::vector<SweepAxis>& axes = plan.points.axes();
+  const bool attitudes =
+      std::any_of(axes.begin(), axes.end(), [](const SweepAxis& axis) { return axis.is_attitude(); });
+  if (!columns && request.summary && attitudes && layout.rows == RowKind::scene)
+    columns = layout.in_space ? "hardest,hardest_impulse_normal,hardest_corners" : "hardest,hardest_impulse_normal";
+  if (!columns) return;
   if (layout.rows == RowKind::impact) {
-    throw BadInput(
-        fmt::format("--columns {}: is for --rows scene; rows of impacts have every column", *request.columns));
+    throw BadInput(fmt::format("--columns {}: is for --rows scene; rows of impacts have every column", *columns));
   }
   int impacts = plan.scene.request.impacts;
   for (const SweepAxis& axis : plan.points.axes()) {
     if (axis.key == "run.impacts") impacts = static_cast<int>(std::max(axis.first, axis.last));
   }
-  layout.asked = read_impact_columns(*request.columns, layout, impacts);
-  plan.words.push_back(fmt::format("columns: {}", *request.columns));
+  layout.asked = read_impact_columns(*columns, layout, impacts);
+  plan.words.push_back(fmt::format("columns: {}", *columns));
 }
 
 /// Nothing in the place of each key.
@@ -321,7 +360,7 @@ SweepPlan read_sweep_plan(const SweepRequest& request) {
   std::vector<std::string> sets = request.sets;
   if (request.no_errors) sets.emplace_back("run.errors=false");
   if (request.require_digits) sets.emplace_back("run.require_digits=true");
-  std::vector<Setting> settings = read_settings(sets, request.random.has_value());
+  std::vector<Setting> settings = read_settings(sets, read_drawing(request));
   read_scene(request, settings, values, plan);
   plan.fixed_words = shell_word(request.file) + " --model " + model_names[static_cast<std::size_t>(plan.layout.model)];
   for (const Setting& setting : settings) {
@@ -356,6 +395,11 @@ std::string SweepPlan::command_of(long long index) const {
     rest = rest.subspan(axis.width());
   }
   return command + " --rows impact";
+}
+
+std::string SweepPlan::attitude_name(long long place) const {
+  const int number = static_cast<int>(place + 1);
+  return numbered_attitudes ? fmt::format("{} ({})", number, orientation_name(number)) : std::to_string(number);
 }
 
 Report SweepPlan::report() const {

@@ -22,9 +22,10 @@ struct SweepRequest {
   std::string file;
   std::optional<std::string> text;  ///< of the scene that `file` then only names in messages
   std::vector<std::string> sets;
-  std::optional<std::string> random, seed, model, rows, columns;
+  std::optional<std::string> random, seed, scatter, model, rows, columns;
   bool no_errors = false;       ///< as --set run.errors=false
   bool require_digits = false;  ///< as --set run.require_digits=true
+  bool summary = false;         ///< of attitudes: the hardest impact's number, impulse and corners without being asked
 };
 
 struct SweepPlan {
@@ -47,6 +48,9 @@ struct SweepPlan {
 
   /// The command that shows the impacts of one scene.
   [[nodiscard]] std::string command_of(long long index) const;
+  /// The name of a listed attitude, of its place from 0: of a box's 26 its number and the part that points down.
+  [[nodiscard]] std::string attitude_name(long long place) const;
+  bool numbered_attitudes = false;  ///< the listed ones are a box's 26
   /// Puts the numbers of a point into a scene.
   void put_point(const std::vector<double>& values, Scene& into) const;
   /// The report without rows.  Equal for equal sweeps; a mesh and lists of attitudes are in it by digests of their

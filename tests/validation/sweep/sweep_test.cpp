@@ -294,6 +294,51 @@ BOOST_AUTO_TEST_CASE(attitudes_drawn_depend_on_seed_and_scene_alone_and_leave_ot
   BOOST_TEST(values_of(many, 5)[0] == values_of(numbers, 5)[0]);
 }
 
+BOOST_AUTO_TEST_CASE(attitudes_scatter_about_the_listed_ones_by_normal_turns_about_each_axis) {
+  constexpr int n = 60'000;
+  constexpr double sigma = 0.05;
+  SweepAxis list = read_attitude_axis("drop.attitude", "[1,0,0,0],[0.5,-0.5,0.5,-0.5],[0,0.6,0.8,0]");
+  const std::vector<SweptAttitude> bases = list.attitudes;
+  list.scatter = sigma;
+  const SweepPoints points({list}, n, 1), few({list}, 10, 1), other({list}, n, 2);
+  std::vector<double> parts[3];
+  for (int i = 0; i < n; ++i) {
+    const std::vector<double> q = values_of(points, i);
+    const SweptAttitude& b = bases[static_cast<std::size_t>(i % 3)];
+    BOOST_REQUIRE(points.attitude_of(i) == i % 3);
+    // q b⁻¹ by Hamilton's product: its vector is sin(½|v|) v/|v|.
+    const double w = q[0] * b[0] + q[1] * b[1] + q[2] * b[2] + q[3] * b[3];
+    const double x = -q[0] * b[1] + q[1] * b[0] - q[2] * b[3] + q[3] * b[2];
+    const double y = -q[0] * b[2] + q[2] * b[0] - q[3] * b[1] + q[1] * b[3];
+    const double z = -q[0] * b[3] + q[3] * b[0] - q[1] * b[2] + q[2] * b[1];
+    const double size = std::hypot(x, y, z), scale = 2 * std::atan2(size, w) / size;
+    BOOST_REQUIRE(std::fabs(w * w + size * size - 1) <= 1e-14);
+    const double vector[] = {x * scale, y * scale, z * scale};
+    for (std::size_t k = 0; k < 3; ++k) parts[k].push_back((1 + std::erf(vector[k] / (sigma * std::sqrt(2.0)))) / 2);
+  }
+  for (const std::vector<double>& part : parts) BOOST_TEST(kolmogorov(part) <= allowed_statistic);
+  BOOST_TEST(values_of(points, 7) == values_of(few, 7));
+  BOOST_TEST(values_of(points, 7) != values_of(other, 7));
+  list.scatter = 0;
+  BOOST_TEST(values_of(SweepPoints({list}, 10, 1), 4) == (std::vector<double>{0.5, -0.5, 0.5, -0.5}));
+}
+
+BOOST_AUTO_TEST_CASE(a_point_of_a_grid_has_the_attitude_that_its_numbers_say) {
+  const SweepAxis list = read_attitude_axis("drop.attitude", "[1,0,0,0],[0.5,-0.5,0.5,-0.5],[0,0.6,0.8,0]");
+  const SweepAxis angle = read_grid_axis("b", "1:4:1", false);
+  for (const std::vector<SweepAxis>& axes : {std::vector{list, angle}, {angle, list}, {angle, list, angle}}) {
+    const SweepPoints points(axes);
+    BOOST_TEST(points.attitudes() == 3);
+    const auto place = static_cast<std::ptrdiff_t>(axes[0].is_attitude() ? 0 : 1);
+    for (long long i = 0; i < points.count(); ++i) {
+      const std::vector<double> values = values_of(points, i);
+      const SweptAttitude& its = list.attitudes[static_cast<std::size_t>(points.attitude_of(i))];
+      BOOST_TEST(std::equal(its.begin(), its.end(), values.begin() + place));
+    }
+  }
+  BOOST_TEST(SweepPoints({angle}).attitudes() == 0);
+}
+
 BOOST_AUTO_TEST_CASE(a_list_of_attitudes_is_an_axis_whose_values_are_four_numbers) {
   const SweepAxis list = read_attitude_axis("drop.attitude", "[1,0,0,0],[0.5,-0.5,0.5,-5e-1]");
   BOOST_TEST(list.count == 2);

@@ -497,6 +497,29 @@ class RowsTogether(Folder):
             impacts = self.numbers(self.sweep(*words[2:]), "impulse_normal")
             self.assertAlmostEqual(sum(impacts), row["largest"], delta=1e-12 * row["largest"])
 
+    def test_a_summary_of_attitudes_names_the_worst_of_them_and_its_blow(self):
+        arguments = [os.path.join(CASES, "phone-corner.toml"), "--model", "discrete", "--set", "drop.attitude=26", "--random", "104",
+                     "--scatter", "4"]
+        rows = records(self.sweep(*arguments, "--columns", "hardest,hardest_impulse_normal,hardest_corners"))
+        summary = json.loads(self.sweep(*arguments, "--summary", "--format", "json"))
+        self.assertEqual(len(summary["attitudes"]), 26)
+        largest = {}
+        for row in rows:
+            if row["hardest_impulse_normal"]:
+                place = int(row["index"]) % 26
+                largest[place] = max(largest.get(place, 0), float(row["hardest_impulse_normal"]))
+        found = [one["hardest_impulse_normal"]["largest"] for one in summary["attitudes"]]
+        self.assertEqual(found, sorted(largest.values(), reverse=True))
+        self.assertEqual([int(one["attitude"].split()[0]) - 1 for one in summary["attitudes"]],
+                         sorted(largest, key=lambda place: -largest[place]))
+        corners = {}
+        for row in rows:
+            corners[row["hardest_corners"]] = corners.get(row["hardest_corners"], 0) + 1
+        self.assertEqual(summary["texts"]["hardest_corners"], corners)
+        worst = [row for row in summary["rows"] if row["quantity"] == "hardest_impulse_normal"][0]
+        again = self.numbers(self.sweep(*shlex.split(worst["largest_command"])[2:]), "impulse_normal")
+        self.assertEqual(max(again), worst["largest"])
+
     @unittest.skipUnless(HDF5, "a build without HDF5")
     def test_hdf5_holds_the_numbers_of_csv_bit_for_bit(self):
         import h5py  # pylint: disable=import-outside-toplevel
@@ -538,6 +561,13 @@ class RowsTogether(Folder):
         self.assertIn("no rows", self.refuse(*arguments, "--summary", "--output", self.path("rows.h5")))
         self.assertIn("left out", self.refuse(*arguments, "--format", "csv", "--output", self.path("rows.h5")))
         self.assertIn("--restart", self.refuse(*arguments, "--summary", "--output", self.path("a.txt"), "--restart"))
+        self.assertIn("--random", self.refuse(*arguments, "--scatter", "3"))
+        self.assertIn("drop.attitude", self.refuse(self.scene, "--set", "drop.speed=1:2", "--random", "5", "--scatter", "3"))
+        listed = [self.scene, "--set", "drop.attitude=[1,0,0,0],[0,1,0,0]", "--random", "5"]
+        self.assertIn("--scatter", self.refuse(*listed))
+        for scatter in ("nan", "-1", "181", ""):
+            self.assertIn("--scatter", self.refuse(*listed, "--scatter", scatter))
+        self.assertIn("--scatter", self.refuse(self.scene, "--set", "drop.attitude=uniform", "--random", "5", "--scatter", "3"))
         self.assertEqual(os.listdir(self.folder), ["rod.toml"])
 
 
