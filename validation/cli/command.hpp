@@ -65,6 +65,8 @@ struct Command {
 [[nodiscard]] Command simulate_command();
 [[nodiscard]] Command compare_command();
 [[nodiscard]] Command shock_command();
+[[nodiscard]] Command ground_command();
+[[nodiscard]] Command report_command();
 [[nodiscard]] Command sweep_command();
 [[nodiscard]] Command map_command();
 [[nodiscard]] Command verify_command();

@@ -76,7 +76,9 @@ std::vector<const Key*> flag_keys(Model model) {
   return keys;
 }
 
-/// Of the flags that the command has: some that read a scene for one model have those of the other alone.
+}  // namespace
+
+// Some commands that read a scene for one model have the flags of the other alone.
 std::vector<SceneOverride> overrides_of(const SceneFlags& given) {
   std::vector<SceneOverride> overrides;
   for (const Key* key : flag_keys(given.model)) {
@@ -90,8 +92,6 @@ std::vector<SceneOverride> overrides_of(const SceneFlags& given) {
   }
   return overrides;
 }
-
-}  // namespace
 
 void add_scene_argument(Command& command, std::string& source, bool required) {
   command.add({.name = "SCENE",

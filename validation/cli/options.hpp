@@ -61,6 +61,8 @@ struct SceneFlags {
 void add_scene_argument(Command& command, std::string& source, bool required);
 /// Adds SCENE and the flags of the keys that the model has.
 void add_scene_flags(Command& command, SceneFlags& flags, Model model = Model::continuous);
+/// What was typed, for read_scene().
+[[nodiscard]] std::vector<SceneOverride> overrides_of(const SceneFlags& flags);
 /// @throws BadInput with one line.
 [[nodiscard]] Scene read_scene_flags(const SceneFlags& flags);
 /// For `sequence` and `explain`.  @throws as read_discrete_scene

@@ -27,10 +27,13 @@
 #include "validation/reports/explanation_report.hpp"
 #include "validation/reports/extremes_report.hpp"
 #include "validation/reports/gradient_report.hpp"
+#include "validation/reports/ground_report.hpp"
 #include "validation/reports/measured_report.hpp"
 #include "validation/reports/plan_report.hpp"
 #include "validation/reports/regimes_report.hpp"
 #include "validation/reports/sequence_report.hpp"
+#include "validation/reports/shock_history.hpp"
+#include "validation/reports/shock_pulses.hpp"
 #include "validation/reports/shock_report.hpp"
 #include "validation/reports/simulation_report.hpp"
 #include "validation/reports/tradeoff_report.hpp"
@@ -257,6 +260,9 @@ const std::vector<ColumnsOf>& all_columns() {
                                           {"compare", comparison_columns},
                                           {"shock", shock_columns},
                                           {"shock-spectrum", spectrum_columns},
+                                          {"shock-pulse", pulse_columns},
+                                          {"shock-history", [] { return shock_history_columns({"probe"}); }},
+                                          {"ground", ground_columns},
                                           {"sweep", sweep_all},
                                           {"map", map_columns},
                                           {"verify", verify_columns},

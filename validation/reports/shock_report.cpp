@@ -9,6 +9,8 @@
 
 #include "validation/output/number.hpp"
 #include "validation/record/names.hpp"
+#include "validation/reports/shock_history.hpp"
+#include "validation/reports/shock_pulses.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/probes.hpp"
 #include "validation/scene/scene_value.hpp"
@@ -17,7 +19,6 @@
 namespace clatter::validation::inline reports {
 namespace {
 
-constexpr double standard_gravity = 9.80665;  ///< [m/s²], of "g" as a unit
 constexpr const char* axis_names[] = {"x", "y", "z"};
 
 /// A number of a row, of either model.
@@ -307,15 +308,16 @@ std::string severity_words(const ShockRun& run, std::size_t probe, double severi
                      significant(high, 3));
 }
 
-std::vector<std::string> notes_of(const ShockRun& run, bool spectrum, std::optional<double> severity) {
+std::vector<std::string> notes_of(const ShockRun& run, const ShockView& view) {
   std::vector<std::string> notes;
+  if (view.rows == ShockRows::pulses || view.part) notes = pulse_notes(view.part);
   if (run.continuous) {
     notes.emplace_back(
         "peaks are properties of the floor: ∂ ln(peak)/∂ ln k_G, c_G/k_G held, stands beside them; |ΔV| hardly is");
   }
   for (std::size_t probe = 0; probe < run.probes.size(); ++probe) {
-    if (!spectrum) add_spectrum_notes(run, probe, notes);
-    if (severity) notes.push_back(severity_words(run, probe, *severity));
+    if (view.rows == ShockRows::impacts) add_spectrum_notes(run, probe, notes);
+    if (view.severity) notes.push_back(severity_words(run, probe, *view.severity));
   }
   if (!run.discrete_reason.empty()) notes.push_back("no discrete model beside it: " + run.discrete_reason);
   if (run.continuous) {
@@ -368,6 +370,29 @@ Value envelopes_value(const ShockRun& run) {
                                     {"acceleration_over_omega", run.envelopes[i]->acceleration_over_omega}});
   }
   return list;
+}
+
+/// How the model that comes first ended.
+void add_outcome(const ShockRun& run, Report& report) {
+  if (run.continuous) {
+    const numeric::Simulation& simulation = run.continuous->planned.run;
+    report.fields["outcome"] = outcome_name(simulation.outcome);
+    report.fields["message"] = simulation.message;
+    report.fields["warnings"] = run.continuous->planned.warnings;
+    report.fields["shortfall"] = text_or_nothing(shortfall(run.scene, run.continuous->planned));
+  } else {
+    report.fields["outcome"] = run.discrete_run->outcome;
+    report.fields["message"] = run.discrete_run->message;
+    report.fields["shortfall"] = text_or_nothing(shortfall(run.scene, *run.discrete_run));
+  }
+}
+
+/// A straight line at the severity.
+void add_severity(double severity, PicturePanel& panel) {
+  panel.columns.push_back({"severity", "m/s", "severity"});
+  for (auto& row : panel.rows) row.push_back(severity);
+  panel.plot.curves.push_back(
+      {.x = "frequency", .y = "severity", .legend = "severity", .style = FigureCurve::Style::dotted});
 }
 
 std::string probe_words(const std::vector<Probe>& probes) {
@@ -427,17 +452,25 @@ std::vector<Column> spectrum_columns() {
   return columns;
 }
 
-Report shock_report(const ShockRun& run, bool spectrum, std::optional<double> severity) {
+Report shock_report(const ShockRun& run, const ShockView& view) {
+  constexpr const char* titles[] = {"what each impact does to points of the body",
+                                    "response spectra at points of the body",
+                                    "each impact as a test pulse, at points of the body"};
   const bool continuous = run.continuous.has_value();
-  Report report = begun_report(
-      "shock", spectrum ? "response spectra at points of the body" : "what each impact does to points of the body");
+  Report report = begun_report("shock", titles[static_cast<std::size_t>(view.rows)]);
   const Model model = continuous ? Model::continuous : Model::discrete;
   report.head = scene_head(run.scene, model);
   report.head.push_back(probe_words(run.probes));
-  report.notes = notes_of(run, spectrum, severity);
+  report.notes = notes_of(run, view);
   const Grid impacts = impacts_of(run);
-  report.grid = spectrum ? spectra_of(run) : impacts;
-  if (spectrum) report.digest = digest_of(run);
+  const Grid pulses = pulse_grid(run, view.part);
+  report.grid = view.rows == ShockRows::spectra ? spectra_of(run) : view.rows == ShockRows::pulses ? pulses : impacts;
+  if (view.rows == ShockRows::spectra) report.digest = digest_of(run);
+  if (view.rate) {
+    report.grid = shock_history_grid(run, *view.rate);
+    report.digest.reset();
+    report.fields["history"] = row_objects(report.grid);
+  }
   report.fields["model"] = continuous ? "continuous" : "discrete";
   report.fields["scene"] = scene_value(run.scene, model);
   report.fields["scene"][probe_table] = probe_fields(run.probes);
@@ -445,22 +478,13 @@ Report shock_report(const ShockRun& run, bool spectrum, std::optional<double> se
   report.fields["impacts"] = row_objects(impacts);
   report.fields["spectra"] = spectra_value(run);
   report.fields["envelopes"] = envelopes_value(run);
-  if (continuous) {
-    const numeric::Simulation& simulation = run.continuous->planned.run;
-    report.fields["outcome"] = outcome_name(simulation.outcome);
-    report.fields["message"] = simulation.message;
-    report.fields["warnings"] = run.continuous->planned.warnings;
-    report.fields["shortfall"] = text_or_nothing(shortfall(run.scene, run.continuous->planned));
-  } else {
-    report.fields["outcome"] = run.discrete_run->outcome;
-    report.fields["message"] = run.discrete_run->message;
-    report.fields["shortfall"] = text_or_nothing(shortfall(run.scene, *run.discrete_run));
-  }
+  report.fields["pulses"] = pulse_fields(pulses, view.part);
+  add_outcome(run, report);
   report.fields["discrete_reason"] = text_or_nothing(run.discrete_reason);
   return report;
 }
 
-Picture shock_picture(const ShockRun& run, std::optional<double> severity) {
+Picture shock_picture(const ShockRun& run, const ShockView& view) {
   Picture picture{.what = fmt::format("pseudo-velocity over natural frequency, {}", quality_words(run.request.quality)),
                   .scene = run.scene.summary(run.continuous ? Model::continuous : Model::discrete),
                   .panels = {}};
@@ -487,15 +511,13 @@ Picture shock_picture(const ShockRun& run, std::optional<double> severity) {
                                    .legend = legend,
                                    .style = is_other ? FigureCurve::Style::dashed : FigureCurve::Style::line});
     }
-    if (severity) {
-      panel.columns.push_back({"severity", "m/s", "severity"});
-      for (auto& row : panel.rows) row.push_back(*severity);
-      panel.plot.curves.push_back(
-          {.x = "frequency", .y = "severity", .legend = "severity", .style = FigureCurve::Style::dotted});
-    }
+    if (view.severity) add_severity(*view.severity, panel);
     picture.panels.push_back(std::move(panel));
   }
   if (!picture.panels.empty()) picture.panels.back().plot.x_label = "natural frequency [Hz]";
+  if (view.part) {
+    if (auto panel = boundary_panel(run, *view.part)) picture.panels.push_back(std::move(*panel));
+  }
   return picture;
 }
 

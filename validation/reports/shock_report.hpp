@@ -7,6 +7,7 @@
 
 #include "validation/figures/picture.hpp"
 #include "validation/output/report.hpp"
+#include "validation/shock/damage_boundary.hpp"
 #include "validation/shock/shock_run.hpp"
 
 namespace clatter::validation::inline reports {
@@ -16,10 +17,17 @@ namespace clatter::validation::inline reports {
 /// A row for each frequency of each spectrum.
 [[nodiscard]] std::vector<Column> spectrum_columns();
 
-/// @param spectrum  rows are those of the spectra in place of the impacts; JSON has both
-/// @param severity  pseudo-velocity with which those of the spectra are compared [m/s]
-[[nodiscard]] Report shock_report(const ShockRun& run, bool spectrum, std::optional<double> severity);
-/// The spectra of pseudo-velocity, a panel for each probe.
-[[nodiscard]] Picture shock_picture(const ShockRun& run, std::optional<double> severity);
+enum class ShockRows { impacts, spectra, pulses };
+
+/// What is shown of a run.
+struct ShockView {
+  ShockRows rows = ShockRows::impacts;  ///< of the table; JSON has all
+  std::optional<double> severity{};     ///< pseudo-velocity with which those of the spectra are compared [m/s]
+  std::optional<FragilePart> part{};    ///< of which the damage boundary is shown
+  std::optional<double> rate{};         ///< the table is the history at this rate instead [Hz]
+};
+[[nodiscard]] Report shock_report(const ShockRun& run, const ShockView& view);
+/// The spectra of pseudo-velocity, a panel for each probe, and the damage boundary.
+[[nodiscard]] Picture shock_picture(const ShockRun& run, const ShockView& view);
 
 }  // namespace clatter::validation::inline reports

@@ -25,6 +25,8 @@ COMMANDS = {
     "compare": (["compare", PHONE, "--impacts", "1"], "impacts"),
     "shock": (["shock", PHONE, "--impacts", "1", "--probe", "tip:0.05,0,0", "--no-sensitivity", "--frequencies",
                "100:1000:3"], "impacts"),
+    "ground": (["ground", "--body", "box", "--size", "0.1x0.06x0.02", "--angle", "0", "--measured-e", "1",
+                "--indentation", "1e-6"], "solutions"),
     "sweep": (["sweep", PHONE, "--model", "discrete", "--set", "drop.angle_deg=10:50:20"], "rows"),
     "verify": (["verify", "--only", "E1"], "checks"),
     "plan": (["plan", PHONE, "--impacts", "1"], "rungs"),

@@ -1,15 +1,19 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`clatter shock` as its users meet it: probes, tables, JSON, bad input."""
+"""`clatter shock` and `clatter ground` as their users meet them: probes, tables, JSON, bad input."""
 
+import csv
+import io
 import json
 import math
+import re
 import unittest
 
 from run_folder import EmptyFolder, records, run
 
 PROBE = ("--probe", "camera:0.048,0.016,0.0095")
 FEW = ("--impacts", "2", "--frequencies", "100:3000:4", "--no-sensitivity")
+FLAT = ("--body", "box", "--size", "0.1057x0.0439x0.0191", "--mass", "0.088", "--angle", "0", "--speed", "2")
 
 BAD = {
     "no probe": (("phone-damped",), "--probe: required"),
@@ -28,6 +32,15 @@ BAD = {
     "a continuous model without a ground": (("rod-10", *PROBE, "--model", "continuos"), "continuous"),
     "a history": (("phone-damped", *PROBE, "--history", "x.csv"), "--history"),
 }
+BAD.update({
+    "a part without its fragility": (("phone-damped", *PROBE, "--part", "200"), "--part 200: must be"),
+    "a part of 0 Hz": (("phone-damped", *PROBE, "--part", "0:100"), "--part"),
+    "a part that is nan": (("phone-damped", *PROBE, "--part", "200:nan"), "--part"),
+    "pulses without peaks": (("phone-damped", "--model", "discrete", *PROBE, "--rows", "pulse"), "--rows pulse"),
+    "a rate without forces": (("phone-damped", "--model", "discrete", *PROBE, "--rate", "1e5"), "--rate"),
+    "a rate and rows": (("phone-damped", *PROBE, "--rate", "1e5", "--rows", "pulse"), "--rate"),
+    "a rate of 0": (("phone-damped", *PROBE, "--rate", "0"), "--rate"),
+})
 BAD_FILES = {
     "a probe table": ("[probe]\nname = 'a'\n", "1:", "[[probe]]"),
     "an unknown key": ("[[probe]]\nname = 'a'\nplce = [1, 2, 3]\n", "3:1", "probe.place"),
@@ -36,6 +49,20 @@ BAD_FILES = {
     "a name with a blank": ("[[probe]]\nname = 'a b'\nplace = [1, 2, 3]\n", "2:", "letters"),
     "two of one name": ("[[probe]]\nname = 'a'\nplace = [1, 2, 3]\n[[probe]]\nname = 'a'\nplace = [1, 2, 3]\n", "5:", "another name"),
     "an empty table": ("[[probe]]\n[[probe]]\nname = 'a'\nplace = [1, 2, 3]\n", "1:", "name and place"),
+}
+BAD_GROUND = {
+    "one number": ((*FLAT, "--measured-e", "0.5"), "two of"),
+    "three numbers": ((*FLAT, "--measured-e", "0.5", "--contact-time", "1e-3", "--peak-force", "9"), "two of"),
+    "a restitution above 1": ((*FLAT, "--measured-e", "1.5", "--contact-time", "1e-3"), "--measured-e"),
+    "a time of 0": ((*FLAT, "--measured-e", "0.5", "--contact-time", "0"), "--contact-time"),
+    "a stiffness": ((*FLAT, "--stiffness", "1e9", "--measured-e", "0.5", "--contact-time", "1e-3"), "--stiffness"),
+    "a modulus alone": (("--modulus", "1e6"), "--poisson"),
+    "a floor without a size": (("--floor", "steel"), "--floor"),
+    "an unknown floor": (("--floor", "lava", "--footprint", "1e-3"), "--floor"),
+    "a floor and a modulus": (("--floor", "steel", "--modulus", "1e6", "--footprint", "1"), "--floor"),
+    "a size alone": (("--thickness", "1"), "--modulus"),
+    "a material and a measurement": ((*FLAT, "--measured-e", "0.5", "--floor", "steel"), "exclude"),
+    "a layer and a footprint": (("--modulus", "1e6", "--poisson", "0.3", "--thickness", "1", "--footprint", "1"), "--modulus"),
 }
 
 
@@ -120,6 +147,122 @@ class Shock(EmptyFolder):
                 self.assertEqual(len(found.stderr.splitlines()), 1)
                 self.assertIn(words, found.stderr)
                 self.assertIn(f"{path}:{place}" if place else path, found.stderr)
+
+
+class PulsesAndHistory(unittest.TestCase):
+    def test_a_blow_as_a_test_pulse_has_its_change_of_velocity_and_peak(self):
+        found = shock("phone-damped", *PROBE, *FEW, "--rows", "pulse", "--part", "300:500")
+        blows, impacts = found["pulses"]["blows"], found["impacts"]
+        self.assertEqual(len(blows), len(impacts))
+        for blow, impact in zip(blows, impacts):
+            self.assertEqual((blow["delta_v"], blow["peak_g"]), (impact["delta_v"], impact["peak_g"]))
+            self.assertAlmostEqual(2 * 9.80665 * blow["peak_g"] * blow["pulse_duration"] / math.pi / blow["delta_v"], 1, delta=1e-13)
+            height = blow["delta_v"] ** 2 / (2 * 9.80665)
+            self.assertAlmostEqual(blow["height_without_rebound"] / height, 1, delta=1e-13)
+            self.assertAlmostEqual(blow["height"] / height * (1 + blow["restitution"]) ** 2, 1, delta=1e-13)
+        boundary = found["pulses"]["damage_boundary"]
+        critical = 500 * 9.80665 / (2 * math.pi * 300)
+        self.assertAlmostEqual(boundary["rectangle"]["critical_velocity"] / critical, 1, delta=1e-9)
+        self.assertAlmostEqual(boundary["rectangle"]["corner_velocity"] / (math.pi / 2 * critical), 1, delta=1e-9)
+        self.assertAlmostEqual(boundary["half_sine"]["critical_acceleration"] * 1.768457654 / (500 * 9.80665), 1, delta=1e-9)
+
+    def test_a_history_at_a_rate_has_the_impulse_the_peaks_and_the_depths_of_the_run(self):
+        arguments = ("phone-damped", *PROBE, *FEW)
+        rows = records(run("shock", *arguments, "--rate", "5e5", "--format", "csv", "--bare").stdout)
+        impacts = shock(*arguments)["impacts"]
+        peaks = [row for row in rows if row["mark"] == "peak of camera"]
+        self.assertEqual(len(peaks), 2)
+        for peak, impact in zip(peaks, impacts):
+            self.assertAlmostEqual(float(peak["camera"]) / impact["peak"], 1, delta=1e-6)
+            for axis in "xyz":
+                self.assertAlmostEqual(float(peak[f"camera_{axis}"]), impact[f"peak_{axis}"], delta=1e-6 * impact["peak"])
+        simulated = json.loads(run("simulate", "phone-damped", "--impacts", "2", "--format", "json").stdout)["impacts"]
+        uniform = [row for row in rows if not row["mark"]]
+        for impact in simulated:
+            mine = [row for row in uniform if int(row["impact"]) == impact["n"]]
+            impulse = sum(float(row["force_z"]) for row in mine) / 5e5
+            self.assertAlmostEqual(impulse / impact["impulse"][2], 1, delta=1e-5)
+            largest = max(float(row["force_z"]) for row in mine)
+            self.assertAlmostEqual(largest / impact["peak_force"], 1, delta=1e-4)
+        # The deepest point bears (k_G + c_G δ̇) δ: neither it nor the force acts in flight.
+        for row in uniform:
+            if float(row["force_z"]) > 1e-6:
+                self.assertGreater(float(row["pressure"]), 0, row)
+                self.assertGreater(float(row["indentation"]), 0, row)
+            if float(row["indentation"]) < 0:
+                self.assertEqual((float(row["pressure"]), float(row["force_z"])), (0, 0), row)
+
+    def test_a_flat_elastic_landing_presses_k_times_its_depth_and_acts_below_the_centre(self):
+        rows = records(run("shock", "--body", "box", "--size", "0.1x0.06x0.02", "--angle", "0", "--stiffness", "1e9", "--area", "projected",
+                           "--impacts", "1", "--probe", "tip:0.05,0,0", "--no-sensitivity", "--frequencies", "100:200:2", "--rate", "1e6",
+                           "--format", "csv", "--bare").stdout)
+        pushed = [row for row in rows if row["action_x"] and float(row["force_z"]) > 1]
+        self.assertGreater(len(pushed), 10)
+        for row in pushed:
+            self.assertAlmostEqual(float(row["pressure"]) / (1e9 * float(row["indentation"])), 1, delta=1e-12)
+            self.assertAlmostEqual(float(row["force_z"]) / (0.006 * float(row["pressure"])), 1, delta=1e-6)
+            self.assertLess(abs(float(row["action_x"])) + abs(float(row["action_y"])), 1e-9)
+            self.assertAlmostEqual(float(row["tip"]) / float(row["force_z"]), 1, delta=1e-9)  # 1 kg
+
+
+class Handout(EmptyFolder):
+    def test_the_page_has_every_part_in_itself_and_asks_for_nothing(self):
+        path = self.path("phone.html")
+        found = run("report", "phone-damped", *FEW, *PROBE, "--part", "300:500", "--drops", "26", "--output", path)
+        self.assertEqual((found.returncode, found.stdout), (0, ""), found.stderr)
+        with open(path, encoding="utf-8") as file:
+            page = file.read()
+        for part in ("Assumptions", "continuous model", "discrete model", "Shock at points", "Worst attitudes", "Accuracy",
+                     "leaves out", "clatter shock phone-damped"):
+            self.assertIn(part, page)
+        self.assertGreaterEqual(page.count("<svg"), 4)
+        links = set(re.findall(r"(?:https?:)?//[^\s\"'<>]+", page))
+        self.assertLessEqual(links, {"http://www.w3.org/2000/svg", "http://www.w3.org/1999/xlink"})
+        self.assertNotRegex(page, r"<script|<link rel=\"style|@import|url\(http")
+
+    def test_without_a_file_nothing_is_written(self):
+        found = run("report", "phone-damped")
+        self.assertEqual((found.returncode, found.stdout), (2, ""))
+        self.assertIn("--output", found.stderr)
+
+
+class Ground(unittest.TestCase):
+    def test_e_and_contact_time_give_a_ground_that_gives_them_back(self):
+        found = json.loads(run("ground", *FLAT, "--measured-e", "0.5", "--contact-time", "5e-4", "--format", "json").stdout)
+        self.assertEqual(len(found["solutions"]), 1)
+        ground = found["solutions"][0]
+        again = json.loads(run("simulate", *FLAT, "--stiffness", repr(ground["stiffness"]), "--damping",
+                               repr(ground["damping"]), "--impacts", "1", "--digits", "11", "--format", "json").stdout)
+        impact = again["impacts"][0]
+        self.assertAlmostEqual(impact["restitution"], 0.5, delta=1e-8)
+        self.assertAlmostEqual(impact["duration"] / 5e-4, 1, delta=1e-8)
+
+    def test_numbers_that_no_ground_gives_are_status_3(self):
+        found = run("ground", *FLAT, "--contact-time", "5e-4", "--peak-force", "1")
+        self.assertEqual(found.returncode, 3)
+        self.assertIn("no ground gives both", found.stdout)
+
+    def test_a_layer_has_its_textbook_stiffness(self):
+        found = run("ground", "--modulus", "3e6", "--poisson", "0.3", "--thickness", "0.01", "--format", "csv", "--bare")
+        row = next(csv.DictReader(io.StringIO(found.stdout)))
+        self.assertAlmostEqual(float(row["stiffness"]) / (3e6 * 0.7 / (1.3 * 0.4 * 0.01)), 1, delta=1e-14)
+
+    def test_a_named_floor_has_a_range_and_its_source(self):
+        found = json.loads(run("ground", "--floor", "concrete", "--footprint", "0.004", "--format", "json").stdout)
+        radius = math.sqrt(0.004 / math.pi)
+        for row in found["solutions"]:
+            stiffness = 2 * row["modulus"] / ((1 - row["poisson"] ** 2) * math.pi * radius)
+            self.assertAlmostEqual(row["stiffness"] / stiffness, 1, delta=1e-14)
+        self.assertLess(found["solutions"][0]["stiffness"], found["solutions"][1]["stiffness"])
+        self.assertIn("doi", found["source"])
+
+    def test_bad_input_is_one_line_and_status_2(self):
+        for name, (arguments, words) in BAD_GROUND.items():
+            with self.subTest(name):
+                found = run("ground", *arguments)
+                self.assertEqual((found.returncode, found.stdout), (2, ""))
+                self.assertEqual(len(found.stderr.splitlines()), 1)
+                self.assertIn(words, found.stderr)
 
 
 if __name__ == "__main__":

@@ -231,6 +231,17 @@ std::vector<double> ramp_invariant(const std::vector<double>& s, double h, doubl
   return response;
 }
 
+/// The largest size, between the samples that surround it by a parabola, which is of higher order than the filter.
+double top_of(const std::vector<double>& samples) {
+  std::size_t at = 1;
+  for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
+    if (std::fabs(samples[i]) > std::fabs(samples[at])) at = i;
+  }
+  const double before = samples[at - 1], middle = samples[at], after = samples[at + 1];
+  const double slope = (after - before) / 2, bend = before - 2 * middle + after;
+  return std::fabs(middle - slope * slope / (2 * bend));
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(a_ramp_invariant_filter_agrees_at_second_order) {
@@ -238,15 +249,14 @@ BOOST_AUTO_TEST_CASE(a_ramp_invariant_filter_agrees_at_second_order) {
   for (const double f : {0.4, 1.1, 3.3}) {
     const double exact = response(pieces, f, 10).whole().acceleration.maximax();
     double last = 0;
-    for (const int n : {4000, 8000, 16000}) {
+    for (const int n : {1000, 2000, 4000}) {  // more samples only show the rounding of 1 − d, ε/(ω h)²
       std::vector<double> samples;
       const double h = 1.0 / n;
       for (int i = 0; i <= static_cast<int>(n * (1 + 1 / f)); ++i) samples.push_back(i < n ? std::sin(pi * i * h) : 0);
-      double filtered = 0;
-      for (const double value : ramp_invariant(samples, h, f, 10)) filtered = std::max(filtered, std::fabs(value));
-      const double off = std::fabs(filtered - exact);
-      // Samples miss the top by at most (ω h)²/8 of it, and lines the sine by (π h)²/8.
-      BOOST_TEST(off < exact * (std::pow(2 * pi * f * h, 2) + std::pow(pi * h, 2)) / 4);
+      const double off = std::fabs(top_of(ramp_invariant(samples, h, f, 10)) - exact);
+      // Lines miss the sine by (π h)²/8.
+      BOOST_TEST(off < exact * std::pow(pi * h, 2) / 4);
+      if (last > 0) BOOST_TEST(std::fabs(std::log2(last / off) - 2) < 0.05, "order " << std::log2(last / off));
       last = off;
     }
     BOOST_TEST(last < 1e-6);

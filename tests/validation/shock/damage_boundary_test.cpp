@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The damage boundary against its closed forms and against an integration of the part's equation of motion.
+#include "validation/shock/damage_boundary.hpp"
+
+#include <fmt/format.h>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+using namespace clatter::validation;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double closed_form = 1e-9;  // what is claimed of corners
+constexpr double by_steps = 1e-6;     // of 4000 steps of fourth order in each period and in the pulse
+
+/// Largest |ω² z| of z̈ + ω² z = −s, by Runge and Kutta, over the pulse of length 1 and two periods after it.
+double stepped(PulseShape shape, double turns) {
+  const double omega = 2 * pi * turns, end = 1 + 2 / turns;
+  const double step = 1 / std::ceil(4000 * std::max(1.0, turns));
+  const auto push = [&](double t) {
+    if (t > 1 + 1e-12) return 0.0;
+    return shape == PulseShape::rectangle ? 1.0 : std::sin(pi * t);
+  };
+  double z = 0, v = 0, largest = 0;
+  for (long i = 0; static_cast<double>(i) * step < end; ++i) {
+    const double t = static_cast<double>(i) * step;
+    // A step's pulse is that of its own side of the end.
+    const bool after = t > 1 - 0.5 * step;
+    const auto pull = [&](double at, double of) { return -(after ? 0 : push(at)) - omega * omega * of; };
+    const double k1 = pull(t, z), k2 = pull(t + step / 2, z + step / 2 * v);
+    const double k3 = pull(t + step / 2, z + step / 2 * v + step * step / 4 * k1);
+    const double k4 = pull(t + step, z + step * v + step * step / 2 * k2);
+    z += step * v + step * step / 6 * (k1 + k2 + k3);
+    v += step / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+    largest = std::max(largest, std::fabs(omega * omega * z));
+  }
+  return largest;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(responses_to_both_pulses_are_those_of_the_equation_of_motion) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-2, 1);
+  for (int i = 0; i < 40; ++i) {
+    const double turns = std::pow(10, uniform(random));
+    for (const PulseShape shape : {PulseShape::rectangle, PulseShape::half_sine}) {
+      BOOST_TEST(std::fabs(pulse_response(shape, turns) / stepped(shape, turns) - 1) < by_steps,
+                 "f T = " << turns << ": " << pulse_response(shape, turns) << ", by steps " << stepped(shape, turns));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_half_sine_is_smooth_where_its_closed_form_is_zero_over_zero) {
+  // f T = 1/2: the residual is π/2.
+  for (const double off : {0.0, 1e-12, -1e-9, 1e-7, -1e-5}) {
+    BOOST_TEST(std::fabs(pulse_response(PulseShape::half_sine, 0.5 * (1 + off)) - pi / 2) < 1e-9 + std::fabs(off));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_corner_of_the_boundary_lies_where_astm_has_it) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> uniform(0, 3);
+  for (int i = 0; i < 100; ++i) {
+    const FragilePart part{std::pow(10, uniform(random)), std::pow(10, 1 + uniform(random))};
+    const double omega = 2 * pi * part.frequency;
+    const DamageBoundary rectangle = damage_boundary(part, PulseShape::rectangle);
+    BOOST_TEST(std::fabs(rectangle.critical_velocity * omega / part.fragility - 1) < closed_form);
+    BOOST_TEST(std::fabs(rectangle.critical_acceleration * 2 / part.fragility - 1) < closed_form);
+    BOOST_TEST(std::fabs(rectangle.corner_velocity / (pi / 2 * rectangle.critical_velocity) - 1) < closed_form);
+    const DamageBoundary half_sine = damage_boundary(part, PulseShape::half_sine);
+    BOOST_TEST(std::fabs(half_sine.critical_acceleration * 1.768457654 / part.fragility - 1) < closed_form);
+    // On the boundary, at both its ends and at its corner, the margin is 1; off it, it is not.
+    for (const PulseShape shape : {PulseShape::rectangle, PulseShape::half_sine}) {
+      const DamageBoundary at = damage_boundary(part, shape);
+      BOOST_TEST(std::fabs(margin(part, shape, at.corner_velocity, at.critical_acceleration) - 1) < closed_form);
+      BOOST_TEST(std::fabs(margin(part, shape, at.critical_velocity, 1e6 * part.fragility) - 1) < closed_form);
+      BOOST_TEST(margin(part, shape, 0.99 * at.critical_velocity, 1e6 * part.fragility) > 1);
+      BOOST_TEST(margin(part, shape, 10 * at.corner_velocity, 0.99 * at.critical_acceleration) > 1);
+      BOOST_TEST(margin(part, shape, 1.01 * at.corner_velocity, 1.01 * at.critical_acceleration) < 1);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_ladder_of_jesd22_b110_has_its_printed_digits) {
+  const char* const printed[] = {"H 5.432 1.504", "B 4.682 1.118", "A 3.122 0.497", "C 1.249 0.079"};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const ServiceCondition& one = service_conditions()[i];
+    BOOST_TEST(fmt::format("{} {:.3f} {:.3f}", one.name, one.pulse.velocity(), one.pulse.height(0)) == printed[i]);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_equivalent_pulse_has_the_blow_s_numbers_and_the_fall_its_speed) {
+  const TestPulse pulse = equivalent_pulse(7, 12'000);
+  BOOST_TEST(std::fabs(pulse.velocity() / 7 - 1) < 1e-15);
+  // A fall from h ends with √(2 g h), and (1 + e) times that is the change of velocity.
+  for (const double e : {0.0, 0.5, 1.0}) {
+    BOOST_TEST(std::fabs((1 + e) * std::sqrt(2 * standard_gravity * pulse.height(e)) / 7 - 1) < 1e-14);
+  }
+  BOOST_TEST(covering_condition(4, 10'000) == 'B');
+  BOOST_TEST(covering_condition(4, 20'000) == 'H');
+  BOOST_TEST(covering_condition(0.1, 10) == 'C');
+  BOOST_TEST(covering_condition(6, 10) == '-');
+}

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <memory>
+#include <stdexcept>
+
+#include "validation/cli/command.hpp"
+#include "validation/cli/options.hpp"
+#include "validation/output/bad_input.hpp"
+#include "validation/reports/ground_report.hpp"
+#include "validation/scene/failure.hpp"
+#include "validation/shock/damage_boundary.hpp"
+
+namespace clatter::validation::inline cli {
+namespace {
+
+struct GroundInput {
+  SceneFlags scene;
+  std::optional<std::string> restitution, time, force, indentation;
+  std::optional<std::string> modulus, poisson, floor, thickness, footprint;
+  OutputTexts output;
+};
+
+/// The flags of measured numbers.
+struct MeasureFlag {
+  const char* flag;
+  std::optional<std::string> GroundInput::*text;
+  Range range;
+};
+constexpr MeasureFlag measure_flags[] = {
+    {"--measured-e", &GroundInput::restitution, {0, 1, true, "greater than 0 and at most 1"}},
+    {"--contact-time", &GroundInput::time, positive_number},
+    {"--peak-force", &GroundInput::force, positive_number},
+    {"--indentation", &GroundInput::indentation, positive_number}};
+
+std::vector<MeasuredNumber> measured_of(const GroundInput& input) {
+  std::vector<MeasuredNumber> measured;
+  for (std::size_t i = 0; i < measure_count; ++i) {
+    const MeasureFlag& flag = measure_flags[i];
+    const std::optional<std::string>& text = input.*flag.text;
+    if (text) measured.push_back({static_cast<DropMeasure>(i), read_number_option(flag.flag, *text, flag.range)});
+  }
+  return measured;
+}
+
+/// Of the material that was given or named: one, or the ends of its range.
+std::vector<MaterialGround> materials_of(const GroundInput& input) {
+  if (input.floor) {
+    if (input.modulus || input.poisson) throw BadInput("--floor: excludes --modulus and --poisson; it has its own");
+    std::vector<std::string> names;
+    for (const Floor& floor : floors()) names.emplace_back(floor.name);
+    const Floor& floor = floors()[read_name_option("--floor", *input.floor, names)];
+    return {{floor.least_modulus, floor.least_poisson, 0}, {floor.largest_modulus, floor.largest_poisson, 0}};
+  }
+  if (!input.modulus) throw BadInput("--modulus: required with --poisson, --thickness and --footprint, or --floor");
+  if (!input.poisson) throw BadInput("--poisson: required with --modulus");
+  return {{read_number_option("--modulus", *input.modulus, positive_number),
+           input.thickness ? read_number_option("--poisson", *input.poisson, {0, 0.4999, false, "from 0 to 0.4999"})
+                           : read_number_option("--poisson", *input.poisson, {0, 0.5, false, "from 0 to 0.5"}),
+           0}};
+}
+
+Report material_report_of(const GroundInput& input) {
+  std::vector<MaterialGround> grounds = materials_of(input);
+  if (input.thickness.has_value() == input.footprint.has_value()) {
+    throw BadInput(fmt::format("{}: takes --thickness H of a layer, or --footprint A on a half-space; give one of them",
+                               input.floor ? "--floor" : "--modulus"));
+  }
+  const double size = input.thickness ? read_number_option("--thickness", *input.thickness, positive_number)
+                                      : read_number_option("--footprint", *input.footprint, positive_number);
+  for (MaterialGround& ground : grounds) {
+    ground.stiffness = input.thickness ? layer_stiffness(ground.modulus, ground.poisson, size)
+                                       : half_space_stiffness(ground.modulus, ground.poisson, size);
+  }
+  std::string source;
+  for (const Floor& floor : floors()) {
+    if (input.floor == floor.name) source = floor.source;
+  }
+  return material_report(grounds,
+                         input.thickness
+                             ? "a confined layer, E (1 - ν)/((1 + ν)(1 - 2 ν) h): wide beside its thickness, bonded to "
+                               "a rigid base, unable to bulge"
+                             : "a half-space under a rigid flat footprint, as under a disc of its area, 2 E/((1 - ν²) "
+                               "π a): the pressure of a real one is least in the middle and grows towards the rim",
+                         source);
+}
+
+/// The scene takes any stiffness: that is sought.
+Scene scene_of(const GroundInput& input) {
+  SceneFlags flags = input.scene;
+  for (const char* const flag : {"--stiffness", "--damping"}) {
+    if (is_given(flags, flag)) throw BadInput(fmt::format("{}: must be left out: it is what is sought", flag));
+  }
+  flags.texts.at("--stiffness") = "1e9";
+  Scene scene = read_scene_flags(flags);
+  scene.world.ground.damping = 0;
+  if (scene.sweep) throw BadInput(fmt::format("{}: sweep: ground takes a scene that sweeps nothing", scene.path));
+  return scene;
+}
+
+int run_ground(const GroundInput& input) {
+  const OutputChoice choice = read_output(input.output);
+  const std::vector<MeasuredNumber> measured = measured_of(input);
+  if (input.modulus || input.poisson || input.floor || input.thickness || input.footprint) {
+    if (!measured.empty()) throw BadInput("--measured-e and the like: exclude a material; give one of them, not both");
+    const Report report = material_report_of(input);
+    check_files(choice);
+    write_report(choice, report);
+    return 0;
+  }
+  if (measured.size() != 2) {
+    throw BadInput(
+        fmt::format("two of --measured-e, --contact-time, --peak-force and --indentation must be given, not "
+                    "{}; or --modulus of a material, or --floor",
+                    measured.size()));
+  }
+  const Scene scene = scene_of(input);
+  check_files(choice);
+  const numeric::Body body = scene.make_body();
+  // Where the scene has no gravity the body is weighed elsewhere.
+  const double gravity = scene.world.gravity > 0 ? scene.world.gravity : standard_gravity;
+  const MeasuredDrop drop{&body, scene.world, scene.start(body), body.mass() * gravity};
+  const GroundFit fit = fit_ground(drop, measured[0], measured[1]);
+  write_report(choice, ground_report(scene, measured[0], measured[1], fit));
+  if (!fit.solutions.empty()) return 0;
+  say("no ground gives both numbers");
+  return exit_status(FailureKind::not_computed);
+}
+
+}  // namespace
+
+Command ground_command() {
+  auto input = std::make_shared<GroundInput>();
+  const char *const measured = "Measured: two of them", *const material = "Or the material";
+  Command command{.name = "ground", .help = "k_G and c_G from measurements of a drop, or from a layer"};
+  add_scene_flags(command, input->scene);
+  command.add_text("--measured-e", input->restitution, "E", "restitution of the drop's first impact", measured);
+  command.add_text("--contact-time", input->time, "S", "how long that lasts", measured);
+  command.add_text("--peak-force", input->force, "N", "its largest normal force", measured);
+  command.add_text("--indentation", input->indentation, "M", "of the ground under the body at rest", measured);
+  command.add_text("--modulus", input->modulus, "PA", "Young's modulus of the ground", material);
+  command.add_text("--poisson", input->poisson, "NU", "its Poisson's ratio", material);
+  command.add_text("--floor", input->floor, "concrete|steel|asphalt|wood",
+                   "its material by name: published numbers, least and largest", material);
+  command.add_text("--thickness", input->thickness, "M", "of a layer on a rigid base", material);
+  command.add_text("--footprint", input->footprint, "M2", "area on a half-space", material);
+  add_output_options(command, input->output);
+  command.footer =
+      "Example: clatter ground --body box --size 0.1057x0.0439x0.0191 --mass 0.088 --angle 0 --measured-e 0.5 "
+      "--contact-time 5e-4\n"
+      "The drop is the scene's: flat, or on one corner, with the speed that was measured.\n"
+      "Exit status 3 if no ground gives both numbers.";
+  command.run = [input] { return run_ground(*input); };
+  return command;
+}
+
+}  // namespace clatter::validation::inline cli

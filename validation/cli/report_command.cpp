@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "validation/cli/command.hpp"
+#include "validation/cli/processes.hpp"
+#include "validation/cli/shock_options.hpp"
+#include "validation/figures/gnuplot.hpp"
+#include "validation/output/bad_input.hpp"
+#include "validation/output/interrupt.hpp"
+#include "validation/output/shell_word.hpp"
+#include "validation/plan/sequence_method.hpp"
+#include "validation/reports/handout.hpp"
+#include "validation/reports/sequence_picture.hpp"
+#include "validation/reports/sequence_report.hpp"
+#include "validation/reports/simulation_picture.hpp"
+#include "validation/reports/simulation_report.hpp"
+#include "validation/scene/failure.hpp"
+#include "validation/scene/scene_value.hpp"
+#include "validation/sweep/rows.hpp"
+#include "validation/sweep/summary.hpp"
+#include "validation/sweep/sweep_run.hpp"
+
+namespace clatter::validation::inline cli {
+namespace {
+
+struct ReportInput : ShockInput {
+  std::string output;
+  std::optional<std::string> drops, scatter, threads;
+};
+
+/// How a drop of the sweep is asked for.
+struct Attitudes {
+  int drops = 260;
+  std::string scatter = "3";
+};
+
+/// What was typed, with which every command begins: the scene and its flags.
+std::string scene_words(const ReportInput& input) {
+  std::string words = input.scene.source.empty() ? "" : " " + shell_word(input.scene.source);
+  for (const SceneOverride& given : overrides_of(input.scene)) {
+    const bool is_truth = input.scene.truths.contains(given.flag);
+    words += " " + given.flag + (is_truth ? "" : " " + shell_word(given.text));
+  }
+  return words;
+}
+
+std::string probe_words(const ReportInput& input) {
+  std::string words;
+  for (const std::string& probe : input.probes) words += " --probe " + shell_word(probe);
+  if (input.part) words += " --part " + shell_word(*input.part);
+  return words;
+}
+
+/// The sweep of a box's attitudes by the same scene; flags of the drop's own attitude stay out.
+SweepRequest sweep_of(const ReportInput& input, const Attitudes& attitudes) {
+  SweepRequest request{.file = input.scene.source,
+                       .text = {},
+                       .sets = {"drop.attitude=26"},
+                       .random = std::to_string(attitudes.drops),
+                       .seed = {},
+                       .scatter = attitudes.scatter,
+                       .model = model_of(input) == Model::continuous ? "continuous" : "discrete",
+                       .rows = {},
+                       .columns = {},
+                       .no_errors = true,
+                       .summary = true};
+  if (request.file.empty()) request.text = "";
+  for (const SceneOverride& given : overrides_of(input.scene)) {
+    const bool is_attitude = given.key == "drop.angle_deg" || given.key == "drop.tilt_deg" ||
+                             given.key == "drop.attitude" || given.key == "drop.orientation";
+    if (!is_attitude && given.key != "run.errors") request.sets.push_back(given.key + "=" + given.text);
+  }
+  return request;
+}
+
+std::string sweep_command_of(const SweepRequest& request) {
+  std::string words = "clatter sweep " + shell_word(request.file) + " --model " + *request.model;
+  for (const std::string& set : request.sets) words += " --set " + shell_word(set);
+  return words + fmt::format(" --random {} --scatter {} --no-errors --summary", *request.random, *request.scatter);
+}
+
+std::string worst_html(const ReportInput& input, const Attitudes& attitudes, const CooperativeInterrupt& interrupt,
+                       std::vector<std::string>& commands) {
+  const SweepRequest request = sweep_of(input, attitudes);
+  SweepPlan plan = read_sweep_plan(request);
+  plan.packed = true;
+  const SweepBody body = plan.body_values.empty() ? make_sweep_body(plan, plan.scene) : SweepBody{};
+  Summary summary(sweep_columns(plan.layout), plan.layout.swept.size(), plan.points);
+  RangeQueue queue({0, plan.points.count()}, range_size(plan));
+  SweepHooks hooks;
+  hooks.write = [&](const RangeRows& rows) { summary.add(rows.text); };
+  hooks.tick = [] {};
+  hooks.stop = [&] { return interrupt.requested(); };
+  Ranks ranks;
+  run_on_threads(queue, read_threads(input.threads, ranks), runners_of(plan, body), hooks);
+  Report report = plan.report();
+  report.grid.columns = Summary::columns();
+  summary.fill(
+      report, [&](long long index) { return plan.command_of(index); },
+      [&](long long place) { return plan.attitude_name(place); });
+  // Of the commands that show extremes that of the hardest blow; without a file none could name the scene.
+  std::erase_if(report.notes, [&](const std::string& note) {
+    return note.starts_with("largest ") &&
+           (request.file.empty() || !note.starts_with("largest hardest_impulse_normal:"));
+  });
+  if (!request.file.empty()) commands.push_back(sweep_command_of(request));
+  return fmt::format(
+             "<p>{} drops: each face, edge and corner of the box in its turn, turned about each axis by a "
+             "normally distributed angle with a standard deviation of {}°.</p>\n",
+             attitudes.drops, attitudes.scatter) +
+         handout_table(report);
+}
+
+/// The discrete model's sequence, or why there is none.
+std::string discrete_html(const ReportInput& input) {
+  SceneFlags flags = input.scene;
+  flags.model = Model::discrete;
+  std::string html;
+  const auto failure = failure_of_scene([&] {
+    const PreparedScene prepared = read_discrete_flags(flags);
+    const DiscreteRun found = run_discrete(prepared, SequenceMethod::automatic);
+    html = handout_table(sequence_report(prepared, found));
+    html += handout_picture(sequence_picture(prepared, found, read_window({})),
+                            "Discrete model: heights over time, and the impulse of each impact.");
+  });
+  return failure ? fmt::format("<p>The discrete model does not take this drop: {}</p>\n", failure->message) : html;
+}
+
+std::string continuous_html(const Scene& scene, const ShockRun& run) {
+  const numeric::Body body = scene.make_body();
+  PictureHistory history(body);
+  const PlannedRun planned =
+      run_to_digits(body, scene.world, scene.start(body), scene.request, scene.accuracy, {.history = &history});
+  std::string html = handout_table(simulation_report(scene, run.continuous->planned));
+  if (!planned.run.impacts.empty()) {
+    html += handout_picture(simulation_picture(scene, history, read_window({})),
+                            "Continuous model: heights, contact force and energies over time.");
+  }
+  return html;
+}
+
+std::string shock_html(const ShockRun& run, ShockView view) {
+  std::string html = handout_table(shock_report(run, view));
+  if (const auto picture = probe_history_picture(run)) {
+    html += handout_picture(*picture, "Contacts alone, each impact apart: two blows are two.");
+  }
+  if (run.continuous) {
+    view.rows = ShockRows::pulses;
+    html += "<h3>Each impact as a test pulse</h3>\n" + handout_table(shock_report(run, view));
+  }
+  const Picture picture = shock_picture(run, view);
+  if (picture.panels.empty()) return html;
+  return html + handout_picture(picture, view.part ? "Response spectra with and without the second blow, and the "
+                                                     "damage boundary of the part."
+                                                   : "Response spectra with and without the second blow.");
+}
+
+std::vector<std::string> assumptions(const Scene& scene, Model model) {
+  std::vector<std::string> items = scene_head(scene, model);
+  items.emplace_back("the body is rigid, the ground level; air is left out");
+  if (model == Model::continuous) {
+    items.emplace_back(
+        "the ground is a bed of springs and dampers, each on its own: k_G and c_G are numbers of the floor "
+        "(clatter ground finds them), and peaks depend on them");
+  } else {
+    items.emplace_back("an impact takes no time: changes of velocity are known, forces and peaks are not");
+  }
+  return items;
+}
+
+const std::vector<std::string>& left_out() {
+  static const std::vector<std::string> items{
+      "whatever bends: housings, screens, boards and batteries that move make other peaks than a rigid body's, larger "
+      "ones where they strike or resonate",
+      "damage: a damage boundary and a spectrum say what a part goes through, not whether a crack grows",
+      "floors that yield, crack or remember the last blow, and soft pads beyond their linear range",
+      "the hand, cable or air that turns the body before it touches: the attitude at the touch is what is given here",
+      "repeated drops: each one here is the first"};
+  return items;
+}
+
+std::string accuracy_html(const Scene& scene, const ShockRun& run) {
+  std::vector<std::string> items{
+      fmt::format("{} digits were asked for; digits that are not known are not printed, and ? marks rows that a start "
+                  "known to 16 digits does not determine",
+                  scene.accuracy.digits)};
+  double closure = 0;
+  int known = 0;
+  for (const ShockRow& row : run.rows()) {
+    if (!row.predictable) continue;
+    known = std::max(known, row.impact);
+    closure = std::max(closure, row.closure);
+  }
+  items.push_back(fmt::format("impacts 1 to {} can be predicted; later ones depend on digits that nobody has", known));
+  if (run.continuous && !run.probes.empty()) {
+    items.push_back(
+        fmt::format("the integral of the acceleration over each impact is the change of velocity to within "
+                    "a part in {:.0e}",
+                    1 / std::max(closure, 1e-16)));
+  }
+  items.emplace_back("each number has an error of its own in the JSON of the commands below (error_estimate)");
+  return handout_list(items);
+}
+
+std::string page_of(const ReportInput& input, const CooperativeInterrupt& interrupt) {
+  const Scene scene = shock_scene(input);
+  const Model model = model_of(input);
+  const std::vector<Probe> probes = probes_of(input);
+  Attitudes attitudes;
+  if (input.drops) attitudes.drops = read_integer_option("--drops", *input.drops, 1, 1'000'000);
+  if (input.scatter) attitudes.scatter = *input.scatter;
+  const ShockView view = view_of(input);
+  const ShockRun run =
+      run_shock(scene, probes, request_of(input), {.progress = [&](int, long) { return !interrupt.requested(); }});
+  const std::string words = scene_words(input);
+  std::vector<std::string> commands{"clatter sequence" + words};
+  std::vector<HandoutPart> parts{{"Assumptions", handout_list(assumptions(scene, model))}};
+  if (model == Model::continuous && !interrupt.requested()) {
+    commands.push_back("clatter simulate" + words);
+    parts.push_back({"What happens: the continuous model", continuous_html(scene, run)});
+  }
+  parts.push_back({"What happens: the discrete model", discrete_html(input)});
+  if (probes.empty()) {
+    parts.push_back({"Shock at points of the body",
+                     "<p>No probe was named: give --probe NAME:X,Y,Z, or [[probe]] in the "
+                     "scene file.</p>\n"});
+  } else {
+    commands.push_back("clatter shock" + words + probe_words(input));
+    parts.push_back({"Shock at points of the body", shock_html(run, view)});
+  }
+  if (scene.body.shape == BodyScene::Shape::box && attitudes.drops > 0 && !interrupt.requested())
+    parts.push_back({"Worst attitudes", worst_html(input, attitudes, interrupt, commands)});
+  parts.push_back({"Accuracy", accuracy_html(scene, run)});
+  parts.push_back({"What the model leaves out", handout_list(left_out())});
+  parts.push_back({"Commands that give these numbers again", handout_commands(commands)});
+  return handout_page(headline("report", input.scene.source.empty() ? "a drop" : input.scene.source),
+                      scene.summary(model), parts);
+}
+
+int run_report(const ReportInput& input) {
+  if (input.output.empty()) throw BadInput("--output: required, the page's file");
+  require_gnuplot("report");
+  Sink sink(input.output);
+  const CooperativeInterrupt interrupt;
+  const std::string page = page_of(input, interrupt);
+  if (interrupt.requested()) return interrupted_status;
+  sink.write(page);
+  sink.commit();
+  return 0;
+}
+
+}  // namespace
+
+Command report_command() {
+  auto input = std::make_shared<ReportInput>();
+  Command command{.name = "report", .help = "one HTML page on a drop, to hand in"};
+  add_shock_options(command, *input);
+  command.add_text("--drops", input->drops, "N", "of a box, over its faces, edges and corners (260)",
+                   "Worst attitudes");
+  command.add_text("--scatter", input->scatter, "DEG", "standard deviation of their turns about each axis (3)",
+                   "Worst attitudes");
+  command.add_text("--threads", input->threads, "N", "for them (all cores)", "Worst attitudes");
+  command.add({.name = "--output", .target = &input->output, .type = "FILE", .help = "the page", .group = "Output"});
+  command.footer =
+      "Example: clatter report phone-damped --impacts 2 --probe camera:0.048,0.016,0.0095 --part 300:500 --output "
+      "phone.html\n"
+      "The page has all in itself, asks for nothing from anywhere and prints.  Needs gnuplot.";
+  command.run = [input] { return run_report(*input); };
+  return command;
+}
+
+}  // namespace clatter::validation::inline cli

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The options of commands that look at points of the body: `shock` and `report`.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/cli/command.hpp"
+#include "validation/cli/options.hpp"
+#include "validation/reports/shock_report.hpp"
+#include "validation/scene/probes.hpp"
+#include "validation/shock/shock_run.hpp"
+
+namespace clatter::validation::inline cli {
+
+/// What was typed.
+struct ShockInput {
+  SceneFlags scene;
+  std::vector<std::string> probes;
+  std::optional<std::string> rows, model, axis, quality, frequencies, first, severity, part, rate;
+  bool no_sensitivity = false;
+};
+
+/// Adds the flags of a scene and those of probes, spectra and parts.
+void add_shock_options(Command& command, ShockInput& input);
+/// The continuous model where the scene has a ground and nothing else is asked.
+[[nodiscard]] Model model_of(const ShockInput& input);
+/// @throws BadInput for a scene that sweeps something or keeps a history, too.
+[[nodiscard]] Scene shock_scene(const ShockInput& input);
+/// Those of the flags, or else of the scene file.
+[[nodiscard]] std::vector<Probe> probes_of(const ShockInput& input);
+[[nodiscard]] ShockRequest request_of(const ShockInput& input);
+[[nodiscard]] ShockView view_of(const ShockInput& input);
+
+}  // namespace clatter::validation::inline cli

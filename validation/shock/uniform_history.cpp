@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/shock/uniform_history.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+namespace clatter::validation::inline shock {
+namespace {
+
+constexpr double most_instants = 1e7;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// A piece as polynomials of all that its samples have.
+struct PiecePolynomials {
+  VectorPolynomial centre, velocity, spin, force, acceleration, axis;
+  ChebyshevPolynomial scalar;
+
+  explicit PiecePolynomials(const MotionPiece& piece)
+      : centre(polynomial_of(piece, [](const auto& s) { return s.state.centre; })),
+        velocity(polynomial_of(piece, [](const auto& s) { return s.state.velocity; })),
+        spin(polynomial_of(piece, [](const auto& s) { return s.state.angular_velocity; })),
+        force(polynomial_of(piece, [](const auto& s) { return s.force; })),
+        acceleration(polynomial_of(piece, [](const auto& s) { return s.angular_acceleration; })),
+        axis(polynomial_of(piece, [&](const auto& s) { return Vector3(sign(piece, s) * s.state.attitude.vec()); })) {
+    Samples samples{};
+    for (std::size_t j = 0; j < sample_count; ++j) {
+      samples[j] = sign(piece, piece.samples[j]) * piece.samples[j].state.attitude.w();
+    }
+    scalar = ChebyshevPolynomial(samples);
+  }
+
+  /// Of the two quaternions of an attitude that on the first sample's side.
+  static double sign(const MotionPiece& piece, const numeric::PieceSample& sample) {
+    return piece.samples.front().state.attitude.dot(sample.state.attitude) < 0 ? -1 : 1;
+  }
+
+  [[nodiscard]] numeric::PieceSample at(double x) const {
+    const Vector3 v = value_at(axis, x);
+    numeric::PieceSample sample;
+    sample.state = {value_at(centre, x), Eigen::Quaterniond(scalar.at(x), v.x(), v.y(), v.z()).normalized(),
+                    value_at(velocity, x), value_at(spin, x)};
+    sample.force = value_at(force, x);
+    sample.angular_acceleration = value_at(acceleration, x);
+    return sample;
+  }
+};
+
+double deepest(const numeric::Body& body, const numeric::MotionState& state) {
+  const Vector3 up = state.attitude.conjugate() * Vector3::UnitZ();
+  double deepest = -std::numeric_limits<double>::infinity();
+  for (const Vector3& vertex : body.facets().vertices) deepest = std::max(deepest, -state.centre.z() - up.dot(vertex));
+  return deepest;
+}
+
+HistoryInstant instant_of(const numeric::PieceSample& sample, const MotionPiece& piece, const numeric::Body& body,
+                          const numeric::Ground& ground, const std::vector<Vector3>& places) {
+  HistoryInstant at;
+  at.impact = piece.piece.impact;
+  at.in_contact = piece.piece.in_contact;
+  const numeric::MotionState& state = sample.state;
+  at.angular_acceleration = state.attitude * sample.angular_acceleration;
+  at.indentation = deepest(body, state);
+  for (const Vector3& r : places) at.specific_forces.push_back(specific_force(sample, r, body.mass()));
+  at.action_x = at.action_y = nan;
+  if (!at.in_contact) return at;
+  const Vector3& omega = state.angular_velocity;
+  at.force = sample.force;
+  at.torque = state.attitude * (body.inertia() * sample.angular_acceleration + omega.cross(body.inertia() * omega));
+  at.pressure = largest_pressure(body, state, ground);
+  if (!(at.force.z() > 0)) return at;
+  // τ = r × F with r_z = −z_c.
+  at.action_x = state.centre.x() + (-state.centre.z() * at.force.x() - at.torque.y()) / at.force.z();
+  at.action_y = state.centre.y() + (-state.centre.z() * at.force.y() + at.torque.x()) / at.force.z();
+  return at;
+}
+
+/// A time at which an instant is wanted.
+struct Wanted {
+  double time;
+  int peak_of;
+};
+
+std::vector<Wanted> wanted_times(const ContinuousShock& shock, double end, double rate) {
+  if (!(end * rate < most_instants))
+    throw std::domain_error(fmt::format("rate = {} Hz: must give at most {} rows over {} s", rate, most_instants, end));
+  std::vector<Wanted> all;
+  for (long i = 0; static_cast<double>(i) <= end * rate; ++i) all.push_back({static_cast<double>(i) / rate, -1});
+  for (const ShockRow& row : shock.rows) all.push_back({row.start + row.value.peak_time, static_cast<int>(row.probe)});
+  std::stable_sort(all.begin(), all.end(), [](const Wanted& a, const Wanted& b) { return a.time < b.time; });
+  return all;
+}
+
+}  // namespace
+
+double largest_pressure(const numeric::Body& body, const numeric::MotionState& state, const numeric::Ground& ground) {
+  const numeric::Facets& facets = body.facets();
+  const auto depth_and_rate = [&](int vertex) {
+    const Vector3& u = facets.vertices[static_cast<std::size_t>(vertex)];
+    return std::pair{-(state.centre + state.attitude * u).z(),
+                     -(state.velocity + state.attitude * state.angular_velocity.cross(u)).z()};
+  };
+  double largest = 0;
+  for (const numeric::Loop& loop : facets.loops) {
+    for (int c = loop.begin; c < loop.end; ++c) {
+      const int next = c + 1 < loop.end ? c + 1 : loop.begin;
+      const auto [d0, r0] = depth_and_rate(facets.corners[static_cast<std::size_t>(c)]);
+      const auto [d1, r1] = depth_and_rate(facets.corners[static_cast<std::size_t>(next)]);
+      const auto pressure = [&](double x) {
+        const double d = d0 + x * (d1 - d0);
+        return d > 0 ? (ground.stiffness + ground.damping * (r0 + x * (r1 - r0))) * d : 0;
+      };
+      largest = std::max({largest, pressure(0), pressure(1)});
+      // (k + c r)' d + (k + c r) d' = 0
+      const double curvature = 2 * ground.damping * (r1 - r0) * (d1 - d0);
+      const double x =
+          -((ground.stiffness + ground.damping * r0) * (d1 - d0) + ground.damping * (r1 - r0) * d0) / curvature;
+      if (x > 0 && x < 1) largest = std::max(largest, pressure(x));
+    }
+  }
+  return largest;
+}
+
+std::vector<HistoryInstant> uniform_history(const ContinuousShock& shock, const numeric::Body& body,
+                                            const numeric::Ground& ground, const std::vector<Vector3>& places,
+                                            double rate) {
+  std::vector<HistoryInstant> history;
+  const std::vector<MotionPiece>& pieces = shock.motion.pieces();
+  if (pieces.empty()) return history;
+  const auto end_of = [](const MotionPiece& piece) { return piece.begin() + piece.piece.length; };
+  std::size_t piece = 0;
+  std::optional<PiecePolynomials> polynomials;
+  for (const Wanted& wanted : wanted_times(shock, end_of(pieces.back()), rate)) {
+    while (piece + 1 < pieces.size() && wanted.time >= pieces[piece + 1].begin()) {
+      ++piece;
+      polynomials.reset();
+    }
+    if (!polynomials) polynomials.emplace(pieces[piece]);
+    const double x = (wanted.time - pieces[piece].begin()) / pieces[piece].piece.length;
+    history.push_back(instant_of(polynomials->at(std::clamp(x, 0.0, 1.0)), pieces[piece], body, ground, places));
+    history.back().time = wanted.time;
+    history.back().peak_of = wanted.peak_of;
+  }
+  return history;
+}
+
+}  // namespace clatter::validation::inline shock
