@@ -206,8 +206,10 @@ Measured path_of_friction(CaseRuns&) {
     ++paths;
     const Matrix3 inverse =
         inverse_contact_inertia(drop.body.mass, axes * drop.body.inertia.inverse() * axes.transpose(), axes * place);
-    const oracle::SteppedImpact exact(
-        {.inverse_inertia = inverse, .velocity = velocity.value, .velocity_scale = velocity.scale}, drop.law.law);
+    const oracle::SteppedImpact<long double> exact(
+        analytic::space::Contact{
+            .inverse_inertia = inverse, .velocity = velocity.value, .velocity_scale = velocity.scale},
+        drop.law.law);
     worst = std::max({worst, (impact.contact_after - exact.velocity().cast<double>()).norm() / velocity.value.norm(),
                       (impact.impulse - exact.impulse().cast<double>()).head<2>().norm() / impact.impulse.norm()});
   }

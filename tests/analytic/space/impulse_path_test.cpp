@@ -28,7 +28,7 @@ BOOST_AUTO_TEST_CASE(random_corners_with_friction_and_any_law_agree_with_steppin
     const Contact contact = contact_of(random_collision(random));
     const Law law = random_law(random, 3);
     const ContactImpulse impact = contact_impulse(contact, law);
-    const clatter::oracle::SteppedImpact stepped(contact, law.law);
+    const clatter::oracle::SteppedImpact<long double> stepped(contact, law.law);
     const double of_impulse =
         (impact.impulse - stepped.impulse().cast<double>()).norm() / stepped.impulse().cast<double>().norm();
     const double of_velocity =
