@@ -298,9 +298,28 @@ class Data(InFolder):
         out, drawn = self.plotted("sweep", case("phone-corner"), "--set", "drop.attitude=uniform", "--random", "50", "--model", "discrete",
                                   "--columns", "impulse_normal_1")
         values = [float(row["impulse_normal_1"]) for row in records(out) if row["impulse_normal_1"]]
-        bars = drawn["panel1_0"]
+        bars = drawn["panel2_0"]
         self.assertEqual((bars[0][0], round(bars[-1][0], 12)), (min(values), round(max(values), 12)))
         self.assertEqual(sum(bar[2] for bar in bars[::2]), len(values))
+
+    def test_random_drops_stand_on_an_equal_area_map_where_they_point_down(self):
+        out, drawn = self.plotted("sweep", case("phone-corner"), "--set", "drop.attitude=uniform", "--random", "50", "--model", "discrete",
+                                  "--columns", "impulse_normal_1")
+        seen = []
+        for fifth in range(5):
+            for x, y in drawn[f"panel1_{fifth + 1}"]:
+                theta = math.asin(y / math.sqrt(2))  # of Mollweide's map, here taken back
+                latitude = math.asin((2 * theta + math.sin(2 * theta)) / math.pi)
+                longitude = math.pi * x / (2 * math.sqrt(2) * math.cos(theta))
+                seen.append((math.cos(latitude) * math.cos(longitude), math.cos(latitude) * math.sin(longitude), math.sin(latitude), fifth))
+        rows = sorted(records(out), key=lambda row: float(row["impulse_normal_1"]))
+        self.assertEqual(len(seen), len(rows))
+        for rank, row in enumerate(rows):
+            a, b, c, d = (float(row[f"drop.attitude_q{i}"]) for i in range(4))
+            down = (-2 * (b * d - a * c), -2 * (c * d + a * b), -(a * a - b * b - c * c + d * d))  # minus the last row of the rotation
+            nearest = min(seen, key=lambda point: math.dist(point[:3], down))
+            self.assertLess(math.dist(nearest[:3], down), 1e-9)
+            self.assertEqual(nearest[3], rank // 10)
 
     def test_rows_that_cannot_be_drawn_are_refused_before_the_run(self):
         for more in (["--summary"], ["--rows", "impact"]):
