@@ -11,11 +11,11 @@ from pathlib import Path
 
 ROOT = Path(os.environ["CLATTER_ROOT"])
 DATA = ROOT / "notebooks-data"
-sys.path.insert(0, str(DATA))
-
-from league_tables import League
-
 ENGINES = ROOT / "validation" / "benchmark" / "engines"
+sys.path[:0] = [str(DATA), str(ENGINES)]
+
+import runs
+from league_tables import League
 
 
 class Numbers(unittest.TestCase):
@@ -34,7 +34,7 @@ class Numbers(unittest.TestCase):
             self.assertNotEqual(bool(row["verdict"]), bool(row["reason"]), row)
 
     def test_every_engine_has_every_problem(self):
-        problems = {path.stem for path in (ROOT / "validation" / "benchmark" / "problems").glob("*.toml")}
+        problems = {path.stem for path in (ROOT / "validation" / "benchmark" / "problems").glob("*.toml")} - runs.LATER
         for engine in self.league.engines:
             self.assertEqual({row["problem"] for row in self.league.rows if row["engine"] == engine["id"]}, problems)
 

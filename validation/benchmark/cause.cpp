@@ -8,6 +8,7 @@
 #include <functional>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "validation/output/number.hpp"
 
@@ -19,7 +20,8 @@ using space::Vector3;
 
 /// A way to read rows that is not the one asked for.
 struct Reading {
-  const char *name, *words;
+  const char* name;
+  std::string words;
   std::function<void(const NumericTable&, std::span<double>)> change;
 };
 
@@ -44,19 +46,58 @@ void scalar_first(const NumericTable& table, std::span<double> row) {
   at("q3") = at("q2"), at("q2") = at("q1"), at("q1") = at("q0"), at("q0") = scalar;
 }
 
+void exchange_axes(const NumericTable& table, std::span<double> row) {
+  for (const auto& [x, z] : {std::pair{"x", "z"}, std::pair{"vx", "vz"}}) {
+    std::swap(row[table.column(x).value()], row[table.column(z).value()]);
+  }
+}
+
+void from_y_up(const NumericTable& table, std::span<double> row) {
+  const auto at = [&](const char* name) -> double& { return row[table.column(name).value()]; };
+  for (const auto& [y, z] : {std::pair{"y", "z"}, std::pair{"vy", "vz"}, std::pair{"wy", "wz"}}) {
+    const double up = at(y);
+    at(y) = -at(z), at(z) = up;
+  }
+  const double half = std::sqrt(0.5);
+  const space::Quaternion turn =
+      space::Quaternion(half, half, 0, 0) * space::Quaternion(at("q0"), at("q1"), at("q2"), at("q3"));
+  at("q0") = turn.w(), at("q1") = turn.x(), at("q2") = turn.y(), at("q3") = turn.z();
+}
+
+/// From a point of the body, `place` in its axes, to the centre of mass.
+void from_point(const Vector3& place, const NumericTable& table, std::span<double> row) {
+  const auto at = [&](const char* name) -> double& { return row[table.column(name).value()]; };
+  if (!table.column("q0")) {
+    const double s = std::sin(at("phi")), c = std::cos(at("phi"));
+    const double along = place.x() * c - place.z() * s, up = place.x() * s + place.z() * c;
+    at("x") -= along, at("z") -= up;
+    at("vx") += at("omega") * up, at("vz") -= at("omega") * along;
+    return;
+  }
+  const space::Quaternion turn(at("q0"), at("q1"), at("q2"), at("q3"));
+  const Vector3 arm = turn * place, speed = Vector3(at("wx"), at("wy"), at("wz")).cross(arm);
+  at("x") -= arm.x(), at("y") -= arm.y(), at("z") -= arm.z();
+  at("vx") -= speed.x(), at("vy") -= speed.y(), at("vz") -= speed.z();
+}
+
+constexpr double radian = std::numbers::pi / 180, full_turn = 2 * std::numbers::pi;  // [rad]
+constexpr double foot = 0.3048;                                                      // [m]
+
 const std::vector<Reading>& planar_readings() {
-  constexpr double radian = std::numbers::pi / 180;
   static const std::vector<Reading> readings{
       {"phi-sign", "phi and omega count the other turn as positive", scaled({"phi", "omega"}, -1)},
       {"omega-sign", "omega has not the sign of phi's rate", scaled({"omega"}, -1)},
       {"left-right", "left and right are exchanged: x, phi, vx and omega have the other sign",
        scaled({"x", "phi", "vx", "omega"}, -1)},
       {"up-down", "z points down", scaled({"z", "vz"}, -1)},
+      {"exchanged", "x and z are exchanged, and vx and vz", exchange_axes},
       {"degrees", "phi and omega are in degrees", scaled({"phi", "omega"}, radian)},
       {"degrees", "phi is in degrees", scaled({"phi"}, radian)},
       {"degrees", "omega is in degrees per second", scaled({"omega"}, radian)},
+      {"turns", "omega is in turns per second", scaled({"omega"}, full_turn)},
       {"millimetres", "lengths are in millimetres", scaled({"x", "z", "vx", "vz"}, 1e-3)},
       {"centimetres", "lengths are in centimetres", scaled({"x", "z", "vx", "vz"}, 1e-2)},
+      {"feet", "lengths are in feet", scaled({"x", "z", "vx", "vz"}, foot)},
       {"milliseconds", "t is in milliseconds", scaled({"t"}, 1e-3)}};
   return readings;
 }
@@ -67,16 +108,23 @@ const std::vector<Reading>& space_readings() {
       {"body-frame", "the angular velocity is in body axes", from_body_frame},
       {"scalar-last", "the Euler parameters have their scalar last", scalar_first},
       {"omega-sign", "the angular velocity has the other sign", scaled({"wx", "wy", "wz"}, -1)},
+      {"up-down", "z points down", scaled({"z", "vz"}, -1)},
+      {"y-up", "y points up, and z out of the page", from_y_up},
+      {"mirrored", "the axes are left-handed: y points the other way", scaled({"y", "q1", "q3", "vy", "wx", "wz"}, -1)},
+      {"degrees", "the angular velocity is in degrees per second", scaled({"wx", "wy", "wz"}, radian)},
+      {"turns", "the angular velocity is in turns per second", scaled({"wx", "wy", "wz"}, full_turn)},
       {"millimetres", "lengths are in millimetres", scaled({"x", "y", "z", "vx", "vy", "vz"}, 1e-3)},
+      {"centimetres", "lengths are in centimetres", scaled({"x", "y", "z", "vx", "vy", "vz"}, 1e-2)},
+      {"feet", "lengths are in feet", scaled({"x", "y", "z", "vx", "vy", "vz"}, foot)},
       {"milliseconds", "t is in milliseconds", scaled({"t"}, 1e-3)}};
   return readings;
 }
 
 const std::vector<Reading>& list_readings() {
-  constexpr double radian = std::numbers::pi / 180;
   static const std::vector<Reading> readings{
       {"omega-sign", "Omega has the other sign than its line says", scaled({"Omega"}, -1)},
       {"up-down", "V counts down as positive", scaled({"V"}, -1)},
+      {"tangential-sign", "Pt counts left as positive", scaled({"Pt"}, -1)},
       {"degrees", "Omega is in degrees per second", scaled({"Omega", "Wx", "Wy", "Wz"}, radian)},
       {"milliseconds", "t is in milliseconds", scaled({"t"}, 1e-3)}};
   return readings;
@@ -96,6 +144,7 @@ class ReadingCauses {
         return score_motion(motion, reference_, law_, answer_.ending);
       });
     }
+    if (causes_.empty()) of_other_points();
   }
 
   void of_list() {
@@ -116,6 +165,22 @@ class ReadingCauses {
   [[nodiscard]] const std::vector<Cause>& causes() const { return causes_; }
 
  private:
+  /// Place and velocity of a corner or an end, in place of the centre of mass.
+  void of_other_points() {
+    for (std::size_t k = 0; k < reference_.body.vertices.size() && k < reference_.points.size(); ++k) {
+      const Vector3 place = reference_.body.vertices[k];
+      const Reading reading{
+          "other-point",
+          fmt::format("place and velocity are those of {}, not of the centre of mass", reference_.points[k]),
+          [&](const NumericTable& table, std::span<double> row) { from_point(place, table, row); }};
+      add(reading, [&] {
+        const Motion motion(changed(reading), reference_);
+        return score_motion(motion, reference_, law_, answer_.ending);
+      });
+      if (!causes_.empty()) return;
+    }
+  }
+
   [[nodiscard]] NumericTable changed(const Reading& reading) const {
     return table_.changed([&](std::span<double> row) { reading.change(table_, row); });
   }

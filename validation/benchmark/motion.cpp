@@ -131,11 +131,13 @@ void Motion::find_first_touch() {
   const double reach = reference_.reach();
   const space::State first = state(0);
   const std::vector<Vector3> arms = reference_.arms(first.attitude);
-  const auto low =
-      std::min_element(arms.begin(), arms.end(), [](const Vector3& a, const Vector3& b) { return a.z() < b.z(); });
-  const double height = first.position.z() + low->z();
-  const double speed = first.velocity.z() + first.angular_velocity.cross(*low).z();
-  if (std::fabs(height) <= 1e-6 * reach && speed >= 0) {
+  double height = std::numeric_limits<double>::infinity(), speed = 0;
+  for (const Vector3& arm : arms) height = std::fmin(height, first.position.z() + arm.z());
+  for (const Vector3& arm : arms) {  // of points that are down together one may leave while another strikes
+    if (first.position.z() + arm.z() > height + 1e-6 * reach) continue;
+    speed = std::fmin(speed, (first.velocity + first.angular_velocity.cross(arm)).z());
+  }
+  if (std::fabs(height) <= 1e-6 * reach && speed >= -1e-9 * reference_.speed()) {
     lead_ = reference_.start;
     lead_->position += first.position - Vector3(0, 0, first.position.z());
   }

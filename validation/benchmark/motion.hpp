@@ -42,6 +42,8 @@ class Motion {
   /// How far the state then is from the reference's: the largest of |ΔV|, |ΔΩ| × reach (relative to the speed) and the
   /// distance of a point (relative to the reach).
   [[nodiscard]] double start_error() const { return start_error_; }
+  /// Whether the file's first row is the state after the first impact, so that no row shows the start.
+  [[nodiscard]] bool begins_after_touch() const { return lead_.has_value(); }
   [[nodiscard]] const NumericTable& table() const { return table_; }
 
  private:

@@ -23,7 +23,7 @@ const std::vector<std::string> numbers{"t",  "Px", "Py", "Pz", "Vx",       "Vy",
 std::vector<std::string> known_keys() {
   std::vector<std::string> keys = scene_keys();
   for (const std::string& text : texts) keys.push_back("problem." + text);
-  for (const char* key : {"version", "gaps", "until", "tolerances", "energy_alone"}) {
+  for (const char* key : {"version", "gaps", "until", "tolerances", "energy_alone", "at_rest", "laws_agree"}) {
     keys.push_back(std::string("problem.") + key);
   }
   return keys;
@@ -42,6 +42,7 @@ Problem read_problem(const EmbeddedFile& file) {
   problem.acceptance = values.text("problem.acceptance");
   problem.is_compliant = values.text("problem.class") == "compliant";
   problem.energy_alone = values.truth("problem.energy_alone", false);
+  problem.at_rest = values.truth("problem.at_rest", false);
   problem.gaps = values.numbers("problem.gaps", {1, 2, 3, 4, 5, 6, 7, 8}, positive, "heights in m");
   problem.tolerances = values.numbers("problem.tolerances", {4}, positive, "four errors");
   if (values.has("problem.until")) problem.until = values.number("problem.until", 0, positive);
@@ -130,6 +131,9 @@ std::vector<std::vector<std::string>> truth_digits(const Problem& problem, const
 std::string oracle_of(const Problem& problem) {
   if (problem.is_compliant) {
     return "50-digit arithmetic: exact integrals of the pressure, Taylor series in time; second route: the simulator";
+  }
+  if (problem.scene.body.is_round()) {
+    return "50-digit arithmetic: closed forms of a ball's impact and flight; second route: the discrete model in space";
   }
   if (problem.scene.has_vectors()) {
     return "50-digit arithmetic: impulses from the 3 x 3 inverse contact inertia, Taylor series of flights and slip; "

@@ -203,6 +203,10 @@ double Reference::energy(const space::State& state) const {
          body.mass * gravity * state.position.z();
 }
 
+double Reference::last_energy(const ReferenceSequence& sequence) const {
+  return at_rest ? body.mass * gravity * start.position.z() : energy(sequence.after.back());
+}
+
 space::FreeFlight Reference::flight(const space::State& state) const { return {principal, state, gravity}; }
 
 space::State Reference::struck(const space::State& state, int point, const Vector3& impulse) const {
@@ -278,6 +282,7 @@ Reference reference_of(const Problem& problem) {
   Reference reference{.name = problem.id,
                       .is_compliant = problem.is_compliant,
                       .energy_alone = problem.energy_alone,
+                      .at_rest = problem.at_rest,
                       .body = {},
                       .points = {},
                       .start = {},

@@ -36,7 +36,7 @@ struct Reference {
   std::string name;  ///< the problem's ID, or the scene's file
   bool is_planar = true;
   bool is_compliant = false;
-  bool energy_alone = false;
+  bool energy_alone = false, at_rest = false;  ///< as Problem's
   analytic::space::Body body;
   /// Of the body.
   analytic::space::PrincipalAxes principal{analytic::space::Matrix3::Identity()};
@@ -53,6 +53,8 @@ struct Reference {
   [[nodiscard]] double speed() const;
   /// Translational, rotational and potential energy [J].
   [[nodiscard]] double energy(const analytic::space::State& state) const;
+  /// At `until` [J].  @pre energy_alone
+  [[nodiscard]] double last_energy(const ReferenceSequence& sequence) const;
   [[nodiscard]] analytic::space::FreeFlight flight(const analytic::space::State& state) const;
   /// The state with an impulse applied at a point [N·s].
   [[nodiscard]] analytic::space::State struck(const analytic::space::State& state, int point,

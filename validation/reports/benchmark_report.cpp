@@ -129,7 +129,8 @@ std::string asked_words(const Problem& problem) {
   const std::size_t count = truth_of(problem, truth_laws(problem).front()).size();
   std::string words = fmt::format("asked: the first {} impact{}", count, count == 1 ? "" : "s");
   if (problem.energy_alone)
-    words += fmt::format(", and the energy {} s after the first touch", shortest(*problem.until));
+    words += fmt::format(", and the energy {} s after the first touch{}", shortest(*problem.until),
+                         problem.at_rest ? ", of the body at rest" : "");
   else if (problem.until)
     words += fmt::format(", and none more until {} s after the first touch", shortest(*problem.until));
   return words + "; place, time, and V and Ω after each";
@@ -379,6 +380,7 @@ Report benchmark_statement(const Problem& problem) {
   fields["scene_toml"] = problem.scene_text;
   fields["starts"] = starts_value(problem);
   fields["until"] = problem.until ? Value(*problem.until) : Value();
+  fields["at_rest"] = problem.at_rest;
   fields["tolerances"] = problem.tolerances;
   fields["laws"] = truth_laws(problem);
   fields["oracle"] = oracle_of(problem);
@@ -408,7 +410,7 @@ std::vector<std::string> ending_lines(const Problem& problem) {
   if (reference.is_planar) lines.emplace_back("Omega: clockwise");
   if (problem.until && !problem.energy_alone) lines.emplace_back("ended: nothing approaches");
   if (problem.energy_alone) {
-    lines.push_back("energy: " + shortest(reference.energy(reference.sequences.front().after.back())));
+    lines.push_back("energy: " + shortest(reference.last_energy(reference.sequences.front())));
   }
   return lines;
 }

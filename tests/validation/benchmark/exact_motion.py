@@ -44,6 +44,9 @@ class Body:
             self.moments = (moment, moment, moment)
             half, radius = body["length"] / 2, body["radius"]
             self.points = [(x, 0.0, z) for x in (-half, half) for z in {-radius, radius}]
+        elif body["shape"] == "sphere":
+            self.moments = (0.4 * self.mass * body["radius"] ** 2,) * 3
+            self.points = []  # which depend on the attitude
         else:
             length, width, height = body["size"]
             self.moments = tuple(self.mass * (a * a + b * b) / 12
@@ -81,9 +84,11 @@ class State:
     def __init__(self, time, position, attitude, velocity, omega):
         self.time, self.position, self.attitude = time, list(position), tuple(attitude)
         self.velocity, self.omega = list(velocity), tuple(omega)
+        self.rests = False
 
     def flown(self, body, gravity, time):
         dt = time - self.time
+        gravity = 0.0 if self.rests else gravity
         position = [x + v * dt for x, v in zip(self.position, self.velocity)]
         position[2] -= gravity * dt * dt / 2
         velocity = [self.velocity[0], self.velocity[1], self.velocity[2] - gravity * dt]
@@ -107,6 +112,17 @@ class Motion:
         self.pieces = [state]
         for row in self.truth["impacts"]:
             self.strike(self.touch + row["t"], *self.velocities(row))
+        if self.statement["at_rest"]:
+            self.settle(scene["impact"]["restitution"])
+
+    def settle(self, restitution):
+        """The bounces that follow, until they are too small for doubles, and rest."""
+        time, rise = self.pieces[-1].time, self.pieces[-1].velocity[2]
+        while rise > 1e-12:
+            time, rise = time + 2 * rise / self.gravity, restitution * rise
+            self.strike(time, [0.0, 0.0, rise], self.pieces[-1].omega)
+        self.pieces[-1].velocity = [0.0, 0.0, 0.0]
+        self.pieces[-1].rests = True
 
     def velocities(self, row):
         if self.is_planar:

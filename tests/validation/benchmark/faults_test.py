@@ -326,7 +326,7 @@ CAUSES = {
     "end 5 mm short": ("lever", 0.99), "friction 0.29": ("friction", 0.29), "friction 0.32": ("friction", 0.32),
     "friction pushes on": ("friction-ratio", -0.3), "no friction": ("friction", 0.0),
     "sticks beyond Coulomb's bound": ("friction", 0.6), "slips at the bound where it sticks": ("friction-ratio", 0.8),
-    "no reversal of slip": ("friction-ratio", -0.3), "friction bounded by weight": ("friction-ratio", 0.05),
+    "no reversal of slip": ("friction-ratio", -0.3), "friction bounded by weight": ("friction-direction", 0.05),
     "another law than declared": ("law", None), "both ends at once": ("centre-alone", None),
     "the rod as in a mirror": ("phi-sign", None), "impacts 1 ms late": ("delay", 1e-3), "a skin of 1 mm": ("margin", 1e-3),
     "drift of 1e-4": ("damping", 5e-4), "drift of 1e-2": ("damping", 0.02), "spin is damped": ("spin-damping", 0.01),
@@ -338,6 +338,7 @@ CAUSES = {
     "phi and omega in degrees": ("degrees", None), "omega in degrees per second": ("degrees", None),
     "lengths in millimetres": ("millimetres", None), "times in milliseconds": ("milliseconds", None),
     "omega in body axes": ("body-frame", None), "Omega of the other sign in a list": ("omega-sign", None),
+    "the run stops early": ("cut-off", None),
     "ends exchanged in a list": ("ends-exchanged", None), "a heavier rod in a list": ("mass", 1.1),
 }
 

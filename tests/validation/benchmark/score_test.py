@@ -17,6 +17,8 @@ from planar_code import Code
 IDS = [line.split()[0] for line in run("benchmark", "list").stdout.splitlines()]
 SIMULATED = "phone-damped"  # has no motion of impulses
 
+SHORT = ("flat", "rod-45", "friction-stick", "friction-slip-stick", "ball-rest", "ball-grip", "rock", "slide")  # truths of few digits
+
 
 class Folder(unittest.TestCase):
     def setUp(self):
@@ -38,7 +40,7 @@ class Folder(unittest.TestCase):
 class Problems(unittest.TestCase):
     def test_list_prints_a_line_per_problem_with_its_id_first(self):
         self.assertEqual(IDS, [row["id"] for row in told("benchmark", "list")["problems"]])
-        self.assertTrue(16 <= len(IDS) <= 24)
+        self.assertTrue(24 <= len(IDS) <= 36)
 
     def test_each_statement_has_the_parts_of_the_library_of_benchmarks(self):
         for problem in IDS:
@@ -74,8 +76,7 @@ class Problems(unittest.TestCase):
             told_truth = told("benchmark", "truth", problem)
             for row, digits in zip(told_truth["impacts"], told_truth["digits"]):
                 self.assertLessEqual(row["uncertainty"], 1e-20)
-                self.assertGreater(len(digits["Pz"]) if problem not in ("flat", "rod-45", "friction-stick",
-                                                                        "friction-slip-stick") else 25, 20)
+                self.assertGreater(len(digits["Pz"]) if problem not in SHORT else 25, 20)
 
     def test_names_that_there_are_not_are_refused_with_the_nearest(self):
         for arguments, words in ((("show", "rod-12"), "rod-1"), (("truth",), "needs the ID"), (("lst",), "list"),
@@ -94,6 +95,8 @@ class Exact(Folder):
             if problem in (SIMULATED, "long"):
                 continue
             for gap in (0, 2):
+                if gap >= len(told("benchmark", "show", problem)["starts"]):
+                    continue  # a body that is on the ground before
                 motion = Motion(problem, gap)
                 # More than two impacts within a step cannot be told apart: 6.4 ms hold three of clatter-08.
                 for step in (1 / 240 if problem == "clatter-08" else 1 / 60, 1 / 1000):

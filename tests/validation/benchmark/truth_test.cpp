@@ -164,16 +164,17 @@ BOOST_AUTO_TEST_CASE(the_simulator_confirms_the_truth_of_the_damped_phone_to_1e_
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_benchmark_has_16_to_24_problems_each_with_its_statement_and_starting_gaps) {
+BOOST_AUTO_TEST_CASE(the_benchmark_has_24_to_36_problems_each_with_its_statement_and_starting_gaps) {
   const std::vector<Problem>& problems = benchmark_problems();
-  BOOST_TEST(problems.size() >= 16U);
-  BOOST_TEST(problems.size() <= 24U);
+  BOOST_TEST(problems.size() >= 24U);
+  BOOST_TEST(problems.size() <= 36U);
   for (const Problem& problem : problems) {
     BOOST_TEST_CONTEXT(problem.id) {
       for (const std::string& text : {problem.title, problem.motivation, problem.separates, problem.acceptance}) {
         BOOST_TEST(!text.empty());
       }
-      BOOST_TEST(problem.gaps.size() >= 3U);
+      // A block that rocks is on the ground before.
+      BOOST_TEST(problem.gaps.size() >= (problem.id == "rock" ? 1U : 3U));
       BOOST_TEST(std::is_sorted(problem.tolerances.begin(), problem.tolerances.end()));
       const Reference reference = reference_of(problem);
       for (const double gap : problem.gaps) {

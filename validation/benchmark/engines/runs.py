@@ -15,6 +15,8 @@ from pathlib import Path
 ROD_RADIUS = 1e-4  # of the length: spheres that stand for the ends of a thin rod
 SLENDER_INERTIA = 0.01  # of the largest: about the rod's axis, which no motion of the plane feels and some engines need
 STEPS_AFTER_THE_END = 2
+# Newer than the last run of all engines; the adapters do not know balls yet.
+LATER = {"ball-grip", "ball-rest", "painleve", "rock", "slide", "tumble"}
 LONG_RUN = 120  # impacts, more than any problem has until its end
 AFTER_THE_LAST = 0.05  # s after the last impact that is asked for
 TURNING_STEPS = 400  # of Runge and Kutta's method over a flight of some milliseconds: rounding is all that is left
@@ -43,12 +45,12 @@ class Problem:
 
 
 def read_problems(folder):
-    """The problems of the benchmark in `folder`, by their names."""
+    """The problems of the benchmark in `folder` that engines are run on, by their names."""
     last = {}
     with (folder / "truth.csv").open(encoding="utf-8") as lines:
         for row in csv.DictReader(line for line in lines if not line.startswith("#")):
             last[row["problem"]] = max(last.get(row["problem"], 0.0), float(row["t"]))
-    problems = (read_problem(path, last) for path in sorted((folder / "problems").glob("*.toml")))
+    problems = (read_problem(path, last) for path in sorted((folder / "problems").glob("*.toml")) if path.stem not in LATER)
     return {problem.id: problem for problem in problems}
 
 

@@ -1,0 +1,434 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Faults planted in codes for every rigid problem: none passes that changes the motion, and none gets a wrong name."""
+import json
+import math
+import os
+import pathlib
+import random
+import tempfile
+import unittest
+
+import numpy as np
+
+import exact_motion
+from rigid_code import RigidCode, struck
+
+RIGID = [line.split()[0] for line in exact_motion.run("benchmark", "list").stdout.splitlines()]
+RIGID = [problem for problem in RIGID if problem not in ("phone-damped", "long")]  # no impulses; too many impacts
+RADIAN = math.pi / 180
+ALL = os.environ.get("CLATTER_PLANTED") == "all"  # every fault in every problem; otherwise every fourth pair
+
+
+# ---------------------------------------------------------------- codes that err: each takes a code and changes it
+
+def numbers(**factors):
+    def plant(code):
+        for name, factor in factors.items():
+            setattr(code, name, getattr(code, name) * factor)
+    return plant
+
+
+def method(**replaced):
+    def plant(code):
+        for name, function in replaced.items():
+            setattr(code, name, function.__get__(code))
+    return plant
+
+
+def elastic(code):
+    code.e = 1.0
+
+
+def friction_of(value):
+    def plant(code):
+        code.friction = value
+    return plant
+
+
+def heavy_impulse(factor):
+    """Another moment of inertia where bodies strike, the right one in flight."""
+    def plant(code):
+        code.inertia = code.inertia * factor
+    return plant
+
+
+def centre_alone(code, state, points):
+    return struck(state, [*state.velocity[:2], -code.e * state.velocity[2]], state.omega)
+
+
+def only_first(code, state, points):
+    """Restitution as asked for at the first impact alone."""
+    e, code.e = code.e, code.e * (1 if code.count == 0 else 0.9)
+    after = RigidCode.strike(code, state, points)
+    code.e = e
+    return after
+
+
+def weaker_last(code, state, points):
+    """The last impact alone errs."""
+    e, code.e = code.e, code.e * (0.85 if code.count + 1 == len(code.truth) else 1)
+    after = RigidCode.strike(code, state, points)
+    code.e = e
+    return after
+
+
+def slow_stick(code):
+    """No restitution below a speed that the slowest impact has."""
+    speeds = []
+
+    def watch(code, state, points):
+        speeds.append(max(-code.approach(state, arm) for arm in np.array(code.arms(state))[points]))
+        return RigidCode.strike(code, state, points)
+
+    probe = RigidCode(code.problem)
+    probe.strike = watch.__get__(probe)
+    list(probe.states(0.05))
+    speeds = speeds[:len(code.truth)]
+    limit = 1.01 * min(speeds)
+
+    def strike(code, state, points):
+        if max(-code.approach(state, arm) for arm in np.array(code.arms(state))[points]) > limit:
+            return RigidCode.strike(code, state, points)
+        code.e, code.gone = 0.0, True
+        return RigidCode.strike(code, state, points)
+
+    if len(speeds) > 1 and sorted(speeds)[1] > 1.05 * min(speeds) and code.e > 0:
+        code.strike = strike.__get__(code)
+
+
+def damped(linear, angular):
+    def fly(code, state, time):
+        dt = time - state.time
+        out = RigidCode.fly(code, state, time)
+        a, b = math.exp(-linear * dt), math.exp(-angular * dt)
+        if linear:
+            way = (1 - a) / linear
+            for k in (0, 1):
+                out.position[k] = state.position[k] + state.velocity[k] * way
+                out.velocity[k] = state.velocity[k] * a
+            if not state.rests:
+                g = code.gravity / linear
+                out.position[2] = state.position[2] + (state.velocity[2] + g) * way - g * dt
+                out.velocity[2] = (state.velocity[2] + g) * a - g
+        if angular:
+            half = RigidCode.fly(code, state, state.time + (1 - b) / angular)
+            out.attitude, out.omega = half.attitude, tuple(w * b for w in half.omega)
+        return out
+    return method(fly=fly)
+
+
+def late(delay):
+    def next_touch(code, state, points, latest):
+        touch, points = RigidCode.next_touch(code, state, points, latest)
+        return (touch if touch is None else RigidCode.fly(code, touch, touch.time + delay)), points
+    return method(next_touch=next_touch)
+
+
+def at_next_step(code, state, points, latest):
+    touch, points = RigidCode.next_touch(code, state, points, latest)
+    step = step_of(code)
+    return (touch if touch is None else RigidCode.fly(code, touch, step * math.ceil(touch.time / step))), points
+
+
+def starts(**changes):
+    def plant(code):
+        for name, change in changes.items():
+            setattr(code.state, name, change(getattr(code.state, name)))
+    return plant
+
+
+def turned_start(angle):
+    half = angle / 2
+    return starts(attitude=lambda q: exact_motion.product((math.cos(half), 0.0, -math.sin(half), 0.0), q))
+
+
+def missing(code):
+    """The last impact but for the first is not noticed."""
+    def strike(code, state, points):
+        code.gone = code.count + 1 == len(code.truth)
+        return state if code.gone else RigidCode.strike(code, state, points)
+    if len(code.truth) > 1:
+        code.strike = strike.__get__(code)
+
+
+# ---------------------------------------------------------------- rows that are written wrongly: a code and its rows
+
+def columns(code):
+    return (["t", "x", "z", "phi", "vx", "vz", "omega"] if code.is_planar else
+            ["t", "x", "y", "z", "q0", "q1", "q2", "q3", "vx", "vy", "vz", "wx", "wy", "wz"])
+
+
+def times(names, factor):
+    return lambda code, rows: [[v * (factor if name in names.split() else 1) for name, v in zip(columns(code), row)]
+                               for row in rows]
+
+
+def added(name, amount):
+    """amount(t) is added to a column."""
+    return lambda code, rows: [[v + (amount(row[0]) if one == name else 0) for one, v in zip(columns(code), row)]
+                               for row in rows]
+
+
+def in_space_only(edit):
+    return lambda code, rows: rows if code.is_planar else [edit(row) for row in rows]
+
+
+def in_plane_only(edit):
+    return lambda code, rows: [edit(row) for row in rows] if code.is_planar else rows
+
+
+def scalar_last(r):
+    return r[:4] + r[5:8] + r[4:5] + r[8:]
+
+
+def body_frame(r):
+    return r[:11] + list(exact_motion.turned_back(r[4:8], r[11:14]))
+
+
+def y_up(r):
+    half = math.sqrt(0.5)
+    return ([r[0], r[1], r[3], -r[2], *exact_motion.product((half, -half, 0, 0), r[4:8]), r[8], r[10], -r[9], r[11], r[13],
+             -r[12]])
+
+
+def mirrored_in_space(r):
+    """Left-handed axes: y the other way."""
+    return [r[0], r[1], -r[2], r[3], r[4], -r[5], r[6], -r[7], r[8], -r[9], r[10], -r[11], r[12], -r[13]]
+
+
+def truncated(share):
+    def edit(code, rows):
+        """Ends at a share of the time until the last impact asked for, or the end asked for."""
+        if share < 0 and not code.statement["until"] or share > 0 and len(code.truth) == 1:
+            return rows  # nothing that is asked for is cut off
+        last = code.touch + code.truth[-1]["t"] if share > 0 else code.end()
+        return [row for row in rows if row[0] <= max(last * abs(share), rows[1][0])]
+    return edit
+
+
+def of_a_corner(code, rows):
+    out = []
+    for k, row in enumerate(rows):
+        state = code.sampled[k]
+        arm = code.arms(state)[-1]
+        state = struck(state, np.array(state.velocity) + np.cross(state.omega, arm), state.omega)
+        state.position = list(np.array(state.position) + arm)
+        out.append(exact_motion.Motion.row(code, state))
+    return out
+
+
+def rotated(code, rows):
+    return [[r[0], r[2], r[1], r[3], r[5], r[4], r[6]] for r in rows] if code.is_planar else rows
+
+
+# name: (the cause that must be told, what is planted in the code, what is done to the rows)
+FAULTS = {
+    "e 0.9 times": ("restitution", numbers(e=0.9), None),
+    "e 0.7 times": ("restitution", numbers(e=0.7), None),
+    "e 1.1 times": ("restitution", numbers(e=1.1), None),
+    "elastic": ("restitution", elastic, None),
+    "e 0.9 times after the first impact": ("restitution", method(strike=only_first), None),
+    "e 0.85 times at the last impact": ("restitution", method(strike=weaker_last), None),
+    "no restitution at the slowest impact": ("restitution-threshold", slow_stick, None),
+    "no friction": ("friction", friction_of(0.0), None),
+    "friction 0.7 times": ("friction", numbers(friction=0.7), None),
+    "friction 1.4 times": ("friction", numbers(friction=1.4), None),
+    "friction twice": ("friction", numbers(friction=2), None),
+    "friction pushes on": ("friction-direction", numbers(friction=-1), None),
+    "inertia 1.1 times": ("inertia", heavy_impulse(1.1), None),
+    "inertia 0.7 times": ("inertia", heavy_impulse(0.7), None),
+    "inertia 1.5 times": ("inertia", heavy_impulse(1.5), None),
+    "levers 0.8 times": ("lever", numbers(levers=0.8), None),
+    "levers 0.95 times": ("lever", numbers(levers=0.95), None),
+    "levers 1.05 times": ("lever", numbers(levers=1.05), None),
+    "restitution of the centre alone": ("centre-alone", method(strike=centre_alone), None),
+    "gravity 9.7 for 9.81": ("gravity", numbers(gravity=9.7 / 9.81), None),
+    "gravity of the moon": ("gravity", numbers(gravity=1.62 / 9.81), None),
+    "gravity upwards": ("gravity", numbers(gravity=-1), None),
+    "damping 0.02 per second": ("damping", damped(0.02, 0.02), None),
+    "damping 0.5 per second": ("damping", damped(0.5, 0.5), None),
+    "damping 2 per second": ("damping", damped(2, 2), None),
+    "linear damping 0.1 per second": ("linear-damping", damped(0.1, 0), None),
+    "spin is damped by 0.1 per second": ("spin-damping", damped(0, 0.1), None),
+    "velocities grow": ("growth", damped(-0.1, -0.1), None),
+    "starts turned by 0.2 degrees": ("start-angle", turned_start(0.2 * RADIAN), None),
+    "starts with more spin": ("start-spin", starts(omega=lambda w: (w[0], w[1] - 0.05, w[2])), None),
+    "starts 1 % too fast": ("start-speed", starts(velocity=lambda v: [1.01 * x for x in v]), None),
+    "starts 5 % too slow": ("start-speed", starts(velocity=lambda v: [0.95 * x for x in v]), None),
+    "impacts 1 ms late": ("delay", late(1e-3), None),
+    "impacts 0.3 ms late": ("delay", late(3e-4), None),
+    "impacts at the next step": ("time-step", method(next_touch=at_next_step), None),
+    "the last impact is missing": (None, missing, None),
+    "a skin of 1 mm": ("margin", None, added("z", lambda t: 1e-3)),
+    "2 mm in the ground": ("margin", None, added("z", lambda t: -2e-3)),
+    "z drifts": (None, None, added("z", lambda t: 1e-3 * t)),
+    "x drifts": (None, None, added("x", lambda t: 1e-2 * t)),
+    "phi clockwise": ("phi-sign", None, times("phi omega", -1)),
+    "omega of the other sign": ("omega-sign", None, times("omega wx wy wz", -1)),
+    "mirrored": ("left-right", None, in_plane_only(lambda r: [r[0], -r[1], r[2], -r[3], -r[4], r[5], -r[6]])),
+    "mirrored in space": ("mirrored", None, in_space_only(mirrored_in_space)),
+    "z points down": ("up-down", None, times("z vz", -1)),
+    "x and z exchanged": ("exchanged", None, rotated),
+    "y points up": ("y-up", None, in_space_only(y_up)),
+    "world to body": ("conjugate", None, times("q1 q2 q3", -1)),
+    "scalar last": ("scalar-last", None, in_space_only(scalar_last)),
+    "omega in body axes": ("body-frame", None, in_space_only(body_frame)),
+    "phi and omega in degrees": ("degrees", None, times("phi omega", 1 / RADIAN)),
+    "phi in degrees": ("degrees", None, times("phi", 1 / RADIAN)),
+    "omega in degrees per second": ("degrees", None, times("omega wx wy wz", 1 / RADIAN)),
+    "omega in turns per second": ("turns", None, times("omega wx wy wz", 0.5 / math.pi)),
+    "lengths in millimetres": ("millimetres", None, times("x y z vx vy vz", 1e3)),
+    "lengths in centimetres": ("centimetres", None, times("x y z vx vy vz", 1e2)),
+    "lengths in feet": ("feet", None, times("x y z vx vy vz", 1 / 0.3048)),
+    "times in milliseconds": ("milliseconds", None, times("t", 1e3)),
+    "place and velocity of a corner": ("other-point", None, of_a_corner),
+    "cut off before the last impact": ("cut-off", None, truncated(0.9)),
+    "cut off before the end": ("cut-off", None, truncated(-0.9)),
+}
+def same_as(name, code):
+    """Names that say the same as the fault's own of this problem."""
+    spins = max(abs(w) for state in code.states(step_of(code)) for w in state.omega) > 1e-9
+    alike = {
+        "mirrored": {"phi-sign"},  # a rod that falls straight down is its own mirror image
+        "phi clockwise": {"left-right"},
+        "restitution of the centre alone": {"friction"},  # where the normal impulse has no lever
+        "no restitution at the slowest impact": {"restitution"},  # where no other impact is left
+        "friction pushes on": {"friction-ratio"},  # where nothing slips before the impact
+        "place and velocity of a corner": {"margin"},  # of a ball's lowest point
+    }.get(name, set())
+    if not spins and name == "linear damping 0.1 per second":
+        alike.add("damping")
+    if len(code.truth) == 1 and (" late" in name or "next step" in name):
+        alike |= {"margin", "delay", "time-step"}  # one impact tells no delay from a depth
+    return alike
+
+
+# What is no fault: it leaves the motion as it is.
+FREEDOMS = {
+    "time from elsewhere": added("t", lambda t: 5.0),
+    "place from elsewhere": added("x", lambda t: -3.0),
+    "turns counted on": added("phi", lambda t: 2 * math.pi),
+    "other sign of the parameters": times("q0 q1 q2 q3", -1),
+}
+
+
+def written(code, rows):
+    law = f"# law: {code.law}\n" if code.law else ""
+    return (f"# problem: {code.problem}\n{law}{','.join(columns(code))}\n" +
+            "".join(",".join(repr(float(v)) for v in row) + "\n" for row in rows))
+
+
+def step_of(code):
+    return min(1 / 500, code.end() / 50)
+
+
+def faulty(problem, plant=None, edit=None, gap=1):
+    code = RigidCode(problem, gap)
+    step = step_of(code)
+    if plant:
+        plant(code)
+    code.sampled = list(code.states(step))
+    rows = [exact_motion.Motion.row(code, state) for state in code.sampled]
+    return code, edit(code, rows) if edit else rows
+
+
+def moved(code, a, b):
+    """Whether rows differ, as far as the problem asks, in more than where they begin and how often they have turned."""
+    if len(a) != len(b):
+        return True
+    last = code.truth[-1]["t"]
+    asked = code.touch + (last if code.statement["at_rest"] else code.statement["until"] or 1.2 * last)
+    count = sum(row[0] < asked for row in b) + 1  # to the first row after the last impact
+    a, b = np.array(a[:count]), np.array(b[:count])
+    places = 2 if code.is_planar else 3
+    a[:, 1:places] -= a[0, 1:places]
+    b[:, 1:places] -= b[0, 1:places]
+    if not code.points:  # a ball looks the same however it is turned
+        a, b = np.delete(a, range(4, 8), 1), np.delete(b, range(4, 8), 1)
+    return np.abs(a - b).max() > 1e-7
+
+
+def score(folder, texts):
+    """Texts by name; each with its verdict."""
+    paths = {}
+    for k, (name, text) in enumerate(texts.items()):
+        paths[str(folder / f"{k}.csv")] = name
+        (folder / f"{k}.csv").write_text(text)
+    done = exact_motion.run("benchmark", "score", *paths, "--format", "json")
+    assert done.returncode == 0, done.stderr
+    return {paths[one["file"]]: one for one in json.loads(done.stdout)["files"]}
+
+
+def is_named(name, problem, found):
+    cause = FAULTS[name][0]
+    if cause is None:  # told by the finding that the impact is missing or the flight not free
+        return not found["causes"] and any("missing" in one or "not free" in one or "drifts" in one for one in found["findings"])
+    told = {one["cause"] for one in found["causes"]}
+    return bool(told & ({cause} | same_as(name, RigidCode(problem)))) or (cause == "cut-off" and found["verdict"] == "incomplete")
+
+
+class Planted(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.scored = {}
+        for k, problem in enumerate(RIGID):
+            texts, (_, right) = {}, faulty(problem)
+            for n, (name, (_, plant, edit)) in enumerate(FAULTS.items()):
+                if not ALL and (n + k) % 4:
+                    continue
+                code, rows = faulty(problem, plant, edit)
+                if moved(code, rows, right):
+                    texts[name] = written(code, rows)
+            for name, found in score(pathlib.Path(folder.name), texts).items():
+                cls.scored[name, problem] = found
+
+    def test_sixty_faults_are_planted_in_every_problem(self):
+        self.assertGreaterEqual(len(FAULTS), 60)
+        self.assertGreaterEqual(len(self.scored), 5 * len(FAULTS))
+
+    def test_no_fault_that_changes_the_motion_passes(self):
+        for (name, problem), found in self.scored.items():
+            with self.subTest(fault=name, problem=problem):
+                self.assertNotIn(found["verdict"], ("exact", "sharp"))
+                large = found["error"] is None or found["error"] > exact_motion.told("benchmark", "show", problem)["tolerances"][3]
+                self.assertTrue(not large or found["verdict"] in ("fails", "incomplete"), found)
+
+    def test_no_fault_gets_a_wrong_name(self):
+        for (name, problem), found in self.scored.items():
+            if not found["causes"]:
+                continue
+            with self.subTest(fault=name, problem=problem):
+                told = {one["cause"] for one in found["causes"]}
+                self.assertTrue(told & ({FAULTS[name][0]} | same_as(name, RigidCode(problem))), found["causes"])
+
+    def test_nine_faults_of_ten_get_their_name(self):
+        unnamed = [key for key, found in self.scored.items() if not is_named(*key, found)]
+        self.assertLessEqual(len(unnamed), 0.1 * len(self.scored), unnamed)
+        for name in FAULTS:
+            of_fault = [key for key in self.scored if key[0] == name]
+            with self.subTest(name):
+                self.assertLess(sum(key in unnamed for key in of_fault), max(len(of_fault), 1))
+
+
+class Exact(unittest.TestCase):
+    def test_two_hundred_answers_are_exact_whatever_their_steps_phase_and_origin(self):
+        draw, count = random.Random(7), 0
+        with tempfile.TemporaryDirectory() as folder:
+            for problem in RIGID:
+                texts = {}
+                for n in range(8):
+                    code = RigidCode(problem, draw.randrange(4))
+                    rows = code.rows(step_of(code) * draw.uniform(0.3, 1.5))
+                    texts[n] = written(code, draw.choice(list(FREEDOMS.values()))(code, rows))
+                for found in score(pathlib.Path(folder), texts).values():
+                    count += 1
+                    with self.subTest(problem=problem):
+                        self.assertEqual(found["verdict"], "exact", found)
+        self.assertGreaterEqual(count, 200)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/benchmark/flight_cause.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "validation/output/number.hpp"
+
+namespace clatter::validation::inline benchmark {
+namespace {
+
+using analytic::space::Vector3;
+
+constexpr double share_of_steps = 0.75;  ///< of the steps, that a force in flight explains
+constexpr std::size_t looked_at = 2000;  ///< of a long run as many are enough
+constexpr std::size_t least_count = 4;   ///< of steps
+constexpr double least_size = 1e-3;      ///< of the speed: slower steps say nothing of damping
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// A rate and the share of the total effect that it leaves in the median.
+struct Rate {
+  double value = 0, misfit = 0;
+};
+
+/// One number of (1) from all steps: its value in each step, and what a value leaves of the step's change.
+class Steps {
+ public:
+  [[nodiscard]] std::size_t count() const { return steps_.size(); }
+
+  /// The step's change is −rate × weight.
+  void add(const Vector3& change, const Vector3& weight) { steps_.push_back({change, weight}); }
+
+  /// Nothing where no rate other than `asked` explains the steps.  A step is explained if it is left with a
+  /// twentieth of what the difference of the rates does in it.
+  [[nodiscard]] std::optional<Rate> rate(double asked) const {
+    if (steps_.size() < least_count) return std::nullopt;
+    std::vector<double> rates, left;
+    for (const auto& [change, weight] : steps_) rates.push_back(-change.dot(weight) / weight.squaredNorm());
+    const double value = median(rates);
+    std::size_t explained_steps = 0;
+    for (const auto& [change, weight] : steps_) {
+      const double share = (change + value * weight).norm() / (std::fabs(value - asked) * weight.norm());
+      explained_steps += share <= explained ? 1 : 0;
+      left.push_back(share);
+    }
+    if (!(static_cast<double>(explained_steps) >= share_of_steps * static_cast<double>(steps_.size()))) return {};
+    return Rate{value, median(left)};
+  }
+
+ private:
+  struct One {
+    Vector3 change, weight;
+  };
+  std::vector<One> steps_;
+};
+
+std::string rate_words(const char* what, double rate) {
+  return fmt::format("{} {} by {} per second", what, rate < 0 ? "grows" : "shrinks", significant(std::fabs(rate), 3));
+}
+
+/// Rates below which the run is not changed beyond the class "sharp".
+bool matters(const std::optional<Rate>& rate, double least) { return rate && std::fabs(rate->value) > least; }
+
+std::vector<Cause> damping_causes(const std::optional<Rate>& linear, const std::optional<Rate>& angular, bool spins,
+                                  double least) {
+  const bool has_linear = matters(linear, least), has_angular = matters(angular, least);
+  if (!has_linear && !has_angular) return {};
+  const Rate& rate = has_linear ? *linear : *angular;
+  const double misfit = std::fmax(has_linear ? linear->misfit : 0, has_angular ? angular->misfit : 0);
+  const bool of_all = has_linear && (has_angular || !spins);
+  std::string words = has_linear ? rate_words("the velocity", linear->value) : "";
+  if (has_angular) words += (words.empty() ? "" : ", ") + rate_words("the spin", angular->value);
+  return {{rate.value < 0 ? "growth"
+           : of_all       ? "damping"
+           : has_linear   ? "linear-damping"
+                          : "spin-damping",
+           rate.value, misfit, fmt::format("{}: that explains the flights {}", words, misfit_words(misfit))}};
+}
+
+/// An angular velocity that stays as it is, where Euler's equations change it.
+class ConstantSpin {
+ public:
+  void add(const Vector3& change, const Vector3& asked) {
+    if (!(asked.norm() > 0)) return;
+    ++count_;
+    if (change.norm() <= explained * asked.norm()) ++constant_;
+    left_ += change.norm() / asked.norm();
+  }
+
+  void tell(double change, const Reference& reference, std::vector<Cause>& causes) const {
+    if (count_ < least_count || !(change * reference.reach() > reference.tolerances[1] * reference.speed())) return;
+    if (!(static_cast<double>(constant_) >= share_of_steps * static_cast<double>(count_))) return;
+    causes.push_back({"gyroscopic-term",
+                      {},
+                      left_ / static_cast<double>(count_),
+                      "the angular velocity stays constant in flight: the gyroscopic term is missing"});
+  }
+
+ private:
+  std::size_t count_ = 0, constant_ = 0;
+  double left_ = 0;
+};
+
+}  // namespace
+
+std::vector<Cause> flight_causes_of(const Motion& motion, const Reference& reference) {
+  Steps fall, linear, angular;
+  ConstantSpin constant;
+  double precession = 0;  // change of the angular velocity that Euler's equations ask for [rad/s]
+  const double slow = least_size * reference.speed();
+  for (std::size_t row = 0; row + 1 < motion.size(); row += 1 + motion.size() / looked_at) {
+    const double time = motion.time(row + 1) - motion.time(row);
+    const auto from = motion.state(row), to = motion.state(row + 1);
+    fall.add(to.velocity - from.velocity, {0, 0, time});
+    const auto [impulse, moment] = motion.jump(row);
+    const Vector3 mean = (from.velocity + to.velocity) / 2;
+    if (mean.norm() > slow) linear.add(impulse / reference.body.mass, time * mean);
+    const Vector3 spin = (from.angular_velocity + to.angular_velocity) / 2;
+    if (!(spin.norm() * reference.reach() > slow)) continue;
+    const Vector3 turned = from.attitude.conjugate() * from.angular_velocity;
+    const Vector3 momentum = from.attitude * (reference.body.inertia * turned) + moment / 2;
+    angular.add(moment, time * momentum);
+    if (reference.is_planar) continue;
+    const Vector3 asked = reference.flight(from).at(time).angular_velocity - from.angular_velocity;
+    constant.add(to.angular_velocity - from.angular_velocity, asked);
+    precession += asked.norm();
+  }
+  const double length = motion.time(motion.size() - 1) - motion.time(0), least = reference.tolerances[1] / length;
+  std::vector<Cause> causes = damping_causes(linear.rate(0), angular.rate(0), angular.count() >= least_count, least);
+  constant.tell(precession, reference, causes);
+  const std::optional<Rate> gravity = fall.rate(reference.gravity);
+  if (gravity && std::fabs(gravity->value - reference.gravity) > least * reference.speed()) {
+    causes.push_back(
+        {"gravity", gravity->value, gravity->misfit,
+         fmt::format("gravity {} m/s² ({} is asked) explains the flights {}", significant(gravity->value, 3),
+                     shortest(reference.gravity), misfit_words(gravity->misfit))});
+  }
+  return causes;
+}
+
+}  // namespace clatter::validation::inline benchmark
