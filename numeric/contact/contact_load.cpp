@@ -252,7 +252,8 @@ void ContactLoader::add_slip(const Pressing& pressing, const GroundView& view, c
                   over_plane(ground_.stiffness + ground_.damping * rate, -ground_.damping * rate_slope),
                   over_plane(slip.east, slip.east_slope),
                   over_plane(slip.north, slip.north_slope),
-                  rounding};
+                  rounding,
+                  field.digits};
   if (field.planar) patch.north = {};
   const SlipIntegrals here = field.rough ? rough_slip_integrals(patch) : slip_integrals(patch);
   const auto moment = [&](double value, double x, double y) -> Vector3 {

@@ -40,6 +40,7 @@ struct SlipField {
   Kind kind = Kind::points;
   bool planar = false;        ///< v has no part to the north
   bool rough = false;         ///< for an estimate, right to some per cent
+  double digits = 15;         ///< of the sums that are needed, at least
   double regularisation = 0;  ///< v_r; 0: −v/|v| [m/s]
   /// The v_r of a facet whose points slip alike, within `alike` times this [m/s].  A facet that lies flat slips as one:
   /// without it the friction of its whole area would reverse at once.

@@ -308,8 +308,10 @@ ContactSystem::Friction ContactSystem::friction(const Instant& at) {
     case Kind::slip: break;
   }
   if (!at.phase.varies) return at_centre(at, unit_slip(at.slip, at.phase, planar_) * (-mu * at.load.force));
-  SlipField field{
-      .kind = SlipField::Kind::turning, .centre = at.centre, .spin = at.normal.dot(at.view.angular_velocity)};
+  SlipField field{.kind = SlipField::Kind::turning,
+                  .digits = at.phase.digits,
+                  .centre = at.centre,
+                  .spin = at.normal.dot(at.view.angular_velocity)};
   const AlongGround slip = leaning_slip(at.slip, at.phase);
   field.east = slip.east;
   field.north = slip.north;

@@ -60,6 +60,7 @@ struct FrictionPhase {
   Kind kind = Kind::none;
   AlongGround direction;  ///< of slip when the phase or the step began, unit
   bool varies = false;    ///< whether the direction of slip varies over the patch noticeably
+  double digits = 15;     ///< that friction over such a patch needs beside the errors of steps
   double floor = 0;       ///< local law: see SlipField [m/s]
   bool turns = false;     ///< local law: the points slip differently, so that none holds by static friction
   /// Slip slower than this has no direction but that above: rounding must not choose it [m/s].

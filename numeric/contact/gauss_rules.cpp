@@ -57,10 +57,9 @@ std::span<const GaussNode> gauss_rule(int n) {
   return {rules[static_cast<std::size_t>(n)].data(), static_cast<std::size_t>(n)};
 }
 
-int gauss_order(double ellipse) {
-  constexpr double digits = 34.5;  // −ln 1e-15
+int gauss_order(double ellipse, double digits) {
   constexpr int for_polynomial = 2;
-  const double wanted = std::ceil(digits / (2 * std::log(ellipse))) + for_polynomial;
+  const double wanted = std::ceil(digits * std::numbers::ln10 / (2 * std::log(ellipse))) + for_polynomial;
   return wanted < most_gauss_nodes ? std::max(static_cast<int>(wanted), for_polynomial + 1) : most_gauss_nodes;
 }
 

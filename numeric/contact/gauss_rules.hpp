@@ -18,7 +18,7 @@ inline constexpr int most_gauss_nodes = 24;
 [[nodiscard]] std::span<const GaussNode> gauss_rule(int n);
 
 /// The n for which the rule's error ρ^(−2n), of a function that is analytic within the Bernstein ellipse of parameter
-/// ρ > 1 but for a factor that is a polynomial of degree 4, is below 1e-15.  At most most_gauss_nodes.
-[[nodiscard]] int gauss_order(double ellipse);
+/// ρ > 1 but for a factor that is a polynomial of degree 4, is below 10^−digits.  At most most_gauss_nodes.
+[[nodiscard]] int gauss_order(double ellipse, double digits = 15);
 
 }  // namespace clatter::numeric::inline contact

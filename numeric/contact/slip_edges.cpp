@@ -106,7 +106,7 @@ SlipIntegrals in_closed_form(const SlipPatch& patch, const SlipSegment& g, const
 SlipIntegrals by_gauss(const SlipPatch& patch, const SlipSegment& g, const SlipVector& change, double ellipse) {
   const SegmentPolynomials p = polynomials(patch, g, 0);
   SlipIntegrals sum;
-  for (const GaussNode& node : gauss_rule(gauss_order(ellipse))) {
+  for (const GaussNode& node : gauss_rule(gauss_order(ellipse, patch.digits))) {
     const SlipVector v{g.slip.east + node.at * change.east, g.slip.north + node.at * change.north};
     const double speed = std::sqrt(v.square() + patch.rounding * patch.rounding);
     if (!(speed > 0)) continue;

@@ -24,6 +24,7 @@ struct SlipPatch {
   PlaneLinear depth, stiffness;  ///< pressure q = depth × stiffness, stiffness = k_G + c_G δ̇
   PlaneLinear east, north;       ///< slip velocity v [m/s]
   double rounding = 0;           ///< v_r: the direction is v/√(|v|² + v_r²) [m/s], >= 0
+  double digits = 15;            ///< that Gauss's rule is to give where it is chosen by them
 };
 
 /// ∫q s and ∫q s p over the polygon, s = v/√(|v|² + v_r²); s = 0 where the root is.

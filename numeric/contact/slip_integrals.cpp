@@ -196,7 +196,7 @@ class Strips {
 
 constexpr double least_smooth_ellipse = 3.1;  ///< ρ from which Gauss's rule is taken for a whole triangle
 constexpr double cheap_ellipse = 10;          ///< ρ from which that costs less than a sum over the edges
-constexpr int rough_order = 6;
+constexpr int rough_order = 4;
 constexpr double rough_rounding = 0.05;  ///< of the slip's variation
 constexpr double near_sizes = 3;         ///< distance of p₀ from the middle, in sizes, up to which (1) cancels little
 
@@ -209,34 +209,91 @@ double smooth_ellipse(const SlipPatch& patch, const SlipSurvey& s) {
   return square > 1 ? std::sqrt(square) + std::sqrt(square - 1) : 1;
 }
 
-/// Adds weight × the integrands at p.
-void add_point(const SlipPatch& patch, const PlanePoint& p, double weight, SlipIntegrals& sum) {
-  const SlipVector v{patch.east.at(p), patch.north.at(p)};
-  const double speed = std::sqrt(v.square() + patch.rounding * patch.rounding);
-  if (!(speed > 0)) return;
-  const double force = weight * patch.depth.at(p) * patch.stiffness.at(p) / speed;
-  const double east = force * v.east, north = force * v.north;
-  sum.add({east, north, east * p.x, east * p.y, north * p.x, north * p.y}, 1);
+/// What varies linearly along a ray of a fan: values at its apex, or their changes from there to its end.
+struct RayValues {
+  PlanePoint place;
+  double depth, stiffness, east, north;
+  [[nodiscard]] RayValues minus(const RayValues& b) const {
+    return {{place.x - b.place.x, place.y - b.place.y},
+            depth - b.depth,
+            stiffness - b.stiffness,
+            east - b.east,
+            north - b.north};
+  }
+  [[nodiscard]] RayValues plus(double part, const RayValues& b) const {
+    return {{place.x + part * b.place.x, place.y + part * b.place.y},
+            depth + part * b.depth,
+            stiffness + part * b.stiffness,
+            east + part * b.east,
+            north + part * b.north};
+  }
+};
+
+RayValues ray_values(const SlipPatch& patch, const PlanePoint& p) {
+  return {p, patch.depth.at(p), patch.stiffness.at(p), patch.east.at(p), patch.north.at(p)};
 }
 
-SlipIntegrals add_up_fan(const SlipPatch& of, int order) {
-  const SlipPatch patch = of;  // a copy stays in registers, which the sums could else overwrite
-  SlipIntegrals sum;
-  const std::span<const GaussNode> rule = gauss_rule(order);
-  const PlanePoint& apex = patch.corners[0];
-  for (int i = 2; i < patch.count; ++i) {
-    const PlanePoint &p = patch.corners[i - 1], &q = patch.corners[i];
-    const double area = cross(minus(p, apex), minus(q, apex)) / 2;
-    for (const GaussNode& along : rule) {
-      const PlanePoint end = between(p, q, (1 + along.at) / 2);
-      for (const GaussNode& out : rule) {
-        const double part = (1 + out.at) / 2;
-        const PlanePoint at = between(apex, end, part);
-        add_point(patch, at, area / 2 * along.weight * out.weight * part, sum);
-      }
+/// Gauss's rule along the rays from a corner: the integrand at part t of a ray is q/√(|v|² + v_r²), which is summed
+/// with the weights 1, t and t², times what is linear in t.
+class Fan {
+ public:
+  Fan(const SlipPatch& patch, int order)
+      : apex_(ray_values(patch, patch.corners[0])), slow_(patch.rounding * patch.rounding), rule_(gauss_rule(order)) {
+    for (std::size_t j = 0; j < rule_.size(); ++j) {
+      parts_[j] = (1 + rule_[j].at) / 2;
+      weights_[j] = rule_[j].weight * parts_[j];
     }
   }
-  return sum;
+
+  void add_triangle(const SlipPatch& patch, const PlanePoint& p, const PlanePoint& q) {
+    const RayValues first = ray_values(patch, p), side = ray_values(patch, q).minus(first);
+    const double area = cross(minus(p, apex_.place), minus(q, apex_.place)) / 2;
+    for (const GaussNode& along : rule_) {
+      add_ray(first.plus((1 + along.at) / 2, side).minus(apex_), area / 2 * along.weight);
+    }
+  }
+
+  [[nodiscard]] const SlipIntegrals& sum() const { return sum_; }
+
+ private:
+  void add_ray(const RayValues& change, double weight) {
+    double forces[most_gauss_nodes];
+    const std::size_t count = rule_.size();
+    for (std::size_t j = 0; j < count; ++j) {
+      const double t = parts_[j], east = apex_.east + t * change.east, north = apex_.north + t * change.north;
+      const double square = east * east + north * north + slow_;
+      const double pressure = (apex_.depth + t * change.depth) * (apex_.stiffness + t * change.stiffness);
+      forces[j] = square > 0 ? weights_[j] * pressure / std::sqrt(square) : 0;
+    }
+    double sums[3] = {0, 0, 0};
+    for (std::size_t j = 0; j < count; ++j) {
+      const double t = parts_[j], once = forces[j] * t;
+      sums[0] += forces[j];
+      sums[1] += once;
+      sums[2] += once * t;
+    }
+    const auto with = [&](double at_apex, double slope, int degree) {
+      return weight * (at_apex * sums[degree] + slope * sums[degree + 1]);
+    };
+    const double east = with(apex_.east, change.east, 0), east_t = with(apex_.east, change.east, 1);
+    const double north = with(apex_.north, change.north, 0), north_t = with(apex_.north, change.north, 1);
+    const PlanePoint &at = apex_.place, &to = change.place;
+    sum_.add({east, north, at.x * east + to.x * east_t, at.y * east + to.y * east_t, at.x * north + to.x * north_t,
+              at.y * north + to.y * north_t},
+             1);
+  }
+
+  RayValues apex_;
+  double slow_;
+  std::span<const GaussNode> rule_;
+  double parts_[most_gauss_nodes], weights_[most_gauss_nodes];
+  SlipIntegrals sum_;
+};
+
+SlipIntegrals add_up_fan(const SlipPatch& patch, int order) {
+  Fan fan(patch, order);
+  for (int i = 2; i < patch.count; ++i) fan.add_triangle(patch, patch.corners[i - 1], patch.corners[i]);
+  return fan.sum();
 }
 
 /// The point of no slip, if it is near: by elimination with the largest slope as pivot, so that what rounding leaves of
@@ -300,7 +357,7 @@ SlipIntegrals slip_integrals(const SlipPatch& patch) {
   PlanePoint fixed;
   const double ellipse = smooth_ellipse(patch, s);
   if (ellipse < cheap_ellipse && near_fixed_point(patch, s, fixed)) return add_up_edges(patch, fixed);
-  if (ellipse >= least_smooth_ellipse) return add_up_fan(patch, gauss_order(ellipse));
+  if (ellipse >= least_smooth_ellipse) return add_up_fan(patch, gauss_order(ellipse, patch.digits));
   return Strips(patch, s).sum();
 }
 

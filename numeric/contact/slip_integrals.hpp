@@ -20,8 +20,9 @@ namespace clatter::numeric::inline contact {
 /// - Else (p₀ far, or none: slip with one steep direction): the closed form of (1) along the steep direction, and
 ///   across it Gauss's rule on parts that are halved until the complex singularities of the function across are far
 ///   from them.
-/// Accuracy: 1e-13 of ∫|q| dA, times the polygon's size for the moments; against extended precision over polygons,
-/// slivers among them, of any place and slopes of the slip.  No error is left that would have to be estimated.
+/// Accuracy: 1e-13 of ∫|q| dA, or 10^−digits of the patch where that is more, times the polygon's size for the moments;
+/// against extended precision over polygons, slivers among them, of any place and slopes of the slip.  No error is left
+/// that would have to be estimated.
 [[nodiscard]] SlipIntegrals slip_integrals(const SlipPatch& patch);
 
 /// The same for estimates: right to some per cent, at a cost that does not depend on the slip.

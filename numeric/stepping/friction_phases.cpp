@@ -59,6 +59,7 @@ constexpr double direction_rounding = 1e-14;  ///< of its unit length
 /// Slip slower than this part, times √tolerance, of the contact's speed keeps its direction: across it friction is a
 /// damper that stiffens like 1/|v|, which explicit steps could not follow.
 constexpr double slow_part = 0.1;
+constexpr double digits_beyond_tolerance = 3;  ///< of friction over a patch: steps see nothing of its error
 constexpr double least_spin = 1;               ///< times tolerance and the contact's speed: slip from spin that counts
 constexpr double fading_per_contact = 50;      ///< rate at which stick ends a remaining slip, times the contact time
 constexpr double faint_part = 1e-9;            ///< of the contact's mean force: below it friction switches no more
@@ -102,6 +103,7 @@ void FrictionPhases::start(Kind kind, const AlongGround& direction, const Contac
   stopping_speed_ = 0;
   FrictionPhase phase{.kind = kind,
                       .direction = direction,
+                      .digits = std::clamp(digits_beyond_tolerance - std::log10(settings_.tolerance), 9.0, 15.0),
                       .slow = slow_part * std::sqrt(settings_.tolerance) * scales_.speed,
                       .fading = fading_per_contact / scales_.time};
   if (kind == Kind::slip && !system_.planar()) note_variation(phase, now);
