@@ -7,8 +7,14 @@ set -euo pipefail
 self=$(readlink -f -- "${BASH_SOURCE[0]}")
 root=${self%/tests/install/*}
 folder=$(mktemp -d)
-trap 'rm -rf -- "$folder"' EXIT
+trap finish EXIT
 cd -- "$root"
+
+# The release tree forgets the virtual environment, which its next build could not run.
+finish() {
+  [[ ! -e build/release/CMakeCache.txt ]] || cmake --preset release -U 'CLATTER_PYTHON*' >/dev/null || true
+  rm -rf -- "$folder"
+}
 
 fail() {
   printf '%s\n' "$*" >&2
