@@ -231,9 +231,24 @@ Report angles_report(const AnglesRequest& request) {
 }
 
 std::string angles_csv_rows(const AnglesRequest& request, long long begin, long long end) {
-  Grid grid;
-  add_rows(request, begin, end, grid);
-  return csv_rows(grid.rows);
+  constexpr std::size_t bytes_per_row = 360;
+  const std::size_t count = column_count(request);
+  std::string out;
+  out.reserve(static_cast<std::size_t>(end - begin) * bytes_per_row);
+  for (long long i = begin; i < end; ++i) {
+    const auto [row, errors] = known_row(request, i);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (k > 0) out += ',';
+      append_number(out, row[k]);
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      if (!has_error(k)) continue;
+      out += ',';
+      append_number(out, rounded_up(errors[k]));
+    }
+    out += '\n';
+  }
+  return out;
 }
 
 namespace {
