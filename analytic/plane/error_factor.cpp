@@ -4,26 +4,23 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace clatter::analytic {
 
 namespace {
 
-/// √Σ values² from `first` on, also where squares would leave the doubles; infinite for NaN.
-template <std::size_t size>
-double norm(const std::array<double, size>& values, std::size_t first = 0) {
+/// √Σ values², also where squares would leave the doubles; infinite for NaN.
+double norm(std::span<const double> values) {
   constexpr double least = 1e-280, most = 1e280;  // of a sum whose small terms may underflow
-  double sum = 0;
-  for (std::size_t i = first; i < size; ++i) sum += values[i] * values[i];
+  double sum = 0, largest = 0;
+  for (const double value : values) sum += value * value;
   if (sum >= least && sum <= most) return std::sqrt(sum);
   if (std::isnan(sum)) return std::numeric_limits<double>::infinity();
-  double largest = 0;
-  for (std::size_t i = first; i < size; ++i) largest = std::fmax(largest, std::fabs(values[i]));
+  for (const double value : values) largest = std::max(largest, std::fabs(value));
   if (largest == 0 || !std::isfinite(largest)) return largest;
   sum = 0;
-  for (std::size_t i = first; i < size; ++i) {
-    sum += (values[i] / largest) * (values[i] / largest);
-  }
+  for (const double value : values) sum += (value / largest) * (value / largest);
   return largest * std::sqrt(sum);
 }
 
@@ -43,7 +40,7 @@ void ErrorFactor::make_room(std::size_t columns) {
   if (columns_ + columns <= capacity) return;
   std::size_t first = 0;
   for (std::size_t i = 0; i < state_size; ++i) {
-    const double length = norm(rows_[i], first);
+    const double length = norm(std::span(rows_[i]).subspan(first));
     if (!(length > 0)) continue;
     Row mirror{};
     for (std::size_t k = first; k < capacity; ++k) mirror[k] = rows_[i][k] / length;
@@ -100,13 +97,14 @@ void ErrorFactor::advance(const StateMatrix& jacobian) {
 
 double ErrorFactor::deviation(const StateVector& gradient) const {
   if (!known_) return std::numeric_limits<double>::infinity();
-  std::array<double, capacity + state_size> parts{};
-  for (std::size_t i = 0; i < state_size; ++i) {
-    if (gradient[i] == 0) continue;
-    for (std::size_t k = 0; k < capacity; ++k) parts[k] += gradient[i] * rows_[i][k];
-    parts[capacity + i] = gradient[i] * alone_[i];
+  std::array<double, capacity + state_size> parts;  // not filled first, which took longer than the products
+  for (std::size_t i = 0; i < state_size; ++i) parts[i] = gradient[i] * alone_[i];
+  for (std::size_t k = 0; k < columns_; ++k) {
+    double sum = 0;
+    for (std::size_t i = 0; i < state_size; ++i) sum += gradient[i] * rows_[i][k];
+    parts[state_size + k] = sum;
   }
-  return norm(parts);
+  return norm(std::span(parts).first(state_size + columns_));
 }
 
 StateVector product(const StateMatrix& jacobian, const StateVector& vector) {
