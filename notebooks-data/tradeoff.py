@@ -3,7 +3,9 @@
 """Measures cost against true error on eight scenes: tradeoff.csv, tradeoff.md and figures/tradeoff.svg.
 
     notebooks-data/tradeoff.py PROGRAM
+    notebooks-data/tradeoff.py --page             tradeoff.md again, from the measurements that there are
 
+Times of whole commands by earlier builds and this one are those of speed.csv, which tests/speed_benchmark.py --output writes.
 The program carries tradeoff.csv: `clatter plan` predicts costs and errors from its counts of evaluations and its errors,
 never from its times, which are those of the machine that measured them.
 """
@@ -59,6 +61,29 @@ def front(rows):
     return sorted((row for row in rows if row["front"] == "true"), key=lambda row: float(row["seconds"]))
 
 
+def speed_section():
+    """Processor times of whole commands, build by build."""
+    with (DATA / "speed.csv").open(encoding="utf-8") as file:
+        names, *rows = csv.reader(file)
+    lines = ["", "## Whole commands, build by build", "",
+             "Processor time [s] of the same works (`tests/speed_benchmark.py`), the least of repeated runs in turns on one machine;",
+             f"{', '.join(names[1:-1])} are earlier commits. {names[1]} has no discrete model in space: its rows there are empty; and no errors",
+             "beside numbers, which the later ones have by default:",
+             "`run.errors=false` and `run.amplification=false` turn them off.", "",
+             "| " + " | ".join(names) + f" | {names[-1]} / {names[1]} |", "|---" * (len(names) + 1) + "|"]
+    for work, *times in rows:
+        ratio = f"{float(times[-1]) / float(times[0]):.2f}" if times[0] and times[-1] else ""
+        lines.append("| " + " | ".join([work, *(time or "not there" for time in times), ratio]) + " |")
+    return lines
+
+
+def measured_before():
+    """The rows of tradeoff.csv."""
+    with (DATA / "tradeoff.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    return {scene: ([], [row for row in rows if row["scene"] == scene]) for scene in SCENES}
+
+
 def write_page(table):
     lines = ["# Cost against true error", "", f"Made by `{COMMAND}`, from tradeoff.csv beside it. Of every model, method,",
              "tolerance, step and mesh these are the ones that no other beats in both cost and error. Cost is the least",
@@ -71,10 +96,13 @@ def write_page(table):
                   "| model | setting | cost [ms] | evaluations | error |", "|---|---|---|---|---|"]
         lines += [f"| {row['model']} | {setting(row)} | {1e3 * float(row['seconds']):.2g} | {row['force_evaluations']} | "
                   f"{float(row['error']):.1e} |" for row in front(rows)]
-    (DATA / "tradeoff.md").write_text("\n".join(lines) + "\n")
+    (DATA / "tradeoff.md").write_text("\n".join(lines + speed_section()) + "\n")
 
 
 def main():
+    if sys.argv[1] == "--page":
+        write_page(measured_before())
+        return
     program = str(Path(sys.argv[1]).resolve())
     table = {scene: measured(program, scene) for scene in SCENES}
     write_csv(table)
