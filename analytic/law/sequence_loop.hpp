@@ -23,6 +23,9 @@ struct SequenceOptions {
   /// Also follow how errors of the drop and of rounding grow: `error` and `amplification` of each row, and the errors
   /// of tail and total.
   bool amplification = true;
+  /// In space: goes on after corners have stayed on the ground while the body turns (space/sustained_contact.hpp), and
+  /// ends where the body has to settle on one face and no impact can be predicted any more.
+  bool until_rest = false;
 
   /// @throws std::domain_error naming the field, its value and what is allowed.
   void validate() const;
@@ -79,11 +82,12 @@ class SequenceLoop {
       end_early(Outcome::outside_model, error);
     }
     result_.end_predictable = growth_ && (growth_->predictable() || end_is_certain_);
-    if (!growth_ || growth_->predictable()) return;
-    result_.message += end_is_certain_ ? "; another sequence with the same end is possible"
-                                       : "; errors have grown so far that another sequence is possible";
+    if (!growth_) return;
     std::size_t known = 0;
-    for (const auto& row : result_.rows) known += row.error.predictable ? 1 : 0;
+    while (known < result_.rows.size() && result_.rows[known].error.predictable) ++known;
+    if (growth_->predictable() && known == result_.rows.size()) return;
+    result_.message += result_.end_predictable ? "; another sequence with the same end is possible"
+                                               : "; errors have grown so far that another sequence is possible";
     if (known < result_.rows.size()) result_.message += " from impact " + std::to_string(known + 1) + " on";
   }
 

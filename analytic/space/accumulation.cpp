@@ -241,88 +241,6 @@ void add_errors(const Drop& drop, const ImpactRow& last, Tail& tail) {
       e.angular_velocity_after + jump_of(drop.body, error + turned * normal) / reach + turned * turning * turned;
 }
 
-namespace {
-
-/// A face of the hull, as the ground would see it.
-struct LowestFace {
-  std::vector<int> corners;     ///< in order around it
-  Vector3 normal;               ///< outward, world frame
-  double depth = 0, least = 0;  ///< of the face and of the other vertices inside it, from the centre of mass [m]
-};
-
-/// The face of the lowest three vertices; nothing if they are not of one.
-std::optional<LowestFace> lowest_face(const Body& body, const State& now) {
-  std::vector<Vector3> arms;
-  std::vector<int> order;
-  for (const Vector3& vertex : body.vertices) {
-    order.push_back(static_cast<int>(arms.size()));
-    arms.push_back(now.attitude * vertex);
-  }
-  const auto arm = [&](int i) -> const Vector3& { return arms[static_cast<std::size_t>(i)]; };
-  std::ranges::sort(order, {}, [&](int i) { return arm(i).z(); });
-  if (order.size() < 4 || !body.rims.empty() || !body.ellipsoids.empty()) return {};
-  const Vector3& first = arm(order[0]);
-  LowestFace face;
-  for (std::size_t k = 2; k < order.size(); ++k) {
-    face.normal = (arm(order[1]) - first).cross(arm(order[k]) - first);
-    if (face.normal.norm() > 1e-9 * body.reach() * body.reach()) break;
-  }
-  face.normal = std::copysign(1 / face.normal.norm(), -face.normal.z()) * face.normal;
-  face.depth = face.normal.dot(first);
-  face.least = -body.reach();
-  for (const int i : order) {
-    const double depth = face.normal.dot(arm(i));
-    if (std::fabs(depth - face.depth) <= 1e-9 * body.reach()) face.corners.push_back(i);
-    else face.least = std::fmax(face.least, depth);
-  }
-  if (!(face.least < face.depth)) return {};
-  Vector3 middle = Vector3::Zero();
-  for (const int i : face.corners) middle += arm(i) / static_cast<double>(face.corners.size());
-  const Vector3 axis = (first - middle).normalized();
-  std::ranges::sort(face.corners, {}, [&](int i) {
-    const Vector3 from_middle = arm(i) - middle;
-    return std::atan2(face.normal.dot(axis.cross(from_middle)), axis.dot(from_middle));
-  });
-  return face;
-}
-
-/// Least distance inside the face of the foot of the perpendicular from the centre of mass.
-double room_around_centre(const Body& body, const State& now, const LowestFace& face) {
-  double room = body.reach();
-  for (std::size_t k = 0; k < face.corners.size(); ++k) {
-    const auto next = static_cast<std::size_t>(face.corners[(k + 1) % face.corners.size()]);
-    const Vector3 from = now.attitude * body.vertices[static_cast<std::size_t>(face.corners[k])];
-    const Vector3 edge = (now.attitude * body.vertices[next] - from).normalized();
-    room = std::fmin(room, face.normal.dot(edge.cross(-from)));
-  }
-  return room;
-}
-
-}  // namespace
-
-std::optional<Rest> settles(const Drop& drop, const State& now, double time) {
-  const ImpactLaw& law = drop.law.law;
-  if (!(drop.gravity > 0) || law.law == RestitutionLaw::viscoelastic || !(law.restitution < 1)) return {};
-  const Body& body = drop.body;
-  const auto face = lowest_face(body, now);
-  if (!face) return {};
-  const Matrix3 axes = now.attitude.toRotationMatrix(), inertia = axes * body.inertia * axes.transpose();
-  const double weight = body.mass * drop.gravity, spin = now.angular_velocity.z();
-  const double friction = law.friction == FrictionKind::none ? 0 : std::fabs(law.friction_value);
-  const double unbalanced = inertia.col(2).head<2>().norm() + face->normal.head<2>().norm() * inertia.norm();
-  const double room = room_around_centre(body, now, *face) - friction * face->depth - spin * spin * unbalanced / weight;
-  Vector3 turning = now.angular_velocity;
-  turning.z() = 0;
-  const double energy = body.mass * now.velocity.z() * now.velocity.z() / 2 + turning.dot(inertia * turning) / 2 +
-                        weight * std::fmax(now.position.z() - face->depth, 0.0);
-  // A tilt φ lowers other points by φ times their distance at most.
-  const double tilt = energy / (weight * room), now_tilted = face->normal.head<2>().norm();
-  const double clear = face->depth - face->least;
-  if (!(room > 0) || !(2 * std::fmax(tilt, now_tilted) * 2 * body.reach() < clear)) return {};
-  const double speed = std::sqrt(2 * energy / body.mass);
-  return Rest{.corners = face->corners, .latest = time + 8 * speed / (drop.gravity * (1 - law.restitution))};
-}
-
 std::size_t known_rows(const std::vector<ImpactRow>& rows) {
   const auto lost = std::ranges::find_if(rows, [](const ImpactRow& row) { return !row.error.predictable; });
   return static_cast<std::size_t>(lost - rows.begin());
@@ -355,6 +273,17 @@ bool ends_for_certain(const Drop& drop, const std::vector<ImpactRow>& rows, Tail
   tail.velocity_error = known->error.velocity_after + impulse / drop.body.mass;
   tail.angular_velocity_error = known->error.angular_velocity_after + jump_of(drop.body, impulse) / drop.body.reach();
   return true;
+}
+
+StateErrors errors_since(const Drop& drop, const State& known, const StateErrors& errors, const Tail& since) {
+  constexpr double safety = 4;
+  const double impulse = safety * (since.normal_impulse + since.tangential_impulse.norm());
+  const double time = safety * since.end_time, reach = drop.body.reach();
+  const double turning = known.angular_velocity.norm() + jump_of(drop.body, impulse) / reach;
+  return {.time = errors.time + time,
+          .attitude = errors.attitude + turning * time,
+          .velocity = errors.velocity + impulse / drop.body.mass + drop.gravity * time,
+          .angular_velocity = errors.angular_velocity + jump_of(drop.body, impulse) / reach + turning * turning * time};
 }
 
 }  // namespace clatter::analytic::space

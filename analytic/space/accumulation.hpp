@@ -69,16 +69,11 @@ void add_errors(const Drop& drop, const ImpactRow& last, Tail& tail);
 /// @param tail  end_time since the first impact
 [[nodiscard]] bool ends_for_certain(const Drop& drop, const std::vector<ImpactRow>& rows, Tail& tail);
 
-/// The face on which a body must come to rest, which the energy E of its vertical motion and turning about horizontal
-/// axes, above that of rest on the face, cannot lift off by more than
-///     height of the centre of mass  E/(m g),   tilt  E/(m g ρ),                                       (1)
-/// ρ the distance inside the face of the point that the resting body presses on: that below the centre of mass, moved
-/// by friction, by μ times the centre's height at most, and by what products of inertia do to a spinning body.  No
-/// other point comes down at such a tilt, and impacts with e < 1 take the energy away.  Nothing where (1) leaves
-/// another face open. Rest is taken to come within 8 v/(g (1 − e)), v = √(2E/m), which is not proved: a body that does
-/// not tilt needs 2, the slowest of 360 random boxes 3.0, or 3.4 v/g with e <= 0.3 (time-stepping of their unilateral
-/// motion).
-/// @param time  of the state, since the first impact [s]
-[[nodiscard]] std::optional<Rest> settles(const Drop& drop, const State& now, double time);
+/// Bounds on the errors of a state at which corners stay on the ground, from those of an earlier one since which
+/// nothing else can have reached the ground, but the order of impacts is open: those, and four times what has happened
+/// since.
+/// @param since  time and impulses since then
+[[nodiscard]] StateErrors errors_since(const Drop& drop, const State& known, const StateErrors& errors,
+                                       const Tail& since);
 
 }  // namespace clatter::analytic::space

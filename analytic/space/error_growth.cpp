@@ -43,6 +43,14 @@ auto diagonal(const Eigen::Matrix<double, 10, 1>& deviations) -> Eigen::Matrix<d
 
 /// Bounds are this many standard deviations of the errors assumed.
 constexpr double deviations = 3;
+/// Of errors in each direction with these bounds.
+Eigen::Matrix<double, 10, 1> deviations_of(const StateErrors& errors) {
+  Eigen::Matrix<double, 10, 1> d;
+  d << errors.time, Vector3::Constant(errors.attitude), Vector3::Constant(errors.velocity),
+      Vector3::Constant(errors.angular_velocity);
+  return d / deviations;
+}
+
 /// Rounding of an impulse with friction, relative: half of what impact.hpp promises, as a standard deviation.
 constexpr double friction_rounding = 5e-14;
 /// Likewise of what face_friction.hpp promises.
@@ -194,6 +202,31 @@ StrikeDerivatives ErrorGrowth::group_differences(const Strike& strike, const Imp
   return derivatives;
 }
 
+/// Beside corners on the ground, which errors leave there, an impact is smooth in those directions only.
+ErrorGrowth::Struck ErrorGrowth::differences_along_errors(const Strike& strike, const ImpactRow& row) const {
+  const double reach = body_.reach(), speed = row.before.velocity.norm() + row.before.angular_velocity.norm() * reach;
+  Struck struck = Struck::Zero(9, factor_.cols());
+  for (Eigen::Index k = 0; k < factor_.cols(); ++k) {
+    const Eigen::Matrix<double, 9, 1> error = factor_.col(k).tail<9>();
+    const double length =
+        error.head<3>().norm() + (error.segment<3>(3).norm() + reach * error.tail<3>().norm()) / speed;
+    if (!(length > 0)) continue;
+    const double step = relative_step / length;
+    const auto struck_at = [&](double by) {
+      State s = row.before;
+      s.attitude = turned(by * error.head<3>(), s.attitude);
+      s.velocity += by * error.segment<3>(3);
+      s.angular_velocity += by * error.tail<3>();
+      const Impact impact = strike(s);
+      Eigen::Matrix<double, 9, 1> all;
+      all << impact.impulse, impact.velocity_after, impact.angular_velocity_after;
+      return all;
+    };
+    struck.col(k) = (struck_at(step) - struck_at(-step)) / (2 * step);
+  }
+  return struck;
+}
+
 ErrorGrowth::EnergyGradients ErrorGrowth::energy_gradients(const ImpactRow& row, const Matrix3& inertia) const {
   const State& before = row.before;
   const Vector3 arm = before.attitude * row.corners.front().place;
@@ -240,7 +273,8 @@ void ErrorGrowth::strike(const Strike& strike, const StrikeDerivatives& closed, 
   row.amplification = std::numeric_limits<double>::quiet_NaN();
   const Factor arriving = std::exchange(arriving_, Factor(size, 0));
   const bool turns = row.before.angular_velocity.norm() > 0;
-  if (row.group && row.start > 0 && turns) predictable_ = false;
+  // What comes down beside corners on the ground does so in neighbours, too: stay() has seen to that.
+  if (row.group && row.start > 0 && turns && row.held == 0) predictable_ = false;
   if (!predictable_) return;
   if (!(row.approach_speed > 0) || row.impact.impulse.norm() == 0) {
     predictable_ = false;
@@ -250,22 +284,25 @@ void ErrorGrowth::strike(const Strike& strike, const StrikeDerivatives& closed, 
                                         row.flight.velocity_error)
                      : arriving);
   StrikeDerivatives derivatives = closed;
+  Struck struck;
   try {
-    if (!closed.allFinite()) derivatives = row.group ? group_differences(strike, row) : corner_differences(strike, row);
+    if (row.held > 0) derivatives.setZero(), struck = differences_along_errors(strike, row);
+    else if (!closed.allFinite())
+      derivatives = row.group ? group_differences(strike, row) : corner_differences(strike, row);
   } catch (const std::runtime_error&) {  // a neighbour jams, or cannot be computed
     predictable_ = false;
     return;
   }
-  if (!derivatives.allFinite()) {
+  if (row.held == 0) struck = derivatives.lazyProduct(factor_.bottomRows<9>());
+  if (!derivatives.allFinite() || !struck.allFinite()) {
     predictable_ = false;
     return;
   }
-  const Struck struck = derivatives.lazyProduct(factor_.bottomRows<9>());
   fill(struck, row);
   const Eigen::Matrix<double, 9, 9> struck_drop = derivatives.lazyProduct(of_drop_.bottomRows<9>());
   const double of_time = row.start > 0 ? of_drop_.row(0).norm() / row.start : 0;
   const double of_impulse = struck_drop.topRows<3>().norm() / row.impact.impulse.norm();
-  row.amplification = std::fmax(std::fmax(of_time, of_impulse), of_drop_.middleRows<3>(1).norm());
+  if (!resumed_) row.amplification = std::fmax(std::fmax(of_time, of_impulse), of_drop_.middleRows<3>(1).norm());
   factor_.bottomRows<6>() = struck.bottomRows<6>();
   of_drop_.bottomRows<6>() = struck_drop.bottomRows<6>();
   append_rounding(row);
@@ -335,7 +372,7 @@ void ErrorGrowth::fly(const FreeFlight& flight, const FirstContact& contact, con
       !(bound(factor_.middleRows<3>(1)) <= first_order) || contact.within_margin) {
     predictable_ = false;
   }
-  if (predictable_) check_others(flight, contact);
+  if (predictable_) check_others(flight, contact, now.attitude, to);
 }
 
 /// Height of a point that neither departed nor arrived: error of attitude and of the parabola.
@@ -344,7 +381,9 @@ double ErrorGrowth::height_bound(double time) const {
 }
 
 /// No other point may be so near the ground that the errors let it arrive first.
-void ErrorGrowth::check_others(const FreeFlight& flight, const FirstContact& contact) {
+/// @param touching  from the centre of mass to the point that does, world frame
+void ErrorGrowth::check_others(const FreeFlight& flight, const FirstContact& contact, const Quaternion& attitude,
+                               const Vector3& touching) {
   const double errs = height_bound(contact.time);
   if (!(contact.near_miss.clearance > errs)) predictable_ = false;
   const PointHeights heights(body_, flight);
@@ -352,8 +391,41 @@ void ErrorGrowth::check_others(const FreeFlight& flight, const FirstContact& con
   for (int i = 0; i < heights.count(); ++i) {
     if (std::find(contact.together.begin(), contact.together.end(), i) != contact.together.end()) continue;
     const PointHeight h = heights.at(i, moment);
-    if (h.velocity < 0 && !(h.height > errs)) predictable_ = false;
+    if (!(h.velocity < 0) || h.height > errs) continue;
+    // With the touching point on the ground, a turn moves others by their distance from it.
+    const Vector3 arm = attitude * touching_place(body_, attitude, i) - touching;
+    const double turned = bound(cross_matrix(arm).row(2).lazyProduct(factor_.middleRows<3>(1)));
+    if (heights.is_round(i) || !(h.height > turned + 8 * epsilon * body_.reach())) predictable_ = false;
   }
+}
+
+void ErrorGrowth::stay(const std::optional<ContactDerivatives>& derivatives, const StateErrors& before,
+                       const StateErrors& rounding) {
+  if (!derivatives) predictable_ = false;
+  if (!predictable_) return;
+  resumed_ = true;
+  arriving_ = Factor(size, 0);
+  append(diagonal(deviations_of(before)));
+  Gradient shift = derivatives->of_state.row(0);
+  shift[0] = 0;
+  const double late = bound(shift.lazyProduct(factor_));
+  factor_ = derivatives->of_state.lazyProduct(factor_).eval();
+  append(diagonal(deviations_of(rounding)));
+  if (!derivatives->hold(body_, late, bound(factor_.middleRows<3>(1)))) predictable_ = false;
+}
+
+void ErrorGrowth::restart(const StateErrors& errors) {
+  predictable_ = resumed_ = true;
+  factor_ = arriving_ = Factor(size, 0);
+  append(diagonal(deviations_of(errors)));
+}
+
+StateErrors ErrorGrowth::bounds() const {
+  if (!predictable_) return {};
+  return {.time = bound(factor_.row(0)),
+          .attitude = bound(factor_.middleRows<3>(1)),
+          .velocity = bound(factor_.middleRows<3>(4)),
+          .angular_velocity = bound(factor_.bottomRows<3>())};
 }
 
 void ErrorGrowth::end_without_contact(const FirstContact& contact) {

@@ -4,9 +4,11 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 
 #include "analytic/space/impact_rows.hpp"
 #include "analytic/space/strike_derivatives.hpp"
+#include "analytic/space/sustained_contact.hpp"
 
 namespace clatter::analytic::space {
 
@@ -36,6 +38,15 @@ class ErrorGrowth {
   void strike(const Strike& strike, const StrikeDerivatives& derivatives, ImpactRow& row);
   /// Carries the errors through a flight.
   void fly(const FreeFlight& flight, const FirstContact& contact, const Vector3& from_place, const Vector3& to_place);
+  /// Carries the errors through a contact that lasts; amplification is not known thereafter.
+  /// @param derivatives  contact_derivatives(); none: nothing is predictable any more
+  /// @param before, rounding  what adds to the errors at its beginning and end
+  void stay(const std::optional<ContactDerivatives>& derivatives, const StateErrors& before,
+            const StateErrors& rounding);
+  /// Begins anew with these bounds.
+  void restart(const StateErrors& errors);
+  /// On the errors of the state.
+  [[nodiscard]] StateErrors bounds() const;
   /// After a flight without contact: whether the errors leave that certain.
   void end_without_contact(const FirstContact& contact);
 
@@ -59,6 +70,7 @@ class ErrorGrowth {
   [[nodiscard]] double approach_rounding(const ImpactRow& row) const;
   [[nodiscard]] Gradient approach_gradient(const ImpactRow& row, const Vector3& turning) const;
   [[nodiscard]] StrikeDerivatives corner_differences(const Strike& strike, const ImpactRow& row) const;
+  [[nodiscard]] Struck differences_along_errors(const Strike& strike, const ImpactRow& row) const;
   [[nodiscard]] StrikeDerivatives group_differences(const Strike& strike, const ImpactRow& row) const;
   /// Of the energy before the impact by the state before, with z = −r_z and the inertia turned; of the energy after it
   /// by the attitude.
@@ -69,7 +81,8 @@ class ErrorGrowth {
   void fill(const Struck& struck, ImpactRow& row) const;
   void append_rounding(const ImpactRow& row);  ///< of the impact
   [[nodiscard]] Jacobian flight_jacobian(const FreeFlight& flight, double time) const;
-  void check_others(const FreeFlight& flight, const FirstContact& contact);
+  void check_others(const FreeFlight& flight, const FirstContact& contact, const Quaternion& attitude,
+                    const Vector3& touching);
   [[nodiscard]] double height_bound(double time) const;
 
   const Body& body_;
@@ -77,7 +90,7 @@ class ErrorGrowth {
   Matrix3 inverse_inertia_;
   Factor factor_, arriving_;                ///< arriving_: the rounding of a flight, until its impact is known
   Eigen::Matrix<double, size, 9> of_drop_;  ///< changes of the state for changes of the drop
-  bool predictable_ = true;
+  bool predictable_ = true, resumed_ = false;
 };
 
 }  // namespace clatter::analytic::space

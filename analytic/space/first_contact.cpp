@@ -521,11 +521,15 @@ class Search {
     found_.time_error = found_.is_hop ? best * found_.velocity_error / std::fabs(found_.normal_velocity)
                                       : heights_.noise(best) / std::fabs(first.velocity);
     // The others' heights err by the time's error, too.
-    const double late = search_.hopped() ? 4 * epsilon * best : heights_.noise(best) / std::fabs(first.velocity);
+    // Of a graze by the square of that time, and never beside a departure that was later.
+    const double noise = heights_.noise(best);
+    const double late = search_.hopped() ? 4 * epsilon * best
+                                         : std::fmin(std::fmin(noise / std::fabs(first.velocity), best),
+                                                     std::sqrt(2 * noise / std::fabs(first.acceleration)));
     for (int i = 0; i < heights_.count(); ++i) {
       if (i == found_.point) continue;
       const PointHeight h = best == 0 ? from_[static_cast<std::size_t>(i)] : heights_.at(i, moment);
-      if (std::fabs(h.height) <= heights_.noise(best) + late * std::fabs(h.velocity) && h.velocity < 0) {
+      if (std::fabs(h.height) <= noise + late * std::fabs(h.velocity) && h.velocity < 0) {
         found_.together.push_back(i);
       }
     }

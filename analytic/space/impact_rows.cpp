@@ -126,15 +126,41 @@ void SequenceUnits::to_si(Tail& tail) const {
   scale(tail.normal_impulse_error, mass_ + speed_);
   scale(tail.tangential_impulse, mass_ + speed_);
   scale(tail.tangential_impulse_error, mass_ + speed_);
+  scale(tail.energy_loss, mass_ + 2 * speed_);
   scale(tail.velocity_after, speed_);
   scale(tail.velocity_error, speed_);
   scale(tail.angular_velocity_after, speed_ - length_);
   scale(tail.angular_velocity_error, speed_ - length_);
 }
 
+void SequenceUnits::to_si(StateErrors& error) const {
+  scale(error.time, length_ - speed_);
+  scale(error.velocity, speed_);
+  scale(error.angular_velocity, speed_ - length_);
+}
+
+void SequenceUnits::to_si(SustainedContact& contact) const {
+  scale(contact.begin, length_ - speed_);
+  scale(contact.duration, length_ - speed_);
+  if (contact.tail) to_si(*contact.tail);
+  scale(contact.approach_speed, speed_);
+  to_si(contact.after);
+  to_si(contact.error);
+  scale(contact.normal_impulse, mass_ + speed_);
+  scale(contact.normal_impulse_error, mass_ + speed_);
+  scale(contact.energy_loss, mass_ + 2 * speed_);
+}
+
 void SequenceUnits::to_si(Sequence& sequence) const {
   for (ImpactRow& row : sequence.rows) to_si(row);
   if (sequence.tail) to_si(*sequence.tail);
+  for (SustainedContact& contact : sequence.contacts) to_si(contact);
+  if (sequence.standing) {
+    scale(sequence.standing->time, length_ - speed_);
+    to_si(sequence.standing->state);
+    to_si(sequence.standing->error);
+  }
+  scale(sequence.energy_at_end, mass_ + 2 * speed_);
   if (sequence.rest) scale(sequence.rest->latest, length_ - speed_);
   to_si(sequence.near_miss);
   scale(sequence.end_acceleration, 2 * speed_ - length_);

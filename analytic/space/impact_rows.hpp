@@ -2,6 +2,7 @@
 // A drop in space, the rows of its impact sequence, and the units in which that is computed.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,12 +47,13 @@ struct RowErrors {
 /// One impact.
 struct ImpactRow {
   double start = 0;             ///< time since the first impact [s]
-  std::vector<Corner> corners;  ///< that arrived; the first is the one that `impact` is of
+  std::vector<Corner> corners;  ///< that arrived, then those held; the first is the one that `impact` is of
   State before;                 ///< height of the centre of mass in position.z
   /// Of the corner, or of several corners or a level rim together: then the contact velocities are those of the first
   /// corner, path and energy those of the group, p_c and what describes slip are not known (NaN).
   Impact impact;
   std::optional<GroupImpact> group;  ///< if several corners arrived, or all of a rim that lies level
+  std::size_t held = 0;              ///< how many of the corners, the last ones, were on the ground already
   double approach_speed = 0;         ///< of the corner; largest of the group [m/s]
   double energy_before = 0;          ///< translational + rotational + potential (z = 0 at the ground) [J]
   double energy_after = 0;
@@ -74,6 +76,7 @@ struct Tail {
   double tangential_impulse_error = 0;           ///< of vectors: bounds on the length of the error
   std::vector<int> corners;                      ///< that strike in turn and stay on the ground (Corner::index)
   bool closed_form = false;
+  double energy_loss = 0;                    ///< [J]
   Vector3 velocity_after = Vector3::Zero();  ///< of the centre of mass at the end [m/s]
   double velocity_error = 0;
   Vector3 angular_velocity_after = Vector3::Zero();  ///< [rad/s]
@@ -83,10 +86,55 @@ struct Tail {
   void forget();
 };
 
+/// Bounds on the errors of a state and its time; infinite where not known.
+struct StateErrors {
+  double time = std::numeric_limits<double>::infinity();              ///< [s]
+  double attitude = std::numeric_limits<double>::infinity();          ///< [rad]
+  double velocity = std::numeric_limits<double>::infinity();          ///< [m/s]
+  double angular_velocity = std::numeric_limits<double>::infinity();  ///< [rad/s]
+};
+
+/// A body with corners at rest on the ground, but for slip, that turns on them.
+struct Standing {
+  double time = 0;  ///< since the first impact [s]
+  State state;
+  StateErrors error;
+  std::vector<int> corners;  ///< Corner::index
+};
+
+enum class ContactEnd {
+  arrival,   ///< other corners come down: the next impact
+  lift_off,  ///< the ground no longer pushes: a flight begins
+  joining,   ///< another corner has come down without speed, and stays
+  open,      ///< the law leaves open how it goes on, or friction no longer holds a corner that stuck
+};
+
+/// The motion of a body one or two corners of which stay on the ground (sustained_contact.hpp).
+struct SustainedContact {
+  std::size_t rows = 0;      ///< that come before
+  double begin = 0;          ///< time since the first impact [s]
+  double duration = 0;       ///< [s]
+  std::optional<Tail> tail;  ///< hops that end in it, if the sequence goes on after it
+  std::vector<int> corners;  ///< that stay at its beginning (Corner::index)
+  std::vector<int> pivots;   ///< that still do at its end
+  bool slips = false;        ///< with friction, at times
+  bool sticks = false;       ///< at times
+  ContactEnd end = ContactEnd::open;
+  std::string reason;         ///< why the law leaves it open
+  std::vector<int> arriving;  ///< that come down at the end
+  double approach_speed = 0;  ///< of the fastest of these [m/s]
+  State after;                ///< at the end
+  StateErrors error;          ///< of `after`, and of its time
+  double normal_impulse = 0;  ///< of the ground meanwhile [N·s]
+  double normal_impulse_error = std::numeric_limits<double>::infinity();
+  double energy_loss = 0;  ///< by friction, and of what normal velocity and slip hops have left [J]
+};
+
 /// The face on which a body comes to rest, still sliding and turning about the vertical there unless friction stops it.
 struct Rest {
   std::vector<int> corners;  ///< of the face, in order around it (Corner::index)
-  double latest = 0;         ///< by when nothing of the body bounces or rocks any more, since the first impact [s]
+  /// By when nothing of the body bounces or rocks any more, since the first impact; infinite where not known [s].
+  double latest = 0;
 };
 
 struct Sequence {
@@ -95,8 +143,12 @@ struct Sequence {
   std::string message;                ///< why it ended, one sentence
   std::vector<std::string> warnings;  ///< such as energy created by Newton's law with friction
   std::optional<Tail> tail;
-  std::optional<Rest> rest;  ///< if what is left of the motion can end on one face only
-  NearMiss near_miss;        ///< of the last flight, if no_further_impact
+  std::vector<SustainedContact> contacts;  ///< that the sequence went through, with SequenceOptions::until_rest
+  std::optional<Standing> standing;        ///< if sustained_contact: on which corners
+  std::optional<Rest> rest;                ///< if what is left of the motion can end on one face only
+  double energy_at_end =
+      0;               ///< after the last of rows, tail and contacts; energy_before of the first less all losses [J]
+  NearMiss near_miss;  ///< of the last flight, if no_further_impact
   /// h″ of the corner that stays on the ground, if sustained_contact without a tail [m/s²].
   double end_acceleration = 0;
   double total_normal_impulse = 0;  ///< rows and tail [N·s]
@@ -121,6 +173,8 @@ class SequenceUnits {
   void to_si(NearMiss& miss) const;
   void to_si(ImpactRow& row) const;
   void to_si(Tail& tail) const;
+  void to_si(StateErrors& error) const;
+  void to_si(SustainedContact& contact) const;
 
   int length_ = 0, speed_ = 0, mass_ = 0;
 };

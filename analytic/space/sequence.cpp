@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "analytic/base/errors.hpp"
@@ -13,6 +15,8 @@
 #include "analytic/space/first_contact.hpp"
 #include "analytic/space/impact_rows.hpp"
 #include "analytic/space/level_rim.hpp"
+#include "analytic/space/resting_face.hpp"
+#include "analytic/space/sustained_contact.hpp"
 
 namespace clatter::analytic::space {
 
@@ -45,6 +49,13 @@ State aligned(const Body& body, State state) {
   return state;
 }
 
+/// The impact of several corners of a row.
+GroupImpact group_impact(const Body& body, const State& before, const ImpactRow& row, const Law& law) {
+  if (row.held == 0) return strike_together(body, before, row.corners, law);
+  const std::span corners(row.corners);
+  return strike_beside(body, before, corners.first(corners.size() - row.held), corners.last(row.held), law);
+}
+
 }  // namespace
 
 /// Fills in the impact of the row's corners from the state before: one corner, or a group of corners or a level rim.
@@ -53,7 +64,7 @@ State aligned(const Body& body, State state) {
 void strike_row(const Body& body, const Law& law, ImpactRow& row, StrikeDerivatives* derivatives) {
   Corner corner = row.corners.front();
   if (row.corners.size() > 1 || corner.radius > 0) {
-    row.group = strike_together(body, row.before, row.corners, law);
+    row.group = group_impact(body, row.before, row, law);
     row.impact = impact_of(*row.group, row.before, corner.place);
     row.approach_speed = row.group->approach_speed;
     if (derivatives != nullptr) derivatives->setConstant(missing);
@@ -81,7 +92,7 @@ void strike_row(const Body& body, const Law& law, ImpactRow& row, StrikeDerivati
 /// The impact of the same corners from a neighbouring state, by which the row's errors are carried on.
 Impact struck_again(const Body& body, const Law& law, const ImpactRow& row, const State& before) {
   const Corner& corner = row.corners.front();
-  if (row.group) return impact_of(strike_together(body, before, row.corners, law), before, corner.place);
+  if (row.group) return impact_of(group_impact(body, before, row, law), before, corner.place);
   const State state = aligned(body, before);
   return strike(body, state, touching_place(body, state.attitude, corner.index), law);
 }
@@ -95,7 +106,10 @@ void find_departures(const Law& law, const ImpactRow& row, const State& after, s
     const ContactVelocity velocity = contact_velocity(after, corner.place);
     const double turning = corner.radius * after.angular_velocity.head<2>().norm();  // of a level rim
     double normal = row.group ? velocity.value.z() - turning : row.impact.contact_after.z();
-    const bool rounding = std::fabs(normal) <= 16 * epsilon * velocity.scale;
+    // Several corners without rebound leave each other what is rounding of the impact.
+    const double scale =
+        row.group && plastic ? 4 * (velocity.scale + contact_velocity(row.before, corner.place).scale) : velocity.scale;
+    const bool rounding = std::fabs(normal) <= 16 * epsilon * scale;
     if (rounding && (row.group || plastic)) normal = 0;
     touches.push_back({corner.index, normal});
   }
@@ -105,6 +119,10 @@ namespace {
 
 /// Of the rotation, in a sequence: a third of a second.
 constexpr int most_evaluations = 1'000'000;
+/// Of corners that stay on the ground, in a sequence.
+constexpr std::size_t most_contacts = 10'000;
+/// Angle that the body turns by during hops that are only summed up before a contact that lasts [rad].
+constexpr double least_turn = 1e-8;
 
 /// The loop of impacts, in internal units.
 class Run : public SequenceLoop<Sequence, ErrorGrowth> {
@@ -120,6 +138,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     const std::vector<int> lowest = touch_down();
     if (options_.amplification) growth_.emplace(body_, state_, drop_.gravity);
     follow([&] { go_on(lowest); });
+    result_.energy_at_end = energy(state_);
     return std::move(result_);
   }
 
@@ -146,24 +165,158 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     return lowest;
   }
 
+  enum class Next { impact, flight, end };
+
   void go_on(std::vector<int> arriving) {
     FirstContact flown;
     for (;;) {
       record(arriving, flown);
-      if (accumulates()) return;
-      if (is_full()) return note_slow_contacts();
-      const ImpactRow& last = result_.rows.back();
-      const FreeFlight flight(principal_, state_, drop_.gravity);
-      flown = first_contact(body_, flight, touches_);
-      result_.evaluations += flown.evaluations;
-      if (result_.evaluations > most_evaluations) {
-        throw NumericalError("the body spins so fast that its flights take more than a million evaluations");
-      }
-      if (flown.end != FlightEnd::contact) return end_without_contact(flown);
-      if (flown.time == 0 && last.impact.impulse.norm() == 0) return stall();
-      arriving = flown.together;
-      arrive(flight, flown, last.corners.front().place);
+      Next next = Next::flight;
+      if (accumulates()) next = go_on_touching(arriving);
+      else if (is_full()) return note_slow_contacts();
+      else if (options_.until_rest && is_still()) return settle();
+      flown = {};
+      while (next == Next::flight) next = fly(arriving, flown);
+      if (next == Next::end) return;
     }
+  }
+
+  Next fly(std::vector<int>& arriving, FirstContact& flown) {
+    const ImpactRow& last = result_.rows.back();
+    const FreeFlight flight(principal_, state_, drop_.gravity);
+    flown = first_contact(body_, flight, touches_);
+    result_.evaluations += flown.evaluations;
+    if (result_.evaluations > most_evaluations) {
+      throw NumericalError("the body spins so fast that its flights take more than a million evaluations");
+    }
+    if (flown.end != FlightEnd::contact) {
+      end_without_contact(flown);
+      return go_on_touching(arriving);
+    }
+    if (flown.time == 0 && last.impact.impulse.norm() == 0) {
+      stall();
+      return go_on_touching(arriving);
+    }
+    arriving = flown.together;
+    const auto lifted = std::exchange(lifted_, {});
+    arrive(flight, flown, lifted ? body_.vertices[static_cast<std::size_t>(*lifted)] : last.corners.front().place);
+    return Next::impact;
+  }
+
+  /// Where corners stay on the ground while the body turns: follows them, if that is asked for, to what comes next.
+  Next go_on_touching(std::vector<int>& arriving) {
+    if (!options_.until_rest || !result_.standing || !can_follow(drop_, result_.standing->corners)) return Next::end;
+    if (result_.contacts.size() >= most_contacts) throw NumericalError("corners stay on the ground again and again");
+    if (growth_ && !growth_->predictable()) regain(*result_.standing);
+    SustainedContact contact = followed(*result_.standing);
+    const bool open = contact.end == ContactEnd::open;
+    if (!open) contact.tail = std::exchange(result_.tail, {});
+    result_.contacts.push_back(std::move(contact));
+    const SustainedContact& now = result_.contacts.back();
+    result_.total_normal_impulse += now.normal_impulse;
+    time_ += now.duration;
+    state_ = now.after;
+    if (growth_ && growth_->predictable()) know(state_, time_, now.error);
+    if (open) return end_open(now);
+    result_.standing = {};
+    result_.message.clear();
+    result_.end_acceleration = 0;
+    accumulation_ = {};
+    if (now.end == ContactEnd::lift_off) return lift_off(now.pivots.front());
+    if (now.end == ContactEnd::joining) {
+      result_.standing = Standing{time_, state_, now.error, now.pivots};
+      return go_on_touching(arriving);
+    }
+    arriving = now.arriving;
+    held_ = now.pivots;
+    return Next::impact;
+  }
+
+  /// The last state that can be predicted.
+  struct Known {
+    State state;
+    StateErrors error;
+    double time = 0;
+    std::size_t rows = 0, contacts = 0;  ///< that come before
+  };
+
+  void know(const State& state, double time, const StateErrors& error) {
+    known_ = Known{state, error, time, result_.rows.size(), result_.contacts.size()};
+  }
+
+  /// Where errors decide in which order corners have struck since, but nothing else can have reached the ground before
+  /// they stay there, the errors are what has happened since.
+  void regain(Standing& standing) {
+    const auto stay = [&](const std::vector<int>& some) {
+      return std::ranges::all_of(some, [&](int i) { return std::ranges::count(standing.corners, i) > 0; });
+    };
+    if (!known_) return;
+    Tail since{.end_time = standing.time - known_->time, .corners = standing.corners};
+    const auto add = [&](double normal, double tangential) {
+      since.normal_impulse += normal;
+      since.tangential_impulse.x() += tangential;
+    };
+    for (std::size_t i = known_->rows; i < result_.rows.size(); ++i) {
+      const ImpactRow& row = result_.rows[i];
+      for (const Corner& corner : row.corners) {
+        if (!stay({corner.index})) return;
+      }
+      add(row.impact.impulse.z(), row.impact.impulse.head<2>().norm());
+    }
+    const double friction = drop_.law.law.friction == FrictionKind::none ? 0 : std::fabs(drop_.law.law.friction_value);
+    for (std::size_t i = known_->contacts; i < result_.contacts.size(); ++i) {
+      const SustainedContact& contact = result_.contacts[i];
+      if (!stay(contact.corners) || !stay(contact.pivots)) return;
+      add(contact.normal_impulse, friction * contact.normal_impulse);
+      if (contact.tail) add(contact.tail->normal_impulse, contact.tail->tangential_impulse.norm());
+    }
+    if (result_.tail) add(result_.tail->normal_impulse, result_.tail->tangential_impulse.norm());
+    if (!undisturbed(drop_, known_->state, since)) return;
+    standing.error = errors_since(drop_, known_->state, known_->error, since);
+    growth_->restart(standing.error);
+    regained_ = true;
+  }
+
+  /// The contact of these corners, its errors carried on.
+  SustainedContact followed(const Standing& standing) {
+    SustainedContact contact = follow_contact(drop_, standing.state, standing.corners);
+    contact.rows = result_.rows.size();
+    contact.begin = standing.time;
+    if (!growth_ || !growth_->predictable()) return contact;
+    const StateErrors& all = standing.error;
+    const StateErrors exact{.time = 0, .attitude = 0, .velocity = 0, .angular_velocity = 0};
+    growth_->stay(contact_derivatives(drop_, standing.state, contact, all),
+                  std::exchange(regained_, false) ? exact : errors_of_hops(),
+                  contact_rounding(drop_, standing.state, contact));
+    contact.error = growth_->bounds();
+    add_impulse_error(drop_, all, contact);
+    return contact;
+  }
+
+  /// Of a corner that lifts off height, velocity and acceleration are zero: the flight begins when it has risen.
+  Next lift_off(int corner) {
+    const FreeFlight flight(principal_, state_, drop_.gravity);
+    const double falling = std::sqrt(reach_ / drop_.gravity);
+    for (double t = 1e-4 * falling; t > 1e-7 * falling; t /= 2) {
+      State s = flight.at(t);
+      double least = std::numeric_limits<double>::infinity();
+      for (const Vector3& vertex : body_.vertices) least = std::fmin(least, s.position.z() + (s.attitude * vertex).z());
+      if (!(least > 0)) continue;
+      state_ = s;
+      time_ += t;
+      touches_.clear();
+      lifted_ = corner;
+      return Next::flight;
+    }
+    throw NumericalError("a corner that lifts off does not rise");
+  }
+
+  /// The law leaves open how the contact goes on; where it comes to rest can be known yet.
+  Next end_open(const SustainedContact& contact) {
+    result_.message += "; " + contact.reason;
+    result_.rest = settles(drop_, state_, time_);
+    if (result_.rest) settle();
+    return Next::end;
   }
 
   /// The state before the impact: the height of the centre of mass is that of the corner that touches.
@@ -192,6 +345,10 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     row.amplification = missing;
     row.error = RowErrors::unknown();
     for (const int point : arriving) row.corners.push_back(touching_corner(body_, state_.attitude, point));
+    row.held = held_.size();
+    for (const int point : std::exchange(held_, {})) {
+      row.corners.push_back(touching_corner(body_, state_.attitude, point));
+    }
     StrikeDerivatives derivatives;
     const bool follows = growth_ && growth_->predictable();
     strike_row(body_, drop_.law, row, follows ? &derivatives : nullptr);
@@ -207,6 +364,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     }
     if (!result_.rows.empty()) accumulation_.add(row, damping_loss(drop_.law.law, row.approach_speed));
     result_.rows.push_back(std::move(row));
+    if (result_.rows.back().error.predictable) know(state_, time_, errors_now());
   }
 
   /// Whether infinitely many impacts follow that need no more rows.
@@ -228,6 +386,9 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     auto tail = extrapolated(accumulation_, {time_, unknown, unknown / last.flight.time * last.impact.impulse.z()});
     if (!tail || !undisturbed(drop_, state_, *tail)) return false;
     const bool vanishes = tail->end_time <= std::fmax(unknown, 4 * epsilon * time_);
+    // What follows the hops begins from the attitude at their end, which is known to first order in what is left.
+    const double turned = tail->end_time * state_.angular_velocity.norm();
+    if (options_.until_rest && !vanishes && tail->corners.size() < 3 && turned > least_turn) return false;
     if (!vanishes && !keeps_slipping(body_, last, *tail)) return false;
     end_state(drop_, last, accumulation_.lever(*tail), *tail);
     tail->end_time += time_;
@@ -235,10 +396,22 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     return true;
   }
 
-  void finish(Tail tail) {
+  /// The state in which hops end.
+  [[nodiscard]] State end_of(const Tail& tail) const {
     State end = state_;
     end.velocity = tail.velocity_after;
     end.angular_velocity = tail.angular_velocity_after;
+    const Vector3 turn = (tail.end_time - time_) / 2 * (state_.angular_velocity + end.angular_velocity);
+    if (turn.norm() > 0 && !result_.rows.back().group) {
+      end.attitude = (Quaternion(Eigen::AngleAxisd(turn.norm(), turn.normalized())) * end.attitude).normalized();
+      end.position.z() = -(end.attitude * touching_place(body_, end.attitude, tail.corners.front())).z();
+    }
+    return end;
+  }
+
+  void finish(Tail tail) {
+    const State end = end_of(tail);
+    tail.energy_loss = energy(state_) - energy(end);
     result_.rest = settles(drop_, end, tail.end_time);
     if (!growth_) tail.forget();
     else if (growth_->predictable()) add_errors(drop_, result_.rows.back(), tail);
@@ -248,15 +421,71 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     const bool spins = tail.angular_velocity_after.z() != 0;
     const bool comes_down = result_.rest && tail.corners.size() < result_.rest->corners.size();
     const std::string stays = which_stays(tail.corners, end);
+    state_ = end;
+    time_ = tail.end_time;
+    if (turns) result_.standing = Standing{time_, state_, errors_after(tail), tail.corners};
     end_in(std::move(tail), turns, slides || spins, stays, comes_down ? ", then the body settles on a face" : "");
   }
 
-  /// Whether the body already had to come to rest on that face after the last impact that can be predicted.
+  /// What hops before a contact add to the errors of the last row's state.
+  [[nodiscard]] StateErrors errors_of_hops() const {
+    StateErrors e{.time = 0, .attitude = 0, .velocity = 0, .angular_velocity = 0};
+    if (!result_.tail) return e;
+    const Tail& tail = *result_.tail;
+    const RowErrors& row = result_.rows.back().error;
+    const double turning = tail.angular_velocity_after.norm();
+    const double turned = turning * (tail.end_time - result_.rows.back().start);
+    e.time = std::fmax(tail.end_time_error - row.start, 0.0);
+    e.attitude = turned * turned + turning * e.time;
+    e.velocity = std::fmax(tail.velocity_error - row.velocity_after, 0.0);
+    e.angular_velocity = std::fmax(tail.angular_velocity_error - row.angular_velocity_after, 0.0);
+    return e;
+  }
+
+  /// Bounds on the errors of the last row's state after the impact.
+  [[nodiscard]] StateErrors errors_now() const {
+    if (!growth_ || !growth_->predictable()) return {};
+    const RowErrors& e = result_.rows.back().error;
+    return {e.start, e.attitude, e.velocity_after, e.angular_velocity_after};
+  }
+
+  /// Likewise at the end of hops.
+  [[nodiscard]] StateErrors errors_after(const Tail& tail) const {
+    StateErrors e = errors_now();
+    const double turning = tail.angular_velocity_after.norm();
+    const double turned = turning * (tail.end_time - result_.rows.back().start);
+    e.attitude += turned * turned + turning * tail.end_time_error;
+    e.time = tail.end_time_error;
+    e.velocity = tail.velocity_error;
+    e.angular_velocity = tail.angular_velocity_error;
+    return e;
+  }
+
+  /// Whether what bouncing and rocking is left is rounding of the heights, on a face that the body cannot leave.
+  bool is_still() {
+    if (!(vertical_energy(drop_, state_) <= 64 * epsilon * body_.mass * drop_.gravity * reach_)) return false;
+    result_.rest = settles(drop_, state_, time_);
+    return result_.rest.has_value();
+  }
+
+  /// Ends on the face found.
+  void settle() {
+    end_is_certain_ = (growth_ && growth_->predictable()) || rests_for_certain();
+    result_.standing = {};
+    rest(false, state_.velocity.head<2>() != Vector2::Zero() || state_.angular_velocity.z() != 0,
+         result_.message.empty() ? "bouncing and rocking have ended" : result_.message, "");
+  }
+
+  /// Whether the body already had to come to rest on that face after the last impact or contact that can be predicted.
   bool rests_for_certain() {
+    if (!result_.rest) return false;
     const std::size_t known = known_rows(result_.rows);
-    if (!result_.rest || known == 0) return false;
-    const ImpactRow& last = result_.rows[known - 1];
-    const auto then = settles(drop_, state_after(last), last.start);
+    std::optional<Rest> then;
+    if (known > 0) then = settles(drop_, state_after(result_.rows[known - 1]), result_.rows[known - 1].start);
+    for (const SustainedContact& contact : result_.contacts) {
+      if (contact.rows < known || !std::isfinite(contact.error.attitude)) continue;
+      then = settles(drop_, contact.after, contact.begin + contact.duration);
+    }
     if (!then || !std::ranges::is_permutation(then->corners, result_.rest->corners)) return false;
     result_.rest->latest = std::fmax(result_.rest->latest, then->latest);
     return true;
@@ -264,9 +493,14 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 
   void rest_as_it_is(const std::string& how) {
     result_.rest = settles(drop_, state_, time_);
-    std::vector<int> corners;
-    for (const Touch& touch : touches_) corners.push_back(touch.point);
+    std::vector<int> corners, staying;
+    for (const Touch& touch : touches_) {
+      corners.push_back(touch.point);
+      const ContactVelocity v = contact_velocity(state_, touching_place(body_, state_.attitude, touch.point));
+      if (std::fabs(v.value.z()) <= 64 * epsilon * v.scale) staying.push_back(touch.point);
+    }
     const bool turns = !result_.rest && state_.angular_velocity != Vector3::Zero();
+    if (turns) result_.standing = Standing{time_, state_, errors_now(), staying};
     rest(turns, state_.velocity.head<2>() != Vector2::Zero(), how, which_stays(corners, state_));
   }
 
@@ -313,7 +547,11 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   State state_;
   double time_ = 0;
   std::vector<Touch> touches_;
+  std::vector<int> held_;  ///< corners that are on the ground at the next impact
   SpaceAccumulation accumulation_;
+  std::optional<Known> known_;
+  std::optional<int> lifted_;  ///< the corner that a contact's end has left last
+  bool regained_ = false;      ///< errors were begun anew for the contact that follows
 };
 
 }  // namespace

@@ -173,4 +173,24 @@ GroupImpact strike_together(const Body& body, const State& before, std::span<con
   return group.result();
 }
 
+GroupImpact strike_beside(const Body& body, const State& before, std::span<const Corner> arriving,
+                          std::span<const Corner> held, const Law& law) {
+  GroupImpact all = strike_together(body, before, arriving, law);
+  State between = before;
+  between.velocity = all.velocity_after;
+  between.angular_velocity = all.angular_velocity_after;
+  std::vector<Corner> touching(arriving.begin(), arriving.end());
+  touching.insert(touching.end(), held.begin(), held.end());
+  const GroupImpact then = strike_together(body, between, touching, law);
+  all.is_whole = false;
+  if (then.order.empty()) return all;
+  all.impulse += then.impulse;
+  all.moment += then.moment;
+  all.velocity_after = then.velocity_after;
+  all.angular_velocity_after = then.angular_velocity_after;
+  all.energy_loss += then.energy_loss;
+  all.order.insert(all.order.end(), then.order.begin(), then.order.end());
+  return all;
+}
+
 }  // namespace clatter::analytic::space

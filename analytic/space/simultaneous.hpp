@@ -43,4 +43,10 @@ namespace clatter::analytic::space {
 [[nodiscard]] GroupImpact strike_together(const Body& body, const State& before, std::span<const Corner> touching,
                                           const Law& law);
 
+/// The impact of corners that arrive while others of the body, `held`, are at rest on the ground: those that arrive
+/// strike, then all by the rules of strike_together() as far as they approach thereafter.
+/// @throws as strike_together()
+[[nodiscard]] GroupImpact strike_beside(const Body& body, const State& before, std::span<const Corner> arriving,
+                                        std::span<const Corner> held, const Law& law);
+
 }  // namespace clatter::analytic::space

@@ -29,8 +29,9 @@ DiscreteSequence sequence_of(const PreparedScene& prepared, SequenceMethod metho
     return planar_sequence(scene, *planar, method);
   }
   if (method == SequenceMethod::closed_form) throw BadInput("--method closed-form: the body moves in space");
-  return impact_sequence(std::get<analytic::space::Drop>(prepared.drop),
-                         {.impacts = scene.most_impacts(), .digits = scene.accuracy.digits});
+  return impact_sequence(
+      std::get<analytic::space::Drop>(prepared.drop),
+      {.impacts = scene.most_impacts(), .digits = scene.accuracy.digits, .until_rest = scene.until_rest});
 }
 
 }  // namespace

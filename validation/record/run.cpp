@@ -193,6 +193,7 @@ Run begun_run(RunModel model, const Sequence& sequence, long evaluations) {
   Run run{.model = model,
           .impacts = {},
           .tail = {},
+          .impulse_between = {},
           .outcome = outcome_name(sequence.outcome),
           .message = sequence.message,
           .warnings = sequence.warnings,
@@ -302,6 +303,10 @@ Run run_of(const space::Sequence& sequence) {
   for (const space::ImpactRow& row : sequence.rows) {
     run.impacts.push_back(impact_of(row, static_cast<int>(run.impacts.size()) + 1));
   }
+  for (const space::SustainedContact& contact : sequence.contacts) {
+    run.impulse_between += {contact.normal_impulse, contact.normal_impulse_error};
+    if (contact.tail) run.impulse_between += {contact.tail->normal_impulse, contact.tail->normal_impulse_error};
+  }
   return run;
 }
 
@@ -309,6 +314,7 @@ Run run_of(const numeric::Simulation& simulation) {
   Run run{.model = RunModel::continuous,
           .impacts = {},
           .tail = {},
+          .impulse_between = {},
           .outcome = outcome_name(simulation.outcome),
           .message = simulation.message,
           .warnings = {},

@@ -77,6 +77,7 @@ struct Run {
   RunModel model = RunModel::plane;
   std::vector<Impact> impacts;
   std::optional<RunTail> tail;
+  Estimated impulse_between;  ///< normal impulse of hops and contacts that last, between impacts [N·s]
   const char* outcome = "";
   std::string message;  ///< the outcome in words
   std::vector<std::string> warnings;

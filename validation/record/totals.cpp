@@ -17,6 +17,7 @@ Totals totals(const Run& run) {
     if (is_first) sums.first_peak = peak;
     sums.largest_peak = is_first ? peak : larger(sums.largest_peak, peak);
   }
+  sums.normal_impulse += run.impulse_between;
   if (run.tail) sums.normal_impulse += {run.tail->sum.value.impulse[2], run.tail->sum.error.impulse[2]};
   if (run.total_normal_impulse) sums.normal_impulse = *run.total_normal_impulse;
   if (sums.predictable) return sums;

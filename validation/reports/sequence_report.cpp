@@ -64,8 +64,11 @@ std::string names_of(const Scene& scene, const space::Body& body, const std::vec
   return names;
 }
 
-/// How the body goes on where a corner or an edge stays on the ground; nothing also where that cannot be computed.
-std::optional<space::SustainedContact> lasting_contact(const space::Drop& drop, const space::Sequence& sequence) {
+/// How the body goes on where the sequence ends with a corner or an edge that stays on the ground; nothing also where
+/// that cannot be computed.
+std::optional<space::SustainedContact> lasting_contact(const Scene& scene, const space::Drop& drop,
+                                                       const space::Sequence& sequence) {
+  if (scene.until_rest) return {};
   try {
     return contact_after(drop, sequence);
   } catch (const analytic::NumericalError&) {
@@ -83,9 +86,26 @@ std::string contact_words(const Scene& scene, const space::Body& body, const spa
       return fmt::format("the body turns on {} until {} strikes at {}, {} m/s fast", corners,
                          names_of(scene, body, contact.arriving), until, significant(contact.approach_speed, 3));
     case space::ContactEnd::lift_off: return fmt::format("the body turns on {}, which lifts off at {}", corners, until);
+    case space::ContactEnd::joining:
+      return fmt::format("the body turns on {} until {}: {} stay on the ground", corners, until,
+                         names_of(scene, body, contact.pivots));
     case space::ContactEnd::open: break;
   }
   return fmt::format("the body turns on {} until {}: {}", corners, until, contact.reason);
+}
+
+/// The first contacts that lasted between impacts.
+void add_contact_notes(const Scene& scene, const space::Body& body, const space::Sequence& sequence,
+                       std::vector<std::string>& notes) {
+  constexpr std::size_t most = 4;
+  const auto& contacts = sequence.contacts;
+  for (std::size_t i = 0; i < std::min(contacts.size(), most); ++i) {
+    notes.push_back(fmt::format("after impact {}{}: {}", contacts[i].rows, contacts[i].tail ? " and its hops" : "",
+                                contact_words(scene, body, contacts[i], scene.accuracy.digits)));
+  }
+  if (contacts.size() > most) {
+    notes.push_back(fmt::format("{} further contacts like these are in JSON", contacts.size() - most));
+  }
 }
 
 /// Which corners stay on the ground, on which face and by when the body settles, and how far it slides there.
@@ -94,13 +114,16 @@ void add_end_notes(const Scene& scene, const space::Drop& drop, const space::Seq
   if (sequence.tail && drop.body.rims.empty() && drop.body.ellipsoids.empty()) {
     notes.push_back("the further impacts are those of " + names_of(scene, drop.body, sequence.tail->corners));
   }
-  if (const auto contact = lasting_contact(drop, sequence)) {
+  add_contact_notes(scene, drop.body, sequence, notes);
+  if (const auto contact = lasting_contact(scene, drop, sequence)) {
     notes.push_back(contact_words(scene, drop.body, *contact, scene.accuracy.digits));
   }
   if (!sequence.rest) return;
-  notes.push_back(fmt::format("the body settles on the face of {} before {} s",
-                              names_of(scene, drop.body, sequence.rest->corners),
-                              significant(sequence.rest->latest, 3)));
+  const std::string face = names_of(scene, drop.body, sequence.rest->corners);
+  const double latest = sequence.rest->latest;
+  notes.push_back(std::isfinite(latest)
+                      ? fmt::format("the body settles on the face of {} before {} s", face, significant(latest, 3))
+                      : fmt::format("the body settles on the face of {}, when is not known", face));
   const analytic::ImpactLaw& law = drop.law.law;
   if (law.friction != analytic::FrictionKind::coulomb || !(law.friction_value > 0) || !sequence.tail) return;
   const double speed = sequence.tail->velocity_after.head<2>().norm(), slowing = law.friction_value * drop.gravity;
@@ -131,7 +154,7 @@ OutcomeSets outcome_sets(const PreparedScene& prepared, const DiscreteRun& found
   const auto& drop = std::get<space::Drop>(prepared.drop);
   for (const space::ImpactRow& row : sequence->rows) {
     auto& set = sets.emplace_back();
-    if (row.group) set = tilted_outcomes(drop.body, row.before, row.corners, drop.law);
+    if (row.group && row.held == 0) set = tilted_outcomes(drop.body, row.before, row.corners, drop.law);
   }
   return sets;
 }
@@ -251,7 +274,7 @@ const char* contact_mode(const space::Drop& drop, const space::SustainedContact&
 Value contact_value(const Scene& scene, const space::Drop& drop, const space::SustainedContact& contact) {
   const space::Quaternion& q = contact.after.attitude;
   const space::StateErrors& error = contact.error;
-  const char* const ends[] = {"impact", "lift-off", "open"};
+  const char* const ends[] = {"impact", "lift-off", "open", "joining"};
   return Value::Fields{
       {"start", contact.begin},
       {"duration", contact.duration},
@@ -273,24 +296,41 @@ Value contact_value(const Scene& scene, const space::Drop& drop, const space::Su
                                        {"angular_velocity_after", rounded_up(error.angular_velocity)}}}};
 }
 
-/// Energy lost in impacts of one point, of two corners, and of more or a level rim [J].
+/// Energy lost in impacts of one point, of two corners, and of more or a level rim, in hops that are summed up, and by
+/// friction of corners that stay on the ground [J].
 Value losses_by_contact(const space::Sequence& sequence) {
-  double points = 0, edges = 0, faces = 0;
+  double points = 0, edges = 0, faces = 0, hops = sequence.tail ? sequence.tail->energy_loss : 0, contacts = 0;
   for (const space::ImpactRow& row : sequence.rows) {
     const std::size_t corners = row.corners.front().radius > 0 ? 3 : row.corners.size();
     (corners == 1 ? points : corners == 2 ? edges : faces) += row.impact.energy_loss;
   }
-  return Value::Fields{{"point", points}, {"edge", edges}, {"face", faces}};
+  for (const space::SustainedContact& contact : sequence.contacts) {
+    contacts += contact.energy_loss;
+    if (contact.tail) hops += contact.tail->energy_loss;
+  }
+  return Value::Fields{{"point", points}, {"edge", edges}, {"face", faces}, {"hops", hops}, {"contacts", contacts}};
 }
 
 /// Which corners stay, how the body goes on there, and the face that it settles on; energy by kind of contact.
 void add_end(const Scene& scene, const space::Drop& drop, const space::Sequence& sequence, Value& fields) {
   if (sequence.tail) fields["tail"]["corners"] = names_of(scene, drop.body, sequence.tail->corners);
   fields["energy_losses"] = losses_by_contact(sequence);
-  if (const auto contact = lasting_contact(drop, sequence)) fields["contact"] = contact_value(scene, drop, *contact);
+  fields["energy_at_end"] = sequence.energy_at_end;
+  if (const auto contact = lasting_contact(scene, drop, sequence)) {
+    fields["contact"] = contact_value(scene, drop, *contact);
+  }
+  if (scene.until_rest) {
+    Value::List contacts;
+    for (const space::SustainedContact& contact : sequence.contacts) {
+      contacts.push_back(contact_value(scene, drop, contact));
+      contacts.back()["after_impact"] = contact.rows;
+    }
+    fields["contacts"] = contacts;
+  }
   if (!sequence.rest) return;
-  fields["rest"] =
-      Value::Fields{{"face", names_of(scene, drop.body, sequence.rest->corners)}, {"latest", sequence.rest->latest}};
+  const double latest = sequence.rest->latest;
+  fields["rest"] = Value::Fields{{"face", names_of(scene, drop.body, sequence.rest->corners)},
+                                 {"latest", std::isfinite(latest) ? Value(latest) : Value()}};
 }
 
 /// The fields behind the impacts.

@@ -166,8 +166,10 @@ bool SweptBody::renew(const Scene& scene, const std::vector<double>& values) {
 
 /// The sequence of the scene, in the plane or in space.
 DiscreteSequence SceneRunner::sequence(bool with_errors) {
-  const analytic::SequenceOptions options{
-      .impacts = scene_.most_impacts(), .digits = scene_.accuracy.digits, .amplification = with_errors};
+  const analytic::SequenceOptions options{.impacts = scene_.most_impacts(),
+                                          .digits = scene_.accuracy.digits,
+                                          .amplification = with_errors,
+                                          .until_rest = scene_.until_rest};
   const DiscreteDrop drop = body_->discrete->drop(scene_);
   return std::visit([&](const auto& one) -> DiscreteSequence { return impact_sequence(one, options); }, drop);
 }

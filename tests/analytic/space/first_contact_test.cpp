@@ -2,6 +2,7 @@
 #include "analytic/space/first_contact.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <array>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
@@ -176,6 +177,25 @@ FirstContact find(const Scene& s) {
 }
 
 }  // namespace
+
+BOOST_AUTO_TEST_CASE(a_touching_corner_that_approaches_by_rounding_arrives_alone) {
+  const Body body = box(1, {.size = {0.3, 0.2, 0.1}});
+  State s;
+  s.attitude = Quaternion(Eigen::AngleAxisd(0.1, Vector3(1, 2, 0).normalized()));
+  int lowest = 0;
+  for (int i = 1; i < 8; ++i) {
+    const auto height = [&](int k) { return (s.attitude * body.vertices[static_cast<std::size_t>(k)]).z(); };
+    if (height(i) < height(lowest)) lowest = i;
+  }
+  const Vector3 arm = s.attitude * body.vertices[static_cast<std::size_t>(lowest)];
+  s.position.z() = -arm.z();
+  s.angular_velocity = {0.4, -1, 0};
+  s.velocity = -s.angular_velocity.cross(arm);
+  const FreeFlight flight(PrincipalAxes(body.inertia), s, 9.81);
+  const FirstContact first = first_contact(body, flight, std::array{Touch{lowest, -1e-17}});
+  BOOST_TEST(first.time == 0);
+  BOOST_TEST(first.together == std::vector<int>{lowest}, boost::test_tools::per_element());
+}
 
 BOOST_AUTO_TEST_CASE(in_100000_random_drops_no_first_corner_is_wrong_and_no_impact_missed) {
   std::mt19937_64 random(20);

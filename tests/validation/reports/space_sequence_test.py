@@ -57,7 +57,8 @@ class Sequence(SpaceFolder):
             given = done["total_normal_impulse"] / mass
             self.assertAlmostEqual(tail["velocity_after"][2], arrived + given - 9.81 * tail["end_time"], delta=1e-8, msg=case)
             energies = [row["energy_after"] for row in done["impacts"]]
-            self.assertEqual(energies, sorted(energies, reverse=True), case)
+            for before, after in zip(energies, energies[1:]):  # to rounding
+                self.assertLessEqual(after, before + 1e-15 * energies[0], case)
         tube = self.json_of("sequence", "tube", "--impacts", "1")["body"]
         outer, inner = 0.02, 0.018
         mass = 2700 * math.pi * (outer**2 - inner**2) * 0.3
@@ -121,10 +122,21 @@ class Sequence(SpaceFolder):
         height = -rotated(contact["attitude"], row["place"])[2]
         energy = self.energy(contact, "", inertia) + MASS * 9.81 * height
         self.assertAlmostEqual(energy, row["energy_after"], delta=1e-11)  # no friction takes any
-        self.assertEqual(set(run["energy_losses"]), {"point", "edge", "face"})
+        self.assertEqual(set(run["energy_losses"]), {"point", "edge", "face", "hops", "contacts"})
         self.assertAlmostEqual(run["energy_losses"]["point"], sum(r["energy_loss"] for r in run["impacts"]), delta=1e-15)
         table = self.run_program("sequence", *CORNER, "--gravity", "9.81", "--restitution", "0").stdout
         self.assertIn("the body turns on " + row["corners"], " ".join(table.split()))
+
+    def test_until_rest_goes_on_after_a_corner_has_stayed_and_accounts_for_all_energy(self):
+        run = self.json_of("sequence", *CORNER, "--gravity", "9.81", "--restitution", "0", "--friction", "0.2", "--until-rest")
+        self.assertEqual((run["outcome"], run["shortfall"]), ("at-rest", None))
+        first, contact = run["impacts"][0], run["contacts"][0]
+        self.assertEqual(contact["end"], "impact")
+        then = run["impacts"][contact["after_impact"]]
+        self.assertAlmostEqual(then["start"], contact["start"] + contact["duration"], delta=1e-15)
+        self.assertEqual(set(then["corners"].split()), {contact["arriving"], contact["corners_at_end"]})
+        spent = sum(run["energy_losses"].values()) + run["energy_at_end"]
+        self.assertAlmostEqual(spent, first["energy_before"], delta=1e-9 * first["energy_before"])
 
     def test_the_corner_that_strikes_is_named_and_placed(self):
         for n in range(19, 27):

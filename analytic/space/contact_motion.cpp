@@ -1,0 +1,454 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analytic/space/contact_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "analytic/base/errors.hpp"
+#include "analytic/base/limits.hpp"
+
+namespace clatter::analytic::space {
+
+using detail::epsilon;
+using detail::infinite;
+namespace {
+
+constexpr const char* slip_is_open = "how friction lets its corners slip is open";
+
+Vector3 slip_at(double angle) { return {std::cos(angle), std::sin(angle), 0}; }
+
+}  // namespace
+
+ContactMotion::ContactMotion(const Drop& drop, const State& now, const std::vector<int>& corners)
+    : drop_(drop), law_(drop), reach_(drop.body.reach()), falling_(std::sqrt(reach_ / drop.gravity)),
+      given_(energy(now)), corners_(corners) {
+  for (const int i : corners) points_.push_back({i, drop.body.vertices[static_cast<std::size_t>(i)], false});
+  hold(now);
+  stick_where_slow();
+  start_ = state();
+}
+
+ContactMotion::ContactMotion(const ContactMotion& base, const State& now)
+    : drop_(base.drop_), law_(base.law_), reach_(base.reach_), falling_(base.falling_), given_(energy(now)),
+      corners_(base.corners_), points_(base.points_) {
+  hold(now);
+  start_ = state();
+}
+
+bool ContactMotion::touches(int vertex) const {
+  return std::ranges::any_of(points_, [&](const GroundPoint& p) { return p.index == vertex; });
+}
+
+double ContactMotion::energy(const State& s) const {
+  const Vector3 w = s.attitude.conjugate() * s.angular_velocity;
+  return drop_.body.mass * (drop_.gravity * s.position.z() + s.velocity.squaredNorm() / 2) +
+         w.dot(drop_.body.inertia * w) / 2;
+}
+
+/// Levels the corners, and takes away their normal velocity, and the slip of those that stick.
+void ContactMotion::hold(State s) {
+  s.attitude.normalize();
+  if (points_.size() == 2) {
+    const Vector3 edge = s.attitude * (points_[1].place - points_[0].place), along = horizontal(edge);
+    s.attitude = (Quaternion::FromTwoVectors(edge, along) * s.attitude).normalized();
+    const Vector3 across = Vector3::UnitZ().cross(along.normalized());  // a turn about it lifts one of the two
+    s.angular_velocity -= s.angular_velocity.dot(across) * across;
+  }
+  const Vector3 u = slip_of(s, points_[0]);
+  motion_ << s.attitude.w(), s.attitude.vec(), s.angular_velocity, u.head<2>();
+  if (points_[0].sticks) motion_.tail<2>().setZero();
+  if (points_.size() != 2 || !std::ranges::all_of(points_, &GroundPoint::sticks)) return;
+  const Vector3 edge = (s.attitude * (points_[1].place - points_[0].place)).normalized();  // a hinge
+  motion_.segment<3>(4) = s.angular_velocity.dot(edge) * edge;
+}
+
+void ContactMotion::stick_where_slow() {
+  for (GroundPoint& p : points_) {
+    p.sticks = law_.friction() > 0 && slip_of(state(), p).norm() <= left_slip * speed_scale();
+  }
+  hold(state());
+}
+
+State ContactMotion::state_of(const Motion& y) const {
+  State s;
+  s.attitude = Quaternion(y[0], y[1], y[2], y[3]).normalized();
+  s.angular_velocity = y.segment<3>(4);
+  const Vector3 arm = s.attitude * points_[0].place;
+  s.velocity = Vector3(y[7], y[8], 0) - s.angular_velocity.cross(arm);
+  s.position = {0, 0, -arm.z()};
+  return s;
+}
+
+double ContactMotion::speed_scale() const {
+  return std::sqrt(drop_.gravity * reach_) + motion_.segment<3>(4).norm() * reach_;
+}
+
+GroundForces ContactMotion::forces(const Motion& y) const {
+  if (!creeps_) return forces(state_of(y));
+  const Vector3 slipping = slip_at(creep_angle(y, 2));
+  return forces(state_of(y), &slipping);
+}
+
+/// g of (1), its sign that of a turn of the slip.
+double ContactMotion::across(const State& s, double angle) const {
+  const Vector3 d = slip_at(angle);
+  return d.cross(forces(s, &d).first).z();
+}
+
+double ContactMotion::slope_across(const State& s, double angle) const {
+  constexpr double step = 1e-5;
+  return (across(s, angle + step) - across(s, angle - step)) / (2 * step);
+}
+
+/// φ of (2) of this order; NaN where g has no root near.
+double ContactMotion::creep_angle(const Motion& y, int order) const {
+  const State s = state_of(y);
+  double angle = creeping_, target = 0;
+  if (order > 0) {
+    angle = creep_angle(y, order - 1);
+    const Vector3 d = slip_at(angle);
+    const Motion change = 1e-4 * falling_ * rate(y, forces(s, &d));
+    const double turns = (creep_angle(y + change, order - 1) - creep_angle(y - change, order - 1)) / (2e-4 * falling_);
+    target = y.tail<2>().dot(d.head<2>()) * turns;
+  }
+  const double slope = slope_across(s, angle);
+  for (int i = 0; i < 20; ++i) {
+    const double change = (target - across(s, angle)) / slope;
+    angle += change;
+    if (std::fabs(change) <= 4 * epsilon) return angle;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Friction no longer holds the one corner: slip begins.
+bool ContactMotion::begin_creep() {
+  if (points_.size() > 1) return false;
+  const Vector3 held = forces(state()).of_points[0];
+  creeping_ = std::atan2(-held.y(), -held.x());
+  points_[0].sticks = false;
+  const Vector3 d = slip_at(creeping_);
+  if (!(slope_across(state(), creeping_) < 0) || !forces(state(), &d).is_unique) return false;
+  creeps_ = true;
+  length_ = 1e-3 * longest_step * falling_;
+  return true;
+}
+
+/// Whether a step has kept to (2); lets (1) take over where that has become precise enough, or slip no longer grows.
+bool ContactMotion::creeps_on(const Motion& from) {
+  const double lag = std::fabs(creep_lag(motion_));
+  const Vector3 d = slip_at(creep_angle(motion_, 0));
+  const double slip = motion_.tail<2>().dot(d.head<2>());
+  if (!(lag <= 2 * most_lag) || !(slip > 0)) return false;
+  creeping_ = std::atan2(d.y(), d.x());
+  creeps_ = lag < most_lag && slip > from.tail<2>().norm();
+  return true;
+}
+
+ContactMotion::Motion ContactMotion::rate(const Motion& y, const GroundForces& f) const {
+  const Quaternion turn(0, y[4], y[5], y[6]);
+  const Quaternion change = turn * Quaternion(y[0], y[1], y[2], y[3]);
+  Motion result;
+  result << change.w() / 2, change.vec() / 2, f.turning, f.first.head<2>();
+  if (points_[0].sticks) result.tail<2>().setZero();
+  return result;
+}
+
+int ContactMotion::derivative(double, const double y[], double rate[], void* motion) {
+  Eigen::Map<Motion> result(rate);
+  const auto& with = *static_cast<const ContactMotion*>(motion);
+  const Motion y_now = Eigen::Map<const Motion>(y);
+  result = with.rate(y_now, with.forces(y_now));
+  return 0;
+}
+
+void ContactMotion::apply(Motion& y, double length, Motion& error) {
+  gsl_odeiv2_step_reset(step_.get());
+  gsl_odeiv2_step_apply(step_.get(), 0, length, y.data(), error.data(), nullptr, nullptr, &system_);
+  y.head<4>().normalize();
+}
+
+/// Height of a vertex above the first corner.
+double ContactMotion::height(const State& s, std::size_t vertex) const {
+  return s.position.z() + (s.attitude * drop_.body.vertices[vertex]).z();
+}
+
+/// What turns negative at an event.
+double ContactMotion::room(const Motion& y, Event event, std::size_t number) const {
+  if (event == Event::arrival) return height(state_of(y), number);
+  const GroundForces f = forces(y);
+  return event == Event::lifts ? f.of_points[number].z() : law_.friction_left(state_of(y), points_, f);
+}
+
+/// The directions in which a corner at rest that cannot stick begins to slip: its acceleration is along its slip.
+bool ContactMotion::begin_slip() {
+  if (points_.size() > 1) return false;
+  const State s = state();
+  constexpr int directions = 180;
+  constexpr double step = 2 * std::numbers::pi / directions;
+  points_[0].sticks = false;
+  std::vector<Vector3> found;
+  for (int i = 0; i < directions; ++i) {
+    double low = i * step, high = low + step;
+    const double at_low = across(s, low);
+    if (std::signbit(at_low) == std::signbit(across(s, high))) continue;
+    for (int k = 0; k < 60; ++k) {
+      const double middle = (low + high) / 2;
+      (std::signbit(across(s, middle)) == std::signbit(at_low) ? low : high) = middle;
+    }
+    const Vector3 d = slip_at(low);
+    const GroundForces f = forces(s, &d);
+    if (f.first.dot(d) > 0 && f.of_points[0].z() > 0 && f.is_unique) found.push_back(d);
+  }
+  if (found.size() != 1) return false;
+  motion_.tail<2>() = 4 * no_slip * speed_scale() * found[0].head<2>();
+  return true;
+}
+
+/// After each event: corners that stick go on sticking, or begin to slip; false where the law leaves it open.
+bool ContactMotion::keep_or_begin_slip() {
+  const State s = state();
+  return std::ranges::none_of(points_, &GroundPoint::sticks) || law_.friction_left(s, points_, forces(s)) > 0 ||
+         begin_slip();
+}
+
+/// Corners whose slip has stopped stick.
+bool ContactMotion::stop_slips() {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    GroundPoint& p = points_[i];
+    if (p.sticks || slip_of(state(), p).norm() > no_slip * speed_scale()) continue;
+    p.sticks = true;
+    if (i == 0) motion_.tail<2>().setZero();
+  }
+  return keep_or_begin_slip();
+}
+
+/// Bound from below on a height between two moments.
+double ContactMotion::least_between(const State& from, const State& to, double length, int vertex) const {
+  const auto at = [&](const State& s) {
+    const Vector3 arm = s.attitude * drop_.body.vertices[static_cast<std::size_t>(vertex)];
+    return std::pair(s.position.z() + arm.z(), (s.velocity + s.angular_velocity.cross(arm)).z());
+  };
+  const auto [h0, v0] = at(from);
+  const auto [h1, v1] = at(to);
+  const double bend = 2 * std::fabs(v1 - v0) / length + 0.1 * drop_.gravity;  // of steps this short
+  const double mean = (h1 - h0) / length;
+  if (std::fabs(mean) >= bend * length / 2) return std::fmin(h0, h1);
+  const double t = length / 2 - mean / bend;
+  return h0 + mean * t - bend / 2 * t * (length - t);
+}
+
+/// Finds the moment of the event within a step from `from`, and goes there.
+bool ContactMotion::locate(const Motion& from, double length, Event event, std::size_t number) {
+  double low = 0, high = length;
+  double at_low = room(from, event, number), at_high = room(motion_, event, number);
+  if (at_high > 0) return false;
+  Motion there = motion_, error;
+  for (int i = 0; i < 200 && high - low > epsilon / 4 * (time_ + high); ++i) {
+    double middle =
+        i % 3 == 2 || !(at_low > at_high) ? (low + high) / 2 : low + (high - low) * at_low / (at_low - at_high);
+    if (!(middle > low && middle < high)) middle = (low + high) / 2;
+    there = from;
+    apply(there, middle, error);
+    const double value = room(there, event, number);
+    (value > 0 ? low : high) = middle;
+    (value > 0 ? at_low : at_high) = value;
+    if (value == 0) break;
+  }
+  motion_ = from;
+  apply(motion_, high, error);
+  length_ = high;
+  event_ = event;
+  number_ = number;
+  return true;
+}
+
+/// Slip may lose nine tenths of itself in a step.
+double ContactMotion::longest(const State& start, const Motion& rates) const {
+  double length = std::fmin(length_, longest_step * std::fmin(falling_, 1 / start.angular_velocity.norm()));
+  length = std::fmin(length, duration_ - time_);
+  if (creeps_) return length;
+  const Vector3 first = start.attitude * points_[0].place, w = start.angular_velocity;
+  for (const GroundPoint& p : points_) {
+    if (p.sticks || law_.friction() == 0) continue;
+    const Vector3 apart = start.attitude * p.place - first;
+    const Vector3 acceleration =
+        Vector3(rates[7], rates[8], 0) + horizontal(rates.segment<3>(4).cross(apart) + w.cross(w.cross(apart)));
+    length = std::fmin(length, 0.9 * slip_of(start, p).norm() / acceleration.norm());
+  }
+  return length;
+}
+
+/// Whether no other vertex that is above the ground before and after the step can have been on it meanwhile.
+bool ContactMotion::is_clear(const State& start, const State& end, double length) const {
+  for (std::size_t i = 0; i < drop_.body.vertices.size(); ++i) {
+    if (touches(static_cast<int>(i)) || height(end, i) <= 0) continue;
+    if (height(start, i) <= 64 * epsilon * reach_) continue;
+    if (!(least_between(start, end, length, static_cast<int>(i)) > 0)) return false;
+  }
+  return true;
+}
+
+void ContactMotion::locate_first(const Motion& from) {
+  for (std::size_t i = 0; i < drop_.body.vertices.size() && !is_free(); ++i) {
+    if (!touches(static_cast<int>(i))) locate(from, length_, Event::arrival, i);
+  }
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (!is_free() || points_.size() > 1) locate(from, length_, Event::lifts, i);
+  }
+  if (std::ranges::any_of(points_, &GroundPoint::sticks)) locate(from, length_, Event::gives_way, 0);
+}
+
+/// One step, or part of one up to the first event in it.
+void ContactMotion::step() {
+  const Motion from = motion_;
+  const State start = state();
+  const double shortest = 1e-10 * falling_;
+  double length = longest(start, rate(from, forces(from)));
+  for (;;) {
+    Motion error;
+    motion_ = from;
+    apply(motion_, length, error);
+    const double turning = std::fmax(error.head<4>().norm(), error.segment<3>(4).norm() * reach_ / speed_scale());
+    const double share = std::fmax(turning, error.tail<2>().norm() / speed_scale()) / step_error;
+    const bool clear =
+        (length <= shortest || is_free() || is_clear(start, state(), length)) && (!creeps_ || creeps_on(from));
+    const double better = 0.9 * std::pow(std::fmax(share, 1e-8), -0.125);
+    if (share <= 1 && clear) {
+      length_ = length;
+      locate_first(from);
+      time_ += length_;
+      length_ = event_ == Event::none ? length * std::fmin(better, 4) : length;
+      return;
+    }
+    length *= clear ? std::fmin(std::fmax(better, 0.1), 0.9) : 0.5;
+    if (!(length > epsilon * shortest)) throw NumericalError("a step of a body that stays on the ground fails");
+  }
+}
+
+/// The corners that come down with the one that has.
+std::vector<int> ContactMotion::arriving() const {
+  const State s = state();
+  std::vector<int> some;
+  for (std::size_t i = 0; i < drop_.body.vertices.size(); ++i) {
+    if (touches(static_cast<int>(i)) || height(s, i) > 64 * epsilon * reach_) continue;
+    const Vector3 arm = s.attitude * drop_.body.vertices[i];
+    if ((s.velocity + s.angular_velocity.cross(arm)).z() < 0) some.push_back(static_cast<int>(i));
+  }
+  return some;
+}
+
+/// The corner leaves the ground; the velocity that is kept is that of the first.
+void ContactMotion::leave(std::size_t number) {
+  const State s = state();
+  points_.erase(points_.begin() + static_cast<std::ptrdiff_t>(number));
+  if (!points_.empty()) motion_.tail<2>() = slip_of(s, points_[0]).head<2>();
+}
+
+SustainedContact ContactMotion::ended(ContactEnd end, const std::string& reason) const {
+  SustainedContact result;
+  result.end = end;
+  result.reason = reason;
+  result.duration = time_;
+  result.corners = corners_;
+  result.after = state();
+  result.slips = slips_ && law_.friction() > 0;
+  result.sticks = sticks_;
+  for (const GroundPoint& p : points_) result.pivots.push_back(p.index);
+  if (end == ContactEnd::arrival) result.arriving = arriving();
+  for (const int i : result.arriving) {
+    const Vector3 arm = result.after.attitude * drop_.body.vertices[static_cast<std::size_t>(i)];
+    const double approach = -(result.after.velocity + result.after.angular_velocity.cross(arm)).z();
+    result.approach_speed = std::fmax(result.approach_speed, approach);
+  }
+  const double rise = result.after.velocity.z() - start_.velocity.z();
+  result.normal_impulse = drop_.body.mass * (rise + drop_.gravity * time_);
+  result.energy_loss = given_ - energy(result.after);
+  return result;
+}
+
+/// Goes through the last event; what ends the contact there, if it does.
+std::optional<SustainedContact> ContactMotion::pass_event() {
+  const auto open = [this](const char* why) { return ended(ContactEnd::open, why); };
+  if (event_ == Event::arrival) {
+    if (points_.size() > 1) return open("a face comes down without speed");
+    points_.push_back({static_cast<int>(number_), drop_.body.vertices[number_], false});
+    hold(state());
+    return ended(ContactEnd::joining, "");
+  }
+  const GroundForces f = forces(motion_);
+  if (!f.is_unique) return open("slip digs in (Painlevé)");
+  const auto pulled = std::ranges::find_if(f.of_points, [](const Vector3& force) { return !(force.z() > 0); });
+  if (event_ == Event::lifts || pulled != f.of_points.end()) {
+    if (points_.size() > 1) {
+      leave(event_ == Event::lifts ? number_ : static_cast<std::size_t>(pulled - f.of_points.begin()));
+      if (!keep_or_begin_slip()) return open(slip_is_open);
+    } else if (!is_free()) {
+      return ended(ContactEnd::lift_off, "");
+    }
+  }
+  if (event_ == Event::gives_way && !begin_creep()) return open("friction no longer holds it there");
+  for (const GroundPoint& p : points_) (p.sticks ? sticks_ : slips_) = true;
+  event_ = Event::none;
+  return {};
+}
+
+/// Steps on; whether what friction does thereafter is known.
+bool ContactMotion::go_on() {
+  step();
+  return law_.friction() == 0 || event_ != Event::none || creeps_ || stop_slips();
+}
+
+SustainedContact ContactMotion::follow() {
+  for (std::size_t i = 0; i < drop_.body.vertices.size(); ++i) {
+    if (!(height(state(), i) >= -1e-7 * reach_))
+      throw NumericalError("a corner is below those that stay on the ground");
+  }
+  if (!(std::fabs(given_ - energy(start_)) <= 1e-6 * drop_.body.mass * speed_scale() * speed_scale())) {
+    throw NumericalError("corners that stay on the ground are not at rest there");
+  }
+  length_ = 1e-3 * longest_step * falling_;
+  if (!keep_or_begin_slip()) return ended(ContactEnd::open, slip_is_open);
+  for (int steps = 0; steps < most_steps; ++steps) {
+    if (!arriving().empty()) return ended(ContactEnd::arrival, "");
+    if (auto end = pass_event()) return *end;
+    if (!go_on()) return ended(ContactEnd::open, slip_is_open);
+  }
+  throw NumericalError("a body that stays on the ground with a corner turns on and on");
+}
+
+bool ContactMotion::advance(double duration) {
+  duration_ = duration;
+  length_ = 1e-3 * longest_step * falling_;
+  if (!keep_or_begin_slip()) return false;
+  for (int steps = 0; steps < most_steps; ++steps) {
+    if (duration_ - time_ <= 4 * epsilon * duration_) return true;
+    if (pass_event() || !go_on()) return false;
+  }
+  return false;
+}
+
+double ContactMotion::margin(ContactEnd end, int vertex) const {
+  if (end == ContactEnd::arrival) return height(state(), static_cast<std::size_t>(vertex));
+  return forces(motion_).of_points[0].z();
+}
+
+ContactMotion::Rates ContactMotion::rates(ContactEnd end, int vertex) const {
+  const GroundForces f = forces(motion_);
+  Rates result{.acceleration = {0, 0, -drop_.gravity}, .turning = f.turning, .margin = 0};
+  for (const Vector3& force : f.of_points) result.acceleration += force / drop_.body.mass;
+  const State s = state();
+  if (end == ContactEnd::arrival) {
+    const Vector3 arm = s.attitude * drop_.body.vertices[static_cast<std::size_t>(vertex)];
+    result.margin = (s.velocity + s.angular_velocity.cross(arm)).z();
+    const Vector3& w = s.angular_velocity;
+    result.bend = (result.acceleration + f.turning.cross(arm) + w.cross(w.cross(arm))).z();
+    return result;
+  }
+  const Motion change = 1e-5 * falling_ * rate(motion_, f);
+  const auto push = [&](const Motion& y) { return forces(y).of_points[0].z(); };
+  result.margin = (push(motion_ + change) - push(motion_ - change)) / (2e-5 * falling_);
+  return result;
+}
+
+}  // namespace clatter::analytic::space

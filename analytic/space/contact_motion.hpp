@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The equations of motion of a body one or two corners of which stay on the ground, solved from event to event.
+//
+// Where friction gives way on a corner that stuck, slip grows from zero with the square of time, in the direction of
+// the friction that held it.  Its direction φ and speed σ obey
+//     σ φ′ = g(φ),   g the corner's acceleration across the slip,                                       (1)
+// which is stiff while σ is small, and if ∂g/∂φ < 0 has one solution, whatever the direction in which slip begins:
+//     g(φ₀) = 0,   g(φ_n) = σ φ′_(n−1),                                                                 (2)
+// of error (σ φ′/∂g/∂φ)ⁿ⁺¹.  φ₂ serves up to 1e-4 rad of φ₁ − φ₀, (1) from there on.
+#pragma once
+
+#include <gsl/gsl_odeiv2.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analytic/base/limits.hpp"
+#include "analytic/space/ground_forces.hpp"
+
+namespace clatter::analytic::space {
+
+class ContactMotion {
+ public:
+  ContactMotion(const Drop& drop, const State& now, const std::vector<int>& corners);
+  /// A neighbour of that motion at its beginning: the same corners stick.
+  ContactMotion(const ContactMotion& base, const State& now);
+  ContactMotion(const ContactMotion&) = delete;
+  ContactMotion& operator=(const ContactMotion&) = delete;
+
+  /// Up to the end of the contact; once.
+  /// @throws NumericalError if 5 000 steps do not end it
+  SustainedContact follow();
+  /// For this time, wherever others come down and if the ground has to pull; whether that can be computed.
+  bool advance(double duration);
+
+  [[nodiscard]] const Drop& drop() const { return drop_; }
+  [[nodiscard]] State state() const { return state_of(motion_); }
+  /// √(g reach) + |ω| reach [m/s].
+  [[nodiscard]] double speed_scale() const;
+  /// What turns negative where the contact ends, by arrival of the vertex or lift-off.
+  [[nodiscard]] double margin(ContactEnd end, int vertex) const;
+  /// Rates of change, at the end, of state and margin with time.
+  struct Rates {
+    Vector3 acceleration, turning;  ///< V̇, ω̇
+    double margin;
+    double bend = 0;  ///< second derivative of a height
+  };
+  [[nodiscard]] Rates rates(ContactEnd end, int vertex) const;
+
+ private:
+  /// Attitude (w, x, y, z), ω, horizontal velocity of the first corner.
+  using Motion = Eigen::Matrix<double, 9, 1>;
+  enum class Event { none, arrival, lifts, gives_way };
+
+  /// Local error of a step, relative to the sizes of attitude and velocities.
+  static constexpr double step_error = 1e-14;
+  /// Slip slower than this part of the body's speeds has stopped, or has not begun.
+  static constexpr double no_slip = 1e-13;
+  /// The same of slip that hops before the contact have left.
+  static constexpr double left_slip = 1e-7;
+  static constexpr double longest_step = 0.1;  ///< [rad], and of √(reach/g)
+  static constexpr int most_steps = 5'000;
+  static constexpr double most_lag = 1e-4;  ///< of (2) [rad]
+
+  [[nodiscard]] State state_of(const Motion& y) const;
+  [[nodiscard]] GroundForces forces(const Motion& y) const;
+  [[nodiscard]] GroundForces forces(const State& s, const Vector3* slipping = nullptr) const {
+    return law_.forces(s, points_, slipping);
+  }
+  [[nodiscard]] bool touches(int vertex) const;
+  [[nodiscard]] double energy(const State& s) const;
+  [[nodiscard]] double height(const State& s, std::size_t vertex) const;
+  [[nodiscard]] double room(const Motion& y, Event event, std::size_t number) const;
+  static int derivative(double, const double y[], double rate[], void* motion);
+  [[nodiscard]] Motion rate(const Motion& y, const GroundForces& f) const;
+  [[nodiscard]] double across(const State& s, double angle) const;
+  [[nodiscard]] double slope_across(const State& s, double angle) const;
+  [[nodiscard]] double creep_angle(const Motion& y, int order) const;
+  [[nodiscard]] double creep_lag(const Motion& y) const { return creep_angle(y, 1) - creep_angle(y, 0); }
+  bool begin_creep();
+  bool creeps_on(const Motion& from);
+  bool keep_or_begin_slip();
+  [[nodiscard]] bool begin_slip();
+  bool stop_slips();
+  [[nodiscard]] double longest(const State& start, const Motion& rates) const;
+  [[nodiscard]] bool is_clear(const State& start, const State& end, double length) const;
+  void locate_first(const Motion& from);
+  void step();
+  [[nodiscard]] double least_between(const State& from, const State& to, double length, int vertex) const;
+  bool locate(const Motion& from, double length, Event event, std::size_t number);
+  void apply(Motion& y, double length, Motion& error);
+  [[nodiscard]] std::vector<int> arriving() const;
+  void hold(State s);
+  void stick_where_slow();
+  void leave(std::size_t number);
+  [[nodiscard]] std::optional<SustainedContact> pass_event();
+  bool go_on();
+  [[nodiscard]] SustainedContact ended(ContactEnd end, const std::string& reason) const;
+  [[nodiscard]] bool is_free() const { return duration_ < detail::infinite; }
+
+  struct StepDeleter {
+    void operator()(gsl_odeiv2_step* step) const { gsl_odeiv2_step_free(step); }
+  };
+
+  const Drop& drop_;
+  GroundLaw law_;
+  double reach_, falling_;    ///< reach, √(reach/g)
+  double given_;              ///< energy of the state given
+  std::vector<int> corners_;  ///< at the beginning
+  std::vector<GroundPoint> points_;
+  State start_;
+  Motion motion_;
+  double time_ = 0, length_ = 0;
+  double duration_ = detail::infinite;  ///< of advance()
+  bool slips_ = false, sticks_ = false;
+  bool creeps_ = false;  ///< (2) gives the direction of slip
+  double creeping_ = 0;  ///< about that direction
+  Event event_ = Event::none;
+  std::size_t number_ = 0;
+  gsl_odeiv2_system system_{derivative, nullptr, 9, this};
+  std::unique_ptr<gsl_odeiv2_step, StepDeleter> step_{gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, 9)};
+};
+
+}  // namespace clatter::analytic::space
