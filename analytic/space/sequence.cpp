@@ -476,16 +476,10 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
          result_.message.empty() ? "bouncing and rocking have ended" : result_.message, "");
   }
 
-  /// Whether the body already had to come to rest on that face after the last impact or contact that can be predicted.
+  /// Whether the body already had to come to rest on that face in the last state that can be predicted.
   bool rests_for_certain() {
-    if (!result_.rest) return false;
-    const std::size_t known = known_rows(result_.rows);
-    std::optional<Rest> then;
-    if (known > 0) then = settles(drop_, state_after(result_.rows[known - 1]), result_.rows[known - 1].start);
-    for (const SustainedContact& contact : result_.contacts) {
-      if (contact.rows < known || !std::isfinite(contact.error.attitude)) continue;
-      then = settles(drop_, contact.after, contact.begin + contact.duration);
-    }
+    if (!result_.rest || !known_) return false;
+    const auto then = settles(drop_, known_->state, known_->time);
     if (!then || !std::ranges::is_permutation(then->corners, result_.rest->corners)) return false;
     result_.rest->latest = std::fmax(result_.rest->latest, then->latest);
     return true;
