@@ -15,7 +15,7 @@ namespace {
 using Changes = Eigen::Matrix<double, 9, 1>;  ///< of attitude, velocity, angular velocity
 
 /// Part of a change that may be of second order.
-constexpr double first_order = 0.02;
+constexpr double most_second_order = 0.02;
 
 State shifted(const State& s, const Changes& by) {
   State other = s;
@@ -93,7 +93,7 @@ std::optional<Neighbours::Slope> Neighbours::slope(int k, double error) const {
       Vector3::Constant(base_.speed_scale() / drop_.body.reach());
   const double straight = (up - down).cwiseQuotient(sizes).norm(), bent = (up + down).cwiseQuotient(sizes).norm();
   const double noise = 1e-3 * steps_[0];
-  if (!(error / steps_[k] * bent <= first_order * (straight + noise))) return {};
+  if (!(error / steps_[k] * bent <= most_second_order * (straight + noise))) return {};
   if (!(parted(plus) <= noise) || !(parted(minus) <= noise)) return {};
   return Slope{.state = (up - down) / (2 * steps_[k]),
                .margin = (plus.margin(contact_.end, vertex_) - minus.margin(contact_.end, vertex_)) / (2 * steps_[k])};
