@@ -82,6 +82,29 @@ BOOST_AUTO_TEST_CASE(a_box_that_rocks_on_an_edge_comes_down_when_the_quadrature_
   }
 }
 
+BOOST_AUTO_TEST_CASE(the_landing_of_a_rocking_box_changes_with_its_start_as_its_energy_says) {
+  const Vector3 size(0.3, 0.2, 0.1);
+  const Drop drop = drop_of(box(1, {.size = size}), 1000);
+  const double d = std::hypot(0.15, 0.05), inertia = (0.09 + 0.01) / 12 + d * d, rest = std::atan2(0.05, 0.15);
+  for (const double spin : {0.2, 0.5, 3.0}) {
+    const double lifted = 0.3, begin = rest + lifted;
+    const auto rate = [&](double angle) {
+      return std::sqrt(spin * spin + 2 * g * d / inertia * (std::sin(begin) - std::sin(angle)));
+    };
+    const State s = standing(drop.body, inclined(lifted), 0, {0, spin, 0});
+    const auto slopes = contact_derivatives(drop, s, follow_contact(drop, s, {0, 2}),
+                                            {.attitude = 1e-12, .velocity = 1e-12, .angular_velocity = 1e-12});
+    BOOST_TEST_REQUIRE(slopes.has_value());
+    constexpr int pitch = 2, turning = 8;  // about y, behind the time
+    const double time = -integral([&](double angle) { return spin / std::pow(rate(angle), 3); }, rest, begin);
+    BOOST_TEST_CONTEXT("spin " << spin) {
+      BOOST_TEST(std::fabs(slopes->of_state(turning, turning) - spin / rate(rest)) <= 1e-7);
+      BOOST_TEST(std::fabs(slopes->of_state(0, turning) - time) <= 1e-7 * std::fabs(time));
+      BOOST_TEST(std::fabs(slopes->of_state(pitch, turning)) <= 1e-7);  // it lands flat whatever the start
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_rod_that_slides_without_friction_falls_as_its_energy_says) {
   const Drop drop = drop_of(rod(), 0);
   const double m = 0.3, half = length / 2, inertia = m * length * length / 12, begin = 1.1;
