@@ -59,7 +59,26 @@ bool is_lane_drop(const batch::LaneDrops& lanes, std::size_t i) {
   return e >= least_restitution && e <= 1 && lanes.gravity[i] >= 0 && std::fabs(lanes.inclination[i]) <= pi / 2;
 }
 
+BatchOutcome without_numbers(BatchEnd end) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  return {.end = end,
+          .is_scalar = true,
+          .total = none,
+          .largest = none,
+          .last_start = none,
+          .energy_loss = none,
+          .impulse = {none, none, none},
+          .contact_angle = {none, none, none},
+          .start = {none, none, none}};
+}
+
 BatchOutcome outcome_of(const batch::LaneResults& lanes, std::size_t i) {
+  if (lanes.is_infinite[i]) {
+    BatchOutcome outcome = without_numbers(BatchEnd::infinite);
+    outcome.impacts = static_cast<int>(lanes.impacts[i]);
+    outcome.is_scalar = false;
+    return outcome;
+  }
   BatchOutcome outcome{.impacts = static_cast<int>(lanes.impacts[i]),
                        .end = lanes.is_at_limit[i] ? BatchEnd::at_limit : BatchEnd::finished,
                        .total = lanes.total[i],
@@ -74,19 +93,6 @@ BatchOutcome outcome_of(const batch::LaneResults& lanes, std::size_t i) {
     outcome.start[n] = lanes.start[n][i];
   }
   return outcome;
-}
-
-BatchOutcome without_numbers(BatchEnd end) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  return {.end = end,
-          .is_scalar = true,
-          .total = none,
-          .largest = none,
-          .last_start = none,
-          .energy_loss = none,
-          .impulse = {none, none, none},
-          .contact_angle = {none, none, none},
-          .start = {none, none, none}};
 }
 
 BatchOutcome outcome_of(const Sequence& sequence) {
@@ -163,16 +169,16 @@ BatchOutcome scalar_outcome(const Drop& drop, int limit) {
   }
 }
 
-void run_lanes(const BatchDrops& drops, int limit, std::size_t first, std::span<BatchOutcome> outcomes,
-               batch::Kernel kernel) {
+void run_lanes(const BatchDrops& drops, const BatchRequest& request, std::size_t first,
+               std::span<BatchOutcome> outcomes, batch::Kernel kernel) {
   drops.validate();
-  if (limit < 1) throw std::invalid_argument("the limit of a batch must be at least 1");
+  if (request.limit < 1) throw std::invalid_argument("the limit of a batch must be at least 1");
   if (!kernel) kernel = batch::kernels().front().run;
   const batch::LaneBody body = lane_body(drops.body);
   batch::LaneResults results;
   for (std::size_t begin = 0; begin < outcomes.size(); begin += block_size) {
     const batch::LaneDrops lanes = lane_drops(drops, first + begin);
-    kernel(body, lanes, limit, results);
+    kernel(body, lanes, request, results);
     for (std::size_t i = 0; i < std::min<std::size_t>(block_size, outcomes.size() - begin); ++i) {
       const bool is_lane = results.is_certain[i] && is_lane_drop(lanes, i);
       outcomes[begin + i] = is_lane ? outcome_of(results, i) : without_numbers(BatchEnd::not_computed);
@@ -180,11 +186,11 @@ void run_lanes(const BatchDrops& drops, int limit, std::size_t first, std::span<
   }
 }
 
-void run_batch(const BatchDrops& drops, int limit, std::size_t first, std::span<BatchOutcome> outcomes,
-               batch::Kernel kernel) {
-  run_lanes(drops, limit, first, outcomes, kernel);
+void run_batch(const BatchDrops& drops, const BatchRequest& request, std::size_t first,
+               std::span<BatchOutcome> outcomes, batch::Kernel kernel) {
+  run_lanes(drops, request, first, outcomes, kernel);
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    if (outcomes[i].is_scalar) outcomes[i] = scalar_outcome(drops.drop(first + i), limit);
+    if (outcomes[i].is_scalar) outcomes[i] = scalar_outcome(drops.drop(first + i), request.limit);
   }
 }
 

@@ -58,25 +58,28 @@ struct BatchOutcome {
   std::array<double, 3> impulse{}, contact_angle{}, start{};  ///< of the first three impacts [N·s, rad, s]
 };
 
+using batch::BatchRequest;
+
 /// The scalar code's sequence of up to `limit` impacts as such an outcome.
 [[nodiscard]] BatchOutcome scalar_outcome(const Drop& drop, int limit);
 
-/// The outcomes of drops first … first + outcomes.size() − 1, each as impact_sequence() has it, up to `limit` impacts.
+/// The outcomes of drops first … first + outcomes.size() − 1, each as impact_sequence() has it, up to `request.limit`
+/// impacts; of those with infinitely many `impacts` is how many were followed.
 ///
 /// Vectors of drops take a fixed number of Halley steps from a guess to each root.  A drop's root counts if a last
 /// step of Newton proves it to half an ulp beside the rounding of h, within a piece of h in which it is the first, and
 /// if h of every other vertex is clear of zero before: by 2⁻⁴² of its terms and what an ulp of the start and rounding
 /// have grown to, which is carried to first order through flights and impacts.  All other drops (nearer to a fold,
-/// flat, upright, e < 1e-4, errors of an angle beyond 1e-4) are the scalar code's, and where `limit` >= 5 cuts off what
-/// may be the beginning of infinitely many impacts. Accuracy: within the scalar code's error bars; sums of four impacts
-/// or more of one drop in 10⁴ by up to ten times those, where gravity and turns lose three digits.
+/// flat, upright, e < 1e-4, errors of an angle beyond 1e-4) are the scalar code's, and where a limit of 5 or more cuts
+/// off what may be the beginning of infinitely many impacts. Accuracy: within the scalar code's error bars; sums of
+/// four impacts or more of one drop in 10⁴ by up to ten times those, where gravity and turns lose three digits.
 /// @param kernel  of batch::kernels(); none: the widest
-/// @throws std::invalid_argument as BatchDrops::validate(), or if limit < 1.
-void run_batch(const BatchDrops& drops, int limit, std::size_t first, std::span<BatchOutcome> outcomes,
-               batch::Kernel kernel = nullptr);
+/// @throws std::invalid_argument as BatchDrops::validate(), or if request.limit < 1.
+void run_batch(const BatchDrops& drops, const BatchRequest& request, std::size_t first,
+               std::span<BatchOutcome> outcomes, batch::Kernel kernel = nullptr);
 
 /// The same without the scalar code: a drop that is that one's has `is_scalar` and no numbers.
-void run_lanes(const BatchDrops& drops, int limit, std::size_t first, std::span<BatchOutcome> outcomes,
-               batch::Kernel kernel = nullptr);
+void run_lanes(const BatchDrops& drops, const BatchRequest& request, std::size_t first,
+               std::span<BatchOutcome> outcomes, batch::Kernel kernel = nullptr);
 
 }  // namespace clatter::analytic

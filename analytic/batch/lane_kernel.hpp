@@ -241,19 +241,20 @@ inline Prospect prospect_with_gravity(const Height& h, const Swing& swing, Vecto
 /// The drops of CLATTER_LANES lanes, from impact to impact.
 class Lanes {
  public:
-  Lanes(const LaneBody& body, const LaneDrops& drops, int first, int limit)
-      : body_(body), first_(first), limit_(limit), inclination_(load(drops.inclination, first)),
-        normal_(load(drops.normal, first)), tangential_(load(drops.tangential, first)),
-        angular_(load(drops.angular, first)), gravity_(load(drops.gravity, first)),
-        restitution_(load(drops.restitution, first)), ratio_(load(drops.impulse_ratio, first)),
-        inclination_error_(ulp * magnitude(inclination_)), normal_error_(ulp * magnitude(normal_)),
-        angular_error_(ulp * magnitude(angular_)) {}
+  Lanes(const LaneBody& body, const LaneDrops& drops, int first, const BatchRequest& request)
+      : body_(body), first_(first), limit_(request.limit), only_counts_(request.only_counts),
+        inclination_(load(drops.inclination, first)), normal_(load(drops.normal, first)),
+        tangential_(load(drops.tangential, first)), angular_(load(drops.angular, first)),
+        gravity_(load(drops.gravity, first)), restitution_(load(drops.restitution, first)),
+        ratio_(load(drops.impulse_ratio, first)), inclination_error_(ulp * magnitude(inclination_)),
+        normal_error_(ulp * magnitude(normal_)), angular_error_(ulp * magnitude(angular_)) {}
 
   void run(LaneResults& results) {
     turn_to(inclination_);
     choose_lowest();
     while (any(active_)) {
       strike(results);
+      if (only_counts_) stop_at_accumulation();
       stop_at_limit();
       if (!any(active_)) break;
       fly();
@@ -269,6 +270,68 @@ class Lanes {
     const Mask shrinks = limit_ < 5 ? Mask{} : (limit_ < 9 ? repeats_ : ~Mask{});
     fail(stops & (restitution_ < 1) & shrinks);
     active_ &= ~stops;
+  }
+
+  /// Infinitely many impacts of two vertices a and b in turn, close to flat, without gravity and friction.
+  ///
+  /// After an impact of a, which leaves at u_a, b comes down at u_b from the height H; ρ = u_a/|u_b|.  Flat, with
+  /// heights that are linear in time, b's impact makes it, whatever H is,
+  ///     ρ′ = e/(C_b − ρ),   C_b = (1 + e) c_b,   c_b = −(1 + d_a d_b/κ²)/(1 + d_b²/κ²),                    (3)
+  /// and the height of a is then ρH.  Where C_a C_b >= 4e, a ρ of at most C_b/2 gives ρ′ <= C_a/2 and ρρ′ <= e, for
+  /// ever, so that heights stay below R H, R the greater of 1 and C/2.  An angle φ = R H/span from flat changes d by
+  /// ε d, ε = φ (up + reach φ)/d: velocities by less than (1 + R) ε |u_b| in a flight, c by less than 2.1 ε (1 + 2c),
+  /// and (3) still holds with a C less than 5ε R² + (1 + e) 2.1 ε (1 + 2c) away.  A ρ above 5ε R², which e > 5ε R² C
+  /// leaves it, keeps the vertex that rises from touching again.
+  void stop_at_accumulation() {
+    const Mask may = active_ & (gravity_ == 0) & (ratio_ == 0) & (restitution_ < 1);
+    if (!any(may)) return;
+    const Vector x = of_touching(body_.x), z = of_touching(body_.z), inverse = all(body_.inverse_gyration_square);
+    const Vector along = x * cosine_ - z * sine_, up = x * sine_ + z * cosine_;
+    const Partner partner = partner_of(along, up);
+    const Vector coupling = -(1 + along * partner.along * inverse), both = 1 + restitution_;
+    const Vector own = coupling / (1 + along * along * inverse);
+    const Vector other = coupling / (1 + partner.along * partner.along * inverse);
+    const Vector most = greatest(all(1), 0.5 * both * greatest(own, other));
+    const Vector span = magnitude(along - partner.along), height = most * partner.height, angle = height / span;
+    const Vector shortest = least(magnitude(along), magnitude(partner.along));
+    const Vector part =
+        most * most * angle * (greatest(magnitude(up), magnitude(partner.up)) + body_.most_reach * angle) / shortest;
+    const Vector own_change = part * (5 + 2.1 * both * (1 + 2 * own));
+    const Vector other_change = part * (5 + 2.1 * both * (1 + 2 * other));
+    const Vector own_least = both * own - own_change, other_least = both * other - other_change;
+    const Vector ratio = rebound_ / partner.fall, largest = both * greatest(own, other) + own_change + other_change;
+    // A height between those of the two vertices leaves their range by the body's width at most.
+    const Mask is_alone = partner.others > 2 * (1 + 2 * body_.most_reach / span) * height;
+    const Mask infinite = may & (partner.fall > 0) & (along * partner.along < 0) & (part < 0.05) & (own_least > 0) &
+                          (other_least > 0) & (own_least * other_least >= (4 + 1e-8) * restitution_) &
+                          (ratio <= 0.5 * other_least) & (ratio > 5 * part) & (restitution_ > 5 * part * largest) &
+                          is_alone;
+    infinite_ |= infinite;
+    active_ &= ~infinite;
+  }
+
+  /// The vertex next above the ground.
+  struct Partner {
+    Vector height, fall;  ///< [m], downward speed [m/s]
+    Vector along, up;     ///< from the centre of mass [m]
+    Vector others;        ///< least height of all the others [m]
+  };
+
+  /// Of the vertex that touches, `touching_along` and `touching_up` from the centre of mass.
+  [[nodiscard]] Partner partner_of(Vector touching_along, Vector touching_up) const {
+    Partner partner{.height = all(1e300), .fall = {}, .along = {}, .up = {}, .others = all(1e300)};
+    for (int j = 0; j < body_.vertex_count; ++j) {
+      const auto i = (std::size_t)j;
+      const Vector along = body_.x[i] * cosine_ - body_.z[i] * sine_, up = body_.x[i] * sine_ + body_.z[i] * cosine_;
+      const Vector above = touching_ == (double)j ? all(1e300) : up - touching_up;
+      const Mask lower = above < partner.height;
+      partner.others = lower ? partner.height : least(partner.others, above);
+      partner.fall = lower ? angular_ * (along - touching_along) - rebound_ : partner.fall;
+      partner.along = lower ? along : partner.along;
+      partner.up = lower ? up : partner.up;
+      partner.height = lower ? above : partner.height;
+    }
+    return partner;
   }
 
   void turn_to(Vector inclination) {
@@ -495,6 +558,7 @@ class Lanes {
   void write(LaneResults& results) const {
     for (int i = 0; i < CLATTER_LANES; ++i) {
       results.is_certain[(std::size_t)(first_ + i)] = certain_[i] != 0;
+      results.is_infinite[(std::size_t)(first_ + i)] = infinite_[i] != 0;
       results.is_at_limit[(std::size_t)(first_ + i)] = impacts_[i] >= limit_;
     }
     store(impacts_, results.impacts, first_);
@@ -508,6 +572,7 @@ class Lanes {
 
   const LaneBody& body_;
   int first_, limit_;
+  bool only_counts_;
   Vector inclination_, normal_, tangential_, angular_, gravity_, restitution_, ratio_;
   Vector sine_{}, cosine_{}, touching_{}, rebound_{}, up_{}, approach_{}, time_{};
   Vector impacts_{}, total_{}, largest_{}, hardest_{}, last_vertex_{}, last_start_{}, loss_{}, last_impulse_{};
@@ -515,18 +580,18 @@ class Lanes {
   /// Bounds to first order of an ulp of the start and of rounding since [rad, m/s, rad/s].
   Vector inclination_error_, normal_error_, angular_error_;
   Blur blur_{};
-  Mask active_ = ~Mask{}, certain_ = ~Mask{}, repeats_{};
+  Mask active_ = ~Mask{}, certain_ = ~Mask{}, repeats_{}, infinite_{};
   std::size_t struck_ = 0;
   bool any_falls_ = false;
   Height heights_[max_vertices];
   Prospect prospects_[max_vertices];
 };
 
-inline void run_block(const LaneBody& body, const LaneDrops& drops, int limit, LaneResults& results) {
+inline void run_block(const LaneBody& body, const LaneDrops& drops, const BatchRequest& request, LaneResults& results) {
   for (int first = 0; first < block_size; first += CLATTER_LANES) {
     for (auto* rows : {&results.impulse, &results.contact_angle, &results.start}) {
       for (Block& row : *rows) store(all(__builtin_nan("")), row, first);
     }
-    Lanes(body, drops, first, limit).run(results);
+    Lanes(body, drops, first, request).run(results);
   }
 }

@@ -25,6 +25,13 @@ struct LaneBody {
   double most_reach = 0;                      ///< the largest [m]
 };
 
+/// What is asked of each drop.
+struct BatchRequest {
+  int limit = 6;  ///< most impacts that are followed
+  /// Where infinitely many impacts are proven, close to flat, the drop ends there, without numbers.
+  bool only_counts = false;
+};
+
 /// Eight drops.  Ones that fill a block up may repeat others.
 struct alignas(64) LaneDrops {
   Block inclination;                  ///< [rad]
@@ -37,14 +44,15 @@ struct alignas(64) LaneDrops {
 struct alignas(64) LaneResults {
   std::array<bool, block_size> is_certain;             ///< every root and every decision is certified
   std::array<bool, block_size> is_at_limit;            ///< more impacts may follow
+  std::array<bool, block_size> is_infinite;            ///< infinitely many follow; numbers mean nothing
   Block impacts;                                       ///< how many
   Block total, largest, hardest;                       ///< sum of P_n, largest P_n [N·s], its impact from 1
   Block last_vertex, last_start, loss;                 ///< index; [s]; energy lost [J]
   std::array<Block, 3> impulse, contact_angle, start;  ///< of the first three impacts [N·s, rad, s]
 };
 
-/// Most impacts that a kernel follows; rounding has grown too far after more.
-using Kernel = void (*)(const LaneBody& body, const LaneDrops& drops, int limit, LaneResults& results);
+using Kernel = void (*)(const LaneBody& body, const LaneDrops& drops, const BatchRequest& request,
+                        LaneResults& results);
 
 /// An instruction set and its kernel.
 struct KernelChoice {

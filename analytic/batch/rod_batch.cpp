@@ -15,22 +15,27 @@ namespace {
 
 constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
-RodContacts first_contact_alone(double impulse) {
+RodContacts no_contacts() {
   return {.angle = {not_there, not_there},
           .time = {not_there, not_there},
-          .impulse = {impulse, not_there, not_there},
-          .impacts = 1};
+          .impulse = {not_there, not_there, not_there},
+          .velocity = {not_there, not_there, not_there},
+          .angular = {not_there, not_there, not_there},
+          .impacts = 0};
 }
 
 RodContacts contacts_of(const ContactAngles& angles) {
-  RodContacts row = first_contact_alone(angles.impulse[0]);
+  RodContacts row = no_contacts();
   row.is_scalar = true;
   row.impacts = angles.impacts();
   const ContactAngle* const flights[] = {&angles.beta, &angles.gamma};
-  for (std::size_t n = 0; n + 1 < static_cast<std::size_t>(row.impacts); ++n) {
-    row.angle[n] = flights[n]->angle;
-    row.time[n] = flights[n]->time;
-    row.impulse[n + 1] = angles.impulse[n + 1];
+  for (std::size_t n = 0; n < static_cast<std::size_t>(row.impacts); ++n) {
+    row.impulse[n] = angles.impulse[n];
+    row.velocity[n] = angles.velocity[n];
+    row.angular[n] = angles.angular[n];
+    if (n == 0) continue;
+    row.angle[n - 1] = flights[n - 1]->angle;
+    row.time[n - 1] = flights[n - 1]->time;
   }
   return row;
 }
@@ -45,24 +50,27 @@ std::optional<bool> lands_on_other_end(double lean, double turned, double contac
 }
 
 /// The batch's impacts as far as each is of the other end at an angle up to 90°; nothing where it is not certain.
-std::optional<RodContacts> contacts_of(const BatchOutcome& outcome, double theta, double impulse_ratio) {
+std::optional<RodContacts> contacts_of(const BatchOutcome& outcome, double theta, const RodParameters& rod) {
   if (outcome.is_scalar) return {};
-  RodContacts row = first_contact_alone(outcome.impulse[0]);
-  double lean = theta, side = 1, angular = 0;
-  for (std::size_t n = 0; n + 1 < static_cast<std::size_t>(outcome.impacts); ++n) {
-    angular += side * 6 * outcome.impulse[n] * (std::cos(lean) - side * impulse_ratio * std::sin(lean));
+  RodContacts row = no_contacts();
+  double lean = theta, side = 1, angular = 0, normal = -1;
+  for (std::size_t n = 0;; ++n) {
+    normal += row.impulse[n] = outcome.impulse[n];
+    angular += side * 6 * outcome.impulse[n] * (std::cos(lean) - side * rod.impulse_ratio * std::sin(lean));
+    row.velocity[n] = normal;
+    row.angular[n] = angular;
+    ++row.impacts;
+    if (row.impacts == outcome.impacts) return row;
     const double time = outcome.start[n + 1] - outcome.start[n], contact = outcome.contact_angle[n + 1];
     const std::optional<bool> is_other = lands_on_other_end(lean, side * angular * time, contact);
     if (!is_other) return {};
-    if (!*is_other) break;
+    if (!*is_other) return row;
     row.angle[n] = contact;
     row.time[n] = time;
-    row.impulse[n + 1] = outcome.impulse[n + 1];
-    ++row.impacts;
+    normal -= rod.gravity_number * time;
     lean = contact;
     side = -side;
   }
-  return row;
 }
 
 }  // namespace
@@ -82,9 +90,9 @@ void batch_contact_angles(std::span<const double> theta, const RodParameters& ro
     const std::size_t count = std::min(part, theta.size() - first);
     for (std::size_t i = 0; i < count; ++i) inclination[i] = Angle::from_degrees(theta[first + i]).radians;
     drops.inclination = std::span(inclination).first(count);
-    run_lanes(drops, impacts, 0, std::span(outcomes).first(count));
+    run_lanes(drops, {.limit = impacts}, 0, std::span(outcomes).first(count));
     for (std::size_t i = 0; i < count; ++i) {
-      const auto row = contacts_of(outcomes[i], inclination[i], rod.impulse_ratio);
+      const auto row = contacts_of(outcomes[i], inclination[i], rod);
       rows[first + i] = row ? *row : contacts_of(contact_angles(Angle::from_degrees(theta[first + i]), rod));
     }
   }

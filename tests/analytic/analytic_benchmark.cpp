@@ -120,7 +120,7 @@ void batch_of_drops(benchmark::State& state, const PlanarBody& body, double grav
   const BatchDrops drops{body, angle, fall, still, still, g, restitution, still};
   std::vector<BatchOutcome> outcomes(angle.size());
   for (auto _ : state) {
-    run_batch(drops, 3, 0, outcomes, kernel.run);
+    run_batch(drops, {.limit = 3}, 0, outcomes, kernel.run);
     benchmark::DoNotOptimize(outcomes.data());
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(angle.size()));

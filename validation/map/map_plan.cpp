@@ -171,7 +171,7 @@ Report MapPlan::report() const {
   Report report = sweep.report();
   report.title = headline("map", fmt::format("{} of the discrete model, {}x{} pixels", quantity->words, columns, rows));
   report.remarks.push_back(fmt::format("quantity: {}{}{}", quantity->name, counts() ? "=" : "", wanted));
-  report.remarks.push_back(fmt::format("impacts: {}", limit));
+  report.remarks.push_back(fmt::format("impacts: {}", request.limit));
   if (counts()) report.remarks.push_back(fmt::format("samples: {} for each pixel", samples));
   const Column key{.name = {}, .heading = {}, .unit = {}, .meaning = "middle of the pixel"};
   report.grid.columns = {key, key};
@@ -205,7 +205,9 @@ MapPlan read_map_plan(const MapRequest& request) {
                                   static_cast<std::uint64_t>(seed));
   plan.sweep.words.pop_back();  // of one random scene
   if (plan.counts()) plan.sweep.words.push_back(fmt::format("seed: {}", seed));
-  plan.limit = is_capped(request) ? plan.sweep.scene.most_impacts() : uncapped_impacts;
+  const std::string name = plan.quantity->name;
+  plan.request = {.limit = is_capped(request) ? plan.sweep.scene.most_impacts() : uncapped_impacts,
+                  .only_counts = !is_capped(request) && (name == "impacts" || name == "outcome")};
   return plan;
 }
 

@@ -44,7 +44,7 @@ struct MapPlan {
   std::string wanted;  ///< with samples: the class whose probability is asked for
   long long columns = 0, rows = 0;
   long long samples = 0;  ///< for each pixel; 0: the pixel's drop itself
-  int limit = 0;          ///< most impacts
+  analytic::BatchRequest request;
 
   [[nodiscard]] const SweepAxis& across() const { return sweep.points.axes()[0]; }
   [[nodiscard]] const SweepAxis& upward() const { return sweep.points.axes()[1]; }

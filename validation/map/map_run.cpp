@@ -115,7 +115,7 @@ class MapRunner {
     batch_.restitution = columns_[5];
     batch_.impulse_ratio = columns_[6];
     outcomes_.resize(batched_.size());
-    analytic::run_batch(batch_, plan_.limit, 0, outcomes_);
+    analytic::run_batch(batch_, plan_.request, 0, outcomes_);
     for (std::size_t k = 0; k < batched_.size(); ++k) {
       PixelOutcome outcome{outcomes_[k], {}};
       if (needs_end_) outcome.last_end = analytic::PlanarBody::vertex_set_name(outcomes_[k].last_vertices);
@@ -134,7 +134,7 @@ class MapRunner {
 
   template <class AnyDrop>
   PixelOutcome outcome_alone(const AnyDrop& drop) {
-    const auto sequence = impact_sequence(drop, {.impacts = plan_.limit});
+    const auto sequence = impact_sequence(drop, {.impacts = plan_.request.limit});
     const Run run = named_run(scene_, sequence, body_->discrete->centre());
     const Impact& last = run.impacts.back();
     PixelOutcome outcome{{.impacts = static_cast<int>(run.impacts.size()),

@@ -10,7 +10,9 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <vector>
 
+#include "analytic/batch/rod_batch.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/rod_parameters.hpp"
 #include "validation/scene/swept_range.hpp"
@@ -23,6 +25,7 @@ using analytic::degrees_per_radian;
 
 constexpr std::size_t plain_columns = 17, impacts_column = 16, deficit_column = 15;
 constexpr double neighbour_shift = 0x1p-30;  // between rounding and the curvature of the results
+constexpr double least_of_batch = 5;  // degrees: below, γ − θ and 2 − ΣP have digits that the batch has not
 
 /// What may be given.
 struct AnglesTexts {
@@ -143,28 +146,62 @@ void add_sensitivity(const AnglesRow& row, const AnglesRow& neighbour, AnglesRow
   }
 }
 
-/// Bounds on the errors of a row's numbers, after contact_angles(): 12 (2 + 2κ) ulp at most, κ from neighbouring rods
+/// The same by the batch, which is right but for the digits that γ − θ and 2 − ΣP have beyond it close to flat.
+AnglesRow row_of(double theta, const analytic::RodContacts& rod) {
+  return {theta,
+          rod.angle[0] * degrees_per_radian,
+          rod.angle[1] * degrees_per_radian,
+          rod.impulse[0],
+          rod.impulse[1],
+          rod.impulse[2],
+          rod.velocity[0],
+          rod.angular[0],
+          rod.velocity[1],
+          rod.angular[1],
+          rod.velocity[2],
+          rod.angular[2],
+          rod.time[0],
+          rod.time[1],
+          rod.angle[1] * degrees_per_radian - theta,
+          2 - rod.impulse[0] - rod.impulse[1] - rod.impulse[2],
+          static_cast<double>(rod.impacts),
+          NAN,
+          NAN};
+}
+
+/// Adds what rows change by where θ is less by the part `shift`, of a rod with other parameters.
+void add_sensitivities(const std::vector<AnglesRow>& rows, const analytic::RodParameters& rod, double shift,
+                       bool as_printed, std::vector<AnglesRow>& sums) {
+  std::vector<double> theta;
+  for (const AnglesRow& row : rows) theta.push_back(row[0] * (1 - shift));
+  std::vector<analytic::RodContacts> contacts(rows.size());
+  if (!as_printed) analytic::batch_contact_angles(theta, rod, contacts);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool by_batch = !as_printed && theta[i] >= least_of_batch && !contacts[i].is_scalar;
+    add_sensitivity(rows[i], by_batch ? row_of(theta[i], contacts[i]) : row_of(theta[i], rod, as_printed), sums[i]);
+  }
+}
+
+/// Bounds on the errors of rows' numbers, after contact_angles(): 12 (2 + 2κ) ulp at most, κ from neighbouring rods
 /// whose angle, G, e and μ_i differ; the sum of impulses cancels in the deficit unless the rod is elastic.
-AnglesRow errors_of(const AnglesRow& row, const AnglesRequest& request) {
-  const double theta = row[0];
-  const auto neighbour = [&](double angle, double analytic::RodParameters::*changed) {
-    analytic::RodParameters rod = request.rod;
-    if (changed) rod.*changed *= 1 - neighbour_shift;
-    return row_of(angle, rod, request.as_printed);
-  };
+std::vector<AnglesRow> errors_of(const std::vector<AnglesRow>& rows, const AnglesRequest& request) {
   using Rod = analytic::RodParameters;
-  AnglesRow sensitivity{};
-  if (theta > 0) add_sensitivity(row, neighbour(theta * (1 - neighbour_shift), nullptr), sensitivity);
+  std::vector<AnglesRow> sensitivities(rows.size(), AnglesRow{}), errors(rows.size(), AnglesRow{});
+  add_sensitivities(rows, request.rod, neighbour_shift, request.as_printed, sensitivities);
   for (double Rod::*const parameter : {&Rod::gravity_number, &Rod::restitution, &Rod::impulse_ratio}) {
     const double neutral = parameter == &Rod::restitution ? 1 : 0;
-    if (request.rod.*parameter != neutral) add_sensitivity(row, neighbour(theta, parameter), sensitivity);
+    if (request.rod.*parameter == neutral) continue;
+    Rod rod = request.rod;
+    rod.*parameter *= 1 - neighbour_shift;
+    add_sensitivities(rows, rod, 0, request.as_printed, sensitivities);
   }
   const bool elastic =
       request.rod.restitution == 1 && request.rod.impulse_ratio == 0 && request.rod.gravity_number == 0;
-  AnglesRow errors{};
-  for (std::size_t k = 0; k < row.size(); ++k) {
-    const double size = k == deficit_column && !elastic ? 2 : std::fabs(row[k]);
-    errors[k] = 24 * std::numeric_limits<double>::epsilon() * (size + sensitivity[k]);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t k = 0; k < rows[i].size(); ++k) {
+      const double size = k == deficit_column && !elastic ? 2 : std::fabs(rows[i][k]);
+      errors[i][k] = 24 * std::numeric_limits<double>::epsilon() * (size + sensitivities[i][k]);
+    }
   }
   return errors;
 }
@@ -177,13 +214,17 @@ AnglesRow angles_row(const AnglesRequest& request, long long i) {
 
 namespace {
 
-struct KnownRow {
-  AnglesRow value, error;
-};
-
-KnownRow known_row(const AnglesRequest& request, long long i) {
-  const AnglesRow row = angles_row(request, i);
-  return {row, errors_of(row, request)};
+/// Calls use(row, errors) for rows `begin` … `end` − 1.
+template <class Use>
+void for_known_rows(const AnglesRequest& request, long long begin, long long end, const Use& use) {
+  constexpr long long part = 512;
+  std::vector<AnglesRow> rows;
+  for (; begin < end; begin += part) {
+    rows.clear();
+    for (long long i = begin; i < std::min(begin + part, end); ++i) rows.push_back(angles_row(request, i));
+    const std::vector<AnglesRow> errors = errors_of(rows, request);
+    for (std::size_t i = 0; i < rows.size(); ++i) use(rows[i], errors[i]);
+  }
 }
 
 }  // namespace
@@ -207,8 +248,7 @@ Report angles_frame(const AnglesRequest& request) {
 namespace {
 
 void add_rows(const AnglesRequest& request, long long begin, long long end, Grid& grid) {
-  for (long long i = begin; i < end; ++i) {
-    const auto [row, errors] = known_row(request, i);
+  for_known_rows(request, begin, end, [&](const AnglesRow& row, const AnglesRow& errors) {
     Row& cells = grid.rows.emplace_back();
     for (std::size_t k = 0; k < column_count(request); ++k) {
       const bool is_exact = !has_error(k);
@@ -218,7 +258,7 @@ void add_rows(const AnglesRequest& request, long long begin, long long end, Grid
     for (std::size_t k = 0; k < column_count(request); ++k) {
       if (has_error(k)) cells.emplace_back(rounded_up(errors[k]));
     }
-  }
+  });
 }
 
 }  // namespace
@@ -235,8 +275,7 @@ std::string angles_csv_rows(const AnglesRequest& request, long long begin, long 
   const std::size_t count = column_count(request);
   std::string out;
   out.reserve(static_cast<std::size_t>(end - begin) * bytes_per_row);
-  for (long long i = begin; i < end; ++i) {
-    const auto [row, errors] = known_row(request, i);
+  for_known_rows(request, begin, end, [&](const AnglesRow& row, const AnglesRow& errors) {
     for (std::size_t k = 0; k < count; ++k) {
       if (k > 0) out += ',';
       append_number(out, row[k]);
@@ -247,7 +286,7 @@ std::string angles_csv_rows(const AnglesRequest& request, long long begin, long 
       append_number(out, rounded_up(errors[k]));
     }
     out += '\n';
-  }
+  });
   return out;
 }
 

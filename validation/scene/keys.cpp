@@ -38,6 +38,8 @@ constexpr std::array speed_of_fall{"drop.speed"};
 constexpr std::array speed_and_height{"drop.speed", "drop.height"};
 constexpr std::array turns{"drop.angle_deg", "drop.tilt_deg"};
 constexpr std::array ways_to_turn{"drop.angle_deg", "drop.tilt_deg", "drop.attitude"};
+constexpr std::array all_of_motion{"drop.speed",    "drop.height", "drop.clearance",       "drop.tangential_velocity",
+                                   "drop.velocity", "drop.spin",   "drop.angular_velocity"};
 constexpr std::array turn_of_plane{"drop.spin"};
 constexpr std::array parts_of_velocity{"drop.speed", "drop.height", "drop.clearance", "drop.tangential_velocity"};
 
@@ -125,8 +127,12 @@ void append_motion(std::vector<Key>& keys) {
           {"drop.angular_velocity", Use::both, "--angular-velocity", "X,Y,Z", "rad/s",
            "or all of it: at the first touch, world components",
            three_velocities<&Scene::angular_velocity>("[0, 0, 0]"), nullptr, false, turn_of_plane},
+          {"drop.topple", Use::both, "--topple", "M", "m",
+           "or let go from rest on the lower edge of end b, that of end a raised by this: it turns about the edge",
+           OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.topple; }, heights, &positive_number},
+           nullptr, false, all_of_motion},
           {"world.gravity", Use::both, "--gravity", "M/S2", "m/s²",
-           "acceleration of free fall; 9.81 where a height or clearance is given, else 0",
+           "acceleration of free fall; 9.81 where a height, clearance or topple is given, else 0",
            NumberValue{[](Scene& s) -> double& { return s.world.gravity; }, gravities, &not_negative_number}},
       });
 }

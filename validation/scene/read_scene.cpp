@@ -126,7 +126,8 @@ void check_drop(const SceneValues& values, Scene& scene) {
   } else if (!swept && scene.body.shape != BodyScene::Shape::sphere) {
     values.require("drop.angle_deg", "the inclination at the first impact");
   }
-  for (const auto& [key, is_given] : {std::pair{"drop.height", scene.height}, {"drop.clearance", scene.clearance}}) {
+  for (const auto& [key, is_given] :
+       {std::pair{"drop.height", scene.height}, {"drop.clearance", scene.clearance}, {"drop.topple", scene.topple}}) {
     if (is_given && !(scene.world.gravity > 0)) values.refuse(key, "left out where world.gravity is 0");
   }
 }
@@ -136,7 +137,8 @@ Scene default_scene(const SceneValues& values) {
   Scene scene;
   scene.path = values.path();
   scene.world.ground.stiffness = 0;  // none, until it is given
-  scene.world.gravity = values.has("drop.height") || values.has("drop.clearance") ? 9.81 : 0;
+  scene.world.gravity =
+      values.has("drop.height") || values.has("drop.clearance") || values.has("drop.topple") ? 9.81 : 0;
   return scene;
 }
 
@@ -221,6 +223,10 @@ void Scene::settle() {
     attitude = orientation_attitude(number, body.size);
   }
   if (!attitude.empty()) angle_deg = inclination_of(attitude);
+  if (!topple) return;
+  const TouchMotion touch = toppled(*this);
+  velocity.assign(touch.velocity.begin(), touch.velocity.end());
+  angular_velocity.assign(touch.angular_velocity.begin(), touch.angular_velocity.end());
 }
 
 std::vector<std::string> case_names() {

@@ -103,6 +103,7 @@ struct Scene {
   double speed = 1;                   ///< of the centre of mass at the first touch, downward [m/s]
   std::optional<double> height;       ///< of the centre of mass at release, if given [m]
   std::optional<double> clearance;    ///< of the lowest point at release, if given [m]
+  std::optional<double> topple;       ///< raised height of end a at release; gives both velocities, by settle() [m]
   double tangential_velocity = 0;     ///< [m/s]
   double spin = 0;                    ///< [rad/s]
   /// Of the centre of mass at the first touch, world [m/s]; empty: (tangential_velocity, 0, −speed).
@@ -126,8 +127,9 @@ struct Scene {
   /// The scene with the swept quantity at one value, and no sweep.
   [[nodiscard]] Scene at(double value) const;
   [[nodiscard]] numeric::Body make_body() const;
-  /// Takes `attitude` from `orientation`, and `angle_deg` from the attitude, where they are given.
-  /// @throws BadInput if the orientation is no whole number, or the body no box.
+  /// Takes `attitude` from `orientation`, `angle_deg` from the attitude, and the velocities from `topple`, where they
+  /// are given.
+  /// @throws BadInput if the orientation is no whole number, or the body no box; as toppled().
   void settle();
   /// Body → world; unit.
   [[nodiscard]] Eigen::Quaterniond touch_attitude() const;
@@ -148,6 +150,19 @@ struct Scene {
   /// The scene for a reader: a few lines, without the discrete model's law and without what `unsettled` keys say.
   [[nodiscard]] std::vector<std::string> summary(Model model = Model::continuous, const KeyNames& unsettled = {}) const;
 };
+
+/// Motion of the centre of mass and turn, world.
+struct TouchMotion {
+  numeric::Vector3 velocity, angular_velocity;  ///< [m/s], [rad/s]
+};
+/// Of a rod or box that lies on a face as it arrives there, when it turned about its lower edge on the side of +x,
+/// which neither slipped nor lifted off, from rest with the opposite lower edge raised by H = scene.topple:
+///     ½ ω² (k_y² + b² + h²) = g (b sin φ − h (1 − cos φ)),   sin φ = H/D,
+/// with the centre of mass b [m] beside that edge and h above it, and D the face's length along x.  The edge comes down
+/// at 1e-12 of the speeds, so that the face lands as a whole where pushes can do that.
+/// @throws BadInput if the body is neither rod nor box or no face of it is level, or if H is beyond D b/√(b² + h²),
+///         where the centre of mass stands above the edge; as body_properties.
+[[nodiscard]] TouchMotion toppled(const Scene& scene);
 
 /// The values of a scene file, of a case that comes with the program (by its name, "phone-damped"), or of neither ("":
 /// flags alone), to be read with one set of overrides after another.  @throws BadInput as SceneValues.

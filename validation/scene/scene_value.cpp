@@ -159,7 +159,8 @@ std::string Scene::drop_words(const KeyNames& unsettled) const {
   Phrases turns(unsettled), way(unsettled), words(unsettled);
   turns.add(turn, {"drop.angle_deg", "drop.attitude", "drop.orientation"});
   if (tilt_deg != 0) turns.add(fmt::format("tilted by {}°", shortest(tilt_deg)), {"drop.tilt_deg"});
-  if (height) way.add(fmt::format("from {} m", shortest(*height)), {"drop.height"});
+  if (topple) way.add(fmt::format("toppled from {} m", shortest(*topple)), {"drop.topple"});
+  else if (height) way.add(fmt::format("from {} m", shortest(*height)), {"drop.height"});
   else if (clearance) way.add(clearance_words(*this), {"drop.clearance"});
   else if (velocity.empty()) way.add(fmt::format("at {} m/s", shortest(speed)), {"drop.speed"});
   words.add(after(turns.text(), way.text()));
