@@ -83,10 +83,14 @@ class Dataset {
   }
 
  private:
-  /// Whole numbers, texts and errors of two digits compress well; what measures something has random last bits.
+  /// Whole numbers, texts, errors of two digits and values of a grid compress well; what measures something has random
+  /// last bits.
   [[nodiscard]] bool is_compressible() const {
     const auto is_whole = [](double number) { return !std::isfinite(number) || number == std::floor(number); };
-    return column_.words || column_.name.ends_with("_error") || std::all_of(numbers_.begin(), numbers_.end(), is_whole);
+    const bool is_grid =
+        column_.name.find('.') != std::string::npos && std::is_sorted(numbers_.begin(), numbers_.end());
+    return column_.words || is_grid || column_.name.ends_with("_error") ||
+           std::all_of(numbers_.begin(), numbers_.end(), is_whole);
   }
 
   void create() {
