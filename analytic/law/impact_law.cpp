@@ -9,6 +9,8 @@ namespace clatter::analytic {
 
 using detail::refuse;
 
+double ImpactLaw::most_friction() const { return friction == FrictionKind::none ? 0 : std::fabs(friction_value); }
+
 void ImpactLaw::validate() const {
   if (!(restitution >= 0 && restitution <= 1)) {
     refuse("restitution", restitution, "between 0 and 1");

@@ -89,6 +89,17 @@ struct State {
   Vector3 angular_velocity = Vector3::Zero();    ///< world frame [rad/s]
 };
 
+/// Velocity of the body's point at `place`, body frame from the centre of mass, in the world frame [m/s].
+inline Vector3 velocity_at(const State& s, const Vector3& place) {
+  return s.velocity + s.angular_velocity.cross(s.attitude * place);
+}
+
+/// The turn about a rotation vector by its length [rad].
+inline Quaternion turn_by(const Vector3& rotation) {
+  const double angle = rotation.norm();
+  return angle > 0 ? Quaternion(Eigen::AngleAxisd(angle, rotation / angle)) : Quaternion::Identity();
+}
+
 /// A point of the hull, a vertex or the lowest point of a rim or ellipsoid; or all of a rim that lies level.
 struct Corner {
   int index = 0;                    ///< of the point, as Body counts them

@@ -22,28 +22,22 @@ Vector3 slip_at(double angle) { return {std::cos(angle), std::sin(angle), 0}; }
 
 ContactMotion::ContactMotion(const Drop& drop, const State& now, const std::vector<int>& corners)
     : drop_(drop), law_(drop), reach_(drop.body.reach()), falling_(std::sqrt(reach_ / drop.gravity)),
-      given_(energy(now)), corners_(corners) {
-  for (const int i : corners) points_.push_back({i, drop.body.vertices[static_cast<std::size_t>(i)], false});
+      given_(mechanical_energy(drop, now)), corners_(corners) {
+  for (const int i : corners) points_.push_back({i, place(i), false});
   hold(now);
   stick_where_slow();
   start_ = state();
 }
 
 ContactMotion::ContactMotion(const ContactMotion& base, const State& now)
-    : drop_(base.drop_), law_(base.law_), reach_(base.reach_), falling_(base.falling_), given_(energy(now)),
-      corners_(base.corners_), points_(base.points_) {
+    : drop_(base.drop_), law_(base.law_), reach_(base.reach_), falling_(base.falling_),
+      given_(mechanical_energy(drop_, now)), corners_(base.corners_), points_(base.points_) {
   hold(now);
   start_ = state();
 }
 
 bool ContactMotion::touches(int vertex) const {
   return std::ranges::any_of(points_, [&](const GroundPoint& p) { return p.index == vertex; });
-}
-
-double ContactMotion::energy(const State& s) const {
-  const Vector3 w = s.attitude.conjugate() * s.angular_velocity;
-  return drop_.body.mass * (drop_.gravity * s.position.z() + s.velocity.squaredNorm() / 2) +
-         w.dot(drop_.body.inertia * w) / 2;
 }
 
 /// Levels the corners, and takes away their normal velocity, and the slip of those that stick.
@@ -226,8 +220,7 @@ bool ContactMotion::stop_slips() {
 /// Bound from below on a height between two moments.
 double ContactMotion::least_between(const State& from, const State& to, double length, int vertex) const {
   const auto at = [&](const State& s) {
-    const Vector3 arm = s.attitude * drop_.body.vertices[static_cast<std::size_t>(vertex)];
-    return std::pair(s.position.z() + arm.z(), (s.velocity + s.angular_velocity.cross(arm)).z());
+    return std::pair(height(s, static_cast<std::size_t>(vertex)), velocity_at(s, place(vertex)).z());
   };
   const auto [h0, v0] = at(from);
   const auto [h1, v1] = at(to);
@@ -332,8 +325,7 @@ std::vector<int> ContactMotion::arriving() const {
   std::vector<int> some;
   for (std::size_t i = 0; i < drop_.body.vertices.size(); ++i) {
     if (touches(static_cast<int>(i)) || height(s, i) > 64 * epsilon * reach_) continue;
-    const Vector3 arm = s.attitude * drop_.body.vertices[i];
-    if ((s.velocity + s.angular_velocity.cross(arm)).z() < 0) some.push_back(static_cast<int>(i));
+    if (velocity_at(s, drop_.body.vertices[i]).z() < 0) some.push_back(static_cast<int>(i));
   }
   return some;
 }
@@ -357,13 +349,11 @@ SustainedContact ContactMotion::ended(ContactEnd end, const std::string& reason)
   for (const GroundPoint& p : points_) result.pivots.push_back(p.index);
   if (end == ContactEnd::arrival) result.arriving = arriving();
   for (const int i : result.arriving) {
-    const Vector3 arm = result.after.attitude * drop_.body.vertices[static_cast<std::size_t>(i)];
-    const double approach = -(result.after.velocity + result.after.angular_velocity.cross(arm)).z();
-    result.approach_speed = std::fmax(result.approach_speed, approach);
+    result.approach_speed = std::fmax(result.approach_speed, -velocity_at(result.after, place(i)).z());
   }
   const double rise = result.after.velocity.z() - start_.velocity.z();
   result.normal_impulse = drop_.body.mass * (rise + drop_.gravity * time_);
-  result.energy_loss = given_ - energy(result.after);
+  result.energy_loss = given_ - mechanical_energy(drop_, result.after);
   return result;
 }
 
@@ -404,7 +394,8 @@ SustainedContact ContactMotion::follow() {
     if (!(height(state(), i) >= -1e-7 * reach_))
       throw NumericalError("a corner is below those that stay on the ground");
   }
-  if (!(std::fabs(given_ - energy(start_)) <= 1e-6 * drop_.body.mass * speed_scale() * speed_scale())) {
+  if (!(std::fabs(given_ - mechanical_energy(drop_, start_)) <=
+        1e-6 * drop_.body.mass * speed_scale() * speed_scale())) {
     throw NumericalError("corners that stay on the ground are not at rest there");
   }
   length_ = 1e-3 * longest_step * falling_;
@@ -439,8 +430,8 @@ ContactMotion::Rates ContactMotion::rates(ContactEnd end, int vertex) const {
   for (const Vector3& force : f.of_points) result.acceleration += force / drop_.body.mass;
   const State s = state();
   if (end == ContactEnd::arrival) {
-    const Vector3 arm = s.attitude * drop_.body.vertices[static_cast<std::size_t>(vertex)];
-    result.margin = (s.velocity + s.angular_velocity.cross(arm)).z();
+    const Vector3 arm = s.attitude * place(vertex);
+    result.margin = velocity_at(s, place(vertex)).z();
     const Vector3& w = s.angular_velocity;
     result.bend = (result.acceleration + f.turning.cross(arm) + w.cross(w.cross(arm))).z();
     return result;

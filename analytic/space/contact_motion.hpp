@@ -70,7 +70,7 @@ class ContactMotion {
     return law_.forces(s, points_, slipping);
   }
   [[nodiscard]] bool touches(int vertex) const;
-  [[nodiscard]] double energy(const State& s) const;
+  [[nodiscard]] const Vector3& place(int vertex) const { return drop_.body.vertices[static_cast<std::size_t>(vertex)]; }
   [[nodiscard]] double height(const State& s, std::size_t vertex) const;
   [[nodiscard]] double room(const Motion& y, Event event, std::size_t number) const;
   static int derivative(double, const double y[], double rate[], void* motion);

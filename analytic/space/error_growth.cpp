@@ -43,12 +43,9 @@ auto diagonal(const Eigen::Matrix<double, 10, 1>& deviations) -> Eigen::Matrix<d
 
 /// Bounds are this many standard deviations of the errors assumed.
 constexpr double deviations = 3;
-/// Of errors in each direction with these bounds.
-Eigen::Matrix<double, 10, 1> deviations_of(const StateErrors& errors) {
-  Eigen::Matrix<double, 10, 1> d;
-  d << errors.time, Vector3::Constant(errors.attitude), Vector3::Constant(errors.velocity),
-      Vector3::Constant(errors.angular_velocity);
-  return d / deviations;
+/// A factor of errors in each direction with these bounds.
+Eigen::Matrix<double, 10, 10> factor_of(const StateErrors& errors) {
+  return diagonal(errors.in_each_direction() / deviations);
 }
 
 /// Rounding of an impulse with friction, relative: half of what impact.hpp promises, as a standard deviation.
@@ -405,19 +402,19 @@ void ErrorGrowth::stay(const std::optional<ContactDerivatives>& derivatives, con
   if (!predictable_) return;
   resumed_ = true;
   arriving_ = Factor(size, 0);
-  append(diagonal(deviations_of(before)));
+  append(factor_of(before));
   Gradient shift = derivatives->of_state.row(0);
   shift[0] = 0;
   const double late = bound(shift.lazyProduct(factor_));
   factor_ = derivatives->of_state.lazyProduct(factor_).eval();
-  append(diagonal(deviations_of(rounding)));
+  append(factor_of(rounding));
   if (!derivatives->hold(body_, late, bound(factor_.middleRows<3>(1)))) predictable_ = false;
 }
 
 void ErrorGrowth::restart(const StateErrors& errors) {
   predictable_ = resumed_ = true;
   factor_ = arriving_ = Factor(size, 0);
-  append(diagonal(deviations_of(errors)));
+  append(factor_of(errors));
 }
 
 StateErrors ErrorGrowth::bounds() const {

@@ -64,13 +64,10 @@ SmallVector solved(const GroundUnknowns& u, const Small& effect, const SmallVect
 
 }  // namespace
 
-Vector3 slip_of(const State& s, const GroundPoint& point) {
-  return horizontal(s.velocity + s.angular_velocity.cross(s.attitude * point.place));
-}
+Vector3 slip_of(const State& s, const GroundPoint& point) { return horizontal(velocity_at(s, point.place)); }
 
 GroundLaw::GroundLaw(const Drop& drop)
-    : drop_(drop), friction_(drop.law.law.friction == FrictionKind::coulomb ? drop.law.law.friction_value : 0),
-      inverse_inertia_(drop.body.inertia.inverse()) {}
+    : drop_(drop), friction_(drop.law.law.most_friction()), inverse_inertia_(drop.body.inertia.inverse()) {}
 
 GroundForces GroundLaw::forces(const State& s, std::span<const GroundPoint> points, const Vector3* slipping) const {
   const Matrix3 axes = s.attitude.toRotationMatrix();

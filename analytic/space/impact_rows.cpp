@@ -179,6 +179,19 @@ void Drop::validate() const {
   require(gravity >= 0 && std::isfinite(gravity), "gravity", gravity, "at least 0 and finite");
 }
 
+double mechanical_energy(const Drop& drop, const State& state) {
+  const Body& body = drop.body;
+  const Vector3 w = state.attitude.conjugate() * state.angular_velocity;
+  return body.mass * (drop.gravity * state.position.z() + state.velocity.squaredNorm() / 2) +
+         w.dot(body.inertia * w) / 2;
+}
+
+Eigen::Matrix<double, 10, 1> StateErrors::in_each_direction() const {
+  Eigen::Matrix<double, 10, 1> all;
+  all << time, Vector3::Constant(attitude), Vector3::Constant(velocity), Vector3::Constant(angular_velocity);
+  return all;
+}
+
 void require_representable(const Sequence& sequence) {
   for (const ImpactRow& row : sequence.rows) {
     const Impact& impact = row.impact;

@@ -28,6 +28,9 @@ struct Drop {
   void validate() const;
 };
 
+/// Translational, rotational and potential energy, z = 0 at the ground [J].
+[[nodiscard]] double mechanical_energy(const Drop& drop, const State& state);
+
 /// Bounds on the errors of an impact's numbers, each in the unit of its number (of a vector: on the length of its
 /// error); infinite in a row that cannot be predicted.
 struct RowErrors {
@@ -92,6 +95,9 @@ struct StateErrors {
   double attitude = std::numeric_limits<double>::infinity();          ///< [rad]
   double velocity = std::numeric_limits<double>::infinity();          ///< [m/s]
   double angular_velocity = std::numeric_limits<double>::infinity();  ///< [rad/s]
+
+  /// Of the time, and of the others in each direction: attitude, velocity, angular velocity.
+  [[nodiscard]] Eigen::Matrix<double, 10, 1> in_each_direction() const;
 };
 
 /// A body with corners at rest on the ground, but for slip, that turns on them.

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
+#include <numeric>
 #include <vector>
 
 #include "analytic/base/limits.hpp"
@@ -13,71 +15,22 @@ namespace clatter::analytic::space {
 using detail::infinite;
 namespace {
 
-/// A face of the hull, as the ground would see it.
-struct LowestFace {
-  std::vector<int> corners;     ///< in order around it
-  Vector3 normal;               ///< outward, world frame
-  double depth = 0, least = 0;  ///< of the face and of the other vertices inside it, from the centre of mass [m]
-};
-
-/// The face of the lowest three vertices; nothing if they are not of one.
-std::optional<LowestFace> lowest_face(const Body& body, const State& now) {
-  std::vector<Vector3> arms;
-  std::vector<int> order;
-  for (const Vector3& vertex : body.vertices) {
-    order.push_back(static_cast<int>(arms.size()));
-    arms.push_back(now.attitude * vertex);
-  }
-  const auto arm = [&](int i) -> const Vector3& { return arms[static_cast<std::size_t>(i)]; };
-  std::ranges::sort(order, {}, [&](int i) { return arm(i).z(); });
-  if (order.size() < 4 || !body.rims.empty() || !body.ellipsoids.empty()) return {};
-  const Vector3& first = arm(order[0]);
-  LowestFace face;
-  for (std::size_t k = 2; k < order.size(); ++k) {
-    face.normal = (arm(order[1]) - first).cross(arm(order[k]) - first);
-    if (face.normal.norm() > 1e-9 * body.reach() * body.reach()) break;
-  }
-  face.normal = std::copysign(1 / face.normal.norm(), -face.normal.z()) * face.normal;
-  face.depth = face.normal.dot(first);
-  face.least = -body.reach();
-  for (const int i : order) {
-    const double depth = face.normal.dot(arm(i));
-    if (std::fabs(depth - face.depth) <= 1e-9 * body.reach()) face.corners.push_back(i);
-    else face.least = std::fmax(face.least, depth);
-  }
-  if (!(face.least < face.depth)) return {};
-  Vector3 middle = Vector3::Zero();
-  for (const int i : face.corners) middle += arm(i) / static_cast<double>(face.corners.size());
-  const Vector3 axis = (first - middle).normalized();
-  std::ranges::sort(face.corners, {}, [&](int i) {
-    const Vector3 from_middle = arm(i) - middle;
-    return std::atan2(face.normal.dot(axis.cross(from_middle)), axis.dot(from_middle));
-  });
-  return face;
-}
-
-/// Least distance inside the face of the foot of the perpendicular from the centre of mass.
-double room_around_centre(const Body& body, const State& now, const LowestFace& face) {
-  double room = body.reach();
-  for (std::size_t k = 0; k < face.corners.size(); ++k) {
-    const auto next = static_cast<std::size_t>(face.corners[(k + 1) % face.corners.size()]);
-    const Vector3 from = now.attitude * body.vertices[static_cast<std::size_t>(face.corners[k])];
-    const Vector3 edge = (now.attitude * body.vertices[next] - from).normalized();
-    room = std::fmin(room, face.normal.dot(edge.cross(-from)));
-  }
-  return room;
-}
-
-/// The heights over which a body rolls from face to face: (2).
+/// A body whose hull has vertices only, its faces, and the heights over which it rolls from face to face: (2).  Body
+/// frame.
 class RollingBody {
  public:
   explicit RollingBody(const Body& body) : places_(body.vertices), reach_(body.reach()) {}
 
   struct Face {
-    Vector3 down;              ///< outward normal, unit, body frame
+    Vector3 down;              ///< outward normal, unit
     double depth;              ///< from the centre of mass [m]
     std::vector<int> corners;  ///< in order around it, counter-clockwise seen from outside
+    double next = 0;           ///< depth of the deepest of the other vertices [m]
   };
+  /// The face of the three vertices lowest in this direction; nothing if they are not of one.
+  [[nodiscard]] std::optional<Face> lowest(const Vector3& down) const;
+  /// Least distance inside the face of the foot of the perpendicular from the centre of mass [m].
+  [[nodiscard]] double room(const Face& f) const { return distance(f, nearest_edge(f)); }
   /// The face on which it comes to rest without energy from this direction down; nothing if none is found.
   [[nodiscard]] std::optional<Face> rolled_down(Vector3 down) const;
   /// Height of the centre of mass on the lowest way from that face to another on which it can rest [m].
@@ -93,11 +46,29 @@ class RollingBody {
   [[nodiscard]] Face face(const Vector3& down) const;
   /// Outward in the face, across the edge from its corner k to the next.
   [[nodiscard]] Vector3 outward(const Face& f, std::size_t k) const;
-  [[nodiscard]] std::optional<std::size_t> edge_outside(const Face& f) const;
+  /// From the foot of the perpendicular from the centre of mass to that edge.
+  [[nodiscard]] double distance(const Face& f, std::size_t k) const { return outward(f, k).dot(place(f.corners[k])); }
+  [[nodiscard]] std::size_t nearest_edge(const Face& f) const;
+  [[nodiscard]] bool can_rest(const Face& f) const { return room(f) >= 0; }
 
   const std::vector<Vector3>& places_;
   double reach_;
 };
+
+std::optional<RollingBody::Face> RollingBody::lowest(const Vector3& down) const {
+  std::vector<int> order(places_.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, std::greater{}, [&](int i) { return place(i).dot(down); });
+  Vector3 normal = down;
+  for (std::size_t k = 2; k < order.size(); ++k) {
+    normal = (place(order[1]) - place(order[0])).cross(place(order[k]) - place(order[0]));
+    if (normal.norm() > 1e-9 * reach_ * reach_) break;
+  }
+  normal = std::copysign(1 / normal.norm(), normal.dot(down)) * normal;
+  Face f = face(normal);
+  const bool is_face = f.depth - normal.dot(place(order[0])) <= 1e-9 * reach_;
+  return is_face && f.next < f.depth ? std::optional(std::move(f)) : std::nullopt;
+}
 
 /// The first vertex to come down where `down` turns towards the direction `towards`, with the lowest ones on the
 /// ground.
@@ -115,11 +86,15 @@ RollingBody::Swing RollingBody::swing(const Vector3& down, const Vector3& toward
 }
 
 RollingBody::Face RollingBody::face(const Vector3& down) const {
-  Face f{.down = down, .depth = -infinite, .corners = {}};
+  Face f{.down = down, .depth = -infinite, .corners = {}, .next = -reach_};
   for (const Vector3& p : places_) f.depth = std::fmax(f.depth, down.dot(p));
   Vector3 middle = Vector3::Zero();
   for (int i = 0; i < static_cast<int>(places_.size()); ++i) {
-    if (down.dot(place(i)) < f.depth - 1e-9 * reach_) continue;
+    const double depth = down.dot(place(i));
+    if (depth < f.depth - 1e-9 * reach_) {
+      f.next = std::fmax(f.next, depth);
+      continue;
+    }
     f.corners.push_back(i);
     middle += place(i);
   }
@@ -134,15 +109,12 @@ Vector3 RollingBody::outward(const Face& f, std::size_t k) const {
   return (place(f.corners[(k + 1) % f.corners.size()]) - place(f.corners[k])).cross(f.down).normalized();
 }
 
-/// The edge farthest on whose outer side the centre of mass is.
-std::optional<std::size_t> RollingBody::edge_outside(const Face& f) const {
-  std::optional<std::size_t> edge;
-  double least = 0;
-  for (std::size_t k = 0; k < f.corners.size(); ++k) {
-    const double room = outward(f, k).dot(place(f.corners[k]));
-    if (room < least) least = room, edge = k;
+std::size_t RollingBody::nearest_edge(const Face& f) const {
+  std::size_t nearest = 0;
+  for (std::size_t k = 1; k < f.corners.size(); ++k) {
+    if (distance(f, k) < distance(f, nearest)) nearest = k;
   }
-  return edge;
+  return nearest;
 }
 
 std::optional<RollingBody::Face> RollingBody::rolled_down(Vector3 down) const {
@@ -161,10 +133,10 @@ std::optional<RollingBody::Face> RollingBody::rolled_down(Vector3 down) const {
     down = (std::cos(next.angle) * down + std::sin(next.angle) * towards).normalized();
     Face f = face(down);
     if (f.corners.size() < 3) return {};
-    const auto edge = edge_outside(f);
-    if (!edge) return f;
-    towards = outward(f, *edge);
-    next = swing(down, towards, f.corners[*edge], f.corners[(*edge + 1) % f.corners.size()]);
+    if (can_rest(f)) return f;
+    const std::size_t edge = nearest_edge(f);
+    towards = outward(f, edge);
+    next = swing(down, towards, f.corners[edge], f.corners[(edge + 1) % f.corners.size()]);
   }
   return {};
 }
@@ -178,7 +150,7 @@ double RollingBody::barrier(const Face& rest) const {
     auto sorted = f.corners;
     std::ranges::sort(sorted);
     if (std::ranges::count(seen, sorted) > 0) continue;
-    if (!seen.empty() && !edge_outside(f)) return height;
+    if (!seen.empty() && can_rest(f)) return height;
     seen.push_back(std::move(sorted));
     for (std::size_t k = 0; k < f.corners.size(); ++k) {
       const int on = f.corners[k], with = f.corners[(k + 1) % f.corners.size()];
@@ -194,17 +166,24 @@ double RollingBody::barrier(const Face& rest) const {
   return infinite;  // of the only face
 }
 
+/// Down, in body axes.
+Vector3 down(const State& now) { return now.attitude.conjugate() * Vector3(0, 0, -1); }
+
+/// Whether it has faces.
+bool is_polyhedron(const Body& body) {
+  return body.vertices.size() >= 4 && body.rims.empty() && body.ellipsoids.empty();
+}
+
 /// By (2).
 std::optional<Rest> trapped(const Drop& drop, const State& now) {
   const ImpactLaw& law = drop.law.law;
   const Body& body = drop.body;
   const bool rubs = law.friction != FrictionKind::none;
   if (law.friction == FrictionKind::impulse_ratio) return {};
-  if (body.vertices.size() < 4 || !body.rims.empty() || !body.ellipsoids.empty()) return {};
   const Vector3 w = now.attitude.conjugate() * now.angular_velocity;
   const double moving = rubs ? now.velocity.squaredNorm() : now.velocity.z() * now.velocity.z();
   const RollingBody rolling(body);
-  const auto face = rolling.rolled_down(now.attitude.conjugate() * Vector3(0, 0, -1));
+  const auto face = rolling.rolled_down(down(now));
   if (!face) return {};
   const double above =
       body.mass * (moving / 2 + drop.gravity * (now.position.z() - face->depth)) + w.dot(body.inertia * w) / 2;
@@ -216,7 +195,8 @@ std::optional<Rest> trapped(const Drop& drop, const State& now) {
 }  // namespace
 
 double vertical_energy(const Drop& drop, const State& now) {
-  const auto face = lowest_face(drop.body, now);
+  if (!is_polyhedron(drop.body)) return infinite;
+  const auto face = RollingBody(drop.body).lowest(down(now));
   if (!face) return infinite;
   const Matrix3 axes = now.attitude.toRotationMatrix();
   Vector3 turning = now.angular_velocity;
@@ -231,17 +211,18 @@ std::optional<Rest> settles(const Drop& drop, const State& now, double time) {
   const ImpactLaw& law = drop.law.law;
   if (!(drop.gravity > 0) || law.law == RestitutionLaw::viscoelastic || !(law.restitution < 1)) return {};
   const Body& body = drop.body;
-  const auto face = lowest_face(body, now);
+  if (!is_polyhedron(body)) return {};
+  const RollingBody rolling(body);
+  const auto face = rolling.lowest(down(now));
   if (!face) return trapped(drop, now);
   const Matrix3 axes = now.attitude.toRotationMatrix(), inertia = axes * body.inertia * axes.transpose();
   const double weight = body.mass * drop.gravity, spin = now.angular_velocity.z();
-  const double friction = law.friction == FrictionKind::none ? 0 : std::fabs(law.friction_value);
-  const double unbalanced = inertia.col(2).head<2>().norm() + face->normal.head<2>().norm() * inertia.norm();
-  const double room = room_around_centre(body, now, *face) - friction * face->depth - spin * spin * unbalanced / weight;
+  const double now_tilted = (now.attitude * face->down).head<2>().norm();
+  const double unbalanced = inertia.col(2).head<2>().norm() + now_tilted * inertia.norm();
+  const double room = rolling.room(*face) - law.most_friction() * face->depth - spin * spin * unbalanced / weight;
   const double energy = vertical_energy(drop, now);
   // A tilt φ lowers other points by φ times their distance at most.
-  const double tilt = energy / (weight * room), now_tilted = face->normal.head<2>().norm();
-  const double clear = face->depth - face->least;
+  const double tilt = energy / (weight * room), clear = face->depth - face->next;
   if (!(room > 0) || !(2 * std::fmax(tilt, now_tilted) * 2 * body.reach() < clear)) return trapped(drop, now);
   const double speed = std::sqrt(2 * energy / body.mass);
   return Rest{.corners = face->corners, .latest = time + 8 * speed / (drop.gravity * (1 - law.restitution))};

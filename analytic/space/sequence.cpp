@@ -28,7 +28,7 @@ namespace {
 Impact impact_of(const GroupImpact& group, const State& before, const Vector3& place) {
   const Vector3 arm = before.attitude * place;
   return {.impulse = group.impulse,
-          .contact_before = before.velocity + before.angular_velocity.cross(arm),
+          .contact_before = velocity_at(before, place),
           .contact_after = group.velocity_after + group.angular_velocity_after.cross(arm),
           .velocity_after = group.velocity_after,
           .angular_velocity_after = group.angular_velocity_after,
@@ -263,7 +263,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
       }
       add(row.impact.impulse.z(), row.impact.impulse.head<2>().norm());
     }
-    const double friction = drop_.law.law.friction == FrictionKind::none ? 0 : std::fabs(drop_.law.law.friction_value);
+    const double friction = drop_.law.law.most_friction();
     for (std::size_t i = known_->contacts; i < result_.contacts.size(); ++i) {
       const SustainedContact& contact = result_.contacts[i];
       if (!stay(contact.corners) || !stay(contact.pivots)) return;
@@ -331,10 +331,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     time_ += flown.time;
   }
 
-  [[nodiscard]] double energy(const State& s) const {
-    const Vector3 w = s.attitude.conjugate() * s.angular_velocity;
-    return body_.mass * (drop_.gravity * s.position.z() + s.velocity.squaredNorm() / 2) + w.dot(body_.inertia * w) / 2;
-  }
+  [[nodiscard]] double energy(const State& s) const { return mechanical_energy(drop_, s); }
 
   void record(const std::vector<int>& arriving, const FirstContact& flown) {
     ImpactRow row;
@@ -403,7 +400,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     end.angular_velocity = tail.angular_velocity_after;
     const Vector3 turn = (tail.end_time - time_) / 2 * (state_.angular_velocity + end.angular_velocity);
     if (turn.norm() > 0 && !result_.rows.back().group) {
-      end.attitude = (Quaternion(Eigen::AngleAxisd(turn.norm(), turn.normalized())) * end.attitude).normalized();
+      end.attitude = (turn_by(turn) * end.attitude).normalized();
       end.position.z() = -(end.attitude * touching_place(body_, end.attitude, tail.corners.front())).z();
     }
     return end;
@@ -427,16 +424,21 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     end_in(std::move(tail), turns, slides || spins, stays, comes_down ? ", then the body settles on a face" : "");
   }
 
+  /// Of the attitude in which hops end, from the second order of the turn meanwhile and the error of its time.
+  [[nodiscard]] double turn_error(const Tail& tail, double time_error) const {
+    const double turning = tail.angular_velocity_after.norm();
+    const double turned = turning * (tail.end_time - result_.rows.back().start);
+    return turned * turned + turning * time_error;
+  }
+
   /// What hops before a contact add to the errors of the last row's state.
   [[nodiscard]] StateErrors errors_of_hops() const {
     StateErrors e{.time = 0, .attitude = 0, .velocity = 0, .angular_velocity = 0};
     if (!result_.tail) return e;
     const Tail& tail = *result_.tail;
     const RowErrors& row = result_.rows.back().error;
-    const double turning = tail.angular_velocity_after.norm();
-    const double turned = turning * (tail.end_time - result_.rows.back().start);
     e.time = std::fmax(tail.end_time_error - row.start, 0.0);
-    e.attitude = turned * turned + turning * e.time;
+    e.attitude = turn_error(tail, e.time);
     e.velocity = std::fmax(tail.velocity_error - row.velocity_after, 0.0);
     e.angular_velocity = std::fmax(tail.angular_velocity_error - row.angular_velocity_after, 0.0);
     return e;
@@ -452,9 +454,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   /// Likewise at the end of hops.
   [[nodiscard]] StateErrors errors_after(const Tail& tail) const {
     StateErrors e = errors_now();
-    const double turning = tail.angular_velocity_after.norm();
-    const double turned = turning * (tail.end_time - result_.rows.back().start);
-    e.attitude += turned * turned + turning * tail.end_time_error;
+    e.attitude += turn_error(tail, tail.end_time_error);
     e.time = tail.end_time_error;
     e.velocity = tail.velocity_error;
     e.angular_velocity = tail.angular_velocity_error;

@@ -19,8 +19,7 @@ constexpr double most_second_order = 0.02;
 
 State shifted(const State& s, const Changes& by) {
   State other = s;
-  const double angle = by.head<3>().norm();
-  if (angle > 0) other.attitude = Quaternion(Eigen::AngleAxisd(angle, by.head<3>() / angle)) * s.attitude;
+  other.attitude = turn_by(by.head<3>()) * s.attitude;
   other.velocity += by.segment<3>(3);
   other.angular_velocity += by.tail<3>();
   return other;
@@ -106,9 +105,9 @@ double Neighbours::clearance() const {
   double least = detail::infinite;
   for (int i = 0; i < static_cast<int>(drop_.body.vertices.size()); ++i) {
     if (is_of(contact_.pivots, i) || is_of(contact_.arriving, i)) continue;
-    const Vector3 arm = end.attitude * drop_.body.vertices[static_cast<std::size_t>(i)];
-    if (!((end.velocity + end.angular_velocity.cross(arm)).z() < 0)) continue;
-    least = std::fmin(least, end.position.z() + arm.z());
+    const Vector3& place = drop_.body.vertices[static_cast<std::size_t>(i)];
+    if (!(velocity_at(end, place).z() < 0)) continue;
+    least = std::fmin(least, end.position.z() + (end.attitude * place).z());
   }
   return least;
 }
@@ -117,9 +116,7 @@ std::optional<ContactDerivatives> Neighbours::derivatives(const StateErrors& err
   if (!followed_ || contact_.end == ContactEnd::open || contact_.end == ContactEnd::joining) return {};
   const ContactMotion::Rates rates = base_.rates(contact_.end, vertex_);
   if (!(rates.margin < 0)) return {};
-  Changes of_state;
-  of_state << Vector3::Constant(errors.attitude), Vector3::Constant(errors.velocity),
-      Vector3::Constant(errors.angular_velocity);
+  const Changes of_state = errors.in_each_direction().tail<9>();
   Changes shift;  // of the end
   shift << base_.state().angular_velocity, rates.acceleration, rates.turning;
   ContactDerivatives d{.bend = std::fabs(rates.bend / rates.margin), .clearance = clearance()};
@@ -165,10 +162,7 @@ SustainedContact follow_contact(const Drop& drop, const State& now, const std::v
   SustainedContact contact = follow_contact(drop, now, corners);
   const auto d = contact_derivatives(drop, now, contact, errors);
   if (!d) return contact;
-  Eigen::Matrix<double, 10, 1> given;
-  given << errors.time, Vector3::Constant(errors.attitude), Vector3::Constant(errors.velocity),
-      Vector3::Constant(errors.angular_velocity);
-  const Eigen::Matrix<double, 10, 1> bounds = d->of_state.cwiseAbs() * given;
+  const Eigen::Matrix<double, 10, 1> bounds = d->of_state.cwiseAbs() * errors.in_each_direction();
   if (!d->hold(drop.body, bounds[0] - errors.time, bounds.segment<3>(1).norm())) return contact;
   const StateErrors rounding = contact_rounding(drop, now, contact);
   contact.error = {.time = bounds[0] + rounding.time,

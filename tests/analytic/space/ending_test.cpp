@@ -241,6 +241,15 @@ space::Drop tumbling(int n) {
   return drop;
 }
 
+/// The same with each velocity changed by one unit in the last place.
+space::Drop nudged(space::Drop drop) {
+  for (int i = 0; i < 3; ++i) {
+    drop.velocity[i] = std::nextafter(drop.velocity[i], 1.0);
+    drop.angular_velocity[i] = std::nextafter(drop.angular_velocity[i], -100.0);
+  }
+  return drop;
+}
+
 /// Whether the body can stand on the face: its vertices are of one plane, with all others above it, and the foot of the
 /// perpendicular from the centre of mass lies inside every edge.
 bool stands_on(const space::Body& body, const std::vector<int>& face) {
@@ -338,12 +347,7 @@ BOOST_AUTO_TEST_CASE(
     contacts_that_last_change_within_their_errors_when_the_drop_changes_by_one_unit_in_the_last_place) {
   int judged = 0;
   for (int n = 0; n < 100; ++n) {
-    const space::Drop drop = tumbling(n);
-    space::Drop other = drop;
-    for (int i = 0; i < 3; ++i) {
-      other.velocity[i] = std::nextafter(drop.velocity[i], 1.0);
-      other.angular_velocity[i] = std::nextafter(drop.angular_velocity[i], -100.0);
-    }
+    const space::Drop drop = tumbling(n), other = nudged(drop);
     const SequenceOptions options{.impacts = 2000, .until_rest = true};
     const space::Sequence a = space::impact_sequence(drop, options), b = space::impact_sequence(other, options);
     for (std::size_t i = 0; i < std::min(a.contacts.size(), b.contacts.size()); ++i) {
@@ -366,12 +370,7 @@ BOOST_AUTO_TEST_CASE(
 
 BOOST_AUTO_TEST_CASE(ends_change_within_their_errors_when_the_drop_changes_by_one_unit_in_the_last_place) {
   for (int n = 0; n < 60; ++n) {
-    const space::Drop drop = tumbling(n);
-    space::Drop other = drop;
-    for (int i = 0; i < 3; ++i) {
-      other.velocity[i] = std::nextafter(drop.velocity[i], 1.0);
-      other.angular_velocity[i] = std::nextafter(drop.angular_velocity[i], -100.0);
-    }
+    const space::Drop drop = tumbling(n), other = nudged(drop);
     const space::Sequence a = space::impact_sequence(drop, {.impacts = 2000});
     const space::Sequence b = space::impact_sequence(other, {.impacts = 2000});
     if (!a.rows.back().error.predictable || !b.rows.back().error.predictable) continue;

@@ -3,6 +3,7 @@
 // of motion of a rod in its plane.
 #include "analytic/space/sustained_contact.hpp"
 
+#include <algorithm>
 #include <array>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/test/unit_test.hpp>
@@ -43,6 +44,11 @@ State standing(const Body& body, const Quaternion& attitude, int vertex, const V
           .angular_velocity = turning};
 }
 
+int lowest_vertex(const Body& body, const Quaternion& attitude) {
+  const auto height = [&](const Vector3& place) { return (attitude * place).z(); };
+  return static_cast<int>(std::ranges::min_element(body.vertices, {}, height) - body.vertices.begin());
+}
+
 double energy(const Drop& drop, const State& s) {
   const Vector3 w = s.attitude.conjugate() * s.angular_velocity;
   return drop.body.mass * (s.velocity.squaredNorm() / 2 + g * s.position.z()) + w.dot(drop.body.inertia * w) / 2;
@@ -57,48 +63,47 @@ constexpr double length = 0.4;
 Body rod() { return cylinder(0.3, {.length = length}); }
 Quaternion inclined(double angle) { return Quaternion(Eigen::AngleAxisd(-angle, Vector3::UnitY())); }
 
+/// A box that turns about its edge at −x, −z, vertices 0 and 2, without slip: its rate by its energy.
+struct RockingBox {
+  double lifted, spin;  ///< at the beginning
+  Drop drop = drop_of(box(1, {.size = {0.3, 0.2, 0.1}}), 1000);
+  double d = std::hypot(0.15, 0.05), inertia = (0.09 + 0.01) / 12 + d * d;
+  double rest = std::atan2(0.05, 0.15), begin = rest + lifted;  ///< of the centre, above the edge
+
+  [[nodiscard]] State state() const { return standing(drop.body, inclined(lifted), 0, {0, spin, 0}); }
+  [[nodiscard]] double rate(double angle) const {
+    return std::sqrt(spin * spin + 2 * g * d / inertia * (std::sin(begin) - std::sin(angle)));
+  }
+};
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(a_box_that_rocks_on_an_edge_comes_down_when_the_quadrature_of_its_energy_says) {
-  const Vector3 size(0.3, 0.2, 0.1);
-  const Drop drop = drop_of(box(1, {.size = size}), 1000);
-  const double d = std::hypot(0.15, 0.05), inertia = (0.09 + 0.01) / 12 + d * d, rest = std::atan2(0.05, 0.15);
   for (const double lifted : {0.02, 0.3, 0.9}) {
-    const double begin = rest + lifted;  // of the centre, above the edge at −x, −z: vertices 0 and 2
-    const State s = standing(drop.body, inclined(lifted), 0, {0, 0.5, 0});
-    const SustainedContact contact = follow_contact(drop, s, {0, 2});
-    const auto rate = [&](double angle) {
-      return std::sqrt(0.25 + 2 * g * d / inertia * (std::sin(begin) - std::sin(angle)));
-    };
+    const RockingBox b{.lifted = lifted, .spin = 0.5};
+    const SustainedContact contact = follow_contact(b.drop, b.state(), {0, 2});
     BOOST_TEST_CONTEXT("lifted by " << lifted) {
       BOOST_CHECK(contact.end == ContactEnd::arrival);
       BOOST_TEST(contact.arriving == (std::vector<int>{4, 6}), boost::test_tools::per_element());
       BOOST_TEST(contact.sticks);
-      const double time = integral([&](double angle) { return 1 / rate(angle); }, rest, begin);
+      const double time = integral([&](double angle) { return 1 / b.rate(angle); }, b.rest, b.begin);
       BOOST_TEST(std::fabs(contact.duration - time) <= 1e-11 * time);
-      BOOST_TEST((contact.after.angular_velocity - Vector3(0, rate(rest), 0)).norm() <= 1e-10);
-      BOOST_TEST(std::fabs(energy(drop, s) - energy(drop, contact.after)) <= 1e-11);
+      BOOST_TEST((contact.after.angular_velocity - Vector3(0, b.rate(b.rest), 0)).norm() <= 1e-10);
+      BOOST_TEST(std::fabs(energy(b.drop, b.state()) - energy(b.drop, contact.after)) <= 1e-11);
     }
   }
 }
 
 BOOST_AUTO_TEST_CASE(the_landing_of_a_rocking_box_changes_with_its_start_as_its_energy_says) {
-  const Vector3 size(0.3, 0.2, 0.1);
-  const Drop drop = drop_of(box(1, {.size = size}), 1000);
-  const double d = std::hypot(0.15, 0.05), inertia = (0.09 + 0.01) / 12 + d * d, rest = std::atan2(0.05, 0.15);
   for (const double spin : {0.2, 0.5, 3.0}) {
-    const double lifted = 0.3, begin = rest + lifted;
-    const auto rate = [&](double angle) {
-      return std::sqrt(spin * spin + 2 * g * d / inertia * (std::sin(begin) - std::sin(angle)));
-    };
-    const State s = standing(drop.body, inclined(lifted), 0, {0, spin, 0});
-    const auto slopes = contact_derivatives(drop, s, follow_contact(drop, s, {0, 2}),
+    const RockingBox b{.lifted = 0.3, .spin = spin};
+    const auto slopes = contact_derivatives(b.drop, b.state(), follow_contact(b.drop, b.state(), {0, 2}),
                                             {.attitude = 1e-12, .velocity = 1e-12, .angular_velocity = 1e-12});
     BOOST_TEST_REQUIRE(slopes.has_value());
     constexpr int pitch = 2, turning = 8;  // about y, behind the time
-    const double time = -integral([&](double angle) { return spin / std::pow(rate(angle), 3); }, rest, begin);
+    const double time = -integral([&](double angle) { return spin / std::pow(b.rate(angle), 3); }, b.rest, b.begin);
     BOOST_TEST_CONTEXT("spin " << spin) {
-      BOOST_TEST(std::fabs(slopes->of_state(turning, turning) - spin / rate(rest)) <= 1e-7);
+      BOOST_TEST(std::fabs(slopes->of_state(turning, turning) - spin / b.rate(b.rest)) <= 1e-7);
       BOOST_TEST(std::fabs(slopes->of_state(0, turning) - time) <= 1e-7 * std::fabs(time));
       BOOST_TEST(std::fabs(slopes->of_state(pitch, turning)) <= 1e-7);  // it lands flat whatever the start
     }
@@ -175,13 +180,8 @@ BOOST_AUTO_TEST_CASE(a_body_that_turns_on_a_corner_keeps_its_energy_and_what_no_
   int arrivals = 0;
   for (int n = 0; n < 60; ++n) {
     const Drop drop = drop_of(body, n % 2 == 0 ? 0 : 1000);  // without friction, or held
-    Quaternion attitude(normal(random), normal(random), normal(random), normal(random));
-    attitude.normalize();
-    int lowest = 0;
-    for (int i = 1; i < 8; ++i) {
-      const auto height = [&](int k) { return (attitude * body.vertices[static_cast<std::size_t>(k)]).z(); };
-      if (height(i) < height(lowest)) lowest = i;
-    }
+    const Quaternion attitude = Quaternion(normal(random), normal(random), normal(random), normal(random)).normalized();
+    const int lowest = lowest_vertex(body, attitude);
     const Vector3 turning(normal(random), normal(random), normal(random));
     const State s = standing(body, attitude, lowest, turning);
     const SustainedContact contact = follow_contact(drop, s, {lowest});
@@ -212,11 +212,7 @@ BOOST_AUTO_TEST_CASE(ends_of_contacts_change_within_their_errors_when_their_begi
   for (int n = 0; n < 40; ++n) {
     const Drop drop = drop_of(body, n % 2 == 0 ? 0 : 0.3);
     const Quaternion attitude = Quaternion(1, 0.3 * normal(random), 0.3 * normal(random), normal(random)).normalized();
-    int lowest = 0;
-    for (int i = 1; i < 8; ++i) {
-      const auto height = [&](int k) { return (attitude * body.vertices[static_cast<std::size_t>(k)]).z(); };
-      if (height(i) < height(lowest)) lowest = i;
-    }
+    const int lowest = lowest_vertex(body, attitude);
     const Vector3 slip(normal(random), normal(random), 0), turning(normal(random), normal(random), normal(random));
     const double size = 1e-9;
     const StateErrors errors{.time = 0, .attitude = size, .velocity = size, .angular_velocity = size};
@@ -299,9 +295,7 @@ BOOST_AUTO_TEST_CASE(slip_that_begins_where_friction_gives_way_is_that_of_short_
   for (int n = 0; n < 200 && judged < 6; ++n) {
     const Drop drop = drop_of(body, 0.35);
     const Quaternion attitude = Quaternion(1, 0.4 * normal(random), 0.4 * normal(random), normal(random)).normalized();
-    const auto height = [&](int k) { return (attitude * body.vertices[static_cast<std::size_t>(k)]).z(); };
-    int lowest = 0;
-    for (int i = 1; i < 8; ++i) lowest = height(i) < height(lowest) ? i : lowest;
+    const int lowest = lowest_vertex(body, attitude);
     const State s = standing(body, attitude, lowest, Vector3(normal(random), normal(random), normal(random)));
     PlainContact plain{
         body, body.vertices[static_cast<std::size_t>(lowest)], 0.35, s.attitude, s.angular_velocity, Vector3::Zero()};
