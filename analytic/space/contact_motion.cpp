@@ -16,8 +16,6 @@ namespace {
 
 constexpr const char* slip_is_open = "how friction lets its corners slip is open";
 
-Vector3 slip_at(double angle) { return {std::cos(angle), std::sin(angle), 0}; }
-
 }  // namespace
 
 ContactMotion::ContactMotion(const Drop& drop, const State& now, const std::vector<int>& corners)
@@ -27,11 +25,12 @@ ContactMotion::ContactMotion(const Drop& drop, const State& now, const std::vect
   hold(now);
   stick_where_slow();
   start_ = state();
+  began_with_ = points_;
 }
 
 ContactMotion::ContactMotion(const ContactMotion& base, const State& now)
     : drop_(base.drop_), law_(base.law_), reach_(base.reach_), falling_(base.falling_),
-      given_(mechanical_energy(drop_, now)), corners_(base.corners_), points_(base.points_) {
+      given_(mechanical_energy(drop_, now)), corners_(base.corners_), points_(base.began_with_) {
   hold(now);
   start_ = state();
 }
@@ -79,71 +78,74 @@ double ContactMotion::speed_scale() const {
 }
 
 GroundForces ContactMotion::forces(const Motion& y) const {
-  if (!creeps_) return forces(state_of(y));
-  const Vector3 slipping = slip_at(creep_angle(y, 2));
-  return forces(state_of(y), &slipping);
+  if (turning_points(points_).empty()) return law_.forces(state_of(y), points_);
+  return law_.forces(state_of(y), directed(points_, begun(y, 2)));
 }
 
-/// g of (1), its sign that of a turn of the slip.
-double ContactMotion::across(const State& s, double angle) const {
-  const Vector3 d = slip_at(angle);
-  return d.cross(forces(s, &d).first).z();
-}
-
-double ContactMotion::slope_across(const State& s, double angle) const {
-  constexpr double step = 1e-5;
-  return (across(s, angle + step) - across(s, angle - step)) / (2 * step);
-}
-
-/// φ of (2) of this order; NaN where g has no root near.
-double ContactMotion::creep_angle(const Motion& y, int order) const {
+/// Directions in which slip begins, by (2) of this order; NaN where there are none near.
+SlipAngles ContactMotion::begun(const Motion& y, int order) const {
   const State s = state_of(y);
-  double angle = creeping_, target = 0;
-  if (order > 0) {
-    angle = creep_angle(y, order - 1);
-    const Vector3 d = slip_at(angle);
-    const Motion change = 1e-4 * falling_ * rate(y, forces(s, &d));
-    const double turns = (creep_angle(y + change, order - 1) - creep_angle(y - change, order - 1)) / (2e-4 * falling_);
-    target = y.tail<2>().dot(d.head<2>()) * turns;
+  const auto turning = turning_points(points_);
+  SlipAngles target = SlipAngles::Zero(static_cast<Eigen::Index>(turning.size()));
+  if (order == 0) return slip_angles(law_, s, points_, target);
+  const SlipAngles before = begun(y, order - 1);
+  const auto points = directed(points_, before);
+  const Motion change = 1e-4 * falling_ * rate(y, law_.forces(s, points));
+  const SlipAngles turns = (begun(y + change, order - 1) - begun(y - change, order - 1)) / (2e-4 * falling_);
+  for (Eigen::Index k = 0; k < target.size(); ++k) {
+    target[k] = slip_of(s, points[turning[static_cast<std::size_t>(k)]]).dot(slip_at(before[k])) * turns[k];
   }
-  const double slope = slope_across(s, angle);
-  for (int i = 0; i < 20; ++i) {
-    const double change = (target - across(s, angle)) / slope;
-    angle += change;
-    if (std::fabs(change) <= 4 * epsilon) return angle;
-  }
-  return std::numeric_limits<double>::quiet_NaN();
+  return slip_angles(law_, s, points, target);
 }
 
-/// Friction no longer holds the one corner: slip begins.
-bool ContactMotion::begin_creep() {
-  if (points_.size() > 1) return false;
-  const Vector3 held = forces(state()).of_points[0];
-  creeping_ = std::atan2(-held.y(), -held.x());
-  points_[0].sticks = false;
-  const Vector3 d = slip_at(creeping_);
-  if (!(slope_across(state(), creeping_) < 0) || !forces(state(), &d).is_unique) return false;
-  creeps_ = true;
+/// Friction no longer holds what sticks: slip begins.
+bool ContactMotion::give_way() {
+  auto begins = space::give_way(law_, state(), points_, slow_slip * speed_scale());
+  if (!begins) return false;
+  points_ = std::move(*begins);
   length_ = 1e-3 * longest_step * falling_;
   return true;
 }
 
 /// Whether a step has kept to (2); lets (1) take over where that has become precise enough, or slip no longer grows.
-bool ContactMotion::creeps_on(const Motion& from) {
-  const double lag = std::fabs(creep_lag(motion_));
-  const Vector3 d = slip_at(creep_angle(motion_, 0));
-  const double slip = motion_.tail<2>().dot(d.head<2>());
-  if (!(lag <= 2 * most_lag) || !(slip > 0)) return false;
-  creeping_ = std::atan2(d.y(), d.x());
-  creeps_ = lag < most_lag && slip > from.tail<2>().norm();
+bool ContactMotion::keeps_beginning(const State& start) {
+  const auto turning = turning_points(points_);
+  if (turning.empty()) return true;
+  const SlipAngles now = begun(motion_, 0), lag = begun(motion_, 1) - now;
+  bool goes_on = true;
+  for (std::size_t k = 0; k < turning.size(); ++k) {
+    const GroundPoint& p = points_[turning[k]];
+    const auto at = static_cast<Eigen::Index>(k);
+    const double slip = slip_of(state(), p).dot(slip_at(now[at]));
+    if (!(std::fabs(lag[at]) <= 2 * most_lag) || !(slip > 0)) return false;
+    goes_on = goes_on && std::fabs(lag[at]) < most_lag && slip > slip_of(start, p).norm();
+  }
+  points_ = directed(points_, now);
+  for (const std::size_t i : turning) points_[i].begins = goes_on;
   return true;
+}
+
+/// Directions of slip after a step.
+void ContactMotion::note_directions() {
+  // Across an edge slip has begun once it is more than rounding, or where (1) is not stiff any more.
+  constexpr double rounding = 1e-9, not_stiff = 1e-3;
+  const State s = state();
+  const bool some_turn = !turning_points(points_).empty();
+  for (GroundPoint& p : points_) {
+    const Vector3 v = slip_of(s, p);
+    if (p.sticks || (p.begins && some_turn)) continue;
+    const double begun = v.dot(slip_at(p.angle)), aside = (v - begun * slip_at(p.angle)).norm();
+    const bool keeps_across = p.across && aside <= 1e-6 * begun + 1e-12 * speed_scale();
+    if (p.begins && begun > (keeps_across ? not_stiff : rounding) * speed_scale()) p.begins = p.across = false;
+    if (!p.begins && v.norm() > 0) p.angle = std::atan2(v.y(), v.x());
+  }
 }
 
 ContactMotion::Motion ContactMotion::rate(const Motion& y, const GroundForces& f) const {
   const Quaternion turn(0, y[4], y[5], y[6]);
   const Quaternion change = turn * Quaternion(y[0], y[1], y[2], y[3]);
   Motion result;
-  result << change.w() / 2, change.vec() / 2, f.turning, f.first.head<2>();
+  result << change.w() / 2, change.vec() / 2, f.turning, f.accelerations[0].head<2>();
   if (points_[0].sticks) result.tail<2>().setZero();
   return result;
 }
@@ -174,35 +176,19 @@ double ContactMotion::room(const Motion& y, Event event, std::size_t number) con
   return event == Event::lifts ? f.of_points[number].z() : law_.friction_left(state_of(y), points_, f);
 }
 
-/// The directions in which a corner at rest that cannot stick begins to slip: its acceleration is along its slip.
+/// Corners at rest that cannot stick begin to slip, if there is one way only.
 bool ContactMotion::begin_slip() {
-  if (points_.size() > 1) return false;
-  const State s = state();
-  constexpr int directions = 180;
-  constexpr double step = 2 * std::numbers::pi / directions;
-  points_[0].sticks = false;
-  std::vector<Vector3> found;
-  for (int i = 0; i < directions; ++i) {
-    double low = i * step, high = low + step;
-    const double at_low = across(s, low);
-    if (std::signbit(at_low) == std::signbit(across(s, high))) continue;
-    for (int k = 0; k < 60; ++k) {
-      const double middle = (low + high) / 2;
-      (std::signbit(across(s, middle)) == std::signbit(at_low) ? low : high) = middle;
-    }
-    const Vector3 d = slip_at(low);
-    const GroundForces f = forces(s, &d);
-    if (f.first.dot(d) > 0 && f.of_points[0].z() > 0 && f.is_unique) found.push_back(d);
-  }
-  if (found.size() != 1) return false;
-  motion_.tail<2>() = 4 * no_slip * speed_scale() * found[0].head<2>();
+  auto ways = ways_to_slip(law_, state(), points_);
+  if (ways.size() != 1) return false;
+  points_ = std::move(ways[0]);
+  length_ = 1e-3 * longest_step * falling_;
   return true;
 }
 
 /// After each event: corners that stick go on sticking, or begin to slip; false where the law leaves it open.
 bool ContactMotion::keep_or_begin_slip() {
   const State s = state();
-  return std::ranges::none_of(points_, &GroundPoint::sticks) || law_.friction_left(s, points_, forces(s)) > 0 ||
+  return std::ranges::none_of(points_, &GroundPoint::sticks) || law_.friction_left(s, points_, forces(motion_)) > 0 ||
          begin_slip();
 }
 
@@ -210,7 +196,7 @@ bool ContactMotion::keep_or_begin_slip() {
 bool ContactMotion::stop_slips() {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     GroundPoint& p = points_[i];
-    if (p.sticks || slip_of(state(), p).norm() > no_slip * speed_scale()) continue;
+    if (p.sticks || p.begins || slip_of(state(), p).norm() > no_slip * speed_scale()) continue;
     p.sticks = true;
     if (i == 0) motion_.tail<2>().setZero();
   }
@@ -257,17 +243,13 @@ bool ContactMotion::locate(const Motion& from, double length, Event event, std::
 }
 
 /// Slip may lose nine tenths of itself in a step.
-double ContactMotion::longest(const State& start, const Motion& rates) const {
+double ContactMotion::longest(const State& start, const GroundForces& f) const {
   double length = std::fmin(length_, longest_step * std::fmin(falling_, 1 / start.angular_velocity.norm()));
   length = std::fmin(length, duration_ - time_);
-  if (creeps_) return length;
-  const Vector3 first = start.attitude * points_[0].place, w = start.angular_velocity;
-  for (const GroundPoint& p : points_) {
-    if (p.sticks || law_.friction() == 0) continue;
-    const Vector3 apart = start.attitude * p.place - first;
-    const Vector3 acceleration =
-        Vector3(rates[7], rates[8], 0) + horizontal(rates.segment<3>(4).cross(apart) + w.cross(w.cross(apart)));
-    length = std::fmin(length, 0.9 * slip_of(start, p).norm() / acceleration.norm());
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const GroundPoint& p = points_[i];
+    if (p.sticks || p.begins || law_.friction() == 0) continue;
+    length = std::fmin(length, 0.9 * slip_of(start, p).norm() / horizontal(f.accelerations[i]).norm());
   }
   return length;
 }
@@ -297,19 +279,20 @@ void ContactMotion::step() {
   const Motion from = motion_;
   const State start = state();
   const double shortest = 1e-10 * falling_;
-  double length = longest(start, rate(from, forces(from)));
+  double length = longest(start, forces(from));
   for (;;) {
     Motion error;
     motion_ = from;
     apply(motion_, length, error);
     const double turning = std::fmax(error.head<4>().norm(), error.segment<3>(4).norm() * reach_ / speed_scale());
     const double share = std::fmax(turning, error.tail<2>().norm() / speed_scale()) / step_error;
-    const bool clear =
-        (length <= shortest || is_free() || is_clear(start, state(), length)) && (!creeps_ || creeps_on(from));
+    const bool clear = (length <= shortest || is_free() || is_clear(start, state(), length)) &&
+                       (!(share <= 1) || keeps_beginning(start));
     const double better = 0.9 * std::pow(std::fmax(share, 1e-8), -0.125);
     if (share <= 1 && clear) {
       length_ = length;
       locate_first(from);
+      note_directions();
       time_ += length_;
       length_ = event_ == Event::none ? length * std::fmin(better, 4) : length;
       return;
@@ -377,7 +360,7 @@ std::optional<SustainedContact> ContactMotion::pass_event() {
       return ended(ContactEnd::lift_off, "");
     }
   }
-  if (event_ == Event::gives_way && !begin_creep()) return open("friction no longer holds it there");
+  if (event_ == Event::gives_way && !give_way()) return open("friction no longer holds it there");
   for (const GroundPoint& p : points_) (p.sticks ? sticks_ : slips_) = true;
   event_ = Event::none;
   return {};
@@ -386,7 +369,7 @@ std::optional<SustainedContact> ContactMotion::pass_event() {
 /// Steps on; whether what friction does thereafter is known.
 bool ContactMotion::go_on() {
   step();
-  return law_.friction() == 0 || event_ != Event::none || creeps_ || stop_slips();
+  return law_.friction() == 0 || event_ != Event::none || stop_slips();
 }
 
 SustainedContact ContactMotion::follow() {

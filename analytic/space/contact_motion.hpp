@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The equations of motion of a body one or two corners of which stay on the ground, solved from event to event.
 //
-// Where friction gives way on a corner that stuck, slip grows from zero with the square of time, in the direction of
-// the friction that held it.  Its direction φ and speed σ obey
-//     σ φ′ = g(φ),   g the corner's acceleration across the slip,                                       (1)
-// which is stiff while σ is small, and if ∂g/∂φ < 0 has one solution, whatever the direction in which slip begins:
-//     g(φ₀) = 0,   g(φ_n) = σ φ′_(n−1),                                                                 (2)
-// of error (σ φ′/∂g/∂φ)ⁿ⁺¹.  φ₂ serves up to 1e-4 rad of φ₁ − φ₀, (1) from there on.
+// Where slip begins, its direction is φ₂ of slip_onset.hpp's (2) up to 1e-4 rad of φ₁ − φ₀, then that of the velocity.
 #pragma once
 
 #include <gsl/gsl_odeiv2.h>
@@ -17,7 +12,7 @@
 #include <vector>
 
 #include "analytic/base/limits.hpp"
-#include "analytic/space/ground_forces.hpp"
+#include "analytic/space/slip_onset.hpp"
 
 namespace clatter::analytic::space {
 
@@ -62,29 +57,26 @@ class ContactMotion {
   static constexpr double left_slip = 1e-7;
   static constexpr double longest_step = 0.1;  ///< [rad], and of √(reach/g)
   static constexpr int most_steps = 5'000;
-  static constexpr double most_lag = 1e-4;  ///< of (2) [rad]
+  static constexpr double most_lag = 1e-4;  ///< of φ₁ − φ₀ [rad]
+  /// Slip slower than this part of the body's speeds begins anew where that of another corner does.
+  static constexpr double slow_slip = 1e-6;
 
   [[nodiscard]] State state_of(const Motion& y) const;
   [[nodiscard]] GroundForces forces(const Motion& y) const;
-  [[nodiscard]] GroundForces forces(const State& s, const Vector3* slipping = nullptr) const {
-    return law_.forces(s, points_, slipping);
-  }
   [[nodiscard]] bool touches(int vertex) const;
   [[nodiscard]] const Vector3& place(int vertex) const { return drop_.body.vertices[static_cast<std::size_t>(vertex)]; }
   [[nodiscard]] double height(const State& s, std::size_t vertex) const;
   [[nodiscard]] double room(const Motion& y, Event event, std::size_t number) const;
   static int derivative(double, const double y[], double rate[], void* motion);
   [[nodiscard]] Motion rate(const Motion& y, const GroundForces& f) const;
-  [[nodiscard]] double across(const State& s, double angle) const;
-  [[nodiscard]] double slope_across(const State& s, double angle) const;
-  [[nodiscard]] double creep_angle(const Motion& y, int order) const;
-  [[nodiscard]] double creep_lag(const Motion& y) const { return creep_angle(y, 1) - creep_angle(y, 0); }
-  bool begin_creep();
-  bool creeps_on(const Motion& from);
+  [[nodiscard]] SlipAngles begun(const Motion& y, int order) const;
+  bool give_way();
+  bool keeps_beginning(const State& start);
+  void note_directions();
   bool keep_or_begin_slip();
   [[nodiscard]] bool begin_slip();
   bool stop_slips();
-  [[nodiscard]] double longest(const State& start, const Motion& rates) const;
+  [[nodiscard]] double longest(const State& start, const GroundForces& f) const;
   [[nodiscard]] bool is_clear(const State& start, const State& end, double length) const;
   void locate_first(const Motion& from);
   void step();
@@ -109,14 +101,12 @@ class ContactMotion {
   double reach_, falling_;    ///< reach, √(reach/g)
   double given_;              ///< energy of the state given
   std::vector<int> corners_;  ///< at the beginning
-  std::vector<GroundPoint> points_;
+  std::vector<GroundPoint> points_, began_with_;
   State start_;
   Motion motion_;
   double time_ = 0, length_ = 0;
   double duration_ = detail::infinite;  ///< of advance()
   bool slips_ = false, sticks_ = false;
-  bool creeps_ = false;  ///< (2) gives the direction of slip
-  double creeping_ = 0;  ///< about that direction
   Event event_ = Event::none;
   std::size_t number_ = 0;
   gsl_odeiv2_system system_{derivative, nullptr, 9, this};

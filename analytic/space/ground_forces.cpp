@@ -23,28 +23,34 @@ struct GroundUnknowns {
   Eigen::Index count = 0;
 };
 
-GroundUnknowns unknowns(const State& s, std::span<const GroundPoint> points, double friction, const Vector3* slipping) {
+/// Unit, of a corner that slips; across its edge where the other corner sticks or begins to slip that way, too.
+Vector3 slip_direction(const State& s, std::span<const GroundPoint> points, std::size_t number) {
+  const GroundPoint& point = points[number];
+  const Vector3 near = slip_at(point.angle);
+  if (points.size() == 2 && (points[1 - number].sticks || point.across)) {
+    const Vector3 across = Vector3::UnitZ().cross(edge_of(s, points)).normalized();
+    return std::copysign(1, across.dot(near)) * across;
+  }
+  const Vector3 v = slip_of(s, point);
+  return point.begins ? near : v.norm() > 0 ? Vector3(v.normalized()) : v;
+}
+
+GroundUnknowns unknowns(const State& s, std::span<const GroundPoint> points, double friction) {
   GroundUnknowns u;
   Eigen::Index at = 0;
-  for (const GroundPoint& point : points) {
-    if (point.sticks) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].sticks) {
       u.given.block<3, 3>(at, u.count).setIdentity();
       u.rows.block<3, 3>(u.count, at).setIdentity();
       u.count += 3;
     } else {
-      const Vector3 v = slip_of(s, point);
-      const Vector3 direction = slipping != nullptr ? *slipping : v.norm() > 0 ? Vector3(v.normalized()) : v;
-      u.given.block<3, 1>(at, u.count) = Vector3::UnitZ() - friction * direction;
+      u.given.block<3, 1>(at, u.count) = Vector3::UnitZ() - friction * slip_direction(s, points, i);
       u.rows(u.count, at + 2) = 1;
       u.count += 1;
     }
     at += 3;
   }
   return u;
-}
-
-Vector3 edge_of(const State& s, std::span<const GroundPoint> points) {
-  return s.attitude * (points[1].place - points[0].place);
 }
 
 /// The forces of all points.
@@ -54,6 +60,7 @@ SmallVector solved(const GroundUnknowns& u, const Small& effect, const SmallVect
   Small equations = which * effect * some;
   // A P-matrix: all principal minors above 0; of corners that stick W is positive definite.
   if (u.count <= 2) is_unique = equations.diagonal().minCoeff() > 0 && determinant(equations) > 0;
+  if (u.count == 4) is_unique = equations.determinant() > 0;  // one corner sticks
   if (u.count == 6) {  // forces that pull the corners of an edge apart do nothing: none of those
     SmallVector apart(6);
     apart << edge, -edge;
@@ -64,12 +71,16 @@ SmallVector solved(const GroundUnknowns& u, const Small& effect, const SmallVect
 
 }  // namespace
 
+Vector3 edge_of(const State& s, std::span<const GroundPoint> points) {
+  return horizontal(s.attitude * (points[1].place - points[0].place));
+}
+
 Vector3 slip_of(const State& s, const GroundPoint& point) { return horizontal(velocity_at(s, point.place)); }
 
 GroundLaw::GroundLaw(const Drop& drop)
     : drop_(drop), friction_(drop.law.law.most_friction()), inverse_inertia_(drop.body.inertia.inverse()) {}
 
-GroundForces GroundLaw::forces(const State& s, std::span<const GroundPoint> points, const Vector3* slipping) const {
+GroundForces GroundLaw::forces(const State& s, std::span<const GroundPoint> points) const {
   const Matrix3 axes = s.attitude.toRotationMatrix();
   const Matrix3 inertia = axes * drop_.body.inertia * axes.transpose();
   const Matrix3 inverse = axes * inverse_inertia_ * axes.transpose();
@@ -92,34 +103,45 @@ GroundForces GroundLaw::forces(const State& s, std::span<const GroundPoint> poin
   }
   GroundForces f;
   const Vector3 edge = points.size() == 2 ? Vector3((arms[1] - arms[0]).normalized()) : Vector3(Vector3::Zero());
-  const SmallVector all =
-      solved(unknowns(s, points, friction_, slipping), effect, free, edge, drop_.body.mass, f.is_unique);
+  const SmallVector all = solved(unknowns(s, points, friction_), effect, free, edge, drop_.body.mass, f.is_unique);
   f.turning = free_turning;
   for (std::size_t i = 0; i < arms.size(); ++i) {
     f.of_points.emplace_back(all.segment<3>(static_cast<Eigen::Index>(3 * i)));
     f.turning += inverse * arms[i].cross(f.of_points.back());
   }
-  f.first = free.head<3>() + effect.topRows<3>() * all;
+  const SmallVector gained = free + effect * all;
+  for (std::size_t i = 0; i < arms.size(); ++i) {
+    f.accelerations.emplace_back(gained.segment<3>(static_cast<Eigen::Index>(3 * i)));
+  }
   return f;
 }
 
+std::array<GroundLaw::EdgeLoad, 2> GroundLaw::edge_loads(const State& s, std::span<const GroundPoint> points,
+                                                         const GroundForces& f) const {
+  std::array<EdgeLoad, 2> loads;
+  for (std::size_t i = 0; i < 2; ++i) {
+    EdgeLoad& load = loads[i];
+    load.along = edge_of(s, points).normalized();
+    load.across = horizontal(f.of_points[i]) - f.of_points[i].dot(load.along) * load.along;
+    load.limit = friction_ * f.of_points[i].z();
+    load.left = load.limit - load.across.norm();
+    load.room = std::sqrt(std::fmax(load.limit * load.limit - load.across.squaredNorm(), 0.0));
+  }
+  return loads;
+}
+
 double GroundLaw::friction_left(const State& s, std::span<const GroundPoint> points, const GroundForces& f) const {
-  const bool hinge = points.size() == 2 && points[0].sticks && points[1].sticks;
-  double least = infinite, along = 0, room = 0;
+  if (points.size() == 2 && points[0].sticks && points[1].sticks) {
+    const auto [a, b] = edge_loads(s, points, f);
+    const double along = std::fabs(a.along.dot(f.of_points[0] + f.of_points[1]));
+    return std::fmin(std::fmin(a.left, b.left), a.room + b.room - along);
+  }
+  double least = infinite;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].sticks) continue;
-    const double limit = friction_ * f.of_points[i].z();
-    if (!hinge) {
-      least = std::fmin(least, limit - f.of_points[i].head<2>().norm());
-      continue;
-    }
-    const Vector3 edge = horizontal(edge_of(s, points)).normalized();
-    const double mine = f.of_points[i].dot(edge), across = (horizontal(f.of_points[i]) - mine * edge).norm();
-    along += mine;
-    room += std::sqrt(std::fmax(limit * limit - across * across, 0.0));
-    least = std::fmin(least, limit - across);
+    least = std::fmin(least, friction_ * f.of_points[i].z() - f.of_points[i].head<2>().norm());
   }
-  return hinge ? std::fmin(least, room - std::fabs(along)) : least;
+  return least;
 }
 
 }  // namespace clatter::analytic::space

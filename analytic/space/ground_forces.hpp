@@ -10,6 +10,8 @@
 // Slip has one solution if the normal inverse inertias G_ij = ẑ·W_ij (ẑ − μ s_j) are a P-matrix.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -22,14 +24,17 @@ struct GroundPoint {
   int index = 0;
   Vector3 place;  ///< Corner::place
   bool sticks = false;
+  bool begins = false;  ///< to slip: its velocity does not say yet in which direction
+  bool across = false;  ///< to slip across its edge, as the other corner does
+  double angle = 0;     ///< of its slip, or next to it, from the x axis [rad]
 };
 
 /// Forces and accelerations at a moment.
 struct GroundForces {
-  std::vector<Vector3> of_points;  ///< f_i [N]
-  Vector3 turning;                 ///< ω̇ [rad/s²]
-  Vector3 first;                   ///< acceleration of the first corner [m/s²]
-  bool is_unique = true;           ///< G is a P-matrix
+  std::vector<Vector3> of_points;      ///< f_i [N]
+  Vector3 turning;                     ///< ω̇ [rad/s²]
+  std::vector<Vector3> accelerations;  ///< of the corners [m/s²]
+  bool is_unique = true;               ///< G is a P-matrix
 };
 
 /// The forces on a body of its drop.
@@ -39,11 +44,17 @@ class GroundLaw {
 
   [[nodiscard]] double friction() const { return friction_; }
   /// By (1).
-  /// @param slipping  direction of slip of the one corner, unit, in place of that of its velocity
-  [[nodiscard]] GroundForces forces(const State& s, std::span<const GroundPoint> points,
-                                    const Vector3* slipping = nullptr) const;
+  [[nodiscard]] GroundForces forces(const State& s, std::span<const GroundPoint> points) const;
   /// μN − |f_t| of a corner that sticks; of an edge both corners of which do, what friction along it has left [N].
   [[nodiscard]] double friction_left(const State& s, std::span<const GroundPoint> points, const GroundForces& f) const;
+
+  /// What friction has to do at a corner of an edge both corners of which stick.
+  struct EdgeLoad {
+    Vector3 along, across;     ///< unit vector of the edge; the friction across it [N]
+    double limit, left, room;  ///< μN, that less the friction across, most friction along beside it [N]
+  };
+  [[nodiscard]] std::array<EdgeLoad, 2> edge_loads(const State& s, std::span<const GroundPoint> points,
+                                                   const GroundForces& f) const;
 
  private:
   const Drop& drop_;
@@ -53,6 +64,12 @@ class GroundLaw {
 
 /// Its part along the ground.
 [[nodiscard]] inline Vector3 horizontal(const Vector3& v) { return {v.x(), v.y(), 0}; }
+
+/// The unit vector along the ground in this direction.
+[[nodiscard]] inline Vector3 slip_at(double angle) { return {std::cos(angle), std::sin(angle), 0}; }
+
+/// From the first corner to the second, along the ground [m].
+[[nodiscard]] Vector3 edge_of(const State& s, std::span<const GroundPoint> points);
 
 /// Velocity of the corner along the ground [m/s].
 [[nodiscard]] Vector3 slip_of(const State& s, const GroundPoint& point);

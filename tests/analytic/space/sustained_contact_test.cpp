@@ -330,3 +330,41 @@ BOOST_AUTO_TEST_CASE(slip_that_begins_where_friction_gives_way_is_that_of_short_
   }
   BOOST_TEST(judged == 6);
 }
+
+BOOST_AUTO_TEST_CASE(slip_that_begins_on_an_edge_is_the_limit_of_friction_that_grows_with_slip) {
+  // Newton's and Euler's equations of two points with friction −μ N u/√(u² + δ²), by an implicit method of another
+  // code, δ = 1e-6 and 1e-7 m/s extrapolated; five digits.
+  const Body uniform = box(0.7, {.size = {0.3, 0.2, 0.12}});
+  Matrix3 skew;
+  skew << 3.5e-3, 4e-4, -3e-4, 4e-4, 6e-3, 5e-4, -3e-4, 5e-4, 8e-3;
+  const Body uneven = polyhedron(box(1, {.size = {0.3, 0.2, 0.12}}).vertices,
+                                 {.mass = 0.7, .centre = {0.02, 0.03, 0.01}, .inertia = skew});
+  struct Row {
+    const Body& body;
+    double friction, spin;
+    bool sticks;
+    double duration;
+    Vector3 turning, velocity;
+  };
+  const Row rows[] = {
+      {uniform, 0.3, 0, false, 0.209439, {0, 6.782268, 0}, {0.311177, 0, -1.017340}},
+      {uniform, 0.4, 0, true, 0.232530, {0, 6.679147, 0}, {0.460755, 0, -1.001872}},
+      {uniform, 0.3, 4, true, 0.122707, {0, 7.578831, 0}, {0.616666, 0, -1.136825}},
+      {uneven, 0.3, 0, false, 0.207863, {0.388391, 6.616740, -0.411670}, {0.271807, -0.027331, -1.126782}},
+      {uneven, 0.4, 0, true, 0.234601, {0.317959, 6.449649, -0.198402}, {0.465443, -0.055761, -1.097772}},
+      {uneven, 0.4, 4, true, 0.125247, {0.005915, 7.328203, 0.048764}, {0.698075, -0.001336, -1.245795}},
+  };
+  for (const Row& row : rows) {
+    const Drop drop = drop_of(row.body, row.friction);
+    const SustainedContact contact =
+        follow_contact(drop, standing(row.body, inclined(0.7), 0, {0, row.spin, 0}), {0, 2});
+    BOOST_TEST_CONTEXT("μ " << row.friction << ", spin " << row.spin) {
+      BOOST_CHECK(contact.end == ContactEnd::arrival);
+      BOOST_TEST(contact.slips);
+      BOOST_TEST(contact.sticks == row.sticks);
+      BOOST_TEST(std::fabs(contact.duration - row.duration) <= 5e-6);
+      BOOST_TEST((contact.after.angular_velocity - row.turning).norm() <= 1e-4);
+      BOOST_TEST((contact.after.velocity - row.velocity).norm() <= 2e-5);
+    }
+  }
+}
