@@ -77,6 +77,14 @@ double ContactMotion::speed_scale() const {
   return std::sqrt(drop_.gravity * reach_) + motion_.segment<3>(4).norm() * reach_;
 }
 
+double ContactMotion::least_slip() const {
+  double least = infinite;
+  for (const GroundPoint& p : points_) {
+    if (!p.sticks && law_.friction() > 0) least = std::fmin(least, slip_of(state(), p).norm());
+  }
+  return least;
+}
+
 GroundForces ContactMotion::forces(const Motion& y) const {
   if (turning_points(points_).empty()) return law_.forces(state_of(y), points_);
   return law_.forces(state_of(y), directed(points_, begun(y, 2)));

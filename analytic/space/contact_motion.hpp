@@ -6,6 +6,7 @@
 
 #include <gsl/gsl_odeiv2.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,6 +33,9 @@ class ContactMotion {
 
   [[nodiscard]] const Drop& drop() const { return drop_; }
   [[nodiscard]] State state() const { return state_of(motion_); }
+  [[nodiscard]] bool slips() const { return !std::ranges::all_of(points_, &GroundPoint::sticks); }
+  /// Least speed of corners that slip with friction, infinite without [m/s].
+  [[nodiscard]] double least_slip() const;
   /// √(g reach) + |ω| reach [m/s].
   [[nodiscard]] double speed_scale() const;
   /// What turns negative where the contact ends, by arrival of the vertex or lift-off.

@@ -150,9 +150,8 @@ ErrorGrowth::Factor ErrorGrowth::without_approach(Factor columns, const Gradient
 
 /// δu, u = V_z + (ω × r)_z at the row's corner, for the angular velocity before or after; a turn moves the lowest point
 /// of a rim along the rim as well.
-ErrorGrowth::Gradient ErrorGrowth::approach_gradient(const ImpactRow& row, const Vector3& turning) const {
-  const Corner& corner = row.corners.front();
-  const Quaternion& attitude = row.before.attitude;
+ErrorGrowth::Gradient ErrorGrowth::approach_gradient(const Quaternion& attitude, const Corner& corner,
+                                                     const Vector3& turning) const {
   Matrix3 arm = -cross_matrix(attitude * corner.place);
   Gradient approach = Gradient::Zero();
   approach[6] = 1;
@@ -256,7 +255,8 @@ void ErrorGrowth::fill(const Struck& struck, ImpactRow& row) const {
   e.predictable = true;
   e.start = row.start == 0 ? 0 : bound(factor_.row(0)) + epsilon * row.start;
   e.attitude = bound(factor_.middleRows<3>(1)) + 4 * epsilon;
-  e.approach_speed = bound(approach_gradient(row, w).lazyProduct(factor_)) + approach_rounding(row);
+  e.approach_speed = bound(approach_gradient(row.before.attitude, row.corners.front(), w).lazyProduct(factor_)) +
+                     approach_rounding(row);
   e.impulse = bound(struck.topRows<3>()) + body_.mass * in_velocity;
   e.velocity_after = bound(struck.middleRows<3>(3)) + in_velocity + 4 * epsilon * before.velocity.norm();
   e.angular_velocity_after = bound(struck.bottomRows<3>()) + in_turning + 4 * epsilon * w.norm();
@@ -273,13 +273,12 @@ void ErrorGrowth::strike(const Strike& strike, const StrikeDerivatives& closed, 
   // What comes down beside corners on the ground does so in neighbours, too: stay() has seen to that.
   if (row.group && row.start > 0 && turns && row.held == 0) predictable_ = false;
   if (!predictable_) return;
-  if (!(row.approach_speed > 0) || row.impact.impulse.norm() == 0) {
-    predictable_ = false;
-    return;
-  }
-  append(is_hop(row) ? without_approach(arriving, approach_gradient(row, row.before.angular_velocity),
-                                        row.flight.velocity_error)
-                     : arriving);
+  if (!(row.approach_speed > 0) || row.impact.impulse.norm() == 0) return give_up();
+  append(is_hop(row)
+             ? without_approach(
+                   arriving, approach_gradient(row.before.attitude, row.corners.front(), row.before.angular_velocity),
+                   row.flight.velocity_error)
+             : arriving);
   StrikeDerivatives derivatives = closed;
   Struck struck;
   try {
@@ -287,14 +286,10 @@ void ErrorGrowth::strike(const Strike& strike, const StrikeDerivatives& closed, 
     else if (!closed.allFinite())
       derivatives = row.group ? group_differences(strike, row) : corner_differences(strike, row);
   } catch (const std::runtime_error&) {  // a neighbour jams, or cannot be computed
-    predictable_ = false;
-    return;
+    return give_up();
   }
   if (row.held == 0) struck = derivatives.lazyProduct(factor_.bottomRows<9>());
-  if (!derivatives.allFinite() || !struck.allFinite()) {
-    predictable_ = false;
-    return;
-  }
+  if (!derivatives.allFinite() || !struck.allFinite()) return give_up();
   fill(struck, row);
   const Eigen::Matrix<double, 9, 9> struck_drop = derivatives.lazyProduct(of_drop_.bottomRows<9>());
   const double of_time = row.start > 0 ? of_drop_.row(0).norm() / row.start : 0;
@@ -314,7 +309,8 @@ void ErrorGrowth::append_rounding(const ImpactRow& row) {
   rounding << impulse_rounding(row), diagonal(d);
   if (row.group) return append(rounding);
   const Impact& impact = row.impact;
-  append(without_approach(rounding, approach_gradient(row, impact.angular_velocity_after),
+  append(without_approach(rounding,
+                          approach_gradient(row.before.attitude, row.corners.front(), impact.angular_velocity_after),
                           path_rounding(row) * impact.impulse.norm() / body_.mass + approach_rounding(row)));
 }
 
@@ -335,10 +331,8 @@ ErrorGrowth::Jacobian ErrorGrowth::flight_jacobian(const FreeFlight& flight, dou
 
 void ErrorGrowth::fly(const FreeFlight& flight, const FirstContact& contact, const Vector3& from_place,
                       const Vector3& to_place) {
-  if (!predictable_ || !(contact.time > 0)) {
-    predictable_ = false;
-    return;
-  }
+  if (!predictable_) return;
+  if (!(contact.time > 0)) return strike_again(flight.start(), contact, {.index = contact.point, .place = to_place});
   const double t = contact.time;
   const State now = flight.at(t);
   Jacobian j = flight_jacobian(flight, t);
@@ -370,6 +364,13 @@ void ErrorGrowth::fly(const FreeFlight& flight, const FirstContact& contact, con
     predictable_ = false;
   }
   if (predictable_) check_others(flight, contact, now.attitude, to);
+}
+
+/// A corner on the ground that the last impact has driven into it strikes, too, in neighbours as well.
+void ErrorGrowth::strike_again(const State& now, const FirstContact& contact, const Corner& corner) {
+  arriving_ = Factor(size, 0);
+  const double error = bound(approach_gradient(now.attitude, corner, now.angular_velocity).lazyProduct(factor_));
+  if (contact.together.size() > 1 || !(error <= first_order * -contact.normal_velocity)) predictable_ = false;
 }
 
 /// Height of a point that neither departed nor arrived: error of attitude and of the parabola.

@@ -68,7 +68,8 @@ class ErrorGrowth {
   [[nodiscard]] Factor impulse_rounding(const ImpactRow& row) const;
   [[nodiscard]] static Factor without_approach(Factor columns, const Gradient& approach, double rounding);
   [[nodiscard]] double approach_rounding(const ImpactRow& row) const;
-  [[nodiscard]] Gradient approach_gradient(const ImpactRow& row, const Vector3& turning) const;
+  [[nodiscard]] Gradient approach_gradient(const Quaternion& attitude, const Corner& corner,
+                                           const Vector3& turning) const;
   [[nodiscard]] StrikeDerivatives corner_differences(const Strike& strike, const ImpactRow& row) const;
   [[nodiscard]] Struck differences_along_errors(const Strike& strike, const ImpactRow& row) const;
   [[nodiscard]] StrikeDerivatives group_differences(const Strike& strike, const ImpactRow& row) const;
@@ -83,6 +84,7 @@ class ErrorGrowth {
   [[nodiscard]] Jacobian flight_jacobian(const FreeFlight& flight, double time) const;
   void check_others(const FreeFlight& flight, const FirstContact& contact, const Quaternion& attitude,
                     const Vector3& touching);
+  void strike_again(const State& now, const FirstContact& contact, const Corner& corner);
   [[nodiscard]] double height_bound(double time) const;
 
   const Body& body_;

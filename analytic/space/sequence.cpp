@@ -106,9 +106,9 @@ void find_departures(const Law& law, const ImpactRow& row, const State& after, s
     const ContactVelocity velocity = contact_velocity(after, corner.place);
     const double turning = corner.radius * after.angular_velocity.head<2>().norm();  // of a level rim
     double normal = row.group ? velocity.value.z() - turning : row.impact.contact_after.z();
-    // Several corners without rebound leave each other what is rounding of the impact.
+    // Several corners leave each other what is rounding of the impact.
     const double scale =
-        row.group && plastic ? 4 * (velocity.scale + contact_velocity(row.before, corner.place).scale) : velocity.scale;
+        row.group ? 4 * (velocity.scale + contact_velocity(row.before, corner.place).scale) : velocity.scale;
     const bool rounding = std::fabs(normal) <= 16 * epsilon * scale;
     if (rounding && (row.group || plastic)) normal = 0;
     touches.push_back({corner.index, normal});
@@ -491,7 +491,8 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     for (const Touch& touch : touches_) {
       corners.push_back(touch.point);
       const ContactVelocity v = contact_velocity(state_, touching_place(body_, state_.attitude, touch.point));
-      if (std::fabs(v.value.z()) <= 64 * epsilon * v.scale) staying.push_back(touch.point);
+      if (touch.normal_velocity == 0 || std::fabs(v.value.z()) <= 64 * epsilon * v.scale)
+        staying.push_back(touch.point);
     }
     const bool turns = !result_.rest && state_.angular_velocity != Vector3::Zero();
     if (turns) result_.standing = Standing{time_, state_, errors_now(), staying};

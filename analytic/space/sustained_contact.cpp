@@ -40,13 +40,11 @@ class Neighbours {
       : drop_(drop), contact_(contact), base_(drop, now, contact.corners), start_(base_.state()),
         vertex_(contact.arriving.empty() ? 0 : contact.arriving.front()) {
     const double reach = drop.body.reach(), speed = base_.speed_scale();
-    double slip = 0;
-    for (const int i : contact.corners) {
-      slip = std::fmax(slip, slip_of(start_, {i, drop.body.vertices[static_cast<std::size_t>(i)]}).norm());
-    }
-    slips_ = slip > 0;
-    const double step = slips_ ? std::fmin(1e-6, 1e-3 * slip / speed) : 1e-6;
-    steps_ << Vector3::Constant(step), Vector3::Constant(step * speed), Vector3::Constant(step * speed / reach);
+    const double slip = base_.least_slip() / speed;  // its direction has to change little
+    slips_ = base_.slips();
+    sizes_ << Vector3::Ones(), Vector3::Constant(speed), Vector3::Constant(speed / reach);
+    steps_ = std::fmin(1e-6, 1e-3 * slip) * sizes_;
+    most_ = 1e-2 * std::fmin(1, slip) * sizes_;
     followed_ = base_.advance(contact.duration);
   }
 
@@ -61,13 +59,18 @@ class Neighbours {
   [[nodiscard]] std::optional<Slope> slope(int k, double error) const;
   [[nodiscard]] double parted(const ContactMotion& other) const;
   [[nodiscard]] double clearance() const;
+  /// The ground would have to pull from the start.
+  [[nodiscard]] bool lifts_at_once() const {
+    return contact_.end == ContactEnd::lift_off &&
+           contact_.duration <= 1e-12 * std::sqrt(drop_.body.reach() / drop_.gravity);
+  }
 
   const Drop& drop_;
   const SustainedContact& contact_;
   ContactMotion base_;
   State start_;
   int vertex_;
-  Changes steps_;
+  Changes sizes_, steps_, most_;  ///< of what is changed; by how much at least and at most
   bool slips_, followed_;
 };
 
@@ -82,20 +85,18 @@ double Neighbours::parted(const ContactMotion& other) const {
 
 /// By the k-th number of the state; nothing where a neighbour as far off as the error is no longer of first order.
 std::optional<Neighbours::Slope> Neighbours::slope(int k, double error) const {
-  const Changes step = steps_[k] * Changes::Unit(k);
+  const double length = std::fmax(steps_[k], std::fmin(error, most_[k]));
+  const Changes step = length * Changes::Unit(k);
   ContactMotion plus(base_, shifted(start_, step)), minus(base_, shifted(start_, -step));
   if (!plus.advance(contact_.duration) || !minus.advance(contact_.duration)) return {};
   const State end = base_.state();
   const Changes up = change(end, plus.state()), down = change(end, minus.state());
-  Changes sizes;
-  sizes << Vector3::Ones(), Vector3::Constant(base_.speed_scale()),
-      Vector3::Constant(base_.speed_scale() / drop_.body.reach());
-  const double straight = (up - down).cwiseQuotient(sizes).norm(), bent = (up + down).cwiseQuotient(sizes).norm();
-  const double noise = 1e-3 * steps_[0];
-  if (!(error / steps_[k] * bent <= most_second_order * (straight + noise))) return {};
+  const double straight = (up - down).cwiseQuotient(sizes_).norm(), bent = (up + down).cwiseQuotient(sizes_).norm();
+  const double noise = 1e-3 * length / sizes_[k];
+  if (!(error / length * bent <= most_second_order * (straight + noise))) return {};
   if (!(parted(plus) <= noise) || !(parted(minus) <= noise)) return {};
-  return Slope{.state = (up - down) / (2 * steps_[k]),
-               .margin = (plus.margin(contact_.end, vertex_) - minus.margin(contact_.end, vertex_)) / (2 * steps_[k])};
+  return Slope{.state = (up - down) / (2 * length),
+               .margin = (plus.margin(contact_.end, vertex_) - minus.margin(contact_.end, vertex_)) / (2 * length)};
 }
 
 /// Least height of vertices that come down but have not.
@@ -115,9 +116,11 @@ double Neighbours::clearance() const {
 std::optional<ContactDerivatives> Neighbours::derivatives(const StateErrors& errors) const {
   if (!followed_ || contact_.end == ContactEnd::open || contact_.end == ContactEnd::joining) return {};
   const ContactMotion::Rates rates = base_.rates(contact_.end, vertex_);
-  if (!(rates.margin < 0)) return {};
+  if (!(rates.margin < 0) && !lifts_at_once()) return {};
   const Changes of_state = errors.in_each_direction().tail<9>();
-  Changes shift;  // of the end
+  const bool at_once = lifts_at_once();
+  double push = 0;  // by which errors may change that of the ground
+  Changes shift;    // of the end
   shift << base_.state().angular_velocity, rates.acceleration, rates.turning;
   ContactDerivatives d{.bend = std::fabs(rates.bend / rates.margin), .clearance = clearance()};
   d.of_state(0, 0) = 1;
@@ -125,11 +128,12 @@ std::optional<ContactDerivatives> Neighbours::derivatives(const StateErrors& err
     if (k == 5 || (!slips_ && k / 3 == 1)) continue;  // nothing is left of these where the corner is held
     const auto by = slope(k, of_state[k]);
     if (!by) return {};
-    const double late = -by->margin / rates.margin;
+    push += std::fabs(by->margin) * of_state[k];
+    const double late = at_once ? 0 : -by->margin / rates.margin;
     d.of_state(0, k + 1) = late;
     d.of_state.block<9, 1>(1, k + 1) = by->state + late * shift;
   }
-  if (!d.of_state.allFinite()) return {};
+  if (!d.of_state.allFinite() || (at_once && !(base_.margin(contact_.end, vertex_) < -push))) return {};
   return d;
 }
 

@@ -340,7 +340,7 @@ BOOST_AUTO_TEST_CASE(random_drops_go_on_over_corners_that_stay_to_rest_on_a_stab
     }
   }
   BOOST_TEST(at_rest >= 190);  // 95 %
-  BOOST_TEST(certain >= 160);
+  BOOST_TEST(certain >= 184);
 }
 
 BOOST_AUTO_TEST_CASE(
