@@ -138,7 +138,7 @@ struct SustainedContact {
 
 /// The face on which a body comes to rest, still sliding and turning about the vertical there unless friction stops it.
 struct Rest {
-  std::vector<int> corners;  ///< of the face, in order around it (Corner::index)
+  std::vector<int> corners;  ///< of the face, in order around it, the last vertex first (Corner::index)
   /// By when nothing of the body bounces or rocks any more, since the first impact; infinite where not known [s].
   double latest = 0;
 };

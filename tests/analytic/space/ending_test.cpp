@@ -420,6 +420,7 @@ BOOST_AUTO_TEST_CASE(what_a_body_must_settle_on_is_the_face_that_its_energy_cann
   const auto rest = space::settles(drop, flat, 1);
   BOOST_REQUIRE(rest);
   BOOST_TEST(rest->corners.size() == 4U);
+  BOOST_TEST(rest->corners.front() == 6);  // the last vertex of the face first
   BOOST_TEST(stands_on(drop.body, rest->corners));
   // A slab that does not tilt bounces for 2 w/(g (1 − e)).
   const double bouncing = 2 * 0.02 / (drop.gravity * 0.5);
