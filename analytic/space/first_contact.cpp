@@ -411,7 +411,8 @@ class Search {
       depths_[i] = heights_.depth(point) + heights_.reach() / 1024;
       const Touch* known = touch(point);
       if (known) h.velocity = known->normal_velocity;
-      if (known || std::fabs(h.height) <= heights_.noise(0)) h.height = 0;
+      // Impacts of others may have left it below the ground by more than this flight's rounding.
+      if (known || h.height <= heights_.noise(0)) h.height = 0;
       if (h.height == 0 && h.velocity < 0 && !(found_.end == FlightEnd::contact)) search_.take(point, 0, {0, 0});
       if (!known || h.velocity != 0 || found_.end == FlightEnd::contact) continue;
       if (h.acceleration < 0) {
@@ -529,7 +530,7 @@ class Search {
     for (int i = 0; i < heights_.count(); ++i) {
       if (i == found_.point) continue;
       const PointHeight h = best == 0 ? from_[static_cast<std::size_t>(i)] : heights_.at(i, moment);
-      if (std::fabs(h.height) <= noise + late * std::fabs(h.velocity) && h.velocity < 0) {
+      if (h.height <= noise + late * std::fabs(h.velocity) && h.velocity < 0) {
         found_.together.push_back(i);
       }
     }

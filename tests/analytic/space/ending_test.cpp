@@ -448,6 +448,18 @@ BOOST_AUTO_TEST_CASE(what_a_body_must_settle_on_is_the_face_that_its_energy_cann
   BOOST_TEST(std::isinf(space::settles(tall, flat, 1)->latest));
   flat.velocity.x() += 2e-6;
   BOOST_TEST(!space::settles(tall, flat, 1));
+  // Tilted by 85° without velocity it falls on its side, and stays there without the energy to raise its centre over
+  // the next edge, at √2 · 0.05 m.
+  space::State tilted;
+  tilted.attitude = turn(85 * std::numbers::pi / 180, {0, 1, 0});
+  tilted.position.z() = 0.05 * std::sin(85 * std::numbers::pi / 180) + 0.2 * std::cos(85 * std::numbers::pi / 180);
+  tall.law.law.friction = FrictionKind::none;
+  for (const double share : {0.0, 1 - 1e-6, 1 + 1e-6}) {
+    tilted.velocity.z() = -share * std::sqrt(2 * drop.gravity * (std::sqrt(2) * 0.05 - tilted.position.z()));
+    const auto side = space::settles(tall, tilted, 1);
+    BOOST_TEST(side.has_value() == (share < 1));
+    if (side) BOOST_TEST(side->corners == (std::vector<int>{7, 5, 4, 6}), boost::test_tools::per_element());
+  }
   drop.law.law.law = RestitutionLaw::viscoelastic;
   flat.position.z() = 0.01;
   BOOST_TEST(!space::settles(drop, flat, 1));

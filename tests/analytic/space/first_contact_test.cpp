@@ -2,6 +2,7 @@
 #include "analytic/space/first_contact.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -182,11 +183,8 @@ BOOST_AUTO_TEST_CASE(a_touching_corner_that_approaches_by_rounding_arrives_alone
   const Body body = box(1, {.size = {0.3, 0.2, 0.1}});
   State s;
   s.attitude = Quaternion(Eigen::AngleAxisd(0.1, Vector3(1, 2, 0).normalized()));
-  int lowest = 0;
-  for (int i = 1; i < 8; ++i) {
-    const auto height = [&](int k) { return (s.attitude * body.vertices[static_cast<std::size_t>(k)]).z(); };
-    if (height(i) < height(lowest)) lowest = i;
-  }
+  const auto height = [&](const Vector3& place) { return (s.attitude * place).z(); };
+  const auto lowest = static_cast<int>(std::ranges::min_element(body.vertices, {}, height) - body.vertices.begin());
   const Vector3 arm = s.attitude * body.vertices[static_cast<std::size_t>(lowest)];
   s.position.z() = -arm.z();
   s.angular_velocity = {0.4, -1, 0};
@@ -195,6 +193,38 @@ BOOST_AUTO_TEST_CASE(a_touching_corner_that_approaches_by_rounding_arrives_alone
   const FirstContact first = first_contact(body, flight, std::array{Touch{lowest, -1e-17}});
   BOOST_TEST(first.time == 0);
   BOOST_TEST(first.together == std::vector<int>{lowest}, boost::test_tools::per_element());
+  // So does corner 0 of an edge whose other end is 1 nm above the ground and comes down.
+  s.attitude = Quaternion(Eigen::AngleAxisd(1e-9 / 0.2, Vector3::UnitX())) *
+               Quaternion(Eigen::AngleAxisd(-0.4, Vector3::UnitY()));
+  const Vector3 end = s.attitude * body.vertices[0];
+  s.position.z() = -end.z();
+  s.angular_velocity = {-2.5, 0, 0};
+  s.velocity = -s.angular_velocity.cross(end);
+  const FirstContact one =
+      first_contact(body, FreeFlight(PrincipalAxes(body.inertia), s, 9.81), std::array{Touch{0, -1e-17}});
+  BOOST_TEST(one.time == 0);
+  BOOST_TEST(one.together == std::vector<int>{0}, boost::test_tools::per_element());
+}
+
+BOOST_AUTO_TEST_CASE(a_corner_that_impacts_of_others_have_left_below_the_ground_arrives_at_once_if_it_approaches) {
+  // Two corners of an edge rattle to rest: corner 0 hops, corner 2 is below by more than the rounding of one flight.
+  const Body body = box(1, {.size = {0.3, 0.2, 0.1}});
+  const double below = 1e-13;
+  State s;
+  s.attitude = Quaternion(Eigen::AngleAxisd(-below / 0.2, Vector3::UnitX())) *
+               Quaternion(Eigen::AngleAxisd(-0.4, Vector3::UnitY()));
+  const Vector3 arm = s.attitude * body.vertices[0];
+  s.position.z() = -arm.z();
+  for (const double speed : {-1e-6, 1e-6}) {
+    s.angular_velocity = {speed / 0.2, 0, 0};
+    s.velocity = Vector3(0, 0, 1e-9) - s.angular_velocity.cross(arm);
+    const FreeFlight flight(PrincipalAxes(body.inertia), s, 9.81);
+    const FirstContact first = first_contact(body, flight, std::array{Touch{0, 1e-9}});
+    BOOST_TEST_CONTEXT("speed " << speed) {
+      BOOST_TEST((first.time == 0) == (speed < 0));
+      BOOST_TEST(first.point == (speed < 0 ? 2 : 0));
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(in_100000_random_drops_no_first_corner_is_wrong_and_no_impact_missed) {
