@@ -158,7 +158,7 @@ std::optional<Tail> Accumulation::vanishing(const Tolerance& tolerance) const {
               .normal_impulse_error = 4 * impulse,
               .tangential_impulse = ratio * impulse,
               .tangential_impulse_error = 4 * (1 + std::fabs(ratio)) * impulse,
-              .vertices = vertices(blocks * period),
+              .vertices = vertices(period),
               .after = {},
               .after_error = {}};
 }

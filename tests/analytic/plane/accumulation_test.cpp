@@ -122,3 +122,16 @@ BOOST_AUTO_TEST_CASE(without_rebound_a_flat_body_rests_at_once_and_an_inclined_o
   drop.velocity.normal = -0.5;
   BOOST_CHECK(impact_sequence(drop, {}).outcome == Outcome::sustained_contact);
 }
+
+BOOST_AUTO_TEST_CASE(vertices_that_have_struck_long_ago_do_not_end_on_the_ground_with_those_that_still_do) {
+  // Impacts in no order that repeats, each half as long as the last: 30 of vertices 2 and 3, then 20 of 0 and 1.
+  Accumulation accumulation;
+  double size = 1;
+  for (unsigned i = 0; i < 50; ++i, size /= 2) {
+    const unsigned vertex = (i < 30 ? 2 : 0) + (i * i / 7) % 2;
+    accumulation.add({.vertices = static_cast<VertexSet>(1u << vertex), .flight_time = size, .normal_impulse = size});
+  }
+  const auto tail = accumulation.extrapolate({.relative = 1e-18, .time = 1e-9, .impulse = 1e-9});
+  BOOST_REQUIRE(tail.has_value());
+  BOOST_TEST(tail->vertices == 3U);
+}
