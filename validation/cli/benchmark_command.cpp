@@ -19,6 +19,7 @@ struct BenchmarkInput {
   std::vector<std::string> names;
   std::optional<std::string> law, columns, problem, require;
   OutputTexts output;
+  PlotTexts plot;
 };
 
 void only_for(const std::optional<std::string>& text, const char* option, const char* action, bool is_used) {
@@ -63,6 +64,7 @@ int run_score(const BenchmarkInput& input, const OutputChoice& choice) {
   if (input.names.empty()) throw BadInput("benchmark score: needs a FILE or more");
   const Requirement requirement = read_requirement(input.require);
   const ColumnNames names = input.columns ? read_column_names("--columns", *input.columns) : ColumnNames{};
+  PlotFile plot(input.plot);
   std::vector<Submission> submissions;
   bool is_met = true;
   for (const std::string& file : input.names) {
@@ -70,6 +72,7 @@ int run_score(const BenchmarkInput& input, const OutputChoice& choice) {
     is_met = is_met && requirement.is_met(submissions.back());
   }
   write_report(choice, score_report("benchmark", submissions));
+  plot.write(score_picture(submissions), {"clatter benchmark score: errors of answers, impact by impact"});
   return is_met ? 0 : check_failed;
 }
 
@@ -81,7 +84,8 @@ int run_benchmark(const BenchmarkInput& input) {
   only_for(input.columns, "--columns", "score", action == 3);
   only_for(input.problem, "--problem", "score", action == 3);
   only_for(input.require, "--require", "score", action == 3);
-  check_files(choice);
+  only_for(input.plot.plot, "--plot", "score", action == 3);
+  check_files(choice, plot_files(input.plot));
   switch (action) {
     case 0: return run_list(input, choice);
     case 1: return run_show(input, choice);
@@ -107,6 +111,7 @@ Command benchmark_command() {
   command.add_text("--require", input->require, "CLASS",
                    "exact|sharp|good|coarse, or a largest error: exit status 1 where a file does worse");
   add_output_options(command, input->output);
+  add_plot_options(command, input->plot);
   command.footer =
       "Example: clatter benchmark score rod-10.csv --require good\n"
       "Files are CSV, t,x,z,phi,vx,vz,omega of the centre of mass (floor z = 0, phi and omega\n"

@@ -21,6 +21,7 @@ struct PlanInput {
   SceneFlags scene;
   std::optional<std::string> within;
   OutputTexts output;
+  PlotTexts plot;
 };
 
 int run_plan(const PlanInput& input) {
@@ -28,9 +29,11 @@ int run_plan(const PlanInput& input) {
   const OutputChoice choice = read_output(input.output);
   const auto is_typed = [&](const std::string& name) { return is_given(input.scene, "--" + name); };
   const PlanTarget target = plan_target(scene, {input.within, is_typed});
-  check_files(choice);
+  check_files(choice, plot_files(input.plot));
+  PlotFile plot(input.plot);
   const Plan plan = make_plan(scene, target);
   write_report(choice, plan_report(scene, plan));
+  plot.write(plan_picture(scene, plan), run_words("plan", "the smallest model that serves", scene));
   const std::string shortfall = plan_shortfall(plan);
   if (shortfall.empty()) return 0;
   say(shortfall);
@@ -45,6 +48,7 @@ Command plan_command() {
   add_scene_flags(command, input->scene);
   command.add_text("--within", input->within, "MS", "that the run may take; alone: as accurate as fits");
   add_output_options(command, input->output);
+  add_plot_options(command, input->plot);
   command.footer =
       "Example: clatter plan phone-damped --digits 4\n"
       "Exit status 3 if no model gives the digits; the best is shown all the same.";

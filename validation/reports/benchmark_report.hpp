@@ -5,6 +5,7 @@
 
 #include "validation/benchmark/problem.hpp"
 #include "validation/benchmark/submission.hpp"
+#include "validation/figures/picture.hpp"
 #include "validation/output/report.hpp"
 #include "validation/scene/scene.hpp"
 
@@ -28,6 +29,9 @@ namespace clatter::validation::inline reports {
 
 /// One row per file; groups with their worst phase and order in words and JSON.
 [[nodiscard]] Report score_report(const std::string& command, const std::vector<Submission>& submissions);
+
+/// The largest error of each impact, a curve for each file, with the classes of the first file's problem.
+[[nodiscard]] Picture score_picture(const std::vector<Submission>& submissions);
 
 /// The same of runs of a scene that has no certified answers: they are judged by the discrete model.
 [[nodiscard]] Report against_report(const Scene& scene, const Reference& reference,

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "validation/output/bad_input.hpp"
@@ -163,6 +165,55 @@ void add_results(const Plan& plan, Value& fields) {
 }
 
 }  // namespace
+
+Picture plan_picture(const Scene& scene, const Plan& plan) {
+  using Style = FigureCurve::Style;
+  PicturePanel panel{.columns = {{"curve", "1", "number of the model; -1: what is asked, -2: the time allowed"},
+                                 {"cost", "ms", "predicted time"},
+                                 {"error", "1", "predicted error"}},
+                     .rows = {},
+                     .plot = {.x_label = "predicted cost [ms]",
+                              .y_label = "predicted error, relative",
+                              .legend_place = "beside",
+                              .logarithmic_x = true,
+                              .logarithmic_y = true}};
+  double least_cost = INFINITY, most_cost = 0, least_error = plan.asked, most_error = plan.asked;
+  for (const WeighedLevel& level : plan.levels) {
+    if (!level.against.empty() || !(level.error > 0) || !(level.seconds > 0) || !std::isfinite(level.error)) continue;
+    const double curve = static_cast<double>(panel.plot.curves.size()), cost = 1e3 * level.seconds;
+    const std::string setting = setting_words(level.setting);
+    panel.rows.push_back({curve, cost, level.error});
+    panel.plot.curves.push_back({.x = "cost",
+                                 .y = "error",
+                                 .legend = fmt::format("{}{}{}: {}", level_name(level.level),
+                                                       setting.empty() ? "" : ", ", setting, verdict(level, plan)),
+                                 .style = Style::marks,
+                                 .where = {{"curve", curve}}});
+    least_cost = std::min(least_cost, cost), most_cost = std::max(most_cost, cost);
+    least_error = std::min(least_error, level.error), most_error = std::max(most_error, level.error);
+  }
+  if (!(most_cost > 0)) least_cost = most_cost = 1;
+  const auto add_line = [&](double curve, const std::string& legend, std::array<double, 2> x, std::array<double, 2> y) {
+    for (const std::size_t k : {0, 1}) panel.rows.push_back({curve, x[k], y[k]});
+    panel.plot.curves.push_back({.x = "cost",
+                                 .y = "error",
+                                 .legend = legend,
+                                 .style = Style::dashed,
+                                 .where = {{"curve", curve}},
+                                 .colour = ink});
+  };
+  if (plan.target.within_ms) most_cost = std::max(most_cost, *plan.target.within_ms);
+  panel.plot.x = {least_cost / 3, 3 * most_cost}, panel.plot.y = {least_error / 10, 10 * most_error};
+  if (plan.asked > 0 && !plan.target.most_accurate) {
+    add_line(-1, fmt::format("asked: {} digits", plan.target.digits), {least_cost / 3, 3 * most_cost},
+             {plan.asked, plan.asked});
+  }
+  if (plan.target.within_ms) {
+    add_line(-2, fmt::format("within {} ms", shortest(*plan.target.within_ms)),
+             {*plan.target.within_ms, *plan.target.within_ms}, {least_error / 10, 10 * most_error});
+  }
+  return {.what = "Models that were weighed: predicted cost and error", .scene = scene.summary(), .panels = {panel}};
+}
 
 std::string plan_shortfall(const Plan& plan) {
   if (std::isnan(plan.error)) return "no impact could be computed: " + plan.pilot_ending;

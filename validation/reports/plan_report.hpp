@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "validation/figures/picture.hpp"
 #include "validation/output/report.hpp"
 #include "validation/plan/plan.hpp"
 
@@ -24,6 +25,9 @@ struct PlanRequest {
 
 /// A row for each model of the hierarchy.
 [[nodiscard]] Report plan_report(const Scene& scene, const Plan& plan);
+
+/// Error over cost of each model that was weighed, with what is asked.
+[[nodiscard]] Picture plan_picture(const Scene& scene, const Plan& plan);
 
 /// Why the plan does not give what was asked, one sentence; empty: it does.
 [[nodiscard]] std::string plan_shortfall(const Plan& plan);

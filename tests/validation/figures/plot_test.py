@@ -49,10 +49,12 @@ COMMANDS = {
                        ["discrete", "continuous", "limit on stiff ground", "|continuous − discrete|"]),
     "tradeoff": (["tradeoff", case("rod-45")], ["cost [ms]", "largest true error, relative"],
                  ["closed form", "discrete", "planar rk8pd", "spatial, all methods"]),
+    "plan": (["plan", case("rod-45"), "--digits", "5", "--within", "500"],
+             ["predicted cost [ms]", "predicted error, relative"], ["asked: 5 digits", "within 500 ms"]),
 }
 FOLD_2, BETA_AT_FOLD_2 = 58.488442288312, 86.701384197437  # [°] of the thin rod: cos β = K where f = 0
 FOLD_3 = 27.577809606636
-QUICK = [name for name in COMMANDS if name != "tradeoff"]  # which measures for seconds, and prints what it has measured
+QUICK = [name for name in COMMANDS if name not in ("tradeoff", "plan")]  # which print what they have measured
 
 
 def blocks(script):
@@ -371,6 +373,31 @@ class Data(InFolder):
         self.assertGreater(len(expected), 80)
         self.assertEqual(sorted(tuple(point) for rows in drawn.values() for point in rows), expected)
 
+    def test_plan_draws_the_models_that_it_weighed_and_what_is_asked(self):
+        out, drawn = self.plotted(*COMMANDS["plan"][0], "--format", "json")
+        levels = [level for level in json.loads(out)["rungs"] if level["error"] and level["seconds"]]
+        expected = [(1e3 * level["seconds"], level["error"]) for level in levels]
+        self.assertGreater(len(expected), 2)
+        points = [tuple(rows[0]) for rows in drawn.values() if len(rows) == 1]
+        self.assertEqual(sorted(points), sorted(expected))
+        lines = [rows for rows in drawn.values() if len(rows) == 2]
+        self.assertEqual([[y for _, y in line] for line in lines[:1]], [[1e-5, 1e-5]])
+        self.assertEqual([[x for x, _ in line] for line in lines[1:]], [[500, 500]])
+
+    def test_a_score_draws_the_largest_error_of_each_impact(self):
+        truth = run("benchmark", "truth", "rod-10", "--format", "csv").stdout
+        rows = [line for line in truth.splitlines() if line[0].isdigit()]
+        second = rows[1].split(",")
+        second[7] = repr(float(second[7]) * (1 + 1e-5))  # Omega
+        with open(self.path("a.csv"), "w", encoding="utf-8") as file:
+            file.write(truth.replace(rows[1], ",".join(second)))
+        _, drawn = self.plotted("benchmark", "score", self.path("a.csv"))
+        largest = max(abs(float(row.split(",")[7])) for row in rows)
+        self.assertEqual([n for n, _ in drawn["panel1_0"]], [1, 2, 3])
+        self.assertGreaterEqual(drawn["panel1_0"][1][1], 1e-5 * abs(float(rows[1].split(",")[7])) / largest * (1 - 1e-9))
+        self.assertLess(drawn["panel1_0"][0][1], 1e-15)
+        self.assertEqual([drawn[f"panel1_{k}"][0][1] for k in range(1, 5)], [1e-9, 1e-6, 1e-3, 1e-2])
+
 
 class Refused(InFolder):
     def refused(self, arguments, words, **options):
@@ -480,7 +507,7 @@ class Options(unittest.TestCase):
         self.assertRegex(run("completion", "zsh").stdout, r"'--plot\[[^\]]*\]:file:_files'")
         self.assertRegex(run("completion", "fish").stdout, r"-l plot -r -F ")
         page = run("man").stdout
-        self.assertEqual(page.count("\n.TP\n\\&\\-\\-plot\\-script "), 10)
+        self.assertEqual(page.count("\n.TP\n\\&\\-\\-plot\\-script "), 12)
 
 
 if __name__ == "__main__":
