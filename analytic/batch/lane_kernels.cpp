@@ -12,6 +12,17 @@ namespace clatter::analytic::batch {
 #pragma GCC diagnostic ignored "-Wpsabi"
 #pragma GCC diagnostic ignored "-Wold-style-cast"
 
+// What follows is compiled for an instruction set.
+#define CLATTER_PRAGMA(text) _Pragma(#text)
+#if defined(__clang__)
+#define CLATTER_BEGIN_TARGET(set) \
+  CLATTER_PRAGMA(clang attribute push(__attribute__((target(set))), apply_to = function))
+#define CLATTER_END_TARGET CLATTER_PRAGMA(clang attribute pop)
+#else
+#define CLATTER_BEGIN_TARGET(set) CLATTER_PRAGMA(GCC push_options) CLATTER_PRAGMA(GCC target(set))
+#define CLATTER_END_TARGET CLATTER_PRAGMA(GCC pop_options)
+#endif
+
 #if defined(__x86_64__)
 #define CLATTER_LANES 2
 namespace sse2 {
@@ -21,8 +32,7 @@ namespace {
 }  // namespace sse2
 #undef CLATTER_LANES
 
-#pragma GCC push_options
-#pragma GCC target("avx2")
+CLATTER_BEGIN_TARGET("avx2")
 #define CLATTER_LANES 4
 namespace avx2 {
 namespace {
@@ -30,10 +40,9 @@ namespace {
 }
 }  // namespace avx2
 #undef CLATTER_LANES
-#pragma GCC pop_options
+CLATTER_END_TARGET
 
-#pragma GCC push_options
-#pragma GCC target("avx512f,avx512dq,avx512vl")
+CLATTER_BEGIN_TARGET("avx512f,avx512dq,avx512vl")
 #define CLATTER_LANES 8
 namespace avx512 {
 namespace {
@@ -41,7 +50,7 @@ namespace {
 }
 }  // namespace avx512
 #undef CLATTER_LANES
-#pragma GCC pop_options
+CLATTER_END_TARGET
 #else
 #define CLATTER_LANES 2
 namespace portable {

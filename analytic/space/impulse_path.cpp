@@ -28,7 +28,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 /// Relative distances below this are decided by rounding of W and v.
-constexpr double rounding = 1e-13;
+constexpr double relative_rounding = 1e-13;
 /// Slip below this part of the corner's speed can be brought to any smaller value by rounding.
 constexpr double ambiguous_slip = 1e-12;
 
@@ -193,7 +193,7 @@ void CoulombPath<Number>::turn_straight_slip(double start_slip) {
   const Direction& s = direction_;
   const double f = field_.slip_rate(s), turning = field_.turning_slope(s), slowing = -f - turning;
   const double asymmetry = std::fabs(field_.slip_rate_slope(s)) + std::fabs(field_.normal_rate_slope(s));
-  if (!(asymmetry <= rounding * (1 + field_.turning_bound()))) return forget_slopes();
+  if (!(asymmetry <= relative_rounding * (1 + field_.turning_bound()))) return forget_slopes();
   // ψ = 1, where slip has turned round, is reached at so small a slip that even errors of 1e-15 leave it a part.
   if (!progress_.is_done() && turning > 2 * slowing) return forget_slopes();
   double of_start = start_slip / slowing, of_turning = of_start / -f;  // where slip stops
@@ -306,10 +306,10 @@ bool CoulombPath<Number>::is_ambiguous() const {
   const bool stopped = !(stop_ != stop_);
   if (slip > 0 && slip * speed_ <= 4 * epsilon * contact_.velocity_scale) return true;
   if (!stopped && slip > 0 && progress_.least_slip <= ambiguous_slip * speed) return true;
-  if (passes_fourth_quadrant_ && std::fabs(field_.astroid_excess()) <= rounding) return true;
-  if (stopped && std::fabs(value_of(progress_.at.impulse) - stop_) <= rounding * stop_) return true;
+  if (passes_fourth_quadrant_ && std::fabs(field_.astroid_excess()) <= relative_rounding) return true;
+  if (stopped && std::fabs(value_of(progress_.at.impulse) - stop_) <= relative_rounding * stop_) return true;
   const double excess = field_.stick_ratio().norm() - field_.friction();
-  return (stopped || slip == 0) && std::fabs(excess) <= rounding * field_.friction();
+  return (stopped || slip == 0) && std::fabs(excess) <= relative_rounding * field_.friction();
 }
 
 template <class Number>
