@@ -115,8 +115,9 @@ bool ContactMotion::give_way() {
   return true;
 }
 
-/// Whether a step has kept to (2); lets (1) take over where that has become precise enough, or slip no longer grows.
-bool ContactMotion::keeps_beginning(const State& start) {
+/// Whether slip still begins after a step, or (1) has become precise enough; nothing where the step did not keep to
+/// (2).
+std::optional<bool> ContactMotion::still_begins(const State& start) const {
   const auto turning = turning_points(points_);
   if (turning.empty()) return true;
   const SlipAngles now = begun(motion_, 0), lag = begun(motion_, 1) - now;
@@ -125,19 +126,20 @@ bool ContactMotion::keeps_beginning(const State& start) {
     const GroundPoint& p = points_[turning[k]];
     const auto at = static_cast<Eigen::Index>(k);
     const double slip = slip_of(state(), p).dot(slip_at(now[at]));
-    if (!(std::fabs(lag[at]) <= 2 * most_lag) || !(slip > 0)) return false;
+    if (!(std::fabs(lag[at]) <= 2 * most_lag) || !(slip > 0)) return {};
     goes_on = goes_on && std::fabs(lag[at]) < most_lag && slip > slip_of(start, p).norm();
   }
-  points_ = directed(points_, now);
-  for (const std::size_t i : turning) points_[i].begins = goes_on;
-  return true;
+  return goes_on;
 }
 
 /// Directions of slip after a step.
-void ContactMotion::note_directions() {
+void ContactMotion::note_directions(bool begins) {
   // Across an edge slip has begun once it is more than rounding, or where (1) is not stiff any more.
   constexpr double rounding = 1e-9, not_stiff = 1e-3;
   const State s = state();
+  const auto turning = turning_points(points_);
+  if (!turning.empty()) points_ = directed(points_, begun(motion_, 0));
+  for (const std::size_t i : turning) points_[i].begins = begins;
   const bool some_turn = !turning_points(points_).empty();
   for (GroundPoint& p : points_) {
     const Vector3 v = slip_of(s, p);
@@ -294,13 +296,13 @@ void ContactMotion::step() {
     apply(motion_, length, error);
     const double turning = std::fmax(error.head<4>().norm(), error.segment<3>(4).norm() * reach_ / speed_scale());
     const double share = std::fmax(turning, error.tail<2>().norm() / speed_scale()) / step_error;
-    const bool clear = (length <= shortest || is_free() || is_clear(start, state(), length)) &&
-                       (!(share <= 1) || keeps_beginning(start));
+    const std::optional<bool> begins = share <= 1 ? still_begins(start) : true;
+    const bool clear = begins && (length <= shortest || is_free() || is_clear(start, state(), length));
     const double better = 0.9 * std::pow(std::fmax(share, 1e-8), -0.125);
     if (share <= 1 && clear) {
       length_ = length;
       locate_first(from);
-      note_directions();
+      note_directions(*begins);
       time_ += length_;
       length_ = event_ == Event::none ? length * std::fmin(better, 4) : length;
       return;

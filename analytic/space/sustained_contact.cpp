@@ -152,7 +152,8 @@ std::optional<ContactDerivatives> contact_derivatives(const Drop& drop, const St
 StateErrors contact_rounding(const Drop& drop, const State& now, const SustainedContact& contact) {
   const double reach = drop.body.reach(), falling = std::sqrt(reach / drop.gravity);
   const double speed = reach / falling + now.angular_velocity.norm() * reach;
-  const double rounding = 1e-11 * std::fmin(1, contact.duration / falling) + 8 * detail::epsilon;
+  const double accuracy = contact.sticks && contact.slips ? 1e-9 : 1e-11;  // slip begins or ends
+  const double rounding = accuracy * std::fmin(1, contact.duration / falling) + 8 * detail::epsilon;
   // What is left of normal velocity and slip is taken away.
   const Changes held = change(now, ContactMotion(drop, now, contact.corners).state());
   return {.time = rounding * contact.duration,
