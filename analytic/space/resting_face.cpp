@@ -102,7 +102,8 @@ RollingBody::Face RollingBody::face(const Vector3& down) const {
   const Vector3 axis = (place(f.corners[0]) - middle).normalized(), across = down.cross(axis);
   std::ranges::sort(f.corners, {},
                     [&](int i) { return std::atan2((place(i) - middle).dot(across), (place(i) - middle).dot(axis)); });
-  std::ranges::rotate(f.corners, std::ranges::max_element(f.corners));  // rounding does not choose the first
+  std::rotate(f.corners.begin(), std::ranges::max_element(f.corners),
+              f.corners.end());  // rounding does not choose the first
   return f;
 }
 

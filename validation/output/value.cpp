@@ -15,6 +15,7 @@ Value::Value(bool truth) : content_(truth) {}
 Value::Value(double number) : content_(nullptr) {
   if (std::isfinite(number)) content_ = number + 0.0;  // no −0
 }
+Value::Value(WholeNumber whole) : content_(whole.number) {}
 Value::Value(const char* text) : content_(std::string(text)) {}
 Value::Value(std::string text) : content_(std::move(text)) {}
 Value::Value(List list) : content_(std::move(list)) {}

@@ -25,13 +25,13 @@ class Value {
   Value(bool truth);      // NOLINT
   Value(double number);   // NOLINT
   template <std::integral Whole>
-  Value(Whole number) : content_(static_cast<long long>(number)) {}  // NOLINT
-  Value(const char* text);                                           // NOLINT
-  Value(std::string text);                                           // NOLINT
-  Value(List list);                                                  // NOLINT
-  Value(Fields fields);                                              // NOLINT
-  Value(const std::vector<std::string>& texts);                      // NOLINT
-  Value(const std::vector<double>& numbers);                         // NOLINT
+  Value(Whole number) : Value(WholeNumber{static_cast<long long>(number)}) {}  // NOLINT
+  Value(const char* text);                                                     // NOLINT
+  Value(std::string text);                                                     // NOLINT
+  Value(List list);                                                            // NOLINT
+  Value(Fields fields);                                                        // NOLINT
+  Value(const std::vector<std::string>& texts);                                // NOLINT
+  Value(const std::vector<double>& numbers);                                   // NOLINT
   ~Value();
   Value(const Value& other);
   Value(Value&& other) noexcept;
@@ -54,6 +54,11 @@ class Value {
   void push_back(Value value);
 
  private:
+  struct WholeNumber {
+    long long number;
+  };
+  Value(WholeNumber whole);  // NOLINT: beside the others, where Field is complete
+
   Content content_;
 };
 

@@ -110,15 +110,16 @@ double largest_pressure(const numeric::Body& body, const numeric::MotionState& s
       const int next = c + 1 < loop.end ? c + 1 : loop.begin;
       const auto [d0, r0] = depth_and_rate(facets.corners[static_cast<std::size_t>(c)]);
       const auto [d1, r1] = depth_and_rate(facets.corners[static_cast<std::size_t>(next)]);
+      const double depth = d0, deeper = d1 - d0, rate = r0, faster = r1 - r0;
       const auto pressure = [&](double x) {
-        const double d = d0 + x * (d1 - d0);
-        return d > 0 ? (ground.stiffness + ground.damping * (r0 + x * (r1 - r0))) * d : 0;
+        const double d = depth + x * deeper;
+        return d > 0 ? (ground.stiffness + ground.damping * (rate + x * faster)) * d : 0;
       };
       largest = std::max({largest, pressure(0), pressure(1)});
       // (k + c r)' d + (k + c r) d' = 0
-      const double curvature = 2 * ground.damping * (r1 - r0) * (d1 - d0);
+      const double curvature = 2 * ground.damping * faster * deeper;
       const double x =
-          -((ground.stiffness + ground.damping * r0) * (d1 - d0) + ground.damping * (r1 - r0) * d0) / curvature;
+          -((ground.stiffness + ground.damping * rate) * deeper + ground.damping * faster * depth) / curvature;
       if (x > 0 && x < 1) largest = std::max(largest, pressure(x));
     }
   }

@@ -145,7 +145,7 @@ void Summary::add_attitudes(Report& report, const std::function<std::string(long
     Value::Fields fields{{"attitude", its_name}};
     for (std::size_t i = first_; i < columns_.size(); ++i) {
       if (largest[i].index < 0) continue;
-      fields.emplace_back(columns_[i].name, Value::Fields{{"largest", largest[i].value}, {"index", largest[i].index}});
+      fields.push_back({columns_[i].name, Value::Fields{{"largest", largest[i].value}, {"index", largest[i].index}}});
     }
     list.emplace_back(std::move(fields));
   }
