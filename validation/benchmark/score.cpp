@@ -136,7 +136,10 @@ void explain(Score& score, double tolerance, double time) {
     add(one.velocity_error, "velocity" + at);
     add(one.angular_error, "angular velocity" + at);
     add(one.impulse_error, "impulse" + at);
-    if (!(std::fabs(one.time_error) <= tolerance * time)) {
+    constexpr double most = 1e6;  // times of the sequence: a run that never touches the ground has no time of touch
+    if (!(std::fabs(one.time_error) <= most * time)) {
+      score.findings.push_back(fmt::format("impact {} comes at no time of the sequence", i + 1));
+    } else if (!(std::fabs(one.time_error) <= tolerance * time)) {
       score.findings.push_back(fmt::format("impact {} comes {} s {}", i + 1, significant(std::fabs(one.time_error), 2),
                                            one.time_error < 0 ? "early" : "late"));
     }
@@ -235,6 +238,7 @@ class Flights {
     const double end = motion_.time(row) - motion_.first_touch();
     const double step = motion_.time(row) - motion_.time(row - 1);  // the last one may end beyond the time asked for
     if (!(end + step < *reference_.until)) return "";
+    if (end < 0) return "the run ends before the body touches the ground";
     return fmt::format("the run ends {} s after the first touch, and {} s are asked for", significant(end, 4),
                        shortest(*reference_.until));
   }

@@ -2,6 +2,7 @@
 // What the program says of itself: `clatter keys` and `clatter init`, the language of scenes and a scene file to begin
 // with; `clatter columns`, every column of CSV and JSON; shell completion and the man page.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -127,6 +128,7 @@ Report keys_report() {
                                 Cell(key.unit), Cell(key.allowed()), Cell(key.help)});
   }
   report.fields["keys"] = row_objects(report.grid);
+  report.fields["cases"] = Value(case_names());
   add_orientations(report);
   return report;
 }
@@ -143,6 +145,8 @@ std::string keys_text(bool ascii) {
     text += wrapped("    " + meaning(key), 79, "    ") + "\n";
   }
   text += orientations_text();
+  text +=
+      "\n" + wrapped(fmt::format("Cases that the program carries: {}", fmt::join(case_names(), ", ")), 79, "  ") + "\n";
   return ascii ? to_ascii(text) : text;
 }
 

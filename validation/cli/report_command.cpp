@@ -241,6 +241,7 @@ std::string page_of(const ReportInput& input, const CooperativeInterrupt& interr
 
 int run_report(const ReportInput& input) {
   if (input.output.empty()) throw BadInput("--output: required, the page's file");
+  if (!input.output.ends_with(".html")) throw BadInput(fmt::format("--output '{}': must end in .html", input.output));
   require_gnuplot("report");
   Sink sink(input.output);
   const CooperativeInterrupt interrupt;

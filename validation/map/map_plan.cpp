@@ -135,8 +135,8 @@ const std::vector<MapQuantity>& map_quantities() {
       {"outcome", "how the sequence ends", "", nullptr},
       {"ratio", "second normal impulse over the first", "",
        [](const Outcome& outcome) { return outcome.impulse[1] / outcome.impulse[0]; }},
-      {"largest", "largest normal impulse", "N s", [](const Outcome& outcome) { return outcome.largest; }},
-      {"total", "sum of the normal impulses", "N s", [](const Outcome& outcome) { return outcome.total; }},
+      {"largest", "largest normal impulse", "N·s", [](const Outcome& outcome) { return outcome.largest; }},
+      {"total", "sum of the normal impulses", "N·s", [](const Outcome& outcome) { return outcome.total; }},
       {"loss", "energy lost in the impacts", "J", [](const Outcome& outcome) { return outcome.energy_loss; }},
       {"last_start", "time from the first impact to the last", "s",
        [](const Outcome& outcome) { return outcome.last_start; }}};

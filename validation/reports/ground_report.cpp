@@ -96,7 +96,9 @@ Report material_report(const std::vector<MaterialGround>& grounds, const std::st
   for (const MaterialGround& ground : grounds) {
     report.grid.rows.push_back({Cell(ground.stiffness, 6), Cell(ground.modulus, 6), Cell(ground.poisson, 6)});
   }
-  report.notes = {approximation, "c_G does not follow from it: give --measured-e with another number of a drop"};
+  report.notes = {approximation,
+                  "c_G does not follow from a material: --measured-e with --contact-time, --peak-force or "
+                  "--indentation, in its place, gives both"};
   if (!source.empty()) report.notes.push_back("least and largest numbers of the floor's material: " + source);
   report.fields["solutions"] = row_objects(report.grid);
   report.fields["approximation"] = approximation;

@@ -173,6 +173,10 @@ Grid impacts_of(const ShockRun& run) {
   const auto& shown = shown_of(run.continuous && !run.discrete.empty(), run.continuous.has_value());
   for (Column& column : grid.columns) {
     column.shown = std::find(shown.begin(), shown.end(), column.name) != shown.end();
+    if (run.continuous) continue;
+    for (const ShockQuantity& quantity : quantities) {  // nothing stands beside them to tell them from
+      if (column.name == std::string("discrete_") + quantity.name) column.heading = quantity.symbol;
+    }
   }
   for (std::size_t probe = 0; probe < run.probes.size(); ++probe) {
     for (int impact = 1; impact <= last_impact(run); ++impact) grid.rows.push_back(row_of(run, impact, probe));

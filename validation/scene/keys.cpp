@@ -176,7 +176,8 @@ void append_shape(std::vector<Key>& keys) {
           {"body.radius", Use::both, "--radius", "M", "m", "of the rod, sphere or capsule",
            NumberValue{[](Scene& s) -> double& { return s.body.radius; }, radii, &wide_radii}, of_radius},
           {"body.size", Use::both, "--size", "LxWxT", "m",
-           "of the box or ellipsoid, whole axes: along the inclination, across, upright at 0 degrees",
+           "of the box or ellipsoid, whole axes in m, as 0.15x0.075x0.008: along the inclination, across, upright at 0 "
+           "degrees",
            ListValue{[](const Scene& s) {
                        return std::vector<double>{s.body.size.x(), s.body.size.y(), s.body.size.z()};
                      },
@@ -251,13 +252,15 @@ void append_ground(std::vector<Key>& keys) {
   keys.insert(
       keys.end(),
       {
-          {"ground.stiffness", Use::both, "--stiffness", "N/M3", "N/m³", "k_G",
+          {"ground.stiffness", Use::both, "--stiffness", "N/M3", "N/m³",
+           "k_G, pressure of the ground for each metre of depth; clatter ground finds it",
            NumberValue{[](Scene& s) -> double& { return s.world.ground.stiffness; }, positive_number},
            [](const Scene& s, Model model) {
              return s.has_ground() ? Echo::value : model == Model::continuous ? Echo::null : Echo::absent;
            },
            true},
-          {"ground.damping", Use::both, "--damping", "N.S/M4", "N·s/m⁴", "c_G",
+          {"ground.damping", Use::both, "--damping", "N.S/M4", "N·s/m⁴",
+           "c_G, the same for each m/s at which the depth grows",
            NumberValue{[](Scene& s) -> double& { return s.world.ground.damping; }, not_negative_number}, of_ground},
           {"ground.static_friction", Use::both, "--static-friction", "MU", "", "of the ground",
            NumberValue{[](Scene& s) -> double& { return s.world.ground.static_friction; }, not_negative_number},

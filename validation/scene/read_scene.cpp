@@ -124,7 +124,7 @@ void check_drop(const SceneValues& values, Scene& scene) {
   if (!scene.attitude.empty()) {
     if (!is_attitude(scene.attitude)) values.refuse("drop.attitude", key_named("drop.attitude").allowed());
   } else if (!swept && scene.body.shape != BodyScene::Shape::sphere) {
-    values.require("drop.angle_deg", "the inclination at the first impact");
+    values.require("drop.angle_deg", "the inclination at the first impact, or drop.attitude");
   }
   for (const auto& [key, is_given] :
        {std::pair{"drop.height", scene.height}, {"drop.clearance", scene.clearance}, {"drop.topple", scene.topple}}) {

@@ -122,11 +122,14 @@ std::string clearance_words(const Scene& scene) {
 
 /// How the body comes to the ground in the plane: zeros, too, and the speed of a fall, which is computed.
 std::string planar_drop_words(const Scene& scene, const KeyNames& unsettled) {
-  const std::string speed = scene.falls() ? significant(scene.speed, 6) : shortest(scene.speed);
+  const double fallen = scene.clearance ? -scene.touch_velocity().z() : scene.speed;
+  const std::string speed = scene.falls() ? significant(fallen, 6) : shortest(scene.speed);
   const std::string angle =
       Phrases(unsettled).add(fmt::format("{}°", shortest(scene.angle_deg)), {"drop.angle_deg"}).text();
-  const std::string fall =
-      Phrases(unsettled).add(fmt::format("at {} m/s", speed), {"drop.speed", "drop.height", "drop.clearance"}).text();
+  const std::string fall = Phrases(unsettled)
+                               .add(fmt::format("at {} m/s", speed), {"drop.speed", "drop.height", "drop.clearance",
+                                                                      scene.falls() ? "world.gravity" : "drop.speed"})
+                               .text();
   Phrases height(unsettled);
   if (scene.height) height.add(fmt::format("from {} m", shortest(*scene.height)), {"drop.height"});
   if (scene.clearance) height.add(clearance_words(scene), {"drop.clearance"});

@@ -56,7 +56,6 @@ struct Polynomial {
     for (const auto& [power, c] : other.terms) terms[power] += c;
     return *this;
   }
-  friend Polynomial operator+(Polynomial a, const Polynomial& b) { return a += b; }
   friend Polynomial operator-(Polynomial a, const Polynomial& b) { return a += constant(-1) * b; }
   friend Polynomial operator*(const Polynomial& a, const Polynomial& b) {
     Polynomial product;
