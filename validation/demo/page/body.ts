@@ -2,7 +2,9 @@
 // The falling body: sizes, inertia, and where it touches the ground. Lengths in m, masses in kg.
 import { plus, rotate, rotateBack, type Rotation, type Vector } from "./rotation";
 
-export type BodyName = "rod" | "thick-rod" | "phone" | "own-rod" | "own-box";
+export type BodyName = "rod" | "thick-rod" | "phone" | "coin" | "tube" | "die" | "plate" | "own-rod" | "own-box";
+/** What is drawn on a body; both models know its sizes alone. */
+export type Look = "phone" | "coin" | "tube" | "die";
 
 export interface Size {
   readonly shape: "rod" | "box";
@@ -13,6 +15,9 @@ export interface Size {
   /** Of a box: across the plane of motion, and upright at an inclination of 0. */
   readonly width: number;
   readonly thickness: number;
+  readonly look?: Look;
+  /** Of a rod: a thin wall around nothing. */
+  readonly isHollow?: boolean;
 }
 
 /** xx, yy, zz, xy, xz, yz about the centre of mass, axes of the body [kg m²]. */
@@ -34,19 +39,38 @@ export const BODIES: Readonly<Record<BodyName, { title: string; size: Size }>> =
   "thick-rod": { title: "Thick rod, 1 m", size: { shape: "rod", mass: 1, length: 1, radius: 0.05, width: 0, thickness: 0 } },
   phone: {
     title: "Phone, 106 mm",
-    size: { shape: "box", mass: 0.08814, length: 0.10566, radius: 0, width: 0.04394, thickness: 0.01905 },
+    size: { shape: "box", mass: 0.08814, length: 0.10566, radius: 0, width: 0.04394, thickness: 0.01905, look: "phone" },
   },
+  coin: { title: "Coin, 23 mm", size: { shape: "rod", mass: 0.0075, length: 0.00233, radius: 0.011625, width: 0, thickness: 0, look: "coin" } },
+  tube: { title: "Tube with lids, 30 cm", size: { shape: "rod", mass: 0.1934, length: 0.3, radius: 0.02, width: 0, thickness: 0, look: "tube", isHollow: true } },
+  die: { title: "Die, 16 mm", size: { shape: "box", mass: 0.00483, length: 0.016, radius: 0, width: 0.016, thickness: 0.016, look: "die" } },
+  plate: { title: "Steel plate, 20 cm", size: { shape: "box", mass: 0.942, length: 0.2, radius: 0, width: 0.2, thickness: 0.003 } },
   "own-rod": { title: "Rod of your own", size: { shape: "rod", mass: 1, length: 1, radius: 0.02, width: 0, thickness: 0 } },
   "own-box": { title: "Box of your own", size: { shape: "box", mass: 0.2, length: 0.15, radius: 0, width: 0.07, thickness: 0.01 } },
 };
 
 export function uniformBody(size: Size): Body {
   const { shape, mass, length, radius, width, thickness } = size;
-  const rod = 3 * radius ** 2 + length ** 2;
-  const [x, y, z] = shape === "rod" ? [6 * radius ** 2, rod, rod]
+  const around = (size.isHollow ? 6 : 3) * radius ** 2;
+  const [x, y, z] = shape === "rod" ? [2 * around, around + length ** 2, around + length ** 2]
     : [width ** 2 + thickness ** 2, length ** 2 + thickness ** 2, length ** 2 + width ** 2];
   const part = mass / 12;
   return { ...size, centre: [0, 0, 0], inertia: [part * x, part * y, part * z, 0, 0, 0] };
+}
+
+/** The largest extent along an axis of the body. */
+export function extentOf({ length, radius, width, thickness }: Size): number {
+  return Math.max(length, 2 * radius, width, thickness);
+}
+
+/** A rod that is broader than long, as a coin. */
+export function isDisc({ shape, length, radius }: Size): boolean {
+  return shape === "rod" && 2 * radius > length;
+}
+
+/** The direction in which the body is long, within its plane of motion: from its middle to the one side, body axes [m]. */
+export function longHalf(body: Size): Vector {
+  return isDisc(body) ? [0, 0, body.radius] : [body.length / 2, 0, 0];
 }
 
 /** Corners of a box, from its geometric centre; their names are the signs of their coordinates, as in "-x+y-z". */

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The continuous model between the samples of its time history: every step of a contact, some 20 of a flight.
-import type { Body } from "./body";
+import { extentOf, type Body } from "./body";
 import type { History, Impact } from "./answers";
 import { Flight, leadIn, leadOut, type Energies, type Motion, type Pose } from "./motion";
 import { inclinationOf, slerp, type Rotation, type Vector } from "./rotation";
@@ -23,7 +23,7 @@ export class ContinuousMotion implements Motion {
     this.last = t.length - 1;
     this.total = at(history.energy_total, 0);
     const falling = this.sample(touch, 0);
-    ({ begin: this.begin, near: this.near } = leadIn(impacts, -falling.velocity[2], gravity, body.length));
+    ({ begin: this.begin, near: this.near } = leadIn(impacts, -falling.velocity[2], gravity, extentOf(body)));
     this.fall = new Flight(body, falling, gravity, this.begin);
     const released = this.sample(this.last, 0);
     const stop = at(t, this.last);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The discrete model between its impacts: the centre of mass on a parabola, the rotation free.
 import type { Impact } from "./answers";
-import { centreHeight, type Body } from "./body";
+import { centreHeight, extentOf, type Body } from "./body";
 import { Flight, energyOfRotation, leadIn, leadOut, type Energies, type Motion, type Pose } from "./motion";
 import { inclinationOf, planeRotation, plus, type Rotation, type Vector } from "./rotation";
 
@@ -26,7 +26,7 @@ export class DiscreteMotion implements Motion {
     if (!first) throw new RangeError("a motion needs an impact");
     const velocity = plus(first.velocity_after, first.impulse, -1 / body.mass);
     this.total = first.energy_before;
-    ({ begin: this.begin, near: this.near } = leadIn(impacts, -velocity[2], gravity, body.length));
+    ({ begin: this.begin, near: this.near } = leadIn(impacts, -velocity[2], gravity, extentOf(body)));
     this.fall = new Flight(body, poseOf(body, first, [0, 0], velocity, spin), gravity, this.begin);
     this.addFlights();
     this.end = leadOut(body, impacts[impacts.length - 1]?.start ?? 0, this.near, (time) => this.pose(time));

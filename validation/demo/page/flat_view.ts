@@ -38,6 +38,7 @@ export class FlatView implements View {
     for (const model of frame.side ? (["discrete", "continuous"] as const) : (["discrete"] as const)) this.ground(model, frame.side);
     for (const { model, body, pose } of frame.ghosts) this.figure(model, body, pose, frame.side, true);
     for (const { model, body, pose } of frame.figures) this.figure(model, body, pose, frame.side);
+    if (frame.patch) this.patch(frame.patch.outline, frame.side);
     for (const arrow of frame.arrows) this.arrow(arrow, frame.side);
   }
 
@@ -58,6 +59,14 @@ export class FlatView implements View {
     context.fillRect(left + 8, y, width - 16, 6);
     context.fillStyle = COLOURS.quiet;
     context.fillRect(left + 8, y, width - 16, 1);
+  }
+
+  /** From the side, a line on the ground. */
+  private patch(outline: Vector[], side: boolean): void {
+    const places = outline.map((point) => this.project("continuous", point, side));
+    const left = Math.min(...places.map(({ x }) => x));
+    this.context.fillStyle = COLOURS.continuous;
+    this.context.fillRect(left, places[0]?.y ?? 0, Math.max(...places.map(({ x }) => x)) - left, 5);
   }
 
   private figure(model: ModelName, body: Body, pose: Pose, side: boolean, isGhost = false): void {

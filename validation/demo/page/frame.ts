@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the picture shows at one time: the bodies of both models, the blow, and the speeds of the ends.
 import type { Impact } from "./answers";
-import { lowestPlace, type Body } from "./body";
+import { extentOf, isDisc, longHalf, lowestPlace, type Body } from "./body";
 import { significant } from "./format";
-import { endMotion, type Motion, type Pose } from "./motion";
+import { pointMotion, type Motion, type Pose } from "./motion";
+import { patchOf, type Patch } from "./patch";
 import { plus, rotate, type Rotation, type Vector } from "./rotation";
 
 export type ModelName = "discrete" | "continuous";
@@ -46,6 +47,8 @@ export interface Frame {
   /** Where the body was at the blows until now. */
   ghosts: { model: ModelName; body: Body; pose: Pose }[];
   arcs: Arc[];
+  /** Where the continuous model presses on the ground. */
+  patch: Patch | null;
   arrows: Arrow[];
   labels: Label[];
 }
@@ -56,6 +59,8 @@ export interface Bounds {
   top: number;
   /** Of the middle, along y. */
   depth: number;
+  /** How far a body reaches from there towards the eye. */
+  deep: number;
 }
 
 export interface Motions {
@@ -76,7 +81,7 @@ const SPEED_LENGTH = 0.22; // of the largest speed of an end
 export function scalesOf(motions: Motions): Scales {
   const impacts = [motions.discrete, motions.continuous].flatMap((motion) => motion?.impacts ?? []);
   const motion = motions.discrete ?? motions.continuous;
-  const length = motion?.body.length ?? 1;
+  const length = motion ? extentOf(motion.body) : 1;
   const largest = (values: number[]): number => Math.max(1e-12, ...values.map(Math.abs));
   const speeds = impacts.flatMap(({ velocity_after, angular_velocity_after, approach_speed }) =>
     [approach_speed, Math.abs(velocity_after[2]) + (Math.abs(angular_velocity_after[1]) * length) / 2]);
@@ -92,16 +97,18 @@ export function scalesOf(motions: Motions): Scales {
  * and comes close again for the clattering.
  */
 function boundsOf(figures: Frame["figures"]): Bounds {
-  const bounds = { left: Infinity, right: -Infinity, top: 0, depth: 0 };
+  const bounds = { left: Infinity, right: -Infinity, top: 0, depth: 0, deep: 0 };
   for (const { body, pose } of figures) {
     // Perspective makes the near corner of a broad body stick out.
-    const half = Math.max(body.length / 2 + 0.2 * body.width, 0.6 * body.width, 0.6 * body.thickness);
+    const half = Math.max(body.length / 2 + 0.2 * body.width, 0.6 * body.width, 0.6 * body.thickness, 1.2 * body.radius);
     bounds.left = Math.min(bounds.left, pose.centre[0] - half);
     bounds.right = Math.max(bounds.right, pose.centre[0] + half);
-    bounds.top = Math.max(bounds.top, 1.1 * half, pose.centre[2] + half * 1.15);
+    const diagonal = Math.hypot(body.length, body.width, body.thickness, 2 * body.radius);
+    bounds.top = Math.max(bounds.top, 1.1 * half, pose.centre[2] + Math.max(half, diagonal / 2) * 1.15);
+    bounds.deep = Math.max(bounds.deep, body.width / 2, body.radius);
     bounds.depth += pose.centre[1] / figures.length;
   }
-  return figures.length ? bounds : { left: -0.5, right: 0.5, top: 0.5, depth: 0 };
+  return figures.length ? bounds : { left: -0.5, right: 0.5, top: 0.5, depth: 0, deep: 0 };
 }
 
 /** Side by side each model stands in the middle of its part, both in the same size. */
@@ -115,8 +122,8 @@ function boundsOfParts(figures: Frame["figures"], side: boolean): Frame["bounds"
   const parts = { discrete: own("discrete"), continuous: own("continuous") };
   const half = Math.max(...Object.values(parts).map(({ left, right }) => (right - left) / 2));
   const top = Math.max(parts.discrete.top, parts.continuous.top);
-  const sized = ({ left, right, depth }: Bounds): Bounds =>
-    ({ left: (left + right) / 2 - half, right: (left + right) / 2 + half, top, depth });
+  const sized = ({ left, right, depth, deep }: Bounds): Bounds =>
+    ({ left: (left + right) / 2 - half, right: (left + right) / 2 + half, top, depth, deep });
   return { discrete: sized(parts.discrete), continuous: sized(parts.continuous) };
 }
 
@@ -133,12 +140,13 @@ export function impactAt(impacts: readonly Impact[], time: number): Impact | nul
 }
 
 export function frameAt(motions: Motions, time: number, scales: Scales, side: boolean, traces: boolean): Frame {
-  const frame: Frame = { side, bounds: boundsOfParts([], side), inSpace: false, figures: [], ghosts: [], arcs: [], arrows: [], labels: [] };
+  const frame: Frame = { side, bounds: boundsOfParts([], side), inSpace: false, figures: [], ghosts: [], arcs: [], patch: null, arrows: [], labels: [] };
   for (const model of ["continuous", "discrete"] as const) {
     const motion = motions[model];
     if (!motion || time > motion.end + 1e-12) continue;
     const pose = motion.pose(time);
     frame.figures.push({ model, body: motion.body, pose });
+    if (model === "continuous" && pose.inContact) frame.patch = patchOf(motion.body, pose);
     // In the overlay two sets of speeds and names would lie on each other.
     if (side || model === "discrete" || !motions.discrete) addEnds(frame, model, motion, pose, scales);
     addBlow(frame, model, motion, pose, time, scales, side || !motions.discrete);
@@ -151,10 +159,13 @@ export function frameAt(motions: Motions, time: number, scales: Scales, side: bo
 }
 
 function addEnds(frame: Frame, model: ModelName, motion: Motion, pose: Pose, scales: Scales): void {
-  for (const end of ["a", "b"] as const) {
-    const { place, velocity } = endMotion(motion.body, pose, end);
+  const half = longHalf(motion.body);
+  for (const [end, side] of [["a", -1], ["b", 1]] as const) {
+    const { place, velocity } = pointMotion(motion.body, pose, half.map((part) => side * part) as Vector);
     const vector = velocity.map((v) => v * scales.speed) as Vector;
     frame.arrows.push({ model, kind: "speed", from: place, vector });
+    // The ends of a disc are its faces; what moves up and down are its sides.
+    if (isDisc(motion.body)) continue;
     const [cx, cy, cz] = pose.centre;
     const out = 1.07;
     frame.labels.push({
@@ -175,7 +186,7 @@ function addBlow(frame: Frame, model: ModelName, motion: Motion, pose: Pose, tim
     ? [pose.force.map((f) => f * scales.force) as Vector, `${significant(pose.force[2], 3)} N`]
     : [impact.impulse.map((part) => part * scales.impulse) as Vector,
       `${significant(impact.impulse_normal, 3)} N·s`];
-  const { length } = motion.body;
+  const length = extentOf(motion.body);
   const outwards = x < pose.centre[0] ? -1 : 1;
   // In the overlay the force stands beside the discrete model's impulse.
   const isSecond = model === "continuous" && !side;
@@ -204,7 +215,7 @@ function addArc(frame: Frame, motion: Motion, time: number): void {
   if (!impact || impact.contact_angle_deg < 0.5 || impact.contact_angle_deg > 89) return;
   const at = struckPoint(motion, impact);
   const toRight = motion.pose(impact.start).centre[0] > at[0];
-  const radius = ARC * motion.body.length;
+  const radius = ARC * extentOf(motion.body);
   const angle = (impact.contact_angle_deg * Math.PI) / 180;
   frame.arcs.push({ at, radius, angle, toRight });
   const out = (toRight ? 1.25 : -1.25) * radius;
@@ -219,10 +230,10 @@ function addArc(frame: Frame, motion: Motion, time: number): void {
 export function heldFrame(body: Body, rotation: Rotation, height: number, text: string): Frame {
   const pose: Pose = { centre: [0, 0, height], rotation, velocity: [0, 0, 0], spin: [0, 0, 0], inclination: 0, force: [0, 0, 0], inContact: false };
   const figures: Frame["figures"] = [{ model: "discrete", body, pose }];
-  const { length } = body;
-  const bounds = { left: -0.9 * length, right: 0.9 * length, top: Math.max(1.5 * length, height + 0.6 * length), depth: 0 };
+  const length = extentOf(body);
+  const bounds = { left: -0.9 * length, right: 0.9 * length, top: Math.max(1.5 * length, height + 0.6 * length), depth: 0, deep: Math.max(body.width / 2, body.radius) };
   return {
-    side: false, bounds: { discrete: bounds, continuous: bounds }, inSpace: leavesPlane({ model: "discrete", body, pose }), figures, ghosts: [], arcs: [], arrows: [],
+    side: false, bounds: { discrete: bounds, continuous: bounds }, inSpace: leavesPlane({ model: "discrete", body, pose }), figures, ghosts: [], arcs: [], patch: null, arrows: [],
     labels: [{ model: "discrete", kind: "held", place: [0, 0, height + 0.3 * length], text }],
   };
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The body in the hand: taken in the picture with mouse, pen or finger, tilted by an end, lifted by its middle, let go. By keys, too:
 // on the picture ↑ and ↓ lift, [ and ] tilt, Enter lets go.
-import { centreHeight, type Body } from "./body";
+import { centreHeight, extentOf, isDisc, longHalf, type Body } from "./body";
+import { significant } from "./format";
 import type { OrbitControl } from "./orbit";
 import type { Projection } from "./picture";
 import { planeRotation, product, rotate, turnAbout, type Rotation, type Vector } from "./rotation";
@@ -36,11 +37,15 @@ export function heldRotation({ angle }: Held, tilt: number): Rotation {
   return tilt === 0 ? plane : product(plane, turnAbout(0, tilt * DEGREE));
 }
 
+export function heldInWords({ angle, height }: Held): string {
+  return `${significant(angle, 3)}°, ${significant(height, 3)} m high`;
+}
+
 /** Within what a hand can do: not into the ground, not out of sight. */
 export function possible(body: Body, { angle, height }: Held, tilt: number): Held {
   const turned = { angle: Math.round(Math.min(90, Math.max(0, angle)) * 10) / 10, height };
-  const lowest = centreHeight(body, heldRotation(turned, tilt)) + 0.01 * body.length;
-  const most = lowest + HIGHEST * body.length;
+  const lowest = centreHeight(body, heldRotation(turned, tilt)) + 0.01 * extentOf(body);
+  const most = lowest + HIGHEST * extentOf(body);
   return { ...turned, height: Number(Math.min(most, Math.max(lowest, height)).toPrecision(4)) };
 }
 
@@ -51,6 +56,7 @@ interface Grip {
   /** Where the middle of the body was [px], and pixels a metre. */
   centre: Projection;
   scale: number;
+  isDisc: boolean;
 }
 
 export class Grab {
@@ -75,20 +81,21 @@ export class Grab {
     const taken = this.hand.body();
     if (!taken) return null;
     const { body, held, tilt } = taken;
-    const along = rotate(heldRotation(held, tilt), [body.length / 2, 0, 0]);
+    const along = rotate(heldRotation(held, tilt), longHalf(body));
     const at = (part: number): Projection => this.hand.project([along[0] * part, 0, held.height + along[2] * part]);
     const [a, b] = [at(-1), at(1)];
     const [x, y] = [b.x - a.x, b.y - a.y];
     const size = Math.hypot(x, y) || 1;
     const part = ((place.x - a.x) * x + (place.y - a.y) * y) / size ** 2;
-    const across = Math.abs((place.x - a.x) * y - (place.y - a.y) * x) / size;
-    const thick = ((body.shape === "box" ? Math.hypot(body.width, body.thickness) : 2 * body.radius) / 2 / body.length) * size;
+    const off = Math.abs((place.x - a.x) * y - (place.y - a.y) * x) / size;
+    const across = body.shape === "box" ? Math.hypot(body.width, body.thickness) : isDisc(body) ? body.length : 2 * body.radius;
+    const thick = (across / 2 / extentOf(body)) * size;
     const margin = REACH / size;
-    if (across > Math.max(REACH, thick) || part < -margin || part > 1 + margin) return null;
+    if (off > Math.max(REACH, thick) || part < -margin || part > 1 + margin) return null;
     const name = Math.abs(part - 0.5) < MIDDLE ? "middle" : part < 0.5 ? "a" : "b";
-    const up = this.hand.project([0, 0, held.height + body.length]);
+    const up = this.hand.project([0, 0, held.height + extentOf(body)]);
     const centre = at(0);
-    return { part: name, from: held, start: place, centre, scale: Math.hypot(up.x - centre.x, up.y - centre.y) / body.length };
+    return { part: name, from: held, start: place, centre, scale: Math.hypot(up.x - centre.x, up.y - centre.y) / extentOf(body), isDisc: isDisc(body) };
   }
 
   private down(event: PointerEvent): void {
@@ -117,11 +124,13 @@ export class Grab {
   }
 
   /** How the body is held when the grip is pulled there. */
-  private pulled({ part, from, start, centre, scale }: Grip, place: Projection): Held {
+  private pulled({ part, from, start, centre, scale, isDisc: leansBack }: Grip, place: Projection): Held {
     if (part === "middle") return { ...from, height: from.height + (start.y - place.y) / scale };
     const side = part === "b" ? 1 : -1;
     const [right, up] = [side * (place.x - centre.x), side * (centre.y - place.y)];
-    return { ...from, angle: Math.atan2(Math.max(0, up), right) / DEGREE };
+    // The axis of a disc, whose inclination counts, stands across what the hand pulls.
+    const lean = Math.atan2(Math.max(0, up), leansBack ? -right : right) / DEGREE;
+    return { ...from, angle: leansBack ? 90 - lean : lean };
   }
 
   private show(held: Held): void {
@@ -148,7 +157,7 @@ export class Grab {
   private key(event: KeyboardEvent): void {
     if (event.target !== this.stage || event.altKey || event.ctrlKey || event.metaKey) return;
     const taken = this.hand.body();
-    const { length } = taken?.body ?? { length: 0 };
+    const length = taken ? extentOf(taken.body) : 0;
     const from = this.held ?? taken?.held;
     const lift = { ArrowUp: 1, ArrowDown: -1 }[event.key];
     const tilt = { "]": 1, "[": -1 }[event.key];

@@ -4,20 +4,21 @@ import type { ExplainAnswer } from "./answers";
 import { Latest } from "./api";
 import { EnergyBars, ForceChart } from "./charts";
 import type { Body } from "./body";
+import { Capture } from "./capture";
 import { Controls } from "./controls";
 import { byId } from "./dom";
 import { Explanation } from "./explain";
 import { download } from "./files";
-import { significant } from "./format";
 import { frameAt, heldFrame, impactAt, scalesOf, type ModelName, type Scales } from "./frame";
-import { Grab, heldRotation, type Held } from "./grab";
+import { Grab, heldInWords, heldRotation, type Held } from "./grab";
 import { setUpLecture } from "./lecture";
 import { AngleMap } from "./map";
 import { Models } from "./models";
 import { Numbers } from "./numbers";
 import { OrbitControl } from "./orbit";
-import { hidePanels, setUpLayout } from "./panels";
-import { bodyOf, isInPlane, type Parameters } from "./parameters";
+import { hidePanels, setUpLayout, setUpPrinting } from "./panels";
+import { bodyOf, isInPlane, tiltOf } from "./parameters";
+import { showPatch } from "./patch_panel";
 import { Player, TimeWarp } from "./playback";
 import { Prediction } from "./prediction";
 import { showProfile } from "./profile";
@@ -32,7 +33,7 @@ import { setUpStory } from "./story";
 import { Strip } from "./strip";
 import { ImpactTable, csvOf } from "./table";
 import { Transport } from "./transport";
-import { impactInWords, outcomeInWords } from "./words";
+import { bodyInWords, dropInWords, impactInWords, outcomeInWords } from "./words";
 
 /** After a change, until the equations are asked for, and until the drop is played [ms]. */
 const EXPLAIN_DELAY = 80;
@@ -81,6 +82,11 @@ class Page {
     setSlow: (slow) => { this.state.slow = slow; this.rewarp(); this.remember(); },
   });
 
+  private readonly capture = new Capture({
+    redraw: () => this.stage.redraw(),
+    playFromStart: () => { if (!this.prediction.isOpen) this.playAnew(); },
+  });
+
   private readonly models = new Models({
     onAnswer: () => this.onAnswer(),
     onError: (model, error) => this.controls.setError(model, error),
@@ -111,8 +117,7 @@ class Page {
       letGo: (held) => this.letGo(held),
     }, this.orbit);
     this.traces.addEventListener("change", () => this.draw());
-    byId("picture").addEventListener("click", () => this.stage.image((blob) => { if (blob) download("clatter.png", blob, "image/png"); }));
-    byId("print").addEventListener("click", () => print());
+    setUpPrinting();
     setUpLecture((on) => this.prediction.setVoting(on), () => this.onTime());
     // Another link to this page, opened where it stands.
     addEventListener("hashchange", () => location.reload());
@@ -131,7 +136,8 @@ class Page {
     if (speed > 0) void this.map.show(gravityNumber(parameters, speed), restitutionOf(parameters));
     this.map.setAngle(parameters.angle);
     byId("map-note").hidden = parameters.body === "rod" && parameters.friction === 0 && isInPlane(parameters);
-    byId("numbers-note").hidden = parameters.body !== "rod";
+    byId("handout-drop").textContent = dropInWords({ ...parameters, e: restitutionOf(parameters) });
+    byId("body-note").textContent = bodyInWords(parameters.body);
     this.remember();
   }
 
@@ -191,6 +197,7 @@ class Page {
     if (impact && impact.n !== this.state.impact && this.player.playing) this.choose(impact.n);
     this.hear();
     this.draw();
+    this.capture.drawn(ended);
     this.prediction.seen(this.player.time, ended);
     if (!this.player.playing) this.remember();
   }
@@ -222,6 +229,7 @@ class Page {
       this.energy.show(model, this.models.motions[model]?.energies(time) ?? null);
     }
     this.force.setTime(time);
+    showPatch(this.models.motions.continuous, this.models.continuous?.history ?? null, time);
     this.transport.show(time, player.progress, player.playing, player.slowness);
     say(impact ? impactInWords(this.models.steps, impact.n) : "Falling");
   }
@@ -328,11 +336,13 @@ class Page {
   private playSoon(delay = PLAY_DELAY): void {
     clearTimeout(this.playTimer);
     if (this.prediction.isOpen || matchMedia("(prefers-reduced-motion: reduce)").matches) return;
-    this.playTimer = window.setTimeout(() => {
-      this.player.pause();
-      this.player.progress = 0;
-      this.player.play();
-    }, delay);
+    this.playTimer = window.setTimeout(() => this.playAnew(), delay);
+  }
+
+  private playAnew(): void {
+    this.player.pause();
+    this.player.progress = 0;
+    this.player.play();
   }
 
   private onPredicted(): void {
@@ -368,14 +378,6 @@ class Page {
     if (this.hasShown) this.syncTime();
     writeAddress(this.state);
   }
-}
-
-function tiltOf({ turn, tilt }: Parameters): number {
-  return turn === "tilted" ? tilt : 0;
-}
-
-function heldInWords({ angle, height }: Held): string {
-  return `${significant(angle, 3)}°, ${significant(height, 3)} m high`;
 }
 
 /** Words that are said again would be read aloud again. */

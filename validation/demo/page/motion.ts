@@ -40,8 +40,12 @@ export interface Motion {
 
 /** Where the middle of an end is, and how fast it moves. */
 export function endMotion(body: Body, pose: Pose, end: "a" | "b"): { place: Vector; velocity: Vector } {
-  const along = end === "a" ? -body.length / 2 : body.length / 2;
-  const from = rotate(pose.rotation, plus([along, 0, 0], body.centre, -1));
+  return pointMotion(body, pose, [end === "a" ? -body.length / 2 : body.length / 2, 0, 0]);
+}
+
+/** Of a point of the body, given from its geometric centre in axes of the body. */
+export function pointMotion(body: Body, pose: Pose, point: Vector): { place: Vector; velocity: Vector } {
+  const from = rotate(pose.rotation, plus(point, body.centre, -1));
   return { place: plus(pose.centre, from), velocity: plus(pose.velocity, cross(pose.spin, from)) };
 }
 

@@ -30,3 +30,13 @@ export function setUpLayout(state: State, onChange: () => void): () => void {
   show();
   return show;
 }
+
+/** All of it, or one page for a class: the drop, its blows and questions. */
+export function setUpPrinting(): void {
+  byId("print").addEventListener("click", () => print());
+  byId("handout-print").addEventListener("click", () => {
+    document.body.classList.add("handout");
+    print();
+  });
+  addEventListener("afterprint", () => document.body.classList.remove("handout"));
+}

@@ -46,6 +46,11 @@ export function bodyOf(parameters: Parameters): Body {
   return uniformBody(BODIES[parameters.body].size);
 }
 
+/** About the long axis, before the inclination [°]. */
+export function tiltOf({ turn, tilt }: Parameters): number {
+  return turn === "tilted" ? tilt : 0;
+}
+
 /** A size means something only for a body of one's own, a height only if it is what is given. */
 export function isUsed(parameters: Parameters, quantity: Quantity): boolean {
   const { turn, drop, body } = parameters;

@@ -3,7 +3,9 @@
 // twice as fast.
 import { byId } from "./dom";
 import { significant } from "./format";
-import { endMotion, type Motion } from "./motion";
+import { isDisc, longHalf } from "./body";
+import { pointMotion, type Motion } from "./motion";
+import type { Vector } from "./rotation";
 import { svg } from "./sketch";
 
 const WIDTH = 420;
@@ -11,10 +13,12 @@ const HEIGHT = 220;
 const LEFT = 48;
 const RIGHT = 372;
 
-/** Upward velocity of the two ends at a time [m/s]. */
+/** Upward velocity of the two ends, or of two opposite points of a disc's rim, at a time [m/s]. */
 function velocities(motion: Motion, time: number): [number, number] {
   const pose = motion.pose(time);
-  return [endMotion(motion.body, pose, "a").velocity[2], endMotion(motion.body, pose, "b").velocity[2]];
+  const half = longHalf(motion.body);
+  const at = (side: number): number => pointMotion(motion.body, pose, half.map((part) => side * part) as Vector).velocity[2];
+  return [at(-1), at(1)];
 }
 
 export function showProfile(motion: Motion | null, n: number): void {
@@ -25,8 +29,9 @@ export function showProfile(motion: Motion | null, n: number): void {
   const gap = 1e-9 * Math.max(1e-6, motion.end - motion.begin);
   const lines = { before: velocities(motion, impact.start - gap), after: velocities(motion, impact.start) };
   const most = Math.max(1e-12, ...Object.values(lines).flat().map(Math.abs));
+  const names = isDisc(motion.body) ? ["one side", "other side"] as const : ["end a", "end b"] as const;
   const y = (speed: number): string => (HEIGHT / 2 - (speed / most) * (HEIGHT / 2 - 30)).toFixed(1);
-  const words = (name: "before" | "after"): string => `${name} the blow ${significant(lines[name][0], 3)} m/s at end a and ${significant(lines[name][1], 3)} m/s at end b`;
+  const words = (name: "before" | "after"): string => `${name} the blow ${significant(lines[name][0], 3)} m/s at ${names[0]} and ${significant(lines[name][1], 3)} m/s at ${names[1]}`;
   const picture = svg("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img", "aria-label": `Upward velocity along the body: ${words("before")}, ${words("after")}` });
   picture.append(svg("line", { x1: LEFT - 12, x2: RIGHT + 12, y1: y(0), y2: y(0), class: "axis" }));
   for (const name of ["before", "after"] as const) {
@@ -41,9 +46,9 @@ export function showProfile(motion: Motion | null, n: number): void {
     const other = lines[name === "after" ? "before" : "after"];
     picture.append(label(LEFT - 8, Number(y(a)) + shift(a, other[0]), "end", a, name), label(RIGHT + 8, Number(y(b)) + shift(b, other[1]), "start", b, name));
   }
-  for (const [x, end] of [[LEFT, "a"], [RIGHT, "b"]] as const) {
+  for (const [x, end] of [[LEFT, names[0]], [RIGHT, names[1]]] as const) {
     const text = svg("text", { x, y: HEIGHT - 6, "text-anchor": "middle", class: "end" });
-    text.textContent = `end ${end}`;
+    text.textContent = end;
     picture.append(text);
   }
   box.replaceChildren(picture);

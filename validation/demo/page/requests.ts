@@ -97,7 +97,7 @@ function motion(parameters: Parameters): Request["body"] {
 }
 
 function shape(parameters: Parameters): Request["body"] {
-  const { shape: kind, mass, length, radius, width, thickness } = bodyOf(parameters);
+  const { shape: kind, mass, length, radius, width, thickness, isHollow, inertia } = bodyOf(parameters);
   if (kind === "box") return { body: "box", mass, size: [length, width, thickness] };
-  return { body: "rod", mass, length, radius };
+  return { body: "rod", mass, length, radius, ...(isHollow ? { inertia: inertia.join(",") } : {}) };
 }

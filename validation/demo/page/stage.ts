@@ -26,11 +26,8 @@ export class Stage {
     return this.view.project("discrete", place, this.frame?.side ?? false);
   }
 
-  /** As a picture file. */
-  image(use: (blob: Blob | null) => void): void {
-    // A canvas keeps its picture only until the browser has shown it.
+  redraw(): void {
     if (this.frame) this.view.draw(this.frame, this.orbit);
-    (this.box.querySelector("canvas") as HTMLCanvasElement).toBlob(use);
   }
 
   draw(frame: Frame, orbit: Orbit = this.orbit): void {

@@ -1,24 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The picture in space, drawn by the graphics card.
 import {
-  AmbientLight, BoxGeometry, BufferGeometry, Color, CylinderGeometry, DirectionalLight, DoubleSide, EdgesGeometry,
-  Float32BufferAttribute, Group, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshLambertMaterial,
-  PerspectiveCamera, Scene, Vector3, WebGLRenderer, type Material,
+  AmbientLight, BufferGeometry, Color, DirectionalLight, DoubleSide, Float32BufferAttribute, Group, LineBasicMaterial, LineSegments, Mesh,
+  MeshBasicMaterial, PerspectiveCamera, Scene, Vector3, WebGLRenderer, type Material,
 } from "three";
-import { LineMaterial } from "three/addons/lines/LineMaterial.js";
-import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
-import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 import { ArrowMesh } from "./arrow_mesh";
-import { THINNEST, middleOf, type Body } from "./body";
+import { extentOf, middleOf, type Body } from "./body";
 import { COLOURS } from "./colours";
 import type { Arc, Arrow, Bounds, Frame, ModelName } from "./frame";
 import type { Pose } from "./motion";
 import { STRAIGHT, type Orbit } from "./orbit";
 import type { Projection, View } from "./picture";
+import { figureOf, geometryOf, silhouetteOf } from "./shapes";
 import type { Vector } from "./rotation";
 
 const MODELS: readonly ModelName[] = ["discrete", "continuous"];
-const THICK = 0.03; // radius of a rod that is drawn as round, over its length
 const FIELD_OF_VIEW = 24; // degrees, upright
 /** Of the camera over the ground, and around the picture [rad]: in space from where three faces of a box are seen. */
 const PLANE = { elevation: 0.16, azimuth: -0.14 };
@@ -45,6 +41,8 @@ export class SpaceView implements View {
   private readonly ghosts: Record<ModelName, LineSegments[]> = { discrete: [], continuous: [] };
   private readonly arc = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: COLOURS.ink, depthTest: false, transparent: true }));
 
+  private readonly patch = new Mesh(new BufferGeometry(), new MeshBasicMaterial({ color: COLOURS.continuous, depthTest: false, transparent: true, opacity: 0.65, side: DoubleSide }));
+
   constructor(canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.camera.up.set(0, 0, 1);
@@ -53,6 +51,9 @@ export class SpaceView implements View {
     this.scene.add(new AmbientLight(0xffffff, 1.6), sun);
     this.figures = { discrete: emptyFigure(), continuous: emptyFigure() };
     this.layers.discrete.add(this.arc);
+    this.layers.continuous.add(this.patch);
+    // What lies under the body would else be hidden by it.
+    this.patch.renderOrder = 1;
     for (const model of MODELS) {
       const { group, shadow } = this.figures[model];
       this.layers[model].add(group, shadow);
@@ -70,7 +71,9 @@ export class SpaceView implements View {
     this.frame = frame;
     this.orbit = orbit;
     this.drawArc(frame.arcs[0]);
-    this.makeGround(frame.figures[0]?.body.length ?? 1);
+    this.drawPatch(frame.patch?.outline ?? []);
+    const body = frame.figures[0]?.body;
+    this.makeGround(body ? extentOf(body) : 1);
     for (const model of MODELS) {
       const figure = frame.figures.find((f) => f.model === model);
       this.layers[model].visible = figure !== undefined;
@@ -110,16 +113,17 @@ export class SpaceView implements View {
 
   private aim(model: ModelName | null, aspect: number): void {
     if (!this.frame) return;
-    const { left, right, top, depth } = this.frame.bounds[model ?? "discrete"];
+    const { left, right, top, depth, deep } = this.frame.bounds[model ?? "discrete"];
     const own = this.frame.inSpace ? SPACE : PLANE;
     const [elevation, azimuth] = [own.elevation + this.orbit.elevation, own.azimuth + this.orbit.azimuth];
     const margin = 1.16;
     const half = Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
     const tall = (top * margin) / 2;
     const wide = ((right - left) * margin) / 2;
-    const distance = (Math.max(tall / half, wide / (half * aspect)) + 0.15 * wide) / this.orbit.zoom;
+    const distance = (Math.max(tall / half, wide / (half * aspect)) + 0.15 * wide + deep) / this.orbit.zoom;
     // Where width decides, the ground stays low in the picture instead of floating in its middle.
-    const centre = new Vector3((left + right) / 2, depth, Math.max(top * 0.47, 0.58 * distance * half));
+    const height = Math.max(top * 0.47, 0.58 * distance * half) - deep * Math.sin(own.elevation);
+    const centre = new Vector3((left + right) / 2, depth, height);
     const flat = Math.cos(elevation) * distance;
     this.camera.position.set(
       centre.x + Math.sin(azimuth) * flat, centre.y - Math.cos(azimuth) * flat, centre.z + Math.sin(elevation) * distance,
@@ -200,6 +204,12 @@ export class SpaceView implements View {
     this.arc.geometry = new BufferGeometry().setAttribute("position", new Float32BufferAttribute([...lines, ...legs], 3));
   }
 
+  private drawPatch(outline: Vector[]): void {
+    const corners = outline.slice(2).flatMap((point, i) => [...(outline[0] ?? []), ...(outline[i + 1] ?? []), ...point]);
+    this.patch.geometry.dispose();
+    this.patch.geometry = new BufferGeometry().setAttribute("position", new Float32BufferAttribute(corners, 3));
+  }
+
   private placeArrows(model: ModelName, wanted: Arrow[]): void {
     const meshes = this.arrows[model];
     while (meshes.length < wanted.length) {
@@ -218,54 +228,13 @@ function emptyFigure(): Figure {
   return { group: new Group(), shadow, of: null };
 }
 
-function geometryOf(body: Body): BufferGeometry {
-  if (body.shape === "box") return new BoxGeometry(body.length, body.width, body.thickness);
-  const radius = Math.max(body.radius, THINNEST * body.length);
-  return new CylinderGeometry(radius, radius, body.length, 32).rotateZ(Math.PI / 2);
-}
-
 function rebuild(figure: Figure, model: ModelName, body: Body): void {
-  const geometry = geometryOf(body);
-  for (const group of [figure.group, figure.shadow]) {
-    // The graphics card keeps what nobody gives back.
-    for (const part of group.children) if (part instanceof Mesh) part.geometry.dispose();
-    group.clear();
-  }
-  if (model === "discrete") {
-    figure.group.add(new Mesh(geometry, new MeshLambertMaterial({ color: COLOURS.discrete })));
-  } else {
-    // Never hidden by the solid body of the other model.
-    const material = new LineMaterial({ color: new Color(COLOURS.continuous).getHex(), linewidth: 2, depthTest: false, transparent: true });
-    figure.group.add(new LineSegments2(outlineOf(body), material));
-  }
-  figure.shadow.add(new Mesh(geometry, shadowMaterial()));
-}
-
-/** Edges of a box; of a thick rod its ends and four lines along it, of a thin one its outline as seen from the side. */
-function outlineOf(body: Body): LineSegmentsGeometry {
-  const outline = new LineSegmentsGeometry();
-  if (body.shape === "box") return outline.fromEdgesGeometry(new EdgesGeometry(geometryOf(body), 1));
-  const half = body.length / 2;
-  if (body.radius > THICK * body.length) return outline.setPositions(cage(half, body.radius));
-  const radius = Math.max(body.radius, 1.4 * THINNEST * body.length);
-  const corners = [[-half, 0, -radius], [half, 0, -radius], [half, 0, radius], [-half, 0, radius]];
-  return outline.setPositions(corners.flatMap((corner, i) => [...corner, ...(corners[(i + 1) % 4] ?? [])]));
-}
-
-function cage(half: number, radius: number): number[] {
-  const parts = 24;
-  const at = (x: number, i: number): number[] =>
-    [x, radius * Math.cos((2 * Math.PI * i) / parts), radius * Math.sin((2 * Math.PI * i) / parts)];
-  const all = Array.from({ length: parts }, (_, i) => i);
-  const circles = all.flatMap((i) => [-half, half].flatMap((x) => [...at(x, i), ...at(x, i + 1)]));
-  return [...circles, ...all.filter((i) => i % (parts / 4) === 0).flatMap((i) => [...at(-half, i), ...at(half, i)])];
-}
-
-/** Of a box its edges; of a rod, which has none along itself, its outline. */
-function silhouetteOf(body: Body): BufferGeometry {
-  if (body.shape === "box") return new EdgesGeometry(geometryOf(body), 1);
-  const radius = Math.max(body.radius, THINNEST * body.length);
-  return new BufferGeometry().setAttribute("position", new Float32BufferAttribute(cage(body.length / 2, radius), 3));
+  // The graphics card keeps what nobody gives back.
+  for (const group of [figure.group, figure.shadow]) group.traverse((part) => { if (part instanceof Mesh) part.geometry.dispose(); });
+  figure.group.clear();
+  figure.shadow.clear();
+  figure.group.add(figureOf(body, model));
+  figure.shadow.add(new Mesh(geometryOf(body), shadowMaterial()));
 }
 
 function shadowMaterial(): Material {

@@ -1,7 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Impacts in words: the line below the picture, which a screen reader reads aloud.
 import type { Impact } from "./answers";
+import { BODIES, type BodyName } from "./body";
 import { significant } from "./format";
+import type { Parameters } from "./parameters";
+
+/** What a body is to the models, if that is not what one sees. */
+const BODY_NOTES: Readonly<Partial<Record<BodyName, string>>> = {
+  rod: "The rod of the continuous model has a radius of 1 cm.",
+  phone: "The phone is a box to both models; its round corners are drawn alone.",
+  coin: "The angle is that of the coin’s axis: at 90° it lies flat. Ends a and b are its faces.",
+  tube: "The tube has a thin wall; its lids have no mass.",
+};
+
+export function bodyInWords(body: BodyName): string {
+  return BODY_NOTES[body] ?? "";
+}
+
+/** What is dropped, in one sentence. */
+export function dropInWords({ body, angle, tilt, turn, drop, height, speed, gravity, e, friction }: Parameters): string {
+  const leans = turn === "plane" || turn === "tilted" ? `, inclined by ${significant(angle, 4)}°${turn === "tilted" ? ` and turned by ${significant(tilt, 4)}° before` : ""}` : "";
+  const falls = drop === "height" ? `, let go ${significant(height, 4)} m above the floor` : drop === "speed" ? `, comes down at ${significant(speed, 4)} m/s` : "";
+  const floor = friction > 0 ? `, friction μ = ${significant(friction, 4)}` : "";
+  return `${BODIES[body].title}${leans}${falls}. Gravity ${significant(gravity, 4)} m/s², restitution e = ${significant(e, 4)}${floor}.`;
+}
 
 /** How hard a blow is, compared with another. */
 export function comparison(ratio: number): string {

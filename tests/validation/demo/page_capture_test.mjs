@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What one takes along from the page of `clatter demo`: the picture, a film of the drop, and one page for a class.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { onPage } from "./page_browser.mjs";
+
+const DROP = "#predict=0&hide=map,explain&angle=20&rate=2&impacts=2";
+/** Of the discrete model's body, and of the words in the picture. */
+const BODY = [0, 114, 178];
+const WORDS = [10, 61, 98];
+
+/** Keeps what the page hands to the browser as a file: not every browser tells of a download. */
+function keepFiles() {
+  globalThis.files = [];
+  const make = URL.createObjectURL;
+  URL.createObjectURL = (blob) => {
+    if (/^(image|video)/.test(blob.type)) globalThis.files.push(blob);
+    return make(blob);
+  };
+}
+
+async function fileOf(page, button, type) {
+  await page.click(button);
+  await page.waitForFunction((kind) => globalThis.files.some((file) => file.type.startsWith(kind)), type);
+  const [kind, text] = await page.evaluate((wanted) => new Promise((done) => {
+    const file = globalThis.files.find((one) => one.type.startsWith(wanted));
+    const reader = new FileReader();
+    reader.onload = () => done([file.type, reader.result.split(",")[1]]);
+    reader.readAsDataURL(file);
+  }), type);
+  return { type: kind, bytes: Buffer.from(text, "base64") };
+}
+
+/** How many points of a picture or of a film's last one have about these colours, and how large it is. */
+async function looked(context, { bytes, type }, colours) {
+  const page = await context.newPage();
+  const answer = await page.evaluate(async ([text, kind, wanted]) => {
+    const isFilm = kind.startsWith("video");
+    const source = isFilm ? Object.assign(document.createElement("video"), { muted: true }) : new Image();
+    source.src = `data:${kind};base64,${text}`;
+    if (isFilm) {
+      await new Promise((done) => { source.onloadeddata = done; });
+      source.currentTime = source.duration - 0.5;  // the last picture stays for 0.7 s
+      await new Promise((done) => { source.onseeked = done; });
+    } else await source.decode();
+    const [width, height] = isFilm ? [source.videoWidth, source.videoHeight] : [source.naturalWidth, source.naturalHeight];
+    const canvas = Object.assign(document.createElement("canvas"), { width, height });
+    const drawing = canvas.getContext("2d");
+    drawing.drawImage(source, 0, 0);
+    const { data } = drawing.getImageData(0, 0, width, height);
+    // Light and the film's compression change a colour a little.
+    const counts = wanted.map((colour) => {
+      let count = 0;
+      for (let i = 0; i < data.length; i += 4) if (colour.every((part, k) => Math.abs(data[i + k] - part) < 40)) count += 1;
+      return count;
+    });
+    return { width, height, counts };
+  }, [bytes.toString("base64"), type, colours]);
+  await page.close();
+  return answer;
+}
+
+for (const browser of ["chromium", "firefox"]) {
+  test(`in ${browser} the picture is a file with its numbers, and the drop is a film of its size that ends with the last blow`, () => onPage(DROP, async (page, context) => {
+    await page.waitForSelector('tr[data-model="continuous"]');
+    await page.click("#next");
+    const { width, height } = await page.locator("#stage").boundingBox();
+    const picture = await fileOf(page, "#picture", "image");
+    assert.deepEqual([...picture.bytes.subarray(1, 4)], [...Buffer.from("PNG")]);
+    const shown = await looked(context, picture, [BODY, WORDS]);
+    assert.ok(Math.abs(shown.width - width) <= 2 && shown.height > height, `${shown.width} × ${shown.height}`);
+    for (const count of shown.counts) assert.ok(count > 200, String(shown.counts));
+
+    const film = await fileOf(page, "#film", "video");
+    if (film.type === "video/webm") assert.equal(film.bytes.subarray(0, 4).toString("hex"), "1a45dfa3");
+    const last = await looked(context, film, [BODY, WORDS]);
+    assert.deepEqual([last.width, last.height], [shown.width, shown.height]);
+    for (const count of last.counts) assert.ok(count > 200, String(last.counts));
+    assert.equal(await page.textContent("#film"), "Film");
+    assert.equal(await page.getAttribute("#play", "aria-label"), "Play");
+  }, { browser, before: keepFiles }));
+}
+
+test("the handout is one page: the drop in words, its picture, its blows, and questions that tell no answer", () => onPage("#predict=0&body=phone&height=1&gravity=9.81&e=0.8&stiffness=1e8", async (page) => {
+  await page.waitForSelector('tr[data-model="continuous"]');
+  await page.waitForSelector("#explain-steps .katex");
+  await page.click("#handout-print");
+  assert.equal(await page.evaluate(() => globalThis.printing), true);
+  await page.emulateMedia({ media: "print" });
+  for (const part of ["#handout", "#stage", "#panel-strip", "#panel-profile"]) assert.equal(await page.isVisible(part), true, part);
+  for (const part of ["#panel-explain", "#panel-table", "#story", "#panel-map", "#panel-controls"]) assert.equal(await page.isVisible(part), false, part);
+  assert.match(await page.textContent("#handout-drop"), /^Phone, 106 mm, inclined by 10\.00°, let go 1\.000 m above the floor\. Gravity 9\.810 m\/s², restitution e = 0\.8000\.$/);
+  const paper = (await page.pdf({ format: "A4" })).toString("latin1");
+  assert.equal(paper.match(/\/Type\s*\/Page\b/g).length, 1);
+}, { before: () => { window.print = () => { globalThis.printing = document.body.classList.contains("handout"); }; } }));

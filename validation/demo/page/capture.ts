@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The picture as a file, with the names and numbers that stand in it and the line below: one moment as PNG, the whole drop as a film.
+import { byId } from "./dom";
+import { download } from "./files";
+
+const LINE = 40; // below the picture, for the caption [px]
+/** The first that the browser writes. */
+const FILMS = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm", "video/mp4"];
+/** The last picture of a film stays so long [ms]. */
+const STAYS = 700;
+
+/** What the film asks of the page. */
+export interface Projector {
+  /** Draws the picture now, which a canvas keeps only until the browser has shown it. */
+  redraw(): void;
+  playFromStart(): void;
+}
+
+export class Capture {
+  private readonly stage = byId("stage");
+  private readonly paper = document.createElement("canvas");
+  private readonly button = byId<HTMLButtonElement>("film");
+  private recorder: MediaRecorder | null = null;
+
+  constructor(private readonly projector: Projector) {
+    byId("picture").addEventListener("click", () => {
+      this.projector.redraw();
+      this.paint();
+      this.paper.toBlob((blob) => { if (blob) download("clatter.png", blob, "image/png"); });
+    });
+    this.button.hidden = typeof MediaRecorder === "undefined";
+    this.button.addEventListener("click", () => { if (this.recorder) this.stop(); else this.start(); });
+  }
+
+  /** After each picture that the playback has drawn. */
+  drawn(ended: boolean): void {
+    if (!this.recorder) return;
+    this.paint();
+    // A film lasts until its last picture.
+    if (ended) setTimeout(() => { this.projector.redraw(); this.paint(); requestAnimationFrame(() => this.stop()); }, STAYS);
+  }
+
+  private start(): void {
+    this.projector.redraw();
+    this.paint();
+    const type = FILMS.find((one) => MediaRecorder.isTypeSupported(one)) ?? "";
+    const recorder = new MediaRecorder(this.paper.captureStream(), { mimeType: type, videoBitsPerSecond: 6e6 });
+    const parts: Blob[] = [];
+    recorder.addEventListener("dataavailable", ({ data }) => parts.push(data));
+    recorder.addEventListener("stop", () => {
+      const kind = type.split(";")[0] ?? "";
+      download(`clatter.${kind.slice(kind.indexOf("/") + 1)}`, new Blob(parts, { type: kind }), kind);
+    });
+    recorder.start();
+    this.recorder = recorder;
+    this.label();
+    this.projector.playFromStart();
+  }
+
+  private stop(): void {
+    if (this.recorder?.state === "recording") this.recorder.stop();
+    this.recorder = null;
+    this.label();
+  }
+
+  private label(): void {
+    this.button.textContent = this.recorder ? "Stop filming" : "Film";
+    this.button.setAttribute("aria-pressed", String(this.recorder !== null));
+  }
+
+  /** The picture and all words over it, as they stand on the screen, with the caption below. */
+  private paint(): void {
+    const canvas = this.stage.querySelector("canvas") as HTMLCanvasElement;
+    const { width, height, left, top } = this.stage.getBoundingClientRect();
+    const sharp = canvas.width / width;
+    // Even, as films ask for.
+    const size = [width, height + LINE].map((side) => 2 * Math.round((side * sharp) / 2));
+    // A canvas that is given its size again is emptied.
+    if (this.paper.width !== size[0] || this.paper.height !== size[1]) Object.assign(this.paper, { width: size[0], height: size[1] });
+    const context = this.paper.getContext("2d") as CanvasRenderingContext2D;
+    const colour = (name: string): string => getComputedStyle(document.documentElement).getPropertyValue(name);
+    context.setTransform(sharp, 0, 0, sharp, 0, 0);
+    const sky = context.createLinearGradient(0, 0, 0, 0.62 * height);
+    sky.addColorStop(0, colour("--hover"));
+    sky.addColorStop(1, colour("--paper"));
+    context.fillStyle = sky;
+    context.fillRect(0, 0, width, height + LINE);
+    context.drawImage(canvas, 0, 0, width, height);
+    context.textBaseline = "middle";
+    for (const words of this.stage.querySelectorAll<HTMLElement>(".stage-label, #pace, .names span")) write(context, words, left, top);
+    context.font = "15px system-ui, sans-serif";
+    context.fillStyle = colour("--ink");
+    context.fillText(byId("caption").textContent ?? "", 12, height + LINE / 2, width - 24);
+  }
+}
+
+function write(context: CanvasRenderingContext2D, element: HTMLElement, left: number, top: number): void {
+  const { x, y, width, height } = element.getBoundingClientRect();
+  if (width === 0) return;
+  const { font, color, backgroundColor } = getComputedStyle(element);
+  context.fillStyle = backgroundColor;
+  context.fillRect(x - left, y - top, width, height);
+  context.font = font;
+  context.fillStyle = color;
+  const text = element.textContent ?? "";
+  context.fillText(text, x - left + (width - context.measureText(text).width) / 2, y - top + height / 2);
+}
