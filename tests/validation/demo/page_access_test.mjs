@@ -54,6 +54,19 @@ for (const colorScheme of themesOf(STATES.length)) {
   }, { colorScheme }));
 }
 
+for (const colorScheme of ["light", "dark"]) {
+  test(`axe finds nothing serious in the story, asking and telling, in ${colorScheme}`, () => onPage("#predict=0&hide=map,explain", async (page) => {
+    await page.waitForSelector('tr[data-model="continuous"]');
+    await page.click("#story-start");
+    await page.waitForSelector("#story-1[data-current]");
+    await nothingSeriousInAnySize(page);
+    await page.focus("#story-1 button");
+    await page.keyboard.press("Enter");
+    await page.waitForSelector('#story-1[data-state="tells"]');
+    await nothingSeriousInAnySize(page);
+  }, { colorScheme }));
+}
+
 test("scene files, attitude, strip and story can be reached by the keyboard alone", () => onPage("#predict=0&body=phone&turn=attitude&q0=1&q1=0&q2=0&q3=0", async (page) => {
   await page.waitForSelector('[data-strip="discrete-1"]');
   const reached = new Set();
@@ -65,7 +78,11 @@ test("scene files, attitude, strip and story can be reached by the keyboard alon
     });
     reached.add(name);
   }
-  for (const wanted of ["scene-file", "download-scene", "copy-scene", "turn", "q0", "Turn about x −15°", "drop", "spinning", "sound", "discrete-1", "story-1"]) {
+  for (const wanted of ["scene-file", "download-scene", "copy-scene", "turn", "q0", "Turn about x −15°", "drop", "spinning", "sound", "discrete-1", "race-time", "measured-play", "story-start"]) {
     assert.ok(reached.has(wanted), `${wanted} is not among ${[...reached].join(", ")}`);
   }
+  await page.focus("#story-start");
+  await page.keyboard.press("Enter");
+  await page.keyboard.press("Tab");
+  assert.equal(await page.evaluate(() => document.activeElement.closest("li").id), "story-1");
 }));

@@ -38,16 +38,23 @@ async function looked(context, { bytes, type }, colours) {
     const isFilm = kind.startsWith("video");
     const source = isFilm ? Object.assign(document.createElement("video"), { muted: true }) : new Image();
     source.src = `data:${kind};base64,${text}`;
-    if (isFilm) {
-      await new Promise((done) => { source.onloadeddata = done; });
-      source.currentTime = source.duration - 0.5;  // the last picture stays for 0.7 s
-      await new Promise((done) => { source.onseeked = done; });
-    } else await source.decode();
+    await (isFilm ? new Promise((done) => { source.onloadeddata = done; }) : source.decode());
     const [width, height] = isFilm ? [source.videoWidth, source.videoHeight] : [source.naturalWidth, source.naturalHeight];
     const canvas = Object.assign(document.createElement("canvas"), { width, height });
     const drawing = canvas.getContext("2d");
-    drawing.drawImage(source, 0, 0);
-    const { data } = drawing.getImageData(0, 0, width, height);
+    const look = () => {
+      drawing.drawImage(source, 0, 0);
+      return drawing.getImageData(0, 0, width, height).data;
+    };
+    let data = look();
+    // Not every browser has a picture until the very end: the last one that it has.
+    for (let at = source.duration; isFilm && at > 0; at -= 0.1) {
+      source.currentTime = at;
+      await new Promise((done) => { source.onseeked = done; });
+      drawing.clearRect(0, 0, width, height);
+      data = look();
+      if (data[3] > 0) break;
+    }
     // Light and the film's compression change a colour a little.
     const counts = wanted.map((colour) => {
       let count = 0;

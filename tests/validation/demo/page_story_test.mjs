@@ -12,7 +12,7 @@ const has = (text, value, digits) => {
 
 async function storyOf(page) {
   await page.waitForSelector("#story", { state: "attached" });
-  return page.locator("#story li p").allTextContents();
+  return page.locator("#story .reveal p").allTextContents();
 }
 
 onOnePage("the page as one finds it", "", {
@@ -42,6 +42,7 @@ onOnePage("the page as one finds it", "", {
   "a step of the story is shown in the picture, and opens as a link by itself": async (page, context) => {
     await page.waitForSelector("#prediction:not([hidden])");
     await page.click("#prediction-skip");
+    await page.click("#story-start");
     await page.click("#story-4 a");
     assert.equal(await page.inputValue("#angle"), "58.48");
     await page.waitForFunction(() => /^Impact 2: end b/.test(document.getElementById("caption").textContent));
@@ -54,12 +55,76 @@ onOnePage("the page as one finds it", "", {
   },
 });
 
+/** Scrolls a step to where the story takes it up, and waits for its drop. */
+async function scrollTo(page, step, angle) {
+  await page.locator(`#story-${step}`).evaluate((one) => one.scrollIntoView({ block: "end" }));
+  await page.waitForSelector(`#story-${step}[data-current]`);
+  await page.waitForFunction((wanted) => document.getElementById("angle").value === wanted && document.getElementById("caption").textContent === "Falling"
+    && document.getElementById("spinner").textContent === "", angle);
+}
+
+for (const [browser, viewport] of [["chromium", LARGE], ["firefox", LARGE], ["chromium", { width: 390, height: 844 }]]) {
+  test(`in ${browser}, ${viewport.width} wide, the picture stays while the story scrolls: each step asks, plays and then tells`, () => onPage("#predict=0&hide=explain", async (page) => {
+    await page.waitForSelector('tr[data-model="continuous"]');
+    const ratio = (flags) => { const [one, two] = sequence(...flags).impacts; return two.impulse_normal / one.impulse_normal; };
+    const phone = printed("simulate", "phone-elastic", "--impacts", "2").impacts;
+    assert.equal(sequence("--angle", "58.49").impacts.length, 1);
+    // What is nearest to the program's numbers.
+    const answers = [["About a quarter of that", sequence("--angle", "10").impacts[0].impulse_normal / 2 / 0.25], ["Twice as hard", ratio(["--angle", "10"]) / 2],
+      ["Twice as hard", ratio(["--angle", "0.1"]) / 2], ["It comes later and then not at all", 1], ["The second", phone[1].impulse_normal / phone[0].impulse_normal / 2]];
+    const angles = ["10", "10", "1", "58.48", "10"];
+    await page.click("#story-start");
+    for (const [i, [answer, share]] of answers.entries()) {
+      assert.ok(share > 0.8 && share < 1.2, `${answer}: ${share}`);
+      const step = page.locator(`#story-${i + 1}`);
+      await scrollTo(page, i + 1, angles[i]);
+      const { top, bottom } = await page.locator("#stage").evaluate((stage) => stage.getBoundingClientRect());
+      assert.ok(top >= 0 && bottom < 0.72 * viewport.height, `${top} to ${bottom}`);
+      for (const part of [".reveal", ".show"]) assert.equal(await step.locator(part).isVisible(), part === ".show", part);
+      assert.equal(await page.isVisible("#impact-table"), false);
+      // The first step is guessed wrong.
+      const guess = step.locator("button", { hasText: i === 0 ? /^2 N/ : answer });
+      await guess.focus();
+      await page.keyboard.press("Enter");
+      await page.waitForSelector(`#story-${i + 1}[data-state="tells"]`);
+      assert.equal(await step.locator(".verdict").textContent(), i === 0 ? `A surprise: ${answer.toLowerCase()}.` : "You guessed it.");
+      assert.equal(await step.locator(".reveal").isVisible(), true);
+    }
+    assert.equal(await page.isVisible("#impact-table"), true);
+    await page.click("#story-start");
+    assert.equal(await page.isVisible("#story-1"), false);
+  }, { browser, viewport }));
+}
+
+test("a step of the story tells only when the picture has come to the blow", () => onPage("#predict=0&hide=explain,map", async (page) => {
+  await page.waitForSelector('tr[data-model="continuous"]');
+  await page.click("#story-start");
+  await scrollTo(page, 2, "10");
+  // Frames come when the test gives them.
+  await page.evaluate(() => {
+    const waiting = [];
+    window.requestAnimationFrame = (frame) => waiting.push(frame);
+    let now = 1000;
+    globalThis.isPlaying = () => waiting.length > 0;
+    globalThis.frames = (until) => { for (let i = 0; i < 2000 && !until(); i++) { now += 50; for (const frame of waiting.splice(0)) frame(now); } };
+  });
+  await page.locator("#story-2 button", { hasText: "Twice" }).click();
+  await page.waitForFunction(() => globalThis.isPlaying(), null, { polling: 50 });
+  const caption = () => page.textContent("#caption");
+  await page.evaluate(() => globalThis.frames(() => /^Impact 1/.test(document.getElementById("caption").textContent)));
+  assert.match(await caption(), /^Impact 1/);
+  assert.equal(await page.getAttribute("#story-2", "data-state"), "waits");
+  assert.equal(await page.textContent("#story-2 .verdict"), "Watch …");
+  await page.evaluate(() => globalThis.frames(() => /^Impact 2/.test(document.getElementById("caption").textContent)));
+  assert.equal(await page.getAttribute("#story-2", "data-state"), "tells");
+}, { reducedMotion: "no-preference" }));
+
 for (const [name, viewport] of [["large", LARGE], ["narrow", NARROW]]) {
   test(`without JavaScript the story stands there as text and pictures, on a ${name} screen`, async () => {
     await onPage("", async (page) => {
       assert.equal((await storyOf(page)).length, 5);
       for (const step of [1, 2, 3, 4, 5]) {
-        for (const part of ["h3", "p", "svg[role=img][aria-label]"]) {
+        for (const part of ["h3", ".reveal p", "svg[role=img][aria-label]"]) {
           const box = await page.locator(`#story-${step} ${part}`).boundingBox();
           assert.ok(box && box.width > 100 && box.x >= 0 && box.x + box.width <= viewport.width, `${step} ${part}`);
         }

@@ -21,3 +21,9 @@ export function make<Tag extends keyof HTMLElementTagNameMap>(
   element.append(...children);
   return element;
 }
+
+/** Words that are said again would be read aloud again. */
+export function say(id: string, words: string): void {
+  const line = byId(id);
+  if (line.textContent !== words) line.textContent = words;
+}

@@ -6,13 +6,14 @@ import { EnergyBars, ForceChart } from "./charts";
 import type { Body } from "./body";
 import { Capture } from "./capture";
 import { Controls } from "./controls";
-import { byId } from "./dom";
+import { byId, say } from "./dom";
 import { Explanation } from "./explain";
 import { download } from "./files";
 import { frameAt, heldFrame, impactAt, scalesOf, type ModelName, type Scales } from "./frame";
 import { Grab, heldInWords, heldRotation, type Held } from "./grab";
 import { setUpLecture } from "./lecture";
 import { AngleMap } from "./map";
+import { setUpMeasured } from "./measured";
 import { Models } from "./models";
 import { Numbers } from "./numbers";
 import { OrbitControl } from "./orbit";
@@ -22,6 +23,7 @@ import { showPatch } from "./patch_panel";
 import { Player, TimeWarp } from "./playback";
 import { Prediction } from "./prediction";
 import { showProfile } from "./profile";
+import { setUpRace } from "./race";
 import { explainRequest, gravityNumber } from "./requests";
 import { firstSpeed, restitutionOf } from "./restitution";
 import { SceneFile } from "./scene_file";
@@ -29,7 +31,7 @@ import { setUpSharing } from "./sharing";
 import { Sound } from "./sound";
 import { Stage } from "./stage";
 import { readAddress, usualLayout, writeAddress, type State } from "./state";
-import { setUpStory } from "./story";
+import { Story } from "./story";
 import { Strip } from "./strip";
 import { ImpactTable, csvOf } from "./table";
 import { Transport } from "./transport";
@@ -87,6 +89,20 @@ class Page {
     playFromStart: () => { if (!this.prediction.isOpen) this.playAnew(); },
   });
 
+  private readonly story = new Story(this.state, {
+    onEnter: () => {
+      this.showAnew();
+      this.followsImpact = false;
+      this.state.time = -Infinity;
+    },
+    onPlay: () => {
+      if (!matchMedia("(prefers-reduced-motion: reduce)").matches) return this.playSoon(0);
+      this.goTo(this.state.impact);
+      this.state.time = NaN;  // if the drop is still being computed
+    },
+    onShow: () => this.showAnew(),
+  });
+
   private readonly models = new Models({
     onAnswer: () => this.onAnswer(),
     onError: (model, error) => this.controls.setError(model, error),
@@ -102,11 +118,6 @@ class Page {
     this.transport.setSettings(state.rate, state.slow, state.lock);
     this.showLayout = setUpLayout(state, () => this.onTime());
     new SceneFile(state, () => this.showAnew());
-    setUpStory(state, () => {
-      this.prediction.dismiss();
-      this.showAnew();
-      byId("motion").scrollIntoView();
-    });
     setUpSharing(state, () => this.syncTime(), (asks) => { if (asks) this.prediction.open(); });
     byId("csv").addEventListener("click", () => download("impacts.csv", csvOf(this.models.impacts), "text/csv"));
     if (state.predict) this.prediction.open();
@@ -162,6 +173,7 @@ class Page {
     this.scales = scalesOf(models.motions);
     this.rewarp();
     this.prediction.setImpacts(models.steps);
+    this.story.setImpacts(models.steps);
     this.table.show(models.impacts, models.pairing, this.state.impact);
     this.strip.show(models.motions, models.pairing, this.state.impact);
     byId("outcome").textContent = models.discrete ? outcomeInWords(models.discrete.outcome) : "";
@@ -173,6 +185,7 @@ class Page {
       const impact = this.followsImpact || Number.isNaN(this.state.time) ? this.models.steps[this.state.impact - 1] : undefined;
       if (impact) this.state.time = impact.start;
       this.player.seek(this.state.time || 0);
+      this.story.seen(this.player.time, false);
     }
     this.hasShown = true;
     // The time that is wanted stays, even if it lies beyond what the first model to answer can show.
@@ -199,6 +212,7 @@ class Page {
     this.draw();
     this.capture.drawn(ended);
     this.prediction.seen(this.player.time, ended);
+    this.story.seen(this.player.time, ended);
     if (!this.player.playing) this.remember();
   }
 
@@ -217,7 +231,7 @@ class Page {
       const { parameters } = state;
       const rotation = heldRotation(this.held, tiltOf(parameters));
       this.stage.draw(heldFrame(bodyOf(parameters), rotation, this.held.height, heldInWords(this.held)), this.orbit.orbit);
-      say(`In your hand: ${heldInWords(this.held)}. Let go to drop it.`);
+      say("caption", `In your hand: ${heldInWords(this.held)}. Let go to drop it.`);
       return;
     }
     const impact = impactAt(this.models.steps, time);
@@ -231,7 +245,7 @@ class Page {
     this.force.setTime(time);
     showPatch(this.models.motions.continuous, this.models.continuous?.history ?? null, time);
     this.transport.show(time, player.progress, player.playing, player.slowness);
-    say(impact ? impactInWords(this.models.steps, impact.n) : "Falling");
+    say("caption", impact ? impactInWords(this.models.steps, impact.n) : "Falling");
   }
 
   private choose(n: number): void {
@@ -380,10 +394,6 @@ class Page {
   }
 }
 
-/** Words that are said again would be read aloud again. */
-function say(words: string): void {
-  const line = byId("caption");
-  if (line.textContent !== words) line.textContent = words;
-}
-
 new Page();
+setUpRace();
+setUpMeasured();

@@ -7,7 +7,7 @@ import {
 } from "./parameters";
 import { numberOf, parametersOf } from "./scene_arguments";
 
-export const PANELS = ["story", "strip", "numbers", "profile", "table", "force", "energy", "map", "explain"] as const;
+export const PANELS = ["story", "strip", "numbers", "profile", "table", "force", "energy", "map", "race", "measured", "explain"] as const;
 
 export interface State {
   parameters: Parameters;

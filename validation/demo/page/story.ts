@@ -1,18 +1,135 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The story that the build wrote into the page: each of its steps can be shown in the picture.
-import { stateOf, assignUnlocked, type State } from "./state";
+// The story that the build wrote into the page. Once it is asked for, the picture stays while one scrolls: the step that comes up is put
+// there as it is before the drop, asks for a guess, plays, and tells what happened when the picture has shown it.
+import type { Impact } from "./answers";
+import { byId } from "./dom";
+import { assignUnlocked, stateOf, type State } from "./state";
 
-/** Without this code the steps' links open the page anew. */
-export function setUpStory(state: State, onShow: () => void): void {
-  for (const link of document.querySelectorAll<HTMLAnchorElement>("#story a[href^='#']")) {
-    if (state.lock.includes("story")) link.removeAttribute("href");
-    link.addEventListener("click", (event) => {
-      event.preventDefault();
-      if (state.lock.includes("story")) return;
-      const wanted = stateOf(new URL(link.href).hash.slice(1));
-      assignUnlocked(state, wanted.parameters);
-      Object.assign(state, { impact: wanted.impact, time: NaN });
-      onShow();
-    });
+export interface Teller {
+  /** A new situation in the picture, before the drop. */
+  onEnter(): void;
+  onPlay(): void;
+  /** The picture at an impact. */
+  onShow(): void;
+}
+
+/** The line of the window that a step has to reach: below the picture. */
+const LINE = "-74% 0px -25% 0px";
+
+export class Story {
+  private readonly steps = [...document.querySelectorAll<HTMLElement>("#story li")];
+  private readonly button = byId<HTMLButtonElement>("story-start");
+  private readonly watcher = new IntersectionObserver((seen) => this.arrived(seen), { rootMargin: LINE });
+  private current: HTMLElement | null = null;
+  /** Of the current step; the drop that it tells of. */
+  private impacts: readonly Impact[] | null = null;
+  private n = 1;
+
+  constructor(private readonly state: State, private readonly teller: Teller) {
+    this.button.addEventListener("click", () => this.tell(!document.body.classList.contains("telling")));
+    for (const step of this.steps) {
+      const link = step.querySelector("a") as HTMLAnchorElement;
+      if (this.isLocked) link.removeAttribute("href");
+      link.addEventListener("click", (event) => {
+        event.preventDefault();
+        if (this.isLocked) return;
+        this.put(step);
+        this.reveal(step);
+        this.bringUp(step);
+        teller.onShow();
+      });
+      step.addEventListener("focusin", () => { if (!this.isLocked) this.enter(step); });
+      for (const choice of step.querySelectorAll("button")) choice.addEventListener("click", () => this.guess(step, choice));
+    }
+  }
+
+  /** The drop that the picture now has. */
+  setImpacts(impacts: readonly Impact[]): void {
+    this.impacts = impacts;
+  }
+
+  /** What the picture shows; once that is the blow that the step tells of, or the end, it tells. */
+  seen(time: number, ended: boolean): void {
+    const step = this.current;
+    if (step?.dataset["state"] !== "waits" || !this.impacts) return;
+    const blow = this.impacts[this.n - 1];
+    if (blow ? time >= blow.start : ended) this.reveal(step);
+  }
+
+  private get isLocked(): boolean {
+    return this.state.lock.includes("story");
+  }
+
+  private tell(on: boolean): void {
+    document.body.classList.toggle("telling", on);
+    this.button.setAttribute("aria-expanded", String(on));
+    this.button.textContent = on ? "End the story" : "Tell it";
+    this.watcher.disconnect();
+    this.current = null;
+    this.mark();
+    if (!on || this.isLocked) return;
+    for (const step of this.steps) {
+      step.dataset["state"] ??= "asks";
+      this.watcher.observe(step);
+    }
+    if (this.steps[0]) this.bringUp(this.steps[0]);
+  }
+
+  private arrived(seen: IntersectionObserverEntry[]): void {
+    const step = seen.find(({ isIntersecting }) => isIntersecting)?.target;
+    if (step) this.enter(step as HTMLElement);
+  }
+
+  private enter(step: HTMLElement): void {
+    if (this.current === step || !document.body.classList.contains("telling")) return;
+    this.put(step);
+    this.teller.onEnter();
+  }
+
+  /** The step's situation into the page's. */
+  private put(step: HTMLElement): void {
+    this.current = step;
+    this.impacts = null;
+    const wanted = stateOf(new URL((step.querySelector("a") as HTMLAnchorElement).href).hash.slice(1));
+    this.n = wanted.impact;
+    assignUnlocked(this.state, wanted.parameters);
+    Object.assign(this.state, { impact: wanted.impact, time: NaN });
+    this.mark();
+  }
+
+  private guess(step: HTMLElement, choice: HTMLButtonElement): void {
+    if (step.dataset["state"] !== "asks") return;
+    this.enter(step);
+    this.bringUp(step);
+    choice.dataset["chosen"] = "";
+    step.dataset["state"] = "waits";
+    this.say(step, "Watch …");
+    this.mark();
+    this.teller.onPlay();
+  }
+
+  /** Else the one that stands there now would come back as soon as something moves. */
+  private bringUp(step: HTMLElement): void {
+    step.scrollIntoView({ block: "end" });
+  }
+
+  private reveal(step: HTMLElement): void {
+    const chosen = step.querySelector<HTMLElement>("[data-chosen]");
+    const right = step.querySelector<HTMLElement>("[data-right]");
+    if (chosen && step.dataset["state"] === "waits") this.say(step, chosen === right ? "You guessed it." : `A surprise: ${right?.textContent?.toLowerCase() ?? ""}.`);
+    if (step.dataset["state"]) step.dataset["state"] = "tells";
+    this.mark();
+  }
+
+  private say(step: HTMLElement, words: string): void {
+    const line = step.querySelector(".verdict");
+    if (line) line.textContent = words;
+  }
+
+  /** Which step the picture shows; while that asks nothing else on the page may tell. */
+  private mark(): void {
+    for (const step of this.steps) step.toggleAttribute("data-current", step === this.current && document.body.classList.contains("telling"));
+    const state = this.current?.dataset["state"];
+    document.body.classList.toggle("asking", document.body.classList.contains("telling") && (state === "asks" || state === "waits"));
   }
 }

@@ -57,6 +57,12 @@ function barPicture(bars, unit, words) {
   }));
 }
 
+/** The place of the number that is nearest by ratio. */
+function nearest(value, numbers) {
+  const distance = (number) => Math.abs(Math.log(value / number));
+  return numbers.reduce((best, number, i) => (distance(number) < distance(numbers[best]) ? i : best), 0);
+}
+
 /** Of the elastic thin rod of 1 m and 1 kg at 1 m/s. @param ask the models: (path, texts) → answer */
 export async function storyHtml(ask) {
   const rows = async (from, to, count) => (await ask("angles", { from: String(from), to: String(to), count: String(count) })).rows;
@@ -84,21 +90,29 @@ export async function storyHtml(ask) {
   const size = { body: "box", mass: "0.08814", size: "0.10566x0.04394x0.01905" };
   const phone = (await ask("simulate", { ...size, angle: "10", height: "1", gravity: "9.81", stiffness: "1e8", impacts: "2", planar: "true" })).impacts;
   const sum = (impacts) => impacts.reduce((all, { impulse_normal }) => all + impulse_normal, 0);
+  const flatBlow = 2;  // N·s: 1 kg at 1 m/s thrown back
+  const ofPhone = phone[1].impulse_normal / phone[0].impulse_normal;
   const steps = [{
-    title: "It strikes at an angle",
+    title: "At an angle",
+    question: "A thin rod of 1 m and 1 kg comes down at 1 m/s. If it landed flat, the blow would be 2 N·s. Now it leans by 10° and strikes with one end. How hard is that blow?",
+    choices: ["2 N·s, too", "About half of that", "About a quarter of that"], right: nearest(one.impulse_normal / flatBlow, [1, 1 / 2, 1 / 4]),
     picture: rodPicture({ degrees: 10, isLeft: true, impulse: one.impulse_normal, strongest: two.impulse_normal, words: "A rod that leans by 10° strikes with its left end" }),
     text: `A thin rod of 1 m and 1 kg comes down at 1 m/s and leans by 10°. The end that strikes takes ${significant(one.impulse_normal, 4)} N·s; a `
       + `rod that lands flat takes 2. A soft blow, but it sets the rod turning, at ${significant(one.angular_velocity_after[1], 4)} rad/s.`,
     link: "impact=1",
   }, {
-    title: "The second blow is harder",
+    title: "The other end",
+    question: "The first blow, on end a, was soft. Then end b comes down. How hard is the second blow, compared with the first?",
+    choices: ["Half as hard", "About as hard", "Twice as hard"], right: nearest(ratio(ten), [1 / 2, 1, 2]),
     picture: rodPicture({ degrees: two.contact_angle_deg, isLeft: false, impulse: two.impulse_normal, strongest: two.impulse_normal,
       words: `The rod has turned over its end and strikes with the right one, at ${two.contact_angle_deg.toFixed(2)}°` }),
     text: `The turning throws the other end down, at ${significant(two.approach_speed, 4)} m/s instead of 1. It strikes ${significant(two.start, 3)} s `
       + `later with ${significant(two.impulse_normal, 4)} N·s, ${significant(ratio(ten), 3)} times the first blow: this is clattering.`,
     link: "impact=2",
   }, {
-    title: "The flatter, the more: twice as hard",
+    title: "Flatter",
+    question: "Now the rod leans less: by 1°, by 0.1°, by less and less. What becomes of the second blow, compared with the first?",
+    choices: ["As hard as the first", "Twice as hard", "Harder and harder without a limit"], right: nearest(ratio(flat), [1, 2, 1e3]),
     picture: curvePicture({ curves: [{ points: doubling, kind: "beta", name: "P₂/P₁" }], yEnd: 2, axes: ["first angle θ in °", "second blow over first"],
       words: "The second blow over the first against the first angle: 2 for a flat rod, falling to 0" }),
     text: `At 10° the second blow is ${significant(ratio(ten), 4)} times the first, at 1° ${significant(ratio(await rod(1)), 5)}, at 0.1° `
@@ -106,7 +120,9 @@ export async function storyHtml(ask) {
       + `${significant((2 * flat[2].contact_angle_deg) / flat[0].contact_angle_deg, 5)}, and the three blows together make ${significant(sum(flat), 6)} N·s, those of the flat landing.`,
     link: "angle=1&amp;impact=2",
   }, {
-    title: "The fold: where it ends",
+    title: "Steeper",
+    question: "And steeper? Near 58° something happens to the second blow. What?",
+    choices: ["It becomes the hardest of all", "It comes later and then not at all", "It comes at the same time as the first"], right: doubling.at(-1)[1] < 1 ? 1 : 0,
     picture: curvePicture({
       curves: [{ points: await upTo(second, "beta_deg"), kind: "beta", name: "β", isFold: true },
         { points: await upTo(third, "gamma_deg"), kind: "gamma", name: "γ", isFold: true }],
@@ -117,15 +133,20 @@ export async function storyHtml(ask) {
       + `${significant(third.theta_deg, 6)}°.`,
     link: `angle=${significant(Math.floor(second.theta_deg * 100) / 100, 4)}&amp;impact=2`,
   }, {
-    title: "A phone does so, too",
+    title: "A phone",
+    question: "A phone falls from 1 m, leaning by 10°, on a springy floor where each contact takes its time. Which blow is harder?",
+    choices: ["The first", "Both alike", "The second"], right: nearest(ofPhone, [1 / 2, 1, 2]),
     picture: barPicture(phone.map(({ impulse_normal: value }, i) => ({ value, name: ["first blow", "second blow"][i] })), "N·s",
       "Impulses of the first and the second blow of a phone"),
     text: "A phone falls from 1 m at 10° on a springy floor. The other model follows it through each contact, as long as that lasts: the second impulse is "
       + `${significant(ratio(phone), 3)} times the first.`,
     link: "body=phone&amp;height=1&amp;gravity=9.81&amp;stiffness=1e8&amp;damping=0&amp;angle=10&amp;impact=2",
   }];
-  const items = steps.map(({ title, picture: drawn, text: words, link }, i) => `<li id="story-${i + 1}"><h3>${i + 1}. ${title}</h3>\n${drawn}\n<p>${words}</p>\n`
+  const items = steps.map(({ title, question, choices, right, picture: drawn, text: words, link }, i) => `<li id="story-${i + 1}"><h3>${i + 1}. ${title}</h3>\n<p class="ask">${question}</p>\n`
+    + `<div class="choices" role="group" aria-label="Your guess">${choices.map((choice, k) => `<button type="button"${k === right ? " data-right" : ""}>${choice}</button>`).join("")}</div>\n`
+    + `<p class="verdict" role="status"></p>\n<div class="reveal">\n${drawn}\n<p>${words}</p></div>\n`
     + `<a class="show" href="#predict=0&amp;${link}">Show step ${i + 1} in the picture</a></li>`);
-  return `<section id="story" aria-labelledby="story-title">\n<details open><summary><h2 id="story-title">The story in five steps</h2></summary>\n<ol>\n`
-    + `${items.join("\n")}\n</ol>\n</details>\n</section>`;
+  return `<section id="story" aria-labelledby="story-title">\n<div class="bar"><h2 id="story-title">The story in five steps</h2>`
+    + `<p class="hint">The picture stays while you scroll; each step asks, plays, tells.</p><button type="button" id="story-start" aria-expanded="false" aria-controls="story-steps">Tell it</button></div>\n`
+    + `<ol id="story-steps">\n${items.join("\n")}\n</ol>\n</section>`;
 }
