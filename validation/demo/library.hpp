@@ -103,10 +103,6 @@ template <class Range, class Out, class Condition>
 auto copy_if(Range&& range, Out out, Condition condition) {
   return std::copy_if(std::begin(range), std::end(range), out, condition);
 }
-template <class Range, class Place>
-auto rotate(Range&& range, Place middle) {
-  return std::rotate(std::begin(range), middle, std::end(range));
-}
 template <class Range, class Other>
 bool is_permutation(Range&& range, Other&& other) {
   return std::is_permutation(std::begin(range), std::end(range), std::begin(other), std::end(other));
