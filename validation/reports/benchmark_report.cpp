@@ -507,53 +507,60 @@ Requirement read_requirement(const std::optional<std::string>& text) {
   return {.verdict = static_cast<Verdict>(read_name_option("--require", *text, names)), .error = {}};
 }
 
-Picture score_picture(const std::vector<Submission>& submissions) {
-  using Style = FigureCurve::Style;
+namespace {
+
+void add_answer(const Submission& submission, double curve, PicturePanel& panel) {
   constexpr double least = 1e-17;  // an error of zero is drawn here
+  for (std::size_t n = 0; n < submission.score.impacts.size(); ++n) {
+    const ImpactScore& impact = submission.score.impacts[n];
+    const double error =
+        worse(worse(impact.law_error, impact.impulse_error), worse(impact.velocity_error, impact.angular_error));
+    panel.rows.push_back({curve, static_cast<double>(n + 1), std::isfinite(error) ? std::fmax(error, least) : NAN});
+  }
+  panel.plot.curves.push_back(
+      {.x = "impact",
+       .y = "error",
+       .legend = fmt::format("{}: {}", std::filesystem::path(submission.path).filename().string(),
+                             verdict_name(submission.verdict)),
+       .style = FigureCurve::Style::line_points,
+       .where = {{"curve", curve}}});
+}
+
+void add_classes(const std::vector<double>& tolerances, PicturePanel& panel) {
+  for (std::size_t k = 0; k < tolerances.size(); ++k) {
+    const double curve = -1 - static_cast<double>(k);
+    for (const double x : {panel.plot.x.low, panel.plot.x.high}) panel.rows.push_back({curve, x, tolerances[k]});
+    panel.plot.curves.push_back({.x = "impact",
+                                 .y = "error",
+                                 .legend = k == 0 ? "from below up to: exact, sharp, good, coarse" : "",
+                                 .style = FigureCurve::Style::dotted,
+                                 .where = {{"curve", curve}},
+                                 .colour = ink});
+  }
+}
+
+}  // namespace
+
+Picture score_picture(const std::vector<Submission>& submissions) {
   PicturePanel panel{.columns = {{"curve", "1", "number of the file; below 0 of a class of tolerance"},
                                  {"impact", "1", "number of the impact"},
                                  {"error", "1", "the largest of law, V, Omega and impulse"}},
                      .rows = {},
                      .plot = {.x_label = "number of the impact",
                               .y_label = "largest error, relative",
-                              .y = {least / 3, 10},
+                              .y = {3e-18, 10},
                               .legend_place = "beside",
                               .logarithmic_y = true,
                               .whole_x = true}};
   std::size_t most = 1;
   for (std::size_t file = 0; file < submissions.size(); ++file) {
-    const Submission& submission = submissions[file];
-    const double curve = static_cast<double>(file);
-    most = std::max(most, submission.score.impacts.size());
-    for (std::size_t n = 0; n < submission.score.impacts.size(); ++n) {
-      const ImpactScore& impact = submission.score.impacts[n];
-      const double error =
-          worse(worse(impact.law_error, impact.impulse_error), worse(impact.velocity_error, impact.angular_error));
-      panel.rows.push_back({curve, static_cast<double>(n + 1), std::isfinite(error) ? std::fmax(error, least) : NAN});
-    }
-    panel.plot.curves.push_back(
-        {.x = "impact",
-         .y = "error",
-         .legend = fmt::format("{}: {}", std::filesystem::path(submission.path).filename().string(),
-                               verdict_name(submission.verdict)),
-         .style = Style::line_points,
-         .where = {{"curve", curve}}});
-  }
-  const std::vector<double>& tolerances = problem_named("", submissions.front().head.problem).tolerances;
-  for (std::size_t k = 0; k < tolerances.size(); ++k) {
-    const double curve = -1 - static_cast<double>(k);
-    for (const double x : {0.5, static_cast<double>(most) + 0.5}) panel.rows.push_back({curve, x, tolerances[k]});
-    panel.plot.curves.push_back({.x = "impact",
-                                 .y = "error",
-                                 .legend = k == 0 ? "from below up to: exact, sharp, good, coarse" : "",
-                                 .style = Style::dotted,
-                                 .where = {{"curve", curve}},
-                                 .colour = ink});
+    most = std::max(most, submissions[file].score.impacts.size());
+    add_answer(submissions[file], static_cast<double>(file), panel);
   }
   panel.plot.x = {0.5, static_cast<double>(most) + 0.5};
-  return {.what = "Errors of answers, impact by impact",
-          .scene = {"problem " + submissions.front().head.problem},
-          .panels = {panel}};
+  const std::string& problem = submissions.front().head.problem;
+  add_classes(problem_named("", problem).tolerances, panel);
+  return {.what = "Errors of answers, impact by impact", .scene = {"problem " + problem}, .panels = {panel}};
 }
 
 Report against_report(const Scene& scene, const Reference& reference, const std::vector<Submission>& submissions) {

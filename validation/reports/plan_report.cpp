@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
@@ -164,10 +166,48 @@ void add_results(const Plan& plan, Value& fields) {
   fields["message"] = shortfall.empty() ? choice_words(plan) : shortfall;
 }
 
+/// What an axis must show.
+struct Extent {
+  double low = std::numeric_limits<double>::infinity(), high = 0;
+  void take(double number) { low = std::min(low, number), high = std::max(high, number); }
+};
+
+/// A mark for each model that has a cost and an error.
+void add_models(const Plan& plan, PicturePanel& panel, Extent& cost, Extent& error) {
+  for (const WeighedLevel& level : plan.levels) {
+    if (!level.against.empty() || !(level.error > 0) || !(level.seconds > 0) || !std::isfinite(level.error)) continue;
+    const double curve = static_cast<double>(panel.plot.curves.size());
+    const std::string setting = setting_words(level.setting);
+    panel.rows.push_back({curve, 1e3 * level.seconds, level.error});
+    panel.plot.curves.push_back({.x = "cost",
+                                 .y = "error",
+                                 .legend = fmt::format("{}{}{}: {}", level_name(level.level),
+                                                       setting.empty() ? "" : ", ", setting, verdict(level, plan)),
+                                 .style = FigureCurve::Style::marks,
+                                 .where = {{"curve", curve}}});
+    cost.take(1e3 * level.seconds), error.take(level.error);
+  }
+}
+
+struct Limit {
+  double number;  ///< of its curve
+  std::string words;
+  std::array<double, 2> cost, error;  ///< of its ends
+};
+
+void add_limit(const Limit& limit, PicturePanel& panel) {
+  for (const std::size_t k : {0, 1}) panel.rows.push_back({limit.number, limit.cost[k], limit.error[k]});
+  panel.plot.curves.push_back({.x = "cost",
+                               .y = "error",
+                               .legend = limit.words,
+                               .style = FigureCurve::Style::dashed,
+                               .where = {{"curve", limit.number}},
+                               .colour = ink});
+}
+
 }  // namespace
 
 Picture plan_picture(const Scene& scene, const Plan& plan) {
-  using Style = FigureCurve::Style;
   PicturePanel panel{.columns = {{"curve", "1", "number of the model; -1: what is asked, -2: the time allowed"},
                                  {"cost", "ms", "predicted time"},
                                  {"error", "1", "predicted error"}},
@@ -177,41 +217,22 @@ Picture plan_picture(const Scene& scene, const Plan& plan) {
                               .legend_place = "beside",
                               .logarithmic_x = true,
                               .logarithmic_y = true}};
-  double least_cost = INFINITY, most_cost = 0, least_error = plan.asked, most_error = plan.asked;
-  for (const WeighedLevel& level : plan.levels) {
-    if (!level.against.empty() || !(level.error > 0) || !(level.seconds > 0) || !std::isfinite(level.error)) continue;
-    const double curve = static_cast<double>(panel.plot.curves.size()), cost = 1e3 * level.seconds;
-    const std::string setting = setting_words(level.setting);
-    panel.rows.push_back({curve, cost, level.error});
-    panel.plot.curves.push_back({.x = "cost",
-                                 .y = "error",
-                                 .legend = fmt::format("{}{}{}: {}", level_name(level.level),
-                                                       setting.empty() ? "" : ", ", setting, verdict(level, plan)),
-                                 .style = Style::marks,
-                                 .where = {{"curve", curve}}});
-    least_cost = std::min(least_cost, cost), most_cost = std::max(most_cost, cost);
-    least_error = std::min(least_error, level.error), most_error = std::max(most_error, level.error);
+  const bool has_digits = plan.asked > 0 && !plan.target.most_accurate;
+  const std::optional<double>& within = plan.target.within_ms;
+  Extent cost, error;
+  add_models(plan, panel, cost, error);
+  if (has_digits) error.take(plan.asked);
+  if (within) cost.take(*within);
+  if (!(cost.high > 0)) cost.take(1);
+  if (!(error.high > 0)) error.take(1);
+  panel.plot.x = {cost.low / 3, 3 * cost.high}, panel.plot.y = {error.low / 10, 10 * error.high};
+  const Range2 x = panel.plot.x, y = panel.plot.y;
+  if (has_digits) {
+    add_limit({-1, fmt::format("asked: {} digits", plan.target.digits), {x.low, x.high}, {plan.asked, plan.asked}},
+              panel);
   }
-  if (!(most_cost > 0)) least_cost = most_cost = 1;
-  const auto add_line = [&](double curve, const std::string& legend, std::array<double, 2> x, std::array<double, 2> y) {
-    for (const std::size_t k : {0, 1}) panel.rows.push_back({curve, x[k], y[k]});
-    panel.plot.curves.push_back({.x = "cost",
-                                 .y = "error",
-                                 .legend = legend,
-                                 .style = Style::dashed,
-                                 .where = {{"curve", curve}},
-                                 .colour = ink});
-  };
-  if (plan.target.within_ms) most_cost = std::max(most_cost, *plan.target.within_ms);
-  panel.plot.x = {least_cost / 3, 3 * most_cost}, panel.plot.y = {least_error / 10, 10 * most_error};
-  if (plan.asked > 0 && !plan.target.most_accurate) {
-    add_line(-1, fmt::format("asked: {} digits", plan.target.digits), {least_cost / 3, 3 * most_cost},
-             {plan.asked, plan.asked});
-  }
-  if (plan.target.within_ms) {
-    add_line(-2, fmt::format("within {} ms", shortest(*plan.target.within_ms)),
-             {*plan.target.within_ms, *plan.target.within_ms}, {least_error / 10, 10 * most_error});
-  }
+  if (within)
+    add_limit({-2, fmt::format("within {} ms", shortest(*within)), {*within, *within}, {y.low, y.high}}, panel);
   return {.what = "Models that were weighed: predicted cost and error", .scene = scene.summary(), .panels = {panel}};
 }
 
