@@ -214,7 +214,7 @@ class Signatures(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_documentation_tells_each_key_with_unit_and_range(self):
-        self.assertIn("    stiffness [N/m³]: k_G; a number, greater than 0\n", clatter.simulate.__doc__)
+        self.assertIn("    stiffness [N/m³]: k_G, pressure of the ground for each metre of depth; clatter ground finds it; a number, greater than 0\n", clatter.simulate.__doc__)
         self.assertIn("    angle [°]: inclination at the first impact", clatter.sequence.__doc__)
 
     def test_keyword_arguments_complete_in_a_notebook(self):
