@@ -150,6 +150,8 @@ test("a link opens the same state", () => onPage(
     await page.uncheck("#slow");
     await page.uncheck("#planar");
     await page.waitForFunction(() => document.getElementById("spinner").textContent === "");
+    const hasFan = () => document.getElementById("panel-fan").getAttribute("aria-busy") === "false";
+    await page.waitForFunction(hasFan);
     await page.click("#next");
     await page.locator("#scrubber").evaluate((scrubber) => {
       scrubber.value = "520";
@@ -168,6 +170,7 @@ test("a link opens the same state", () => onPage(
     const other = await context.newPage();
     await other.goto(link);
     await other.waitForSelector('tr[data-model="continuous"]');
+    await other.waitForFunction(hasFan);
     assert.deepEqual(await other.evaluate(shown), here);
   }));
 

@@ -29,7 +29,12 @@ export interface Impact {
   /** False if errors have grown so far that nothing can be said about this impact; by so many times. */
   predictable?: boolean;
   amplification?: number | null;
+  error_estimate?: Bars;
 }
+
+/** Error bars, by the names of the numbers. */
+export type Bars = Partial<Record<"start" | "contact_angle_deg" | "impulse_normal" | "duration" | "peak_force" | "energy_loss", number | null>
+  & Record<"velocity_after" | "angular_velocity_after", Vector>>;
 
 /** Columns of the time history that the page reads. */
 export type History = Record<

@@ -36,7 +36,7 @@ export class FlatView implements View {
     this.frame = frame;
     context.clearRect(0, 0, this.size.width, this.size.height);
     for (const model of frame.side ? (["discrete", "continuous"] as const) : (["discrete"] as const)) this.ground(model, frame.side);
-    for (const { model, body, pose } of frame.ghosts) this.figure(model, body, pose, frame.side, true);
+    for (const { model, body, pose, tone } of frame.ghosts) this.figure(model, body, pose, frame.side, tone ?? "blow");
     for (const { model, body, pose } of frame.figures) this.figure(model, body, pose, frame.side);
     if (frame.patch) this.patch(frame.patch.outline, frame.side);
     for (const arrow of frame.arrows) this.arrow(arrow, frame.side);
@@ -69,7 +69,7 @@ export class FlatView implements View {
     this.context.fillRect(left, places[0]?.y ?? 0, Math.max(...places.map(({ x }) => x)) - left, 5);
   }
 
-  private figure(model: ModelName, body: Body, pose: Pose, side: boolean, isGhost = false): void {
+  private figure(model: ModelName, body: Body, pose: Pose, side: boolean, ghost: "blow" | "fan" | "aside" | null = null): void {
     const { context } = this;
     const middle = middleOf(body, pose.centre, pose.rotation);
     for (const face of facesOf(body, pose.rotation, LOOK)) {
@@ -81,9 +81,9 @@ export class FlatView implements View {
       context.closePath();
       context.lineWidth = model === "discrete" ? 1 : 2;
       context.fillStyle = COLOURS.discrete;
-      context.strokeStyle = model === "discrete" ? COLOURS.blow.discrete : COLOURS.continuous;
-      context.globalAlpha = isGhost ? 0.35 : 1;
-      if (model === "discrete" && !isGhost) context.fill();
+      context.strokeStyle = ghost === "aside" ? COLOURS.quiet : model === "discrete" ? COLOURS.blow.discrete : COLOURS.continuous;
+      context.globalAlpha = ghost ? 0.35 : 1;
+      if (model === "discrete" && !ghost) context.fill();
       context.stroke();
       context.globalAlpha = 1;
     }

@@ -20,7 +20,7 @@ export function fixed(value: number, decimalPlaces: number): string {
 }
 
 function decimals(value: number, digits: number): number {
-  return Math.min(12, Math.max(0, digits - 1 - Math.floor(Math.log10(Math.abs(value)))));
+  return Math.min(20, Math.max(0, digits - 1 - Math.floor(Math.log10(Math.abs(value)))));
 }
 
 function withMinus(text: string): string {

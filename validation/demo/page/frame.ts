@@ -44,8 +44,8 @@ export interface Frame {
   /** Whether a body leaves the plane of x and z: then it is looked at from higher up. */
   inSpace: boolean;
   figures: { model: ModelName; body: Body; pose: Pose }[];
-  /** Where the body was at the blows until now. */
-  ghosts: { model: ModelName; body: Body; pose: Pose }[];
+  /** Where the body was at the blows until now; or where a hand's tremor would have brought it, what stands out of that and what does not. */
+  ghosts: { model: ModelName; body: Body; pose: Pose; tone?: "fan" | "aside" }[];
   arcs: Arc[];
   /** Where the continuous model presses on the ground. */
   patch: Patch | null;

@@ -8,6 +8,7 @@ import { Capture } from "./capture";
 import { Controls } from "./controls";
 import { byId, say } from "./dom";
 import { Explanation } from "./explain";
+import { FanPanel } from "./fan_panel";
 import { download } from "./files";
 import { frameAt, heldFrame, impactAt, scalesOf, type ModelName, type Scales } from "./frame";
 import { Grab, heldInWords, heldRotation, type Held } from "./grab";
@@ -64,6 +65,7 @@ class Page {
   private readonly force = new ForceChart();
   private readonly explanation = new Explanation();
   private readonly table = new ImpactTable((model, n) => this.goToImpact(model, n));
+  private readonly fan = new FanPanel(this.state, () => { this.draw(); this.remember(); });
   private readonly strip = new Strip((model, n) => this.goToImpact(model, n));
   private readonly sound = new Sound(this.state.lock.includes("sound"));
   private readonly showLayout: () => void;
@@ -143,6 +145,7 @@ class Page {
     this.asked = performance.now();
     this.followsImpact = this.hasShown;
     this.models.ask(parameters);
+    this.fan.update();
     const speed = firstSpeed(parameters);
     if (speed > 0) void this.map.show(gravityNumber(parameters, speed), restitutionOf(parameters));
     this.map.setAngle(parameters.angle);
@@ -178,7 +181,7 @@ class Page {
     this.strip.show(models.motions, models.pairing, this.state.impact);
     byId("outcome").textContent = models.discrete ? outcomeInWords(models.discrete.outcome) : "";
     this.force.show(models.continuous, models.motions.discrete, this.state.impact);
-    this.showProfile();
+    showProfile(this.models.motions.discrete, this.state.impact);
     this.explain();
     if (!this.player.playing) {
       // While a slider moves the picture stays with the chosen impact, whenever that is now.
@@ -237,7 +240,9 @@ class Page {
     const impact = impactAt(this.models.steps, time);
     // Before the guess the picture shows the fall, not yet the blow.
     const shown = this.prediction.isOpen ? (this.models.motions.discrete?.begin ?? 0) : time;
-    this.stage.draw(frameAt(this.models.motions, shown, this.scales, state.layout === "side", this.traces.checked && !this.prediction.isOpen), this.orbit.orbit);
+    const frame = frameAt(this.models.motions, shown, this.scales, state.layout === "side", this.traces.checked && !this.prediction.isOpen);
+    if (!this.prediction.isOpen) frame.ghosts.push(...this.fan.ghosts(time, player.playing));
+    this.stage.draw(frame, this.orbit.orbit);
     this.numbers.show(this.models.motions, this.models.pairing, time);
     for (const model of ["discrete", "continuous"] as const) {
       this.energy.show(model, this.models.motions[model]?.energies(time) ?? null);
@@ -253,13 +258,8 @@ class Page {
     this.table.choose(n);
     this.strip.choose(n);
     this.force.show(this.models.continuous, this.models.motions.discrete, n);
-    this.showProfile();
-    this.explain();
-  }
-
-  private showProfile(): void {
-    byId("profile-title").textContent = `Along the body, at blow ${this.state.impact}`;
     showProfile(this.models.motions.discrete, this.state.impact);
+    this.explain();
   }
 
   /** The body as it can be taken in the hand: where it is given by angles. */

@@ -115,6 +115,6 @@ function continuousBody(body: Body): Body {
   return body.shape === "rod" && body.radius === 0 ? uniformBody({ ...body, radius: CONTINUOUS_RADIUS * body.length }) : body;
 }
 
-function spinOf({ spinning, wx, wy, wz }: Parameters): Vector {
+export function spinOf({ spinning, wx, wy, wz }: Parameters): Vector {
   return spinning ? [wx, wy, wz] : [0, 0, 0];
 }

@@ -22,6 +22,7 @@ function velocities(motion: Motion, time: number): [number, number] {
 }
 
 export function showProfile(motion: Motion | null, n: number): void {
+  byId("profile-title").textContent = `Along the body, at blow ${n}`;
   const box = byId("profile-picture");
   const impact = motion?.impacts[n - 1];
   byId("panel-profile").classList.toggle("empty", !impact);

@@ -7,7 +7,7 @@ import {
 } from "./parameters";
 import { numberOf, parametersOf } from "./scene_arguments";
 
-export const PANELS = ["story", "strip", "numbers", "profile", "table", "force", "energy", "map", "race", "measured", "explain"] as const;
+export const PANELS = ["story", "strip", "numbers", "profile", "table", "fan", "force", "energy", "map", "race", "measured", "explain"] as const;
 
 export interface State {
   parameters: Parameters;
@@ -20,11 +20,15 @@ export interface State {
   rate: number;
   slow: boolean;
   predict: boolean;
+  /** How far a hand misses the tilt to either side [°], and whether the picture shows what comes of that. */
+  tremor: number;
+  fan: boolean;
   lock: string[];
   hide: string[];
 }
 
 export const RATES = [0.25, 0.5, 1, 2] as const;
+export const TREMORS = [0.1, 0.5, 1, 2] as const;
 
 /** In space the models stand beside each other: what tumbles cannot be told apart in one place. */
 export function usualLayout(parameters: Parameters): State["layout"] {
@@ -33,7 +37,7 @@ export function usualLayout(parameters: Parameters): State["layout"] {
 
 function defaultState(): State {
   return {
-    parameters: { ...DEFAULT_PARAMETERS }, impact: 1, time: 0, layout: "overlay", rate: 1, slow: true, predict: true,
+    parameters: { ...DEFAULT_PARAMETERS }, impact: 1, time: 0, layout: "overlay", rate: 1, slow: true, predict: true, tremor: 0.5, fan: false,
     lock: [], hide: [],
   };
 }
@@ -41,7 +45,7 @@ function defaultState(): State {
 /** Of a scene's arguments without a control: their names in a link begin so. */
 const EXTRA = "with.";
 /** What a link says of the view, not of the situation. */
-const VIEW = ["impact", "t", "layout", "rate", "slow", "predict", "lock", "hide", "given"];
+const VIEW = ["impact", "t", "layout", "rate", "slow", "predict", "tremor", "fan", "lock", "hide", "given"];
 
 /** The choice without which a quantity would not be the one that counts. */
 function choiceOf(quantity: Quantity): keyof Choices | null {
@@ -81,6 +85,8 @@ function toQuery(state: State): string {
   if (state.rate !== 1) query.set("rate", String(state.rate));
   if (!state.slow) query.set("slow", "0");
   if (!state.predict) query.set("predict", "0");
+  if (state.tremor !== 0.5) query.set("tremor", String(state.tremor));
+  if (state.fan) query.set("fan", "1");
   if (state.lock.length) query.set("lock", state.lock.join(","));
   if (state.hide.length) query.set("hide", state.hide.join(","));
   return query.toString().replace(/%2C/g, ",");
@@ -124,6 +130,8 @@ export function stateOf(text: string): State {
   state.rate = RATES.find((rate) => rate === number("rate", 1)) ?? 1;
   state.slow = query.get("slow") !== "0";
   state.predict = query.get("predict") !== "0";
+  state.tremor = TREMORS.find((tremor) => tremor === number("tremor", 0.5)) ?? 0.5;
+  state.fan = query.get("fan") === "1";
   state.lock = list("lock");
   state.hide = list("hide");
   return state;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The impact table of both models, and its CSV.
-import type { Impact } from "./answers";
+import type { Bars, Impact } from "./answers";
+import { cut, digitsLeft, withKinds } from "./digits";
 import { byId, make } from "./dom";
 import { significant } from "./format";
 import type { ModelName } from "./frame";
@@ -12,17 +13,19 @@ interface Column {
   title: string;
   unit: string;
   value: (impact: Impact) => number | null;
+  /** Its error bar, in the same unit. */
+  error: (bars: Bars) => number | null | undefined;
 }
 
 const COLUMNS: readonly Column[] = [
-  { title: "Time", unit: "s", value: (i) => i.start },
-  { title: "Angle", unit: "°", value: (i) => i.contact_angle_deg },
-  { title: "Impulse", unit: "N·s", value: (i) => i.impulse_normal },
-  { title: "Velocity after", unit: "m/s", value: (i) => i.velocity_after[2] },
-  { title: "Spin after", unit: "rad/s", value: (i) => spinOf(i) },
-  { title: "Lasts", unit: "ms", value: (i) => (i.peak_force === null ? null : i.duration * 1e3) },
-  { title: "Peak force", unit: "N", value: (i) => i.peak_force },
-  { title: "Energy lost", unit: "J", value: (i) => lossWithoutRounding(i) },
+  { title: "Time", unit: "s", value: (i) => i.start, error: (bars) => bars.start },
+  { title: "Angle", unit: "°", value: (i) => i.contact_angle_deg, error: (bars) => bars.contact_angle_deg },
+  { title: "Impulse", unit: "N·s", value: (i) => i.impulse_normal, error: (bars) => bars.impulse_normal },
+  { title: "Velocity after", unit: "m/s", value: (i) => i.velocity_after[2], error: (bars) => bars.velocity_after?.[2] },
+  { title: "Spin after", unit: "rad/s", value: (i) => spinOf(i), error: (bars) => bars.angular_velocity_after && Math.hypot(...bars.angular_velocity_after) },
+  { title: "Lasts", unit: "ms", value: (i) => (i.peak_force === null ? null : i.duration * 1e3), error: (bars) => (bars.duration ?? 0) * 1e3 },
+  { title: "Peak force", unit: "N", value: (i) => i.peak_force, error: (bars) => bars.peak_force },
+  { title: "Energy lost", unit: "J", value: (i) => lossWithoutRounding(i), error: (bars) => bars.energy_loss },
 ];
 
 /** About the axis across the plane; in space, where it has no such axis, its size. */
@@ -82,7 +85,7 @@ export class ImpactTable {
       if (i === 0) row.append(this.head(n, n === chosen && !isOther, group.length, model));
       const where = (impact.corners ?? impact.end).replace(/-(?=[xyz])/g, "−");
       row.append(make("td", {}, make("span", { class: `swatch ${model}` }), model), make("td", {}, where));
-      row.append(...COLUMNS.map(({ title, value }, place) => cell(title, beyondRounding(value(impact), this.largest[place]), impact, model)));
+      row.append(...COLUMNS.map((column, place) => cell(column, beyondRounding(column.value(impact), this.largest[place]), impact, model)));
       row.addEventListener("click", () => this.onChoose(model, n));
       return [row];
     });
@@ -112,9 +115,13 @@ function unpredictableInWords(impacts: readonly Impact[], model: ModelName): str
   return first ? `?: in the ${model} model impact ${first.n} cannot be predicted, nor what follows${growth(first)}.` : "";
 }
 
-function cell(title: string, value: number | null, impact: Impact, model: ModelName): HTMLElement {
+/** Digits that the error bar takes away fade. */
+function cell({ title, error }: Column, value: number | null, impact: Impact, model: ModelName): HTMLElement {
   if (impact.predictable === false) return make("td", { class: "number", "data-column": title, title: "Cannot be predicted" }, "?");
-  return make("td", { class: "number", "data-column": title }, significant(value, DIGITS[model]));
+  const bar = (impact.error_estimate && error(impact.error_estimate)) ?? 0;
+  const left = digitsLeft(value ?? 0, bar);
+  const told = left < DIGITS[model] ? { title: `± ${significant(bar, 2)}` } : {};
+  return make("td", { class: "number", "data-column": title, ...told }, ...withKinds(cut(significant(value, DIGITS[model]), [left]), ["", "lost"]));
 }
 
 /** Rounding leaves a trace of what is zero by symmetry. */

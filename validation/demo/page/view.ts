@@ -38,7 +38,7 @@ export class SpaceView implements View {
   private size = { width: 1, height: 1 };
   private frame: Frame | null = null;
   private orbit: Orbit = STRAIGHT;
-  private readonly ghosts: Record<ModelName, LineSegments[]> = { discrete: [], continuous: [] };
+  private readonly ghosts: Record<ModelName, LineSegments<BufferGeometry, LineBasicMaterial>[]> = { discrete: [], continuous: [] };
   private readonly arc = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: COLOURS.ink, depthTest: false, transparent: true }));
 
   private readonly patch = new Mesh(new BufferGeometry(), new MeshBasicMaterial({ color: COLOURS.continuous, depthTest: false, transparent: true, opacity: 0.65, side: DoubleSide }));
@@ -170,7 +170,7 @@ export class SpaceView implements View {
   private placeGhosts(model: ModelName, wanted: Frame["ghosts"]): void {
     const lines = this.ghosts[model];
     while (lines.length < wanted.length) {
-      const line = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: COLOURS[model], transparent: true, opacity: 0.45 }));
+      const line = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ transparent: true, depthWrite: false }));
       lines.push(line);
       this.layers[model].add(line);
     }
@@ -178,6 +178,8 @@ export class SpaceView implements View {
       const ghost = wanted[i];
       line.visible = ghost !== undefined;
       if (!ghost) return;
+      line.material.color.set(ghost.tone === "aside" ? COLOURS.quiet : COLOURS[model]);
+      line.material.opacity = ghost.tone === "fan" ? 0.3 : ghost.tone ? 0.22 : 0.45;
       if (line.userData["of"] !== ghost.body) {
         line.userData["of"] = ghost.body;
         line.geometry.dispose();

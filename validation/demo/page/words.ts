@@ -56,11 +56,16 @@ export function cornersInWords(corners: string): string {
   return `corners ${names.slice(0, -1).join(", ")} and ${names[names.length - 1]} at once`;
 }
 
+/** Ends of a body in the plane, corners in space. */
+export function placeInWords(place: string): string {
+  return /[xyz ]/.test(place) ? cornersInWords(place) : endInWords(place);
+}
+
 export function impactInWords(impacts: readonly Impact[], n: number): string {
   const impact = impacts[n - 1];
   const first = impacts[0];
   if (!impact || !first) return "";
-    const place = impact.corners ? cornersInWords(impact.corners) : endInWords(impact.end);
+  const place = placeInWords(impact.corners ?? impact.end);
   const angle = `${significant(impact.contact_angle_deg, 3)}°`;
   if (n === 1) return `Impact 1: ${place}, at ${angle}, impulse ${significant(impact.impulse_normal, 3)} N·s`;
   const after = `${significant(impact.start - first.start, 2)} s after the first`;

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where prediction ends: no hand holds an angle to the last digit. The same drop, by the discrete model, for tilts that are spread evenly
+// over what a hand's tremor makes of the one that is wanted.
+import type { Impact, SequenceAnswer } from "./answers";
+import { ask } from "./api";
+import { DiscreteMotion, touchRotation } from "./discrete_motion";
+import type { Frame } from "./frame";
+import { spinOf } from "./models";
+import { bodyOf, isInPlane, type Parameters } from "./parameters";
+import { sequenceRequest } from "./requests";
+import { product, turnAbout, type Rotation } from "./rotation";
+
+const IN_PLANE = 41; // tilts
+const IN_SPACE = 61;
+/** The situation stands still for so long before it is asked for [ms]. */
+const DELAY = 300;
+/** Of the picture: beyond this fewer silhouettes are drawn [ms a frame]. */
+const SLUGGISH = 28;
+
+export interface Tilt {
+  /** What strikes, blow by blow, and how it ends, if that is known. */
+  course: string[];
+  impacts: readonly Impact[];
+  motion: DiscreteMotion;
+  /** How much later than the wanted one it touches, let go at the same moment [s]. */
+  late: number;
+}
+
+/** Small turns about horizontal axes: in the plane about the one across it, in space over a disc, evenly by its area. */
+export function turnsWithin(tremor: number, inPlane: boolean): Rotation[] {
+  if (inPlane) return Array.from({ length: IN_PLANE }, (_, i) => turnAbout(1, tremor * ((2 * i + 1) / IN_PLANE - 1)));
+  return Array.from({ length: IN_SPACE }, (_, i) => {
+    const half = (tremor * Math.sqrt((i + 0.5) / IN_SPACE)) / 2;
+    const way = (i + 0.5) * Math.PI * (3 - Math.sqrt(5));
+    return [Math.cos(half), Math.sin(half) * Math.cos(way), Math.sin(half) * Math.sin(way), 0];
+  });
+}
+
+export const placeOf = ({ corners, end }: Impact): string => corners ?? end;
+
+function courseOf({ impacts, outcome }: SequenceAnswer): string[] {
+  return [...impacts.map(placeOf), ...(outcome === "impact-limit" ? [] : [`, ${outcome}`])];
+}
+
+/** From rest to the first touch [s]. */
+function fallOf({ velocity_after, impulse }: Impact, mass: number, { drop, gravity }: Parameters): number {
+  return drop === "height" && gravity > 0 ? (impulse[2] / mass - velocity_after[2]) / gravity : 0;
+}
+
+export class Fan {
+  /** The drop that is wanted, and those that a hand makes of it. */
+  wanted: Tilt | null = null;
+  tilts: Tilt[] = [];
+  private asked = 0;
+  private stride = 1;
+  private drawnAt = 0;
+
+  constructor(private readonly onAnswer: () => void) {}
+
+  /** @param tremor to either side [rad] */
+  async ask(situation: Parameters, tremor: number): Promise<void> {
+    const parameters = { ...situation };
+    this.asked += 1;
+    const { asked } = this;
+    await new Promise((resume) => setTimeout(resume, DELAY));
+    const isOld = (): boolean => asked !== this.asked;
+    if (isOld()) return;
+    const request = sequenceRequest(parameters);
+    const answer = await ask<SequenceAnswer>(request).catch(() => null);
+    const first = answer?.impacts[0];
+    const tilts: Tilt[] = [];
+    const { angle: _angle, tilt: _tilt, orientation: _orientation, ...others } = request.body;
+    for (const turn of answer && first ? turnsWithin(tremor, isInPlane(parameters)) : []) {
+      const attitude = product(turn, touchRotation(first as Impact)).join(",");
+      // A tilt that the program refuses, such as one at which a body would jam, has no course.
+      const own = await ask<SequenceAnswer>({ path: "sequence", body: { ...others, attitude } }).catch(() => null);
+      if (isOld()) return;
+      if (own?.impacts.length) tilts.push(tiltOf(own, answer as SequenceAnswer, parameters));
+    }
+    if (isOld()) return;
+    this.wanted = answer && first ? tiltOf(answer, answer, parameters) : null;
+    this.tilts = tilts;
+    this.onAnswer();
+  }
+
+  /** The first blow that is not the same for all, from 1; null if there is none. */
+  get parting(): number | null {
+    const all = [...this.tilts, ...(this.wanted ? [this.wanted] : [])].map(({ course }) => course);
+    const most = Math.max(0, ...all.map((course) => course.length));
+    for (let n = 0; n < most; n++) if (new Set(all.map((course) => course[n])).size > 1) return n + 1;
+    return null;
+  }
+
+  /** Silhouettes at a time; those that `stand out` in the model's colour, the others in grey. Where drawing takes long, fewer. */
+  ghosts(time: number, playing: boolean, standsOut: (tilt: Tilt) => boolean): Frame["ghosts"] {
+    const now = performance.now();
+    if (!playing) this.stride = 1;
+    else if (now - this.drawnAt > SLUGGISH && now - this.drawnAt < 500) this.stride = Math.min(8, this.stride + 1);
+    this.drawnAt = now;
+    return this.tilts.filter((_tilt, i) => i % this.stride === 0).flatMap((tilt) => {
+      const own = time - tilt.late;
+      return own > tilt.motion.end ? [] : [{ model: "discrete" as const, body: tilt.motion.body, pose: tilt.motion.pose(own), tone: standsOut(tilt) ? "fan" as const : "aside" as const }];
+    });
+  }
+}
+
+function tiltOf(own: SequenceAnswer, wanted: SequenceAnswer, parameters: Parameters): Tilt {
+  const body = { ...bodyOf(parameters), ...wanted.body };
+  const fall = (answer: SequenceAnswer): number => fallOf(answer.impacts[0] as Impact, body.mass, parameters);
+  return {
+    course: courseOf(own), impacts: own.impacts, late: fall(own) - fall(wanted),
+    motion: new DiscreteMotion(body, own.impacts, parameters.gravity, spinOf(parameters)),
+  };
+}
