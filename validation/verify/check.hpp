@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <functional>
+#include <initializer_list>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -59,6 +61,28 @@ struct Measured {
   Answer answer = Answer::holds;
   std::string found;  ///< in words, with further numbers
 };
+
+/// The largest of the errors taken.  It is no number if none was taken or one is no number, so that no check passes on
+/// nothing.
+class WorstError {
+ public:
+  /// Whether an error is the worst so far.
+  bool take(double error) {
+    if (!(error > worst_) && !std::isnan(error)) return false;
+    worst_ = error;
+    return true;
+  }
+  [[nodiscard]] double value() const { return worst_ >= 0 ? worst_ : std::numeric_limits<double>::quiet_NaN(); }
+
+ private:
+  double worst_ = -1;
+};
+/// The largest of `errors`; no number if one is none.
+[[nodiscard]] inline double worst_of(std::initializer_list<double> errors) {
+  WorstError worst;
+  for (const double error : errors) worst.take(error);
+  return worst.value();
+}
 
 using Measure = std::function<Measured(CaseRuns&)>;
 /// The measurement of each check, by its id.

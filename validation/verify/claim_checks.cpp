@@ -43,7 +43,7 @@ Measured second_angle(CaseRuns&) {
   const double small = 1e-6, equal = std::acos(1 / std::sqrt(3.0)) * degrees_per_radian;
   const double ratio = elastic_angles(small).beta.angle * degrees_per_radian / small;
   const double there = elastic_angles(equal).beta.angle * degrees_per_radian / equal;
-  return {ratio, std::max(std::fabs(ratio - 0.5), std::fabs(there - 1)), holds_if(std::fabs(ratio - 0.5) < 1e-9),
+  return {ratio, worst_of({std::fabs(ratio - 0.5), std::fabs(there - 1)}), holds_if(std::fabs(ratio - 0.5) < 1e-9),
           fmt::format("β/θ at 1e-6°; at 54.7356° it is {}", number(there, 12))};
 }
 
@@ -63,7 +63,7 @@ Measured two_one_two(CaseRuns&) {
   const double theta = 1e-6;
   const ContactAngles at = elastic_angles(theta);
   const double beta = at.beta.angle * degrees_per_radian / theta, gamma = at.gamma.angle * degrees_per_radian / theta;
-  return {2 * beta, std::max(std::fabs(beta - 0.5), std::fabs(gamma - 1)), holds_if(std::fabs(gamma - 1) < 1e-9),
+  return {2 * beta, worst_of({std::fabs(beta - 0.5), std::fabs(gamma - 1)}), holds_if(std::fabs(gamma - 1) < 1e-9),
           fmt::format("θ:β:γ = 2:{}:{} at 1e-6°", number(2 * beta, 10), number(2 * gamma, 10))};
 }
 
@@ -77,14 +77,15 @@ Measured sum_of_three(CaseRuns&) {
 /// The paper does not give the G of Fig. 11; v_n = −1 and g = 9.81 of its text make it 9.81.
 Measured gravity_changes_little(CaseRuns&) {
   const double free = elastic_angles(20).beta.angle, text = elastic_angles(20, 9.81).beta.angle;
-  double error = 0, tenth = 0;
+  WorstError error;
+  double tenth = 0;
   for (const ReferenceRow& row : reference_table(ReferenceTable::gravity)) {
     if (row.at("theta_deg") != 20) continue;
     const double beta = elastic_angles(20, row.at("G")).beta.angle * degrees_per_radian;
-    error = std::max(error, std::fabs(beta / row.at("beta_deg") - 1));
+    error.take(std::fabs(beta / row.at("beta_deg") - 1));
     if (row.at("G") == 0.1) tenth = beta;
   }
-  return {text / free, error, Answer::ambiguous,
+  return {text / free, error.value(), Answer::ambiguous,
           fmt::format("β at 20°: {}° without gravity; {}° for G = 0.1 (a phone from 1 m has 0.05), {}° for the text's "
                       "G = 9.81: little or most of it, the paper does not say which G",
                       number(free * degrees_per_radian), number(tenth), number(text * degrees_per_radian))};
@@ -114,7 +115,7 @@ Measured jump_at_zero(CaseRuns& case_runs) {
   const auto& sweep = case_runs.sweep("rod-sweep");
   const double flat = sweep.at(0).run.impacts.at(0).value.impulse.z();
   const double degree = sweep.at(1).run.impacts.at(0).value.impulse.z();
-  const double error = std::max({std::fabs(at.velocity[0] + 0.5), std::fabs(at.angular[0] - 3) / 3,
+  const double error = worst_of({std::fabs(at.velocity[0] + 0.5), std::fabs(at.angular[0] - 3) / 3,
                                  std::fabs(at.impulse[0] - 0.5), std::fabs(flat - 2)});
   return {flat / degree, error, holds_if(flat / degree > 3),
           fmt::format("Vₙ 1 → −1/2, Ω 0 → 3, Pₙ 2 → 1/2; continuous model: Pₙ {} at 0°, {} at 1°", number(flat),
@@ -123,17 +124,17 @@ Measured jump_at_zero(CaseRuns& case_runs) {
 
 /// Deviation of the continuous model from Eq. 9 over the sweep, over the range that each number covers (6 for Ω).
 Measured sweep_against_eq9(CaseRuns& case_runs) {
-  double worst = 0, at = 0, energy = 0, rim = 0;
+  WorstError worst, energy;
+  double at = 0, rim = 0;
   for (const SweptSimulation& swept : case_runs.sweep("rod-sweep")) {
     const ImpactNumbers& n = swept.run.impacts.at(0).value;
-    energy = std::max(energy, std::fabs(n.energy_loss) / swept.run.energy_start);
+    energy.take(std::fabs(n.energy_loss) / swept.run.energy_start);
     if (swept.value == 0) continue;
     const ContactAngles exact = elastic_angles(swept.value);
-    const double off = std::max({std::fabs(n.impulse.z() - exact.impulse[0]) / 2,
+    const double off = worst_of({std::fabs(n.impulse.z() - exact.impulse[0]) / 2,
                                  std::fabs(n.velocity_after.z() - exact.velocity[0]) / 2,
                                  std::fabs(n.angular_velocity_after.y() - exact.angular[0]) / 6});
-    if (off > worst) at = swept.value;
-    worst = std::max(worst, off);
+    if (worst.take(off)) at = swept.value;
   }
   for (const auto& [value, comparison] : case_runs.swept_comparison("rod-sweep")) {
     const ComparedImpact& impact = comparison.impacts.at(0);
@@ -141,13 +142,14 @@ Measured sweep_against_eq9(CaseRuns& case_runs) {
     rim = std::max(
         rim, std::fabs((*impact.continuous)[normal_impulse_place] - (*impact.discrete)[normal_impulse_place]) / 2);
   }
-  return {worst, energy, holds_if(worst < 0.05),
+  return {worst.value(), energy.value(), holds_if(worst.value() < 0.05),
           fmt::format("of the range, worst at {}°; impulse against the rim's {}; energy lost {}", number(at, 3),
-                      number(rim, 2), number(energy, 2))};
+                      number(rim, 2), number(energy.value(), 2))};
 }
 
 Measured friction_plateau(CaseRuns& case_runs) {
-  double plateau = 0, spread = 0, below = 0, ratio_at_seven = 0;
+  WorstError spread, below;
+  double plateau = 0, ratio_at_seven = 0;
   for (const SweptSimulation& swept : case_runs.sweep("rod-friction-sweep")) {
     const numeric::Vector3& p = swept.run.impacts.at(0).value.impulse;
     if (swept.value == 0.8) plateau = p.z();
@@ -156,21 +158,23 @@ Measured friction_plateau(CaseRuns& case_runs) {
   for (const SweptSimulation& swept : case_runs.sweep("rod-friction-sweep")) {
     const double p = swept.run.impacts.at(0).value.impulse.z();
     const double eq9 = 2 / (2.5 - 1.5 * swept.value);  // at 45°
-    if (swept.value < 0.58) below = std::max(below, std::fabs(p / eq9 - 1));
-    if (swept.value > 0.59) spread = std::max(spread, std::fabs(p / plateau - 1));
+    if (swept.value < 0.58) below.take(std::fabs(p / eq9 - 1));
+    if (swept.value > 0.59) spread.take(std::fabs(p / plateau - 1));
   }
   const double loss = strike(analytic::make_rod({}), {.normal = -1},
                              analytic::make_rod({}).contact_point(0, std::sqrt(0.5), std::sqrt(0.5)),
                              {.friction = analytic::FrictionKind::impulse_ratio, .friction_value = 0.8})
                           .energy_loss;
-  return {ratio_at_seven, spread,
-          holds_if(below < 0.05 && spread < 1e-6 && loss < 0 && rounds_to(ratio_at_seven, 0.6, 0.1) == Answer::holds),
+  return {ratio_at_seven, spread.value(),
+          holds_if(below.value() < 0.05 && spread.value() < 1e-6 && loss < 0 &&
+                   rounds_to(ratio_at_seven, 0.6, 0.1) == Answer::holds),
           fmt::format("plateau of Pₜ/Pₙ; below it within {} of Eq. 9, above it constant; Eq. 9 at μ = 0.8 loses {} J",
-                      number(below, 2), number(loss, 4))};
+                      number(below.value(), 2), number(loss, 4))};
 }
 
 Measured contact_point_course(CaseRuns& case_runs) {
-  double end = 0, slide = 0, error = 0;
+  WorstError end, error;
+  double slide = 0;
   for (const char* name : friction_cases) {
     const RecordedRun& recorded = case_runs.history(name);
     double last = 0, largest = 0;
@@ -179,12 +183,12 @@ Measured contact_point_course(CaseRuns& case_runs) {
       last = s.point_velocity.z();
       largest = std::max(largest, std::fabs(s.point_velocity.x()));
     }
-    error = std::max(
-        error, std::fabs(recorded.run.impacts.at(0).value.energy_loss - recorded.run.impacts[0].value.work_friction));
+    const ImpactNumbers& impact = recorded.run.impacts.at(0).value;
+    error.take(std::fabs(impact.energy_loss - impact.work_friction));
     if (std::string(name) == "rod-friction-07") slide = largest;
-    end = std::max(end, std::fabs(last - 1));
+    end.take(std::fabs(last - 1));
   }
-  return {1 - end, error, holds_if(end < 0.1 && slide < 0.01),
+  return {1 - end.value(), error.value(), holds_if(end.value() < 0.1 && slide < 0.01),
           fmt::format("least normal speed at the end of the four contacts, −1 at their start; at μ = 0.7 the point "
                       "slides at {} m/s at most",
                       number(slide, 2))};
@@ -221,17 +225,17 @@ SequenceShape shape_of(const Simulation& run) {
 
 Measured several_impacts(CaseRuns& case_runs) {
   const SequenceShape text = shape_of(case_runs.run("rod-at-1ms")), caption = shape_of(case_runs.run("rod-from-2m"));
-  double in_flight = 0;
+  WorstError in_flight;
   const auto& samples = case_runs.history("rod-from-2m").samples;
   const auto total = [](const numeric::HistorySample& s) {
     return s.energy_translation + s.energy_rotation + s.energy_potential;
   };
   for (std::size_t i = 1; i < samples.size(); ++i) {
     if (samples[i].in_contact || samples[i - 1].in_contact) continue;
-    in_flight = std::max(in_flight, std::fabs(total(samples[i]) / total(samples[i - 1]) - 1));
+    in_flight.take(std::fabs(total(samples[i]) / total(samples[i - 1]) - 1));
   }
   return {
-      caption.peaks, in_flight,
+      caption.peaks, in_flight.value(),
       caption.as_described == text.as_described ? holds_if(text.as_described)
       : caption.as_described                    ? Answer::holds
                                                 : Answer::refuted,
@@ -244,11 +248,11 @@ double peak_ratio(const Simulation& run) { return peak(run, 1) / peak(run, 0); }
 
 Measured phone_peaks(CaseRuns& case_runs) {
   const Converged ratio = converged(case_runs, "phone-elastic", peak_ratio, two_impacts);
-  double loss = 0;
+  WorstError loss;
   const Simulation& run = case_runs.run("phone-elastic", two_impacts);
-  for (const auto& impact : run.impacts) loss = std::max(loss, std::fabs(impact.value.energy_loss) / run.energy_start);
-  return {ratio.value, ratio.error, holds_if(std::lround(ratio.value) == 2 && loss < 1e-8),
-          fmt::format("2 to the digit printed; energy lost {}", number(loss, 1))};
+  for (const auto& impact : run.impacts) loss.take(std::fabs(impact.value.energy_loss) / run.energy_start);
+  return {ratio.value, ratio.error, holds_if(std::lround(ratio.value) == 2 && loss.value() < 1e-8),
+          fmt::format("2 to the digit printed; energy lost {}", number(loss.value(), 1))};
 }
 
 double lost_in_two(const Simulation& run) {
@@ -307,9 +311,9 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
 Measured phone_over_angle(CaseRuns& case_runs) {
   std::vector<double> phone, rod, phone_turning, rod_turning;
   const auto& rods = case_runs.sweep("rod-sweep");
-  double gap = 0;
+  WorstError gap;
   for (const SweptSimulation& swept : case_runs.sweep("phone-sweep")) {
-    gap = std::max(gap, std::fabs(swept.run.impacts.at(0).ledger_gap));
+    gap.take(std::fabs(swept.run.impacts.at(0).ledger_gap));
     if (swept.run.impacts.at(0).touches > 1) continue;
     const ImpactNumbers& n = swept.run.impacts[0].value;
     const ImpactNumbers& r = rods.at(static_cast<std::size_t>(swept.value)).run.impacts.at(0).value;
@@ -319,7 +323,7 @@ Measured phone_over_angle(CaseRuns& case_runs) {
     rod_turning.push_back(r.angular_velocity_after.y());
   }
   const double alike = correlation(phone, rod);
-  return {alike, gap, holds_if(alike > 0.9),
+  return {alike, gap.value(), holds_if(alike > 0.9),
           fmt::format(
               "correlation of Vₙ(θ) of phone and rod from 7° on; of Ω(θ) {}; below 7° the phone's two impacts are one",
               number(correlation(phone_turning, rod_turning), 3))};

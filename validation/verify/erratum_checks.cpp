@@ -32,7 +32,7 @@ Measured sign_of_omega(CaseRuns&) {
                        {.friction = analytic::FrictionKind::impulse_ratio, .friction_value = mu})
           .after;
   const auto residual = [&](double omega) { return after.normal - omega * (-c / 2) + v; };
-  const double error = std::max(std::fabs(residual(after.angular)), std::fabs(after.angular + printed));
+  const double error = worst_of({std::fabs(residual(after.angular)), std::fabs(after.angular + printed)});
   return {
       residual(printed), error, Answer::holds,
       fmt::format("residual of Eq. 8 with Ω as printed; with the model's {}", significant(residual(after.angular), 1))};

@@ -27,20 +27,10 @@ using analytic::degrees_per_radian;
 
 double relative(double value, double exact) { return std::fabs(value - exact) / std::fabs(exact); }
 
-struct Largest {
-  double error = 0;
-  std::string where;
-  void take(double candidate, const std::string& place) {
-    if (!(candidate <= error)) {
-      error = candidate;
-      where = place;
-    }
-  }
-};
-
 /// Largest relative error of all angles, impulses and velocities of a 30-digit table.
 Measured against_table(ReferenceTable table) {
-  Largest worst;
+  WorstError worst;
+  std::string where;
   int count = 0;
   for (const ReferenceRow& row : reference_table(table)) {
     const ContactAngles angles =
@@ -60,11 +50,12 @@ Measured against_table(ReferenceTable table) {
       const auto exact = row.find(name);
       if (exact == row.end()) continue;
       ++count;
-      worst.take(relative(value, exact->second),
-                 fmt::format("{} at θ = {}°, G = {}", name, row.at("theta_deg"), row.at("G")));
+      if (worst.take(relative(value, exact->second))) {
+        where = fmt::format("{} at θ = {}°, G = {}", name, row.at("theta_deg"), row.at("G"));
+      }
     }
   }
-  return {static_cast<double>(count), worst.error, Answer::holds, "worst: " + worst.where};
+  return {static_cast<double>(count), worst.value(), Answer::holds, "worst: " + where};
 }
 
 Measure table(ReferenceTable of) {
@@ -106,7 +97,7 @@ Measured bouncing_end(CaseRuns&) {
 Measured restitution_map(CaseRuns&) {
   const double at_tenth = analytic::restitution_of_damping(0.1), at_one = analytic::restitution_of_damping(1);
   const auto residual = [](double s, double e) { return std::fabs(std::log1p(s) - std::log1p(-s * e) - s * (1 + e)); };
-  return {at_tenth, std::max({relative(at_tenth, 0.937475579949905), residual(0.1, at_tenth), residual(1, at_one)}),
+  return {at_tenth, worst_of({relative(at_tenth, 0.937475579949905), residual(0.1, at_tenth), residual(1, at_one)}),
           Answer::holds, fmt::format("e(1) = {}", significant(at_one, 12))};
 }
 
@@ -131,42 +122,43 @@ Measured half_sine(CaseRuns&) {
   const FlatLanding landing = flat_landing(0);
   const double frequency = std::sqrt(landing.stiffness * landing.area / landing.mass);
   const double force = landing.speed * std::sqrt(landing.stiffness * landing.area * landing.mass);
-  const double error = std::max(relative(landing.numbers.duration, analytic::pi / frequency),
-                                relative(landing.numbers.peak_force, force));
+  const double error = worst_of(
+      {relative(landing.numbers.duration, analytic::pi / frequency), relative(landing.numbers.peak_force, force)});
   return {landing.numbers.peak_force, error, Answer::holds,
           fmt::format("contact time {} s", significant(landing.numbers.duration, 9))};
 }
 
 Measured damped_landing(CaseRuns&) {
-  double worst = 0, at_one = 0;
+  WorstError worst;
+  double at_one = 0;
   for (const double s : {0.01, 0.1, 1.0, 5.0}) {
     const FlatLanding landing = flat_landing(s * 1e8 / 3);
     const double e = landing.numbers.restitution;
     const double residual = std::log1p(s) - std::log1p(-s * e) - s * (1 + e);
     const double slope = s / (1 - s * e) - s;  // of the residual over e
-    worst = std::max(worst, std::fabs(residual / slope));
+    worst.take(std::fabs(residual / slope));
     if (s == 1) at_one = e;
   }
-  return {at_one, worst, Answer::holds, "worst of s = 0.01, 0.1, 1, 5"};
+  return {at_one, worst.value(), Answer::holds, "worst of s = 0.01, 0.1, 1, 5"};
 }
 
 Measured elastic_energy(CaseRuns& case_runs) {
-  double worst = 0;
+  WorstError worst;
   for (const char* name : {"rod-45", "phone-elastic"}) {
     const numeric::Simulation& run = case_runs.run(name, {.planar = true});
     for (const auto& impact : run.impacts) {
-      worst = std::max(worst, std::fabs(impact.value.energy_loss) / run.energy_start);
+      worst.take(std::fabs(impact.value.energy_loss) / run.energy_start);
     }
   }
-  return {worst, worst, Answer::holds, "largest loss of one impact over the energy; digits 6"};
+  return {worst.value(), worst.value(), Answer::holds, "largest loss of one impact over the energy; digits 6"};
 }
 
 Measured energy_ledger(CaseRuns& case_runs) {
-  double worst = 0;
+  WorstError worst;
   for (const char* name : {"phone-damped", "rod-at-1ms", "rod-from-2m", "rod-friction-03"}) {
-    for (const auto& impact : case_runs.run(name).impacts) worst = std::max(worst, std::fabs(impact.ledger_gap));
+    for (const auto& impact : case_runs.run(name).impacts) worst.take(std::fabs(impact.ledger_gap));
   }
-  return {worst, worst, Answer::holds, "loss − dampers − friction − released, over the energy"};
+  return {worst.value(), worst.value(), Answer::holds, "loss − dampers − friction − released, over the energy"};
 }
 
 /// Change of the end state from step to step of the paper's method.
@@ -194,12 +186,12 @@ Measured free_rotation(CaseRuns&) {
   const auto momentum = [&](const numeric::Rotation& r) {
     return numeric::Vector3(r.attitude * (inertia * r.angular_velocity));
   };
-  double worst = 0;
+  WorstError worst;
   for (int i = 1; i <= 100; ++i) {
     const numeric::Rotation at = rotation.at(12.6 * i);
-    worst = std::max(worst, (momentum(at) - momentum(start)).norm() / momentum(start).norm());
+    worst.take((momentum(at) - momentum(start)).norm() / momentum(start).norm());
   }
-  return {momentum(start).norm(), worst, Answer::holds, "body about its intermediate axis, 1000 turns"};
+  return {momentum(start).norm(), worst.value(), Answer::holds, "body about its intermediate axis, 1000 turns"};
 }
 
 /// A box standing on its edge, sunk by d: the submerged wedge has the volume W d²/(2 sin θ cos θ).
@@ -218,11 +210,11 @@ Measured hydrostatic_force(CaseRuns&) {
 }
 
 Measured contact_time_powers(CaseRuns&) {
-  double worst = 0;
+  WorstError worst;
   std::string found;
   const auto power = [&](const Scene& scene, double exact, const char* what) {
     const double measured = stiff_limit(scene, scene.make_body(), {.impacts = 1}).power;
-    worst = std::max(worst, std::fabs(measured - exact));
+    worst.take(std::fabs(measured - exact));
     found += fmt::format("{}{} {}", found.empty() ? "" : ", ", what, significant(measured, 5));
     return measured;
   };
@@ -231,7 +223,7 @@ Measured contact_time_powers(CaseRuns&) {
   power(flat, 1.0 / 2, "face");
   power(scene_of_case("phone-elastic", {.impacts = 1}), 1.0 / 3, "edge");
   const double corner = power(scene_of_case("rod-45", {.impacts = 1}), 1.0 / 4, "corner");
-  return {corner, worst, Answer::holds, found};
+  return {corner, worst.value(), Answer::holds, found};
 }
 
 // Close to flat: the billiard in a wedge or cone against the full model at a small tilt.
@@ -244,11 +236,13 @@ Measured impulses_close_to_flat(CaseRuns&) {
   const auto full = analytic::impact_sequence(
       {.body = body, .inclination = Angle::from_radians(1e-13), .velocity = {.normal = -1}, .law = {}},
       {.impacts = 9, .amplification = false});
-  double worst = full.rows.size() == limit.size() ? 0 : INFINITY;
+  WorstError worst;
+  if (full.rows.size() != limit.size()) worst.take(INFINITY);
   for (std::size_t i = 0; i < std::min(limit.size(), full.rows.size()); ++i) {
-    worst = std::fmax(worst, std::fabs(full.rows[i].impact.normal_impulse - limit[i].impulse));
+    worst.take(std::fabs(full.rows[i].impact.normal_impulse - limit[i].impulse));
   }
-  return {limit[1].impulse, worst, Answer::holds, fmt::format("{} impacts, arms 0.3 and 0.7, κ = 0.2", limit.size())};
+  return {limit[1].impulse, worst.value(), Answer::holds,
+          fmt::format("{} impacts, arms 0.3 and 0.7, κ = 0.2", limit.size())};
 }
 
 Measured hardest_blow_of_the_phone(CaseRuns&) {

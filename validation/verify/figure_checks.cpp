@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "validation/figures/figure.hpp"
 #include "validation/verify/check.hpp"
@@ -17,9 +16,9 @@ using numeric::ImpactNumbers;
 using numeric::Simulation;
 
 /// Worst distance of the points of the continuous model from the lines of the discrete one, over the largest value of
-/// each column; infinite where one model has an impact and the other has not.
+/// each column; no number where one model has an impact and the other has not.
 Measured distance_of_points(const Figure& figure) {
-  double worst = 0;
+  WorstError worst;
   int points = 0;
   for (std::size_t column = 1; column + 1 < figure.columns.size(); column += 2) {
     double scale = 0;
@@ -27,13 +26,12 @@ Measured distance_of_points(const Figure& figure) {
     for (const auto& row : figure.rows) {
       const bool is_point = row[0] > 0 && std::fmod(row[0], 5.0) == 0;
       if (!is_point || (!std::isfinite(row[column]) && !std::isfinite(row[column + 1]))) continue;
-      const double off = std::fabs(row[column] - row[column + 1]) / scale;
-      worst = off <= worst ? worst : std::isfinite(off) ? off : std::numeric_limits<double>::infinity();
+      worst.take(std::fabs(row[column] - row[column + 1]) / scale);
       ++points;
     }
   }
-  return {static_cast<double>(points), worst, Answer::holds,
-          fmt::format("points on lines; worst {} of the range off", number(worst, 2))};
+  return {static_cast<double>(points), worst.value(), Answer::holds,
+          fmt::format("points on lines; worst {} of the range off", number(worst.value(), 2))};
 }
 
 Measure points_on_lines(int number_of_figure) {
@@ -47,16 +45,17 @@ Measured figure_8(CaseRuns& case_runs) {
   const auto value = [&](const std::vector<double>& row, const char* name) {
     return row[column_index(figure.columns, name)];
   };
-  double worst = 0, least = 0, most = 0;
+  WorstError worst;
+  double least = 0, most = 0;
   for (const auto& row : figure.rows) {
     const double velocity = value(row, "V_centre"), omega = value(row, "Omega");
     const double below = -std::min(value(row, "z_a"), value(row, "z_b"));
     const double gap = value(row, "impacts") > 1 ? std::fabs(value(row, "z_b")) : 0;
-    worst = std::max({worst, std::fabs(velocity * velocity + omega * omega / 12 - 1), below, gap});
+    worst.take(worst_of({std::fabs(velocity * velocity + omega * omega / 12 - 1), below, gap}));
     if (value(row, "panel") == 1) least = std::min(least, velocity);
     if (value(row, "panel") == 2 && value(row, "impacts") == 1) most = velocity;
   }
-  return {most, worst, Answer::holds,
+  return {most, worst.value(), Answer::holds,
           fmt::format("the centre moves up after impact 1 at 56.5°, with {} |vₙ| down at 45°", number(-least, 4))};
 }
 
@@ -70,42 +69,45 @@ double kinetic_energy_after(const numeric::Body& body, const ImpactNumbers& n) {
 Measured figure_14(CaseRuns& case_runs) {
   const Scene scene = scene_of_case("rod-sweep", {});
   const numeric::Body body = scene.make_body();
-  double worst = 0, least = 1;
+  WorstError worst;
+  double least = 1;
   for (const SweptSimulation& swept : case_runs.sweep("rod-sweep")) {
     const ImpactNumbers& n = swept.run.impacts.at(0).value;
     const double before = body.mass() * scene.speed * scene.speed / 2;
-    worst = std::max(worst, std::fabs(kinetic_energy_after(body, n) / before - 1));
+    worst.take(std::fabs(kinetic_energy_after(body, n) / before - 1));
     least = std::min(least, n.velocity_after.z());
   }
-  return {least, worst, Answer::holds, "least Vₙ over the angle; 91 angles"};
+  return {least, worst.value(), Answer::holds, "least Vₙ over the angle; 91 angles"};
 }
 
 /// What friction dissipates is what the velocities lack.
 Measured figure_15(CaseRuns& case_runs) {
   const Scene scene = scene_of_case("rod-friction-sweep", {});
   const numeric::Body body = scene.make_body();
-  double worst = 0, most = 0;
+  WorstError worst;
+  double most = 0;
   for (const SweptSimulation& swept : case_runs.sweep("rod-friction-sweep")) {
     const ImpactNumbers& n = swept.run.impacts.at(0).value;
     const double before = body.mass() * scene.speed * scene.speed / 2, lost = before - kinetic_energy_after(body, n);
-    worst = std::max(worst, std::fabs(lost - n.work_friction) / before);
+    worst.take(std::fabs(lost - n.work_friction) / before);
     most = std::max(most, lost);
   }
-  return {most, worst, Answer::holds, "largest loss over friction; friction's own work accounts for it"};
+  return {most, worst.value(), Answer::holds, "largest loss over friction; friction's own work accounts for it"};
 }
 
 /// |F_t| = μ F_n while the point slides: μ = 0.1, 0.3, 0.5.
 Measured figure_16(CaseRuns& case_runs) {
-  double worst = 0, peak = 0;
+  WorstError worst;
+  double peak = 0;
   for (const auto& [name, mu] :
        {std::pair{"rod-friction-01", 0.1}, {"rod-friction-03", 0.3}, {"rod-friction-05", 0.5}}) {
     for (const HistorySample& s : case_runs.history(name).samples) {
       if (!s.in_contact || !(s.force.z() > 0)) continue;
-      worst = std::max(worst, std::fabs(std::fabs(s.force.x()) / (mu * s.force.z()) - 1));
+      worst.take(std::fabs(std::fabs(s.force.x()) / (mu * s.force.z()) - 1));
       peak = std::max(peak, s.force.z());
     }
   }
-  return {peak, worst, Answer::holds, "largest normal force for μ up to 0.5"};
+  return {peak, worst.value(), Answer::holds, "largest normal force for μ up to 0.5"};
 }
 
 /// Energy of the history at its ends against the works booked in between.
@@ -128,11 +130,11 @@ Measured figure_23(CaseRuns& case_runs) {
 /// The total energy of every sample is that of the first.
 Measured figure_19(CaseRuns& case_runs) {
   const auto& samples = case_runs.history("phone-elastic", {.planar = true}).samples;
-  double worst = 0;
+  WorstError worst;
   for (const HistorySample& s : samples) {
-    worst = std::max(worst, std::fabs(s.energy_total() / samples.front().energy_total() - 1));
+    worst.take(std::fabs(s.energy_total() / samples.front().energy_total() - 1));
   }
-  return {static_cast<double>(samples.size()), worst, Answer::holds,
+  return {static_cast<double>(samples.size()), worst.value(), Answer::holds,
           "instants, with the energy of the ground's springs"};
 }
 
@@ -160,21 +162,22 @@ Measured figure_21(CaseRuns& case_runs) {
 Measured figure_22(CaseRuns& case_runs) {
   const Simulation& run = case_runs.run("phone-damped");
   const Simulation& fine = case_runs.run("phone-damped", {.digits = 10, .method = numeric::Method::rkck});
-  double worst = 0;
+  WorstError worst;
   for (std::size_t i = 0; i < std::min<std::size_t>(3, fine.impacts.size()); ++i) {
-    worst = std::max(worst, std::fabs(run.impacts.at(i).value.peak_force / fine.impacts[i].value.peak_force - 1));
+    worst.take(std::fabs(run.impacts.at(i).value.peak_force / fine.impacts[i].value.peak_force - 1));
   }
-  return {run.impacts.at(1).value.peak_force, worst, Answer::holds,
+  return {run.impacts.at(1).value.peak_force, worst.value(), Answer::holds,
           "largest force of all; peaks of the first three impacts"};
 }
 
 Measured figure_24(CaseRuns& case_runs) {
-  double worst = 0, most = 0;
+  WorstError worst;
+  double most = 0;
   for (const SweptSimulation& swept : case_runs.sweep("phone-sweep")) {
-    worst = std::max(worst, force_distance(swept.run, swept.force_impulse));
+    worst.take(force_distance(swept.run, swept.force_impulse));
     most = std::max(most, swept.run.impacts.at(0).value.energy_loss);
   }
-  return {most, worst, Answer::holds, "largest loss over the angle; force over time of 84 drops"};
+  return {most, worst.value(), Answer::holds, "largest loss over the angle; force over time of 84 drops"};
 }
 
 }  // namespace

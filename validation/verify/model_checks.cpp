@@ -16,7 +16,7 @@ namespace {
 
 /// The farthest that a limit lies from the discrete value, over the size of the number at large.
 struct LandingCount {
-  double miss = 0;       ///< of all
+  WorstError miss;       ///< of all
   double deviation = 0;  ///< at the scene's own stiffness
   int impacts = 0, landed = 0;
   bool all_land = true;
@@ -33,14 +33,13 @@ struct LandingCount {
       ++landed;
       all_land = all_land && impact.lands();
       for (const auto& [name, heading, q] : comparison.discrete.quantities) {
-        miss =
-            std::max(miss, std::fabs(impact.limit->value[q] - (*impact.discrete)[q]) / comparison.discrete.scales[q]);
+        miss.take(std::fabs(impact.limit->value[q] - (*impact.discrete)[q]) / comparison.discrete.scales[q]);
       }
     }
   }
 
   [[nodiscard]] Measured measured() const {
-    return {static_cast<double>(landed), miss, holds_if(all_land),
+    return {static_cast<double>(landed), miss.value(), holds_if(all_land),
             fmt::format("of {} impacts have their limit; at the scene's stiffness those compared are within {}",
                         impacts, significant(deviation, 2))};
   }

@@ -36,40 +36,38 @@ double scene_error(const oracle::ReferenceScene& scene) {
     speed = std::max(speed, row.velocity.norm());
     rate = std::max(rate, row.angular_velocity.norm());
   }
-  double worst = 0;
+  WorstError worst;
   for (std::size_t i = 0; i < scene.impacts.size(); ++i) {
     const ImpactRow& row = sequence.rows[i];
     const oracle::ReferenceRowOfScene& exact = scene.impacts[i];
     if (row.corners.size() != 1 || row.corners.front().index != exact.corner) return INFINITY;
     const double apart = time > 0 ? std::fabs(row.start - exact.time) / time : 0;
-    worst = std::max({worst, apart, angle_between(row.before.attitude, exact.attitude),
-                      (row.impact.impulse - exact.impulse).norm() / impulse,
-                      (row.impact.velocity_after - exact.velocity).norm() / speed,
-                      (row.impact.angular_velocity_after - exact.angular_velocity).norm() / rate});
+    worst.take(worst_of({apart, angle_between(row.before.attitude, exact.attitude),
+                         (row.impact.impulse - exact.impulse).norm() / impulse,
+                         (row.impact.velocity_after - exact.velocity).norm() / speed,
+                         (row.impact.angular_velocity_after - exact.angular_velocity).norm() / rate}));
   }
-  return worst;
+  return worst.value();
 }
 
 Measured against_scenes(CaseRuns&) {
   const auto scenes =
       oracle::reference_scenes(reference_words("space_scenes.csv"), reference_words("space_sequences.csv"));
-  double worst = 0;
+  WorstError worst;
   std::size_t impacts = 0;
   std::string where;
   for (const oracle::ReferenceScene& scene : scenes) {
-    const double error = scene_error(scene) / scene.tolerance;
     impacts += scene.impacts.size();
-    if (error <= worst) continue;
-    worst = error;
-    where = scene.name;
+    if (worst.take(scene_error(scene) / scene.tolerance)) where = scene.name;
   }
-  return {static_cast<double>(impacts), worst, Answer::holds,
+  return {static_cast<double>(impacts), worst.value(), Answer::holds,
           fmt::format("of {} scenes, each corner right; worst: {}", scenes.size(), where)};
 }
 
 /// A solid block of width tan α and height 1 that rocks from one edge of its foot to the other without rebound.
 Measured rocking_block(CaseRuns&) {
-  double worst = 0, part = 0;
+  WorstError worst;
+  double part = 0;
   for (const double slenderness : {0.05, 0.2, 0.4, 0.6}) {
     const Body block = box(2.5, {.size = {slenderness, 0.3, 1}});
     std::vector<Corner> foot;
@@ -81,9 +79,9 @@ Measured rocking_block(CaseRuns&) {
     rough.law = {.restitution = 0, .friction = FrictionKind::coulomb, .friction_value = 10};
     const double sine = std::sin(std::atan(slenderness));
     part = strike_together(block, before, foot, rough).angular_velocity_after.y() / before.angular_velocity.y();
-    worst = std::max(worst, std::fabs(part - (1 - 1.5 * sine * sine)));
+    worst.take(std::fabs(part - (1 - 1.5 * sine * sine)));
   }
-  return {part, worst, Answer::holds, "tan α = 0.05, 0.2, 0.4, 0.6; the number is that of 0.6"};
+  return {part, worst.value(), Answer::holds, "tan α = 0.05, 0.2, 0.4, 0.6; the number is that of 0.6"};
 }
 
 Vector3 random_vector(Uniform& random, double size) {
@@ -115,7 +113,7 @@ constexpr int drops = 200, impacts_of_drop = 3;
 
 /// Angular momentum about the corner that strikes, and work against energy.
 Measured kept_by_an_impact(CaseRuns&) {
-  double worst = 0;
+  WorstError worst;
   int impacts = 0;
   for (int index = 0; index < drops; ++index) {
     const Drop drop = random_drop(index);
@@ -133,12 +131,13 @@ Measured kept_by_an_impact(CaseRuns&) {
       const double size =
           drop.body.mass * arm.norm() * (row.before.velocity.norm() + row.impact.velocity_after.norm()) +
           (inertia * row.impact.angular_velocity_after).norm();
-      worst = std::max(worst, (after - before).norm() / size);
+      worst.take((after - before).norm() / size);
       const double loss = row.energy_before - row.energy_after;
-      worst = std::max(worst, std::fabs(loss - row.impact.energy_loss) / row.energy_before);
+      worst.take(std::fabs(loss - row.impact.energy_loss) / row.energy_before);
     }
   }
-  return {static_cast<double>(impacts), worst, Answer::holds, "angular momentum about the corner; work and energy"};
+  return {static_cast<double>(impacts), worst.value(), Answer::holds,
+          "angular momentum about the corner; work and energy"};
 }
 
 /// A quarter turn and more about the vertical, and the mirror image in the plane y = 0.
@@ -163,36 +162,36 @@ struct Symmetry {
   }
 };
 
-/// Distance of two runs over what rounding, grown by the sequence, makes of them; in 1e-13.
-double asymmetry(const Drop& drop, const Symmetry& symmetry) {
+/// Takes the distance of two runs over what rounding, grown by the sequence, makes of them.
+void take_asymmetry(WorstError& worst, const Drop& drop, const Symmetry& symmetry) {
   const Sequence run = impact_sequence(drop, {.impacts = impacts_of_drop});
   const Sequence other = impact_sequence(symmetry.of(drop), {.impacts = impacts_of_drop});
-  double worst = 0;
   for (std::size_t i = 0; i < run.rows.size() && run.rows[i].error.predictable; ++i) {
-    if (i >= other.rows.size()) return INFINITY;
+    if (i >= other.rows.size()) return static_cast<void>(worst.take(INFINITY));
     const analytic::space::Impact &a = run.rows[i].impact, &b = other.rows[i].impact;
-    const double apart = std::max({(b.impulse - symmetry.velocity(a.impulse)).norm() / a.impulse.norm(),
+    const double apart = worst_of({(b.impulse - symmetry.velocity(a.impulse)).norm() / a.impulse.norm(),
                                    (b.velocity_after - symmetry.velocity(a.velocity_after)).norm() / 3,
                                    (b.angular_velocity_after - symmetry.rate(a.angular_velocity_after)).norm() /
                                        (1 + a.angular_velocity_after.norm())});
-    worst = std::max(worst, apart / std::max(1.0, run.rows[i].amplification));
+    worst.take(apart / std::max(1.0, run.rows[i].amplification));
   }
-  return worst;
 }
 
 Measured symmetries(CaseRuns&) {
-  double worst = 0;
+  WorstError worst;
   const Symmetry turn{.of_vectors = Eigen::AngleAxisd(2.1, Vector3::UnitZ()).toRotationMatrix()};
   const Symmetry mirror{.of_vectors = Vector3(1, -1, 1).asDiagonal(), .mirrors = true};
   for (int index = 0; index < drops; ++index) {
     const Drop drop = random_drop(index);
-    worst = std::max({worst, asymmetry(drop, turn), asymmetry(drop, mirror)});
+    take_asymmetry(worst, drop, turn);
+    take_asymmetry(worst, drop, mirror);
   }
-  return {2 * drops, worst, Answer::holds, "turned by 2.1 rad about the vertical, and mirrored; 3 impacts each"};
+  return {2 * drops, worst.value(), Answer::holds,
+          "turned by 2.1 rad about the vertical, and mirrored; 3 impacts each"};
 }
 
 Measured path_of_friction(CaseRuns&) {
-  double worst = 0;
+  WorstError worst;
   int paths = 0;
   for (int index = 0; index < 20 * drops; ++index) {
     const Drop drop = random_drop(index);
@@ -210,10 +209,11 @@ Measured path_of_friction(CaseRuns&) {
         analytic::space::Contact{
             .inverse_inertia = inverse, .velocity = velocity.value, .velocity_scale = velocity.scale},
         drop.law.law);
-    worst = std::max({worst, (impact.contact_after - exact.velocity().cast<double>()).norm() / velocity.value.norm(),
-                      (impact.impulse - exact.impulse().cast<double>()).head<2>().norm() / impact.impulse.norm()});
+    worst.take(worst_of({(impact.contact_after - exact.velocity().cast<double>()).norm() / velocity.value.norm(),
+                         (impact.impulse - exact.impulse().cast<double>()).head<2>().norm() / impact.impulse.norm()}));
   }
-  return {static_cast<double>(paths), worst, Answer::holds, "paths along which slip turns and stays above a tenth"};
+  return {static_cast<double>(paths), worst.value(), Answer::holds,
+          "paths along which slip turns and stays above a tenth"};
 }
 
 /// The same planar body for both models: four vertices in the plane, free to leave it.
@@ -246,7 +246,7 @@ PlanarPair planar_pair(int index) {
 }
 
 Measured planar_model(CaseRuns&) {
-  double worst = 0;
+  WorstError worst;
   std::size_t impacts = 0;
   for (int index = 0; index < drops; ++index) {
     const PlanarPair pair = planar_pair(index);
@@ -257,14 +257,15 @@ Measured planar_model(CaseRuns&) {
       ++impacts;
       const analytic::Impact& a = planar.rows[i].impact;
       const analytic::space::Impact& b = flown.rows[i].impact;
-      const double apart = std::max({std::fabs(b.impulse.z() - a.normal_impulse),
+      const double apart = worst_of({std::fabs(b.impulse.z() - a.normal_impulse),
                                      std::fabs(b.impulse.x() - a.tangential_impulse), std::fabs(b.impulse.y()),
                                      (b.velocity_after - Vector3(a.after.tangential, 0, a.after.normal)).norm(),
                                      (b.angular_velocity_after - Vector3(0, a.after.angular, 0)).norm()});
-      worst = std::max(worst, apart / std::max(1.0, flown.rows[i].amplification));
+      worst.take(apart / std::max(1.0, flown.rows[i].amplification));
     }
   }
-  return {static_cast<double>(impacts), worst, Answer::holds, "boxes of 1 kg and 1 m that fall with about 1 m/s"};
+  return {static_cast<double>(impacts), worst.value(), Answer::holds,
+          "boxes of 1 kg and 1 m that fall with about 1 m/s"};
 }
 
 }  // namespace

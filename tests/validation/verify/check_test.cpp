@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <set>
 
 #include "validation/figures/figure.hpp"
@@ -48,6 +50,15 @@ BOOST_AUTO_TEST_CASE(a_check_passes_and_fails_by_its_tolerance) {
   const CheckResult failed = judged(one);
   BOOST_TEST(!failed.passed());
   BOOST_TEST(failed.failure.find("not within") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(the_worst_of_no_errors_or_of_one_that_is_no_number_is_no_number) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  BOOST_TEST(std::isnan(worst_of({})));
+  BOOST_TEST(std::isnan(worst_of({none, 1, 2})));
+  BOOST_TEST(std::isnan(worst_of({1, none, 2})));
+  BOOST_TEST(worst_of({0}) == 0);
+  BOOST_TEST(worst_of({1, 3, 2}) == 3);
 }
 
 BOOST_AUTO_TEST_CASE(an_answer_that_is_not_the_expected_one_fails) {
