@@ -19,10 +19,12 @@ import re
 import shlex
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 README = ROOT / "README.md"
+FAULTS = ROOT / "tests" / "seeded_faults" / "faults.toml"
 VERIFICATION = ROOT / "notebooks-data" / "verification.md"
 TRADEOFF = ROOT / "notebooks-data" / "tradeoff.csv"
 PAGES = ROOT / "notebooks-data" / "reference"
@@ -138,7 +140,19 @@ def verification(result):
                 cells = [check["id"], check["claim"], check["answer"], f"{check['quantity']}: {number(check)}", check["found"],
                          f"{check['oracle']}; {check['metric']}", f"{check['tolerance']:.2g}", check["reason"]]
                 lines.append("| " + " | ".join(cell(text) for text in cells) + " |")
-    return "\n".join(lines) + "\n"
+    return "\n".join([*lines, *faults_that_turn_red(result["checks"])]) + "\n"
+
+
+def faults_that_turn_red(checks):
+    """For each check the faults that make it fail, as tests/seeded_faults/run --verify sees them do."""
+    faults = tomllib.loads(FAULTS.read_text(encoding="utf-8"))["fault"]
+    lines = ["", "## Faults that turn each check red", "",
+             "`tests/seeded_faults/run --verify` puts each of these faults into the program and sees the checks fail.", "",
+             "| | what is wrong then |", "|---|---|"]
+    for check in checks:
+        wrong = [fault["what"] for fault in faults if check["id"] in fault.get("turns_red", "").split()]
+        lines.append(f"| {check['id']} | {cell('; '.join(wrong))} |")
+    return lines
 
 
 def span(region):

@@ -9,6 +9,7 @@ import os
 import re
 import subprocess
 import tempfile
+import tomllib
 import unittest
 
 from run_folder import CASES, PROGRAM, ROOT, case, run
@@ -129,6 +130,16 @@ class Verify(unittest.TestCase):
             self.assertEqual(done.returncode, 2)
             self.assertRegex(done.stderr, r"\Aclatter: --html [^\n]*gnuplot-nox\n\Z")
             self.assertEqual(os.listdir(folder), [])
+
+
+class Faults(unittest.TestCase):
+    def test_each_check_has_a_seeded_fault_that_turns_it_red(self):
+        def tables(*path):
+            with open(os.path.join(ROOT, *path), "rb") as file:
+                return tomllib.load(file)
+        checks = {check["id"] for check in tables("validation", "verify", "checks.toml")["check"]}
+        faults = tables("tests", "seeded_faults", "faults.toml")["fault"]
+        self.assertEqual({check for fault in faults for check in fault.get("turns_red", "").split()}, checks)
 
 
 def read_figure(path):
