@@ -12,6 +12,7 @@ BLUE, RED, GREEN, PINK, ORANGE, SKY = PALETTE = ("#0072b2", "#d55e00", "#009e73"
 INK, GREY = "#222222", "#777777"
 #: What a colour means wherever it means one thing.
 DISCRETE, CONTINUOUS, GROUND, BETA, GAMMA = BLUE, RED, GREEN, BLUE, PINK
+TRANSLATION, ROTATION, POTENTIAL, SPEED = ORANGE, "#7a2a5b", SKY, ORANGE
 #: Right digits, two a class from 0 on: dark for few, told apart by lightness alone.
 DIGITS = ("#440154", "#46327e", "#365c8d", "#277f8e", "#1fa187", "#4ac16d", "#a0da39", "#fde725")
 

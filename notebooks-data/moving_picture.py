@@ -18,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
-from look import BLUE, GREEN, GREY, INK, RED
+from look import CONTINUOUS, GREEN, GREY, INK
 
 ROOT = Path(__file__).resolve().parent.parent
 FILE = ROOT / "notebooks-data" / "figures" / "phone.svg"
@@ -114,13 +114,13 @@ def style(motion, times, peaks, total):
                     f".b{number}{{animation:b{number} {total:.1f}s linear infinite}}" for number, peak in enumerate(peaks, 1))
     return f"""<style>
 text{{font:15px "DejaVu Sans",sans-serif;fill:{INK};text-anchor:middle}}
-.number{{font-weight:bold;fill:{RED}}}
+.number{{font-weight:bold;fill:{CONTINUOUS}}}
 .quiet{{fill:{GREY};font-size:13px}}
 .ground{{stroke:{GREEN};stroke-width:3}}
-.body rect{{fill:{BLUE};fill-opacity:.25;stroke:{BLUE};stroke-width:2.5}}
+.body rect{{fill:{CONTINUOUS};fill-opacity:.25;stroke:{CONTINUOUS};stroke-width:2.5}}
 .outline rect{{fill:none;stroke:{GREY};stroke-width:1;stroke-dasharray:4 3}}
-.body line{{stroke:{BLUE};stroke-width:1.5}} .outline line{{stroke:none}}
-.blow path{{fill:none;stroke:{RED};stroke-width:4}}
+.body line{{stroke:{CONTINUOUS};stroke-width:1.5}} .outline line{{stroke:none}}
+.blow path{{fill:none;stroke:{CONTINUOUS};stroke-width:4}}
 @media (prefers-color-scheme:dark){{text{{fill:#dddddd}}.quiet{{fill:#aaaaaa}}}}
 .body{{transform:{end};animation:move {total:.1f}s linear infinite}}
 @keyframes move{{{keys}100%{{transform:{end}}}}}

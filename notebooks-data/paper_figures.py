@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The paper's figures: the panels that the head of figures/figure_NN.csv describes, side by side."""
 
-from plotting import GREEN, INK, PINK, common_legend, draw_plot, new_figure, panel_legend
+from plotting import GROUND, INK, SPEED, common_legend, draw_plot, new_figure, panel_legend
 
 LEGENDS = {"": None, "beside": {"loc": "center left", "bbox_to_anchor": (1.02, 0.5)}}
 
@@ -42,10 +42,10 @@ def draw_speeds(panels, table):
     """Fig. 8: the velocity of the centre after each impact, and the ground."""
     for place, axes in enumerate(panels):
         rows = table.where(table["panel"] == place + 1)
-        arrow(axes, rows, 0, -0.65, GREEN, "V₁")
+        arrow(axes, rows, 0, -0.65, SPEED, "V₁")
         if rows["impacts"][-1] == 2:
-            arrow(axes, rows, -1, 0.65, PINK, "V₂")
-        axes.axhline(0, color=INK, linewidth=2)
+            arrow(axes, rows, -1, 0.65, INK, "V₂")
+        axes.axhline(0, color=GROUND, linewidth=2)
 
 
 def arrow(axes, rows, row, x, colour, sign):

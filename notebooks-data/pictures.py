@@ -8,7 +8,7 @@ from typing import Callable
 import numpy as np
 from matplotlib.patches import Patch, Polygon
 
-from plotting import (BETA, BLUE, DIGITS, GAMMA, GREY, GROUND, INK, PALETTE, PINK, RED, STYLES, Table, common_legend, logarithmic, new_figure,
+from plotting import (BETA, BLUE, CONTINUOUS, DIGITS, DISCRETE, GAMMA, GREY, GROUND, INK, PALETTE, SPEED, STYLES, Table, common_legend, logarithmic, new_figure,
                       panel_legend)
 from sources import Source
 
@@ -34,7 +34,7 @@ def contact_angles(data):
         for suffix, words, style in (("", "no gravity", "line"), ("_G0_1", "G = 0.1", "dashed")):
             axes.plot(table["theta"], table[name + suffix], color=colour, label=f"{sign}, {words}", **STYLES[style])
         there = np.isfinite(table[f"{name}_continuous"])
-        axes.plot(table["theta"][there], table[f"{name}_continuous"][there], color=colour,
+        axes.plot(table["theta"][there], table[f"{name}_continuous"][there], color=CONTINUOUS,
                   label="continuous model" if name == "gamma" else None, **STYLES["points"])
         last = np.flatnonzero(np.isfinite(table[name]))[-1]
         x, y = table["theta"][last], table[name][last]
@@ -59,16 +59,16 @@ def conventions(_):
     axes.plot(*zip(a, b), color=INK, linewidth=5, solid_capstyle="round")
     axes.plot(*centre, color="white", marker="o", markersize=5)
     for at, end, name in ((centre, (0, -0.36), "$V_n<0$"), (centre, (0.42, 0), "$V_t>0$")):
-        write_arrow(axes, at, end, BLUE, name)
+        write_arrow(axes, at, end, SPEED, name)
     for end, name in (((0, 0.75), "$P_n>0$"), ((0.4, 0), "$P_t>0$")):
-        write_arrow(axes, a, end, RED, name)
+        write_arrow(axes, a, end, DISCRETE, name)
     write_arrow(axes, np.array([-1.15, 0.35]), (0.35, 0), GREY, "x")
     write_arrow(axes, np.array([-1.15, 0.35]), (0, 0.35), GREY, "z")
     turn = np.radians(np.linspace(150, 40, 60))
     around = centre + 0.42 * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
-    axes.plot(*around[:-2].T, color=PINK)
-    axes.annotate("", around[-1], around[-4], arrowprops={"arrowstyle": "-|>", "color": PINK, "shrinkA": 0, "shrinkB": 0})
-    axes.annotate("Ω > 0", centre + [0.05, 0.47], ha="center", va="bottom", color=PINK)
+    axes.plot(*around[:-2].T, color=SPEED)
+    axes.annotate("", around[-1], around[-4], arrowprops={"arrowstyle": "-|>", "color": SPEED, "shrinkA": 0, "shrinkB": 0})
+    axes.annotate("Ω > 0", centre + [0.05, 0.47], ha="center", va="bottom", color=SPEED)
     arc = np.linspace(0, theta, 30)
     axes.plot(0.62 * np.cos(arc), 0.62 * np.sin(arc), color=INK, linewidth=1)
     axes.annotate("θ", 0.7 * np.array([np.cos(theta / 2), np.sin(theta / 2)]), ha="center", va="center")
@@ -294,7 +294,7 @@ def corner_sequence(data):
     table = Table.read(data / "figures" / CORNERS.file)
     figure = new_figure(9.6, 3.6)
     axes = figure.subplots()
-    axes.axhline(0, color=INK, linewidth=0.8)
+    axes.axhline(0, color=GROUND, linewidth=0.8)
     for i in range(len(table["n"])):
         place = np.array([table[f"place_{axis}"][i] for axis in "xyz"])
         attitude = rotation([table[f"attitude_q{k}"][i] for k in range(4)])
@@ -304,7 +304,7 @@ def corner_sequence(data):
                       f"{table['impulse_normal'][i]:.3g} N·s", (140 * i, -8), ha="center", va="top")
     axes.set(aspect="equal", xlim=(-75, 140 * i + 75), ylim=(-34, 125), xlabel="across, one drop beside the other [mm]",
              ylabel="height [mm]")
-    axes.plot([], [], color=RED, marker="o", markersize=4, label="corner that strikes, and its normal impulse Pₙ")
+    axes.plot([], [], color=DISCRETE, marker="o", markersize=4, label="corner that strikes, and its normal impulse Pₙ")
     panel_legend(axes)
     axes.grid(False)
     return figure
@@ -324,8 +324,8 @@ def draw_struck_box(axes, place, attitude, at, impulse):
         hidden = side * attitude[:, axis] @ towards < 0
         axes.add_patch(Polygon(page, facecolor="none" if hidden else BLUE + "30", edgecolor=GREY if hidden else INK,
                                linewidth=0.5 if hidden else 1, linestyle=":" if hidden else "-"))
-    axes.annotate("", (at, 60 * impulse), (at, 0), arrowprops={"arrowstyle": "-|>", "color": RED, "linewidth": 1.5})
-    axes.plot(at, 0, color=RED, marker="o", markersize=4)
+    axes.annotate("", (at, 60 * impulse), (at, 0), arrowprops={"arrowstyle": "-|>", "color": DISCRETE, "linewidth": 1.5})
+    axes.plot(at, 0, color=DISCRETE, marker="o", markersize=4)
 
 
 PICTURES = {"contact_angles": Picture("contact_angles.svg", contact_angles),

@@ -12,7 +12,7 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
-from look import (BETA, BLUE, CONTINUOUS, DIGITS, DISCRETE, GAMMA, GREEN, GREY, GROUND, INK, LOOK, ORANGE, PALETTE, PINK, RED, SKY,  # noqa: F401
+from look import (BETA, BLUE, CONTINUOUS, DIGITS, DISCRETE, GAMMA, GREEN, GREY, GROUND, INK, LOOK, ORANGE, PALETTE, PINK, RED, SKY, SPEED,  # noqa: F401
                   logarithmic, superscript)
 
 STYLES = {

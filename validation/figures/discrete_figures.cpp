@@ -83,17 +83,17 @@ std::string words(double gravity_number) {
 
 struct ShownNumber {
   std::string name, unit, quantity, sign;
-  Style style;  ///< of its lines where several gravities are shown
+  const char* colour;
 };
 
 std::vector<ShownNumber> numbers_of(const Wanted& wanted) {
   const std::string angle = "contact angle of the ", impulse = "normal impulse of the ";
   std::vector<ShownNumber> numbers;
-  if (wanted.beta) numbers.push_back({"beta", "deg", angle + "second impact", "β", Style::line});
-  if (wanted.gamma) numbers.push_back({"gamma", "deg", angle + "third impact", "γ", Style::dashed});
-  const std::vector<ShownNumber> impulses{{"P1", "m |v_n|", impulse + "first impact", "P₁", Style::dotted},
-                                          {"P2", "m |v_n|", impulse + "second impact", "P₂", Style::line},
-                                          {"P3", "m |v_n|", impulse + "third impact", "P₃", Style::dashed}};
+  if (wanted.beta) numbers.push_back({"beta", "deg", angle + "second impact", "β", palette::beta});
+  if (wanted.gamma) numbers.push_back({"gamma", "deg", angle + "third impact", "γ", palette::gamma});
+  const std::vector<ShownNumber> impulses{{"P1", "m |v_n|", impulse + "first impact", "P₁", palette::ink},
+                                          {"P2", "m |v_n|", impulse + "second impact", "P₂", palette::beta},
+                                          {"P3", "m |v_n|", impulse + "third impact", "P₃", palette::gamma}};
   numbers.insert(numbers.end(), impulses.begin(), impulses.begin() + wanted.impulses);
   return numbers;
 }
@@ -116,22 +116,18 @@ std::vector<FigureCurve> curves_of(const Wanted& wanted) {
     const bool is_any_gravity = gravities > 1 && number.name == "P1";  // the first impact knows no gravity
     for (std::size_t g = 0; g < (is_any_gravity ? 1 : gravities); ++g) {
       const double gravity_number = wanted.gravity_numbers[g];
-      FigureCurve curve{.x = "theta", .y = number.name + suffix(gravity_number), .legend = number.sign};
-      if (gravities == 1) {
-        curve.legend += ", discrete model";
-        curve.colour = curves.empty() ? blue : red;
-      } else {
-        curve.legend += is_any_gravity ? ", any G" : fmt::format(", G = {}", gravity_number);
-        curve.style = number.style;
-        curve.colour = is_any_gravity ? green : std::array{ink, blue, red}[g];
-      }
-      curves.push_back(curve);
+      const std::string of_gravity = is_any_gravity ? ", any G" : fmt::format(", G = {}", gravity_number);
+      curves.push_back({.x = "theta",
+                        .y = number.name + suffix(gravity_number),
+                        .legend = number.sign + (gravities == 1 ? ", discrete model" : of_gravity),
+                        .style = std::array{Style::line, Style::dashed, Style::dotted}[g],
+                        .colour = number.colour});
     }
   }
   for (std::size_t i = 0, lines = curves.size(); i < lines; ++i) {
     FigureCurve points{.x = "theta", .y = curves[i].y + "_continuous", .style = Style::points};
     if (i + 1 == lines) points.legend = "continuous model";
-    points.colour = curves[i].colour;
+    points.colour = palette::continuous;
     curves.push_back(points);
   }
   return curves;

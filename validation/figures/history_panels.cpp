@@ -29,14 +29,17 @@ void add_history_row(Figure& figure, std::vector<double> front, const numeric::H
 void add_history_panels(Figure& figure, const std::string& caption, const std::string& force_legend,
                         const RowFilter& where) {
   const std::string time = figure.label("time", "time");
-  figure.plots.push_back({.title = "(a)" + caption,
-                          .x_label = time,
-                          .y_label = figure.label("normal contact force Fₙ", "Fn"),
-                          .curves = {{.x = "time", .y = "Fn", .legend = force_legend, .where = where}},
-                          .y = {0, no_number}});
   figure.plots.push_back(
-      energy_panel({.title = "(b)" + caption, .x_label = time},
-                   {{"E", "total", ink}, {"E_kinetic", "kinetic", blue}, {"E_potential", "potential", red}}, where));
+      {.title = "(a)" + caption,
+       .x_label = time,
+       .y_label = figure.label("normal contact force Fₙ", "Fn"),
+       .curves = {{.x = "time", .y = "Fn", .legend = force_legend, .where = where, .colour = palette::continuous}},
+       .y = {0, no_number}});
+  figure.plots.push_back(energy_panel({.title = "(b)" + caption, .x_label = time},
+                                      {{"E", "total", ink},
+                                       {"E_kinetic", "kinetic", palette::translation},
+                                       {"E_potential", "potential", palette::potential}},
+                                      where));
 }
 
 }  // namespace clatter::validation::inline figures

@@ -52,20 +52,21 @@ void add_panels_over_angle(Figure& figure) {
                     .y_label = figure.label(words, column),
                     .x = {0, 90},
                     .y = range};
-    if (*discrete) plot.curves = {{.x = "theta", .y = discrete, .legend = "discrete, corner", .colour = blue}};
+    if (*discrete)
+      plot.curves = {{.x = "theta", .y = discrete, .legend = "discrete, corner", .colour = palette::discrete}};
     plot.curves.push_back({.x = "theta",
                            .y = column,
                            .legend = "continuous",
                            .style = Style::points,
                            .where = {{"touches", 1}},
-                           .colour = ink,
+                           .colour = palette::continuous,
                            .every = 2});
     plot.curves.push_back({.x = "theta",
                            .y = column,
                            .legend = "two impacts in one",
                            .style = Style::crosses,
                            .where = {{"touches", 2}},
-                           .colour = red});
+                           .colour = palette::continuous});
     figure.plots.push_back(plot);
   }
 }
@@ -123,12 +124,15 @@ Figure figure_phone_impacts(CaseRuns& case_runs, bool damped) {
   }
   for (const auto& [title, column, words] :
        {std::tuple{"(a)", "peak_force", "peak normal force"}, {"(b)", "start", "elapsed time"}}) {
-    figure.plots.push_back(
-        {.title = title,
-         .x_label = figure.label("number of the impact", "impact"),
-         .y_label = figure.label(words, column),
-         .curves = {{.x = "impact", .y = column, .legend = "continuous model", .style = Style::bars}},
-         .whole_x = true});
+    figure.plots.push_back({.title = title,
+                            .x_label = figure.label("number of the impact", "impact"),
+                            .y_label = figure.label(words, column),
+                            .curves = {{.x = "impact",
+                                        .y = column,
+                                        .legend = "continuous model",
+                                        .style = Style::bars,
+                                        .colour = palette::continuous}},
+                            .whole_x = true});
   }
   return figure;
 }
@@ -151,9 +155,9 @@ Figure figure_phone_energies(CaseRuns& case_runs) {
   }
   figure.plots = {energy_panel({.x_label = "time [ms]", .x = {0, no_number}, .x_factor = 1e3},
                                {{"E", "total", ink},
-                                {"E_translation", "translation", blue},
-                                {"E_rotation", "rotation", green},
-                                {"E_potential", "potential", red}})};
+                                {"E_translation", "translation", palette::translation},
+                                {"E_rotation", "rotation", palette::rotation},
+                                {"E_potential", "potential", palette::potential}})};
   return figure;
 }
 

@@ -81,15 +81,16 @@ void add_panel(Figure& figure, double number, const std::string& letter) {
       .equal_scales = true};
   if (value(last, "impacts") == 2) plot.title += fmt::format(",  V₂ = {} |vₙ|", signed_text(value(last, "V_centre")));
   const RowFilter flight{{"panel", number}, {"impacts", 1}};
-  plot.curves = {{.x = "x_a",
-                  .y = "z_a",
-                  .legend = "rod, later darker",
-                  .style = Style::segments,
-                  .where = flight,
-                  .x_end = "x_b",
-                  .y_end = "z_b"},
-                 {.x = "x_a", .y = "z_a", .legend = "end a", .style = Style::points, .where = flight, .colour = ink},
-                 {.x = "x_b", .y = "z_b", .legend = "end b", .style = Style::squares, .where = flight, .colour = red}};
+  plot.curves = {
+      {.x = "x_a",
+       .y = "z_a",
+       .legend = "rod, later darker",
+       .style = Style::segments,
+       .where = flight,
+       .x_end = "x_b",
+       .y_end = "z_b"},
+      {.x = "x_a", .y = "z_a", .legend = "end a", .style = Style::points, .where = flight, .colour = ink},
+      {.x = "x_b", .y = "z_b", .legend = "end b", .style = Style::squares, .where = flight, .colour = palette::ochre}};
   figure.plots.push_back(plot);
 }
 
@@ -193,7 +194,7 @@ void add_panels(Figure& figure, const std::vector<ShownRodNumber>& numbers, cons
                              .y = name,
                              .legend = sources[i].legend,
                              .style = std::array{Style::line, Style::dashed, Style::points}[i],
-                             .colour = std::array{blue, red, ink}[i],
+                             .colour = std::array{palette::sky, palette::discrete, palette::continuous}[i],
                              .every = i == 2 ? every : 1});
     }
     plot.y_label = figure.label(number.label, plot.curves[0].y);

@@ -11,6 +11,8 @@ namespace clatter::validation::inline output::palette {
 inline constexpr const char *discrete = "#0072b2", *continuous = "#d55e00";
 inline constexpr const char *beta = "#0072b2", *gamma = "#cc79a7";
 inline constexpr const char *ground = "#009e73", *ink = "#222222", *sky = "#56b4e9", *ochre = "#e69f00";
+/// Kinds of energy; what the ground stores has the ground's colour, the total is ink.
+inline constexpr const char *translation = ochre, *rotation = "#7a2a5b", *potential = sky;
 
 /// Classes in their order, such as numbers of impacts from 1 on.
 inline constexpr std::array<const char*, 10> classes{"#fdf1c9", "#f4be55", "#56b4e9", "#e07b39", "#cc6fa0",

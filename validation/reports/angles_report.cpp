@@ -406,7 +406,7 @@ Picture angles_picture(const AnglesRequest& request) {
   } else {
     add(angles, "gamma_deg", "γ, third impact", palette::gamma);
   }
-  add(impulses, "P1", "P₁", palette::ground);
+  add(impulses, "P1", "P₁", palette::ink);
   add(impulses, "P2", "P₂", palette::beta);
   add(impulses, "P3", "P₃", palette::gamma);
   return {.what = "Contact angles and impulses of the first three impacts",

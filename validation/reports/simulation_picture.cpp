@@ -183,6 +183,9 @@ Picture simulation_picture(const Scene& scene, const PictureHistory& kept, const
                                             over_time("total", "total")})}};
   for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) picture.panels[i].plot.y = {0, no_number};
   picture.panels[1].plot.curves[0].colour = palette::continuous;
+  const char* const energies[]{palette::translation, palette::rotation, palette::potential, palette::ground,
+                               palette::ink};
+  for (std::size_t i = 0; i < std::size(energies); ++i) picture.panels[2].plot.curves[i].colour = energies[i];
   picture.panels.back().plot.x_label = "time since the first touch-down [s]";
   const FastBlows blows = window.is_all() ? fast_blows(kept.rows()) : FastBlows{};
   if (blows.last > blows.first) picture.panels.push_back(panel_of_fast_blows(kept, blows));

@@ -12,10 +12,11 @@ from importlib import resources
 import matplotlib.pyplot as plt  # type: ignore[import]
 import numpy as np
 
-from clatter.look import BLUE, GREEN, GREY, INK, LOOK, ORANGE, PALETTE, PINK, RED, SKY, logarithmic
+from clatter.look import (BETA, BLUE, CONTINUOUS, DISCRETE, GAMMA, GREEN, GREY, GROUND, INK, LOOK, ORANGE, PALETTE, PINK, RED, ROTATION, SKY,
+                          TRANSLATION, logarithmic)
 
-__all__ = ["BLUE", "GREEN", "GREY", "INK", "ORANGE", "PALETTE", "PINK", "RED", "SKY", "answer", "costs", "logarithmic", "np",
-           "plt"]
+__all__ = ["BETA", "BLUE", "CONTINUOUS", "DISCRETE", "GAMMA", "GREEN", "GREY", "GROUND", "INK", "ORANGE", "PALETTE", "PINK", "RED", "ROTATION",
+           "SKY", "TRANSLATION", "answer", "costs", "logarithmic", "np", "plt"]
 
 plt.rcParams.update(LOOK)
 plt.rcParams.update({"figure.figsize": (6.4, 3.2), "figure.dpi": 110, "figure.constrained_layout.use": True})

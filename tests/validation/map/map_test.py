@@ -217,13 +217,19 @@ class Palette(unittest.TestCase):
             with open(os.path.join(ROOT, path), encoding="utf-8") as file:
                 return file.read()
         palette = dict(re.findall(r"\*(\w+) = \"(#\w{6})\"", text("validation/output/palette.hpp")))
-        page = dict(re.findall(r"^  (\w+): \"(#\w{6})\"", text("validation/demo/page/colours.ts"), re.MULTILINE))
+        palette |= {name: palette[other] for name, other in re.findall(r"(\w+) = (\w+)[,;]", text("validation/output/palette.hpp"))}
+        # The page's colours stand in its style sheet alone, once for both themes.
+        page = re.findall(r"^ *--([\w-]+): (#\w{6});", text("validation/demo/page/page.css"), re.MULTILINE)
         for of_page, name in (("discrete", "discrete"), ("continuous", "continuous"), ("beta", "beta"), ("gamma", "gamma"),
-                              ("ground", "ground"), ("speed", "ochre"), ("tangential", "sky")):
-            self.assertEqual(page[of_page], palette[name])
+                              ("floor", "ground"), ("speed", "ochre"), ("tangential", "sky"), ("translation", "translation"),
+                              ("rotation", "rotation"), ("potential", "potential")):
+            self.assertEqual([colour for told, colour in page if told == of_page], [palette[name]], of_page)
+        for file in ("colours.ts", "story.css", "charts.ts", "map.ts", "view.ts", "flat_view.ts"):
+            self.assertNotRegex(text(f"validation/demo/page/{file}"), r"#[0-9a-f]{6}\b")
         look = re.search(r"PALETTE = \((.*)\)", text("notebooks-data/look.py")).group(1)
         self.assertEqual(re.findall(r"#\w{6}", look),
                          [palette[name] for name in ("discrete", "continuous", "ground", "gamma", "ochre", "sky")])
+        self.assertIn(f'ROTATION, POTENTIAL, SPEED = ORANGE, "{palette["rotation"]}", SKY, ORANGE', text("notebooks-data/look.py"))
 
     def test_classes_and_numbers_stay_apart_in_grey(self):
         with open(os.path.join(ROOT, "validation/output/palette.hpp"), encoding="utf-8") as file:
