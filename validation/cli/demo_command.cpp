@@ -24,13 +24,26 @@ struct DemoInput {
   SceneFlags scene;
 };
 
-/// What the address of the page ends with: nothing, or the scene given.
+/// A list as flags have it, numbers with commas between; in an address "+" means a blank.
+std::string text_of(const Value& value) {
+  const auto* const list = std::get_if<Value::List>(&value.content());
+  std::string text = list ? "" : value.text();
+  for (const Value& part : list ? *list : Value::List{}) text += (text.empty() ? "" : ",") + part.text();
+  for (std::size_t at = 0; (at = text.find('+', at)) != std::string::npos;) text.replace(at, 1, "%2B");
+  return text;
+}
+
+/// What the address of the page ends with: nothing, or the scene given: "given=1&body=box&angle=10…".
 std::string fragment_of(const SceneFlags& given) {
   const auto typed = [](const auto& text) { return text.second.has_value(); };
   if (given.source.empty() && !std::any_of(given.texts.begin(), given.texts.end(), typed)) return "";
   // Flags alone describe a drop of the discrete model, unless they give a ground.
   const bool is_discrete = given.source.empty() && !is_given(given, "--stiffness");
-  return page_fragment(is_discrete ? read_discrete_flags(given).scene : read_scene_flags(given));
+  std::string fragment = "given=1";
+  for (const Field& argument :
+       scene_arguments(is_discrete ? read_discrete_flags(given).scene : read_scene_flags(given)))
+    fragment += "&" + argument.name + "=" + text_of(argument.value);
+  return fragment;
 }
 
 /// The page with the scene written into it, for who opens it without a fragment.

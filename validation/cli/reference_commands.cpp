@@ -39,9 +39,9 @@
 #include "validation/reports/simulation_report.hpp"
 #include "validation/reports/tradeoff_report.hpp"
 #include "validation/reports/verify_report.hpp"
-#include "validation/scene/keys.hpp"
 #include "validation/scene/option_values.hpp"
 #include "validation/scene/orientation.hpp"
+#include "validation/scene/scene_text.hpp"
 #include "validation/sweep/rows.hpp"
 
 namespace clatter::validation::inline cli {
@@ -160,22 +160,16 @@ std::string example(const Key& key) {
 /// A scene file with every key: those of the rod are given, the others are comments.
 std::string scene_file() {
   const Scene scene = begun_scene(BodyScene::Shape::rod);
-  std::string text =
-      "# A scene: clatter simulate FILE, sequence FILE, compare FILE.  clatter keys explains the keys.\n";
-  std::string table;
-  for (const Key& key : all_keys()) {
-    const std::string name = key.name;
-    const std::size_t dot = name.find('.');
-    if (name.substr(0, dot) != table) {
-      table = name.substr(0, dot);
-      text += fmt::format("\n[{}]\n", table);
-    }
+  std::vector<const Key*> keys;
+  for (const Key& key : all_keys()) keys.push_back(&key);
+  const auto line = [&](const Key& key, const std::string& name) {
     const Value value = key.get(scene);
-    const std::string setting = fmt::format("{}{} = {}", value.is_nothing() ? "# " : "", name.substr(dot + 1),
+    const std::string setting = fmt::format("{}{} = {}", value.is_nothing() ? "# " : "", name,
                                             value.is_nothing() ? example(key) : compact_json(value));
-    text += fmt::format("{:<34} # {}\n", setting, meaning(key));
-  }
-  return text;
+    return fmt::format("{:<34} # {}", setting, meaning(key));
+  };
+  return scene_text("# A scene: clatter simulate FILE, sequence FILE, compare FILE.  clatter keys explains the keys.",
+                    keys, line);
 }
 
 /// A scene that somebody wrote is worth more than the one to begin with.

@@ -7,12 +7,15 @@
 // What goes wrong is {"error": one line, "status": the program's exit status}.
 #include <emscripten/emscripten.h>
 
+#include <fmt/format.h>
+
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "validation/demo/scene_exchange.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/json.hpp"
+#include "validation/output/version.hpp"
 #include "validation/plan/planned_run.hpp"
 #include "validation/plan/sequence_method.hpp"
 #include "validation/record/history_file.hpp"
@@ -23,7 +26,8 @@
 #include "validation/reports/simulation_report.hpp"
 #include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/failure.hpp"
-#include "validation/scene/keys.hpp"
+#include "validation/scene/named_texts.hpp"
+#include "validation/scene/scene_text.hpp"
 
 namespace clatter::validation::inline demo {
 namespace {
@@ -104,13 +108,32 @@ Value compare(NamedTexts texts) {
   return comparison_report(scene, compare_models(scene, scene.make_body())).fields;
 }
 
-Value opened(NamedTexts texts) {
-  const std::string name = taken(texts, "name"), text = taken(texts, "text");
-  const SceneArguments scene = opened_scene(name, text);
-  return Value::Fields{{"arguments", scene.arguments}, {"notes", scene.notes}};
+/// For the model that it is for: without a ground the discrete one.
+Scene read_for_page(const SceneValues& values, const NamedTexts& texts) {
+  const bool has_ground = values.has("ground.stiffness") || texts.count("stiffness") != 0;
+  return read_scene(values, scene_overrides(texts), has_ground ? Model::continuous : Model::discrete);
 }
 
-Value file(NamedTexts texts) { return Value::Fields{{"file", scene_file(std::move(texts))}}; }
+Value opened(NamedTexts texts) {
+  const std::string name = taken(texts, "name"), text = taken(texts, "text");
+  const Scene scene = read_for_page(SceneValues(name, text, scene_keys()), {});
+  std::vector<std::string> notes;
+  if (!scene.history.empty()) notes.emplace_back("run.history is left out: a page writes no file");
+  return Value::Fields{{"arguments", scene_arguments(scene)}, {"notes", notes}};
+}
+
+/// Read again it gives the same arguments.
+Value file(NamedTexts texts) {
+  const Scene scene = read_for_page(SceneValues("", "", scene_keys()), texts);
+  require_shown(scene);
+  const auto line = [&](const Key& key, const std::string& name) {
+    const std::string unit = *key.unit == '\0' ? "" : fmt::format(" [{}]", key.unit);
+    return fmt::format("{} = {}  # {}{}", name, compact_json(key.get(scene)), key.help, unit);
+  };
+  const std::string head =
+      fmt::format("# A scene of clatter {}: clatter sequence FILE, simulate FILE, compare FILE.", version);
+  return Value::Fields{{"file", scene_text(head, said_keys(scene), line)}};
+}
 
 const std::map<std::string, Value (*)(NamedTexts)> answers{
     {"sequence", sequence}, {"angles", angles}, {"explain", explain}, {"simulate", simulate},

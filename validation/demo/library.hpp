@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <boost/math/special_functions/ellint_1.hpp>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -44,51 +45,31 @@ inline to_chars_result to_chars(char* first, char* last, double value, chars_for
   return {first + std::snprintf(first, static_cast<size_t>(last - first), "%.*g", digits, value), errc()};
 }
 
-/// By the arithmetic-geometric mean.
-inline double comp_ellint_1(double k) {
-  double a = 1, b = std::sqrt((1 - k) * (1 + k));
-  for (int i = 0; i < 40 && std::fabs(a - b) > 4e-16 * a; ++i) {
-    const double mean = (a + b) / 2;
-    b = std::sqrt(a * b);
-    a = mean;
-  }
-  return 1.5707963267948966 / a;
-}
+inline double comp_ellint_1(double k) { return boost::math::ellint_1(k); }
 
 namespace ranges {
 
-template <class Order, class Projection>
-auto projected(Order& order, Projection& projection) {
-  return [&](const auto& a, const auto& b) {
-    return static_cast<bool>(std::invoke(order, std::invoke(projection, a), std::invoke(projection, b)));
-  };
-}
-template <class Condition, class Projection>
-auto condition_on(Condition& condition, Projection& projection) {
-  return [&](const auto& a) { return static_cast<bool>(std::invoke(condition, std::invoke(projection, a))); };
+/// Of a function of one or two values that of what the projection makes of them.
+template <class Function, class Projection>
+auto projected(Function& function, Projection& projection) {
+  return [&](const auto&... a) { return static_cast<bool>(std::invoke(function, std::invoke(projection, a)...)); };
 }
 
-#define CLATTER_ORDERED(name)                                                           \
-  template <class Range, class Order = std::less<>, class Projection = std::identity>   \
-  auto name(Range&& range, Order order = {}, Projection projection = {}) {              \
-    return std::name(std::begin(range), std::end(range), projected(order, projection)); \
+#define CLATTER_RANGE(name)                                                                \
+  template <class Range, class Function = std::less<>, class Projection = std::identity>   \
+  auto name(Range&& range, Function function = {}, Projection projection = {}) {           \
+    return std::name(std::begin(range), std::end(range), projected(function, projection)); \
   }
-#define CLATTER_CONDITIONAL(name)                                                              \
-  template <class Range, class Condition, class Projection = std::identity>                    \
-  auto name(Range&& range, Condition condition, Projection projection = {}) {                  \
-    return std::name(std::begin(range), std::end(range), condition_on(condition, projection)); \
-  }
-CLATTER_ORDERED(sort)
-CLATTER_ORDERED(stable_sort)
-CLATTER_ORDERED(min_element)
-CLATTER_ORDERED(max_element)
-CLATTER_CONDITIONAL(all_of)
-CLATTER_CONDITIONAL(any_of)
-CLATTER_CONDITIONAL(none_of)
-CLATTER_CONDITIONAL(find_if)
-CLATTER_CONDITIONAL(count_if)
-#undef CLATTER_ORDERED
-#undef CLATTER_CONDITIONAL
+CLATTER_RANGE(sort)
+CLATTER_RANGE(stable_sort)
+CLATTER_RANGE(min_element)
+CLATTER_RANGE(max_element)
+CLATTER_RANGE(all_of)
+CLATTER_RANGE(any_of)
+CLATTER_RANGE(none_of)
+CLATTER_RANGE(find_if)
+CLATTER_RANGE(count_if)
+#undef CLATTER_RANGE
 
 template <class Range, class Value, class Projection = std::identity>
 auto find(Range&& range, const Value& value, Projection projection = {}) {
