@@ -67,6 +67,40 @@ async function looked(context, { bytes, type }, colours) {
   return answer;
 }
 
+/** Pictures of a GIF, each with how long it stays [ms], as the format's blocks tell. */
+function picturesOf(gif) {
+  const colours = (flags) => (flags & 0x80 ? 3 * 2 ** ((flags & 7) + 1) : 0);
+  const pictures = [];
+  let stays = 0;
+  for (let at = 13 + colours(gif[10]); gif[at] !== 0x3b;) {
+    if (gif[at] === 0x21) {
+      if (gif[at + 1] === 0xf9) stays = 10 * gif.readUInt16LE(at + 4);
+      at += 2;
+    } else {
+      assert.equal(gif[at], 0x2c);
+      pictures.push({ stays, width: gif.readUInt16LE(at + 5), height: gif.readUInt16LE(at + 7) });
+      at += 11 + colours(gif[at + 9]);
+    }
+    while (gif[at] !== 0) at += gif[at] + 1;
+    at += 1;
+  }
+  return pictures;
+}
+
+test("the drop is a GIF that lasts as long as its playback and rests on its last picture", () => onPage(DROP, async (page, context) => {
+  await page.waitForSelector('tr[data-model="continuous"]');
+  const gif = await fileOf(page, "#gif", "image");
+  assert.equal(gif.bytes.subarray(0, 6).toString(), "GIF89a");
+  const pictures = picturesOf(gif.bytes);
+  const { width, height, counts } = await looked(context, gif, [BODY]);
+  assert.ok(width <= 640 && pictures.every((one) => one.width === width && one.height === height));
+  for (const count of counts) assert.ok(count > 100, String(counts));
+  // At twice the rate a playback takes at least 2.25 s, longer on a slow machine; then 2.7 s of rest.
+  assert.ok(pictures.length > 2 && pictures.reduce((sum, { stays }) => sum + stays, 0) > 4500, JSON.stringify(pictures));
+  assert.equal(pictures.at(-1).stays, 2000);
+  assert.equal(await page.textContent("#gif"), "GIF");
+}, { before: keepFiles }));
+
 for (const browser of ["chromium", "firefox"]) {
   test(`in ${browser} the picture is a file with its numbers, and the drop is a film of its size that ends with the last blow`, () => onPage(DROP, async (page, context) => {
     await page.waitForSelector('tr[data-model="continuous"]');

@@ -12,17 +12,21 @@ const scratch = mkdtempSync(path.join(tmpdir(), "clatter-measured-"));
 after(() => rmSync(scratch, { recursive: true }));
 const root = process.env.CLATTER_ROOT;
 const shipped = JSON.parse(readFileSync(path.join(folder, "measured.json"), "utf8"));
+const cubes = JSON.parse(readFileSync(path.join(folder, "cubes.json"), "utf8"));
+const tosses = printed("measured", "predict", "cube-tosses").drops.filter(({ point }) => point);
 const predictions = printed("measured", "predict", "square-drops").drops.filter(({ point }) => point);
 
 test("the page ships what its script makes: the first drops that the law was not fitted on and that strike with a corner", () => {
-  const output = path.join(scratch, "measured.json");
-  execFileSync("/usr/bin/python3", ["-B", path.join(root, "validation/demo/measured.py"), program, output]);
-  const made = JSON.parse(readFileSync(output, "utf8"));
+  const outputs = ["measured.json", "cubes.json"].map((name) => path.join(scratch, name));
+  execFileSync("/usr/bin/python3", ["-B", path.join(root, "validation/demo/measured.py"), program, ...outputs]);
+  const [made, cubesMade] = outputs.map((output) => JSON.parse(readFileSync(output, "utf8")));
   assert.deepEqual(made.drops.map(({ name }) => name), predictions.slice(0, made.drops.length).map(({ drop }) => drop));
+  assert.deepEqual(cubesMade.drops.map(({ name }) => name), tosses.slice(0, cubesMade.drops.length).map(({ drop }) => drop));
   // Rounded: whole units of the tracks, five digits of the fits.
   const isNear = (a, b) => (typeof a === "number" ? Math.abs(a - b) <= (Number.isInteger(a) ? 1 : 3e-5 * Math.max(1, Math.abs(b)))
     : typeof a === "string" ? a === b : Object.keys(a).length === Object.keys(b).length && Object.keys(a).every((key) => isNear(a[key], b[key])));
   assert.ok(isNear(made, shipped));
+  assert.ok(isNear(cubesMade, cubes));
 });
 
 test("the tracks are the published ones, turned and moved as a whole", () => {
@@ -53,6 +57,34 @@ test("the velocities after the first blow, from the shipped state, are those tha
     }
   }
 });
+
+test("a tossed cube's first blow, from the shipped state, leaves the velocity that the program predicts with its own fit", () => {
+  const { side, gravity, e, friction, inertia, drops } = cubes;
+  const moment = (inertia * side ** 2) / 6;
+  for (const [i, { name, attitude, speed, spin }] of drops.entries()) {
+    const { impacts: [first] } = printed("sequence", "--body", "box", "--mass", "1", "--size", `${side}x${side}x${side}`, "--inertia", `${moment},${moment},${moment}`,
+      "--attitude", attitude.join(","), "--velocity", speed.join(","), "--angular-velocity", spin.join(","),
+      "--gravity", String(gravity), "--restitution", String(e), "--friction", String(friction), "--impacts", "1");
+    const { drop, v_x, v_y, v_z } = tosses[i];
+    assert.equal(drop, name);
+    for (const [axis, expected] of [v_x, v_y, v_z].entries()) {
+      assert.ok(Math.abs(first.velocity_after[axis] - expected) < 0.11, `${name}: ${first.velocity_after[axis]} is not ${expected}`);
+    }
+  }
+});
+
+test("a tossed cube lies on the predicted one until it strikes", () => onPage("#predict=0&hide=explain,map", async (page) => {
+  await page.waitForFunction((count) => document.querySelectorAll("#cubes-cells .exact[d]").length === count, cubes.drops.length);
+  const said = (time) => page.locator("#cubes-time").evaluate((slider, value) => {
+    slider.value = String(value);
+    slider.dispatchEvent(new Event("input", { bubbles: true }));
+    return [...document.querySelectorAll("#cubes-cells li > span")].map((words) => words.textContent.match(/^off by ([\d.]+) mm, ([\d.]+)°$/).slice(1).map(Number));
+  }, Math.round(1e4 * time));
+  for (const [apart, turned] of await said(Math.min(...cubes.drops.map(({ touch }) => touch)) - 0.004)) {
+    assert.ok(apart < 2 && turned < 1, `${apart} mm, ${turned}°`);
+  }
+  assert.ok((await said(0.29)).some(([apart]) => apart > 5));
+}));
 
 for (const browser of ["chromium", "firefox"]) {
   test(`in ${browser} the tracked square lies on the predicted one until it strikes, and it is said how far they are apart`, () => onPage("#predict=0&hide=explain,map", async (page) => {

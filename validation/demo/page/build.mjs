@@ -17,7 +17,7 @@ const [modulePath, version, modelsDigest, pageDigest, noticesPath, output] = pro
 const KATEX_FACES = ["KaTeX_Main-Regular", "KaTeX_Math-Italic", "KaTeX_Size1-Regular", "KaTeX_Size2-Regular",
   "KaTeX_Size3-Regular", "KaTeX_Size4-Regular"];
 /** Whose code or fonts the page holds: their notices go with it. */
-const BUNDLED = ["three", "uplot", "katex"];
+const BUNDLED = ["three", "uplot", "katex", "gifenc"];
 
 async function script() {
   const result = await build({

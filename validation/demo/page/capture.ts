@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The picture as a file, with the names and numbers that stand in it and the line below: one moment as PNG, the whole drop as a film.
+// The picture as a file, with the names and numbers that stand in it and the line below: one moment as PNG, the whole drop as a film
+// or as a GIF.
 import { byId } from "./dom";
 import { download } from "./files";
+import { Gif } from "./gif";
 
 const LINE = 40; // below the picture, for the caption [px]
 /** The first that the browser writes. */
 const FILMS = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm", "video/mp4"];
-/** The last picture of a film stays so long [ms]. */
+/** The last picture stays so long [ms]: of a film, and of a GIF, which begins anew then. */
 const STAYS = 700;
+const STAYS_IN_GIF = 2000;
 
 /** What the film asks of the page. */
 export interface Projector {
@@ -19,8 +22,8 @@ export interface Projector {
 export class Capture {
   private readonly stage = byId("stage");
   private readonly paper = document.createElement("canvas");
-  private readonly button = byId<HTMLButtonElement>("film");
-  private recorder: MediaRecorder | null = null;
+  /** What takes the pictures, while one of the buttons has been pressed. */
+  private taking: { button: HTMLButtonElement; add(): void; end(): void } | null = null;
 
   constructor(private readonly projector: Projector) {
     byId("picture").addEventListener("click", () => {
@@ -28,21 +31,35 @@ export class Capture {
       this.paint();
       this.paper.toBlob((blob) => { if (blob) download("clatter.png", blob, "image/png"); });
     });
-    this.button.hidden = typeof MediaRecorder === "undefined";
-    this.button.addEventListener("click", () => { if (this.recorder) this.stop(); else this.start(); });
+    byId("film").hidden = typeof MediaRecorder === "undefined";
+    byId<HTMLButtonElement>("film").addEventListener("click", () => this.toggle("film"));
+    byId<HTMLButtonElement>("gif").addEventListener("click", () => this.toggle("gif"));
   }
 
   /** After each picture that the playback has drawn. */
   drawn(ended: boolean): void {
-    if (!this.recorder) return;
+    if (!this.taking) return;
     this.paint();
+    this.taking.add();
     // A film lasts until its last picture.
     if (ended) setTimeout(() => { this.projector.redraw(); this.paint(); requestAnimationFrame(() => this.stop()); }, STAYS);
   }
 
-  private start(): void {
+  private toggle(kind: "film" | "gif"): void {
+    if (this.taking) return this.stop();
     this.projector.redraw();
     this.paint();
+    this.taking = { button: byId<HTMLButtonElement>(kind), ...(kind === "gif" ? this.gif() : this.film()) };
+    this.label(this.taking.button, true);
+    this.projector.playFromStart();
+  }
+
+  private gif(): { add(): void; end(): void } {
+    const gif = new Gif(this.paper);
+    return { add: () => gif.add(), end: () => download("clatter.gif", new Blob([gif.end(STAYS_IN_GIF)], { type: "image/gif" }), "image/gif") };
+  }
+
+  private film(): { add(): void; end(): void } {
     const type = FILMS.find((one) => MediaRecorder.isTypeSupported(one)) ?? "";
     const recorder = new MediaRecorder(this.paper.captureStream(), { mimeType: type, videoBitsPerSecond: 6e6 });
     const parts: Blob[] = [];
@@ -52,20 +69,20 @@ export class Capture {
       download(`clatter.${kind.slice(kind.indexOf("/") + 1)}`, new Blob(parts, { type: kind }), kind);
     });
     recorder.start();
-    this.recorder = recorder;
-    this.label();
-    this.projector.playFromStart();
+    return { add: () => undefined, end: () => recorder.stop() };
   }
 
   private stop(): void {
-    if (this.recorder?.state === "recording") this.recorder.stop();
-    this.recorder = null;
-    this.label();
+    const { taking } = this;
+    this.taking = null;
+    if (!taking) return;
+    taking.end();
+    this.label(taking.button, false);
   }
 
-  private label(): void {
-    this.button.textContent = this.recorder ? "Stop filming" : "Film";
-    this.button.setAttribute("aria-pressed", String(this.recorder !== null));
+  private label(button: HTMLButtonElement, takes: boolean): void {
+    button.textContent = takes ? "Stop" : button.dataset["name"] ?? "";
+    button.setAttribute("aria-pressed", String(takes));
   }
 
   /** The picture and all words over it, as they stand on the screen, with the caption below. */

@@ -4,6 +4,7 @@ import type { SequenceAnswer } from "./answers";
 import { ask } from "./api";
 import { uniformBody, type Body } from "./body";
 import { DiscreteMotion } from "./discrete_motion";
+import { setUpCubes } from "./cubes";
 import { byId, make } from "./dom";
 import { significant } from "./format";
 import tracked from "./measured.json";
@@ -82,4 +83,5 @@ export function setUpMeasured(): void {
     }
   });
   for (const cell of cells) void predicted(cell.drop).then((motion) => { cell.motion = motion; replay.show(); });
+  setUpCubes();
 }

@@ -14,7 +14,7 @@ const FLOOR = 84; // of the point that strikes, from the top
 const SPAN = 78; // of the body's longest diagonal
 
 /** Where the eye looks. */
-const LOOK: Vector = [
+export const LOOK: Vector = [
   -Math.sin(AZIMUTH) * Math.cos(ELEVATION), Math.cos(AZIMUTH) * Math.cos(ELEVATION), -Math.sin(ELEVATION),
 ];
 
@@ -30,7 +30,7 @@ export interface Touch {
 }
 
 /** On the paper, to the right and up, of a place from the point that strikes [m]. */
-function onPaper([x, y, z]: Vector): [number, number] {
+export function onPaper([x, y, z]: Vector): [number, number] {
   const [c, s] = [Math.cos(AZIMUTH), Math.sin(AZIMUTH)];
   return [x * c + y * s, (-x * s + y * c) * Math.sin(ELEVATION) + z * Math.cos(ELEVATION)];
 }
