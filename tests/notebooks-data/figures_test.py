@@ -149,7 +149,7 @@ class Drawn(unittest.TestCase):
         text = plotting.svg(self.all[19])
         top = self.all[19].get_figheight() * 72 - axes.transData.transform(
             (0, max(row["Fn"] for row in rows_of(19))))[1] * 72 / self.all[19].dpi
-        curve = re.search(r'<path d="([^"]*)"[^>]*stroke: #0072b2', text)[1]
+        curve = re.search(r'<path d="([^"]*)"[^>]*stroke: #d55e00', text)[1]
         heights = [float(y) for y in re.findall(r"L [\d.]+ ([\d.]+)", curve)]
         self.assertLess(len(heights), len(rows_of(19)))
         self.assertAlmostEqual(min(heights), top, delta=0.02)

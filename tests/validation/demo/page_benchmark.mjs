@@ -82,10 +82,11 @@ async function visit(minutes) {
 const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, reducedMotion: "reduce" });
 await page.addInitScript(() => {
   globalThis.measured = { first: 0, frames: [] };
-  document.addEventListener("DOMContentLoaded", () => {
-    // The page draws its labels with the picture.
-    new MutationObserver((_changes, observer) => { measured.first = performance.now(); observer.disconnect(); }).observe(document.getElementById("stage-labels"), { childList: true });
-  });
+  const { drawElements } = WebGL2RenderingContext.prototype;
+  WebGL2RenderingContext.prototype.drawElements = function draw(...given) {
+    measured.first ||= performance.now();
+    return drawElements.apply(this, given);
+  };
   const request = requestAnimationFrame;
   globalThis.requestAnimationFrame = (draw) => request((now) => {
     const start = performance.now();

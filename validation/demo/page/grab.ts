@@ -3,9 +3,11 @@
 // on the picture ↑ and ↓ lift, [ and ] tilt, Enter lets go.
 import { centreHeight, extentOf, isDisc, longHalf, type Body } from "./body";
 import { significant } from "./format";
+import { heldFrame, type Frame } from "./frame";
 import type { OrbitControl } from "./orbit";
+import { bodyOf, tiltOf, type Parameters } from "./parameters";
 import type { Projection } from "./picture";
-import { planeRotation, product, rotate, turnAbout, type Rotation, type Vector } from "./rotation";
+import { normalised, planeRotation, product, rotate, turnAbout, type Rotation, type Vector } from "./rotation";
 
 const DEGREE = Math.PI / 180;
 /** So near the pointer has to come to the body [px]. */
@@ -35,6 +37,15 @@ export interface Hand {
 export function heldRotation({ angle }: Held, tilt: number): Rotation {
   const plane = planeRotation(angle * DEGREE);
   return tilt === 0 ? plane : product(plane, turnAbout(0, tilt * DEGREE));
+}
+
+/** Before the models have answered: the body as it is given, a little above the ground. */
+export function awaitedFrame(parameters: Parameters): Frame {
+  const { turn, angle, q0, q1, q2, q3 } = parameters;
+  const body = bodyOf(parameters);
+  const isGiven = turn === "attitude" && Math.hypot(q0, q1, q2, q3) > 0;
+  const rotation = isGiven ? normalised([q0, q1, q2, q3]) : heldRotation({ angle, height: 0 }, tiltOf(parameters));
+  return { ...heldFrame(body, rotation, centreHeight(body, rotation) + 0.05 * extentOf(body), ""), labels: [] };
 }
 
 export function heldInWords({ angle, height }: Held): string {

@@ -11,7 +11,7 @@ import { Explanation } from "./explain";
 import { FanPanel } from "./fan_panel";
 import { download } from "./files";
 import { frameAt, heldFrame, impactAt, scalesOf, type ModelName, type Scales } from "./frame";
-import { Grab, heldInWords, heldRotation, type Held } from "./grab";
+import { Grab, awaitedFrame, heldInWords, heldRotation, type Held } from "./grab";
 import { setUpLecture } from "./lecture";
 import { AngleMap } from "./map";
 import { setUpMeasured } from "./measured";
@@ -136,6 +136,7 @@ class Page {
     addEventListener("hashchange", () => location.reload());
     this.controls.refresh();
     this.update();
+    this.draw();
   }
 
   /** The situation changed. */
@@ -230,6 +231,7 @@ class Page {
     const { player, state } = this;
     const { time } = player;
     byId("grab-hint").hidden = this.wasHeld || !this.inReach();
+    this.transport.show(time, player.progress, player.playing, player.slowness);
     if (this.held) {
       const { parameters } = state;
       const rotation = heldRotation(this.held, tiltOf(parameters));
@@ -240,7 +242,7 @@ class Page {
     const impact = impactAt(this.models.steps, time);
     // Before the guess the picture shows the fall, not yet the blow.
     const shown = this.prediction.isOpen ? (this.models.motions.discrete?.begin ?? 0) : time;
-    const frame = frameAt(this.models.motions, shown, this.scales, state.layout === "side", this.traces.checked && !this.prediction.isOpen);
+    const frame = this.models.discrete ? frameAt(this.models.motions, shown, this.scales, state.layout === "side", this.traces.checked && !this.prediction.isOpen) : awaitedFrame(state.parameters);
     if (!this.prediction.isOpen) frame.ghosts.push(...this.fan.ghosts(time, player.playing));
     this.stage.draw(frame, this.orbit.orbit);
     this.numbers.show(this.models.motions, this.models.pairing, time);
@@ -249,7 +251,6 @@ class Page {
     }
     this.force.setTime(time);
     showPatch(this.models.motions.continuous, this.models.continuous?.history ?? null, time);
-    this.transport.show(time, player.progress, player.playing, player.slowness);
     say("caption", impact ? impactInWords(this.models.steps, impact.n) : "Falling");
   }
 

@@ -2,7 +2,7 @@
 // The picture in space, drawn by the graphics card.
 import {
   AmbientLight, BufferGeometry, Color, DirectionalLight, DoubleSide, Float32BufferAttribute, Group, LineBasicMaterial, LineSegments, Mesh,
-  MeshBasicMaterial, PerspectiveCamera, Scene, Vector3, WebGLRenderer, type Material,
+  MeshBasicMaterial, PerspectiveCamera, Scene, Vector3, WebGLRenderer,
 } from "three";
 import { ArrowMesh } from "./arrow_mesh";
 import { extentOf, middleOf, type Body } from "./body";
@@ -19,6 +19,10 @@ const FIELD_OF_VIEW = 24; // degrees, upright
 /** Of the camera over the ground, and around the picture [rad]: in space from where three faces of a box are seen. */
 const PLANE = { elevation: 0.16, azimuth: -0.14 };
 const SPACE = { elevation: 0.34, azimuth: -0.3 };
+
+/** Made once: a new one for each body would be compiled anew. */
+const SHADOW = new MeshBasicMaterial({ color: 0x1b2430, transparent: true, opacity: 0.13, depthWrite: false, side: DoubleSide });
+const GRID = new LineBasicMaterial({ vertexColors: true, toneMapped: false });
 
 interface Figure {
   group: Group;
@@ -155,7 +159,9 @@ export class SpaceView implements View {
   private makeGround(length: number): void {
     if (this.cell === length / 10) return;
     this.cell = length / 10;
-    if (this.ground) this.scene.remove(this.ground);
+    // The graphics card keeps what nobody gives back.
+    this.ground?.geometry.dispose();
+    this.ground?.removeFromParent();
     this.ground = groundGrid(this.cell);
     this.scene.add(this.ground);
   }
@@ -231,16 +237,11 @@ function emptyFigure(): Figure {
 }
 
 function rebuild(figure: Figure, model: ModelName, body: Body): void {
-  // The graphics card keeps what nobody gives back.
   for (const group of [figure.group, figure.shadow]) group.traverse((part) => { if (part instanceof Mesh) part.geometry.dispose(); });
   figure.group.clear();
   figure.shadow.clear();
   figure.group.add(figureOf(body, model));
-  figure.shadow.add(new Mesh(geometryOf(body), shadowMaterial()));
-}
-
-function shadowMaterial(): Material {
-  return new MeshBasicMaterial({ color: 0x1b2430, transparent: true, opacity: 0.13, depthWrite: false, side: DoubleSide });
+  figure.shadow.add(new Mesh(geometryOf(body), SHADOW));
 }
 
 function groundGrid(cell: number): LineSegments {
@@ -262,5 +263,5 @@ function groundGrid(cell: number): LineSegments {
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new Float32BufferAttribute(points, 3));
   geometry.setAttribute("color", new Float32BufferAttribute(colours, 3));
-  return new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true, toneMapped: false }));
+  return new LineSegments(geometry, GRID);
 }
