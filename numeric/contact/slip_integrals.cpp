@@ -149,7 +149,7 @@ class Strips {
       return;
     }
     const double half = (high - low) / 2, middle = (high + low) / 2;
-    for (const GaussNode& node : gauss_rule(gauss_order(ellipse))) {
+    for (const GaussNode& node : gauss_rule(gauss_order(ellipse, patch_.digits))) {
       add_line(strip, middle + half * node.at, half * node.weight);
     }
   }
@@ -213,20 +213,6 @@ double smooth_ellipse(const SlipPatch& patch, const SlipSurvey& s) {
 struct RayValues {
   PlanePoint place;
   double depth, stiffness, east, north;
-  [[nodiscard]] RayValues minus(const RayValues& b) const {
-    return {{place.x - b.place.x, place.y - b.place.y},
-            depth - b.depth,
-            stiffness - b.stiffness,
-            east - b.east,
-            north - b.north};
-  }
-  [[nodiscard]] RayValues plus(double part, const RayValues& b) const {
-    return {{place.x + part * b.place.x, place.y + part * b.place.y},
-            depth + part * b.depth,
-            stiffness + part * b.stiffness,
-            east + part * b.east,
-            north + part * b.north};
-  }
 };
 
 RayValues ray_values(const SlipPatch& patch, const PlanePoint& p) {
@@ -234,59 +220,78 @@ RayValues ray_values(const SlipPatch& patch, const PlanePoint& p) {
 }
 
 /// Gauss's rule along the rays from a corner: the integrand at part t of a ray is q/√(|v|² + v_r²), which is summed
-/// with the weights 1, t and t², times what is linear in t.
+/// with the weights 1, t and t², times what is linear in t.  Rays lie side by side, so that loops over them become
+/// vectors.
 class Fan {
  public:
   Fan(const SlipPatch& patch, int order)
-      : apex_(ray_values(patch, patch.corners[0])), slow_(patch.rounding * patch.rounding), rule_(gauss_rule(order)) {
-    for (std::size_t j = 0; j < rule_.size(); ++j) {
-      parts_[j] = (1 + rule_[j].at) / 2;
-      weights_[j] = rule_[j].weight * parts_[j];
-    }
-  }
+      : apex_(ray_values(patch, patch.corners[0])), slow_(patch.rounding * patch.rounding), rule_(gauss_rule(order)) {}
 
   void add_triangle(const SlipPatch& patch, const PlanePoint& p, const PlanePoint& q) {
-    const RayValues first = ray_values(patch, p), side = ray_values(patch, q).minus(first);
+    const RayValues first = ray_values(patch, p), last = ray_values(patch, q);
     const double area = cross(minus(p, apex_.place), minus(q, apex_.place)) / 2;
+    if (count_ + rule_.size() > most_rays) sum_up();
     for (const GaussNode& along : rule_) {
-      add_ray(first.plus((1 + along.at) / 2, side).minus(apex_), area / 2 * along.weight);
+      const double part = (1 + along.at) / 2;
+      const auto change = [&](double at_first, double at_last, double at_apex) {
+        return at_first + part * (at_last - at_first) - at_apex;
+      };
+      x_[count_] = change(first.place.x, last.place.x, apex_.place.x);
+      y_[count_] = change(first.place.y, last.place.y, apex_.place.y);
+      depth_[count_] = change(first.depth, last.depth, apex_.depth);
+      stiffness_[count_] = change(first.stiffness, last.stiffness, apex_.stiffness);
+      east_[count_] = change(first.east, last.east, apex_.east);
+      north_[count_] = change(first.north, last.north, apex_.north);
+      weight_[count_++] = area / 2 * along.weight;
     }
   }
 
-  [[nodiscard]] const SlipIntegrals& sum() const { return sum_; }
+  [[nodiscard]] SlipIntegrals sum() {
+    sum_up();
+    return sum_;
+  }
 
  private:
-  void add_ray(const RayValues& change, double weight) {
-    double forces[most_gauss_nodes];
-    const std::size_t count = rule_.size();
-    for (std::size_t j = 0; j < count; ++j) {
-      const double t = parts_[j], east = apex_.east + t * change.east, north = apex_.north + t * change.north;
-      const double square = east * east + north * north + slow_;
-      const double pressure = (apex_.depth + t * change.depth) * (apex_.stiffness + t * change.stiffness);
-      forces[j] = square > 0 ? weights_[j] * pressure / std::sqrt(square) : 0;
+  static constexpr std::size_t most_rays = 2 * most_gauss_nodes;
+
+  /// Adds the rays so far, and begins anew.
+  void sum_up() {
+    const std::size_t count = count_;
+    double once[most_rays], first[most_rays], second[most_rays];  // sums with the weights 1, t and t²
+    for (std::size_t i = 0; i < count; ++i) once[i] = first[i] = second[i] = 0;
+    for (const GaussNode& node : rule_) {
+      const double t = (1 + node.at) / 2, part = node.weight * t;
+      for (std::size_t i = 0; i < count; ++i) {
+        const double east = apex_.east + t * east_[i], north = apex_.north + t * north_[i];
+        const double square = east * east + north * north + slow_;
+        const double pressure = (apex_.depth + t * depth_[i]) * (apex_.stiffness + t * stiffness_[i]);
+        // Where nothing slips there is no friction: a branch would keep the loop from becoming a vector.
+        const double speed = std::sqrt(square > 0 ? square : std::numeric_limits<double>::infinity());
+        const double force = weight_[i] * part * pressure / speed;
+        once[i] += force;
+        first[i] += t * force;
+        second[i] += t * t * force;
+      }
     }
-    double sums[3] = {0, 0, 0};
-    for (std::size_t j = 0; j < count; ++j) {
-      const double t = parts_[j], once = forces[j] * t;
-      sums[0] += forces[j];
-      sums[1] += once;
-      sums[2] += once * t;
+    const PlanePoint& at = apex_.place;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double east = apex_.east * once[i] + east_[i] * first[i],
+                   north = apex_.north * once[i] + north_[i] * first[i];
+      const double east_t = apex_.east * first[i] + east_[i] * second[i];
+      const double north_t = apex_.north * first[i] + north_[i] * second[i];
+      sum_.add({east, north, at.x * east + x_[i] * east_t, at.y * east + y_[i] * east_t, at.x * north + x_[i] * north_t,
+                at.y * north + y_[i] * north_t},
+               1);
     }
-    const auto with = [&](double at_apex, double slope, int degree) {
-      return weight * (at_apex * sums[degree] + slope * sums[degree + 1]);
-    };
-    const double east = with(apex_.east, change.east, 0), east_t = with(apex_.east, change.east, 1);
-    const double north = with(apex_.north, change.north, 0), north_t = with(apex_.north, change.north, 1);
-    const PlanePoint &at = apex_.place, &to = change.place;
-    sum_.add({east, north, at.x * east + to.x * east_t, at.y * east + to.y * east_t, at.x * north + to.x * north_t,
-              at.y * north + to.y * north_t},
-             1);
+    count_ = 0;
   }
 
   RayValues apex_;
   double slow_;
   std::span<const GaussNode> rule_;
-  double parts_[most_gauss_nodes], weights_[most_gauss_nodes];
+  std::size_t count_ = 0;  ///< of the rays that are not summed yet, each from the apex to a place on the far side:
+  double x_[most_rays], y_[most_rays], depth_[most_rays], stiffness_[most_rays], east_[most_rays], north_[most_rays];
+  double weight_[most_rays];  ///< part of the area
   SlipIntegrals sum_;
 };
 

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double unit_rounding = 1e-14;     ///< of the Euler parameters, which each step makes unit again
 constexpr int most_switches = 8;            ///< of friction without a step between them
+constexpr double light_per_faint = 1e3;     ///< a force that is judged as the last one: at most so many faint ones
 constexpr double least_depth_seen = 1e-14;  ///< of the body's radius: shallower contacts are rounding
 
 /// Mass that the touching point seems to have for a vertical push.
@@ -119,7 +120,7 @@ ContactResult ContactRun::run(const MotionState& touch, const Vector3& point, co
 void ContactRun::begin(const MotionState& touch, const Vector3& point) {
   const ContactScales& scales = result_.scales;
   steps_.begin(control_->steps, scales, control_->evaluation_limit);
-  events_.begin(scales);
+  events_.begin(scales, control_->steps.tolerance);
   peak_.begin();
   local_slip_.begin(control_->least_local_slip * scales.energy / scales.depth);
   touches_.begin();
@@ -165,11 +166,11 @@ double ContactRun::kept_up_speed() const {
 /// ends with hardly a force is judged by the last instant that has one.
 bool ContactRun::handle_friction_event(double h) {
   if (!friction_.can_end()) return false;
-  if (friction_.is_faint(trial_)) {
-    if (friction_.is_faint(now_)) return false;
+  const double faint = friction_.faint_force(), light = light_per_faint * faint;
+  if (!(trial_.diagnosis.load.force > faint)) {
+    if (!(now_.diagnosis.load.force > light)) return false;
     faint_ = trial_;
-    const auto force = [this](const ContactInstant& at) { return friction_.force_to_judge(at); };
-    h = events_.fall(force, now_, h, trial_);
+    h = events_.fade(faint, light, now_, h, trial_);
     if (!friction_.is_over(trial_)) trial_ = faint_;
   }
   if (!friction_.is_over(trial_) || ++switches_ > most_switches) return false;

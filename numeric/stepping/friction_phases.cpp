@@ -143,9 +143,7 @@ double FrictionPhases::reserve(const ContactInstant& at) const {
   return system_.phase().kind == Kind::slip ? slip_forward(at) : stick_reserve(at);
 }
 
-double FrictionPhases::force_to_judge(const ContactInstant& at) const {
-  return at.diagnosis.load.force - faint_part * scales_.energy / scales_.depth;
-}
+double FrictionPhases::faint_force() const { return faint_part * scales_.energy / scales_.depth; }
 
 bool FrictionPhases::is_over(const ContactInstant& at) const {
   return system_.phase().kind == Kind::slip ? !(slip_forward(at) > 0) : stick_reserve(at) < 0;

@@ -67,10 +67,9 @@ class FrictionPhases {
   /// What is left of the phase at an instant: [m/s] in slip, [N] in stick.
   [[nodiscard]] double reserve(const ContactInstant& at) const;
   [[nodiscard]] bool is_over(const ContactInstant& at) const;
-  /// F_n over the force below which friction is not judged [N]: where the contact begins and ends, the forces that
-  /// decide between slip and stick are rounding.
-  [[nodiscard]] double force_to_judge(const ContactInstant& at) const;
-  [[nodiscard]] bool is_faint(const ContactInstant& at) const { return !(force_to_judge(at) > 0); }
+  /// F_n up to which friction is not judged [N]: where the contact begins and ends, the forces that decide between slip
+  /// and stick are rounding.
+  [[nodiscard]] double faint_force() const;
 
   /// Ends the phase at `now`, by the forces at `at`, and begins the next.
   void change(const ContactInstant& at, ContactInstant& now);

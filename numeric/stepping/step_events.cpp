@@ -5,8 +5,29 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cassert>
 #include <cmath>
+#include <limits>
+
+#include "numeric/motion/free_flight.hpp"
 
 namespace clatter::numeric::inline stepping {
+namespace {
+
+constexpr double resolved_part = 1e-3;  ///< of the tolerance: an event's time over the contact's
+
+struct Depth {
+  double value, rate;  ///< [m], [m/s]
+};
+
+/// Of the deepest vertex; the load looks at no facet above the ground.
+Depth deepest_point(const ContactSystem& system, const ContactInstant& at) {
+  const ContactLoad& load = at.diagnosis.load;
+  if (load.deepest > 0) return {load.deepest, load.deepest_rate};
+  const MotionState motion = system.motion(at.state);
+  const double height = lowest_height(system.body(), motion);
+  return {-height, -point_velocity(motion, touch_point(system.body(), motion)).z()};
+}
+
+}  // namespace
 
 double EventLocator::fall(const std::function<double(const ContactInstant&)>& indicator, const ContactInstant& now,
                           double h, ContactInstant& at_root) {
@@ -23,7 +44,7 @@ double EventLocator::fall(const std::function<double(const ContactInstant&)>& in
     }
     return std::isfinite(found) ? found : at_end;
   };
-  const double resolution = 1e-14 * (scales_.time + now.time);
+  const double resolution = std::max(1e-14, resolved_part * tolerance_) * (scales_.time + now.time);
   std::uintmax_t iterations = 50;
   const double high =
       boost::math::tools::toms748_solve(
@@ -35,15 +56,36 @@ double EventLocator::fall(const std::function<double(const ContactInstant&)>& in
   return high;
 }
 
+double EventLocator::fade(double low, double high, const ContactInstant& now, double h, ContactInstant& at_end) {
+  ContactInstant strong = now;
+  double end = h;  // where the force is below `low`
+  const double aim = std::sqrt(low * high);
+  for (int i = 0; i < 100 && strong.diagnosis.load.force > high; ++i) {
+    const double begin = strong.time - now.time, rate = strong.diagnosis.force_rate;
+    const double newton = rate < 0 ? begin - (strong.diagnosis.load.force - aim) / rate : begin;
+    const double length = newton > begin && newton < end ? newton : (begin + end) / 2;
+    if (!(length > begin && length < end) || !step_.take(now, length, trial_)) break;
+    if (trial_.diagnosis.load.force > low) {
+      strong = trial_;
+    } else {
+      end = length;
+    }
+  }
+  if (!(strong.time > now.time)) return h;
+  at_end = strong;
+  return strong.time - now.time;
+}
+
 double EventLocator::lift_off(const ContactInstant& now, double h, ContactInstant& at_root) {
-  const double resolution = 1e-13 * scales_.depth;
+  // Heights are rounded with the body's size.
+  const double rounding = 4 * std::numeric_limits<double>::epsilon() * step_.system().body().radius();
+  const double resolution = std::max(1e-13 * scales_.depth, rounding);
   double low = 0, high = h, length = h, reached = h;
   for (int i = 0; i < 100; ++i) {
-    const double depth = at_root.diagnosis.load.deepest, rate = at_root.diagnosis.load.deepest_rate;
+    const auto [depth, rate] = deepest_point(step_.system(), at_root);
     if (std::fabs(depth) <= resolution || high - low <= 1e-14 * (scales_.time + now.time)) break;
     (depth > 0 ? low : high) = length;
-    const bool seen = depth > -0.5 * step_.system().body().radius();  // facets far above the ground are not looked at
-    const double newton = seen && rate < 0 ? length - depth / rate : low;
+    const double newton = rate < 0 ? length - depth / rate : low;
     length = newton > low && newton < high ? newton : (low + high) / 2;
     if (!step_.take(now, length, trial_)) break;
     at_root = trial_;

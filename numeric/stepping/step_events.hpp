@@ -14,19 +14,29 @@ class EventLocator {
  public:
   explicit EventLocator(ContactStep& step) : step_(step) {}
 
-  void begin(const ContactScales& scales) { scales_ = scales; }
+  /// Events within steps of this tolerance.
+  void begin(const ContactScales& scales, double tolerance) {
+    scales_ = scales;
+    tolerance_ = tolerance;
+  }
 
   /// Length of the step from `now` at whose end `indicator` has just fallen to 0 [s].  `at_root`, given at the end of
   /// the whole step of length h, gets that instant; both stay where the indicator does not fall through 0.
   double fall(const std::function<double(const ContactInstant&)>& indicator, const ContactInstant& now, double h,
               ContactInstant& at_root);
 
-  /// The same where the deepest vertex is just out of the ground, by Newton's method in a bracket.
+  /// Length of the step from `now`, where F_n > high, at whose end F_n is from `low` to `high` [N]; `at_end` gets that
+  /// instant.  Both stay where the search finds none.  For a step at whose end F_n is less than `low`.
+  double fade(double low, double high, const ContactInstant& now, double h, ContactInstant& at_end);
+
+  /// Length of the step from `now` at whose end the deepest vertex is just out of the ground, by Newton's method in
+  /// a bracket; `at_root` as for fall().
   double lift_off(const ContactInstant& now, double h, ContactInstant& at_root);
 
  private:
   ContactStep& step_;
   ContactScales scales_;
+  double tolerance_ = 0;
   ContactInstant trial_;
 };
 

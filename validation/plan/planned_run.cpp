@@ -74,7 +74,7 @@ double error_within_reach(const numeric::Body& body, const PlannedRun& planned, 
     const double growth = rows[i].amplification;
     const double least = std::isfinite(error) ? (error - floor) * gain : numeric::least_tolerance * growth;
     const bool is_lost = std::isnan(growth) && has_outgrown(planned, i);
-    if (is_lost || !(floor + least <= planned.asked / 2)) {
+    if (is_lost || !(estimate_margin * floor + least <= planned.asked / 2)) {
       count = i;
       break;
     }

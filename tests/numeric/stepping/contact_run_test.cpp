@@ -345,3 +345,15 @@ BOOST_AUTO_TEST_CASE(a_body_that_nothing_stops_slides_on_and_the_run_ends_with_t
   BOOST_TEST(run.final_state.velocity.x() == 0.7, boost::test_tools::tolerance(1e-9));
   BOOST_TEST(0.05 - run.final_state.centre.z() == 9.81 / (1e6 * 0.06), boost::test_tools::tolerance(1e-4));
 }
+
+/// What a contact costs at a loose tolerance is the search for its events: bisecting them would take twice as many.
+BOOST_AUTO_TEST_CASE(few_evaluations_find_where_a_damped_contact_ends) {
+  const Body body = phone();
+  const World world{.ground = {.stiffness = 1e8, .damping = 1e7, .static_friction = 0.075, .sliding_friction = 0.075}};
+  for (const double angle : {10, 25, 40, 55, 70}) {
+    const MotionState start = touching_state(body, {.inclination = angle * degree, .velocity = {0, 0, -4.4}});
+    const Simulation run = simulate(body, world, start, plain_impacts(6), {.method = Method::rkck, .tolerance = 1e-4});
+    BOOST_REQUIRE(run.impacts.size() == 6);
+    BOOST_TEST(run.force_evaluations < 6 * 230, angle << " deg: " << run.force_evaluations / 6 << " for an impact");
+  }
+}
