@@ -115,6 +115,8 @@ class ContactSystem {
   [[nodiscard]] const MotionState& touch_down() const { return touch_; }
   [[nodiscard]] ContactState initial() const;
   [[nodiscard]] MotionState motion(const ContactState& y) const;
+  /// Height of the body's point u over the ground [m], with the digits of its change since touch-down.
+  [[nodiscard]] double height(const Vector3& u, const ContactState& y) const { return view(y).height(u); }
 
   /// μ_s, or μ_k where nothing is at rest.
   [[nodiscard]] double stick_coefficient() const { return stick_coefficient(phase_); }

@@ -133,17 +133,27 @@ TouchDown next_touch_down(const Body& body, const FreeFlight& flight, long evalu
   return result;
 }
 
-double lowest_height(const Body& body, const MotionState& state) {
+Vector3 lowest_vertex(const Body& body, const MotionState& state) {
   const View view(state);
   double lowest = std::numeric_limits<double>::infinity();
+  Vector3 found = Vector3::Zero();
   body.hierarchy().visit_if(
       [&](const Vector3& centre, const Vector3& half) {
         return view.plane.height(centre) - view.plane.normal.cwiseAbs().dot(half) < lowest;
       },
       [&](int facet) {
-        for_each_vertex(body, facet, [&](const Vector3& u) { lowest = std::min(lowest, view.plane.height(u)); });
+        for_each_vertex(body, facet, [&](const Vector3& u) {
+          const double height = view.plane.height(u);
+          if (!(height < lowest)) return;
+          lowest = height;
+          found = u;
+        });
       });
-  return lowest;
+  return found;
+}
+
+double lowest_height(const Body& body, const MotionState& state) {
+  return View(state).plane.height(lowest_vertex(body, state));
 }
 
 namespace {

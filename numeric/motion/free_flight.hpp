@@ -44,7 +44,9 @@ struct TouchDown {
 /// converge quadratically.  Vertices within 4 ulp of the body's size above the ground touch.
 [[nodiscard]] TouchDown next_touch_down(const Body& body, const FreeFlight& flight, long evaluation_limit = 300'000);
 
-/// Height of the lowest vertex above the ground [m].
+/// The lowest vertex, body frame; any of several.
+[[nodiscard]] Vector3 lowest_vertex(const Body& body, const MotionState& state);
+/// Its height above the ground [m].
 [[nodiscard]] double lowest_height(const Body& body, const MotionState& state);
 
 /// Mean of the vertices that touch the ground at the same time: lowest to within 1e-11 of the body's radius.

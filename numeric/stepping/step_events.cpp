@@ -5,7 +5,6 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 #include "numeric/motion/free_flight.hpp"
 
@@ -23,8 +22,8 @@ Depth deepest_point(const ContactSystem& system, const ContactInstant& at) {
   const ContactLoad& load = at.diagnosis.load;
   if (load.deepest > 0) return {load.deepest, load.deepest_rate};
   const MotionState motion = system.motion(at.state);
-  const double height = lowest_height(system.body(), motion);
-  return {-height, -point_velocity(motion, touch_point(system.body(), motion)).z()};
+  const Vector3 lowest = lowest_vertex(system.body(), motion);
+  return {-system.height(lowest, at.state), -point_velocity(motion, lowest).z()};
 }
 
 }  // namespace
@@ -77,9 +76,7 @@ double EventLocator::fade(double low, double high, const ContactInstant& now, do
 }
 
 double EventLocator::lift_off(const ContactInstant& now, double h, ContactInstant& at_root) {
-  // Heights are rounded with the body's size.
-  const double rounding = 4 * std::numeric_limits<double>::epsilon() * step_.system().body().radius();
-  const double resolution = std::max(1e-13 * scales_.depth, rounding);
+  const double resolution = 1e-13 * scales_.depth;
   double low = 0, high = h, length = h, reached = h;
   for (int i = 0; i < 100; ++i) {
     const auto [depth, rate] = deepest_point(step_.system(), at_root);

@@ -101,6 +101,16 @@ std::string local_slip_words(const Scene& scene, const Simulation& run) {
       worst + 1, significant(run.impacts[worst].local_slip, 1));
 }
 
+/// A restitution beside a ground that loses nothing: the reader may take it for this model's.
+std::string restitution_words(const Scene& scene) {
+  const std::optional<double>& e = scene.impact.restitution;
+  if (!e || *e == 1 || scene.world.ground.damping > 0) return "";
+  return fmt::format(
+      "impact.restitution = {} is the discrete model's alone: this ground has no damping and loses nothing; clatter "
+      "ground finds the damping for it",
+      shortest(*e));
+}
+
 std::vector<std::string> notes_of(const Scene& scene, const PlannedRun& planned) {
   const Simulation& run = planned.run;
   std::vector<std::string> notes{trust_words(scene, run)};
@@ -111,8 +121,9 @@ std::vector<std::string> notes_of(const Scene& scene, const PlannedRun& planned)
     notes.push_back(fmt::format("Sum of normal impulses: {} N·s; the ledger of energy closes to {}",
                                 total_words(scene, planned), significant(gap, 1)));
   }
-  for (const std::string& words : {local_slip_words(scene, run), method_words(run), accuracy_words(scene, planned),
-                                   fmt::format("{}: {}", outcome_name(run.outcome), run.message)}) {
+  for (const std::string& words :
+       {restitution_words(scene), local_slip_words(scene, run), method_words(run), accuracy_words(scene, planned),
+        fmt::format("{}: {}", outcome_name(run.outcome), run.message)}) {
     notes.push_back(words);
   }
   std::erase(notes, "");
@@ -176,8 +187,11 @@ void add_results(const Scene& scene, const PlannedRun& planned, Value& fields) {
   fields["outcome"] = outcome_name(run.outcome);
   fields["warnings"] = planned.warnings;
   fields["message"] = run.message + "; restitution is null where an impact has several touches";
-  const std::string local_slip = local_slip_words(scene, run);
-  fields["notes"] = local_slip.empty() ? Value::List{} : Value::List{local_slip};
+  Value::List notes;
+  for (const std::string& words : {restitution_words(scene), local_slip_words(scene, run)}) {
+    if (!words.empty()) notes.emplace_back(words);
+  }
+  fields["notes"] = notes;
   fields["method"] = method_name(run.method);
   fields["tolerance"] = run.tolerance > 0 ? Value(run.tolerance) : Value();
   fields["step"] = run.step > 0 ? Value(run.step) : Value();

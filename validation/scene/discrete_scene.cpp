@@ -249,7 +249,8 @@ void name_corners(const Scene& scene, const space::ImpactRow& row, const Vector3
   bool left = false, right = false;
   for (const space::Corner& corner : row.corners) {
     (corner.place.x() + centre.x() < 0 ? left : right) = true;
-    impact.corners += (impact.corners.empty() ? "" : " ") + corner_name(scene, corner);
+    if (!impact.corners.empty()) impact.corners += ' ';
+    impact.corners += corner_name(scene, corner);
   }
   impact.end = left && right ? "both" : left ? "a" : "b";
   const Vector3 place = row.corners.front().place + centre;
@@ -511,7 +512,8 @@ std::string corner_names(const Scene& scene, const Vector3& place) {
     const Vector3 side(sign(4), sign(2), sign(1));
     const Vector3 beyond = side.cwiseProduct(mean) + middle * size;
     if (beyond.x() < 0 || (!is_rod && beyond.minCoeff() < 0)) continue;
-    names += (names.empty() ? "" : " ") + side_name(body.shape, side);
+    if (!names.empty()) names += ' ';
+    names += side_name(body.shape, side);
   }
   return names;
 }

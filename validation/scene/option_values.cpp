@@ -21,8 +21,10 @@ std::string Range::allowed() const {
 
 double read_number_option(const std::string& option, const std::string& text, const Range& range) {
   double value = 0;
-  if (!read_number(text, value) || !range.holds(value))
-    throw BadInput(fmt::format("{} '{}': must be {}", option, text, range.allowed()));
+  if (!read_number(text, value)) {
+    throw BadInput(fmt::format("{} '{}': is no number; it must be {}", option, text, range.allowed()));
+  }
+  if (!range.holds(value)) throw BadInput(fmt::format("{} '{}': must be {}", option, text, range.allowed()));
   return value;
 }
 

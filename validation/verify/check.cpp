@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cctype>
 #include <ctime>
 #include <exception>
 #include <mutex>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <thread>
 
@@ -119,6 +121,19 @@ CheckResult run(const Check& check, CaseRuns& case_runs) {
   return result;
 }
 
+/// Ids as a hand writes them: several in one word, between commas, in small letters.
+std::vector<std::string> ids_in(const std::vector<std::string>& words) {
+  std::vector<std::string> ids;
+  for (const std::string& word : words) {
+    std::istringstream parts(word);
+    for (std::string id; std::getline(parts, id, ',');) {
+      std::transform(id.begin(), id.end(), id.begin(), [](unsigned char c) { return std::toupper(c); });
+      ids.push_back(id);
+    }
+  }
+  return ids;
+}
+
 }  // namespace
 
 const char* answer_name(Answer answer) {
@@ -139,10 +154,11 @@ CheckSelection select_checks(bool quick, const std::vector<std::string>& only) {
   if (quick && !only.empty()) throw BadInput("--quick: excludes --only; give one of them, not both");
   std::vector<std::string> ids;
   for (const Check& check : all_checks()) ids.push_back(check.id);
-  for (const std::string& id : only) static_cast<void>(read_name_option("--only", id, ids));
+  const std::vector<std::string> chosen = ids_in(only);
+  for (const std::string& id : chosen) static_cast<void>(read_name_option("--only", id, ids));
   CheckSelection selection;
   for (const Check& check : all_checks()) {
-    const bool named = std::find(only.begin(), only.end(), check.id) != only.end();
+    const bool named = std::find(chosen.begin(), chosen.end(), check.id) != chosen.end();
     if (only.empty() ? check.quick || !quick : named) selection.checks.push_back(&check);
   }
   const std::size_t count = selection.checks.size();
