@@ -1,30 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analytic/space/face_friction.hpp"
 
-#include <gsl/gsl_odeiv2.h>
-
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
-#include <memory>
 
 #include "analytic/base/limits.hpp"
+#include "analytic/space/slip_motion.hpp"
 
 namespace clatter::analytic::space {
 
 namespace {
 
-/// Local error of a step, relative to the largest slip so far.
-constexpr double step_error = 4e-15;
-/// A stop forecast within this part of the impulse that is left will come, whatever turn slip takes.
-constexpr double sure_stop = 1e-4;
-/// Slip, relative to what all of the impulse could do, with which a face that is let go begins to slip.
-constexpr double first_slip = 1e-15;
 /// Pressure on less than this part of the area counts as pressure at its edge, where there is none.
 constexpr double least_part = 1e-4;
-/// A step that may change no more of the slip than this and still fails leads out of what pressure can do.
-constexpr double shortest_step = 1e-13;
-
 /// What turns a face, of (1) and (2): J, α₀, and the pressure point (−M_y, M_x) without friction and per K.
 struct FaceTurning {
   double inertia, drift;
@@ -43,18 +32,15 @@ struct FaceTurning {
 
 Vector2 drift_of_slip(const SlidingFace& face) { return face.depth * Vector2(-face.turn_rate.y(), face.turn_rate.x()); }
 
-struct FreeFaceStep {
-  void operator()(gsl_odeiv2_step* step) const { gsl_odeiv2_step_free(step); }
-};
-
 /// The path of (U, w), in the metric of the kinetic energy: y = (√m U, √J w).
-class FacePath {
+class FacePath final : SlipMotion {
  public:
   FacePath(const SlidingFace& face, const ContactArea& area)
-      : face_(face), turning_(face), area_(area), pushed_(area), root_mass_(std::sqrt(face.mass)),
+      : SlipMotion(3), face_(face), turning_(face), area_(area), pushed_(area), root_mass_(std::sqrt(face.mass)),
         root_inertia_(std::sqrt(turning_.inertia)) {
     load_ << root_mass_ * drift_of_slip(face), root_inertia_ * turning_.drift;
-    slip_ << root_mass_ * face.slip, root_inertia_ * face.spin;
+    only_friction_ = load_ == Vector3::Zero();
+    y_ << root_mass_ * face.slip, root_inertia_ * face.spin;
     whole_moments_ = pushed_.moments();
     pressure_ << 1 / whole_moments_(0, 0), 0, 0;
     const Vector2& centre = pushed_.centre();
@@ -66,11 +52,10 @@ class FacePath {
   std::optional<FaceFriction> follow();
 
  private:
-  enum class End { impulse_spent, stopped, no_pressure };
-  End slide();
+  Values rate(const Values& y) override;
+  double impulse_left(const Values&) override { return face_.normal_impulse - spent_; }
+  bool end_stage() override { return true; }
   bool sticks();
-  [[nodiscard]] Vector3 rate(const Vector3& y);
-  static int derivative(double impulse, const double y[], double change[], void* path);
   [[nodiscard]] bool solve(const Vector2& slip, double spin);
 
   const SlidingFace& face_;
@@ -79,21 +64,11 @@ class FacePath {
   PressedArea pushed_;
   double root_mass_, root_inertia_;
   Vector3 load_;                     ///< y′ without friction
-  Vector3 slip_;                     ///< y
-  double spent_ = 0;                 ///< P
   Vector3 pressure_;                 ///< a, b, c in the units of pushed_, as they were last
   Vector3 force_ = Vector3::Zero();  ///< (F, K) with them
   Matrix3 whole_moments_, rubbing_;
   Eigen::Matrix<double, 2, 3> shift_;  ///< of the pressure point by (F, K)
-  gsl_odeiv2_system system_{derivative, nullptr, 3, this};
-  std::unique_ptr<gsl_odeiv2_step, FreeFaceStep> step_{gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, 3)};
 };
-
-int FacePath::derivative(double, const double y[], double change[], void* path) {
-  Eigen::Map<Vector3> rate_of_change(change);
-  rate_of_change = static_cast<FacePath*>(path)->rate(Eigen::Map<const Vector3>(y));
-  return 0;
-}
 
 /// Finds a, b, c and with them F, K: linear equations on the area that is pushed, which is that of the solution.
 bool FacePath::solve(const Vector2& slip, double spin) {
@@ -132,57 +107,14 @@ bool FacePath::solve(const Vector2& slip, double spin) {
   return false;
 }
 
-/// y′, NaN where no pressure does it.
-Vector3 FacePath::rate(const Vector3& y) {
+FacePath::Values FacePath::rate(const Values& y) {
   const Vector2 slip = y.head<2>() / root_mass_;
-  const double spin = y.z() / root_inertia_;
+  const double spin = y[2] / root_inertia_;
   if (const bool afresh = pressure_.tail<2>() != Vector2::Zero(); !solve(slip, spin)) {
     pressure_ << 1 / whole_moments_(0, 0), 0, 0;
     if (!afresh || !solve(slip, spin)) return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
   }
   return load_ + Vector3(force_.x() / root_mass_, force_.y() / root_mass_, force_.z() / root_inertia_);
-}
-
-/// Follows slip until it stops, as successive forecasts of the stop agree, or until the impulse is spent.
-FacePath::End FacePath::slide() {
-  constexpr int most_steps = 1000;
-  const double begin = spent_;
-  double scale = slip_.norm(), size_then = scale, forecast = -1, length = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < most_steps; ++i) {
-    const Vector3 now = rate(slip_);
-    if (!now.allFinite()) return End::no_pressure;
-    const double size = slip_.norm(), growth = slip_.dot(now) / size;
-    scale = std::fmax(scale, size);
-    if (growth < 0) {
-      const double stop = spent_ - size / growth;
-      const double rounding = detail::epsilon * (stop - begin);
-      const bool agrees = std::fabs(stop - forecast) <= rounding && size <= size_then / 2;
-      // Without a load slip can only become less, and what stops it does not depend on when.
-      const double forecast_error = load_ == Vector3::Zero() ? sure_stop * (face_.normal_impulse - spent_) : rounding;
-      if ((agrees && stop < face_.normal_impulse) || stop - spent_ <= forecast_error) {
-        spent_ = stop;
-        return End::stopped;
-      }
-      if (!(size > size_then / 2 && forecast >= 0)) forecast = stop, size_then = size;
-    }
-    length = std::fmin(length, size / std::fmax(-growth / 0.9, now.norm() / 8));
-    const double left = face_.normal_impulse - spent_;
-    const bool last = length >= left;
-    if (!(left > 0)) return End::impulse_spent;
-    length = std::fmin(length, left);
-    Vector3 next = slip_, error;
-    gsl_odeiv2_step_apply(step_.get(), 0, length, next.data(), error.data(), now.data(), nullptr, &system_);
-    const double wrong = error.norm() / (step_error * scale);
-    if (wrong <= 1) {
-      slip_ = next;
-      if (last) return End::impulse_spent;
-      spent_ += length;
-    } else if (length * now.norm() <= shortest_step * size) {
-      return End::no_pressure;
-    }
-    length *= wrong >= 0 ? std::fmin(std::fmax(0.9 * std::pow(wrong, -0.125), 0.1), 4) : 0.1;
-  }
-  return End::no_pressure;  // along the edge of what pressure can do, where it cannot be told from none
 }
 
 /// Whether a face that holds still has a pressure; friction is what it takes.
@@ -194,24 +126,24 @@ bool FacePath::sticks() {
 
 std::optional<FaceFriction> FacePath::follow() {
   FaceFriction result;
-  const Vector3 before = slip_;
+  const Vector3 before = y_.head<3>();
   const bool slips = before.norm() > 16 * detail::epsilon * root_mass_ * face_.velocity_scale;
   End end = slips ? slide() : End::stopped;
   if (end == End::stopped) {
     result.path = slips ? PathKind::slip_stick : PathKind::stick;
-    slip_ = first_slip * face_.normal_impulse * load_;
-    if (load_ != Vector3::Zero()) end = slide();
+    y_ = first_slip * face_.normal_impulse * load_;
+    if (load_ != Vector3::Zero()) end = slide(true);
     if (end == End::impulse_spent) result.path = slips ? PathKind::slip_reslip : PathKind::slip;
     if (end == End::stopped) {
-      slip_.setZero();
+      y_.setZero();
       if (!sticks()) end = End::no_pressure;
     }
   }
   if (end == End::no_pressure) return {};
-  const Vector3 change = slip_ - before - face_.normal_impulse * load_;
+  const Vector3 change = y_.head<3>() - before - face_.normal_impulse * load_;
   result.impulse = root_mass_ * change.head<2>();
   result.couple = root_inertia_ * change.z();
-  result.spin_after = slip_.z() / root_inertia_;
+  result.spin_after = y_[2] / root_inertia_;
   return result;
 }
 

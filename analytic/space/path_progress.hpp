@@ -61,6 +61,8 @@ class PathProgress {
   [[nodiscard]] Value excess(const Measure<Value>& at) const;
   /// The derivative of excess() by the impulse, where u has the derivative `normal_rate`.
   [[nodiscard]] double excess_rate(const Measure<>& at, double normal_rate) const;
+  /// Impulse to the end of the stage at a constant normal_rate = du/dp; infinite if that does not lead there.
+  [[nodiscard]] Number length_of_stage(const Number& normal_rate) const;
   /// Enters the next stage.
   void end_stage();
 
@@ -95,7 +97,6 @@ class PathProgress {
   Number compression = std::numeric_limits<double>::quiet_NaN();  ///< p_c
 
  private:
-  [[nodiscard]] Number length_of_stage(const Number& normal_rate) const;
   void advance(const Line& line, const Number& length);
 
   RestitutionRule rule_;

@@ -118,20 +118,16 @@ bool StrikingGroup::strike(const Points& group) {
   return hull.size() == 2 ? strike_edge(corner(0), corner(1), group) : strike_face(group, hull);
 }
 
-/// The edge strikes with the point at which the impulses of (1) have their resultant.
+/// The edge strikes with its pressure point as a corner, or with friction all along it.
 bool StrikingGroup::strike_edge(const Point& first, const Point& second, const Points& group) {
-  const auto inverse = [&](const Point& a, const Point& b) {  // of the mass that a push at b moves at a, upwards
-    const Vector3 up = Vector3::UnitZ();
-    return 1 / struck_.body().mass + a.arm.cross(up).dot(struck_.inverse_inertia() * b.arm.cross(up));
-  };
-  const double mixed = inverse(first, second);
-  const double u1 = -velocity(first).z(), u2 = -velocity(second).z();
-  const double of_first = inverse(second, second) * u1 - mixed * u2;
-  const double of_second = inverse(first, first) * u2 - mixed * u1;
-  if (!(of_first >= 0 && of_second >= 0 && of_first + of_second > 0)) return false;
-  const double share = of_second / (of_first + of_second);
+  const ImpactLaw& law = struck_.law().law;
+  const bool rubs = law.friction == FrictionKind::coulomb && law.friction_value > 0;
+  const EdgeContact edge = struck_.edge_contact(first.place, second.place);
+  if (rubs && !edge.strikes_as_corner()) return struck_.strike_along(first.place, second.place, indices_of(group));
+  const double point = edge.pressure_point();
+  if (!(std::fabs(point) <= 1)) return false;
   StrikingBody struck = struck_;
-  struck.strike_at(first.place + share * (second.place - first.place), indices_of(group));
+  struck.strike_at(((1 - point) * first.place + (1 + point) * second.place) / 2, indices_of(group));
   if (struck.approaches(first.arm) || struck.approaches(second.arm)) return false;
   struck_.take(struck);
   return true;

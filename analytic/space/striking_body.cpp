@@ -93,6 +93,31 @@ std::optional<FaceRebound> StrikingBody::face_rebound(double depth, const Contac
   return rebound;
 }
 
+EdgeContact StrikingBody::edge_contact(const Vector3& from, const Vector3& to) const {
+  // In body axes, as in strike().
+  const Vector3 middle = (from + to) / 2, half = (to - from) / 2, along = half.normalized();
+  const Vector3 up = place(Vector3::UnitZ()), across = up.cross(along);
+  Eigen::Matrix<double, 3, 5> force, moment;  // of the impulses f
+  force << along, across, Vector3::Zero(), up, Vector3::Zero();
+  moment << middle.cross(along), middle.cross(across), half.cross(across), middle.cross(up), half.cross(up);
+  EdgeContact edge;
+  edge.inverse_inertia =
+      force.transpose() * force / body_.mass + moment.transpose() * body_.inertia.ldlt().solve(moment);
+  edge.velocity = force.transpose() * place(state_.velocity) + moment.transpose() * place(state_.angular_velocity);
+  edge.velocity_scale = state_.velocity.norm() + state_.angular_velocity.norm() * (middle.norm() + half.norm());
+  return edge;
+}
+
+bool StrikingBody::strike_along(const Vector3& from, const Vector3& to, const std::vector<int>& points) {
+  const auto struck = edge_impulse(edge_contact(from, to), law_.law);
+  if (!struck) return false;
+  const EdgeContact::Vector& f = struck->impulse;
+  const Vector3 half = arm(to - from) / 2, along = half.normalized(), up = Vector3::UnitZ(), across = up.cross(along);
+  const Vector3 impulse = f[0] * along + f[1] * across + f[3] * up;
+  push(impulse, arm(from + to).cross(impulse) / 2 + half.cross(f[2] * across + f[4] * up), struck->path, points);
+  return true;
+}
+
 void StrikingBody::push(const FaceRebound& face, const std::vector<int>& points) {
   push(face.impulse, face.moment, face.path, points);
   if (face.spin_after) state_.angular_velocity.z() = *face.spin_after;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analytic/space/contact_area.hpp"
+#include "analytic/space/edge_friction.hpp"
 #include "analytic/space/impact.hpp"
 
 namespace clatter::analytic::space {
@@ -63,6 +64,10 @@ class StrikingBody {
   /// The same with friction all over the area (face_friction.hpp), from below the centre of mass; nothing if the area
   /// has no pressure for it.
   [[nodiscard]] std::optional<FaceRebound> face_rebound(double depth, const ContactArea& area) const;
+  /// The edge between two places at one height, as (1) of edge_friction.hpp has it.
+  [[nodiscard]] EdgeContact edge_contact(const Vector3& from, const Vector3& to) const;
+  /// Strikes with that edge, friction all along it; false, and nothing done, if it has no pressure for that.
+  bool strike_along(const Vector3& from, const Vector3& to, const std::vector<int>& points);
   /// Goes on from another that began with the same body, state and law.
   void take(const StrikingBody& other);
   void push(const FaceRebound& face, const std::vector<int>& points);

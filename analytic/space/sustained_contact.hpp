@@ -9,6 +9,10 @@
 //                     which its acceleration then is, if there is one such direction only
 //     lift-off        N_i <= 0
 // Where slip has not one solution (Painlevé), the law leaves open what happens.
+//
+// An edge that stays is held and rubbed at its two corners, which gives each its own slip or hold and needs no rule for
+// the pressure between them.  Where it strikes, friction acts all along it (edge_friction.hpp): straight slip is the
+// same, but a staying edge that turns about the vertical is braked up to twice as much.
 #pragma once
 
 #include <optional>

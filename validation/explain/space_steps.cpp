@@ -428,8 +428,9 @@ class SpatialImpact {
     }
     const bool is_face = is_rim || group.order.front().size() > 2;
     return std::string("Pushes alone can make the body rebound as a whole, each point at e times its approach.") +
-           (is_face && given_.friction
-                ? " Each point of the face is rubbed against its slip, by μ times the pressure there."
+           (given_.friction
+                ? fmt::format(" Each point of the {} is rubbed against its slip, by μ times the pressure there.",
+                              is_face ? "face" : "edge")
                 : "");
   }
 

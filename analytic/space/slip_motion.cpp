@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analytic/space/slip_motion.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "analytic/base/limits.hpp"
+
+namespace clatter::analytic::space {
+
+namespace {
+
+/// Local error of a step, relative to the largest slip so far.
+constexpr double slip_step_error = 4e-15;
+/// Forecasts of a stop this near to one another, relative to the impulse of the slip, differ by the errors of steps;
+constexpr double stop_agreement = 16 * detail::epsilon;
+/// those of a slip that began at first_slip and is below `little` times that need only say that it dies out.
+constexpr double little = 1e6, little_agreement = 1e-6;
+/// A stop forecast within this part of the impulse that is left will come, whatever turn slip takes.
+constexpr double sure_stop = 1e-4;
+/// A step that may change no more of the slip than this and still fails leads out of what pressure can do.
+constexpr double shortest_step = 1e-13;
+
+/// Where slip will stop, by its size and growth now and as it was when it was at least twice as large.
+struct StopForecast {
+  double begin, size_then, agreement, stop_then = -1;
+
+  /// Whether slip stops at `stop` and does so before the stage ends.
+  bool agrees(double spent, double left, double size, double stop, bool is_sure_early) {
+    const double rounding = agreement * (stop - begin);
+    const bool agree = std::fabs(stop - stop_then) <= rounding && size <= size_then / 2;
+    if ((agree && stop - spent < left) || stop - spent <= (is_sure_early ? sure_stop * left : rounding)) return true;
+    if (!(size > size_then / 2 && stop_then >= 0)) stop_then = stop, size_then = size;
+    return false;
+  }
+};
+
+}  // namespace
+
+SlipMotion::SlipMotion(Eigen::Index size)
+    : y_(Values::Zero(size)), size_(static_cast<std::size_t>(size)), system_{derivative, nullptr, size_, this},
+      step_(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, size_)) {}
+
+int SlipMotion::derivative(double, const double y[], double change[], void* motion) {
+  auto& with = *static_cast<SlipMotion*>(motion);
+  const auto size = static_cast<Eigen::Index>(with.size_);
+  Eigen::Map<Eigen::VectorXd>(change, size) = with.rate(Eigen::Map<const Eigen::VectorXd>(y, size));
+  return 0;
+}
+
+SlipMotion::End SlipMotion::slide(bool from_rest) {
+  constexpr int most_steps = 1000;
+  double scale = y_.head<3>().norm(), length = std::numeric_limits<double>::infinity();
+  const double most_little = from_rest ? little * scale : 0;
+  StopForecast forecast{.begin = spent_, .size_then = scale, .agreement = little_agreement};
+  for (int i = 0; i < most_steps; ++i) {
+    const Values now = rate(y_);
+    if (!now.allFinite()) return End::no_pressure;
+    const double left = impulse_left(now);
+    if (std::fabs(left) <= 4 * detail::epsilon * spent_) {
+      if (end_stage()) return End::impulse_spent;
+      length = std::numeric_limits<double>::infinity();
+      continue;
+    }
+    const double size = y_.head<3>().norm(), growth = y_.head<3>().dot(now.head<3>()) / size;
+    scale = std::fmax(scale, size);
+    if (scale > most_little) forecast.agreement = stop_agreement;
+    const double stop = spent_ - size / growth;
+    if (growth < 0 && forecast.agrees(spent_, left, size, stop, only_friction_)) {
+      const Eigen::Index others = y_.size() - 3;
+      y_.tail(others) += (stop - spent_) * now.tail(others);
+      spent_ = stop;
+      return End::stopped;
+    }
+    length = std::fmin(length, size / std::fmax(-growth / 0.9, now.head<3>().norm() / 8));
+    const double taken = std::fmin(length, left);
+    Values next = y_, error = y_;
+    gsl_odeiv2_step_apply(step_.get(), 0, taken, next.data(), error.data(), now.data(), nullptr, &system_);
+    const double wrong = error.head<3>().norm() / (slip_step_error * scale);
+    if (wrong <= 1) {
+      y_ = next;
+      spent_ += taken;
+    } else if (std::fabs(taken) * now.head<3>().norm() <= shortest_step * size) {
+      return End::no_pressure;
+    }
+    length = std::fabs(taken) * (wrong >= 0 ? std::fmin(std::fmax(0.9 * std::pow(wrong, -0.125), 0.1), 4) : 0.1);
+  }
+  return End::no_pressure;  // along the edge of what pressure can do, where it cannot be told from none
+}
+
+}  // namespace clatter::analytic::space

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How slide and spin of a level contact go on in impulse space while it slips.
+#pragma once
+
+#include <gsl/gsl_odeiv2.h>
+
+#include <Eigen/Core>
+#include <memory>
+
+namespace clatter::analytic::space {
+
+/// Slip (U_x, U_y, w) in any units that give the three one size, and quantities that go along with it, as functions of
+/// the normal impulse P.  F, K and so the rates depend on the direction of slip alone; slide and spin end together.
+class SlipMotion {
+ public:
+  using Values = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1>;
+  SlipMotion(const SlipMotion&) = delete;
+  SlipMotion& operator=(const SlipMotion&) = delete;
+
+ protected:
+  enum class End { impulse_spent, stopped, no_pressure };
+
+  explicit SlipMotion(Eigen::Index size);
+  ~SlipMotion() = default;
+
+  /// dy/dP at y; NaN where no pressure does it.
+  virtual Values rate(const Values& y) = 0;
+  /// Normal impulse up to end_stage(), from y_ and its rate: an estimate that becomes exact as it becomes small.
+  virtual double impulse_left(const Values& rate) = 0;
+  /// Whether the impulse ends where impulse_left() is zero.
+  virtual bool end_stage() = 0;
+
+  /// Follows slip until it stops, as successive forecasts of the stop agree, or until the impulse is spent.
+  /// @param from_rest  slip is first_slip, which dies out if friction holds the contact
+  End slide(bool from_rest = false);
+
+  Values y_;
+  double spent_ = 0;            ///< P
+  bool only_friction_ = false;  ///< nothing but friction acts on slip, which can only become less
+
+ private:
+  struct StepDeleter {
+    void operator()(gsl_odeiv2_step* step) const { gsl_odeiv2_step_free(step); }
+  };
+  static int derivative(double impulse, const double y[], double change[], void* motion);
+
+  std::size_t size_;
+  gsl_odeiv2_system system_;
+  std::unique_ptr<gsl_odeiv2_step, StepDeleter> step_;
+};
+
+/// Slip, relative to what all of the impulse could do, with which a contact that is let go begins to slip.
+inline constexpr double first_slip = 1e-15;
+
+}  // namespace clatter::analytic::space
