@@ -73,6 +73,32 @@ Row5 out_of_step(const EdgeContact& edge) {
   return edge.velocity[3] * edge.inverse_inertia.row(4) - edge.velocity[4] * edge.inverse_inertia.row(3);
 }
 
+/// Slip of an edge that is let go, under the pressure of mean x̄ that it has while it is held: it falls down a convex
+/// function, the bottom of which is no slip if friction can hold it.
+class EdgeLetGo final : SlipMotion {
+ public:
+  EdgeLetGo(const EdgeContact::Matrix& inverse_inertia, double friction, double point)
+      : SlipMotion(3), inverse_inertia_(inverse_inertia.topLeftCorner<3, 3>()), friction_(friction), point_(point),
+        load_(inverse_inertia.block<3, 2>(0, 3) * Vector2(1, point)) {
+    y_ = first_slip * load_;
+  }
+  bool is_held() { return load_ == Vector3::Zero() || slide(true) == End::stopped; }
+  /// After is_held().
+  [[nodiscard]] Vector3 direction() const { return y_.head<3>().normalized(); }
+
+ private:
+  Values rate(const Values& y) override {
+    return load_ - friction_ * (inverse_inertia_ * rub_of_edge(y.head<3>(), point_));
+  }
+  double impulse_left(const Values&) override { return trial - spent_; }
+  bool end_stage() override { return true; }
+
+  static constexpr double trial = 1e-6;  ///< of the impulse
+  Matrix3 inverse_inertia_;
+  double friction_, point_;
+  Vector3 load_;
+};
+
 /// The path of slip, with ∫x dP, u and the work; units: the approach speed of the pressure point without friction, and
 /// its inverse inertia.
 class EdgePath final : SlipMotion {
@@ -84,7 +110,8 @@ class EdgePath final : SlipMotion {
   Values rate(const Values& y) override;
   double impulse_left(const Values& rate) override;
   bool end_stage() override;
-  bool stick();
+  End go_on_from_rest();
+  void stick(const Vector5& f);
   [[nodiscard]] std::optional<double> pressure_point(const Vector3& slip) const;
   [[nodiscard]] double out_of_step(const Vector3& slip, double point) const;
   [[nodiscard]] double profile(double x) const { return profile_[0] + profile_[1] * x; }
@@ -95,7 +122,7 @@ class EdgePath final : SlipMotion {
   Vector2 profile_;      ///< φ(0), φ′
   Row5 turning_, rise_;  ///< by f: out of step, and u
   double slow_;          ///< slip below it is rounding
-  Vector3 begin_, load_;
+  Vector3 begin_;
   double weight_ = 1;  ///< φ(x̄)
   PathProgress<> progress_;
 };
@@ -110,7 +137,6 @@ EdgePath::EdgePath(const EdgeContact& edge, const ImpactLaw& law, double point)
   g_ = g / unit_;
   turning_ = profile_[0] * g_.row(4) - profile_[1] * g_.row(3);
   rise_ = g_.row(3) + point * g_.row(4);
-  load_ = g_.block<3, 2>(0, 3) * Vector2(1, point);
   y_.head<3>() = begin_;
   y_[4] = -1;
 }
@@ -163,18 +189,27 @@ bool EdgePath::end_stage() {
   return progress_.is_done();
 }
 
-/// The rest of the impulse, along which the edge does not slip; whether it has a pressure.
-bool EdgePath::stick() {
-  Vector5 rises = Vector5::Zero();
-  rises.tail<2>() = profile_;
-  const Vector5 f = g_.ldlt().solve(rises);
+/// The rest of the impulse, along which the ground pushes and holds with f per unit of u.
+void EdgePath::stick(const Vector5& f) {
   const double point = f[4] / f[3], begin = spent_;
-  if (!(f[3] > 0 && std::fabs(point) <= 1)) return false;
   progress_.at = {.impulse = spent_, .normal_velocity = y_[4], .store = y_[5] / profile(point)};
   progress_.follow({.normal_rate = 1 / f[3]});
   spent_ = progress_.at.impulse;
+  y_.head<3>().setZero();
   y_[3] += point * (spent_ - begin);
-  return true;
+}
+
+/// Sticks if friction can hold the edge under a pressure that it has; slips on otherwise.
+EdgePath::End EdgePath::go_on_from_rest() {
+  Vector5 rises = Vector5::Zero();
+  rises.tail<2>() = profile_;
+  const Vector5 f = g_.ldlt().solve(rises);
+  constexpr double most = 1 - nearest_to_end;
+  const double point = f[4] / f[3];
+  EdgeLetGo slip(g_, friction_, std::clamp(point, -most, most));
+  if (slip.is_held() && f[3] > 0 && std::fabs(point) <= most) return stick(f), End::stopped;
+  y_.head<3>() = first_slip * slip.direction();
+  return slide(true) == End::impulse_spent ? End::impulse_spent : End::no_pressure;
 }
 
 std::optional<EdgeImpulse> EdgePath::follow() {
@@ -182,14 +217,10 @@ std::optional<EdgeImpulse> EdgePath::follow() {
   const bool slips = begin_.norm() > slow_;
   End end = slips ? slide() : End::stopped;
   if (end == End::stopped) {
-    result.path = slips ? PathKind::slip_stick : PathKind::stick;
-    y_.head<3>() = first_slip * load_;
-    if (load_ != Vector3::Zero()) end = slide(true);
-    if (end == End::impulse_spent) result.path = slips ? PathKind::slip_reslip : PathKind::slip;
-    if (end == End::stopped) {
-      y_.head<3>().setZero();
-      if (!stick()) end = End::no_pressure;
-    }
+    end = go_on_from_rest();
+    const bool sticks = end == End::stopped;
+    result.path =
+        slips ? (sticks ? PathKind::slip_stick : PathKind::slip_reslip) : (sticks ? PathKind::stick : PathKind::slip);
   }
   if (end == End::no_pressure) return {};
   const Vector2 pushes(spent_, y_[3]);
