@@ -86,6 +86,7 @@ class Evidence(unittest.TestCase):
     def test_rows_are_those_of_csv_whatever_json_groups(self):
         sweep = clatter.sweep("rod-10", {"drop.angle_deg": "5,10"}, model="discrete")
         np.testing.assert_array_equal(sweep.column("drop.angle_deg"), [5, 10])
+        np.testing.assert_array_equal(sweep["drop.angle_deg"], [5, 10])
         self.assertEqual([row["impacts"] for row in sweep], [row["impacts"] for row in sweep.to_dict()["rows"]])
 
 

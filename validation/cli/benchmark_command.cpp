@@ -109,7 +109,8 @@ Command benchmark_command() {
   command.add_text("--columns", input->columns, "NAME=COLUMN,...", "what the files to score call their columns");
   command.add_text("--problem", input->problem, "ID", "of the files to score, in place of their lines # problem:");
   command.add_text("--require", input->require, "CLASS",
-                   "exact|sharp|good|coarse, or a largest error: exit status 1 where a file does worse");
+                   "exact|sharp|good|coarse|incomplete, or a largest error of complete answers: exit status 1 where a "
+                   "file does worse");
   add_output_options(command, input->output);
   add_plot_options(command, input->plot);
   command.footer =

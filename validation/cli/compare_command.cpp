@@ -121,7 +121,8 @@ Command compare_command() {
   command.add_list("--against", input->against, "FILE",
                    "score these runs of another program, as clatter benchmark does");
   command.add_text("--columns", input->columns, "NAME=COLUMN,...", "what the files of --against call their columns");
-  command.add_text("--require", input->require, "CLASS", "of --against: exact|sharp|good|coarse, or a largest error");
+  command.add_text("--require", input->require, "CLASS",
+                   "of --against: exact|sharp|good|coarse|incomplete, or a largest error of complete answers");
   add_output_options(command, input->output);
   add_plot_options(command, input->plot);
   command.footer =

@@ -493,7 +493,7 @@ Report score_report(const std::string& command, const std::vector<Submission>& s
 
 bool Requirement::is_met(const Submission& submission) const {
   if (verdict && !(submission.verdict <= *verdict)) return false;
-  return !error || submission.score.error() <= *error;
+  return !error || (submission.verdict != Verdict::incomplete && submission.score.error() <= *error);
 }
 
 Requirement read_requirement(const std::optional<std::string>& text) {

@@ -101,7 +101,8 @@ TouchMotion toppled(const Scene& scene) {
 double Scene::fallen_speed(double touch) const {
   if (!(*height > touch)) {
     throw BadInput(fmt::format(
-        "{}drop.height = {}: must be greater than {} m, the height of the centre of mass at the first touch",
+        "{}drop.height = {}: must be greater than {} m, the height of the centre of mass at the first touch (lengths "
+        "are in metres)",
         path.empty() ? "" : path + ": ", shortest(*height), significant(touch, 6)));
   }
   return std::sqrt(2 * world.gravity * (*height - touch));

@@ -106,8 +106,19 @@ class NumericTable::Parser {
         {std::string(trimmed(words.substr(0, colon))), std::string(trimmed(words.substr(colon + 1))), line_});
   }
 
+  /// A first line of numbers is a row, and the file has no header.
+  void refuse_numbers(std::string_view line) const {
+    CsvLine fields(line, table_.separator_);
+    double value = 0;
+    for (CsvField field; fields.next(field);) {
+      if (!read_field(field.text, value)) return;
+    }
+    fail(1, "the first line has numbers, must name the columns");
+  }
+
   void take_header(std::string_view line) {
     table_.separator_ = separator_of(line);
+    refuse_numbers(line);
     CsvLine fields(line, table_.separator_);
     std::vector<std::string> header;
     for (CsvField field; fields.next(field);) {

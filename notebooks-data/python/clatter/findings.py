@@ -2,7 +2,7 @@
 """What explanations, plans, studies of cost, sweeps, regimes, measurements and scores return."""
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, overload
 
 from clatter.arrays import Array
 from clatter.records import Record, as_array
@@ -98,8 +98,13 @@ class Table(Result):
     def __iter__(self) -> Iterator[Record]:
         return iter(self.rows)
 
-    def __getitem__(self, index: int) -> Record:
-        return self.rows[index]
+    @overload
+    def __getitem__(self, index: int) -> Record: ...
+    @overload
+    def __getitem__(self, index: str) -> Array: ...
+    def __getitem__(self, index: int | str) -> Record | Array:
+        """The record of a row, or a column by its name."""
+        return self.column(index) if isinstance(index, str) else self.rows[index]
 
 
 class Measured(Table):

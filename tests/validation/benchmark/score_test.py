@@ -163,7 +163,10 @@ class Exact(Folder):
         done = run("benchmark", "truth", "fold-2-above", "--format", "csv")
         text = done.stdout.replace("# ended: nothing approaches\n", "")
         self.assertNotEqual(text, done.stdout)
-        self.assertEqual(self.score(self.put(text))["files"][0]["verdict"], "incomplete")
+        cut = self.put(text)
+        self.assertEqual(self.score(cut)["files"][0]["verdict"], "incomplete")
+        for require, status in (("coarse", 1), ("1e-2", 1), ("incomplete", 0)):
+            self.assertEqual(run("benchmark", "score", cut, "--require", require).returncode, status, require)
         wrong = run("benchmark", "score", self.put(done.stdout.replace("nothing approaches", "so be it")))
         self.assertEqual(wrong.returncode, 2)
         self.assertIn("must be nothing approaches", wrong.stderr)

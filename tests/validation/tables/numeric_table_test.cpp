@@ -75,6 +75,7 @@ BOOST_AUTO_TEST_CASE(a_malformed_file_is_one_line_with_file_line_and_column) {
       {"# only: words\n\n", "file.csv: is empty, must be a CSV file with a header and rows"},
       {"t,x\n", "file.csv:1:1: no row below the header"},
       {"t,y\n1,2\n", "file.csv:1:1: no column x; there are t y (--columns NAME=COLUMN maps names)"},
+      {"0,0.5,0\n1,2,3\n", "file.csv:1:1: the first line has numbers, must name the columns"},
       {"t,x,t\n1,2,3\n", "file.csv:1:5: column t is there twice"},
       {"t,x\n1,2\n\n3\n", "file.csv:4:2: 1 fields, must be 2 as in the header"},
       {"t,x\r\n1,2\r\n3,4,5\r\n", "file.csv:3:5: more fields than the header's 2"},
