@@ -40,18 +40,45 @@ std::optional<Remainder> shrinking_remainder(const double (&terms)[blocks]) {
   return Remainder{last, error};
 }
 
-/// Tangential impulse of a face that slides with `slip` while it takes the normal impulse `normal`.
-double sliding_impulse(const ImpactLaw& law, double mass, double slip, double normal) {
-  if (law.friction == FrictionKind::none) return 0;
-  if (law.friction == FrictionKind::impulse_ratio) return law.friction_value * normal;
-  return -std::copysign(std::fmin(law.friction_value * normal, mass * std::fabs(slip)), slip);
-}
-
 }  // namespace
 
-std::optional<Tail> bouncing_tail(const BodyMotion& motion, const ImpactLaw& law, double gravity,
-                                  const BodyMotion::Strike& last) {
+std::optional<Slide> slide(const ImpactLaw& law, const SlidingFace& face) {
+  const auto& [mass, slip, normal, pull] = face;
+  const auto moved_by = [&](double friction) { return Slide{friction, slip + (friction + pull) / mass}; };
+  if (law.friction == FrictionKind::none) return moved_by(0);
+  if (law.friction == FrictionKind::impulse_ratio) return moved_by(law.friction_value * normal);
+  const double most = law.friction_value * normal, down = pull != 0 ? pull : slip;
+  const double held = mass * std::fabs(slip), pulled = std::fabs(pull);
+  if (pull * slip >= 0) {  // with the pull, or without one
+    if (most >= held + pulled) return Slide{-std::copysign(held + pulled, down), 0};
+    return moved_by(-std::copysign(most, down));
+  }
+  if (most + pulled <= held) return moved_by(std::copysign(most, down));
+  if (pulled > most) return {};
+  return Slide{down > 0 ? held - pulled : pulled - held, 0};
+}
+
+bool slides_down(const ImpactLaw& law, double gravity, double gravity_along) {
+  return gravity_along != 0 && std::fabs(gravity_along) > law.most_friction() * gravity;
+}
+
+/// About the centre of mass d_n P_t = p P_n, with the ground's push at p from it.
+bool stays_level(const BodyMotion& motion, VertexSet face, double share) {
+  double least = std::numeric_limits<double>::infinity(), most = -least, push = 0;
+  for (int i = 0; i < motion.body().vertex_count; ++i) {
+    if (!(face >> i & 1)) continue;
+    const ContactPoint d = motion.contact_point(i);
+    least = std::fmin(least, d.tangential);
+    most = std::fmax(most, d.tangential);
+    push = d.normal * share;
+  }
+  return least <= push && push <= most;
+}
+
+std::optional<Tail> bouncing_tail(const BodyMotion& motion, const ImpactLaw& law, const BodyMotion::Strike& last) {
   const PlanarVelocity v = motion.velocity();
+  const Departure departure = motion.local_departure();
+  const double gravity = departure.gravity, along = departure.gravity_along;
   if (v.angular != 0 || !(gravity > 0) || !(law.restitution < 1)) return {};
   const bool upright = std::popcount(last.vertices) == 1;
   if (upright &&
@@ -62,13 +89,21 @@ std::optional<Tail> bouncing_tail(const BodyMotion& motion, const ImpactLaw& law
   const double e = law.restitution;
   const double mass = motion.body().mass;
   const double normal = mass * (1 + e) * w / (1 - e);
-  const double tangential = upright ? 0 : sliding_impulse(law, mass, v.tangential, normal);
-  return Tail{.end_time = motion.time() + 2 * w / (gravity * (1 - e)),
+  const double left = 2 * w / (gravity * (1 - e)), rubs = law.most_friction();
+  if (along != 0 && rubs > 0) {
+    const bool level = stays_level(motion, last.vertices, rubs) && stays_level(motion, last.vertices, -rubs);
+    if (upright || !level) return {};  // friction may turn it yet
+  }
+  const ImpactLaw without;
+  const auto slid = slide(upright ? without : law,
+                          {.mass = mass, .slip = v.tangential, .normal = normal, .pull = mass * along * left});
+  if (!slid) return {};
+  return Tail{.end_time = motion.time() + left,
               .normal_impulse = normal,
-              .tangential_impulse = tangential,
+              .tangential_impulse = slid->impulse,
               .vertices = last.vertices,
               .closed_form = true,
-              .after = {.tangential = v.tangential + tangential / mass},
+              .after = {.tangential = slid->slip},
               .after_error = {}};
 }
 
@@ -172,13 +207,15 @@ std::optional<Tail> Accumulation::extrapolate(const Tolerance& tolerance) const 
   return vanishing(tolerance);
 }
 
-void end_state(const BodyMotion& motion, Tail& tail) {
+void end_state(const BodyMotion& motion, ImpactMode mode, Tail& tail) {
   const PlanarVelocity v = motion.velocity();
   const PlanarBody& body = motion.body();
   const double normal = tail.normal_impulse, tangential = tail.tangential_impulse;
-  tail.after = {.tangential = v.tangential + tangential / body.mass};
-  tail.after_error = {.tangential = tail.tangential_impulse_error / body.mass};
+  const double along = motion.local_departure().gravity_along;
+  tail.after = {.tangential = v.tangential + tangential / body.mass + along * tail.end_time};
+  tail.after_error = {.tangential = tail.tangential_impulse_error / body.mass + std::fabs(along) * tail.end_time_error};
   if (std::popcount(tail.vertices) != 1) {
+    if (mode == ImpactMode::stick || mode == ImpactMode::slip_stick) tail.after.tangential = 0;
     const double share = std::fmin(tail.normal_impulse_error / normal, 1.0);  // of the motion that may be left
     tail.after_error.normal = share * std::fabs(v.normal);
     tail.after_error.angular = share * std::fabs(v.angular);
@@ -206,7 +243,7 @@ bool keeps_its_mode(const BodyMotion& motion, const Tail& tail, ImpactMode mode)
   const double change =
       (inertia.tangential * std::fabs(tail.tangential_impulse) + std::fabs(inertia.coupling) * tail.normal_impulse) /
           body.mass +
-      turning * turning * body.reach() * tail.end_time;
+      (turning * turning * body.reach() + std::fabs(motion.local_departure().gravity_along)) * tail.end_time;
   return 2 * change < std::fabs(motion.slip());
 }
 

@@ -10,11 +10,34 @@
 
 namespace clatter::analytic {
 
+/// A face that slides while the ground gives it impulses.
+struct SlidingFace {
+  double mass = 1;    ///< [kg]
+  double slip = 0;    ///< at the start [m/s]
+  double normal = 0;  ///< sum of the normal impulses [N·s]
+  double pull = 0;    ///< impulse of gravity along x meanwhile, in proportion to `normal` at every moment [N·s]
+};
+/// What friction gives it, and its slip at the end.
+struct Slide {
+  double impulse = 0;  ///< tangential [N·s]
+  double slip = 0;     ///< [m/s]
+};
+/// By the law's friction, |impulse| <= μ `normal`, until slip stops; then it sticks if μ `normal` >= |`pull`|.
+/// Nothing where slip against the pull turns round meanwhile and goes on: each impact then counts by itself.
+[[nodiscard]] std::optional<Slide> slide(const ImpactLaw& law, const SlidingFace& face);
+
+/// Whether friction cannot hold a body at rest against gravity along the ground.
+[[nodiscard]] bool slides_down(const ImpactLaw& law, double gravity, double gravity_along);
+
+/// Whether the ground can push on a face so that it stays level, when it has the tangential force `share` of the normal
+/// one: the forces meet the centre of mass within the face.
+[[nodiscard]] bool stays_level(const BodyMotion& motion, VertexSet face, double share);
+
 /// Flat and upright bouncing: after an impact with rebound speed w of a body that does not turn and
 /// that the next impacts leave so, flight times form a geometric series. Remaining time 2w/(g(1−e)),
-/// normal impulse m (1+e) w/(1−e), tangential impulse by the friction law until slip stops.
+/// normal impulse m (1+e) w/(1−e), tangential impulse by slide().
 /// Nothing if the body turns, is elastic, has no gravity, or would be turned by friction.
-[[nodiscard]] std::optional<Tail> bouncing_tail(const BodyMotion& motion, const ImpactLaw& law, double gravity,
+[[nodiscard]] std::optional<Tail> bouncing_tail(const BodyMotion& motion, const ImpactLaw& law,
                                                 const BodyMotion::Strike& last);
 
 /// Whether impacts by this law, however slow, take energy away in proportion to what there is.  Damped ground alone
@@ -69,7 +92,8 @@ class Accumulation {
 /// State at the end of an extrapolated tail, from the state after the last impact: a single vertex stays on the ground
 /// while the body turns about it; with two, the face rests.
 /// Errors: those of the impulses, and of the vertex's way during the tail.
-void end_state(const BodyMotion& motion, Tail& tail);
+/// @param mode  of the last impact: a face that sticks each time ends at rest
+void end_state(const BodyMotion& motion, ImpactMode mode, Tail& tail);
 
 /// Whether slip during the tail goes on as in the impacts that it was extrapolated from: it sticks each time, or is far
 /// from changing its direction.

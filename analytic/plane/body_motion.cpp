@@ -40,9 +40,10 @@ Pair outermost(const BodyMotion& motion, VertexSet set) {
 
 }  // namespace
 
-BodyMotion::BodyMotion(const PlanarBody& body, const Angle& inclination, const PlanarVelocity& velocity, double gravity)
-    : body_(body), turned_(body), gravity_(gravity), inclination_(inclination.radians), sine_(inclination.sine),
-      cosine_(inclination.cosine), initial_(inclination), remainder_(velocity) {
+BodyMotion::BodyMotion(const PlanarBody& body, const Angle& inclination, const PlanarVelocity& velocity, double gravity,
+                       double gravity_along)
+    : body_(body), turned_(body), gravity_(gravity), gravity_along_(gravity_along), inclination_(inclination.radians),
+      sine_(inclination.sine), cosine_(inclination.cosine), initial_(inclination), remainder_(velocity) {
   turn_to_face_below();
   if (body.uniform_thin_rod && velocity.normal < 0 && inclination.cosine >= 0) {
     frame_ = {.speed = -velocity.normal, .sextant = 3};
@@ -221,6 +222,7 @@ Departure BodyMotion::local_departure() const {
           .normal = v.normal,
           .angular = v.angular,
           .gravity = gravity_,
+          .gravity_along = gravity_along_,
           .touching = touching_,
           .reference = reference_,
           .rebound_speed = rebound_speed_};
@@ -237,6 +239,9 @@ Flight BodyMotion::fly() {
   time_ += arrival.time;
   remainder_.normal -= gravity_ * arrival.time;
   scale_.normal += gravity_ * arrival.time;
+  way_ += arrival.time * (remainder_.tangential + gravity_along_ / 2 * arrival.time);
+  remainder_.tangential += gravity_along_ * arrival.time;
+  scale_.tangential += std::fabs(gravity_along_) * arrival.time;
   const bool turned = arrival.time > 0 && arrival.inclination != inclination_;
   const double local = arrival.inclination;
   arrival.inclination += beyond;
@@ -289,7 +294,7 @@ double BodyMotion::energy() const {
   const PlanarVelocity v = velocity();
   return body_.mass *
          ((v.normal * v.normal + v.tangential * v.tangential + body_.gyration_square * (v.angular * v.angular)) / 2 +
-          gravity_ * centre_height_);
+          gravity_ * centre_height_ - gravity_along_ * way_);
 }
 
 // Velocity of the contact point of a BodyMotion, from V and Ω or carried along the flight,
@@ -351,7 +356,7 @@ void BodyMotion::keep_contact_velocity(const ContactPoint& d, Impact& impact) {
   }
 }
 
-/// With h of the arriving vertex from the one that struck last: u = h′, s = s₀ + Ω (d_n − d_n0),
+/// With h of the arriving vertex from the one that struck last: u = h′, s = s₀ + g_t t + Ω (d_n − d_n0),
 /// both at the touch.
 void BodyMotion::carry(const Departure& departure, const Arrival& arrival) {
   const VertexHeight height = vertex_height(turned_, departure, arrival.vertex);
@@ -360,12 +365,14 @@ void BodyMotion::carry(const Departure& departure, const Arrival& arrival) {
   const double versine_part = height.versine * turn.versine;
   const auto [along, offset] = departure.offset(turned_, reference_, arrival.vertex);
   const double of_start = departure.rebound_speed + std::fabs(departure.angular * along);
+  const double gained = departure.gravity_along * arrival.time;
   const double scale = std::fabs(offset) + std::fabs(versine_part) + std::fabs(sine_part);
   carried_ = {.vertex = arrival.vertex,
               .velocity = {height.at(arrival.time, turn).velocity,
-                           slip_ + departure.angular * (offset + versine_part - sine_part)},
+                           slip_ + gained + departure.angular * (offset + versine_part - sine_part)},
               .normal_scale = of_start + height.velocity_scale(arrival.time),
-              .slip_scale = std::fabs(slip_) + std::fabs(departure.angular) * (scale + std::fmax(turn.angle - 1, 0))};
+              .slip_scale = std::fabs(slip_) + std::fabs(gained) +
+                            std::fabs(departure.angular) * (scale + std::fmax(turn.angle - 1, 0))};
 }
 
 }  // namespace clatter::analytic

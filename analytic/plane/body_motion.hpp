@@ -24,7 +24,9 @@ namespace clatter::analytic {
 class BodyMotion {
  public:
   /// The body with the given inclination, touching the ground with its lowest vertices.
-  BodyMotion(const PlanarBody& body, const Angle& inclination, const PlanarVelocity& velocity, double gravity);
+  /// @param gravity, gravity_along  as Drop's [m/s²]
+  BodyMotion(const PlanarBody& body, const Angle& inclination, const PlanarVelocity& velocity, double gravity,
+             double gravity_along = 0);
 
   /// Vertices at the height of the lowest one, to rounding of the inclination given.
   [[nodiscard]] VertexSet lowest_vertices() const;
@@ -99,11 +101,12 @@ class BodyMotion {
 
   PlanarBody body_;
   PlanarBody turned_;  ///< body_ turned by `quarters_` times 90°
-  double gravity_;
+  double gravity_, gravity_along_;
   int quarters_ = 0;                    ///< in −1..2
   double inclination_, sine_, cosine_;  ///< of turned_
   double time_ = 0;
   double centre_height_ = 0;
+  double way_ = 0;  ///< of the centre of mass along x since the first touch [m]
   Angle initial_;
   int elastic_flights_ = 0;  ///< flights so far on the frame alone; −1: it has been left
   double offset_ = 0;        ///< η or ε (elastic_rod.hpp) of the last of them

@@ -248,6 +248,8 @@ void ErrorGrowth::fill(const BodyMotion& motion, const StruckState& struck, cons
   }
   const double size = std::fabs(row.energy_before) + std::fabs(row.energy_after);
   e.energy_before = bound(MotionGradients(struck.body, struck.place, row.before, gravity).energy, 2 * epsilon * size);
+  if (motion.local_departure().gravity_along != 0)
+    e.energy_before = std::fmax(e.energy_before, energy_ + epsilon * size);
   e.energy_loss = bound(loss, of_impulse * (impact.normal_impulse * (std::fabs(u) + w) +
                                             std::fabs(impact.tangential_impulse) *
                                                 (std::fabs(impact.slip_before) + std::fabs(impact.slip_after))));
@@ -315,6 +317,10 @@ void ErrorGrowth::strike(const BodyMotion& motion, const ImpactLaw& law, ImpactR
                 relative(row.error.normal_impulse, row.impact.normal_impulse)});
   row.error.energy_after =
       bound(moves.energy, 2 * epsilon * (std::fabs(row.energy_before) + std::fabs(row.energy_after)));
+  if (motion.local_departure().gravity_along == 0) return;
+  // The way along the slope is no number of the state: what the energy is known to, impacts alone change.
+  energy_ = row.error.energy_before + row.error.energy_loss;
+  row.error.energy_after = std::fmax(row.error.energy_after, energy_);
 }
 
 }  // namespace clatter::analytic

@@ -61,6 +61,7 @@ class ErrorGrowth {
                                          ///< drop's angle and speed by 1
   double curvature_ = 0;                 ///< largest share of the second order so far, relative to the first
   double total_impulse_ = 0;
+  double energy_ = 0;  ///< bound on the error of the energy, where the ground slopes [J]
   bool predictable_ = true;
 };
 

@@ -15,12 +15,13 @@ namespace clatter::analytic {
 /// Everything that decides where the body goes after an impact.  Vertices in `touching` are at height
 /// zero at t = 0 and do not count as arriving then, unless they approach.
 struct Departure {
-  double inclination = 0;  ///< α at t = 0 [rad]
-  double sine = 0;         ///< of α
-  double cosine = 1;       ///< of α
-  double normal = 0;       ///< V_n of the centre of mass [m/s]
-  double angular = 0;      ///< Ω [rad/s]
-  double gravity = 0;      ///< g >= 0 [m/s²]
+  double inclination = 0;    ///< α at t = 0 [rad]
+  double sine = 0;           ///< of α
+  double cosine = 1;         ///< of α
+  double normal = 0;         ///< V_n of the centre of mass [m/s]
+  double angular = 0;        ///< Ω [rad/s]
+  double gravity = 0;        ///< g >= 0 [m/s²]
+  double gravity_along = 0;  ///< along x; it moves no vertex up or down [m/s²]
   VertexSet touching = 0;
   int reference = 0;         ///< a touching vertex
   double rebound_speed = 0;  ///< normal velocity of the reference vertex, known exactly: e |u| [m/s]

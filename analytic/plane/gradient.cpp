@@ -76,7 +76,7 @@ struct Trace {
 class Tracer {
  public:
   explicit Tracer(const Drop& drop)
-      : law_(drop.law), motion_(drop.body, drop.inclination, drop.velocity, drop.gravity) {
+      : law_(drop.law), motion_(drop.body, drop.inclination, drop.velocity, drop.gravity, drop.gravity_along) {
     const ContactPoint d = motion_.contact_point(std::countr_zero(motion_.lowest_vertices()));
     const PlanarVelocity v = motion_.velocity();
     Carried& angle = of(DropParameter::angle);

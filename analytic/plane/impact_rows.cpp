@@ -42,6 +42,7 @@ Drop Units::to_internal(Drop drop) const {
   scale(drop.velocity.tangential, -speed_);
   scale(drop.velocity.angular, length_ - speed_);
   scale(drop.gravity, length_ - 2 * speed_);
+  scale(drop.gravity_along, length_ - 2 * speed_);
   scale(drop.law.damping_per_stiffness, speed_);
   return drop;
 }
@@ -98,6 +99,7 @@ void Units::to_si(ImpactRow& row) const {
   scale(row.departure.normal, speed_);
   scale(row.departure.angular, -time);
   scale(row.departure.gravity, 2 * speed_ - length_);
+  scale(row.departure.gravity_along, 2 * speed_ - length_);
   scale(row.departure.rebound_speed, speed_);
 }
 
@@ -124,6 +126,7 @@ void Drop::validate() const {
   law.validate();
   require(std::fabs(inclination.radians) <= pi, "inclination", inclination.degrees, "from -180 to 180 degrees");
   require(gravity >= 0 && std::isfinite(gravity), "gravity", gravity, "at least 0 and finite");
+  require(std::isfinite(gravity_along), "gravity along the ground", gravity_along, "finite");
   require(std::isfinite(velocity.normal), "normal velocity", velocity.normal, "finite");
   require(std::isfinite(velocity.tangential), "tangential velocity", velocity.tangential, "finite");
   require(std::isfinite(velocity.angular), "spin", velocity.angular, "finite");

@@ -40,9 +40,10 @@ struct RowErrors {
 /// The body as it touches the ground for the first time.
 struct Drop {
   PlanarBody body;
-  Angle inclination;        ///< in [−180°, 180°]; from 0° to 90° end a is low
-  PlanarVelocity velocity;  ///< of the centre of mass, before the first impact
-  double gravity = 0;       ///< g >= 0 [m/s²]
+  Angle inclination;         ///< in [−180°, 180°]; from 0° to 90° end a is low
+  PlanarVelocity velocity;   ///< of the centre of mass, before the first impact
+  double gravity = 0;        ///< towards the ground, >= 0 [m/s²]
+  double gravity_along = 0;  ///< along x, where the ground slopes [m/s²]
   ImpactLaw law;
 
   /// @throws std::domain_error naming the field, its value and what is allowed.
@@ -57,8 +58,9 @@ struct ImpactRow {
   double contact_angle = 0;  ///< acute angle to the ground [rad]
   double centre_height = 0;  ///< z of the centre of mass [m]
   PlanarVelocity before;
-  Impact impact;             ///< impulse, speeds and velocity after
-  double energy_before = 0;  ///< translational + rotational + potential (z = 0 at the ground) [J]
+  Impact impact;  ///< impulse, speeds and velocity after
+  /// Translational + rotational + potential (zero at the ground, below the first touch's centre of mass) [J].
+  double energy_before = 0;
   double energy_after = 0;
   /// Relative change of this row's quantities per relative change of the drop (angle, speed): the
   /// largest over contact angle, time and impulse.  NaN if it could not be had, or is so large that the row cannot be

@@ -2,6 +2,7 @@
 #include "analytic/plane/sequence.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -25,7 +26,8 @@ using detail::require;
 /// In units of its own length and speed, gravity and the other speeds must still be numbers.
 void require_representable(const Drop& drop, const Drop& internal) {
   const PlanarVelocity& v = internal.velocity;
-  const bool keeps_gravity = std::isfinite(internal.gravity) && (internal.gravity > 0) == (drop.gravity > 0);
+  const bool keeps_gravity = std::isfinite(internal.gravity) && (internal.gravity > 0) == (drop.gravity > 0) &&
+                             std::isfinite(internal.gravity_along);
   if (keeps_gravity && std::isfinite(v.tangential) && std::isfinite(v.angular)) return;
   throw NumericalError(
       "the ratio of the downward speed to gravity, tangential velocity or spin is beyond double "
@@ -36,8 +38,8 @@ void require_representable(const Drop& drop, const Drop& internal) {
 class Run : public SequenceLoop<Sequence, ErrorGrowth> {
  public:
   Run(const Drop& drop, const SequenceOptions& options)
-      : SequenceLoop(options), law_(drop.law), gravity_(drop.gravity),
-        motion_(drop.body, drop.inclination, drop.velocity, drop.gravity) {
+      : SequenceLoop(options), law_(drop.law), gravity_(drop.gravity), drop_along_(drop.gravity_along),
+        motion_(drop.body, drop.inclination, drop.velocity, drop.gravity, drop.gravity_along) {
     result_.rows.reserve(static_cast<std::size_t>(std::min(options.impacts, 64)));
     if (options.amplification) growth_.emplace(motion_, drop.inclination.radians);
   }
@@ -119,7 +121,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 
   /// Whether infinitely many impacts follow that need no more rows.
   bool accumulates(const BodyMotion::Strike& strike) {
-    auto tail = bouncing_tail(motion_, law_, gravity_, strike);
+    auto tail = bouncing_tail(motion_, law_, strike);
     if (!tail) return extrapolated_end(strike.impact.mode);
     if (bounces_on(strike.impact.separation_speed, gravity_)) return false;
     finish(*tail);
@@ -132,7 +134,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     if (!tail || !undisturbed(*tail)) return false;
     const bool vanishes = tail->normal_impulse <= ulps * result_.total_normal_impulse;
     if (!vanishes && !keeps_its_mode(motion_, *tail, mode)) return false;
-    end_state(motion_, *tail);
+    end_state(motion_, mode, *tail);
     tail->end_time += motion_.time();
     finish(*tail);
     return true;
@@ -151,7 +153,22 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 
   void finish(Tail tail) {
     if (growth_) growth_->add_to(motion_, tail);
-    end_in(tail, tail.after.angular != 0, tail.after.tangential != 0, stays(tail.vertices));
+    const bool tips = tips_over(tail.vertices, tail.after);
+    end_in(tail, tail.after.angular != 0 || tips, slides(tail.after), tips ? over_the_edge : stays(tail.vertices));
+  }
+
+  /// Whether the body moves along the ground at the end, or begins to.
+  [[nodiscard]] bool slides(const PlanarVelocity& after) const {
+    return after.tangential != 0 || slides_down(law_, gravity_, drop_along_);
+  }
+
+  /// Whether a face that has come to rest on sloping ground turns over its lower edge.
+  [[nodiscard]] bool tips_over(VertexSet face, const PlanarVelocity& after) const {
+    if (drop_along_ == 0 || after.angular != 0 || std::popcount(face) < 2) return false;
+    const double rubs = law_.most_friction(), slope = drop_along_ / gravity_;
+    const double share = after.tangential != 0 ? -std::copysign(rubs, after.tangential)
+                                               : -std::copysign(std::fmin(rubs, std::fabs(slope)), slope);
+    return !stays_level(motion_, face, share);
   }
 
   static std::string stays(VertexSet vertices) {
@@ -160,15 +177,19 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 
   void end_without_contact(const Flight& flight) {
     if (flight.end == FlightEnd::stays_touching) {
-      const PlanarVelocity& after = motion_.velocity();
+      const PlanarVelocity after = motion_.velocity();
+      const bool tips = tips_over(result_.rows.back().vertices, after);
       const auto vertex = static_cast<VertexSet>(1u << flight.arrival.vertex);
-      return rest(after.angular != 0, after.tangential != 0, "no rebound (e = 0)", stays(vertex));
+      return rest(after.angular != 0 || tips, slides(after), "no rebound (e = 0)",
+                  tips ? over_the_edge : stays(vertex));
     }
     end_in_flight(flight.near_miss);
   }
 
   ImpactLaw law_;
-  double gravity_;
+  static constexpr const char* over_the_edge = "it tips over its lower edge";
+
+  double gravity_, drop_along_;
   BodyMotion motion_;
   Accumulation accumulation_;
 };

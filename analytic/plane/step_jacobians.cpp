@@ -181,7 +181,7 @@ FlightDerivatives flight_derivatives(const FlownState& flown, const Moment& touc
   f.of_time[at_time] = 1;
   f.of_time[at_angle] = -rate;
   f.of_time[at_normal] = f.acceleration;
-  f.of_time[at_slip] = -rate * rate * to.tangential;
+  f.of_time[at_slip] = from.gravity_along - rate * rate * to.tangential;
   for (std::size_t i = 0; i < state_size; ++i) f.state[i][i] = 1;
   f.state[at_angle][at_turn] = -time;
   f.state[at_normal][at_angle] = rate * up;

@@ -47,6 +47,8 @@ std::optional<Tail> bouncing_tail(const Drop& drop, const ImpactRow& last) {
   const double e = drop.law.law.restitution;
   const Impact& impact = last.impact;
   const bool is_ball = drop.body.is_ball();  // which may turn: without slip, or friction, that stays as it is
+  // On sloping ground slip begins anew in each flight.
+  if (drop.gravity_along != 0 && drop.law.law.friction != FrictionKind::none) return {};
   if ((impact.angular_velocity_after != Vector3::Zero() && !is_ball) || !(drop.gravity > 0) || !(e < 1)) return {};
   const Vector3 arm = is_ball ? Vector3(Vector3::Zero()) : last.before.attitude * last.corners.front().place;
   if (!last.group && (arm.head<2>() != Vector2::Zero() || impact.impulse.head<2>() != Vector2::Zero())) return {};
@@ -60,6 +62,7 @@ std::optional<Tail> bouncing_tail(const Drop& drop, const ImpactRow& last) {
   for (const Corner& corner : last.corners) tail.corners.push_back(corner.index);
   tail.closed_form = true;
   tail.velocity_after.head<2>() = slip + tail.tangential_impulse / mass;
+  tail.velocity_after.x() += drop.gravity_along * (tail.end_time - last.start);
   tail.angular_velocity_after = impact.angular_velocity_after;
   return tail;
 }
@@ -176,7 +179,7 @@ Vector3 SpaceAccumulation::lever(const Tail& tail) const {
 
 bool undisturbed(const Drop& drop, const State& now, const Tail& tail) {
   const PrincipalAxes principal(drop.body.inertia);
-  const FreeFlight flight(principal, now, drop.gravity);
+  const FreeFlight flight(principal, now, drop.gravity, drop.gravity_along);
   const PointHeights heights(drop.body, flight);
   const FlightMoment moment = heights.moment(0);
   const double reach = heights.reach(), time = 2 * tail.end_time;
@@ -200,7 +203,7 @@ void end_state(const Drop& drop, const ImpactRow& last, const Vector3& lever, Ta
   const Vector3 impulse(tail.tangential_impulse.x(), tail.tangential_impulse.y(), tail.normal_impulse);
   const Matrix3 axes = last.before.attitude.toRotationMatrix();
   const Vector3 change = axes * (body.inertia.inverse() * (axes.transpose() * (tail.normal_impulse * lever)));
-  const Vector3 fall(0, 0, -drop.gravity * tail.end_time);
+  const Vector3 fall = tail.end_time * Vector3(drop.gravity_along, 0, -drop.gravity);
   // Euler's equations over the time that is left.
   const Vector3 w = axes.transpose() * impact.angular_velocity_after;
   const Vector3 drift = axes * (body.inertia.inverse() * (body.inertia * w).cross(w)) * tail.end_time;
@@ -210,13 +213,17 @@ void end_state(const Drop& drop, const ImpactRow& last, const Vector3& lever, Ta
   if (tail.corners.size() < 3 && !(last.corners.front().radius > 0)) return;  // neither a face nor a level rim
   tail.velocity_after.z() = 0;
   tail.angular_velocity_after.head<2>().setZero();
+  const bool sticks = impact.path == PathKind::stick || impact.path == PathKind::slip_stick;
+  if (sticks && tail.angular_velocity_after == Vector3::Zero()) tail.velocity_after.setZero();
 }
 
-bool keeps_slipping(const Body& body, const ImpactRow& last, const Tail& tail) {
+bool keeps_slipping(const Drop& drop, const ImpactRow& last, const Tail& tail) {
+  const Body& body = drop.body;
   const PathKind path = last.impact.path;
   if (path == PathKind::frictionless || path == PathKind::stick || path == PathKind::slip_stick) return true;
   const double turning = last.impact.angular_velocity_after.norm(), impulse = tail.tangential_impulse.norm();
-  const double change = jump_of(body, tail.normal_impulse + impulse) + turning * turning * body.reach() * tail.end_time;
+  const double change = jump_of(body, tail.normal_impulse + impulse) +
+                        (turning * turning * body.reach() + std::fabs(drop.gravity_along)) * tail.end_time;
   return 2 * change < last.impact.contact_after.head<2>().norm();
 }
 
@@ -280,10 +287,11 @@ StateErrors errors_since(const Drop& drop, const State& known, const StateErrors
   const double impulse = safety * (since.normal_impulse + since.tangential_impulse.norm());
   const double time = safety * since.end_time, reach = drop.body.reach();
   const double turning = known.angular_velocity.norm() + jump_of(drop.body, impulse) / reach;
-  return {.time = errors.time + time,
-          .attitude = errors.attitude + turning * time,
-          .velocity = errors.velocity + impulse / drop.body.mass + drop.gravity * time,
-          .angular_velocity = errors.angular_velocity + jump_of(drop.body, impulse) / reach + turning * turning * time};
+  return {
+      .time = errors.time + time,
+      .attitude = errors.attitude + turning * time,
+      .velocity = errors.velocity + impulse / drop.body.mass + (drop.gravity + std::fabs(drop.gravity_along)) * time,
+      .angular_velocity = errors.angular_velocity + jump_of(drop.body, impulse) / reach + turning * turning * time};
 }
 
 }  // namespace clatter::analytic::space

@@ -54,7 +54,7 @@ class SpaceAccumulation {
 void end_state(const Drop& drop, const ImpactRow& last, const Vector3& lever, Tail& tail);
 
 /// Whether slip during the tail goes on as it was: the corner sticks each time, or slips far too fast to stop.
-[[nodiscard]] bool keeps_slipping(const Body& body, const ImpactRow& last, const Tail& tail);
+[[nodiscard]] bool keeps_slipping(const Drop& drop, const ImpactRow& last, const Tail& tail);
 
 /// Adds to the errors of an extrapolated end those of the impact that it is extrapolated from.
 /// @param tail  end_time since the first impact

@@ -73,8 +73,9 @@ bool is_hop(const ImpactRow& row) {
 
 }  // namespace
 
-ErrorGrowth::ErrorGrowth(const Body& body, const State& start, double gravity)
-    : body_(body), gravity_(gravity), inverse_inertia_(body.inertia.inverse()), factor_(size, 0), arriving_(size, 0) {
+ErrorGrowth::ErrorGrowth(const Body& body, const State& start, double gravity, double gravity_along)
+    : body_(body), gravity_(gravity), gravity_along_(gravity_along), inverse_inertia_(body.inertia.inverse()),
+      factor_(size, 0), arriving_(size, 0) {
   Deviations d;
   d << 0, Vector3::Constant(epsilon), epsilon * start.velocity.cwiseAbs(), epsilon * start.angular_velocity.cwiseAbs();
   append(diagonal(d));
@@ -291,6 +292,12 @@ void ErrorGrowth::strike(const Strike& strike, const StrikeDerivatives& closed, 
   if (row.held == 0) struck = derivatives.lazyProduct(factor_.bottomRows<9>());
   if (!derivatives.allFinite() || !struck.allFinite()) return give_up();
   fill(struck, row);
+  if (gravity_along_ != 0) {  // the way along the slope is no number of the state: what is known of it, rows tell
+    const double of_impact = row.error.energy_before + row.error.energy_after;
+    row.error.energy_before += energy_;
+    energy_ += of_impact;
+    row.error.energy_after += energy_;
+  }
   const Eigen::Matrix<double, 9, 9> struck_drop = derivatives.lazyProduct(of_drop_.bottomRows<9>());
   const double of_time = row.start > 0 ? of_drop_.row(0).norm() / row.start : 0;
   const double of_impulse = struck_drop.topRows<3>().norm() / row.impact.impulse.norm();
@@ -346,6 +353,7 @@ void ErrorGrowth::fly(const FreeFlight& flight, const FirstContact& contact, con
   const Vector3 acceleration = now.attitude * (inverse_inertia_ * (body_.inertia * body_velocity).cross(body_velocity));
   j.row(0) += shift;
   j.middleRows(1, 3) += now.angular_velocity * shift;
+  j.row(4) += gravity_along_ * shift;
   j.row(6) -= gravity_ * shift;
   j.bottomRows(3) += acceleration * shift;
   factor_ = j.lazyProduct(factor_).eval();
@@ -355,7 +363,8 @@ void ErrorGrowth::fly(const FreeFlight& flight, const FirstContact& contact, con
   Deviations d;
   d << (contact.is_hop ? contact.time_error
                        : epsilon * t + 2 * epsilon * size_of_height / std::fabs(contact.normal_velocity)),
-      Vector3::Constant(2 * epsilon * turned_by), Vector3::Constant(epsilon * (now.velocity.norm() + gravity_ * t)),
+      Vector3::Constant(2 * epsilon * turned_by),
+      Vector3::Constant(epsilon * (now.velocity.norm() + (gravity_ + std::fabs(gravity_along_)) * t)),
       Vector3::Constant(2 * epsilon * now.angular_velocity.norm());
   arriving_ = diagonal(d);
   // First order holds while the shift of the touch changes h′ little.

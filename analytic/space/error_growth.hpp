@@ -29,7 +29,8 @@ namespace clatter::analytic::space {
 class ErrorGrowth {
  public:
   /// Errors of the drop: one unit in the last place of each number.
-  ErrorGrowth(const Body& body, const State& start, double gravity);
+  /// @param gravity, gravity_along  as Drop's
+  ErrorGrowth(const Body& body, const State& start, double gravity, double gravity_along = 0);
 
   /// Impulse and velocities after an impact, as a function of the state before.
   using Strike = std::function<Impact(const State&)>;
@@ -88,7 +89,8 @@ class ErrorGrowth {
   [[nodiscard]] double height_bound(double time) const;
 
   const Body& body_;
-  double gravity_;
+  double gravity_, gravity_along_;
+  double energy_ = 0;  ///< bound on the error of the energy, where the ground slopes [J]
   Matrix3 inverse_inertia_;
   Factor factor_, arriving_;                ///< arriving_: the rounding of a flight, until its impact is known
   Eigen::Matrix<double, size, 9> of_drop_;  ///< changes of the state for changes of the drop

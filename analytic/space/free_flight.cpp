@@ -409,8 +409,10 @@ using detail::never;
 State FreeFlight::at(double time) const {
   State state;
   state.position = start_.position + time * start_.velocity;
+  state.position.x() += gravity_along_ / 2 * time * time;
   state.position.z() = centre_height(time);
   state.velocity = start_.velocity;
+  state.velocity.x() += gravity_along_ * time;
   state.velocity.z() = centre_velocity(time);
   state.attitude = rotation_.attitude(time);
   state.angular_velocity = state.attitude * rotation_.angular_velocity(time);

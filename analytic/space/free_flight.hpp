@@ -157,9 +157,10 @@ class FreeRotation {
 /// Motion without contact from a state at t = 0.
 class FreeFlight {
  public:
-  /// @param gravity g >= 0, downward [m/s²]
-  FreeFlight(const PrincipalAxes& principal, const State& start, double gravity)
-      : start_(start), gravity_(gravity), rotation_(principal, start.attitude, start.angular_velocity) {}
+  /// @param gravity g >= 0, towards the ground; gravity_along along x [m/s²]
+  FreeFlight(const PrincipalAxes& principal, const State& start, double gravity, double gravity_along = 0)
+      : start_(start), gravity_(gravity), gravity_along_(gravity_along),
+        rotation_(principal, start.attitude, start.angular_velocity) {}
 
   [[nodiscard]] State at(double time) const;
   /// Height of the centre of mass and its velocity at a time.
@@ -175,11 +176,12 @@ class FreeFlight {
 
   [[nodiscard]] const State& start() const { return start_; }
   [[nodiscard]] double gravity() const { return gravity_; }
+  [[nodiscard]] double gravity_along() const { return gravity_along_; }
   [[nodiscard]] const FreeRotation& rotation() const { return rotation_; }
 
  private:
   State start_;
-  double gravity_;
+  double gravity_, gravity_along_;
   FreeRotation rotation_;
 };
 

@@ -47,6 +47,7 @@ Drop SequenceUnits::to_internal(const Drop& drop) const {
   scale(d.velocity, -speed_);
   scale(d.angular_velocity, length_ - speed_);
   scale(d.gravity, length_ - 2 * speed_);
+  scale(d.gravity_along, length_ - 2 * speed_);
   scale(d.law.law.damping_per_stiffness, speed_);
   return d;
 }
@@ -177,13 +178,14 @@ void Drop::validate() const {
     require(std::isfinite(angular_velocity[i]), "angular velocity", angular_velocity[i], "finite");
   }
   require(gravity >= 0 && std::isfinite(gravity), "gravity", gravity, "at least 0 and finite");
+  require(std::isfinite(gravity_along), "gravity along the ground", gravity_along, "finite");
 }
 
 double mechanical_energy(const Drop& drop, const State& state) {
   const Body& body = drop.body;
   const Vector3 w = state.attitude.conjugate() * state.angular_velocity;
-  return body.mass * (drop.gravity * state.position.z() + state.velocity.squaredNorm() / 2) +
-         w.dot(body.inertia * w) / 2;
+  const double potential = drop.gravity * state.position.z() - drop.gravity_along * state.position.x();
+  return body.mass * (potential + state.velocity.squaredNorm() / 2) + w.dot(body.inertia * w) / 2;
 }
 
 Eigen::Matrix<double, 10, 1> StateErrors::in_each_direction() const {

@@ -21,14 +21,15 @@ struct Drop {
   Quaternion attitude = Quaternion::Identity();  ///< body to world
   Vector3 velocity = Vector3::Zero();            ///< of the centre of mass, world frame, before the first impact [m/s]
   Vector3 angular_velocity = Vector3::Zero();    ///< world frame [rad/s]
-  double gravity = 0;                            ///< g >= 0 [m/s²]
+  double gravity = 0;                            ///< towards the ground, >= 0 [m/s²]
+  double gravity_along = 0;                      ///< along x, where the ground slopes [m/s²]
   Law law;
 
   /// @throws std::domain_error naming the field, its value and what is allowed.
   void validate() const;
 };
 
-/// Translational, rotational and potential energy, z = 0 at the ground [J].
+/// Translational, rotational and potential energy, zero at the ground below the first touch's centre of mass [J].
 [[nodiscard]] double mechanical_energy(const Drop& drop, const State& state);
 
 /// Bounds on the errors of an impact's numbers, each in the unit of its number (of a vector: on the length of its

@@ -181,7 +181,7 @@ std::optional<Rest> trapped(const Drop& drop, const State& now) {
   const ImpactLaw& law = drop.law.law;
   const Body& body = drop.body;
   const bool rubs = law.friction != FrictionKind::none;
-  if (law.friction == FrictionKind::impulse_ratio) return {};
+  if (law.friction == FrictionKind::impulse_ratio || drop.gravity_along != 0) return {};
   const Vector3 w = now.attitude.conjugate() * now.angular_velocity;
   const double moving = rubs ? now.velocity.squaredNorm() : now.velocity.z() * now.velocity.z();
   const RollingBody rolling(body);

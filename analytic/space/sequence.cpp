@@ -136,7 +136,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 
   Sequence run() {
     const std::vector<int> lowest = touch_down();
-    if (options_.amplification) growth_.emplace(body_, state_, drop_.gravity);
+    if (options_.amplification) growth_.emplace(body_, state_, drop_.gravity, drop_.gravity_along);
     follow([&] { go_on(lowest); });
     result_.energy_at_end = energy(state_);
     return std::move(result_);
@@ -183,7 +183,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 
   Next fly(std::vector<int>& arriving, FirstContact& flown) {
     const ImpactRow& last = result_.rows.back();
-    const FreeFlight flight(principal_, state_, drop_.gravity);
+    const FreeFlight flight(principal_, state_, drop_.gravity, drop_.gravity_along);
     flown = first_contact(body_, flight, touches_);
     result_.evaluations += flown.evaluations;
     if (result_.evaluations > most_evaluations) {
@@ -295,7 +295,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 
   /// Of a corner that lifts off height, velocity and acceleration are zero: the flight begins when it has risen.
   Next lift_off(int corner) {
-    const FreeFlight flight(principal_, state_, drop_.gravity);
+    const FreeFlight flight(principal_, state_, drop_.gravity, drop_.gravity_along);
     const double falling = std::sqrt(reach_ / drop_.gravity);
     for (double t = 1e-4 * falling; t > 1e-7 * falling; t /= 2) {
       State s = flight.at(t);
@@ -386,12 +386,20 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     // What follows the hops begins from the attitude at their end, which is known to first order in what is left.
     const double turned = tail->end_time * state_.angular_velocity.norm();
     if (options_.until_rest && !vanishes && tail->corners.size() < 3 && turned > least_turn) return false;
-    if (!vanishes && !keeps_slipping(body_, last, *tail)) return false;
+    if (!vanishes && !keeps_slipping(drop_, last, *tail)) return false;
     end_state(drop_, last, accumulation_.lever(*tail), *tail);
     tail->end_time += time_;
     finish(std::move(*tail));
     return true;
   }
+
+  /// Whether the body moves along the ground, or begins to where that slopes.
+  [[nodiscard]] bool slides(const State& end) const {
+    return end.velocity.head<2>() != Vector2::Zero() || slides_down(drop_.law.law, drop_.gravity, drop_.gravity_along);
+  }
+
+  /// Whether a face that settles() does not hold on sloping ground may turn over one of its edges.
+  [[nodiscard]] bool tips(const std::vector<int>& face) const { return drop_.gravity_along != 0 && face.size() > 1; }
 
   /// The state in which hops end.
   [[nodiscard]] State end_of(const Tail& tail) const {
@@ -413,15 +421,14 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     if (!growth_) tail.forget();
     else if (growth_->predictable()) add_errors(drop_, result_.rows.back(), tail);
     else end_is_certain_ = ends_for_certain(drop_, result_.rows, tail) || rests_for_certain();
-    const bool slides = tail.velocity_after.head<2>() != Vector2::Zero();
-    const bool turns = !result_.rest && tail.angular_velocity_after != Vector3::Zero();
+    const bool turns = !result_.rest && (tips(tail.corners) || tail.angular_velocity_after != Vector3::Zero());
     const bool spins = tail.angular_velocity_after.z() != 0;
     const bool comes_down = result_.rest && tail.corners.size() < result_.rest->corners.size();
     const std::string stays = which_stays(tail.corners, end);
     state_ = end;
     time_ = tail.end_time;
     if (turns) result_.standing = Standing{time_, state_, errors_after(tail), tail.corners};
-    end_in(std::move(tail), turns, slides || spins, stays, comes_down ? ", then the body settles on a face" : "");
+    end_in(std::move(tail), turns, slides(end) || spins, stays, comes_down ? ", then the body settles on a face" : "");
   }
 
   /// Of the attitude in which hops end, from the second order of the turn meanwhile and the error of its time.
@@ -472,7 +479,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   void settle() {
     end_is_certain_ = (growth_ && growth_->predictable()) || rests_for_certain();
     result_.standing = {};
-    rest(false, state_.velocity.head<2>() != Vector2::Zero() || state_.angular_velocity.z() != 0,
+    rest(false, slides(state_) || state_.angular_velocity.z() != 0,
          result_.message.empty() ? "bouncing and rocking have ended" : result_.message, "");
   }
 
@@ -494,9 +501,9 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
       if (touch.normal_velocity == 0 || std::fabs(v.value.z()) <= 64 * epsilon * v.scale)
         staying.push_back(touch.point);
     }
-    const bool turns = !result_.rest && state_.angular_velocity != Vector3::Zero();
+    const bool turns = !result_.rest && (tips(corners) || state_.angular_velocity != Vector3::Zero());
     if (turns) result_.standing = Standing{time_, state_, errors_now(), staying};
-    rest(turns, state_.velocity.head<2>() != Vector2::Zero(), how, which_stays(corners, state_));
+    rest(turns, slides(state_), how, which_stays(corners, state_));
   }
 
   void end_without_contact(const FirstContact& flown) {
@@ -521,6 +528,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   }
 
   [[nodiscard]] std::string which_stays(const std::vector<int>& corners, const State& end) const {
+    if (tips(corners) && end.angular_velocity == Vector3::Zero()) return "whether it tips over an edge is not computed";
     const auto before = body_.vertices.size(), first = static_cast<std::size_t>(corners.front());
     if (first >= before + body_.rims.size()) {
       const ContactVelocity v = contact_velocity(end, touching_place(body_, end.attitude, corners.front()));

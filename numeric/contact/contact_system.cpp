@@ -109,7 +109,7 @@ AlongGround unit_slip(const AlongGround& slip, const FrictionPhase& phase, bool 
 
 double AlongGround::norm() const { return std::hypot(east, north); }
 
-ContactSystem::ContactSystem(const Body& body, const Ground& ground, double gravity, bool planar)
+ContactSystem::ContactSystem(const Body& body, const Ground& ground, const Gravity& gravity, bool planar)
     : body_(body), ground_(ground), gravity_(gravity), planar_(planar), equations_(body.mass(), body.inertia()),
       loader_(body, ground) {}
 
@@ -193,7 +193,7 @@ void ContactSystem::evaluate(const ContactState& y, const FrictionPhase& phase, 
              view.normal(),
              presses ? load.pressure_centre() : Vector3::Zero(),
              Vector3::Zero(),
-             equations_.linear({0, 0, load.force}).z() - gravity_,
+             equations_.linear({0, 0, load.force}).z() - gravity_.down,
              {}};
   at.moment = load.first_moment.cross(at.normal);
   at.slip = slip_at(view, at.centre);
@@ -204,7 +204,7 @@ void ContactSystem::evaluate(const ContactState& y, const FrictionPhase& phase, 
   const Vector3 alpha = angular_acceleration(moment, omega);
   displacement(rate) = velocity(y);
   euler_parameters(rate) = euler_parameter_rates(euler_parameters(y), omega);
-  velocity(rate) = equations_.linear({friction.force.east, friction.force.north, load.force}) - Vector3(0, 0, gravity_);
+  velocity(rate) = equations_.linear({friction.force.east, friction.force.north, load.force}) + gravity_.acceleration();
   angular_velocity(rate) = alpha;
   works(rate) << load.damping_power, load.release_power, friction.power;
   if (!diagnosis) return;
@@ -349,7 +349,7 @@ ContactSystem::Friction ContactSystem::over_patch(const Instant& at, const SlipF
 }
 
 /// F_n times the condition of stick is linear in F_t:
-///     F_n [F_t/m + α(F_t) × c]_t + [ω × F_n ċ(F_t)]_t = −F_n [α₀ × c + ω × (ω × c) + fading v]_t − [ω × F_n ċ₀]_t,
+///     F_n [F_t/m + α(F_t) × c]_t + [ω × F_n ċ(F_t)]_t = −F_n [g + α₀ × c + ω × (ω × c) + fading v]_t − [ω × F_n ċ₀]_t,
 /// α₀ and ċ₀ being those without friction.  Both sides vanish with F_n, so that neither is divided by F_n.
 AlongGround ContactSystem::stick(const Instant& at) const {
   const GroundView& view = at.view;
@@ -366,7 +366,9 @@ AlongGround ContactSystem::stick(const Instant& at) const {
   const Vector3 alpha = angular_acceleration(at.moment, omega);
   const Vector3 wander = at.wander(at.changes(ground_, alpha));
   const Vector3 turning = alpha.cross(at.centre) + omega.cross(omega.cross(at.centre));
-  const AlongGround free = along_ground(normal * turning + omega.cross(wander), at.slip * at.phase.fading);
+  const AlongGround free =
+      along_ground(normal * turning + omega.cross(wander),
+                   {at.slip.east * at.phase.fading + gravity_.along, at.slip.north * at.phase.fading});
   const AlongGround by_east = per_force({1, 0});
   if (planar_) return by_east.east != 0 ? AlongGround{-free.east / by_east.east, 0} : AlongGround{};
   return solve(by_east, per_force({0, 1}), free * -1);

@@ -102,13 +102,13 @@ struct LocalFriction {
 /// spins about the vertical, −μ_k ∫f_n v/|v| over the patch taken as flat, with its moment about the vertical.  (The
 /// slip of its points differs by the turning about the horizontal times their depth too: FrictionLaw::local.) Local
 /// slip: −μ_k ∫f_n v/|v|, v the velocity of each point, with its moment. Stick, Eq. 5: F_t at c such that
-///     d/dt v_t(c) = [V̇ + ω̇ × c + ω × (ω × c) + ω × ċ]_t = 0,
+///     d/dt v_t(c) = [V̇ + ω̇ × c + ω × (ω × c) + ω × ċ]_t = 0,   V̇_t = F_t/m + g_t,
 /// ċ being the pressure centre's motion over the body, so that c stays at rest although it moves
 /// (or comes to rest, like exp(−fading × time), if it was caught with a little slip left).  |F_t| <= μ_s F_n: stick
 /// that asks for more gets the bound.
 class ContactSystem {
  public:
-  ContactSystem(const Body& body, const Ground& ground, double gravity, bool planar);
+  ContactSystem(const Body& body, const Ground& ground, const Gravity& gravity, bool planar);
 
   /// Sets the pose and velocity at touch-down.
   void begin(const MotionState& touch);
@@ -155,7 +155,9 @@ class ContactSystem {
   [[nodiscard]] long evaluations() const { return evaluations_; }
   [[nodiscard]] const Body& body() const { return body_; }
   [[nodiscard]] const Ground& ground() const { return ground_; }
-  [[nodiscard]] double gravity() const { return gravity_; }
+  /// Towards the ground, and along x [m/s²].
+  [[nodiscard]] double gravity() const { return gravity_.down; }
+  [[nodiscard]] double gravity_along() const { return gravity_.along; }
   [[nodiscard]] bool planar() const { return planar_; }
 
  private:
@@ -179,7 +181,7 @@ class ContactSystem {
 
   const Body& body_;
   const Ground& ground_;
-  double gravity_;
+  Gravity gravity_;
   bool planar_;
   NewtonEuler equations_;
   ContactLoader loader_;

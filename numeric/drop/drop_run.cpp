@@ -21,7 +21,7 @@ namespace {
 class HistoryWriter {
  public:
   /// `recorder` may be null: then nothing is done.
-  HistoryWriter(const Body& body, double gravity, HistoryRecorder* recorder)
+  HistoryWriter(const Body& body, const Gravity& gravity, HistoryRecorder* recorder)
       : body_(body), gravity_(gravity), recorder_(recorder) {}
 
   /// An instant of the contact that began at `start` [s].
@@ -33,7 +33,7 @@ class HistoryWriter {
   [[nodiscard]] HistorySample sample(double time, const MotionState& state) const;
 
   const Body& body_;
-  double gravity_;
+  Gravity gravity_;
   HistoryRecorder* recorder_;
 };
 
@@ -44,7 +44,7 @@ HistorySample HistoryWriter::sample(double time, const MotionState& state) const
   sample.state = state;
   sample.energy_translation = 0.5 * body_.mass() * state.velocity.squaredNorm();
   sample.energy_rotation = 0.5 * omega.dot(body_.inertia() * omega);
-  sample.energy_potential = body_.mass() * gravity_ * state.centre.z();
+  sample.energy_potential = gravity_.potential(body_.mass(), state.centre);
   return sample;
 }
 
@@ -165,12 +165,12 @@ class Run {
  public:
   Run(const Body& body, const World& world, const MotionState& start, const Request& request,
       const Integration& integration, const Observer& observer)
-      : body_(body), world_(world), request_(request), observer_(observer),
-        contact_gravity_(world.gravity_in_contact ? world.gravity : 0),
+      : body_(body), world_(world), request_(request), observer_(observer), gravity_(world.pull()),
+        contact_gravity_(world.gravity_in_contact ? gravity_ : Gravity(0)),
         system_(body, world.ground, contact_gravity_, world.planar), stepper_(make_stepper(integration.method)),
         contact_(system_, *stepper_), rough_stepper_(make_stepper(Method::rkck)),
         rough_contact_(system_, *rough_stepper_), state_(world.planar ? in_plane(start) : start),
-        growth_(body, start, world.gravity, world.planar), history_(body, world.gravity, observer.history),
+        growth_(body, start, gravity_, world.planar), history_(body, gravity_, observer.history),
         pieces_(body, world.planar, observer.history) {
     control_.steps = integration.steps;
     control_.evaluation_limit = integration.evaluation_limit;
@@ -204,7 +204,7 @@ class Run {
 
   /// The flight to the next touch-down; false if there is none.
   bool fall() {
-    const FreeFlight flight(body_, state_, world_.gravity, world_.planar);
+    const FreeFlight flight(body_, state_, gravity_, world_.planar);
     const TouchDown down = next_touch_down(body_, flight);
     result_.root_evaluations += down.evaluations;
     assert(down.time >= 0);
@@ -218,10 +218,10 @@ class Run {
       if (request_.amplification) growth_.fly(state_, down.time);
       time_ += down.time;
     }
-    const double fallen = std::fabs(state_.velocity.z()) * down.time + world_.gravity / 2 * down.time * down.time;
+    const double fallen = std::fabs(state_.velocity.z()) * down.time + gravity_.down / 2 * down.time * down.time;
     placement_ = first ? 0 : std::numeric_limits<double>::epsilon() * fallen;
     state_ = flight.at(down.time);
-    if (first) result_.energy_start = mechanical_energy(body_, state_, world_.gravity);
+    if (first) result_.energy_start = mechanical_energy(body_, state_, gravity_);
     return true;
   }
 
@@ -245,7 +245,6 @@ class Run {
   }
 
   [[nodiscard]] ImpactRecord record(const ContactResult& contact, const Vector3& point) const {
-    const double g = world_.gravity;
     const MotionState& after = contact.after;
     ImpactRecord row;
     ImpactNumbers& n = row.value;
@@ -255,13 +254,13 @@ class Run {
     n.approach_speed = -point_velocity(state_, point).z();
     n.restitution = contact.touches > 1 ? std::numeric_limits<double>::quiet_NaN()
                                         : point_velocity(after, point).z() / n.approach_speed;
-    n.impulse = body_.mass() * (after.velocity - state_.velocity + Vector3(0, 0, contact_gravity_ * contact.duration));
+    n.impulse = body_.mass() * (after.velocity - state_.velocity - contact.duration * contact_gravity_.acceleration());
     n.peak_force = contact.peak_force;
     n.peak_time = contact.peak_time;
     n.velocity_after = after.velocity;
     n.angular_velocity_after = after.attitude * after.angular_velocity;
-    n.energy_before = mechanical_energy(body_, state_, g);
-    n.energy_after = mechanical_energy(body_, after, g);
+    n.energy_before = mechanical_energy(body_, state_, gravity_);
+    n.energy_after = mechanical_energy(body_, after, gravity_);
     n.energy_loss = n.energy_before - n.energy_after;
     n.work_damping = contact.work_damping;
     n.work_friction = contact.work_friction;
@@ -298,7 +297,7 @@ class Run {
   const World& world_;
   const Request& request_;
   const Observer& observer_;
-  double contact_gravity_;
+  Gravity gravity_, contact_gravity_;
   ContactSystem system_;
   std::unique_ptr<Stepper> stepper_;
   ContactRun contact_;
@@ -321,10 +320,10 @@ class Run {
 
 double piece_point(int j) { return (1 - std::cos(std::numbers::pi * j / (piece_points - 1))) / 2; }
 
-double mechanical_energy(const Body& body, const MotionState& state, double gravity) {
+double mechanical_energy(const Body& body, const MotionState& state, const Gravity& gravity) {
   const Vector3& omega = state.angular_velocity;
   return 0.5 * body.mass() * state.velocity.squaredNorm() + 0.5 * omega.dot(body.inertia() * omega) +
-         body.mass() * gravity * state.centre.z();
+         gravity.potential(body.mass(), state.centre);
 }
 
 DropRun run_drop(const Body& body, const World& world, const MotionState& start, const Request& request,

@@ -36,6 +36,6 @@ struct DropRun {
                                const Integration& integration, const Observer& observer);
 
 /// Translational + rotational + potential (m g z) energy [J].
-[[nodiscard]] double mechanical_energy(const Body& body, const MotionState& state, double gravity);
+[[nodiscard]] double mechanical_energy(const Body& body, const MotionState& state, const Gravity& gravity);
 
 }  // namespace clatter::numeric::inline drop

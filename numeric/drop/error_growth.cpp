@@ -66,10 +66,10 @@ auto angular_velocity_change(Deviation& d) {
 
 }  // namespace
 
-ErrorGrowth::ErrorGrowth(const Body& body, const MotionState& start, double gravity, bool planar)
+ErrorGrowth::ErrorGrowth(const Body& body, const MotionState& start, const Gravity& gravity, bool planar)
     : body_(body), gravity_(gravity), planar_(planar),
       speed_(start.velocity.norm() + body.radius() * start.angular_velocity.norm()) {
-  if (!(speed_ > 0)) speed_ = std::sqrt(gravity * body.radius()) + 1e-300;
+  if (!(speed_ > 0)) speed_ = std::sqrt(gravity.down * body.radius()) + 1e-300;
   deviation_ << 1, 1, -1, 1, -1, 1, 1, -1, -1, 1, 1, -1;
   if (planar) {
     const Vector3 north = start.attitude.conjugate() * Vector3::UnitY();

@@ -21,7 +21,7 @@ struct ContactRuns {
 /// two in contacts that a deviation changes in kind.  It costs about a quarter of a run to six digits.
 class ErrorGrowth {
  public:
-  ErrorGrowth(const Body& body, const MotionState& start, double gravity, bool planar);
+  ErrorGrowth(const Body& body, const MotionState& start, const Gravity& gravity, bool planar);
 
   /// From `start` through a flight of `time` [s].
   void fly(const MotionState& start, double time);
@@ -40,7 +40,7 @@ class ErrorGrowth {
   void take(const Deviation& deviation);
 
   const Body& body_;
-  double gravity_;
+  Gravity gravity_;
   bool planar_;
   double speed_;
   Deviation deviation_;  ///< scaled, of size 1

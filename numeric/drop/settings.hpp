@@ -7,6 +7,7 @@
 #include "numeric/contact/ground.hpp"
 #include "numeric/drop/history.hpp"
 #include "numeric/drop/impact_record.hpp"
+#include "numeric/motion/motion_state.hpp"
 #include "numeric/stepping/stepper.hpp"
 
 namespace clatter::numeric::inline drop {
@@ -15,6 +16,9 @@ namespace clatter::numeric::inline drop {
 struct World {
   Ground ground = {};     ///< with its law of friction
   double gravity = 9.81;  ///< [m/s²], >= 0
+  /// Slope of the ground [°], between −90 and 90: x points down the slope where it is positive.  Axes are those of the
+  /// ground, z its normal, so that gravity has g sin along x and −g cos along z.
+  double incline_deg = 0;
   /// Whether gravity acts during contacts too.  Without it a contact of time T is wrong by g T in speed, and the ledger
   /// by m g times the rise of the centre of mass.
   bool gravity_in_contact = true;
@@ -24,6 +28,7 @@ struct World {
   /// with the patch as the ground becomes stiff, but a spinning patch that hardly slips takes very short steps.
   bool point_friction = false;
 
+  [[nodiscard]] Gravity pull() const;
   /// @throws std::domain_error naming field, value and what is allowed.
   void validate() const;
 };

@@ -83,15 +83,16 @@ double sphere_time(double clearance, double vertical_speed, double gravity) {
 
 }  // namespace
 
-FreeFlight::FreeFlight(const Body& body, const MotionState& start, double gravity, bool planar)
+FreeFlight::FreeFlight(const Body& body, const MotionState& start, const Gravity& gravity, bool planar)
     : start_(start), gravity_(gravity),
       rotation_(planar ? Matrix3(Matrix3::Identity()) : body.inertia(), {start.attitude, start.angular_velocity}) {}
 
 MotionState FreeFlight::at(double time) const {
   const Rotation rotation = rotation_.at(time);
   MotionState state;
-  state.centre = start_.centre + time * start_.velocity - Vector3(0, 0, gravity_ / 2 * time * time);
-  state.velocity = start_.velocity - Vector3(0, 0, gravity_ * time);
+  state.centre = start_.centre + time * start_.velocity +
+                 Vector3(gravity_.along / 2 * time * time, 0, -(gravity_.down / 2 * time * time));
+  state.velocity = start_.velocity + time * gravity_.acceleration();
   state.attitude = rotation.attitude;
   state.angular_velocity = rotation.angular_velocity;
   return state;

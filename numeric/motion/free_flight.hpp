@@ -12,17 +12,18 @@ namespace clatter::numeric::inline motion {
 class FreeFlight {
  public:
   /// A planar flight turns about the axis of `start`'s angular velocity, whatever the inertia.
-  FreeFlight(const Body& body, const MotionState& start, double gravity, bool planar = false);
+  FreeFlight(const Body& body, const MotionState& start, const Gravity& gravity, bool planar = false);
 
   /// State after `time` [s], of either sign.
   [[nodiscard]] MotionState at(double time) const;
-  [[nodiscard]] double gravity() const { return gravity_; }
+  /// Towards the ground [m/s²].
+  [[nodiscard]] double gravity() const { return gravity_.down; }
   /// Bound on the vertical acceleration of a point at distance 1 m from the centre of mass [1/s²].
   [[nodiscard]] double turning_acceleration() const;
 
  private:
   MotionState start_;
-  double gravity_;
+  Gravity gravity_;
   FreeRotation rotation_;
 };
 

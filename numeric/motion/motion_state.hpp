@@ -16,6 +16,20 @@ struct MotionState {
   Vector3 angular_velocity = Vector3::Zero();                    ///< body frame [rad/s]
 };
 
+/// Acceleration of free fall, in the axes of the ground.
+struct Gravity {
+  double down = 0;   ///< towards the ground, >= 0 [m/s²]
+  double along = 0;  ///< along x, where the ground slopes [m/s²]
+
+  // NOLINTNEXTLINE(google-explicit-constructor): of level ground it is a number
+  Gravity(double towards, double along_ground = 0) : down(towards), along(along_ground) {}
+  [[nodiscard]] Vector3 acceleration() const { return {along, 0, -down}; }
+  /// Potential energy [J].
+  [[nodiscard]] double potential(double mass, const Vector3& centre) const {
+    return mass * down * centre.z() - mass * along * centre.x();
+  }
+};
+
 /// Attitude and body-frame angular velocity at an instant.
 struct Rotation {
   Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  ///< body → world, unit

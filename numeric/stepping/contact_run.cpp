@@ -56,6 +56,19 @@ ContactScales contact_scales(ContactSystem& system, const MotionState& touch, co
 /// errors of steps keep up, so that a rough run ends too.
 constexpr double least_rest = 1e-6, largest_rest = 1e-5, noise_per_tolerance = 300;
 
+/// Whether the body slides down a slope that friction cannot hold it on, ever faster.
+bool slides_down(const ContactSystem& system, const ContactInstant& at) {
+  const double along = system.gravity_along();
+  return std::fabs(along) > system.ground().sliding_friction * system.gravity() && velocity(at.state).x() * along > 0;
+}
+
+/// Acceleration along the ground that lasts for ever.
+Vector3 sliding_acceleration(const ContactSystem& system, const ContactInstant& at) {
+  if (!slides_down(system, at)) return Vector3::Zero();
+  const double along = system.gravity_along();
+  return {along - std::copysign(system.ground().sliding_friction * system.gravity(), along), 0, 0};
+}
+
 bool is_steady(const ContactSystem& system, const ContactInstant& at, double kept_up) {
   const double g = system.gravity();
   const double depth = at.diagnosis.load.deepest;
@@ -65,17 +78,21 @@ bool is_steady(const ContactSystem& system, const ContactInstant& at, double kep
   const double turning = angular_velocity(at.state).norm(), spin = at.diagnosis.spin;
   const double tipping = std::sqrt(std::max(turning * turning - spin * spin, 0.0));
   return std::fabs(velocity(at.state).z()) <= part * fall &&
-         radius * tipping <= part * fall + 1e-7 * radius * turning && velocity(at.rate).norm() <= part * g &&
+         radius * tipping <= part * fall + 1e-7 * radius * turning &&
+         (velocity(at.rate) - sliding_acceleration(system, at)).norm() <= part * g &&
          radius * angular_velocity(at.rate).norm() <= part * g;
 }
 
-/// Sliding without friction, or spinning about a pressure centre that sticks, which this law does not resist.
-bool goes_on_for_ever(const ContactSystem& system) {
-  return system.ground().sliding_friction == 0 || system.phase().kind == FrictionPhase::Kind::stick;
+/// Sliding without friction or down a slope, or spinning about a pressure centre that sticks, which this law does not
+/// resist.
+bool goes_on_for_ever(const ContactSystem& system, const ContactInstant& at) {
+  return slides_down(system, at) || system.ground().sliding_friction == 0 ||
+         system.phase().kind == FrictionPhase::Kind::stick;
 }
 
 /// At rest, or in a steady motion that no friction will ever stop; nothing where the contact goes on.  A motion is
-/// steady if only sliding along the ground and spinning about the vertical are left, neither with an acceleration: to a
+/// steady if only sliding along the ground and spinning about the vertical are left, neither with an acceleration but a
+/// slope's: to a
 /// millionth of what a fall into this contact would have, or to `kept_up` [m/s].
 std::optional<ContactEnding> ending_on_the_ground(const ContactSystem& system, const ContactInstant& at,
                                                   double kept_up) {
@@ -84,7 +101,7 @@ std::optional<ContactEnding> ending_on_the_ground(const ContactSystem& system, c
   const double sliding = std::hypot(velocity(at.state).x(), velocity(at.state).y());
   const double turning = system.body().radius() * std::fabs(at.diagnosis.spin);
   if (sliding <= speed && turning <= speed) return ContactEnding::at_rest;
-  if (goes_on_for_ever(system)) return ContactEnding::sustained_contact;
+  if (goes_on_for_ever(system, at)) return ContactEnding::sustained_contact;
   return std::nullopt;
 }
 

@@ -558,7 +558,8 @@ std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, c
     if (!causes.empty()) return chosen(std::move(causes));
   }
   const Motion motion(answer.table, reference);
-  const std::vector<FoundImpact> impacts = impacts_of(motion, reference);
+  std::vector<FoundImpact> impacts = impacts_of(motion, reference);
+  if (reference.stays()) impacts.resize(std::min(impacts.size(), sequence->truth.size()));  // the rest is not asked for
   // After one impact alone a wrong start and a wrong impact look alike.
   if (motion.begins_after_touch() && sequence->truth.size() == 1) return {};
   const Misses misses(reference, std::span(impacts).first(std::min(impacts.size(), sequence->truth.size())));

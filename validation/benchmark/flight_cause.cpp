@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
+#include <utility>
 
 #include "validation/output/number.hpp"
 
@@ -85,6 +87,28 @@ std::vector<Cause> damping_causes(const std::optional<Rate>& linear, const std::
            rate.value, misfit, fmt::format("{}: that explains the flights {}", words, misfit_words(misfit))}};
 }
 
+/// On sloping ground gravity in another direction than the asked one, `pull`.
+std::optional<Cause> slope_cause(const std::vector<Vector3>& accelerations, const Vector3& pull) {
+  if (pull.x() == 0 || accelerations.size() < least_count) return {};
+  Vector3 found;
+  for (int i = 0; i < 3; ++i) {
+    std::vector<double> parts;
+    for (const Vector3& one : accelerations) parts.push_back(one[i]);
+    found[i] = median(std::move(parts));
+  }
+  const double change = (found - pull).norm();
+  std::vector<double> left;
+  for (const Vector3& one : accelerations) left.push_back((one - found).norm() / change);
+  const auto explains = [](double share) { return share <= explained; };
+  const auto count = static_cast<double>(std::count_if(left.begin(), left.end(), explains));
+  if (!(change > least_size * pull.norm()) || !(count >= share_of_steps * static_cast<double>(left.size()))) return {};
+  const auto angle = [](const Vector3& g) { return std::atan2(g.x(), -g.z()) * (180 / std::numbers::pi); };
+  const double misfit = median(std::move(left));
+  return Cause{"slope", angle(found), misfit,
+               fmt::format("gravity {}° from the ground's normal ({}° is asked) explains the flights {}",
+                           significant(angle(found), 3), significant(angle(pull), 3), misfit_words(misfit))};
+}
+
 /// An angular velocity that stays as it is, where Euler's equations change it.
 class ConstantSpin {
  public:
@@ -116,14 +140,18 @@ std::vector<Cause> flight_causes_of(const Motion& motion, const Reference& refer
   ConstantSpin constant;
   double precession = 0;  // change of the angular velocity that Euler's equations ask for [rad/s]
   const double slow = least_size * reference.speed();
+  const Vector3 pull(reference.gravity_along, 0, -reference.gravity);
+  std::vector<Vector3> accelerations;
+  const double until = reference.stays() ? motion.first_touch() + reference.sequences.front().truth.back().time : 0;
   for (std::size_t row = 0; row + 1 < motion.size(); row += 1 + motion.size() / looked_at) {
+    if (reference.stays() && motion.time(row) > until) break;
     const double time = motion.time(row + 1) - motion.time(row);
     const auto from = motion.state(row), to = motion.state(row + 1);
-    fall.add(to.velocity - from.velocity, {0, 0, time});
+    if (pull.norm() > 0) fall.add(to.velocity - from.velocity, -time * pull.normalized());
+    accelerations.emplace_back((to.velocity - from.velocity) / time);
     const auto [impulse, moment] = motion.jump(row);
-    const Vector3 mean = (from.velocity + to.velocity) / 2;
+    const Vector3 mean = (from.velocity + to.velocity) / 2, spin = (from.angular_velocity + to.angular_velocity) / 2;
     if (mean.norm() > slow) linear.add(impulse / reference.body.mass, time * mean);
-    const Vector3 spin = (from.angular_velocity + to.angular_velocity) / 2;
     if (!(spin.norm() * reference.reach() > slow)) continue;
     const Vector3 turned = from.attitude.conjugate() * from.angular_velocity;
     const Vector3 momentum = from.attitude * (reference.body.inertia * turned) + moment / 2;
@@ -136,12 +164,14 @@ std::vector<Cause> flight_causes_of(const Motion& motion, const Reference& refer
   const double length = motion.time(motion.size() - 1) - motion.time(0), least = reference.tolerances[1] / length;
   std::vector<Cause> causes = damping_causes(linear.rate(0), angular.rate(0), angular.count() >= least_count, least);
   constant.tell(precession, reference, causes);
-  const std::optional<Rate> gravity = fall.rate(reference.gravity);
-  if (gravity && std::fabs(gravity->value - reference.gravity) > least * reference.speed()) {
+  const std::optional<Rate> gravity = fall.rate(pull.norm());
+  if (gravity && std::fabs(gravity->value - pull.norm()) > least * reference.speed()) {
     causes.push_back(
         {"gravity", gravity->value, gravity->misfit,
          fmt::format("gravity {} m/s² ({} is asked) explains the flights {}", significant(gravity->value, 3),
-                     shortest(reference.gravity), misfit_words(gravity->misfit))});
+                     significant(pull.norm(), 4), misfit_words(gravity->misfit))});
+  } else if (auto slope = slope_cause(accelerations, pull)) {
+    causes.push_back(std::move(*slope));
   }
   return causes;
 }

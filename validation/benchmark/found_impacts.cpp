@@ -344,8 +344,9 @@ class Search {
   }
 
   void add_bookings(FoundImpact& impact, const State& start, const State& end) const {
-    const double fall = reference_.gravity * (motion_.time(impact.last_row) - motion_.time(impact.first_row));
-    const Vector3 down(0, 0, fall);
+    const double step = motion_.time(impact.last_row) - motion_.time(impact.first_row);
+    const double fall = reference_.gravity * step;
+    const Vector3 down(-reference_.gravity_along * step, 0, fall);
     for (const space::Quaternion& pose : {impact.before.attitude, start.attitude, end.attitude}) {
       const auto add = [&](const Vector3& before, const Vector3& after) {
         Booking booking{impact.before, impact.after};

@@ -82,14 +82,15 @@ double Motion::time(std::size_t row) const { return lead_ && row == 0 ? number(1
 space::State Motion::state(std::size_t row) const {
   if (lead_ && row == 0) return *lead_;
   const auto vector = [&](std::size_t k) { return Vector3(number(row, k), number(row, k + 1), number(row, k + 2)); };
+  const Vector3 origin(origin_, 0, 0);
   if (in_space_) {
-    return {.position = vector(1),
+    return {.position = vector(1) - origin,
             .attitude = space::Quaternion(number(row, 4), number(row, 5), number(row, 6), number(row, 7)).normalized(),
             .velocity = vector(8),
             .angular_velocity = vector(11)};
   }
   const double half = number(row, 3) / 2;
-  return {.position = {number(row, 1), 0, number(row, 2)},
+  return {.position = Vector3(number(row, 1), 0, number(row, 2)) - origin,
           .attitude = space::Quaternion(std::cos(half), 0, -std::sin(half), 0),
           .velocity = {number(row, 4), 0, number(row, 5)},
           .angular_velocity = {0, -number(row, 6), 0}};
@@ -101,11 +102,13 @@ double Motion::energy(std::size_t row) const {
     const Vector3 velocity(number(row, 8), number(row, 9), number(row, 10));
     const Vector3 rate(number(row, 11), number(row, 12), number(row, 13));
     return (reference_.body.mass * velocity.squaredNorm() + rate.dot(momenta_[row])) / 2 +
-           reference_.body.mass * reference_.gravity * number(row, 3);
+           reference_.body.mass *
+               (reference_.gravity * number(row, 3) - reference_.gravity_along * (number(row, 1) - origin_));
   }
   const double vx = number(row, 4), vz = number(row, 5), omega = number(row, 6);
   return (reference_.body.mass * (vx * vx + vz * vz) + reference_.body.inertia(1, 1) * omega * omega) / 2 +
-         reference_.body.mass * reference_.gravity * number(row, 2);
+         reference_.body.mass *
+             (reference_.gravity * number(row, 2) - reference_.gravity_along * (number(row, 1) - origin_));
 }
 
 Vector3 Motion::angular_momentum(std::size_t row) const {
@@ -114,17 +117,19 @@ Vector3 Motion::angular_momentum(std::size_t row) const {
 }
 
 Motion::Jump Motion::jump(std::size_t row) const {
-  const double mass = reference_.body.mass, fall = reference_.gravity * (time(row + 1) - time(row));
+  const double mass = reference_.body.mass, step = time(row + 1) - time(row);
+  const double fall = reference_.gravity * step, slide = reference_.gravity_along * step;
   if (in_space_ || (lead_ && row == 0)) {
     const auto velocity = [&](std::size_t i) {
       return in_space_ && !lead_ ? Vector3(number(i, 8), number(i, 9), number(i, 10)) : state(i).velocity;
     };
     const Vector3 change = velocity(row + 1) - velocity(row);
     const auto momentum = [&](std::size_t i) { return in_space_ && !lead_ ? momenta_[i] : angular_momentum(i); };
-    return {mass * (change + Vector3(0, 0, fall)), momentum(row + 1) - momentum(row)};
+    return {mass * (change + Vector3(-slide, 0, fall)), momentum(row + 1) - momentum(row)};
   }
-  return {{mass * (number(row + 1, 4) - number(row, 4)), 0, mass * (number(row + 1, 5) - number(row, 5) + fall)},
-          {0, -reference_.body.inertia(1, 1) * (number(row + 1, 6) - number(row, 6)), 0}};
+  return {
+      {mass * (number(row + 1, 4) - number(row, 4) - slide), 0, mass * (number(row + 1, 5) - number(row, 5) + fall)},
+      {0, -reference_.body.inertia(1, 1) * (number(row + 1, 6) - number(row, 6)), 0}};
 }
 
 void Motion::find_first_touch() {
@@ -145,6 +150,10 @@ void Motion::find_first_touch() {
   const double delay = touch_time(reference_, flight);
   first_touch_ = time(0) + delay;
   const space::State touch = flight.at(delay);
+  if (reference_.gravity_along != 0) {  // the potential counts from the place of the first touch
+    origin_ = touch.position.x();
+    if (lead_) lead_->position.x() = 0;
+  }
   const space::State& start = reference_.start;
   start_error_ = std::max((touch.velocity - start.velocity).norm(),
                           reach * (touch.angular_velocity - start.angular_velocity).norm()) /

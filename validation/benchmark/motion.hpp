@@ -62,6 +62,7 @@ class Motion {
   std::optional<analytic::space::State> lead_;
   std::vector<analytic::space::Vector3> momenta_;  ///< angular, of each row of a file in space [N·m·s]
   double first_touch_ = 0, start_error_ = 0;
+  double origin_ = 0;  ///< x of the first touch, where the ground slopes [m]
 };
 
 }  // namespace clatter::validation::inline benchmark

@@ -23,7 +23,8 @@ const std::vector<std::string> numbers{"t",  "Px", "Py", "Pz", "Vx",       "Vy",
 std::vector<std::string> known_keys() {
   std::vector<std::string> keys = scene_keys();
   for (const std::string& text : texts) keys.push_back("problem." + text);
-  for (const char* key : {"version", "gaps", "until", "tolerances", "energy_alone", "at_rest", "laws_agree"}) {
+  for (const char* key :
+       {"version", "gaps", "until", "tolerances", "energy_alone", "at_rest", "end_energy", "laws_agree"}) {
     keys.push_back(std::string("problem.") + key);
   }
   return keys;
@@ -43,6 +44,8 @@ Problem read_problem(const EmbeddedFile& file) {
   problem.is_compliant = values.text("problem.class") == "compliant";
   problem.energy_alone = values.truth("problem.energy_alone", false);
   problem.at_rest = values.truth("problem.at_rest", false);
+  constexpr Range energies{-1e9, 1e9, false, "finite"};
+  if (values.has("problem.end_energy")) problem.end_energy = values.number("problem.end_energy", 0, energies);
   problem.gaps = values.numbers("problem.gaps", {1, 2, 3, 4, 5, 6, 7, 8}, positive, "heights in m");
   problem.tolerances = values.numbers("problem.tolerances", {4}, positive, "four errors");
   if (values.has("problem.until")) problem.until = values.number("problem.until", 0, positive);

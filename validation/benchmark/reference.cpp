@@ -56,6 +56,7 @@ void set_planar(Reference& reference, const analytic::Drop& drop) {
   reference.start.velocity = {drop.velocity.tangential, 0, drop.velocity.normal};
   reference.start.angular_velocity = {0, drop.velocity.angular, 0};
   reference.gravity = drop.gravity;
+  reference.gravity_along = drop.gravity_along;
 }
 
 void set_space(Reference& reference, const Scene& scene, const space::Drop& drop) {
@@ -71,6 +72,7 @@ void set_space(Reference& reference, const Scene& scene, const space::Drop& drop
   reference.start.velocity = drop.velocity;
   reference.start.angular_velocity = drop.angular_velocity;
   reference.gravity = drop.gravity;
+  reference.gravity_along = drop.gravity_along;
 }
 
 /// Puts the lowest point on the ground.
@@ -193,6 +195,23 @@ State moreau_map(const Reference& reference, const analytic::ImpactLaw& law, con
   return after;
 }
 
+/// Two points of a planar body that land together, as the plane's model has them: friction may act below the centre of
+/// mass without turning the body.  Nothing where they strike one after the other.
+std::optional<State> flat_map(const Reference& reference, const analytic::ImpactLaw& law, const State& before,
+                              const Vector3& first, const Vector3& second) {
+  const analytic::PlanarBody body{.mass = reference.body.mass,
+                                  .gyration_square = reference.body.inertia(1, 1) / reference.body.mass};
+  const analytic::PlanarVelocity velocity{
+      .normal = before.velocity.z(), .tangential = before.velocity.x(), .angular = before.angular_velocity.y()};
+  const auto impact = strike_flat(body, velocity, {.tangential = first.x(), .normal = first.z()},
+                                  {.tangential = second.x(), .normal = second.z()}, law);
+  if (!impact) return {};
+  State after = before;
+  after.velocity = {impact->after.tangential, 0, impact->after.normal};
+  after.angular_velocity = {0, impact->after.angular, 0};
+  return after;
+}
+
 }  // namespace
 
 double Reference::speed() const { return start.velocity.norm() + start.angular_velocity.norm() * reach(); }
@@ -200,14 +219,17 @@ double Reference::speed() const { return start.velocity.norm() + start.angular_v
 double Reference::energy(const space::State& state) const {
   const Vector3 rate = state.attitude.conjugate() * state.angular_velocity;
   return (body.mass * state.velocity.squaredNorm() + rate.dot(body.inertia * rate)) / 2 +
-         body.mass * gravity * state.position.z();
+         body.mass * (gravity * state.position.z() - gravity_along * state.position.x());
 }
 
 double Reference::last_energy(const ReferenceSequence& sequence) const {
+  if (end_energy) return *end_energy;
   return at_rest ? body.mass * gravity * start.position.z() : energy(sequence.after.back());
 }
 
-space::FreeFlight Reference::flight(const space::State& state) const { return {principal, state, gravity}; }
+space::FreeFlight Reference::flight(const space::State& state) const {
+  return {principal, state, gravity, gravity_along};
+}
 
 space::State Reference::struck(const space::State& state, int point, const Vector3& impulse) const {
   space::State after = state;
@@ -283,6 +305,7 @@ Reference reference_of(const Problem& problem) {
                       .is_compliant = problem.is_compliant,
                       .energy_alone = problem.energy_alone,
                       .at_rest = problem.at_rest,
+                      .end_energy = problem.end_energy,
                       .body = {},
                       .points = {},
                       .start = {},
@@ -344,6 +367,10 @@ State exact_map(const Reference& reference, const DeclaredLaw& law, const State&
   }
   if (law.is_moreau && points.size() == 1) {
     return moreau_map(reference, law.law.law, before, arms[static_cast<std::size_t>(points.front())]);
+  }
+  if (reference.is_planar && points.size() == 2) {
+    const auto arm = [&](int point) { return arms[static_cast<std::size_t>(point)]; };
+    if (const auto flat = flat_map(reference, law.law.law, before, arm(points[0]), arm(points[1]))) return *flat;
   }
   State after = before;
   if (points.size() == 1) {

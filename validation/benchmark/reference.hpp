@@ -37,18 +37,22 @@ struct Reference {
   bool is_planar = true;
   bool is_compliant = false;
   bool energy_alone = false, at_rest = false;  ///< as Problem's
+  std::optional<double> end_energy{};
   analytic::space::Body body;
   /// Of the body.
   analytic::space::PrincipalAxes principal{analytic::space::Matrix3::Identity()};
   std::vector<std::string> points;  ///< names of the vertices, then of the rims
   analytic::space::State start;     ///< at the first touch
-  double gravity = 0;               ///< [m/s²]
+  double gravity = 0;               ///< towards the ground [m/s²]
+  double gravity_along = 0;         ///< along x [m/s²]
   std::vector<double> tolerances{1e-9, 1e-6, 1e-3, 1e-2};
   std::optional<double> until;  ///< no impact more until then, since the first touch [s]
   std::vector<ReferenceSequence> sequences;
   std::string remark{};  ///< on the truth, for readers; empty: none
 
   [[nodiscard]] double reach() const { return body.reach(); }
+  /// Whether it stays on the ground after ever smaller bounces, which are not asked for.
+  [[nodiscard]] bool stays() const { return at_rest || end_energy; }
   /// Speed at the first touch, of translation and of turning [m/s].
   [[nodiscard]] double speed() const;
   /// Translational, rotational and potential energy [J].

@@ -205,7 +205,7 @@ class Flights {
  private:
   [[nodiscard]] double last_time() const {
     const double last = sequence_.truth.back().time;
-    if (reference_.at_rest) return last;  // smaller bounces follow
+    if (reference_.stays()) return last;  // smaller bounces follow
     return reference_.until && !reference_.energy_alone ? *reference_.until : last + 0.2 * last;
   }
 
@@ -249,11 +249,27 @@ class Flights {
     std::size_t row = motion_.size() - 1;
     while (row > 0 && motion_.time(row) > end) --row;
     const double wanted = reference_.last_energy(sequence_);
-    const double error = std::fabs(motion_.energy(row) - wanted) / energy_;
+    const double error = std::fabs((reference_.end_energy ? energy_at(end) : motion_.energy(row)) - wanted) / energy_;
     if (error > score.energy_error) {
       score.energy_error = error;
       score.drift = sequence_.truth.size();
     }
+  }
+
+  /// Of a body that slides, whose energy is a parabola in time: through the last three rows about a time.
+  [[nodiscard]] double energy_at(double time) const {
+    std::size_t last = motion_.size() - 1;
+    while (last > 2 && motion_.time(last - 1) > time) --last;
+    if (last < 2) return motion_.energy(last);
+    double sum = 0;
+    for (std::size_t i = last - 2; i <= last; ++i) {
+      double share = 1;
+      for (std::size_t k = last - 2; k <= last; ++k) {
+        if (k != i) share *= (time - motion_.time(k)) / (motion_.time(i) - motion_.time(k));
+      }
+      sum += share * motion_.energy(i);
+    }
+    return sum;
   }
 
   const Motion& motion_;

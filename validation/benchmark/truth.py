@@ -302,7 +302,9 @@ class Scene:
     def __init__(self, data):
         drop, body, impact = data["drop"], data["body"], data["impact"]
         self.data, self.id = data, data["problem"]["id"]
-        self.g = number(data["world"]["gravity"])
+        slope = number(data["world"].get("incline_deg", 0)) * pi / 180
+        self.g = number(data["world"]["gravity"]) * cos(slope)
+        self.along = number(data["world"]["gravity"]) * sin(slope)
         self.mass = number(body["mass"])
         self.e, self.mu = number(impact["restitution"]), number(impact.get("friction", 0))
         self.count = data["run"]["impacts"]
@@ -401,12 +403,40 @@ def planar_truth(scene, law):
             break
         time += flight
         state = [z + after[0] * flight - scene.g * flight ** 2 / 2, alpha - after[2] * flight,
-                 after[0] - scene.g * flight, after[1], after[2]]
+                 after[0] - scene.g * flight, after[1] + scene.along * flight, after[2]]
         struck = arriving
     last = scene.data["problem"].get("until")
     if last is not None and not scene.data["problem"].get("energy_alone"):
         assert flight is None or time > number(last), f"{scene.id}: an impact more at {time}"
     return rows
+
+
+def end_energy(scene):
+    """At `until`, of a box that bounces flat down a slope, then slides, and may stop: bounce by bounce."""
+    g, along, mu, e = scene.g, scene.along, scene.mu, scene.e
+    V, slip, way, time = -scene.speed, number(scene.drop["tangential_velocity"]), mpf(0), mpf(0)
+    while V < -tiny() * tiny():
+        stop = mu * (1 + e) * -V
+        slip = max(slip - stop, mpf(0))
+        V *= -e
+        flight = 2 * V / g
+        way, slip, time, V = way + slip * flight + along * flight ** 2 / 2, slip + along * flight, time + flight, -V
+    left, gain = number(scene.data["problem"]["until"]) - time, along - mu * g
+    assert left > 0 and slip > 0
+    if gain < 0 and slip + gain * left < 0:
+        left = -slip / gain
+    way, slip = way + slip * left + gain * left ** 2 / 2, slip + gain * left
+    height = scene.size[1] / 2
+    return scene.mass * (slip ** 2 / 2 + g * height - along * way)
+
+
+def check_end(data):
+    if "end_energy" not in data["problem"]:
+        return
+    mp.dps = MORE_DIGITS
+    energy = end_energy(Scene(data))
+    given = number(data["problem"]["end_energy"])
+    assert abs(energy - given) <= mpf(10) ** -16, (data["problem"]["id"], mp.nstr(energy, PRINTED))
 
 
 # ---------------------------------------------------------------- space
@@ -662,6 +692,7 @@ def table(only):
         data = tomllib.loads(path.read_text())
         if only and data["problem"]["id"] not in only:
             continue
+        check_end(data)
         has_laws = "friction" in data["impact"] and not data["problem"].get("laws_agree")
         laws = LAWS if has_laws else ["any"]
         for law in laws:

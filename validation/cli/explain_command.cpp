@@ -18,6 +18,7 @@ struct ExplainInput {
 int run_explain(const ExplainInput& input) {
   const int n = read_integer_option("explain N", input.number, 1, 1000000);
   const PreparedScene scene = read_discrete_flags(input.scene);
+  require_level(scene.scene, "explain");
   const OutputChoice choice = read_output(input.output);
   check_files(choice);
   const Explanation explanation = explain_impact(scene, n);

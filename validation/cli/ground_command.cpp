@@ -93,6 +93,7 @@ Scene scene_of(const GroundInput& input) {
   }
   flags.texts.at("--stiffness") = "1e9";
   Scene scene = read_scene_flags(flags);
+  require_level(scene, "ground");
   scene.world.ground.damping = 0;
   if (scene.sweep) throw BadInput(fmt::format("{}: sweep: ground takes a scene that sweeps nothing", scene.path));
   return scene;

@@ -26,6 +26,7 @@ struct PlanInput {
 
 int run_plan(const PlanInput& input) {
   const Scene scene = read_scene_flags(input.scene);
+  require_level(scene, "plan");
   const OutputChoice choice = read_output(input.output);
   const auto is_typed = [&](const std::string& name) { return is_given(input.scene, "--" + name); };
   const PlanTarget target = plan_target(scene, {input.within, is_typed});
@@ -66,6 +67,7 @@ struct TradeoffInput {
 
 int run_tradeoff(const TradeoffInput& input) {
   const Scene scene = read_scene_flags(input.scene);
+  require_level(scene, "tradeoff");
   const OutputChoice choice = read_output(input.output);
   check_files(choice, plot_files(input.plot));
   if (scene.sweep)

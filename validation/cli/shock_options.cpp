@@ -59,6 +59,7 @@ Scene shock_scene(const ShockInput& input) {
   const Scene scene = flags.model == Model::discrete ? read_discrete_flags(flags).scene : read_scene_flags(flags);
   if (scene.sweep)
     throw BadInput(fmt::format("{}: sweep: must be left out here, the scene sweeps nothing", scene.path));
+  require_level(scene, "shock and report");
   if (is_given(input.scene, "--history")) throw BadInput("--history: none is written here; clatter simulate does");
   return scene;
 }

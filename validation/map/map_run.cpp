@@ -88,7 +88,8 @@ class MapRunner {
   /// Takes a drop into the batch if it is one for it: frictionless or with an impulse ratio, and a constant e.
   bool join_batch(const DiscreteDrop& drop) {
     const auto* planar = std::get_if<analytic::Drop>(&drop);
-    if (!planar || planar->law.law == analytic::RestitutionLaw::viscoelastic) return false;
+    if (!planar || planar->law.law == analytic::RestitutionLaw::viscoelastic || planar->gravity_along != 0)
+      return false;
     const bool no_slip = planar->law.friction_value == 0;
     const bool by_ratio = planar->law.friction == analytic::FrictionKind::impulse_ratio &&
                           planar->law.law == analytic::RestitutionLaw::newton;

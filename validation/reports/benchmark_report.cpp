@@ -339,12 +339,29 @@ std::vector<std::string> sign_lines(const Problem& problem) {
       "    |  a            Omega > 0, clockwise: b falls, a rises", "    +-----------> x"};
 }
 
+/// Axes of sloping ground, with a picture; none of level ground.
+std::vector<std::string> slope_lines(const Problem& problem) {
+  const numeric::World& world = problem.scene.world;
+  if (world.incline_deg == 0) return {};
+  const std::string slope = shortest(world.incline_deg);
+  return {fmt::format("slope: x points {}° below the horizontal, z is normal to the ground, and phi counts from x; "
+                      "gravity is ({}, 0, {}) m/s2 in these axes",
+                      slope, significant(world.pull().along, 12), significant(-world.pull().down, 12)),
+          "     z            |",
+          fmt::format("      \\  [box]    | g      g sin {}° along x,", slope),
+          fmt::format("       \\ -._      v        -g cos {}° along z", slope),
+          "            -._",
+          "               -> x"};
+}
+
 /// What an answer must say beside its rows; empty: nothing.
 std::string ending_words(const Problem& problem) {
   if (!problem.until) return "";
   const std::string until = shortest(*problem.until);
   return problem.energy_alone
-             ? fmt::format("; a motion must last {} s, a list needs \"# energy: J\" then, with m g z", until)
+             ? fmt::format("; a motion must last {} s, a list needs \"# energy: J\" then, with {}", until,
+                           problem.scene.world.incline_deg == 0 ? "m g z"
+                                                                : "-m (g . way) along the slope and m g_n z across it")
              : fmt::format("; a motion must last {} s or say \"# ended: nothing approaches\", as a list must", until);
 }
 
@@ -352,10 +369,9 @@ Report benchmark_statement(const Problem& problem) {
   Report report = begun_report("benchmark", problem.id + ", " + problem.title);
   report.head = {fmt::format("problem: {}", problem.id), fmt::format("version: {}", problem.version),
                  "motivation: " + problem.motivation, "separates: " + problem.separates};
-  const std::vector<std::string> data = data_lines(problem);
-  report.head.insert(report.head.end(), data.begin(), data.end());
-  const std::vector<std::string> signs = sign_lines(problem);
-  report.head.insert(report.head.end(), signs.begin(), signs.end());
+  for (const std::vector<std::string>& lines : {data_lines(problem), sign_lines(problem), slope_lines(problem)}) {
+    report.head.insert(report.head.end(), lines.begin(), lines.end());
+  }
   for (const std::string& line :
        {law_words(problem), asked_words(problem), error_words(problem), "acceptance: " + problem.acceptance,
         "results: as text, t,x,z,phi,vx,vz,omega of the centre of mass (in space "
@@ -382,6 +398,7 @@ Report benchmark_statement(const Problem& problem) {
   fields["starts"] = starts_value(problem);
   fields["until"] = problem.until ? Value(*problem.until) : Value();
   fields["at_rest"] = problem.at_rest;
+  fields["stays"] = problem.at_rest || problem.end_energy;
   fields["tolerances"] = problem.tolerances;
   fields["laws"] = truth_laws(problem);
   fields["oracle"] = oracle_of(problem);

@@ -68,7 +68,7 @@ ImpactGradient combined(const ImpactGradient& a, double of_a, const ImpactGradie
 /// a fixed h  ∂v/∂α = g d_t/v  of the point that touches.
 void take_height(const Scene& scene, const analytic::Drop& drop, analytic::SequenceGradient& gradient) {
   const double per_height = drop.gravity / -drop.velocity.normal;
-  const analytic::BodyMotion motion(drop.body, drop.inclination, drop.velocity, drop.gravity);
+  const analytic::BodyMotion motion(drop.body, drop.inclination, drop.velocity, drop.gravity, drop.gravity_along);
   const double arm = motion.contact_point(std::countr_zero(motion.lowest_vertices())).tangential;
   const double per_angle = scene.height ? per_height * arm : 0;
   for (analytic::GradientRow& row : gradient.rows) {

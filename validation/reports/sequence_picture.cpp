@@ -310,6 +310,7 @@ std::vector<std::string> words_of(const Scene& scene) {
   if (scene.spin != 0) drop += fmt::format(", spin {} rad/s", shortest(scene.spin));
   if (scene.has_vectors()) drop = scene.drop_words();
   drop += fmt::format(", gravity {} m/s²", shortest(scene.world.gravity));
+  if (scene.world.incline_deg != 0) drop += fmt::format(", slope {}°", shortest(scene.world.incline_deg));
   return {scene.summary(Model::discrete).front(), drop, law_words(scene, {})};
 }
 

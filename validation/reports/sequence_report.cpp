@@ -126,6 +126,7 @@ void add_end_notes(const Scene& scene, const space::Drop& drop, const space::Seq
                       : fmt::format("the body settles on the face of {}, when is not known", face));
   const analytic::ImpactLaw& law = drop.law.law;
   if (law.friction != analytic::FrictionKind::coulomb || !(law.friction_value > 0) || !sequence.tail) return;
+  if (drop.gravity_along != 0) return;  // which a slope changes
   const double speed = sequence.tail->velocity_after.head<2>().norm(), slowing = law.friction_value * drop.gravity;
   if (!(speed > 0) || sequence.tail->angular_velocity_after != space::Vector3::Zero()) return;
   notes.push_back(fmt::format("friction stops its slide {} s and {} m later", significant(speed / slowing, 3),

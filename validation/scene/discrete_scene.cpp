@@ -170,7 +170,8 @@ analytic::Drop planar_drop(const Scene& scene, const analytic::PlanarBody& body)
   return {.body = body,
           .inclination = inclination,
           .velocity = {.normal = normal, .tangential = velocity.x(), .angular = scene.touch_angular_velocity().y()},
-          .gravity = scene.world.gravity,
+          .gravity = scene.world.pull().down,
+          .gravity_along = scene.world.pull().along,
           .law = discrete_law(scene).law};
 }
 
@@ -180,7 +181,8 @@ space::Drop space_drop(const Scene& scene, const space::Body& body) {
                    .attitude = scene.touch_attitude(),
                    .velocity = scene.touch_velocity(),
                    .angular_velocity = scene.touch_angular_velocity(),
-                   .gravity = scene.world.gravity,
+                   .gravity = scene.world.pull().down,
+                   .gravity_along = scene.world.pull().along,
                    .law = {}};
   drop.law.law = discrete_law(scene).law;
   if (scene.height) drop.velocity.z() = -scene.fallen_speed(touch_height(drop.body, drop.attitude));

@@ -24,6 +24,7 @@ constexpr Range wide_masses{1e-200, 1e200, false, "from 1e-200 to 1e200"};
 constexpr Range speeds{0, 1e9, true, "greater than 0 and at most 1e9"};
 constexpr Range velocities{-1e9, 1e9, false, "from -1e9 to 1e9"};
 constexpr Range gravities{0, 1e9, false, "from 0 to 1e9"};
+constexpr Range slopes{-89, 89, false, "from -89 to 89 degrees"};
 constexpr Range heights{0, 1e12, true, "greater than 0 and at most 1e12"};
 constexpr Range angles{0, 90, false, "from 0 to 90 degrees"};
 constexpr Range tilts{-180, 180, false, "from -180 to 180 degrees"};
@@ -132,8 +133,12 @@ void append_motion(std::vector<Key>& keys) {
            OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.topple; }, heights, &positive_number},
            nullptr, false, all_of_motion},
           {"world.gravity", Use::both, "--gravity", "M/S2", "m/s²",
-           "acceleration of free fall; 9.81 where a height, clearance or topple is given, else 0",
+           "acceleration of free fall; 9.81 where a height, clearance, topple or incline is given, else 0",
            NumberValue{[](Scene& s) -> double& { return s.world.gravity; }, gravities, &not_negative_number}},
+          {"world.incline_deg", Use::both, "--incline", "DEG", "°",
+           "slope of the ground, down to the right where positive; x and z are along and across the ground",
+           NumberValue{[](Scene& s) -> double& { return s.world.incline_deg; }, slopes},
+           [](const Scene& s, Model) { return only_if(s.world.incline_deg != 0); }},
       });
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -129,16 +130,24 @@ void check_drop(const SceneValues& values, Scene& scene) {
   for (const auto& [key, is_given] :
        {std::pair{"drop.height", scene.height}, {"drop.clearance", scene.clearance}, {"drop.topple", scene.topple}}) {
     if (is_given && !(scene.world.gravity > 0)) values.refuse(key, "left out where world.gravity is 0");
+    if (is_given && scene.world.incline_deg != 0) {
+      values.refuse("world.incline_deg", fmt::format("0 or left out with {}: give the velocity at the touch", key));
+    }
+  }
+  if (scene.world.incline_deg != 0 && !(scene.world.gravity > 0)) {
+    values.refuse("world.incline_deg", "0 or left out where world.gravity is 0");
   }
 }
 
-/// The same for files, flags and Python: the paper's thin rod, without gravity unless something falls from a height.
+/// The same for files, flags and Python: the paper's thin rod, without gravity unless something falls from a height or
+/// the ground slopes.
 Scene default_scene(const SceneValues& values) {
   Scene scene;
   scene.path = values.path();
   scene.world.ground.stiffness = 0;  // none, until it is given
-  scene.world.gravity =
-      values.has("drop.height") || values.has("drop.clearance") || values.has("drop.topple") ? 9.81 : 0;
+  const auto is_given = [&](const char* key) { return values.has(key); };
+  const std::array heavy{"drop.height", "drop.clearance", "drop.topple", "world.incline_deg"};
+  scene.world.gravity = std::any_of(heavy.begin(), heavy.end(), is_given) ? 9.81 : 0;
   return scene;
 }
 
@@ -212,6 +221,12 @@ bool is_plain_name(const std::string& source) { return source.find_first_of("./\
 std::string case_path(const std::string& name) { return "validation/cases/" + name + ".toml"; }
 
 }  // namespace
+
+void require_level(const Scene& scene, const std::string& command) {
+  if (scene.world.incline_deg == 0) return;
+  throw BadInput(fmt::format("world.incline_deg = {}: must be left out for clatter {}, whose ground is level",
+                             shortest(scene.world.incline_deg), command));
+}
 
 void Scene::settle() {
   if (orientation) {

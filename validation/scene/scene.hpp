@@ -173,6 +173,9 @@ struct TouchMotion {
 [[nodiscard]] Scene read_scene(const std::string& source, const std::vector<SceneOverride>& overrides,
                                Model model = Model::continuous);
 
+/// For a command that takes level ground alone.  @throws BadInput if the scene's ground slopes
+void require_level(const Scene& scene, const std::string& command);
+
 /// Names of the cases that come with the program.
 [[nodiscard]] std::vector<std::string> case_names();
 /// The text of a case.  @throws BadInput if there is none of this name, with the nearest.

@@ -141,10 +141,19 @@ std::string planar_drop_words(const Scene& scene, const KeyNames& unsettled) {
       .text();
 }
 
+void add_gravity(const Scene& scene, Phrases& words) {
+  words.add(fmt::format("gravity {} m/s²", shortest(scene.world.gravity)), {"world.gravity"});
+  const double slope = scene.world.incline_deg;
+  if (slope == 0) return;
+  words.add(
+      fmt::format("ground that slopes {}° down to the {}", shortest(std::fabs(slope)), slope > 0 ? "right" : "left"),
+      {"world.incline_deg"});
+}
+
 std::vector<std::string> discrete_summary(const Scene& scene, const KeyNames& unsettled) {
   Phrases drop(unsettled);
   drop.add(scene.has_vectors() ? scene.drop_words(unsettled) : planar_drop_words(scene, unsettled));
-  drop.add(fmt::format("gravity {} m/s²", shortest(scene.world.gravity)), {"world.gravity"});
+  add_gravity(scene, drop);
   return {shape_words(scene.body, Model::discrete, unsettled), "drop: " + drop.text()};
 }
 
@@ -183,7 +192,7 @@ std::vector<std::string> Scene::summary(Model model, const KeyNames& unsettled) 
   const bool sweeps_friction = sweep && sweep->quantity == SceneSweep::Quantity::friction;
   const numeric::Ground& ground = world.ground;
   Phrases drop(unsettled), springs(unsettled), contact(unsettled);
-  drop.add(drop_words(unsettled)).add(fmt::format("gravity {} m/s²", shortest(world.gravity)), {"world.gravity"});
+  add_gravity(*this, drop.add(drop_words(unsettled)));
   drop.add(world.planar ? "kept in its plane" : "");
   springs.add(fmt::format("k = {} N/m³", in_powers(ground.stiffness)), {"ground.stiffness"});
   springs.add(fmt::format("c = {} N·s/m⁴", in_powers(ground.damping)), {"ground.damping"});

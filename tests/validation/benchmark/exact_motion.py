@@ -80,20 +80,56 @@ class Body:
         return tuple(x / norm for x in y[:4]), tuple(y[4:])
 
 
+def pull_of(world):
+    """Gravity along the ground and towards it."""
+    slope = math.radians(world.get("incline_deg") or 0)
+    return world["gravity"] * math.sin(slope), world["gravity"] * math.cos(slope)
+
+
 class State:
     def __init__(self, time, position, attitude, velocity, omega):
         self.time, self.position, self.attitude = time, list(position), tuple(attitude)
         self.velocity, self.omega = list(velocity), tuple(omega)
         self.rests = False
+        self.slides = None  # on the ground: acceleration along it, and for how long
 
-    def flown(self, body, gravity, time):
+    def flown(self, body, gravity, time, along=0.0):
         dt = time - self.time
-        gravity = 0.0 if self.rests else gravity
-        position = [x + v * dt for x, v in zip(self.position, self.velocity)]
+        lasts = dt
+        if self.slides:
+            gravity, along, lasts = 0.0, self.slides[0], min(dt, self.slides[1])
+        if self.rests:
+            gravity = along = 0.0
+        position = [x + v * lasts for x, v in zip(self.position, self.velocity)]
+        position[0] += along * lasts * lasts / 2
         position[2] -= gravity * dt * dt / 2
-        velocity = [self.velocity[0], self.velocity[1], self.velocity[2] - gravity * dt]
+        velocity = [self.velocity[0] + along * lasts, self.velocity[1], self.velocity[2] - gravity * dt]
+        if lasts < dt:
+            velocity[0] = 0.0
         attitude, rates = body.turn(self.attitude, turned_back(self.attitude, self.omega), dt)
-        return State(time, position, attitude, velocity, turned(attitude, rates))
+        state = State(time, position, attitude, velocity, turned(attitude, rates))
+        if self.rests:
+            state.rests = True
+        if self.slides:
+            state.slides = (self.slides[0], max(self.slides[1] - dt, 0.0))
+        return state
+
+    def slide_on(self, bounce, friction, pull):
+        """On the ground from now on, after bounces of this rebound speed and restitution that are too small to follow."""
+        rise, restitution = bounce
+        along, down = pull
+        slip = self.velocity[0]
+        while rise > 1e-30:
+            slip += along * 2 * rise / down
+            stop = friction * (1 + restitution) * rise
+            slip = 0.0 if abs(slip) <= stop else slip - math.copysign(stop, slip)
+            rise *= restitution
+        self.velocity = [slip, 0.0, 0.0]
+        if abs(slip) < 1e-15 and abs(along) <= friction * down:
+            self.velocity[0], self.slides = 0.0, (0.0, math.inf)
+            return
+        gain = along - math.copysign(friction * down, slip if slip else along)
+        self.slides = (gain, -slip / gain if slip * gain < 0 else math.inf)
 
 
 class Motion:
@@ -104,7 +140,7 @@ class Motion:
         self.truth = told("benchmark", "truth", problem, *(["--law", law] if law else []))
         self.problem, self.law = problem, law
         scene = self.statement["scene"]
-        self.body, self.gravity = Body(scene), scene["world"]["gravity"]
+        self.body, (self.along, self.gravity) = Body(scene), pull_of(scene["world"])
         start = self.statement["starts"][gap_index]
         self.is_planar = "phi" in start
         self.touch = start["first_touch"]
@@ -114,6 +150,8 @@ class Motion:
             self.strike(self.touch + row["t"], *self.velocities(row))
         if self.statement["at_rest"]:
             self.settle(scene["impact"]["restitution"])
+        elif self.statement["stays"]:
+            self.slide_down(scene["impact"])
 
     def settle(self, restitution):
         """The bounces that follow, until they are too small for doubles, and rest."""
@@ -124,6 +162,16 @@ class Motion:
         self.pieces[-1].velocity = [0.0, 0.0, 0.0]
         self.pieces[-1].rests = True
 
+    def slide_down(self, impact):
+        """The bounces that follow on a slope, until they are small, and the slide."""
+        time, rise, e = self.pieces[-1].time, self.pieces[-1].velocity[2], impact["restitution"]
+        while rise > 1e-9:
+            time += 2 * rise / self.gravity
+            slip, stop = self.at(time).velocity[0], impact["friction"] * (1 + e) * rise
+            rise *= e
+            self.strike(time, [0.0 if abs(slip) <= stop else slip - math.copysign(stop, slip), 0.0, rise], (0.0, 0.0, 0.0))
+        self.pieces[-1].slide_on((rise, e), impact["friction"], (self.along, self.gravity))
+
     def velocities(self, row):
         if self.is_planar:
             return [row["Vt"], 0.0, row["V"]], (0.0, row["Omega"], 0.0)
@@ -131,11 +179,11 @@ class Motion:
 
     def at(self, time):
         piece = [p for p in self.pieces if p.time <= time or p is self.pieces[0]][-1]
-        return piece.flown(self.body, self.gravity, time)
+        return piece.flown(self.body, self.gravity, time, self.along)
 
     def strike(self, time, velocity, omega):
         """From this time on with these velocities."""
-        before = self.pieces[-1].flown(self.body, self.gravity, time)
+        before = self.pieces[-1].flown(self.body, self.gravity, time, self.along)
         self.pieces.append(State(time, before.position, before.attitude, velocity, omega))
 
     def end(self):
@@ -150,7 +198,7 @@ class Motion:
             time = k * step
             while piece + 1 < len(self.pieces) and self.pieces[piece + 1].time <= time:
                 piece += 1
-            rows.append(self.row(self.pieces[piece].flown(self.body, self.gravity, time)))
+            rows.append(self.row(self.pieces[piece].flown(self.body, self.gravity, time, self.along)))
         return rows
 
     def row(self, state):

@@ -25,7 +25,7 @@ class RigidCode:
         self.statement, self.law, self.truth = copy.deepcopy(asked(problem))
         self.problem = problem
         scene, starts = self.statement["scene"], self.statement["starts"]
-        self.body, self.gravity = exact_motion.Body(scene), scene["world"]["gravity"]
+        self.body, (self.along, self.gravity) = exact_motion.Body(scene), exact_motion.pull_of(scene["world"])
         self.mass, self.inertia = self.body.mass, np.diag(self.body.moments)
         self.size = scene["body"]["radius"] if not self.body.points else max(math.hypot(*p) for p in self.body.points)
         # One point for the ends of a planar body's edges, all along y.
@@ -44,7 +44,7 @@ class RigidCode:
         return [np.array(turned(state.attitude, p)) for p in self.points]
 
     def fly(self, state, time):
-        return state.flown(self.body, self.gravity, time)
+        return state.flown(self.body, self.gravity, time, self.along)
 
     def approach(self, state, arm):
         return (np.array(state.velocity) + np.cross(state.omega, arm))[2]
@@ -96,6 +96,11 @@ class RigidCode:
     def stay(self, state):
         """What touches goes on touching: no impact more is followed."""
         self.gone = True
+        if self.statement["stays"] and not self.statement["at_rest"]:
+            approach, slip = max(-state.velocity[2], 0.0), state.velocity[0]
+            stop = self.friction * (1 + self.e) * approach
+            state = struck(state, [0.0 if abs(slip) <= stop else slip - math.copysign(stop, slip), 0.0, 0.0], (0.0, 0.0, 0.0))
+            state.slide_on((self.e * approach, min(self.e, 0.999)), self.friction, (self.along, self.gravity))
         if self.statement["at_rest"]:
             state = struck(state, [*state.velocity[:2], 0.0], state.omega)
             state.rests = True
@@ -116,7 +121,7 @@ class RigidCode:
     def states(self, step):
         """At multiples of the step, until the end."""
         end, now, points, k = self.end(), self.state, [], 0
-        most = 50 if self.statement["at_rest"] else len(self.truth) + 1
+        most = 50 if self.statement["stays"] else len(self.truth) + 1
         while True:
             touch, coming = self.next_touch(now, points, end + 1e-3) if self.count < most else (None, [])
             stop = touch.time if touch is not None else math.inf

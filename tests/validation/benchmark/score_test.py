@@ -17,7 +17,8 @@ from planar_code import Code
 IDS = [line.split()[0] for line in run("benchmark", "list").stdout.splitlines()]
 SIMULATED = "phone-damped"  # has no motion of impulses
 
-SHORT = ("flat", "rod-45", "friction-stick", "friction-slip-stick", "ball-rest", "ball-grip", "rock", "slide")  # truths of few digits
+SHORT = ("flat", "rod-45", "friction-stick", "friction-slip-stick", "ball-rest", "ball-grip", "rock", "slide", "incline-slide",
+         "incline-stick")  # truths of few digits
 
 
 class Folder(unittest.TestCase):

@@ -141,6 +141,34 @@ BOOST_AUTO_TEST_CASE(no_impact_comes_before_the_time_until_which_a_problem_says_
   }
 }
 
+/// Bounce by bounce of the discrete model, then the slide with what gravity gives and friction takes.
+BOOST_AUTO_TEST_CASE(the_discrete_model_confirms_the_energy_at_the_end_of_a_slide_down_a_slope_to_1e_12) {
+  int compared = 0;
+  for (const Problem& problem : benchmark_problems()) {
+    if (!problem.end_energy) continue;
+    const auto drop = std::get<analytic::Drop>(discrete_drop(problem.scene));
+    const analytic::Sequence sequence = impact_sequence(drop, {.impacts = 45});
+    BOOST_TEST_REQUIRE(sequence.tail.has_value());
+    double way = 0, time = 0, along = 0;
+    for (const analytic::ImpactRow& row : sequence.rows) {
+      const double flight = row.start - time;
+      way += flight * (along + drop.gravity_along / 2 * flight);
+      along = row.impact.after.tangential;
+      time = row.start;
+    }
+    const double gain = drop.gravity_along - drop.law.friction_value * drop.gravity;
+    const double slip = sequence.tail->after.tangential, left = *problem.until - sequence.tail->end_time;
+    const double slides = gain < 0 ? std::min(left, -slip / gain) : left;
+    way += slides * (slip + gain / 2 * slides);
+    const double end = slides < left ? 0 : slip + gain * left;
+    const double energy = drop.body.mass * (end * end / 2 + drop.gravity * sequence.rows.front().centre_height -
+                                            drop.gravity_along * way);
+    check_close(problem.id + " energy", std::fabs(energy - *problem.end_energy), sequence.rows.front().energy_before);
+    ++compared;
+  }
+  BOOST_TEST(compared == 2);
+}
+
 BOOST_AUTO_TEST_CASE(the_simulator_confirms_the_truth_of_the_damped_phone_to_1e_12) {
   const Problem& problem = problem_named("test", "phone-damped");
   Scene scene = problem.scene;

@@ -1,0 +1,85 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sloping ground: what its key and flag mean, which commands take it, and what is refused."""
+
+import json
+import math
+import unittest
+
+from run_folder import Folder, records
+
+BOX = ["--body", "box", "--size", "0.3x0.2x0.1", "--angle", "10", "--restitution", "0.6", "--friction", "0.3"]
+SCENE = """[drop]
+angle_deg = 10
+[world]
+incline_deg = 20
+[body]
+shape = "box"
+size = [0.3, 0.2, 0.1]
+[impact]
+restitution = 0.6
+friction = 0.3
+"""
+
+
+class Incline(Folder):
+    def told(self, *arguments):
+        done = self.run_program(*arguments)
+        self.assertIn(done.returncode, (0, 3), done.stderr)
+        return done.stdout
+
+    def json_of(self, *arguments):
+        return json.loads(self.told(*arguments, "--format", "json"))
+
+    def test_gravity_is_turned_so_that_a_positive_slope_pulls_to_the_right(self):
+        for degrees in (20, -20):
+            told = self.json_of("sequence", *BOX, "--incline", str(degrees), "--impacts", "4")
+            self.assertEqual(told["scene"]["world"], {"gravity": 9.81, "incline_deg": degrees})
+            along, down = 9.81 * math.sin(math.radians(degrees)), 9.81 * math.cos(math.radians(degrees))
+            for row, then in zip(told["impacts"], told["impacts"][1:]):
+                flight = then["start"] - row["start"]
+                for axis, pull in ((0, along), (2, -down)):
+                    after = row["velocity_after"][axis] + pull * flight + then["impulse"][axis]  # 1 kg
+                    self.assertAlmostEqual(after, then["velocity_after"][axis], delta=1e-13)
+                self.assertAlmostEqual(row["energy_after"], then["energy_before"], delta=1e-13)
+
+    def test_a_file_has_the_key_and_level_ground_none(self):
+        by_flags = self.json_of("sequence", *BOX, "--incline", "20")
+        self.assertEqual(self.json_of("sequence", self.write("slope.toml", SCENE))["impacts"], by_flags["impacts"])
+        self.assertNotIn("incline_deg", self.json_of("sequence", *BOX)["scene"]["world"])
+        for degrees, side in ((20, "right"), (-20, "left")):
+            self.assertIn(f"slopes 20° down to the {side}", " ".join(self.told("sequence", *BOX, "--incline", str(degrees)).split()))
+
+    def test_the_simulator_tends_to_the_discrete_model_as_the_ground_gets_stiff(self):
+        ground = ["--sliding-friction", "0.3", "--planar", "--impacts", "1"]
+        flags = [flag for flag in BOX if flag not in ("--restitution", "0.6", "--friction", "0.3")]
+        discrete = self.json_of("sequence", *flags, "--friction", "0.3", "--incline", "20", "--impacts", "1")["impacts"][0]
+        errors = []
+        for stiffness in ("1e9", "1e11", "1e13"):
+            found = self.json_of("simulate", *flags, *ground, "--stiffness", stiffness, "--incline", "20")["impacts"][0]
+            errors.append(math.dist(found["velocity_after"], discrete["velocity_after"]))
+        self.assertLess(errors[1], errors[0] / 2)
+        self.assertLess(errors[2], errors[1] / 2)
+
+    def test_a_sweep_and_a_map_over_the_slope_run_the_model_of_each(self):
+        scene = self.write("slope.toml", SCENE)
+        rows = records(self.told("sweep", scene, "--set", "world.incline_deg=-20:20:10", "--model", "discrete", "--format", "csv"))
+        self.assertEqual(len(rows), 5)
+        for row in rows:
+            degrees = row["world.incline_deg"]
+            flags = ("--incline", degrees) if float(degrees) else ("--gravity", "9.81")
+            alone = self.json_of("sequence", self.write("one.toml", SCENE.replace("incline_deg = 20", "gravity = 9.81")), *flags)
+            self.assertEqual(float(row["total_normal_impulse"]), alone["total_normal_impulse"])
+
+    def test_what_a_slope_does_not_go_with_is_one_line(self):
+        for words, *command in (("from -89 to 89 degrees", "sequence", *BOX, "--incline", "95"),
+                                ("world.gravity is 0", "sequence", *BOX, "--incline", "20", "--gravity", "0"),
+                                ("0 or left out with drop.height", "sequence", *BOX, "--incline", "20", "--height", "1"),
+                                ("clatter explain, whose ground is level", "explain", "1", *BOX, "--incline", "20"),
+                                ("whose ground is level", "shock", *BOX, "--incline", "20", "--probe", "c:0,0,0"),
+                                ("clatter plan, whose ground is level", "plan", "--angle", "10", "--incline", "20", "--stiffness", "1e9")):
+            self.refused(words, *command)
+
+
+if __name__ == "__main__":
+    unittest.main()
