@@ -43,7 +43,7 @@ std::optional<Remainder> shrinking_remainder(const double (&terms)[blocks]) {
 }  // namespace
 
 std::optional<Slide> slide(const ImpactLaw& law, const SlidingFace& face) {
-  const auto& [mass, slip, normal, pull] = face;
+  const double mass = face.mass, slip = face.slip, normal = face.normal, pull = face.pull;
   const auto moved_by = [&](double friction) { return Slide{friction, slip + (friction + pull) / mass}; };
   if (law.friction == FrictionKind::none) return moved_by(0);
   if (law.friction == FrictionKind::impulse_ratio) return moved_by(law.friction_value * normal);
