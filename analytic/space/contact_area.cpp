@@ -4,6 +4,7 @@
 #include <array>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace clatter::analytic::space {
@@ -14,10 +15,10 @@ namespace {
 constexpr double near_pole = 3;
 /// Beyond this, rules of six and four points do what ten and eight do nearer.
 constexpr double distant_pole = 16;
-/// Gauss's rule of ten points gives an arc to rounding if this many of its halves fit between its middle and the angle,
-/// complex for a pole off the circle, at which a point lies on the pole.
-constexpr double pieces_away = 3;
-constexpr double shortest_arc = 1e-15;
+/// Sixteen points give a piece of an arc to rounding if its pole, at an angle that is complex for one off the circle,
+/// is so far from its ends together, in lengths of the piece; their error falls with the 32nd power of this and more.
+constexpr double ends_away = 1.8;
+constexpr double longest_piece = std::numbers::pi / 2, shortest_piece = 1e-15;
 /// Four points do on a side shorter than this, seen from a pole that is not near.
 constexpr double short_side = 0.1;
 
@@ -50,9 +51,6 @@ struct PoleIntegrals {
   Matrix2 tensor = Matrix2::Zero();
 
   void add_side(const Vector2& from, const Vector2& to);
-  void add_arc(double from, double to, const Vector2& pole);
-  void add_sector(const Vector2& point, double angle, const Vector2& pole);
-  bool add_disc(const Vector2& pole);
 };
 
 /// ∫ f dA over the triangle of pole and side is d/(k + 2) ∫ f ds for f homogeneous of degree k, d the pole's distance.
@@ -71,44 +69,88 @@ void PoleIntegrals::add_side(const Vector2& from, const Vector2& to) {
   weighted += d / 4 * (d * distance * normal + (r2 * r2 * r2 - r1 * r1 * r1) / 3 * along);
 }
 
-void PoleIntegrals::add_arc(double from, double to, const Vector2& pole) {
-  const double half = (to - from) / 2, middle = from + half;
-  const double off = std::remainder(middle - std::atan2(pole.y(), pole.x()), 2 * std::numbers::pi);
-  if (pieces_away * half > std::hypot(off, std::log(pole.norm())) && half > shortest_arc) {
-    add_arc(from, middle, pole);
-    return add_arc(middle, to, pole);
+/// The same over triangles of the pole and arcs of the unit circle, angles from that of the pole.
+class ArcIntegrals {
+ public:
+  explicit ArcIntegrals(const Vector2& pole)
+      : away_(pole.norm()), off_circle_(std::fabs(std::log(away_))),
+        towards_(away_ > 0 ? Vector2(pole / away_) : Vector2(Vector2::UnitX())) {
+    for (Nodes& sum : sums_) sum.setZero();
   }
-  const auto& rule = unit_rule<10>();
-  const Vector2 centre = on_circle(middle);
-  for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
-    const Vector2 turn = on_circle(half * (2 * rule.nodes[i] - 1));
-    add_sector(turn.x() * centre + turn.y() * quarter_turn(centre), 2 * half * rule.weights[i], pole);
+  void add(double from, double to);
+  void add_circle();
+  void give(PoleIntegrals& about) const;
+
+ private:
+  using Nodes = Eigen::Array<double, 16, 1>;
+  void add_outward(double near, double far, double side);
+  void add_piece(double from, double to);
+
+  double away_, off_circle_;
+  Vector2 towards_;
+  std::array<Nodes, 7> sums_;  ///< along the pole and across: ρ/|ρ|; ρρᵀ/|ρ|; ρ|ρ|
+  double folds_ = 1;           ///< how often the arcs count, for those on both sides of the pole
+};
+
+void ArcIntegrals::add(double from, double to) {
+  constexpr double pi = std::numbers::pi;
+  const double angle = std::atan2(towards_.y(), towards_.x());
+  const double first = std::remainder(from - angle, 2 * pi), last = first + (to - from);
+  for (int i = -1; i * pi < last; ++i) {  // half a turn, from the pole or towards it
+    const double low = std::fmax(first, i * pi), high = std::fmin(last, (i + 1) * pi);
+    if (!(low < high)) continue;
+    if (i % 2 == 0) add_outward(low - i * pi, high - i * pi, 1);
+    else add_outward((i + 1) * pi - high, (i + 1) * pi - low, -1);
   }
 }
 
-/// The triangle of pole and boundary at `point` of the unit circle.
-void PoleIntegrals::add_sector(const Vector2& point, double angle, const Vector2& pole) {
-  const Vector2 rho = point - pole;
-  const double r = rho.norm(), area = angle * rho.dot(point);
-  if (r == 0) return;
-  direction += area / 2 / r * rho;
-  tensor += area / 3 / r * rho * rho.transpose();
-  weighted += area / 4 * r * rho;
+void ArcIntegrals::add_circle() {
+  folds_ = 2;
+  add_outward(0, std::numbers::pi, 1);
 }
 
-/// The whole disc by the trapezoidal rule, whose error is that of the pole's distance, or of its inverse, to the power
-/// of the number of points; false if those would be many.
-bool PoleIntegrals::add_disc(const Vector2& pole) {
-  const double count = 8 + std::ceil(37 / std::fabs(std::log(pole.norm())));
-  if (!(count <= 160)) return false;
-  const double step = 2 * std::numbers::pi / count;
-  const Vector2 turn = on_circle(step);
-  Vector2 point(1, 0);
-  for (int i = 0; i < static_cast<int>(count); ++i) {
-    add_sector(point, step, pole);
-    point = (turn.x() * point + turn.y() * quarter_turn(point)).eval();
+/// In pieces as long as their distance from the pole allows; √(x² + log²|pole|) is that of the angle x.
+void ArcIntegrals::add_outward(double near, double far, double side) {
+  while (near < far) {
+    const double reach = 2 * (near + ends_away * std::hypot(near, off_circle_)) / (ends_away * ends_away - 1);
+    // A pole that is NaN takes long pieces, too.
+    const double length = reach < longest_piece ? std::fmax(reach, shortest_piece) : longest_piece;
+    const double end = length < far - near ? near + length : far;
+    if (side > 0) add_piece(near, end);
+    else add_piece(-end, -near);
+    near = end;
   }
-  return true;
+}
+
+/// In s = tan(θ/2), θ from the middle: points are (1 − s², 2s)/(1 + s²), dθ = 2 ds/(1 + s²).
+void ArcIntegrals::add_piece(double from, double to) {
+  const auto& rule = unit_rule<16>();
+  const Eigen::Map<const Nodes> nodes(rule.nodes.data()), weights(rule.weights.data());
+  const double tangent = std::tan((to - from) / 4);
+  const Vector2 middle = on_circle(from + (to - from) / 2);
+  const Nodes s = tangent * (2 * nodes - 1), part = (1 + s * s).inverse();
+  const Nodes ahead = (1 - s * s) * part, aside = 2 * s * part;
+  const Nodes x = middle.x() * ahead - middle.y() * aside, y = middle.y() * ahead + middle.x() * aside;
+  const Nodes along = x - away_, square = along * along + y * y;
+  constexpr double tiny = std::numeric_limits<double>::min();  // where a point is on the pole
+  const Nodes over = 4 * tangent * weights * part * (1 - away_ * x) / (square + tiny).sqrt();
+  const Nodes first = over * along, second = over * y;
+  sums_[0] += first, sums_[1] += second;
+  sums_[2] += first * along, sums_[3] += first * y, sums_[4] += second * y;
+  sums_[5] += first * square, sums_[6] += second * square;
+}
+
+/// Adds what the arcs are to the integrals.
+void ArcIntegrals::give(PoleIntegrals& about) const {
+  Matrix2 axes, tensor;
+  axes << towards_, quarter_turn(towards_);
+  const auto sum = [&](std::size_t i) { return folds_ * sums_[i].sum(); };
+  const bool both_sides = folds_ > 1;
+  const double mixed = both_sides ? 0 : sum(3);
+  tensor << sum(2), mixed, mixed, sum(4);
+  about.direction += axes * Vector2(sum(0), both_sides ? 0 : sum(1)) / 2;
+  about.tensor += axes * tensor * axes.transpose() / 3;
+  about.weighted += axes * Vector2(sum(5), both_sides ? 0 : sum(6)) / 4;
 }
 
 /// ∫ (δ_x, δ_y, ξ × δ)ᵀ (1, ξ, η) dA of δ = d − u/|u| for |u| = 1 and a pole far away.
@@ -123,8 +165,12 @@ class FarIntegrals {
   }
   void add_arc(double from, double to) {
     const auto& rule = unit_rule<along>();
-    for (unsigned i = 0; i < along; ++i) {
-      add(on_circle(from + rule.nodes[i] * (to - from)), rule.weights[i] * (to - from));
+    const int pieces = static_cast<int>(std::ceil((to - from) / (std::numbers::pi / 4) - 1e-9));
+    const double length = (to - from) / pieces;
+    for (int piece = 0; piece < pieces; ++piece) {
+      for (unsigned i = 0; i < along; ++i) {
+        add(on_circle(from + (piece + rule.nodes[i]) * length), rule.weights[i] * length);
+      }
     }
   }
   Matrix3 sum = Matrix3::Zero();
@@ -181,10 +227,10 @@ PressedArea::PressedArea(const ContactArea& area) : centre_(Vector2::Zero()), un
 
 bool PressedArea::press(const Vector3& pressure) {
   sides_.clear();
-  arcs_.clear();
+  arc_ = {};
   if (corners_.empty()) {
     press_disc(pressure);
-    return sides_.empty() && !arcs_.empty();
+    return sides_.empty() && !arc_.is_empty();
   }
   const auto at = [&](const Vector2& x) { return pressure[0] + pressure.tail<2>().dot(x); };
   bool whole = true;
@@ -208,17 +254,14 @@ bool PressedArea::press(const Vector3& pressure) {
 
 void PressedArea::press_disc(const Vector3& pressure) {
   const double slope = pressure.tail<2>().norm();
-  if (pressure[0] >= slope) return add_arcs(0, 2 * std::numbers::pi);
+  if (pressure[0] >= slope) {
+    arc_ = {0, 2 * std::numbers::pi};
+    return;
+  }
   if (!(pressure[0] > -slope)) return;
   const double middle = std::atan2(pressure[2], pressure[1]), half = std::acos(-pressure[0] / slope);
-  add_arcs(middle - half, middle + half);
+  arc_ = {middle - half, middle + half};
   sides_.push_back({on_circle(middle + half), on_circle(middle - half)});
-}
-
-void PressedArea::add_arcs(double from, double to) {
-  const int count = static_cast<int>(std::ceil((to - from) / (std::numbers::pi / 4) - 1e-9));
-  for (int i = 0; i < count; ++i)
-    arcs_.push_back({from + (to - from) * i / count, from + (to - from) * (i + 1) / count});
 }
 
 Matrix3 PressedArea::moments() const {
@@ -233,7 +276,7 @@ Matrix3 PressedArea::moments() const {
     const double twice = cross(a, b);
     add(twice / 2, twice / 6 * sum, twice / 24 * (sum * sum.transpose() + a * a.transpose() + b * b.transpose()));
   }
-  for (const auto& [from, to] : arcs_) {
+  if (const auto& [from, to] = arc_; !arc_.is_empty()) {
     const Vector2 a = on_circle(from), b = on_circle(to);
     const double turn = to - from, swing = b.x() * b.y() - a.x() * a.y();
     const double mixed = (b.y() * b.y() - a.y() * a.y()) / 8;
@@ -255,7 +298,7 @@ Matrix3 PressedArea::slip_moments(const Vector2& slip, double spin) const {
     result.row(2) = u.y() * m.row(1) - u.x() * m.row(2);
     const auto add = [&](auto far) {
       for (const auto& [from, to] : sides_) far.add_side(from, to);
-      for (const auto& [from, to] : arcs_) far.add_arc(from, to);
+      if (!arc_.is_empty()) far.add_arc(arc_.from, arc_.to);
       return Matrix3(result + far.sum);
     };
     if (spin == 0) return result;
@@ -265,8 +308,11 @@ Matrix3 PressedArea::slip_moments(const Vector2& slip, double spin) const {
   const Vector2 pole = quarter_turn(slip / spin);
   PoleIntegrals about;
   for (const auto& [from, to] : sides_) about.add_side(from - pole, to - pole);
-  if (!sides_.empty() || !about.add_disc(pole)) {
-    for (const auto& [from, to] : arcs_) about.add_arc(from, to, pole);
+  if (!arc_.is_empty()) {
+    ArcIntegrals arcs(pole);
+    if (sides_.empty()) arcs.add_circle();
+    else arcs.add(arc_.from, arc_.to);
+    arcs.give(about);
   }
   // d = ± ẑ × ρ/|ρ|, ξ × d = ± ξ·ρ/|ρ|, (ξ, η) = pole + ρ.
   Matrix2 first = about.direction * pole.transpose() + about.tensor;  // ∫ (ρ/|ρ|) (ξ, η)

@@ -36,7 +36,7 @@ class PressedArea {
 
   /// Keeps what q of c = `pressure` pushes; returns whether that is the whole area.
   bool press(const Vector3& pressure);
-  [[nodiscard]] bool is_empty() const { return sides_.empty() && arcs_.empty(); }
+  [[nodiscard]] bool is_empty() const { return sides_.empty() && arc_.is_empty(); }
 
   /// ∫ g gᵀ dA, g = (1, ξ, η).
   [[nodiscard]] Matrix3 moments() const;
@@ -49,16 +49,16 @@ class PressedArea {
     Vector2 from, to;
   };
   struct Arc {
-    double from, to;  ///< angles of the unit circle, at most an eighth of it [rad]
+    double from = 0, to = 0;  ///< angles of the unit circle [rad]
+    [[nodiscard]] bool is_empty() const { return !(from < to); }
   };
   void press_disc(const Vector3& pressure);
-  void add_arcs(double from, double to);
 
   std::vector<Vector2> corners_;  ///< none: a disc
   Vector2 centre_;
   double unit_;
   std::vector<Side> sides_;
-  std::vector<Arc> arcs_;
+  Arc arc_;
 };
 
 }  // namespace clatter::analytic::space

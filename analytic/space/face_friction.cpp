@@ -57,14 +57,19 @@ class FacePath final : SlipMotion {
   bool end_stage() override { return true; }
   bool sticks();
   [[nodiscard]] bool solve(const Vector2& slip, double spin);
+  void go_on_to(const Vector3& direction);
 
   const SlidingFace& face_;
   FaceTurning turning_;
   const ContactArea& area_;
   PressedArea pushed_;
   double root_mass_, root_inertia_;
-  Vector3 load_;                     ///< y′ without friction
-  Vector3 pressure_;                 ///< a, b, c in the units of pushed_, as they were last
+  Vector3 load_;      ///< y′ without friction
+  Vector3 pressure_;  ///< a, b, c in the units of pushed_, as they were last
+  struct Solution {
+    Vector3 direction = Vector3::Zero(), pressure = Vector3::Zero();
+  };
+  Solution last_, one_before_;       ///< at two directions of slip
   Vector3 force_ = Vector3::Zero();  ///< (F, K) with them
   Matrix3 whole_moments_, rubbing_;
   Eigen::Matrix<double, 2, 3> shift_;  ///< of the pressure point by (F, K)
@@ -73,7 +78,7 @@ class FacePath final : SlipMotion {
 /// Finds a, b, c and with them F, K: linear equations on the area that is pushed, which is that of the solution.
 bool FacePath::solve(const Vector2& slip, double spin) {
   constexpr int most_turns = 40;
-  constexpr double settled = 1e-9;
+  constexpr double settled = 1e-7;  // where the error of Newton's method is its square
   const Vector2& centre = pushed_.centre();
   const Vector3 wanted = (Vector3() << 1, (turning_.point - centre) / pushed_.unit()).finished();
   const Vector2 u = slip + spin * Vector2(-centre.y(), centre.x());
@@ -107,13 +112,24 @@ bool FacePath::solve(const Vector2& slip, double spin) {
   return false;
 }
 
+/// Lets the pressure change as it did between the last two directions of slip, to begin near the solution.
+void FacePath::go_on_to(const Vector3& direction) {
+  const Vector3 way = last_.direction - one_before_.direction;
+  const double part = (direction - last_.direction).dot(way) / way.squaredNorm();
+  if (std::fabs(part) <= 2) pressure_ += part * (last_.pressure - one_before_.pressure);
+}
+
 FacePath::Values FacePath::rate(const Values& y) {
   const Vector2 slip = y.head<2>() / root_mass_;
   const double spin = y[2] / root_inertia_;
+  const Vector3 direction = y.head<3>().normalized();
+  go_on_to(direction);
   if (const bool afresh = pressure_.tail<2>() != Vector2::Zero(); !solve(slip, spin)) {
     pressure_ << 1 / whole_moments_(0, 0), 0, 0;
     if (!afresh || !solve(slip, spin)) return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
   }
+  one_before_ = last_;
+  last_ = {direction, pressure_};
   return load_ + Vector3(force_.x() / root_mass_, force_.y() / root_mass_, force_.z() / root_inertia_);
 }
 
