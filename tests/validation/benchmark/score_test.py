@@ -175,7 +175,8 @@ class Exact(Folder):
     def test_the_simulator_answers_the_compliant_problem_with_a_time_history(self):
         scene = self.put(told("benchmark", "show", SIMULATED)["scene_toml"], "scene.toml")
         history = str(self.folder / "history.csv")
-        done = run("simulate", scene, "--planar", "--digits", "11", "--history", history)
+        # The history ends at lift-off, where the judge reads velocities from the last rows: to 1e-9 or so if they lie close.
+        done = run("simulate", scene, "--planar", "--digits", "10", "--history", history)
         self.assertEqual(done.returncode, 0, done.stderr)
         report = self.score(history, options=("--problem", SIMULATED, "--columns",
                                               "q0=beta0,q1=beta1,q2=beta2,q3=beta3"))
