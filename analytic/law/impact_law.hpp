@@ -28,6 +28,8 @@ struct ImpactLaw {
   double friction_value = 0;         ///< μ_i (any finite value) or Coulomb's μ >= 0
   double damping_per_stiffness = 0;  ///< τ = c_G/k_G >= 0 of the viscoelastic law [s/m]
 
+  /// Coulomb's with μ > 0.
+  [[nodiscard]] bool rubs() const { return friction == FrictionKind::coulomb && friction_value > 0; }
   /// Most that friction can be of the normal force, as a share.
   [[nodiscard]] double most_friction() const;
   /// @throws std::domain_error naming the field, its value and what is allowed.

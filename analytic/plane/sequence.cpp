@@ -38,7 +38,7 @@ void require_representable(const Drop& drop, const Drop& internal) {
 class Run : public SequenceLoop<Sequence, ErrorGrowth> {
  public:
   Run(const Drop& drop, const SequenceOptions& options)
-      : SequenceLoop(options), law_(drop.law), gravity_(drop.gravity), drop_along_(drop.gravity_along),
+      : SequenceLoop(options), law_(drop.law), gravity_(drop.gravity), gravity_along_(drop.gravity_along),
         motion_(drop.body, drop.inclination, drop.velocity, drop.gravity, drop.gravity_along) {
     result_.rows.reserve(static_cast<std::size_t>(std::min(options.impacts, 64)));
     if (options.amplification) growth_.emplace(motion_, drop.inclination.radians);
@@ -159,13 +159,13 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 
   /// Whether the body moves along the ground at the end, or begins to.
   [[nodiscard]] bool slides(const PlanarVelocity& after) const {
-    return after.tangential != 0 || slides_down(law_, gravity_, drop_along_);
+    return after.tangential != 0 || slides_down(law_, gravity_, gravity_along_);
   }
 
   /// Whether a face that has come to rest on sloping ground turns over its lower edge.
   [[nodiscard]] bool tips_over(VertexSet face, const PlanarVelocity& after) const {
-    if (drop_along_ == 0 || after.angular != 0 || std::popcount(face) < 2) return false;
-    const double rubs = law_.most_friction(), slope = drop_along_ / gravity_;
+    if (gravity_along_ == 0 || after.angular != 0 || std::popcount(face) < 2) return false;
+    const double rubs = law_.most_friction(), slope = gravity_along_ / gravity_;
     const double share = after.tangential != 0 ? -std::copysign(rubs, after.tangential)
                                                : -std::copysign(std::fmin(rubs, std::fabs(slope)), slope);
     return !stays_level(motion_, face, share);
@@ -186,10 +186,10 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     end_in_flight(flight.near_miss);
   }
 
-  ImpactLaw law_;
   static constexpr const char* over_the_edge = "it tips over its lower edge";
 
-  double gravity_, drop_along_;
+  ImpactLaw law_;
+  double gravity_, gravity_along_;
   BodyMotion motion_;
   Accumulation accumulation_;
 };

@@ -391,9 +391,8 @@ ContactImpulse ratio_impulse(const Contact& contact, const Law& law, NormalCoupl
 
 ContactImpulse impulse(const Contact& contact, const Law& law, NormalCoupling coupling, ImpulseSlopes* slopes) {
   if (slopes != nullptr) slopes->of_turns = slopes->of_velocity = Matrix3::Constant(none);
-  const bool rubs = law.law.friction == FrictionKind::coulomb && law.law.friction_value > 0;
   const ContactImpulse result =
-      rubs ? coulomb_impulse(contact, law, coupling, slopes) : ratio_impulse(contact, law, coupling, slopes);
+      law.law.rubs() ? coulomb_impulse(contact, law, coupling, slopes) : ratio_impulse(contact, law, coupling, slopes);
   if (!result.impulse.allFinite() || !result.velocity_after.allFinite()) {
     throw NumericalError("the impulse of a corner overflows");
   }

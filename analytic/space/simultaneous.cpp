@@ -120,10 +120,10 @@ bool StrikingGroup::strike(const Points& group) {
 
 /// The edge strikes with its pressure point as a corner, or with friction all along it.
 bool StrikingGroup::strike_edge(const Point& first, const Point& second, const Points& group) {
-  const ImpactLaw& law = struck_.law().law;
-  const bool rubs = law.friction == FrictionKind::coulomb && law.friction_value > 0;
   const EdgeContact edge = struck_.edge_contact(first.place, second.place);
-  if (rubs && !edge.strikes_as_corner()) return struck_.strike_along(first.place, second.place, indices_of(group));
+  if (struck_.law().law.rubs() && !edge.strikes_as_corner()) {
+    return struck_.strike_along(edge, first.place, second.place, indices_of(group));
+  }
   const double point = edge.pressure_point();
   if (!(std::fabs(point) <= 1)) return false;
   StrikingBody struck = struck_;

@@ -67,7 +67,7 @@ std::optional<FaceRebound> StrikingBody::face_rebound(double depth) const {
 std::optional<FaceRebound> StrikingBody::face_rebound(double depth, const ContactArea& area) const {
   auto rebound = face_rebound(depth);
   const ImpactLaw& law = law_.law;
-  if (!rebound || law.friction != FrictionKind::coulomb || !(law.friction_value > 0)) return rebound;
+  if (!rebound || !law.rubs()) return rebound;
   const Vector2 turn = inverse_inertia_.topLeftCorner<2, 2>() * rebound->moment.head<2>();
   const Vector3 below(0, 0, -depth);
   const SlidingFace face{.mass = body_.mass,
@@ -108,8 +108,9 @@ EdgeContact StrikingBody::edge_contact(const Vector3& from, const Vector3& to) c
   return edge;
 }
 
-bool StrikingBody::strike_along(const Vector3& from, const Vector3& to, const std::vector<int>& points) {
-  const auto struck = edge_impulse(edge_contact(from, to), law_.law);
+bool StrikingBody::strike_along(const EdgeContact& edge, const Vector3& from, const Vector3& to,
+                                const std::vector<int>& points) {
+  const auto struck = edge_impulse(edge, law_.law);
   if (!struck) return false;
   const EdgeContact::Vector& f = struck->impulse;
   const Vector3 half = arm(to - from) / 2, along = half.normalized(), up = Vector3::UnitZ(), across = up.cross(along);

@@ -66,8 +66,9 @@ class StrikingBody {
   [[nodiscard]] std::optional<FaceRebound> face_rebound(double depth, const ContactArea& area) const;
   /// The edge between two places at one height, as (1) of edge_friction.hpp has it.
   [[nodiscard]] EdgeContact edge_contact(const Vector3& from, const Vector3& to) const;
-  /// Strikes with that edge, friction all along it; false, and nothing done, if it has no pressure for that.
-  bool strike_along(const Vector3& from, const Vector3& to, const std::vector<int>& points);
+  /// Strikes with that edge, its edge_contact(from, to), friction all along it; false, and nothing done, if it has no
+  /// pressure for that.
+  bool strike_along(const EdgeContact& edge, const Vector3& from, const Vector3& to, const std::vector<int>& points);
   /// Goes on from another that began with the same body, state and law.
   void take(const StrikingBody& other);
   void push(const FaceRebound& face, const std::vector<int>& points);

@@ -92,8 +92,7 @@ bool goes_on_for_ever(const ContactSystem& system, const ContactInstant& at) {
 
 /// At rest, or in a steady motion that no friction will ever stop; nothing where the contact goes on.  A motion is
 /// steady if only sliding along the ground and spinning about the vertical are left, neither with an acceleration but a
-/// slope's: to a
-/// millionth of what a fall into this contact would have, or to `kept_up` [m/s].
+/// slope's: to a millionth of what a fall into this contact would have, or to `kept_up` [m/s].
 std::optional<ContactEnding> ending_on_the_ground(const ContactSystem& system, const ContactInstant& at,
                                                   double kept_up) {
   if (!is_steady(system, at, kept_up)) return std::nullopt;

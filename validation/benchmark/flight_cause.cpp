@@ -140,7 +140,7 @@ std::vector<Cause> flight_causes_of(const Motion& motion, const Reference& refer
   ConstantSpin constant;
   double precession = 0;  // change of the angular velocity that Euler's equations ask for [rad/s]
   const double slow = least_size * reference.speed();
-  const Vector3 pull(reference.gravity_along, 0, -reference.gravity);
+  const Vector3 pull = reference.pull();
   std::vector<Vector3> accelerations;
   const double until = reference.stays() ? motion.first_touch() + reference.sequences.front().truth.back().time : 0;
   for (std::size_t row = 0; row + 1 < motion.size(); row += 1 + motion.size() / looked_at) {

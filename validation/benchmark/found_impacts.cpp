@@ -344,9 +344,7 @@ class Search {
   }
 
   void add_bookings(FoundImpact& impact, const State& start, const State& end) const {
-    const double step = motion_.time(impact.last_row) - motion_.time(impact.first_row);
-    const double fall = reference_.gravity * step;
-    const Vector3 down(-reference_.gravity_along * step, 0, fall);
+    const Vector3 fall = (motion_.time(impact.last_row) - motion_.time(impact.first_row)) * reference_.pull();
     for (const space::Quaternion& pose : {impact.before.attitude, start.attitude, end.attitude}) {
       const auto add = [&](const Vector3& before, const Vector3& after) {
         Booking booking{impact.before, impact.after};
@@ -356,9 +354,9 @@ class Search {
         impact.bookings.push_back(booking);
       };
       add(impact.before.velocity, impact.after.velocity);
-      if (!(fall > 0)) continue;
-      add(start.velocity - down, end.velocity);
-      add(start.velocity, end.velocity + down);
+      if (!(fall.z() < 0)) continue;
+      add(start.velocity + fall, end.velocity);
+      add(start.velocity, end.velocity - fall);
       add(start.velocity, end.velocity);
     }
   }

@@ -102,13 +102,11 @@ double Motion::energy(std::size_t row) const {
     const Vector3 velocity(number(row, 8), number(row, 9), number(row, 10));
     const Vector3 rate(number(row, 11), number(row, 12), number(row, 13));
     return (reference_.body.mass * velocity.squaredNorm() + rate.dot(momenta_[row])) / 2 +
-           reference_.body.mass *
-               (reference_.gravity * number(row, 3) - reference_.gravity_along * (number(row, 1) - origin_));
+           reference_.potential(number(row, 1) - origin_, number(row, 3));
   }
   const double vx = number(row, 4), vz = number(row, 5), omega = number(row, 6);
   return (reference_.body.mass * (vx * vx + vz * vz) + reference_.body.inertia(1, 1) * omega * omega) / 2 +
-         reference_.body.mass *
-             (reference_.gravity * number(row, 2) - reference_.gravity_along * (number(row, 1) - origin_));
+         reference_.potential(number(row, 1) - origin_, number(row, 2));
 }
 
 Vector3 Motion::angular_momentum(std::size_t row) const {
@@ -117,19 +115,19 @@ Vector3 Motion::angular_momentum(std::size_t row) const {
 }
 
 Motion::Jump Motion::jump(std::size_t row) const {
-  const double mass = reference_.body.mass, step = time(row + 1) - time(row);
-  const double fall = reference_.gravity * step, slide = reference_.gravity_along * step;
+  const double mass = reference_.body.mass;
+  const Vector3 fall = (time(row + 1) - time(row)) * reference_.pull();
   if (in_space_ || (lead_ && row == 0)) {
     const auto velocity = [&](std::size_t i) {
       return in_space_ && !lead_ ? Vector3(number(i, 8), number(i, 9), number(i, 10)) : state(i).velocity;
     };
     const Vector3 change = velocity(row + 1) - velocity(row);
     const auto momentum = [&](std::size_t i) { return in_space_ && !lead_ ? momenta_[i] : angular_momentum(i); };
-    return {mass * (change + Vector3(-slide, 0, fall)), momentum(row + 1) - momentum(row)};
+    return {mass * (change - fall), momentum(row + 1) - momentum(row)};
   }
-  return {
-      {mass * (number(row + 1, 4) - number(row, 4) - slide), 0, mass * (number(row + 1, 5) - number(row, 5) + fall)},
-      {0, -reference_.body.inertia(1, 1) * (number(row + 1, 6) - number(row, 6)), 0}};
+  return {{mass * (number(row + 1, 4) - number(row, 4) - fall.x()), 0,
+           mass * (number(row + 1, 5) - number(row, 5) - fall.z())},
+          {0, -reference_.body.inertia(1, 1) * (number(row + 1, 6) - number(row, 6)), 0}};
 }
 
 void Motion::find_first_touch() {

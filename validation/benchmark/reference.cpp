@@ -219,7 +219,7 @@ double Reference::speed() const { return start.velocity.norm() + start.angular_v
 double Reference::energy(const space::State& state) const {
   const Vector3 rate = state.attitude.conjugate() * state.angular_velocity;
   return (body.mass * state.velocity.squaredNorm() + rate.dot(body.inertia * rate)) / 2 +
-         body.mass * (gravity * state.position.z() - gravity_along * state.position.x());
+         potential(state.position.x(), state.position.z());
 }
 
 double Reference::last_energy(const ReferenceSequence& sequence) const {

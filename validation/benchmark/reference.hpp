@@ -53,6 +53,10 @@ struct Reference {
   [[nodiscard]] double reach() const { return body.reach(); }
   /// Whether it stays on the ground after ever smaller bounces, which are not asked for.
   [[nodiscard]] bool stays() const { return at_rest || end_energy; }
+  /// Acceleration of free fall, ground axes [m/s²].
+  [[nodiscard]] analytic::space::Vector3 pull() const { return {gravity_along, 0, -gravity}; }
+  /// Potential energy of the centre of mass at (x, z) [J].
+  [[nodiscard]] double potential(double x, double z) const { return body.mass * (gravity * z - gravity_along * x); }
   /// Speed at the first touch, of translation and of turning [m/s].
   [[nodiscard]] double speed() const;
   /// Translational, rotational and potential energy [J].

@@ -111,6 +111,13 @@ std::string restitution_words(const Scene& scene) {
       shortest(*e));
 }
 
+/// What the results leave out; none is empty.
+std::vector<std::string> remarks_of(const Scene& scene, const Simulation& run) {
+  std::vector<std::string> remarks{restitution_words(scene), local_slip_words(scene, run)};
+  std::erase(remarks, "");
+  return remarks;
+}
+
 std::vector<std::string> notes_of(const Scene& scene, const PlannedRun& planned) {
   const Simulation& run = planned.run;
   std::vector<std::string> notes{trust_words(scene, run)};
@@ -121,9 +128,9 @@ std::vector<std::string> notes_of(const Scene& scene, const PlannedRun& planned)
     notes.push_back(fmt::format("Sum of normal impulses: {} N·s; the ledger of energy closes to {}",
                                 total_words(scene, planned), significant(gap, 1)));
   }
-  for (const std::string& words :
-       {restitution_words(scene), local_slip_words(scene, run), method_words(run), accuracy_words(scene, planned),
-        fmt::format("{}: {}", outcome_name(run.outcome), run.message)}) {
+  for (const std::string& remark : remarks_of(scene, run)) notes.push_back(remark);
+  for (const std::string& words : {method_words(run), accuracy_words(scene, planned),
+                                   fmt::format("{}: {}", outcome_name(run.outcome), run.message)}) {
     notes.push_back(words);
   }
   std::erase(notes, "");
@@ -187,11 +194,7 @@ void add_results(const Scene& scene, const PlannedRun& planned, Value& fields) {
   fields["outcome"] = outcome_name(run.outcome);
   fields["warnings"] = planned.warnings;
   fields["message"] = run.message + "; restitution is null where an impact has several touches";
-  Value::List notes;
-  for (const std::string& words : {restitution_words(scene), local_slip_words(scene, run)}) {
-    if (!words.empty()) notes.emplace_back(words);
-  }
-  fields["notes"] = notes;
+  fields["notes"] = remarks_of(scene, run);
   fields["method"] = method_name(run.method);
   fields["tolerance"] = run.tolerance > 0 ? Value(run.tolerance) : Value();
   fields["step"] = run.step > 0 ? Value(run.step) : Value();

@@ -4,8 +4,13 @@
 
 #include <vector>
 
+#include <Eigen/Geometry>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
 #include "analytic/space/body.hpp"
 #include "analytic/space/impulse_path.hpp"
+#include "analytic/space/simultaneous.hpp"
 
 namespace clatter::oracle {
 
@@ -49,6 +54,25 @@ struct FlatBox {
         {{-l / 2, -w / 2, -h / 2}, {l / 2, -w / 2, -h / 2}, {l / 2, w / 2, -h / 2}, {-l / 2, w / 2, -h / 2}});
   }
 };
+
+/// What a landing lost is what its motion has less than before, `velocity` and `angular_velocity`.
+template <class Landing>
+void check_energy_account(const Body& body, const Landing& before, const analytic::space::GroupImpact& struck) {
+  const auto energy = [&](const Vector3& v, const Vector3& w) {
+    return (body.mass * v.squaredNorm() + w.dot(body.inertia * w)) / 2;
+  };
+  const double at_first = energy(before.velocity, before.angular_velocity);
+  const double at_last = energy(struck.velocity_after, struck.angular_velocity_after);
+  BOOST_TEST(std::fabs(at_first - at_last - struck.energy_loss) <= 1e-13 * at_first);
+}
+
+/// `turned` is the landing of the same motion turned by `angle` about the vertical.
+inline void check_turned(const analytic::space::GroupImpact& whole, const analytic::space::GroupImpact& turned,
+                         double angle, double tolerance) {
+  const Eigen::Quaterniond back(Eigen::AngleAxisd(-angle, Vector3::UnitZ()));
+  BOOST_TEST((back * turned.velocity_after - whole.velocity_after).norm() <= tolerance);
+  BOOST_TEST((back * turned.angular_velocity_after - whole.angular_velocity_after).norm() <= 20 * tolerance);
+}
 
 inline double normal_velocity(const Vector3& v, const Vector3& spin, const Vector3& arm) {
   return (v + spin.cross(arm)).z();
