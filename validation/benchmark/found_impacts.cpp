@@ -260,7 +260,8 @@ class Search {
     for (std::size_t row = 0; row + 1 < motion_.size(); ++row) {
       const Motion::Jump jump = motion_.jump(row);
       const double least = least_jump(motion_.time(row + 1) - motion_.time(row));
-      if (!(jump.impulse.norm() > least || jump.moment.norm() > least * reference_.reach())) {
+      const bool jumps = jump.impulse.norm() > least || jump.moment.norm() > least * reference_.reach();
+      if (!jumps && !lasts(row)) {
         if (contacts_.size() >= search_.most && contacts_.back().last_row + 1 < row) break;
         continue;
       }
@@ -275,6 +276,16 @@ class Search {
     // A compliant contact begins and ends with forces as small as may be.
     const double share = reference_.is_compliant ? 0 : std::fmin(1, step / search_.spread_time);
     return std::fmax(search_.least_impulse * share, search_.rounding);
+  }
+
+  /// Whether the last contact goes on in this row: it ends with forces as small as may be, in the ground.
+  [[nodiscard]] bool lasts(std::size_t row) const {
+    if (!reference_.is_compliant || contacts_.empty() || contacts_.back().last_row != row) return false;
+    const State state = motion_.state(row);
+    const std::vector<Vector3> arms = reference_.arms(state.attitude);
+    const std::vector<int>& points = contacts_.back().points;
+    return std::any_of(points.begin(), points.end(),
+                       [&](int point) { return state.position.z() + arms[static_cast<std::size_t>(point)].z() < 0; });
   }
 
   void add(std::size_t row, const StepImpulse& impulse) {
