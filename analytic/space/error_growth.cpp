@@ -323,39 +323,14 @@ void ErrorGrowth::append_rounding(const ImpactRow& row) {
 
 // Growth of errors along a flight, up to the touch that ends it.
 
-ErrorGrowth::Jacobian ErrorGrowth::flight_jacobian(const FreeFlight& flight, double time) const {
-  const auto [of_attitude, of_velocity] = rotation_derivatives(flight, body_.inertia, time);
-  // A turn of attitude and ω together turns the whole motion.
-  const Matrix3 turn = cross_matrix(flight.start().angular_velocity);
-  const Vector3 velocity = flight.at(time).angular_velocity;
-  Jacobian j = Jacobian::Identity();
-  j.block<3, 3>(1, 1) = Matrix3::Identity() + of_attitude * turn;
-  j.block<3, 3>(1, 7) = of_attitude;
-  j.block<3, 3>(7, 1) = -cross_matrix(velocity) + of_velocity * turn;
-  j.block<3, 3>(7, 7) = of_velocity;
-  return j;
-}
-
 void ErrorGrowth::fly(const FreeFlight& flight, const FirstContact& contact, const Vector3& from_place,
                       const Vector3& to_place) {
   if (!predictable_) return;
   if (!(contact.time > 0)) return strike_again(flight.start(), contact, {.index = contact.point, .place = to_place});
   const double t = contact.time;
   const State now = flight.at(t);
-  Jacobian j = flight_jacobian(flight, t);
-  const Vector3 from = flight.start().attitude * from_place, to = now.attitude * to_place;
-  Eigen::Matrix<double, 1, size> height = -cross_matrix(to).row(2) * j.middleRows(1, 3);
-  height.segment<3>(1) += cross_matrix(from).row(2);
-  height[6] += t;
-  const Gradient shift = -height / contact.normal_velocity;
+  const auto [j, shift] = arrival_derivatives(body_, flight, contact, from_place, to_place);
   const double late = bound(shift.lazyProduct(factor_)) + contact.time_error;  // beside the departure
-  const Vector3 body_velocity = now.attitude.conjugate() * now.angular_velocity;
-  const Vector3 acceleration = now.attitude * (inverse_inertia_ * (body_.inertia * body_velocity).cross(body_velocity));
-  j.row(0) += shift;
-  j.middleRows(1, 3) += now.angular_velocity * shift;
-  j.row(4) += gravity_along_ * shift;
-  j.row(6) -= gravity_ * shift;
-  j.bottomRows(3) += acceleration * shift;
   factor_ = j.lazyProduct(factor_).eval();
   of_drop_ = j.lazyProduct(of_drop_).eval();
   const double size_of_height = body_.reach() + t * (flight.start().velocity.norm() + gravity_ * t);
@@ -372,7 +347,7 @@ void ErrorGrowth::fly(const FreeFlight& flight, const FirstContact& contact, con
       !(bound(factor_.middleRows<3>(1)) <= first_order) || contact.within_margin) {
     predictable_ = false;
   }
-  if (predictable_) check_others(flight, contact, now.attitude, to);
+  if (predictable_) check_others(flight, contact, now.attitude, now.attitude * to_place);
 }
 
 /// A corner on the ground that the last impact has driven into it strikes, too, in neighbours as well.

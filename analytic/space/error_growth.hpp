@@ -16,14 +16,11 @@ namespace clatter::analytic::space {
 /// error, everything in the world frame; the height of the centre of mass follows from the touch.
 ///
 /// Impact: strike_derivatives.hpp; where that has none, central differences, of a corner's P in its velocity and in δθ,
-/// each on its own scale, of a group's impact in δθ, V and ω.  Flight, at a fixed time: flight_derivatives.hpp; then
-/// the touch at h = 0 shifts the time by
-///     δt = −δh/h′,   δh = −(δθ₀ × r₀)_z + t δV_z + (δθ₁ × r₁)_z,                                       (1)
-/// r₀, r₁ from the centre of mass to the corner that departed and the one that arrives.
+/// each on its own scale, of a group's impact in δθ, V and ω.  Flight: flight_derivatives.hpp.
 /// A corner's normal velocity after an impact and after a small hop is carried beside V and ω to relative accuracy:
 /// rounding of those leaves it as it is.
 /// Independent errors are columns of a factor F of the covariance F Fᵀ; bounds are three standard deviations.
-/// Domain: errors so small that (1) is linear; beyond, nothing is predictable any more, nor is a row whose corner
+/// Domain: errors so small that all this is linear; beyond, nothing is predictable any more, nor is a row whose corner
 /// another one precedes within the errors, nor what follows corners that arrive together (their order, which rounding
 /// decides, matters), unless the body does not turn.
 class ErrorGrowth {
@@ -57,7 +54,6 @@ class ErrorGrowth {
  private:
   static constexpr int size = 10, most_columns = 4 * size;
   using Factor = Eigen::Matrix<double, size, Eigen::Dynamic, Eigen::ColMajor, size, most_columns>;
-  using Jacobian = Eigen::Matrix<double, size, size>;
   using Deviations = Eigen::Matrix<double, size, 1>;
   using Gradient = Eigen::Matrix<double, 1, size>;
 
@@ -82,7 +78,6 @@ class ErrorGrowth {
   [[nodiscard]] EnergyGradients energy_gradients(const ImpactRow& row, const Matrix3& inertia) const;
   void fill(const Struck& struck, ImpactRow& row) const;
   void append_rounding(const ImpactRow& row);  ///< of the impact
-  [[nodiscard]] Jacobian flight_jacobian(const FreeFlight& flight, double time) const;
   void check_others(const FreeFlight& flight, const FirstContact& contact, const Quaternion& attitude,
                     const Vector3& touching);
   void strike_again(const State& now, const FirstContact& contact, const Corner& corner);

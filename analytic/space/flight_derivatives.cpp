@@ -102,4 +102,31 @@ RotationDerivatives rotation_derivatives(const FreeFlight& flight, const Matrix3
   return d;
 }
 
+ArrivalDerivatives arrival_derivatives(const Body& body, const FreeFlight& flight, const FirstContact& contact,
+                                       const Vector3& from, const Vector3& to) {
+  const double t = contact.time;
+  const State now = flight.at(t);
+  const auto [of_attitude, of_velocity] = rotation_derivatives(flight, body.inertia, t);
+  const Matrix3 turn = cross_matrix(flight.start().angular_velocity);
+  ArrivalDerivatives d{.of_state = Eigen::Matrix<double, 10, 10>::Identity(), .of_time = {}};
+  auto& j = d.of_state;
+  // A turn of attitude and ω together turns the whole motion.
+  j.block<3, 3>(1, 1) += of_attitude * turn;
+  j.block<3, 3>(1, 7) = of_attitude;
+  j.block<3, 3>(7, 1) = -cross_matrix(now.angular_velocity) + of_velocity * turn;
+  j.block<3, 3>(7, 7) = of_velocity;
+  d.of_time = -cross_matrix(now.attitude * to).row(2) * j.middleRows(1, 3);
+  d.of_time.segment<3>(1) += cross_matrix(flight.start().attitude * from).row(2);
+  d.of_time[6] += t;
+  d.of_time /= -contact.normal_velocity;
+  const Vector3 spin = now.attitude.conjugate() * now.angular_velocity;
+  const Vector3 acceleration = now.attitude * (body.inertia.inverse() * (body.inertia * spin).cross(spin));
+  j.row(0) += d.of_time;
+  j.middleRows(1, 3) += now.angular_velocity * d.of_time;
+  j.row(4) += flight.gravity_along() * d.of_time;
+  j.row(6) -= flight.gravity() * d.of_time;
+  j.bottomRows(3) += acceleration * d.of_time;
+  return d;
+}
+
 }  // namespace clatter::analytic::space

@@ -9,6 +9,8 @@
 //     δθ(t) = (1 − H) κ + t ω(t) m·δL/|L|.                                                           (2)
 #pragma once
 
+#include "analytic/space/body.hpp"
+#include "analytic/space/first_contact.hpp"
 #include "analytic/space/free_flight.hpp"
 
 namespace clatter::analytic::space {
@@ -33,5 +35,19 @@ struct RotationDerivatives {
 };
 /// (2) and (1).  Accuracy: 1e-10 of the largest element of each.
 [[nodiscard]] RotationDerivatives rotation_derivatives(const FreeFlight& flight, const Matrix3& inertia, double time);
+
+/// Changes of the state at the touch that ends a flight, and of the flight's time, for changes of the state at its
+/// start: (t, δθ, δV, δω), world frame.
+struct ArrivalDerivatives {
+  Eigen::Matrix<double, 10, 10> of_state;
+  Eigen::Matrix<double, 1, 10> of_time;
+};
+/// By rotation_derivatives() at a fixed time; the touch at h = 0 then shifts the time by
+///     δt = −δh/h′,   δh = −(δθ₀ × r₀)_z + t δV_z + (δθ₁ × r₁)_z,                                        (5)
+/// r₀, r₁ from the centre of mass to the point that departed, at height 0, and to the one that arrives.
+/// @param from, to  these points, body frame
+[[nodiscard]] ArrivalDerivatives arrival_derivatives(const Body& body, const FreeFlight& flight,
+                                                     const FirstContact& contact, const Vector3& from,
+                                                     const Vector3& to);
 
 }  // namespace clatter::analytic::space

@@ -19,7 +19,7 @@ from collections.abc import Iterable, Mapping
 from typing import Literal
 
 from clatter.arguments import Path, Progress, Scene, Swept
-from clatter.findings import Explanation, Plan, Rows, Scored, Tradeoff
+from clatter.findings import Explanation, Gradient, Plan, Rows, Scored, Tradeoff
 from clatter.results import Comparison, ComparisonSweep, Sequence, Simulation, Sweep
 
 '''

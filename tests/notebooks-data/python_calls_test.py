@@ -29,7 +29,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from waiting import until_it_computes  # noqa: E402
 
 ROOT = Path(os.environ["CLATTER_ROOT"])
-SCENE_CALLS = ("sequence", "explain", "simulate", "compare", "compare_against", "plan", "tradeoff")
+SCENE_CALLS = ("sequence", "explain", "gradient", "simulate", "compare", "compare_against", "plan", "tradeoff")
 
 
 class Series:
@@ -101,7 +101,7 @@ def all_results():
     scene["drop"].pop("angle_deg")
     return {
         "Sequence": clatter.sequence(0, gravity=9.81, restitution=0.5), "in space": clatter.sequence("phone-corner"),
-        "Explanation": clatter.explain(1, 10), "Simulation": clatter.simulate("phone-damped", impacts=1),
+        "Explanation": clatter.explain(1, 10), "Gradient": clatter.gradient("phone-corner"), "Simulation": clatter.simulate("phone-damped", impacts=1),
         "with a history": clatter.simulate("phone-damped", impacts=1, history=True), "Sweep": clatter.simulate(scene, impacts=1),
         "Comparison": clatter.compare("rod-45", impacts=1), "ComparisonSweep": clatter.compare(scene, impacts=1),
         "Rows": clatter.sweep("rod-10", {"drop.angle_deg": [5, 10]}, model="discrete"), "regimes": clatter.regimes(),

@@ -125,6 +125,12 @@ class TheSameBits(unittest.TestCase):
         words = ["--" + name + "=" + ("x".join(map(repr, map(float, value))) if isinstance(value, tuple) else value)
                  for name, value in drop.items()]
         self.assertEqual(clatter.sequence(**drop).to_dict(), json.loads(printed("sequence", *words, "--format", "json")))
+        derived = clatter.gradient(**drop)
+        for form in ("table", "csv", "json"):
+            self.assertEqual(derived.to_text(form), printed("gradient", *words, "--format", form))
+        self.assertEqual([row.n for row in derived.of("speed")], sorted({row.n for row in derived}))
+        with self.assertWarnsRegex(clatter.ClatterWarning, "angle: none: the body lands flat"):
+            self.assertEqual(clatter.gradient(0, gravity=9.81, impacts=1).refused[0].parameter, "angle")
         explained = clatter.explain(1, **drop)
         for form in ("table", "csv", "json", "markdown", "latex"):
             self.assertEqual(explained.to_text(form), printed("explain", "1", *words, "--format", form))

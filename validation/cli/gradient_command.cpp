@@ -36,8 +36,9 @@ Command gradient_command() {
   add_output_options(command, input->output);
   command.footer =
       "Example: clatter gradient --angle 10 --gravity 9.81 --restitution 0.8 --impacts 3\n"
-      "With respect to the angle (per radian), the speed or height, restitution and friction. None at\n"
-      "a fold, where an impact grazes, and where drops on both sides have other impacts: exit status 3.";
+      "With respect to the angle and in space the tilt (per radian), the speed or height, restitution and\n"
+      "friction. None at a fold, where an impact grazes, and where drops on both sides have other impacts:\n"
+      "exit status 3.";
   command.run = [input] { return run_gradient(*input); };
   return command;
 }

@@ -234,15 +234,16 @@ std::vector<Column> angles_all() {
   request.as_printed = true;
   return angles_frame(request).grid.columns;
 }
-/// In the plane, and what comes to them in space.
-std::vector<Column> sequence_all() {
-  std::vector<Column> all = sequence_columns();
-  for (const Column& column : impact_columns(RunModel::space, {})) {
+/// Columns in the plane, and what comes to them in space.
+std::vector<Column> with_more(std::vector<Column> all, const std::vector<Column>& in_space) {
+  for (const Column& column : in_space) {
     const auto is_it = [&](const Column& other) { return other.name == column.name; };
     if (std::none_of(all.begin(), all.end(), is_it)) all.push_back(column);
   }
   return all;
 }
+std::vector<Column> sequence_all() { return with_more(sequence_columns(), impact_columns(RunModel::space, {})); }
+std::vector<Column> gradient_all() { return with_more(gradient_columns(false), gradient_columns(true)); }
 std::vector<Column> sweep_all() { return sweep_columns({.model = Model::continuous}); }
 
 const std::vector<ColumnsOf>& all_columns() {
@@ -252,7 +253,7 @@ const std::vector<ColumnsOf>& all_columns() {
                                           {"atlas", atlas_space_columns},
                                           {"atlas-plane", atlas_plane_columns},
                                           {"explain", explain_columns},
-                                          {"gradient", gradient_columns},
+                                          {"gradient", gradient_all},
                                           {"simulate", simulation_columns},
                                           {"history", history_columns},
                                           {"compare", comparison_columns},

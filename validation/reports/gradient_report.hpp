@@ -10,7 +10,7 @@
 
 namespace clatter::validation::inline reports {
 
-[[nodiscard]] std::vector<Column> gradient_columns();
+[[nodiscard]] std::vector<Column> gradient_columns(bool in_space);
 
 /// A report, and why it lacks derivatives that were asked for.
 struct GradientReport {
@@ -19,8 +19,8 @@ struct GradientReport {
 };
 
 /// A row for each impact and each number of the drop.  Of a drop from a height or clearance that takes the speed's
-/// place, and the angle's derivatives are those at a fixed height.
-/// @throws OutsideModelError for a drop in space; as analytic::sequence_gradient
+/// place, and the derivatives of turns are those at a fixed height.
+/// @throws as analytic::sequence_gradient
 [[nodiscard]] GradientReport gradient_report(const PreparedScene& prepared);
 
 }  // namespace clatter::validation::inline reports

@@ -16,6 +16,7 @@
 #include "validation/plan/sequence_method.hpp"
 #include "validation/reports/angles_report.hpp"
 #include "validation/reports/explanation_report.hpp"
+#include "validation/reports/gradient_report.hpp"
 #include "validation/reports/regimes_report.hpp"
 #include "validation/reports/sequence_report.hpp"
 #include "validation/scene/discrete_scene.hpp"
@@ -52,6 +53,14 @@ py::tuple explain(int impact, const std::string& name, const std::optional<std::
   return py::make_tuple(Report{[found] { return validation::explanation_report(*found); },
                                [found](const validation::TextStyle& style) { return explanation_text(*found, style); }},
                         found->warnings);
+}
+
+/// (report, what it lacks)
+py::tuple gradient(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes) {
+  const auto made = run_interruptible([source = SceneSource{name, text, changes}](const Watch&) {
+    return validation::gradient_report(read_discrete(source));
+  });
+  return py::make_tuple(kept(made.report), made.shortfall);
 }
 
 Report regimes(const NamedTexts& options) {
@@ -168,6 +177,8 @@ void add_discrete_functions(py::module_& module) {
              "Impact sequence of a drop, in the plane or in space.");
   module.def("explain", &explain, py::arg("impact"), py::arg("name"), py::arg("text"), py::arg("changes"),
              "How an impact came about.");
+  module.def("gradient", &gradient, py::arg("name"), py::arg("text"), py::arg("changes"),
+             "Derivatives of the state after each impact.");
   module.def("regimes", &regimes, py::arg("options"), "Number of impacts of the thin rod, and its fold angles.");
   module.def("angles", &angles, py::arg("theta"), py::arg("options"), py::arg("progress"),
              "Contact angles of the thin rod.");

@@ -5,6 +5,7 @@
 >>> clatter.sequence(angle=10)                      # discrete model: the impact-sequence table
 >>> clatter.explain(2, angle=10)                    # how impact 2 came about, equation by equation
 >>> clatter.sequence("phone-corner")                # any scene, in the plane or in space
+>>> clatter.gradient(angle=10)                      # how each impact changes with the drop
 >>> clatter.angles(step=5)                          # contact angles and impulses of the thin rod
 >>> clatter.simulate("phone-damped", history=True)  # continuous model of a scene
 >>> clatter.compare("rod-45")                       # both models, impact by impact
@@ -21,21 +22,21 @@ long call with KeyboardInterrupt; progress=print shows how far it is.  Other Pyt
 
 from clatter import _clatter
 from clatter.angles import Angles, angles, regimes
-from clatter.calls import compare, compare_against, explain, plan, sequence, simulate, sweep, tradeoff
+from clatter.calls import compare, compare_against, explain, gradient, plan, sequence, simulate, sweep, tradeoff
 from clatter.errors import BadArgument, BadInput, ClatterWarning, Error, NotComputed, OutsideModel
 from clatter.evidence import (benchmark_list, benchmark_score, benchmark_show, benchmark_truth, extremes, figure, measured_fit,
                               measured_predict, measured_score, verify)
-from clatter.findings import Explanation, Measured, Plan, Problem, Rows, Scored, Table, Tradeoff
+from clatter.findings import Explanation, Gradient, Measured, Plan, Problem, Rows, Scored, Table, Tradeoff
 from clatter.records import History, Impact, Record
 from clatter.results import Comparison, ComparisonSweep, Result, Run, Sequence, Simulation, Sweep, Verification
 from clatter.scenes import case, cases
 
 __version__ = _clatter.version
 __all__ = [
-    "Angles", "BadArgument", "BadInput", "ClatterWarning", "Comparison", "ComparisonSweep", "Error", "Explanation", "History",
-    "Impact", "Measured", "NotComputed", "OutsideModel", "Plan", "Problem", "Record", "Result", "Rows", "Run",
+    "Angles", "BadArgument", "BadInput", "ClatterWarning", "Comparison", "ComparisonSweep", "Error", "Explanation", "Gradient",
+    "History", "Impact", "Measured", "NotComputed", "OutsideModel", "Plan", "Problem", "Record", "Result", "Rows", "Run",
     "Scored", "Sequence", "Simulation", "Sweep", "Table", "Tradeoff", "Verification", "angles", "benchmark_list",
     "benchmark_score", "benchmark_show", "benchmark_truth", "case", "cases", "compare", "compare_against", "explain",
-    "extremes", "figure", "measured_fit", "measured_predict", "measured_score", "plan", "regimes", "sequence",
+    "extremes", "figure", "gradient", "measured_fit", "measured_predict", "measured_score", "plan", "regimes", "sequence",
     "simulate", "sweep", "tradeoff", "verify",
 ]

@@ -11,7 +11,7 @@ from clatter.arguments import AnyKey, DiscreteKey, Path, Progress, Scene, Swept,
 from clatter.arrays import numpy_for
 from clatter.errors import ClatterWarning, NotComputed
 from clatter.evidence import listed
-from clatter.findings import Explanation, Plan, Rows, Scored, Tradeoff
+from clatter.findings import Explanation, Gradient, Plan, Rows, Scored, Tradeoff
 from clatter.records import History
 from clatter.results import Comparison, ComparisonSweep, Run, Sequence, Simulation, Sweep
 from clatter.scenes import called, scene_text
@@ -70,6 +70,22 @@ def explain(impact: int, scene: Scene | float | None = None, **changes: Discrete
     if result.to_dict()["shortfall"] is not None:
         raise NotComputed(str(result.to_dict()["shortfall"]))
     return result
+
+
+@checked
+def gradient(scene: Scene | float | None = None, **changes: DiscreteKey) -> Gradient:
+    """Derivatives of the state after each impact of the discrete model: with respect to the angle (in radians), in space
+    the tilt, the speed or height, the restitution and the friction; not those of a program's time steps.
+
+    scene and keys as for sequence().  Warns where a number of the drop has none, as at a fold.
+    Raises BadInput, OutsideModel, NotComputed.
+
+    >>> clatter.gradient(angle=10).of("speed")[0].velocity_after_z
+    -0.48562167860692465
+    """
+    report, shortfall = called(_clatter.gradient, *scene_text(scene, changes))
+    _warn([shortfall] if shortfall else [])
+    return Gradient(report)
 
 
 @checked

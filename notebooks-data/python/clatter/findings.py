@@ -107,6 +107,20 @@ class Table(Result):
         return self.column(index) if isinstance(index, str) else self.rows[index]
 
 
+class Gradient(Table):
+    """Derivatives of the state after each impact: a row for each impact and each number of the drop, `parameter`, that has
+    them.  Errors are in the column error_estimate."""
+
+    @property
+    def refused(self) -> list[Record]:
+        """Numbers of the drop that have no derivative: parameter, from_impact, reason."""
+        return [Record(one) for one in self._data["refused"]]
+
+    def of(self, parameter: str) -> list[Record]:
+        """The rows of one number of the drop, one for each impact: gradient.of("angle")[0].velocity_after_z."""
+        return [row for row in self.rows if row["parameter"] == parameter]
+
+
 class Measured(Table):
     """What tracked drops say of impact laws."""
 
