@@ -13,7 +13,6 @@
 #include "analytic/space/simultaneous.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation::inline benchmark {
 namespace {
@@ -312,9 +311,9 @@ Reference reference_of(const Problem& problem) {
                       .tolerances = problem.tolerances,
                       .until = problem.until,
                       .sequences = {}};
-  const DiscreteDrop drop = discrete_drop(problem.scene);
-  if (const auto* planar = std::get_if<analytic::Drop>(&drop)) set_planar(reference, *planar);
-  else set_space(reference, problem.scene, std::get<space::Drop>(drop));
+  reference.drop = discrete_drop(problem.scene);
+  if (const auto* planar = std::get_if<analytic::Drop>(&reference.drop)) set_planar(reference, *planar);
+  else set_space(reference, problem.scene, std::get<space::Drop>(reference.drop));
   touch_down(reference);
   for (const std::string& law : truth_laws(problem)) {
     ReferenceSequence sequence{
@@ -334,13 +333,13 @@ Reference reference_of(const Scene& scene) {
                       .sequences = {}};
   const int impacts = scene.request.impacts;
   ReferenceSequence sequence;
-  const DiscreteDrop chosen = discrete_drop(scene);
-  if (const auto* drop = std::get_if<analytic::Drop>(&chosen)) {
+  reference.drop = discrete_drop(scene);
+  if (const auto* drop = std::get_if<analytic::Drop>(&reference.drop)) {
     set_planar(reference, *drop);
     touch_down(reference);
     sequence = {.law = {.name = "any", .law = {.law = drop->law}}, .truth = planar_truth(*drop, impacts), .after = {}};
   } else {
-    const space::Drop& in_space = std::get<space::Drop>(chosen);
+    const space::Drop& in_space = std::get<space::Drop>(reference.drop);
     set_space(reference, scene, in_space);
     touch_down(reference);
     sequence = {

@@ -11,6 +11,7 @@
 #include "analytic/space/free_flight.hpp"
 #include "analytic/space/impact.hpp"
 #include "validation/benchmark/problem.hpp"
+#include "validation/scene/discrete_scene.hpp"
 
 namespace clatter::validation::inline benchmark {
 
@@ -38,6 +39,7 @@ struct Reference {
   bool is_compliant = false;
   bool energy_alone = false, at_rest = false;  ///< as Problem's
   std::optional<double> end_energy{};
+  DiscreteDrop drop{};  ///< as the discrete model has it
   analytic::space::Body body;
   /// Of the body.
   analytic::space::PrincipalAxes principal{analytic::space::Matrix3::Identity()};

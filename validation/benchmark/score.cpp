@@ -343,7 +343,9 @@ const char* verdict_name(Verdict verdict) { return verdict_names()[static_cast<s
 
 double Score::motion_error() const { return worse(velocity_error, worse(angular_error, time_error)); }
 
-double Score::error() const {
+double Score::error() const { return worse(impacts_error(), gradient_error); }
+
+double Score::impacts_error() const {
   if (!order_is_right) return unknown;
   return worse(worse(worse(law_error, impulse_error), motion_error()),
                worse(energy_error, worse(flight_error, start_error)));

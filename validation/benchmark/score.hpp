@@ -57,12 +57,15 @@ struct Score {
   bool order_is_right = false;
   double law_error = 0, velocity_error = 0, angular_error = 0, time_error = 0, impulse_error = 0, energy_error = 0,
          flight_error = 0, start_error = 0;
+  double gradient_error = 0;                    ///< of derivatives that a list gives (gradient_score.hpp)
   std::optional<std::size_t> drift{}, stray{};  ///< after how many impacts energy or flight is worst
   std::string left_out{};               ///< what the problem asks for and the answer does not say; empty: nothing
   std::vector<std::string> findings{};  ///< what is wrong, in words, the first first
 
   /// V, Ω and t.
   [[nodiscard]] double motion_error() const;
+  /// The largest of all but that of derivatives.
+  [[nodiscard]] double impacts_error() const;
   /// The largest of all.
   [[nodiscard]] double error() const;
 };

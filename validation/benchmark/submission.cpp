@@ -9,6 +9,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "validation/benchmark/gradient_score.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/tables/numeric_table.hpp"
@@ -20,6 +21,7 @@ namespace {
 struct ReadFile {
   NumericTable table;
   bool is_list;
+  std::vector<std::string> gradients;  ///< columns of derivatives, of a list
 };
 
 ReadFile read_file(const std::string& path, const ColumnNames& names) {
@@ -29,9 +31,14 @@ ReadFile read_file(const std::string& path, const ColumnNames& names) {
     return names.contains(name) || std::find(header.begin(), header.end(), name) != header.end();
   };
   const bool is_list = has("place");
-  const TableRequest request =
-      is_list ? impact_list_request(has("Px"), names) : Motion::request(Motion::is_in_space(header, names), names);
-  return {NumericTable::parse(path, std::move(text), request), is_list};
+  if (!is_list) {
+    const TableRequest request = Motion::request(Motion::is_in_space(header, names), names);
+    return {NumericTable::parse(path, std::move(text), request), is_list, {}};
+  }
+  TableRequest request = impact_list_request(has("Px"), names);
+  std::vector<std::string> gradients = gradient_columns_of(header, has("Px"));
+  request.words.insert(request.words.end(), gradients.begin(), gradients.end());
+  return {NumericTable::parse(path, std::move(text), request), is_list, std::move(gradients)};
 }
 
 std::string place_of(const NumericTable& table, const std::string& key) {
@@ -105,7 +112,8 @@ Score judge_list(const Answer& answer, const SubmissionHead& head, const Referen
 }
 
 Submission judge(const ReadFile& file, const SubmissionHead& head, const Reference& reference) {
-  Submission submission{.path = file.table.path(), .head = head, .is_list = file.is_list};
+  Submission submission{
+      .path = file.table.path(), .head = head, .is_list = file.is_list, .gradients = !file.gradients.empty()};
   const std::string other = "counter-clockwise";
   const Answer answer{
       .table = file.table,
@@ -114,8 +122,9 @@ Submission judge(const ReadFile& file, const SubmissionHead& head, const Referen
       .ending = ending_of(file.table)};
   submission.score = file.is_list ? judge_list(answer, head, reference)
                                   : score_motion(Motion(file.table, reference), reference, head.law, answer.ending);
+  score_gradients(answer, file.gradients, reference, submission.score);
   submission.verdict = verdict_of(submission.score, reference.tolerances);
-  if (!(submission.score.error() <= reference.tolerances[1])) {
+  if (!(submission.score.impacts_error() <= reference.tolerances[1])) {
     submission.causes = causes_of(answer, reference, submission.score);
   }
   return submission;

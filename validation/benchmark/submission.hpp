@@ -23,7 +23,8 @@ struct Submission {
   std::string path;
   SubmissionHead head;
   int problem_version = 0;
-  bool is_list = false;  ///< of impacts, not a motion
+  bool is_list = false;    ///< of impacts, not a motion
+  bool gradients = false;  ///< with derivatives
   Score score{};
   Verdict verdict = Verdict::fails;
   std::vector<Cause> causes{};  ///< what explains a run that is not sharp

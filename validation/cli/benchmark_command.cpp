@@ -119,7 +119,9 @@ Command benchmark_command() {
       "counter-clockwise), in space t,x,y,z,q0,q1,q2,q3,vx,vy,vz,wx,wy,wz, or impacts\n"
       "t,place,Pn,Pt,V,Omega (V and Omega after each, as clatter benchmark truth has them), after lines\n"
       "# problem: ID, and as they apply # engine:, # version:, # step:, # settings:, # law:,\n"
-      "# Omega: clockwise|counter-clockwise (of lists), # ended: nothing approaches, # energy: J.";
+      "# Omega: clockwise|counter-clockwise (of lists), # ended: nothing approaches, # energy: J.\n"
+      "A list may have derivatives, too: dV/dangle, dt/drestitution and the like, per radian, of the angle,\n"
+      "speed, restitution, friction, in space the tilt; none where there is none, as at a fold.";
   command.run = [input] { return run_benchmark(*input); };
   return command;
 }

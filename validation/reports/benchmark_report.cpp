@@ -229,6 +229,7 @@ Row submission_row(const Submission& one) {
           error_cell(score.energy_error),
           one.is_list ? Cell() : error_cell(score.flight_error),
           one.is_list ? Cell() : error_cell(score.start_error),
+          one.gradients ? error_cell(score.gradient_error) : Cell(),
           error_cell(score.error()),
           Cell(verdict_name(one.verdict)),
           Cell(text_or_nothing(score.findings.empty() ? std::string() : score.findings.front()))};
@@ -477,6 +478,7 @@ std::vector<Column> score_columns() {
       Column{"flight_error", "", "", "way between impacts that free flight does not explain, over the body's reach",
              false},
       Column{"start_error", "", "", "distance of the state at the first touch from the problem's", false},
+      Column{"gradient_error", "d/d", "", "of a list that gives derivatives their largest error", false},
       Column{"error", "", "", "the largest of all", false},
       word_column("verdict", "verdict", "class of tolerance: exact, sharp, good, coarse, fails"),
       Column{"finding", "", "", "what is wrong, the first", false, true}};
@@ -489,6 +491,7 @@ Report score_report(const std::string& command, const std::vector<Submission>& s
   Verdict worst = Verdict::exact;
   for (const Submission& one : submissions) {
     report.grid.rows.push_back(submission_row(one));
+    for (Column& column : report.grid.columns) column.shown |= one.gradients && column.name == "gradient_error";
     files.push_back(submission_value(report.grid.columns, one));
     worst = std::max(worst, one.verdict);
     const std::string name = std::filesystem::path(one.path).filename().string();
