@@ -104,17 +104,21 @@ void FrictionPhases::start(Kind kind, const AlongGround& direction, const Contac
   FrictionPhase phase{.kind = kind,
                       .direction = direction,
                       .digits = std::clamp(digits_beyond_tolerance - std::log10(settings_.tolerance), 9.0, 15.0),
-                      .slow = slow_part * std::sqrt(settings_.tolerance) * scales_.speed,
+                      .slow = slow_slip(),
                       .fading = fading_per_contact / scales_.time};
   if (kind == Kind::slip && !system_.planar()) note_variation(phase, now);
   system_.set_phase(phase);
 }
 
-/// Whether the patch spins noticeably; returns how fast its farthest point might.
+double FrictionPhases::slow_slip() const { return slow_part * std::sqrt(settings_.tolerance) * scales_.speed; }
+
+/// Whether the patch spins noticeably; returns how fast its farthest point might.  As fast as that, slip needs no
+/// direction from the phase: over the patch it has all of them, and a lean would count as slip.
 double FrictionPhases::note_variation(FrictionPhase& phase, const ContactInstant& now) const {
   if (settings_.point_friction) return 0;
   const double spin_speed = std::fabs(system_.vertical_spin(now.state)) * system_.body().radius();
   phase.varies = spin_speed > least_spin * settings_.tolerance * scales_.speed;
+  phase.slow = phase.varies ? std::max(slow_slip() - spin_speed, 0.0) : slow_slip();
   return spin_speed;
 }
 

@@ -87,6 +87,7 @@ class FrictionPhases {
   void start(FrictionPhase::Kind kind, const AlongGround& direction, const ContactInstant& now);
   void change_kind(const FrictionPhase& from, FrictionPhase::Kind kind, const AlongGround& direction,
                    ContactInstant& now);
+  [[nodiscard]] double slow_slip() const;
   double note_variation(FrictionPhase& phase, const ContactInstant& now) const;
   [[nodiscard]] FrictionLog::Sums sums(const ContactInstant& now) const;
 

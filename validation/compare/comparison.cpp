@@ -47,6 +47,12 @@ bool same_contact(const SequenceImpact& discrete, numeric::ContactEnd end, const
   return (*discrete.place - place).norm() <= 1e-6 * radius;
 }
 
+/// Whether a face turns in the discrete model, while the continuous one, whose friction holds the pressure centre
+/// alone, sticks and lets it spin.
+bool only_spins(const SequenceImpact& discrete, numeric::FrictionMode continuous) {
+  return discrete.is_face && !discrete.sticks && continuous == numeric::FrictionMode::stick;
+}
+
 /// What reports call the contact of the continuous model.
 std::string contact_name(const DiscreteSide& side, numeric::ContactEnd end, const Vector3& place, double radius) {
   if (!side.in_space) return end_name(end);
@@ -62,6 +68,11 @@ std::string contact_name(const DiscreteSide& side, numeric::ContactEnd end, cons
 /// Why an impact cannot be compared at any stiffness; empty if it can.
 std::string reason_in_principle(const SequenceImpact& impact) {
   return impact.open.empty() ? impact.follows_open : impact.open;
+}
+
+/// Whether an ever stiffer ground has numbers to show beside it, if not the same.
+bool has_limit(const SequenceImpact& impact) {
+  return impact.follows_open.empty() && (impact.open.empty() || impact.is_face);
 }
 
 std::string contacts_differ(const DiscreteSide& side, const std::string& discrete, const std::string& continuous) {
@@ -106,7 +117,7 @@ MotionNumbers allowance(const LimitRow& limit, const SequenceImpact& impact, con
   MotionNumbers sum{};
   const double growth = std::isfinite(impact.amplification) ? impact.amplification : 1;
   for (std::size_t q = 0; q < motion_number_count; ++q) {
-    sum[q] = bars_apart * limit.error[q] + 8 * epsilon * (1 + growth) * scales[q];
+    sum[q] = bars_apart * limit.error[q] + 8 * epsilon * (1 + growth) * scales[q] + impact.tipping[q];
   }
   return sum;
 }
@@ -140,10 +151,10 @@ void add_impact(Comparison& comparison, double radius, std::size_t i) {
     impact.contact_time = records[i].value.duration;
   }
   const auto& limits = comparison.limit.rows;
-  if (i < limits.size() && i < side.impacts.size() &&
-      same_contact(side.impacts[i], limits[i].end, limits[i].place, radius) &&
-      reason_in_principle(side.impacts[i]).empty()) {
+  if (i < limits.size() && i < side.impacts.size() && has_limit(side.impacts[i]) &&
+      same_contact(side.impacts[i], limits[i].end, limits[i].place, radius)) {
     impact.limit = limits[i];
+    impact.has_same_limit = reason_in_principle(side.impacts[i]).empty();
     impact.allowance = allowance(limits[i], side.impacts[i], side.scales);
   }
 }
@@ -158,16 +169,33 @@ void drop_unlike_limits(Comparison& comparison, const Scene& scene) {
         i < comparison.discrete.impacts.size() ? &comparison.discrete.impacts[i] : nullptr;
     if (impact.limit && sticks_in_one_model(scene.world.ground, *discrete, impact.limit->mode)) alike = false;
     if (comparison.discrete.in_space && !impact.limit) alike = false;
+    if (impact.limit && only_spins(*discrete, impact.limit->mode)) alike = false;
     if (impact.limit && impact.bars_off() > 1 && stops_in_one_model(*discrete, impact.limit->mode)) alike = false;
     if (!alike) impact.limit.reset();
   }
 }
 
+/// By how much the rule of a face is off the limit of an even bed.
+std::string bed_words(const ComparedImpact& impact, const DiscreteSide& side) {
+  double largest = 0;
+  std::string quantity;
+  for (const auto& [name, heading, q] : side.quantities) {
+    const double off = std::fabs(impact.limit->value[q] - (*impact.discrete)[q]) / side.scales[q];
+    if (off <= largest) continue;
+    largest = off;
+    quantity = fmt::format(" ({})", heading);
+  }
+  return fmt::format("on an even bed up to {} of the scale off{}: ", significant(largest, 2), quantity);
+}
+
 /// Where a limit is off by more than its bar says; empty: by less.
-std::string limit_miss_words(const ComparedImpact& impact) {
+std::string limit_miss_words(const ComparedImpact& impact, const SequenceImpact& discrete) {
   if (!impact.lands()) return "its limit misses the discrete value: the models differ here";
   const double bars = impact.bars_off();
   if (bars <= 1) return "";
+  if (discrete.tipping != MotionNumbers{}) {
+    return "friction, below the centre of mass, tips the body on an even bed: the limit is off by less than its size";
+  }
   return fmt::format("off by up to {} of its error bars: the numbers approach it more slowly than the bar assumes",
                      significant(bars, 2));
 }
@@ -176,10 +204,12 @@ std::string limit_miss_words(const ComparedImpact& impact) {
 std::string explanation_of(const Comparison& comparison, const Scene& scene, double radius, std::size_t i) {
   const DiscreteSide& side = comparison.discrete;
   const ComparedImpact& impact = comparison.impacts[i];
-  if (impact.has_landing()) return limit_miss_words(impact);
+  if (impact.has_landing()) return limit_miss_words(impact, side.impacts[i]);
   if (i >= side.impacts.size()) return "the discrete sequence has ended: " + side.message;
   const SequenceImpact& discrete = side.impacts[i];
-  if (const std::string reason = reason_in_principle(discrete); !reason.empty()) return reason;
+  if (const std::string reason = reason_in_principle(discrete); !reason.empty()) {
+    return impact.has_limit() ? bed_words(impact, side) + reason : reason;
+  }
   if (!discrete.predictable) {
     return "beyond the predictable: rounding, grown by the impacts before, decides what follows";
   }
@@ -191,6 +221,9 @@ std::string explanation_of(const Comparison& comparison, const Scene& scene, dou
   }
   if (sticks_in_one_model(scene.world.ground, discrete, limits[i].mode)) {
     return "static and sliding friction differ; the discrete model has one coefficient";
+  }
+  if (only_spins(discrete, limits[i].mode)) {
+    return "the face spins about its pressure centre, which the ground's friction holds alone and lets spin";
   }
   if (stops_in_one_model(discrete, limits[i].mode)) {
     return "slip nearly stops, and stops in one model alone: stiffer ground than doubles resolve would tell";
@@ -204,9 +237,10 @@ LimitRequest limit_request(const DiscreteSide& side, const Scene& scene) {
   if (!side.in_space) return {.impacts = scene.request.impacts, .planar = true};
   LimitRequest request{.impacts = 0, .planar = false};
   for (const SequenceImpact& impact : side.impacts) {
-    if (!reason_in_principle(impact).empty() || !impact.predictable) break;
+    if (!has_limit(impact) || !impact.predictable) break;
     request.amplification.push_back(impact.amplification);
     ++request.impacts;
+    request.whole_patch = request.whole_patch || impact.is_face;
   }
   if (request.impacts == 0) request = {.impacts = 1, .planar = false, .amplification = {1}};
   return request;
@@ -313,7 +347,7 @@ CornersApart Comparison::corners_apart() const {
 
 bool Comparison::has_content() const {
   return std::any_of(impacts.begin(), impacts.end(),
-                     [](const ComparedImpact& impact) { return impact.has_landing() || impact.reason.empty(); });
+                     [](const ComparedImpact& impact) { return impact.has_limit() || impact.reason.empty(); });
 }
 
 bool Comparison::agrees() const {
@@ -341,7 +375,10 @@ Comparison compare_models(const Scene& scene, const numeric::Body& body) {
   for (std::size_t i = 0; i < count; ++i) {
     add_impact(comparison, radius, i);
     ComparedImpact& impact = comparison.impacts.back();
-    if (i < predicted.size()) impact.predicted = predicted[i];
+    if (i < predicted.size()) {
+      impact.predicted = predicted[i];
+      impact.predicted.tipping = side.impacts[i].tipping;
+    }
     impact.reason = first_reason.empty() ? reason_against(comparison, scene, radius, i)
                                          : "follows an impact that cannot be compared";
     if (first_reason.empty()) first_reason = impact.reason;

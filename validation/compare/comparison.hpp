@@ -27,7 +27,11 @@ struct ComparedImpact {
   double contact_time = 0;                             ///< of the continuous model [s]
   PredictedSize predicted;
   std::optional<LimitRow> limit;  ///< of the continuous model for k_G → ∞, if it has the impact apart from others
-  MotionNumbers allowance{};      ///< |limit − discrete| may be this: five error bars of the limit, rounding of both
+  /// |limit − discrete| may be this: five error bars of the limit, rounding of both, and what tips a face.
+  MotionNumbers allowance{};
+  /// Whether the limit is to be the discrete value: the rule of a face that lands with all its area has another one
+  /// where the body tips on an even bed.
+  bool has_same_limit = true;
   /// Whether every number of the limit is the discrete model's, within `allowance`.  Meaningful with both.
   [[nodiscard]] bool lands() const;
   /// Largest |limit − discrete| over the limit's error bar and the discrete model's error together.  Meaningful with
@@ -36,8 +40,10 @@ struct ComparedImpact {
   /// In space, why there is no limit to hold against the discrete value, or the limit lies outside its error bar, one
   /// clause; empty: it lies within.
   std::string explanation;
-  /// Whether there is a limit and a discrete impact of the same end to hold against each other.
-  [[nodiscard]] bool has_landing() const { return limit && discrete; }
+  /// Whether there is a limit and a discrete impact of the same end.
+  [[nodiscard]] bool has_limit() const { return limit && discrete; }
+  /// The same, to hold against each other.
+  [[nodiscard]] bool has_landing() const { return has_limit() && has_same_limit; }
 };
 
 /// How far the discrete model of the mesh's corners is from that of the body as given.

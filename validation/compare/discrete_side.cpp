@@ -64,7 +64,9 @@ SequenceImpact planar_impact(const analytic::Drop& drop, const ImpactRow& row, c
                         .nearly_stops = false,
                         .jams = jams(drop, row),
                         .open = {},
-                        .follows_open = {}};
+                        .follows_open = {},
+                        .is_face = false,
+                        .tipping = {}};
   if (is_open_face(row)) {
     impact.open = "a whole face lands turning or sliding: its rebound depends on where along it the ground presses";
   }
@@ -112,25 +114,73 @@ bool is_edge(const space::ImpactRow& row) {
   });
 }
 
-/// Whether the impulse acts at the middle of the corners, where a ground that gives way evenly presses.
+/// Where a ground that gives way evenly presses: the centre of the area between the corners, of an edge its middle.
+/// Body frame, from the centre of mass.
+Vector3 middle_of(const space::ImpactRow& row, const Vector3& mean) {
+  if (is_edge(row)) return mean;
+  const auto foot = [&](const space::Corner& corner) {
+    return space::Vector2((row.before.attitude * (corner.place - mean)).head<2>());
+  };
+  std::vector<space::Vector2> around;
+  for (const space::Corner& corner : row.corners) around.push_back(foot(corner));
+  std::ranges::sort(around, {}, [](const space::Vector2& p) { return std::atan2(p.y(), p.x()); });
+  double area = 0;
+  space::Vector2 moment = space::Vector2::Zero();
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    const space::Vector2 &from = around[i], &to = around[(i + 1) % around.size()];
+    const double twice = from.x() * to.y() - from.y() * to.x();
+    area += 3 * twice;
+    moment += twice * (from + to);
+  }
+  return mean + row.before.attitude.conjugate() * Vector3(moment.x() / area, moment.y() / area, 0);
+}
+
+/// Whether the impulse acts at the middle.
 bool acts_in_the_middle(const space::ImpactRow& row, const Vector3& middle) {
   const Vector3 arm = row.before.attitude * middle, &impulse = row.impact.impulse;
   return (row.group->moment - arm.cross(impulse)).norm() <= 1e-9 * arm.norm() * impulse.norm();
 }
 
+/// Whether all of a face lands and leaves without a turn about the horizontal, its middle below the centre of mass: an
+/// even bed then turns it by friction alone.
+bool is_even_landing(const space::ImpactRow& row, const Vector3& middle) {
+  const Vector3 arm = row.before.attitude * middle;
+  return arm.head<2>().norm() <= 1e-9 * row.corners.front().place.norm();
+}
+
 /// Corners that come down and leave with one speed, pressed in their middle, have one answer on any ground; where they
-/// do not, or friction tips a face, the rebound depends on where between them the ground presses.
+/// do not, the rebound depends on where between them the ground presses.
 bool is_settled(const space::ImpactRow& row, const Vector3& middle, double scale) {
   const space::Impact& impact = row.impact;
   const bool as_one = moves_as_one(row, row.before.velocity, row.before.angular_velocity, scale) &&
                       moves_as_one(row, impact.velocity_after, impact.angular_velocity_after, scale);
-  return row.group->is_whole && as_one && acts_in_the_middle(row, middle) &&
-         (is_edge(row) || impact.impulse.head<2>().isZero(0));
+  if (!row.group->is_whole || !as_one) return false;
+  return is_edge(row) ? acts_in_the_middle(row, middle) : is_even_landing(row, middle);
 }
 
 std::string open_words(const space::Drop& drop, const space::ImpactRow& row) {
   return fmt::format("{}: the rebound depends on where between them the ground presses; {}", landing_words(row.corners),
                      tilt_words(tilted_outcomes(drop.body, row.before, row.corners, drop.law)));
+}
+
+/// Why the rule of corners that land at once is not that of an ever stiffer ground, and how far an even bed may be from
+/// it where it is.
+void judge_group(const space::Drop& drop, const space::ImpactRow& row, const Vector3& mean, SequenceImpact& impact) {
+  constexpr double most_lean = 0.1;  // beyond it tipping has a limit of its own
+  impact.is_face = row.group->is_whole && !is_edge(row) && row.held == 0;
+  const double scale = row.before.velocity.norm() + row.before.angular_velocity.norm() * drop.body.reach();
+  if (!is_settled(row, middle_of(row, mean), scale)) {
+    impact.open = open_words(drop, row);
+    return;
+  }
+  if (!impact.is_face) return;
+  const FaceTipping tipping = face_tipping(drop, row);
+  impact.tipping = tipping.size;
+  if (tipping.lean <= most_lean) return;
+  impact.open = fmt::format(
+      "{}: friction, far below the centre of mass, tips the body on an even bed, its ends at up to {} of the approach "
+      "speed, where the rule keeps it from turning",
+      landing_words(row.corners), significant(tipping.lean, 2));
 }
 
 SequenceImpact space_impact(const Scene& scene, const space::Drop& drop, const space::ImpactRow& row,
@@ -153,9 +203,10 @@ SequenceImpact space_impact(const Scene& scene, const space::Drop& drop, const s
                         .nearly_stops = row.impact.least_slip <= 1e-3 * row.impact.contact_before.norm(),
                         .jams = false,
                         .open = {},
-                        .follows_open = {}};
-  const double scale = row.before.velocity.norm() + row.before.angular_velocity.norm() * drop.body.reach();
-  if (row.group && !is_settled(row, place, scale)) impact.open = open_words(drop, row);
+                        .follows_open = {},
+                        .is_face = false,
+                        .tipping = {}};
+  if (row.group) judge_group(drop, row, place, impact);
   return impact;
 }
 

@@ -25,9 +25,11 @@ struct SequenceImpact {
   bool sticks = false;        ///< ends in stick
   bool nearly_stops = false;  ///< in space: slip comes within a thousandth of the contact's speed of stopping
   bool jams = false;          ///< friction is beyond Painlevé's limit
-  /// Why the rebound is not that of an ever stiffer ground: several corners at once; empty: it is.
+  /// Why the rebound is not that of an ever stiffer ground: several corners at once; empty: it is, up to `tipping`.
   std::string open;
   std::string follows_open;  ///< the same for an impact that only comes after such a one
+  bool is_face = false;      ///< in space: a level face lands with all of its area
+  MotionNumbers tipping{};   ///< of such a face: face_tipping
 };
 
 /// A corner of a body in space and what reports call it.

@@ -154,11 +154,25 @@ std::vector<PredictedSize> sizes_of(const AnyDrop& drop, const AnySequence& sequ
   return sizes;
 }
 
+/// The same with the centre of mass as low as the ground and no product of inertia that tilts by a couple about the
+/// vertical: the face is pressed evenly.
+space::Drop pressed_evenly(space::Drop drop, double depth) {
+  const space::Matrix3 axes = drop.attitude.toRotationMatrix();
+  for (Vector3& vertex : drop.body.vertices) vertex += axes.transpose() * Vector3(0, 0, depth);
+  space::Matrix3 inverse = axes * drop.body.inertia.inverse() * axes.transpose();
+  inverse.topRightCorner<2, 1>().setZero();
+  inverse.bottomLeftCorner<1, 2>().setZero();
+  drop.body.inertia = axes.transpose() * inverse.inverse() * axes;
+  return drop;
+}
+
 }  // namespace
 
 MotionNumbers PredictedSize::total() const {
   MotionNumbers sum{};
-  for (std::size_t q = 0; q < motion_number_count; ++q) sum[q] = gravity[q] + turning[q] + indentation[q] + delay[q];
+  for (std::size_t q = 0; q < motion_number_count; ++q) {
+    sum[q] = gravity[q] + turning[q] + indentation[q] + delay[q] + tipping[q];
+  }
   return sum;
 }
 
@@ -170,6 +184,30 @@ Drop drop_at(const Drop& drop, const ImpactRow& row) {
   if (inclination < 0) mirror(here, inclination);
   here.inclination = analytic::Angle::from_radians(std::min(inclination, analytic::pi / 2));
   return here;
+}
+
+FaceTipping face_tipping(const space::Drop& drop, const space::ImpactRow& row) {
+  const space::Drop here = drop_at(drop, row);
+  const space::Matrix3 axes = here.attitude.toRotationMatrix();
+  const double depth = -(axes * row.corners.front().place).z();
+  const space::Sequence even = run(pressed_evenly(here, depth), 1);
+  const space::GroupImpact& group = *even.rows.at(0).group;
+  const Vector3 moment = Vector3(0, 0, -depth).cross(group.impulse) + group.moment.z() * Vector3::UnitZ();
+  const Vector3 turn = axes * here.body.inertia.ldlt().solve(axes.transpose() * moment);
+  const double tipped = turn.head<2>().norm(), reach = here.body.reach();
+  FaceTipping tipping{.lean = tipped * reach / row.approach_speed, .size = {}};
+  const double speed = depth * tipped + tipping.lean * tipping.lean * row.approach_speed;
+  const MotionNumbers by_rule = motion_numbers(impact_of(row).value),
+                      evenly = motion_numbers(impact_of(even.rows[0]).value);
+  MotionNumbers& size = tipping.size;
+  for (std::size_t q = 2; q < motion_number_count; ++q) size[q] = std::fabs(evenly[q] - by_rule[q]);
+  for (const std::size_t axis : {0, 1, 2}) {
+    size[2 + axis] += here.body.mass * speed;
+    size[5 + axis] += speed;
+  }
+  for (const std::size_t axis : {0, 1}) size[8 + axis] += tipped;
+  size[10] += speed / reach;
+  return tipping;
 }
 
 space::Drop drop_at(const space::Drop& drop, const space::ImpactRow& row) {

@@ -73,7 +73,8 @@ MotionNumbers error_of_runs(const Simulation& stiffest, std::size_t row, double 
                                      : weight * space_run_error * std::max(request.amplification[row], 1.0);
   MotionNumbers errors{};
   for (std::size_t q = 0; q < motion_number_count; ++q) {
-    const bool estimated = !request.planar && weight * estimates[q] <= most * size[q];
+    const bool is_told = request.whole_patch && std::isfinite(estimates[q]);  // where slide and spin end together
+    const bool estimated = !request.planar && (is_told || weight * estimates[q] <= most * size[q]);
     errors[q] = estimated ? weight * estimates[q] : most * size[q];
   }
   return errors;
@@ -162,7 +163,7 @@ class StifferRuns {
       : body_(body), world_(scene.world), accuracy_(scene.accuracy), start_(scene.start(body)),
         damping_per_stiffness_(world_.ground.damping / world_.ground.stiffness) {
     world_.planar = request.planar;
-    world_.point_friction = !request.planar;
+    world_.point_friction = !request.planar && !request.whole_patch;
     accuracy_.method = numeric::Method::automatic;
     accuracy_.step = 0;
     accuracy_.digits = 12;

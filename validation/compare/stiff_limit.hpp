@@ -35,6 +35,7 @@ struct LimitRequest {
   bool planar = true;  ///< keep the motion in its x–z plane
   /// In space, by what a relative error of the drop has grown at each impact.
   std::vector<double> amplification{};
+  bool whole_patch = false;  ///< in space: friction acts all over the patch, that of a face
 };
 
 /// Numbers of the first impacts as k_G → ∞ with c_G/k_G kept.
@@ -47,8 +48,9 @@ struct LimitRequest {
 /// go) gives the value at T = 0, and the changes from one triple of runs to the next its error.  Impacts whose relative
 /// error bar stays above 1e-3 have no limit here, nor do those after them.
 ///
-/// In space friction acts at the pressure centre alone (numeric::World::point_friction): what a patch's spin does to
+/// In space friction acts at the pressure centre alone (numeric::World::point_friction): what a corner's spin does to
 /// it vanishes with the patch, so that the limit is the same, and the bars hold the stiffest run's own error estimates.
+/// A face's patch does not vanish (LimitRequest::whole_patch).
 /// Where c_G v/k_G > 1 numbers go like T ln T over many runs, and the bars are four times as wide.
 [[nodiscard]] StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, const LimitRequest& request);
 

@@ -49,7 +49,7 @@ void add_rows(const Comparison& comparison, const ComparedImpact& impact, Grid& 
     } else {
       row.insert(row.end(), {Cell("–"), Cell(), Cell()});
     }
-    if (impact.has_landing()) row.insert(row.end(), {miss_cell(pair.miss_number()), Cell(pair.bar(), 2)});
+    if (impact.has_limit()) row.insert(row.end(), {miss_cell(pair.miss_number()), Cell(pair.bar(), 2)});
     row.resize(width);
     grid.rows.push_back(std::move(row));
     first = false;
@@ -78,10 +78,13 @@ std::vector<std::string> explanations(const Comparison& comparison) {
   for (std::size_t i = 0; i < impacts.size();) {
     const std::size_t first = i;
     while (i < impacts.size() && impacts[i].explanation == impacts[first].explanation) ++i;
-    if (impacts[first].explanation.empty()) continue;
-    notes.push_back(i == first + 1
-                        ? fmt::format("Limit of impact {}: {}", i, impacts[first].explanation)
-                        : fmt::format("Limit of impacts {} to {}: {}", first + 1, i, impacts[first].explanation));
+    std::string why = impacts[first].explanation;
+    if (why.empty()) continue;
+    const std::string& told = impacts[first].reason;  // in the line on why the impact is not compared
+    if (first == 0 && why == told) why = "none, for the same reason";
+    else if (first == 0 && !told.empty() && why.ends_with(": " + told)) why.resize(why.size() - told.size() - 2);
+    notes.push_back(i == first + 1 ? fmt::format("Limit of impact {}: {}", i, why)
+                                   : fmt::format("Limit of impacts {} to {}: {}", first + 1, i, why));
   }
   return notes;
 }
@@ -102,9 +105,15 @@ std::string verdict_words(const Comparison& comparison) {
     return "The models DIFFER: a limit (!) misses the discrete value" +
            (comparison.other_law.empty() ? "." : "; " + comparison.other_law + ".");
   }
-  if (landed == 0) return "Nothing could be compared.";
-  return fmt::format("The models agree: the limit is the discrete value {}for {} of {} impacts.",
-                     comparison.as_given ? "of the mesh's corners " : "", landed, comparison.impacts.size());
+  if (landed == 0) {
+    return comparison.has_content() ? "No limit is to be the discrete value." : "Nothing could be compared.";
+  }
+  const bool tips = std::any_of(comparison.impacts.begin(), comparison.impacts.end(), [](const ComparedImpact& impact) {
+    return impact.has_landing() && impact.predicted.tipping != MotionNumbers{};
+  });
+  return fmt::format("The models agree: the limit is the discrete value {}{}for {} of {} impacts.",
+                     comparison.as_given ? "of the mesh's corners " : "", tips ? "up to the tipping of a face " : "",
+                     landed, comparison.impacts.size());
 }
 
 /// Whether every number of either model is known to its error.
@@ -137,6 +146,7 @@ Row number_row(const NumberPair& pair, bool is_of_mesh) {
           where(comparable, [&] { return size.turning[q]; }),
           where(comparable, [&] { return size.indentation[q]; }),
           where(comparable, [&] { return size.delay[q]; }),
+          where(comparable, [&] { return size.tipping[q]; }),
           where(impact.limit.has_value(), [&] { return impact.limit->value[q]; }),
           where(impact.limit.has_value(), [&] { return rounded_up(impact.limit->error[q]); }),
           where(impact.limit.has_value(), [&] { return pair.allowance(); }),
@@ -158,6 +168,7 @@ const std::vector<Column>& number_columns() {
       {"predicted_turning", "", "", "of that: turning during contacts"},
       {"predicted_indentation", "", "", "of that: the contact point inside the corner"},
       {"predicted_delay", "", "", "of that: the duration of contacts before"},
+      {"predicted_tipping", "", "", "of that: a face that its friction tips on an even bed, however stiff"},
       {"limit", "", "", "of the continuous model for an ever stiffer ground"},
       {"limit_error", "", "", "error bar of the limit"},
       {"allowance", "", "", "by which the limit may miss the discrete value"},
