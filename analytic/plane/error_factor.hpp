@@ -31,9 +31,11 @@ class ErrorFactor {
   void advance(const StateMatrix& jacobian);
   /// Standard deviation of gradient · state; infinite once an error was not finite.
   [[nodiscard]] double deviation(const StateVector& gradient) const;
+  /// Of one number of the state.
+  [[nodiscard]] double deviation_of(std::size_t number) const;
 
  private:
-  static constexpr std::size_t capacity = 16;
+  static constexpr std::size_t capacity = 24;
   using Row = std::array<double, capacity>;
 
   void make_room(std::size_t columns);

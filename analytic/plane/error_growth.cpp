@@ -44,10 +44,6 @@ ErrorGrowth::ErrorGrowth(const BodyMotion& motion, double angle) {
   }
 }
 
-double ErrorGrowth::bound(const StateVector& gradient, double rounding) const {
-  return (alone(gradient) + 2 * rounding) * (1 + curvature_);
-}
-
 void ErrorGrowth::advance(const StateMatrix& jacobian) {
   factor_.advance(jacobian);
   of_angle_ = product(jacobian, of_angle_);
@@ -115,9 +111,7 @@ void ErrorGrowth::fly(const BodyMotion& motion, const FlownState& flown) {
                               of_start + motion.normal_scale(arrival.vertex) + of_phase * std::fabs(from.angular),
                               motion.slip_scale(arrival.vertex)};
   for (std::size_t i = 0; i < 4; ++i) factor_.add(i, epsilon * roundings[i]);
-  StateVector speed{}, angle{};
-  speed[at_normal] = angle[at_angle] = 1;
-  const double late = std::fmax(alone(speed) / std::fabs(f.velocity), alone(angle));
+  const double late = std::fmax(alone(at_normal) / std::fabs(f.velocity), alone(at_angle));
   if (!(late <= largest_curvature)) predictable_ = false;
   curvature_ = std::fmax(curvature_, late);
   if (!predictable_) factor_ = {};
@@ -125,9 +119,7 @@ void ErrorGrowth::fly(const BodyMotion& motion, const FlownState& flown) {
 
 double ErrorGrowth::total_impulse() const {
   if (!predictable_) return unknown;
-  StateVector sum{};
-  sum[at_sum] = 1;
-  return bound(sum, epsilon * total_impulse_);
+  return bound(at_sum, epsilon * total_impulse_);
 }
 
 void ErrorGrowth::add_to(const BodyMotion& motion, Tail& tail) const {
@@ -139,10 +131,8 @@ void ErrorGrowth::add_to(const BodyMotion& motion, Tail& tail) const {
   const Departure from = motion.local_departure();
   const PlanarVelocity v = motion.velocity();
   const MotionGradients moves(motion.body(), motion.contact_point(from.reference), v, from.gravity);
-  StateVector time{}, speed{}, turn{};
-  time[at_time] = speed[at_normal] = turn[at_turn] = 1;
-  const double relative = bound(speed, 2 * epsilon * from.rebound_speed) / from.rebound_speed;
-  tail.end_time_error += bound(time, epsilon * motion.time()) + relative * (tail.end_time - motion.time());
+  const double relative = bound(at_normal, 2 * epsilon * from.rebound_speed) / from.rebound_speed;
+  tail.end_time_error += bound(at_time, epsilon * motion.time()) + relative * (tail.end_time - motion.time());
   tail.normal_impulse_error += relative * tail.normal_impulse;
   tail.tangential_impulse_error += relative * std::fabs(tail.tangential_impulse);
   tail.after_error.tangential += bound(moves.tangential, 2 * epsilon * std::fabs(v.tangential)) +
@@ -150,7 +140,7 @@ void ErrorGrowth::add_to(const BodyMotion& motion, Tail& tail) const {
   if (tail.after.angular == 0) return;
   tail.after_error.normal += bound(moves.normal, 2 * epsilon * std::fabs(v.normal));
   tail.after_error.angular +=
-      bound(turn, epsilon * std::fabs(v.angular)) + relative * std::fabs(tail.after.angular - v.angular);
+      bound(at_turn, epsilon * std::fabs(v.angular)) + relative * std::fabs(tail.after.angular - v.angular);
 }
 
 // Errors of an impact's numbers, and what the impact adds to them (error_growth.hpp).
@@ -217,30 +207,46 @@ double ErrorGrowth::amplification(const ImpactDerivatives& d, const ImpactRow& r
   return largest;
 }
 
-/// The numbers of the row before the errors have gone through the impact.
-void ErrorGrowth::fill(const BodyMotion& motion, const StruckState& struck, const ImpactDerivatives& d,
-                       ImpactRow& row) const {
+/// What sums over the rows follow from.
+void ErrorGrowth::fill_summed(const StruckState& struck, const ImpactDerivatives& d, ImpactRow& row) const {
   const Impact& impact = row.impact;
   const double u = struck.contact.normal, w = impact.separation_speed;
   const double of_impulse = impulse_rounding(struck, impact);
-  const double gravity = motion.local_departure().gravity;
-  StateVector time{}, angle{}, approach{}, loss{}, restitution{}, ratio{};
-  time[at_time] = angle[at_angle] = approach[at_normal] = 1;
+  StateVector loss{};
   for (std::size_t i = 0; i < state_size; ++i) {
     const double of_u = i == at_normal ? 1 : 0, of_s = i == at_slip ? 1 : 0;
     loss[i] = -(d.normal[i] * (u + w) + impact.normal_impulse * (of_u + d.state[at_normal][i]) +
                 d.tangential[i] * (impact.slip_before + impact.slip_after) +
                 impact.tangential_impulse * (of_s + d.state[at_slip][i])) /
               2;
-    restitution[i] = -d.state[at_normal][i] / u + w / (u * u) * of_u;
+  }
+  RowErrors& e = row.error;
+  e.start = row.start == 0 ? 0 : bound(at_time, epsilon * row.start);
+  e.contact_angle = bound(at_angle, epsilon * row.contact_angle);
+  e.normal_impulse = bound(d.normal, of_impulse * impact.normal_impulse);
+  e.energy_loss = bound(loss, of_impulse * (impact.normal_impulse * (std::fabs(u) + w) +
+                                            std::fabs(impact.tangential_impulse) *
+                                                (std::fabs(impact.slip_before) + std::fabs(impact.slip_after))));
+  const auto relative = [](double error, double value) { return error > 0 ? error / std::fabs(value) : 0; };
+  e.relative = std::max({relative(e.start, row.start), relative(e.contact_angle, row.contact_angle),
+                         relative(e.normal_impulse, impact.normal_impulse)});
+}
+
+/// The other numbers of the row, before the errors have gone through the impact.
+void ErrorGrowth::fill(const BodyMotion& motion, const StruckState& struck, const ImpactDerivatives& d,
+                       ImpactRow& row) const {
+  const Impact& impact = row.impact;
+  const double u = struck.contact.normal, w = impact.separation_speed;
+  const double of_impulse = impulse_rounding(struck, impact);
+  const double gravity = motion.local_departure().gravity;
+  StateVector restitution{}, ratio{};
+  for (std::size_t i = 0; i < state_size; ++i) {
+    restitution[i] = -d.state[at_normal][i] / u + (i == at_normal ? w / (u * u) : 0);
     ratio[i] = (d.tangential[i] - impact.impulse_ratio() * d.normal[i]) / impact.normal_impulse;
   }
   RowErrors& e = row.error;
-  e.start = row.start == 0 ? 0 : bound(time, epsilon * row.start);
-  e.inclination = bound(angle, epsilon * std::fabs(row.inclination));
-  e.contact_angle = bound(angle, epsilon * row.contact_angle);
-  e.approach_speed = bound(approach, epsilon * std::fabs(u));
-  e.normal_impulse = bound(d.normal, of_impulse * impact.normal_impulse);
+  e.inclination = bound(at_angle, epsilon * std::fabs(row.inclination));
+  e.approach_speed = bound(at_normal, epsilon * std::fabs(u));
   e.tangential_impulse = bound(d.tangential, of_impulse * tangential_size(struck, impact));
   if (impact.normal_impulse > 0) {
     e.restitution = bound(restitution, 4 * epsilon);
@@ -250,9 +256,6 @@ void ErrorGrowth::fill(const BodyMotion& motion, const StruckState& struck, cons
   e.energy_before = bound(MotionGradients(struck.body, struck.place, row.before, gravity).energy, 2 * epsilon * size);
   if (motion.local_departure().gravity_along != 0)
     e.energy_before = std::fmax(e.energy_before, energy_ + epsilon * size);
-  e.energy_loss = bound(loss, of_impulse * (impact.normal_impulse * (std::fabs(u) + w) +
-                                            std::fabs(impact.tangential_impulse) *
-                                                (std::fabs(impact.slip_before) + std::fabs(impact.slip_after))));
 }
 
 void ErrorGrowth::add_rounding(const StruckState& struck, const Impact& impact) {
@@ -298,29 +301,27 @@ void ErrorGrowth::strike(const BodyMotion& motion, const ImpactLaw& law, ImpactR
     return;
   }
   const ImpactDerivatives d = impact_derivatives(struck, row.impact.mode);
+  fill_summed(struck, d, row);
   fill(motion, struck, d, row);
   row.amplification = amplification(d, row);
   advance(d.state);
   add_rounding(struck, row.impact);
+  fill_after(motion, struck, row);
+}
+
+void ErrorGrowth::fill_after(const BodyMotion& motion, const StruckState& struck, ImpactRow& row) {
   const PlanarVelocity& after = row.impact.after;
   const MotionGradients moves(struck.body, struck.place, after, motion.local_departure().gravity);
-  StateVector turn{};
-  turn[at_turn] = 1;
-  row.error.after = {
-      .normal = bound(moves.normal, 2 * epsilon * (std::fabs(row.before.normal) + std::fabs(after.normal))),
-      .tangential =
-          bound(moves.tangential, 2 * epsilon * (std::fabs(row.before.tangential) + std::fabs(after.tangential))),
-      .angular = bound(turn, epsilon * std::fabs(after.angular))};
-  const auto relative = [](double error, double value) { return error > 0 ? error / std::fabs(value) : 0; };
-  row.error.relative =
-      std::max({relative(row.error.start, row.start), relative(row.error.contact_angle, row.contact_angle),
-                relative(row.error.normal_impulse, row.impact.normal_impulse)});
-  row.error.energy_after =
-      bound(moves.energy, 2 * epsilon * (std::fabs(row.energy_before) + std::fabs(row.energy_after)));
+  RowErrors& e = row.error;
+  e.after = {.normal = bound(moves.normal, 2 * epsilon * (std::fabs(row.before.normal) + std::fabs(after.normal))),
+             .tangential = bound(moves.tangential,
+                                 2 * epsilon * (std::fabs(row.before.tangential) + std::fabs(after.tangential))),
+             .angular = bound(at_turn, epsilon * std::fabs(after.angular))};
+  e.energy_after = bound(moves.energy, 2 * epsilon * (std::fabs(row.energy_before) + std::fabs(row.energy_after)));
   if (motion.local_departure().gravity_along == 0) return;
   // The way along the slope is no number of the state: what the energy is known to, impacts alone change.
-  energy_ = row.error.energy_before + row.error.energy_loss;
-  row.error.energy_after = std::fmax(row.error.energy_after, energy_);
+  energy_ = e.energy_before + e.energy_loss;
+  e.energy_after = std::fmax(e.energy_after, energy_);
 }
 
 }  // namespace clatter::analytic

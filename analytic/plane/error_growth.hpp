@@ -39,8 +39,15 @@ class ErrorGrowth {
   void add_to(const BodyMotion& motion, Tail& tail) const;
 
  private:
-  [[nodiscard]] double bound(const StateVector& gradient, double rounding) const;
   [[nodiscard]] double alone(const StateVector& gradient) const { return deviations * factor_.deviation(gradient); }
+  [[nodiscard]] double alone(StateIndex number) const { return deviations * factor_.deviation_of(number); }
+  /// @param of a gradient, or one number of the state
+  template <class Of>
+  [[nodiscard]] double bound(const Of& of, double rounding) const {
+    return (alone(of) + 2 * rounding) * (1 + curvature_);
+  }
+  void fill_summed(const StruckState& struck, const ImpactDerivatives& d, ImpactRow& row) const;
+  void fill_after(const BodyMotion& motion, const StruckState& struck, ImpactRow& row);
   void fill(const BodyMotion& motion, const StruckState& struck, const ImpactDerivatives& d, ImpactRow& row) const;
   [[nodiscard]] double amplification(const ImpactDerivatives& d, const ImpactRow& row) const;
   void add_rounding(const StruckState& struck, const Impact& impact);

@@ -54,10 +54,10 @@ struct Node {
 /// Search for the first root, piece by piece.
 class Search {
  public:
-  Search(const VertexHeight& height, FirstRoot& found) : h_(height), found_(found) {
-    const double reach = std::hypot(h_.versine, h_.sine);
+  /// @param reach  √(p² + q²) of the height
+  Search(const VertexHeight& height, double reach, FirstRoot& found) : h_(height), reach_(reach), found_(found) {
     phase_ = std::atan2(h_.sine, h_.versine);
-    const double ratio = (h_.gravity / h_.rate) / (h_.rate * reach);
+    const double ratio = (h_.gravity / h_.rate) / (h_.rate * reach_);
     half_width_ = ratio >= 1 ? 0 : ratio <= -1 ? pi : std::acos(ratio);
   }
 
@@ -66,7 +66,8 @@ class Search {
     Node node = start > 0 ? at(start) : Node{0, {h_.height, h_.velocity, std::fabs(h_.height)}};
     if (start > 0 && !(node.value.height > 0)) return keep(start, {start, start});
     // Where in its period the curvature stands at the start.
-    const double place = std::remainder(h_.rate * start - phase_, 2 * pi);
+    const double turned = h_.rate * start - phase_;
+    const double place = std::fabs(turned) <= pi ? turned : std::remainder(turned, 2 * pi);
     bool convex = std::fabs(place) < half_width_ || half_width_ == pi;
     const double left = convex ? half_width_ - place : (place > 0 ? 2 * pi : 0) - half_width_ - place;
     double boundary = start + std::fmax(left, 0) / h_.rate;
@@ -190,14 +191,14 @@ class Search {
   /// h′ = 0 in closed form with gravity's share taken at the middle of the piece.
   [[nodiscard]] double lowest_guess(const Node& node, const Node& last) const {
     const double middle = std::midpoint(node.t, last.t);
-    const double reach = std::hypot(h_.versine, h_.sine);
     const double drift = (h_.velocity - h_.gravity * middle) / h_.rate + h_.sine;
-    const double sine = std::clamp(-drift / reach, -1.0, 1.0);
+    const double sine = std::clamp(-drift / reach_, -1.0, 1.0);
     const double turn = std::remainder(phase_ + std::asin(sine) - h_.rate * middle, 2 * pi);
     return middle + turn / h_.rate;
   }
 
   const VertexHeight& h_;
+  double reach_;
   FirstRoot& found_;
   double phase_;       ///< angle turned at which the curvature is largest
   double half_width_;  ///< of the convex part of a turn, in [0, π]
@@ -277,7 +278,7 @@ FirstRoot first_root(const VertexHeight& height, double end) {
   // it came within that turn.
   const double clear = centre.clear_for_good();
   const double limit = std::min({end, certain, turn > 1e6 * clear ? clear : never});
-  Search search(height, found);
+  Search search(height, centre.reach, found);
   if (search.window(0, std::min(turn, limit)) || !(turn < limit)) return found;
   double start = second_window(centre, turn);
   // The centre comes down, but when and at which phase no double can say.  (The pieces of a turn

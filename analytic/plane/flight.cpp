@@ -5,6 +5,7 @@
 
 #include "analytic/base/angle.hpp"
 #include "analytic/base/limits.hpp"
+#include "analytic/plane/no_root.hpp"
 
 namespace clatter::analytic {
 
@@ -61,9 +62,10 @@ void finish(const PlanarBody& body, const Departure& departure, Flight& flight) 
 }
 
 /// Vertices whose height at the arrival is zero to rounding arrive together.
-VertexSet together(const std::array<VertexHeight, max_vertices>& heights, int count, const Arrival& arrival) {
+/// @param turn  until the arrival
+VertexSet together(const std::array<VertexHeight, max_vertices>& heights, int count, const Arrival& arrival,
+                   const detail::Turn& turn) {
   VertexSet set = static_cast<VertexSet>(1u << arrival.vertex);
-  const detail::Turn turn(heights[0].rate * arrival.time);
   for (int i = 0; i < count; ++i) {
     if (i == arrival.vertex) continue;
     const auto [height, velocity, scale] = heights[i].at(arrival.time, turn);
@@ -99,7 +101,7 @@ class Race {
       }
     }
     if (flight_.end == FlightEnd::contact) {
-      flight_.arrival.vertices = together(heights_, body.vertex_count, flight_.arrival);
+      flight_.arrival.vertices = together(heights_, body.vertex_count, flight_.arrival, turn_);
       if (flight_.arrival.time > 0) finish(body, departure_, flight_);
       else flight_.arrival.inclination = departure_.inclination;
     }
@@ -121,6 +123,10 @@ class Race {
       take(vertex, now);
       return true;
     }
+    if (best_ < never && stays_above(height, best_, turn_)) {
+      ++flight_.evaluations;
+      return true;
+    }
     const FirstRoot root = first_root(height, best_);
     flight_.evaluations += root.evaluations;
     if (passes_) (*passes_)[static_cast<std::size_t>(vertex)] = root.near_miss;
@@ -134,6 +140,7 @@ class Race {
 
   void take(int vertex, const FirstRoot& root) {
     best_ = *root.time;
+    turn_ = detail::Turn(heights_[vertex].rate * best_);
     flight_.end = FlightEnd::contact;
     flight_.arrival.time = best_;
     flight_.arrival.vertex = vertex;
@@ -146,7 +153,8 @@ class Race {
   Passes* passes_;
   std::array<VertexHeight, max_vertices> heights_{};
   Flight flight_;
-  double best_ = never;
+  double best_ = never;   ///< time of the earliest arrival so far
+  detail::Turn turn_{0};  ///< until then
 };
 
 }  // namespace

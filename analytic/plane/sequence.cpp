@@ -130,6 +130,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 
   bool extrapolated_end(ImpactMode mode) {
     constexpr double ulps = 4 * std::numeric_limits<double>::epsilon();
+    if (!may_accumulate(law_)) return false;
     auto tail = extrapolated(accumulation_, {.time = motion_.time()});
     if (!tail || !undisturbed(*tail)) return false;
     const bool vanishes = tail->normal_impulse <= ulps * result_.total_normal_impulse;

@@ -57,14 +57,13 @@ double rounded_up(double error) {
   const double size = std::fabs(error);
   if (!(size > 0 && size < std::numeric_limits<double>::infinity())) return error;
   constexpr int least = -323;  // exponent of the smallest double
-  constexpr double decades_per_octave = 0.30102999566398120;
-  // That of the size's second digit, or the one below.
-  int exponent = std::max(static_cast<int>(std::floor(std::ilogb(size) * decades_per_octave)) - 1, least);
+  // That of the size's second digit, or the one below: ⌊i log₁₀ 2⌋ − 1 for every exponent i of a double.
+  int exponent = std::max((std::ilogb(size) * 315653 >> 20) - 1, least);
   if (size > decimal(100, exponent)) ++exponent;
-  int digits = static_cast<int>(std::ceil(size / decimal(1, exponent)));
-  if (digits > 1 && decimal(digits - 1, exponent) >= size) --digits;
+  constexpr int inexact = -300;  // below it decimal(1, exponent) may be subnormal, and the quotient too large
+  int digits = static_cast<int>(size / decimal(1, exponent)) - (exponent < inexact ? 1 : 0);
   double shown = decimal(digits, exponent);
-  if (shown < size) shown = decimal(digits + 1, exponent);
+  while (shown < size) shown = decimal(++digits, exponent);
   return std::copysign(shown, error);
 }
 

@@ -87,8 +87,11 @@ class Campaign {
         gradient[i] = k < 6 ? (static_cast<std::size_t>(k) == i ? 1 : 0) : uniform() / sizes_[i];
         parts += std::fabs(Real(gradient[i])) * all_.deviation(unit(i));
       }
-      const Real error = std::fabs(Real(factor_.deviation(gradient)) - all_.deviation(gradient)) / parts;
-      worst = std::fmax(worst, static_cast<double>(error));
+      const auto number = static_cast<std::size_t>(k);
+      const double of_number = k < 6 ? factor_.deviation_of(number) : factor_.deviation(gradient);
+      for (const double found : {of_number, factor_.deviation(gradient)}) {
+        worst = std::fmax(worst, static_cast<double>(std::fabs(Real(found) - all_.deviation(gradient)) / parts));
+      }
     }
     return worst;
   }

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "analytic/base/angle.hpp"
+#include "analytic/plane/no_root.hpp"
 
 namespace {
 
@@ -63,6 +64,23 @@ BOOST_AUTO_TEST_CASE(the_first_root_is_the_first_on_a_fine_grid) {
       BOOST_REQUIRE(std::fabs(h.at(*found.time).height) <= 1e-13);
     }
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_vertex_that_the_ends_of_a_flight_keep_above_the_ground_has_no_root_and_no_turning_point_there) {
+  std::mt19937_64 random(3);
+  int kept = 0;
+  for (int i = 0; i < 200000; ++i) {
+    VertexHeight h = random_height(random);
+    if (random() % 3 == 0) h.height = 0;
+    const double end = std::exp(std::uniform_real_distribution<>(-6, 2)(random));
+    if (!stays_above(h, end, detail::Turn(h.rate * end))) continue;
+    ++kept;
+    const FirstRoot found = first_root(h, end);
+    BOOST_REQUIRE(!found.time);
+    BOOST_REQUIRE(found.near_miss.clearance == endless);
+    for (int k = 1; k <= 100; ++k) BOOST_REQUIRE(plain_height(h, static_cast<long double>(end) * k / 100) > 0);
+  }
+  BOOST_TEST(kept >= 30000);
 }
 
 BOOST_AUTO_TEST_CASE(a_million_turns_in_one_flight_cost_no_more_than_a_few) {
