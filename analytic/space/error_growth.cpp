@@ -75,7 +75,7 @@ bool is_hop(const ImpactRow& row) {
 
 ErrorGrowth::ErrorGrowth(const Body& body, const State& start, double gravity, double gravity_along)
     : body_(body), gravity_(gravity), gravity_along_(gravity_along), inverse_inertia_(body.inertia.inverse()),
-      factor_(size, 0), arriving_(size, 0) {
+      factor_(size, 0), arriving_(size, 0), leaving_(size, 0) {
   Deviations d;
   d << 0, Vector3::Constant(epsilon), epsilon * start.velocity.cwiseAbs(), epsilon * start.angular_velocity.cwiseAbs();
   append(diagonal(d));
@@ -304,21 +304,27 @@ void ErrorGrowth::strike(const Strike& strike, const StrikeDerivatives& closed, 
   if (!resumed_) row.amplification = std::fmax(std::fmax(of_time, of_impulse), of_drop_.middleRows<3>(1).norm());
   factor_.bottomRows<6>() = struck.bottomRows<6>();
   of_drop_.bottomRows<6>() = struck_drop.bottomRows<6>();
-  append_rounding(row);
+  leaving_ = rounding_of(row);
 }
 
-void ErrorGrowth::append_rounding(const ImpactRow& row) {
+void ErrorGrowth::depart() {
+  if (leaving_.cols() > 0) append(std::exchange(leaving_, Factor(size, 0)));
+}
+
+ErrorGrowth::Factor ErrorGrowth::rounding_of(const ImpactRow& row) const {
+  const Factor of_impulse = impulse_rounding(row);
   Deviations d;
   d << epsilon / 4 * row.start, Vector3::Constant(epsilon),
       Vector3::Constant(epsilon * (row.before.velocity.norm() + row.impact.velocity_after.norm())),
-      Vector3::Constant(epsilon * (row.before.angular_velocity.norm() + row.impact.angular_velocity_after.norm()));
-  Factor rounding(size, 16);
-  rounding << impulse_rounding(row), diagonal(d);
-  if (row.group) return append(rounding);
+      Vector3::Constant(std::hypot(
+          of_impulse(7, 3), epsilon * (row.before.angular_velocity.norm() + row.impact.angular_velocity_after.norm())));
+  Factor rounding(size, 3 + size);
+  rounding << of_impulse.leftCols<3>(), diagonal(d);
+  if (row.group) return rounding;
   const Impact& impact = row.impact;
-  append(without_approach(rounding,
+  return without_approach(rounding,
                           approach_gradient(row.before.attitude, row.corners.front(), impact.angular_velocity_after),
-                          path_rounding(row) * impact.impulse.norm() / body_.mass + approach_rounding(row)));
+                          path_rounding(row) * impact.impulse.norm() / body_.mass + approach_rounding(row));
 }
 
 // Growth of errors along a flight, up to the touch that ends it.
@@ -326,6 +332,7 @@ void ErrorGrowth::append_rounding(const ImpactRow& row) {
 void ErrorGrowth::fly(const FreeFlight& flight, const FirstContact& contact, const Vector3& from_place,
                       const Vector3& to_place) {
   if (!predictable_) return;
+  depart();
   if (!(contact.time > 0)) return strike_again(flight.start(), contact, {.index = contact.point, .place = to_place});
   const double t = contact.time;
   const State now = flight.at(t);
@@ -387,6 +394,7 @@ void ErrorGrowth::stay(const std::optional<ContactDerivatives>& derivatives, con
   if (!predictable_) return;
   resumed_ = true;
   arriving_ = Factor(size, 0);
+  depart();
   append(factor_of(before));
   Gradient shift = derivatives->of_state.row(0);
   shift[0] = 0;
@@ -398,7 +406,7 @@ void ErrorGrowth::stay(const std::optional<ContactDerivatives>& derivatives, con
 
 void ErrorGrowth::restart(const StateErrors& errors) {
   predictable_ = resumed_ = true;
-  factor_ = arriving_ = Factor(size, 0);
+  factor_ = arriving_ = leaving_ = Factor(size, 0);
   append(factor_of(errors));
 }
 
@@ -411,6 +419,7 @@ StateErrors ErrorGrowth::bounds() const {
 }
 
 void ErrorGrowth::end_without_contact(const FirstContact& contact) {
+  depart();
   if (!(contact.near_miss.clearance > height_bound(contact.near_miss.time))) predictable_ = false;
 }
 

@@ -77,7 +77,8 @@ class ErrorGrowth {
   };
   [[nodiscard]] EnergyGradients energy_gradients(const ImpactRow& row, const Matrix3& inertia) const;
   void fill(const Struck& struck, ImpactRow& row) const;
-  void append_rounding(const ImpactRow& row);  ///< of the impact
+  [[nodiscard]] Factor rounding_of(const ImpactRow& row) const;  ///< of the impact
+  void depart();
   void check_others(const FreeFlight& flight, const FirstContact& contact, const Quaternion& attitude,
                     const Vector3& touching);
   void strike_again(const State& now, const FirstContact& contact, const Corner& corner);
@@ -87,7 +88,9 @@ class ErrorGrowth {
   double gravity_, gravity_along_;
   double energy_ = 0;  ///< bound on the error of the energy, where the ground slopes [J]
   Matrix3 inverse_inertia_;
-  Factor factor_, arriving_;                ///< arriving_: the rounding of a flight, until its impact is known
+  Factor factor_;
+  Factor arriving_;                         ///< the rounding of a flight, until its impact is known
+  Factor leaving_;                          ///< that of an impact, until something follows
   Eigen::Matrix<double, size, 9> of_drop_;  ///< changes of the state for changes of the drop
   bool predictable_ = true, resumed_ = false;
 };

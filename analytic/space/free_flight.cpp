@@ -206,12 +206,12 @@ void ThetaRotation::set_dual(const Constants& c) {
 
 ThetaRotation::Moment ThetaRotation::at(double time) const {
   const Extended u = start_ + rate_ * time;
-  const Extended halves = std::nearbyint(u / (2 * quarter_));
+  const Extended halves = std::rint(u / (2 * quarter_));
   const Extended rest = u - halves * (2 * quarter_);
   const Extended angle = std::remainder(halves * half_turn_ + precession_ * time, 2 * extended_pi);
   const double argument = scale_ * static_cast<double>(rest);
   const Functions f = dual_ ? dual(argument) : direct(argument);
-  const double sign = std::fmod(halves, Extended{2}) == 0 ? 1 : -1;
+  const double sign = std::rint(halves / 2) == halves / 2 ? 1 : -1;
   Moment moment;
   moment.momentum =
       Vector3(amplitudes_[0] * sign * f.cn, sense_ * amplitudes_[1] * sign * f.sn, amplitudes_[2] * f.dn).normalized();
@@ -227,13 +227,14 @@ ThetaRotation::Moment ThetaRotation::at(double time) const {
 
 double ThetaRotation::square_integral(double time) const {
   const Extended u = start_ + rate_ * time;
-  const Extended halves = std::nearbyint(u / (2 * quarter_));
+  const Extended halves = std::rint(u / (2 * quarter_));
   const double argument = scale_ * static_cast<double>(u - halves * (2 * quarter_));
   const Functions f = dual_ ? dual(argument) : direct(argument);
   const double least = least_third_ / amplitudes_[2];
   // Both are zero only where the separatrix is nearer than doubles tell.
   const auto integral = [](double x, double y) {
-    return x + y > 0 ? boost::math::ellint_rd(x, y, 1.0) / 3 : std::numeric_limits<double>::infinity();
+    using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+    return x + y > 0 ? boost::math::ellint_rd(x, y, 1.0, InDouble()) / 3 : std::numeric_limits<double>::infinity();
   };
   const double rest = f.sn * f.sn * f.sn * integral(f.cn * f.cn, f.dn * f.dn);
   return halves == 0 ? rest : rest + static_cast<double>(2 * halves) * integral(0, least * least);
