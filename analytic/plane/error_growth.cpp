@@ -24,7 +24,7 @@ bool holds(const VertexSet set, int vertex) { return (set >> vertex & 1) != 0; }
 
 }  // namespace
 
-ErrorGrowth::ErrorGrowth(const BodyMotion& motion, double angle) {
+ErrorGrowth::ErrorGrowth(const BodyMotion& motion, double angle, bool sums_only) : sums_only_(sums_only) {
   const ContactPoint d = motion.contact_point(std::countr_zero(motion.lowest_vertices()));
   const PlanarVelocity v = motion.velocity();
   const bool exact = motion.local_departure().sine == 0 || d.tangential == 0;  // 0° and 90° are what they are
@@ -46,6 +46,7 @@ ErrorGrowth::ErrorGrowth(const BodyMotion& motion, double angle) {
 
 void ErrorGrowth::advance(const StateMatrix& jacobian) {
   factor_.advance(jacobian);
+  if (sums_only_) return;
   of_angle_ = product(jacobian, of_angle_);
   of_speed_ = product(jacobian, of_speed_);
 }
@@ -302,11 +303,13 @@ void ErrorGrowth::strike(const BodyMotion& motion, const ImpactLaw& law, ImpactR
   }
   const ImpactDerivatives d = impact_derivatives(struck, row.impact.mode);
   fill_summed(struck, d, row);
-  fill(motion, struck, d, row);
-  row.amplification = amplification(d, row);
+  if (!sums_only_) {
+    fill(motion, struck, d, row);
+    row.amplification = amplification(d, row);
+  }
   advance(d.state);
   add_rounding(struck, row.impact);
-  fill_after(motion, struck, row);
+  if (!sums_only_) fill_after(motion, struck, row);
 }
 
 void ErrorGrowth::fill_after(const BodyMotion& motion, const StruckState& struck, ImpactRow& row) {

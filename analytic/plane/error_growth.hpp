@@ -21,7 +21,8 @@ namespace clatter::analytic {
 class ErrorGrowth {
  public:
   /// @param motion before its first impact, in internal units (impact_rows.hpp); angle of the drop [rad]
-  ErrorGrowth(const BodyMotion& motion, double angle);
+  /// @param sums_only only what summed_sequence() gives
+  ErrorGrowth(const BodyMotion& motion, double angle, bool sums_only);
 
   /// Errors and amplification of a row whose impact `motion` has just had; errors go through the
   /// impact.
@@ -63,6 +64,7 @@ class ErrorGrowth {
   /// Bounds are this many standard deviations of the errors assumed.
   static constexpr double deviations = 3;
 
+  bool sums_only_;
   ErrorFactor factor_;
   StateVector of_angle_{}, of_speed_{};  ///< changes of the state for relative changes of the
                                          ///< drop's angle and speed by 1

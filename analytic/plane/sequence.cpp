@@ -13,6 +13,7 @@
 #include "analytic/plane/body_motion.hpp"
 #include "analytic/plane/error_growth.hpp"
 #include "analytic/plane/impact_rows.hpp"
+#include "analytic/plane/summed_sequence.hpp"
 
 namespace clatter::analytic {
 
@@ -37,11 +38,11 @@ void require_representable(const Drop& drop, const Drop& internal) {
 /// The loop of impacts, in internal units.
 class Run : public SequenceLoop<Sequence, ErrorGrowth> {
  public:
-  Run(const Drop& drop, const SequenceOptions& options)
+  Run(const Drop& drop, const SequenceOptions& options, bool sums_only)
       : SequenceLoop(options), law_(drop.law), gravity_(drop.gravity), gravity_along_(drop.gravity_along),
         motion_(drop.body, drop.inclination, drop.velocity, drop.gravity, drop.gravity_along) {
     result_.rows.reserve(static_cast<std::size_t>(std::min(options.impacts, 64)));
-    if (options.amplification) growth_.emplace(motion_, drop.inclination.radians);
+    if (options.amplification) growth_.emplace(motion_, drop.inclination.radians, sums_only);
   }
 
   Sequence run() {
@@ -208,10 +209,13 @@ void require_representable(const Sequence& sequence) {
   }
 }
 
-Sequence internal_sequence(const Drop& drop, const SequenceOptions& options, const Units& units) {
+Sequence run_sequence(const Drop& drop, const SequenceOptions& options, bool sums_only) {
+  drop.validate();
+  options.validate();
+  const Units units(drop);
   const Drop internal = units.to_internal(drop);
   require_representable(drop, internal);
-  Run run(internal, options);
+  Run run(internal, options, sums_only);
   Sequence sequence = run.run();
   units.to_si(sequence);
   require_representable(sequence);
@@ -224,10 +228,9 @@ Sequence internal_sequence(const Drop& drop, const SequenceOptions& options, con
 }  // namespace
 
 Sequence impact_sequence(const Drop& drop, const SequenceOptions& options) {
-  drop.validate();
-  options.validate();
-  const Units units(drop);
-  return internal_sequence(drop, options, units);
+  return run_sequence(drop, options, false);
 }
+
+Sequence summed_sequence(const Drop& drop, const SequenceOptions& options) { return run_sequence(drop, options, true); }
 
 }  // namespace clatter::analytic

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <string_view>
 
+#include "analytic/plane/summed_sequence.hpp"
 #include "validation/plan/planned_run.hpp"
 #include "validation/scene/failure.hpp"
 #include "validation/scene/shortfall.hpp"
@@ -171,6 +172,9 @@ DiscreteSequence SceneRunner::sequence(bool with_errors) {
                                           .amplification = with_errors,
                                           .until_rest = scene_.until_rest};
   const DiscreteDrop drop = body_->discrete->drop(scene_);
+  const auto* const planar = std::get_if<analytic::Drop>(&drop);
+  const bool sums_only = plan_.layout.rows == RowKind::scene && plan_.layout.asked.empty();
+  if (planar != nullptr && sums_only) return summed_sequence(*planar, options);
   return std::visit([&](const auto& one) -> DiscreteSequence { return impact_sequence(one, options); }, drop);
 }
 

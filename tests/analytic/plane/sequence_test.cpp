@@ -10,6 +10,7 @@
 
 #include "analytic/plane/body_motion.hpp"
 #include "analytic/plane/contact_angles.hpp"
+#include "analytic/plane/summed_sequence.hpp"
 
 namespace {
 
@@ -123,6 +124,26 @@ BOOST_AUTO_TEST_CASE(the_amplification_at_the_first_impact_is_the_logarithmic_de
     const double theta = degrees / degrees_per_radian, c = std::cos(theta);
     const double of_impulse = 6 * theta * std::sin(theta) * c / (1 + 3 * c * c);
     BOOST_TEST(std::fabs(s.rows[0].amplification - std::fmax(1, of_impulse)) <= tolerance);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(errors_that_sums_need_are_the_same_without_the_others) {
+  std::mt19937_64 random(16);
+  for (int i = 0; i < 200; ++i) {
+    Drop drop = random_drop(random);
+    if (i % 2) drop.law = {.restitution = 0.8, .friction = FrictionKind::coulomb, .friction_value = 0.1};
+    const Sequence all = impact_sequence(drop, {.impacts = 20}), sums = summed_sequence(drop, {.impacts = 20});
+    BOOST_REQUIRE(sums.rows.size() == all.rows.size());
+    BOOST_REQUIRE(same_bits(sums.total_normal_impulse_error, all.total_normal_impulse_error));
+    for (std::size_t n = 0; n < all.rows.size(); ++n) {
+      const RowErrors &a = all.rows[n].error, &b = sums.rows[n].error;
+      BOOST_REQUIRE(b.predictable == a.predictable);
+      for (const auto number : {&RowErrors::relative, &RowErrors::start, &RowErrors::contact_angle,
+                                &RowErrors::normal_impulse, &RowErrors::energy_loss}) {
+        BOOST_REQUIRE(same_bits(b.*number, a.*number));
+      }
+      BOOST_REQUIRE(std::isinf(b.inclination) && std::isinf(b.energy_after));
+    }
   }
 }
 
