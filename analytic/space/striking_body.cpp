@@ -152,6 +152,10 @@ GroupImpact StrikingBody::result() const {
   return result;
 }
 
+/// What a sum of strikes to come may be wrong by, relative to all so far.
+constexpr double series_error = 1e-9;
+constexpr double part_left = 0.1;  ///< of the approach after it: what is left still approaches
+
 bool StrikeSeries::converges(StrikingBody& struck) {
   if (struck.strikes() < next_) return false;
   next_ = struck.strikes() + block_;
@@ -160,12 +164,21 @@ bool StrikeSeries::converges(StrikingBody& struck) {
   if (sums_.size() < 4) return false;
   const std::size_t n = sums_.size();
   const Sum last = sums_[n - 1] - sums_[n - 2], before = sums_[n - 2] - sums_[n - 3];
+  const Sum earliest = sums_[n - 3] - sums_[n - 4];
   const double ratio = last.norm() / before.norm();
-  const double earlier = before.norm() / (sums_[n - 3] - sums_[n - 4]).norm();
-  const bool steady = std::fabs(ratio - earlier) <= 1e-3 * (1 - ratio) &&
-                      (last - ratio * before).norm() <= 1e-2 * (1 - ratio) * last.norm();
-  if (!(ratio < 1) || !steady) return false;
-  const Sum rest = 0.9 * ratio / (1 - ratio) * last;
+  if (!(ratio < 1)) return false;
+  // Each part may fall by a ratio of its own, and as that changes, the sum of the rounds to come is wrong.
+  const double rounds = std::log(part_left) / std::log(ratio);
+  Sum rest = Sum::Zero();
+  double wrong = 0;
+  for (Eigen::Index i = 0; i < rest.size(); ++i) {
+    if (!(std::fabs(last[i]) > series_error * (1 - ratio) * now.norm())) continue;
+    const double own = last[i] / before[i], change = own - before[i] / earliest[i];
+    if (!(own > 0 && own < 1)) return false;
+    rest[i] = last[i] * own * (1 - std::pow(own, rounds)) / (1 - own);
+    wrong += std::fabs(last[i] * change) / ((1 - own) * (1 - own));
+  }
+  if (!(wrong <= series_error * now.norm())) return false;
   struck.add(rest.head<3>(), rest.tail<3>());
   sums_.clear();
   return true;

@@ -97,8 +97,8 @@ class StrikeSeries {
  public:
   /// @param block  strikes in each sum
   explicit StrikeSeries(std::size_t block = 64) : block_(block), next_(block) {}
-  /// Once the sums over blocks of strikes fall by one ratio q, adds nine tenths of their remaining sum,
-  /// block·q/(1 − q), so that what is left still approaches; true if so.
+  /// Once the parts of the sums over blocks of strikes fall by ratios q of their own, adds the blocks to come, block·
+  /// q(1 − qⁿ)/(1 − q), to 1e-9 of all so far and until a tenth is left, which still approaches; true if so.
   bool converges(StrikingBody& struck);
 
  private:

@@ -96,8 +96,9 @@ class OutcomeCollection {
 /// Follows the strikes of all tilts, the widest sector first.
 class SectorSearch {
  public:
-  SectorSearch(const StrikingBody& struck, std::span<const Corner> touching, OutcomeCollection& found)
-      : touching_(touching), found_(found), speeds_(touching.size(), 1.0) {
+  SectorSearch(const StrikingBody& struck, std::span<const Corner> touching, const TiltEffort& most,
+               OutcomeCollection& found)
+      : touching_(touching), most_(most), found_(found), speeds_(touching.size(), 1.0) {
     double reach = 0;
     for (const Corner& corner : touching) {
       arms_.push_back(struck.arm(corner.place));
@@ -114,7 +115,7 @@ class SectorSearch {
 
   /// @returns the share of the directions that are not followed to the end
   double search() {
-    while (!waiting_.empty() && strikes_ < most_strikes) {
+    while (!waiting_.empty() && !is_spent()) {
       auto widest = waiting_.extract(std::prev(waiting_.end()));
       follow(widest.mapped());
     }
@@ -123,7 +124,6 @@ class SectorSearch {
   }
 
  private:
-  static constexpr std::size_t most_strikes = 10'000;
   static constexpr double least_width = 1e-9;  ///< [rad]
 
   /// Heights above the centre of mass, but for a constant.
@@ -155,8 +155,18 @@ class SectorSearch {
   void strike_corner(StrikingBody& struck, std::size_t i);
   bool strike_whole(StrikingBody& struck, const std::vector<std::size_t>& group);
   void settle(StrikingBody& struck);
+  void settle_once(StrikingBody& struck);
+  [[nodiscard]] bool is_spent() const { return strikes_ >= most_.strikes || rubs_ >= most_.rubs; }
+
+  /// Corners that were level, and what became of them: other sectors come to the same.
+  struct Settled {
+    std::vector<std::size_t> level;
+    Vector3 velocity, rate;  ///< before
+    StrikingBody after;
+  };
 
   std::span<const Corner> touching_;
+  TiltEffort most_;
   OutcomeCollection& found_;
   std::vector<Vector3> arms_;
   std::vector<double> speeds_;
@@ -164,7 +174,8 @@ class SectorSearch {
   std::vector<std::size_t> level_;         ///< that touch the ground
   double near_;                            ///< heights that are no larger are none [m]
   double slow_;                            ///< approaches that are no slower count [m/s]
-  std::size_t strikes_ = 0;
+  std::vector<Settled> settled_;
+  std::size_t strikes_ = 0, rubs_ = 0;
   double open_ = 0;  ///< [rad]
 };
 
@@ -268,6 +279,7 @@ bool SectorSearch::strike_whole(StrikingBody& struck, const std::vector<std::siz
   }
   const auto whole = rebound_as_a_whole(struck.body(), struck.state(), corners, struck.law());
   ++strikes_;
+  if (struck.law().law.rubs()) ++rubs_;
   if (!whole) return false;
   struck.push({.impulse = whole->impulse, .moment = whole->moment, .path = whole->path}, points);
   return true;
@@ -275,10 +287,19 @@ bool SectorSearch::strike_whole(StrikingBody& struck, const std::vector<std::siz
 
 /// The corners of level_ strike by the rules of strike_together(), until none of them approaches.
 void SectorSearch::settle(StrikingBody& struck) {
+  const Vector3 velocity = struck.state().velocity, rate = struck.state().angular_velocity;
+  for (const Settled& one : settled_) {
+    if (one.level == level_ && one.velocity == velocity && one.rate == rate) return struck.take(one.after);
+  }
+  settle_once(struck);
+  if (!is_spent()) settled_.push_back({level_, velocity, rate, struck});
+}
+
+void SectorSearch::settle_once(StrikingBody& struck) {
   if (strike_whole(struck, level_)) return;
   StrikeSeries series(12);
   std::vector<std::size_t> fastest;
-  while (strikes_ < most_strikes && find_approach(struck)) {
+  while (!is_spent() && find_approach(struck)) {
     if (series.converges(struck)) continue;
     double most = 0;
     for (const std::size_t i : level_) most = std::fmax(most, speeds_[i]);
@@ -292,7 +313,7 @@ void SectorSearch::settle(StrikingBody& struck) {
 
 void SectorSearch::follow(Sector& sector) {
   while (find_approach(sector.struck)) {
-    if (strikes_ >= most_strikes) return wait(std::move(sector));
+    if (is_spent()) return wait(std::move(sector));
     const std::size_t first = first_at(sector.from, sector.to);
     if (first_cut(sector, first, 0).at < 1) {
       return split(sector, [this](Sector& part, std::size_t i) { return strike(part, i); });
@@ -347,7 +368,8 @@ void find_spread(const GroupImpact& by_rule, OutcomeSet& set) {
 
 }  // namespace
 
-OutcomeSet tilted_outcomes(const Body& body, const State& before, std::span<const Corner> touching, const Law& law) {
+OutcomeSet tilted_outcomes(const Body& body, const State& before, std::span<const Corner> touching, const Law& law,
+                           const TiltEffort& most) {
   StrikingBody struck(body, before, law);
   double reach = 0;
   for (const Corner& corner : touching) {
@@ -359,7 +381,7 @@ OutcomeSet tilted_outcomes(const Body& body, const State& before, std::span<cons
   OutcomeSet set;
   const Corner* const rim = level_rim(touching);
   if (rim) sample_tilts(LevelRim(body, before, *rim, law), found);
-  else set.open_share = SectorSearch(struck, touching, found).search();
+  else set.open_share = SectorSearch(struck, touching, most, found).search();
   set.outcomes = found.take();
   set.varies = rim && set.outcomes.size() > 1;
   const GroupImpact by_rule = strike_together(body, before, touching, law);

@@ -49,7 +49,7 @@ struct OutcomeSet {
   /// Whether outcomes vary continuously with the direction of the tilt (level rim): `outcomes` are then those of single
   /// directions, and the spreads hold to 2e-3 of themselves.
   bool varies = false;
-  /// Share of the directions whose strikes were not followed to their end: more than 10 000 strikes in all, or a strike
+  /// Share of the directions whose strikes were not followed to their end: more of them than TiltEffort allows, or one
   /// that cannot be computed.
   double open_share = 0;
   /// Share of the directions with the outcome of strike_together(), which is a convention: 0 where no tilt gives it.
@@ -61,10 +61,17 @@ struct OutcomeSet {
   [[nodiscard]] bool is_complete() const { return open_share <= 1e-9; }
 };
 
+/// At most so many strikes in all.
+struct TiltEffort {
+  std::size_t strikes = 10'000;
+  /// Of them with all of an edge or a face, which rubs: each takes as long as thirty of a corner.
+  std::size_t rubs = 10'000;
+};
+
 /// Every outcome that small tilts in all directions give, but for those of sectors below 1e-9 rad: heights below 1e-9
-/// of the body and approaches below 1e-10 of the first are none.  At most 10 000 strikes, the widest sectors first.
+/// of the body and approaches below 1e-10 of the first are none.  The widest sectors are followed first.
 /// @throws as strike_together()
 [[nodiscard]] OutcomeSet tilted_outcomes(const Body& body, const State& before, std::span<const Corner> touching,
-                                         const Law& law);
+                                         const Law& law, const TiltEffort& most = {});
 
 }  // namespace clatter::analytic::space

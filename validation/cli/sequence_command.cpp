@@ -51,7 +51,10 @@ int run_sequence(const SequenceInput& input) {
   for (const std::string& warning : found.run.warnings) say(warning);
   std::optional<Picture> picture;
   if (plot.is_wanted()) picture = picture_of(prepared, found, input.window);
-  write_report(choice, sequence_report(prepared, found));
+  // A table's one line on small tilts does not wait for edges that rattle on; JSON lists every outcome.
+  analytic::space::TiltEffort tilts;
+  if (choice.style.format != Format::json) tilts.rubs = 20;
+  write_report(choice, sequence_report(prepared, found, tilts));
   if (picture) {
     plot.write(*picture, run_words("sequence", "impact sequence, discrete model", prepared.scene, Model::discrete));
   }

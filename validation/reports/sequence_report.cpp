@@ -148,14 +148,14 @@ const char* convention_words(const space::GroupImpact& group) {
 using OutcomeSets = std::vector<std::optional<space::OutcomeSet>>;
 
 /// What small tilts make of the rows in which several corners arrive together; nothing for the other rows.
-OutcomeSets outcome_sets(const PreparedScene& prepared, const DiscreteRun& found) {
+OutcomeSets outcome_sets(const PreparedScene& prepared, const DiscreteRun& found, const space::TiltEffort& most) {
   OutcomeSets sets;
   const auto* const sequence = std::get_if<space::Sequence>(&found.sequence);
   if (sequence == nullptr) return sets;
   const auto& drop = std::get<space::Drop>(prepared.drop);
   for (const space::ImpactRow& row : sequence->rows) {
     auto& set = sets.emplace_back();
-    if (row.group && row.held == 0) set = tilted_outcomes(drop.body, row.before, row.corners, drop.law);
+    if (row.group && row.held == 0) set = tilted_outcomes(drop.body, row.before, row.corners, drop.law, most);
   }
   return sets;
 }
@@ -387,7 +387,7 @@ std::vector<Column> sequence_columns(bool friction, bool loses) {
   return impact_columns(RunModel::plane, shown);
 }
 
-Report sequence_report(const PreparedScene& prepared, const DiscreteRun& found) {
+Report sequence_report(const PreparedScene& prepared, const DiscreteRun& found, const space::TiltEffort& tilts) {
   const Scene& scene = prepared.scene;
   const Run& run = found.run;
   const double approach = first_approach_speed(prepared.drop);
@@ -396,7 +396,7 @@ Report sequence_report(const PreparedScene& prepared, const DiscreteRun& found) 
       "sequence", in_space ? "impact sequence, discrete model in space" : "impact sequence, discrete model");
   report.head = scene_head(scene, Model::discrete, approach);
   report.remarks = {totals_line(totals(run))};
-  const OutcomeSets sets = outcome_sets(prepared, found);
+  const OutcomeSets sets = outcome_sets(prepared, found, tilts);
   report.notes = notes_of(prepared, found, sets);
   report.fields["model"] = "discrete";
   report.fields["scene"] = scene_value(scene, Model::discrete, approach);

@@ -13,6 +13,8 @@ namespace clatter::validation::inline reports {
 /// @param friction, loses  which of them tables have
 [[nodiscard]] std::vector<Column> sequence_columns(bool friction = true, bool loses = true);
 /// A row for each impact, and in tables and CSV one for the tail.
-[[nodiscard]] Report sequence_report(const PreparedScene& prepared, const DiscreteRun& found);
+/// @param tilts  how far the outcomes of small tilts are followed, which JSON lists and tables only sum up
+[[nodiscard]] Report sequence_report(const PreparedScene& prepared, const DiscreteRun& found,
+                                     const analytic::space::TiltEffort& tilts = {});
 
 }  // namespace clatter::validation::inline reports

@@ -522,6 +522,7 @@ std::string corner_names(const Scene& scene, const Vector3& place) {
 
 std::string tilt_words(const space::OutcomeSet& set) {
   const std::size_t count = set.outcomes.size();
+  if (count == 0) return "what small tilts give takes long to follow (--format json)";
   const std::string outcomes =
       set.varies ? "outcomes that change with the direction of the tilt,"
                  : fmt::format("{}{} outcome{},", set.is_complete() ? "" : "at least ", count, count == 1 ? "" : "s");

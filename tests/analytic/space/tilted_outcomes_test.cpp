@@ -259,4 +259,68 @@ BOOST_AUTO_TEST_CASE(a_light_body_that_rattles_on_has_a_set_that_says_what_is_le
   }
 }
 
+/// Almost all of its mass lies along x.
+FlatBox needle_in_a_box() {
+  FlatBox light(1, 0.7, 1, 1);
+  light.body.inertia = Vector3(6e-4, 5e-3, 5.5e-3).asDiagonal();
+  return light;
+}
+
+BOOST_AUTO_TEST_CASE(the_sum_of_a_rattle_with_friction_is_that_of_its_strikes) {
+  const FlatBox light = needle_in_a_box();
+  State now;
+  now.velocity = {0.0054, 0.0012, -0.975};
+  now.angular_velocity = {0, 1.95, -0.12};
+  const Law law{.law = {.restitution = 0, .friction = FrictionKind::coulomb, .friction_value = 0.3}};
+  const GroupImpact sum = strike_together(light.body, now, light.bottom, law);
+  std::vector<Corner> edges[2];
+  for (const Corner& corner : light.bottom) edges[corner.place.x() > 0].push_back(corner);
+  int strikes = 0;
+  for (bool goes_on = true; goes_on && strikes < 5000;) {  // the edges in turn, one by one
+    goes_on = false;
+    for (const std::vector<Corner>& edge : edges) {
+      if (!(normal_velocity(now.velocity, now.angular_velocity, edge.front().place) < -1e-11)) continue;
+      const auto one = rebound_as_a_whole(light.body, now, edge, law);
+      BOOST_REQUIRE(one.has_value());
+      now.velocity = one->velocity_after;
+      now.angular_velocity = one->angular_velocity_after;
+      goes_on = true;
+      ++strikes;
+    }
+  }
+  BOOST_TEST(strikes > 300);
+  BOOST_TEST((sum.velocity_after - now.velocity).norm() <= 2e-8);
+  BOOST_TEST((sum.angular_velocity_after - now.angular_velocity).norm() <= 1e-6);
+}
+
+/// Its edges rattle hundreds of times, each time with friction all along them.
+BOOST_AUTO_TEST_CASE(edges_that_rattle_on_give_outcomes_that_mirror_one_another_or_are_left_out_where_asked_for_less) {
+  const FlatBox light = needle_in_a_box();
+  State before;
+  before.velocity = {0, 0, -1};
+  const Law law{.law = {.restitution = 0, .friction = FrictionKind::coulomb, .friction_value = 0.3}};
+  const OutcomeSet set = tilted_outcomes(light.body, before, light.bottom, law);
+  BOOST_TEST(set.is_complete());
+  const auto share_of = [&](const Vector3& velocity) {
+    double share = 0;
+    for (const TiltedOutcome& one : set.outcomes) {
+      if ((one.impact.velocity_after - velocity).norm() <= 1e-8) share += one.share;
+    }
+    return share;
+  };
+  for (const TiltedOutcome& one : set.outcomes) {
+    const Vector3& v = one.impact.velocity_after;
+    BOOST_TEST(share_of({-v.x(), v.y(), v.z()}) == one.share, boost::test_tools::tolerance(1e-6));
+    BOOST_TEST(share_of({v.x(), -v.y(), v.z()}) == one.share, boost::test_tools::tolerance(1e-6));
+    for (const Corner& corner : light.bottom) {
+      BOOST_TEST(normal_velocity(v, one.impact.angular_velocity_after, corner.place) >= -1e-9);
+    }
+  }
+  const OutcomeSet some = tilted_outcomes(light.body, before, light.bottom, law, {.rubs = 40});
+  double sum = some.open_share;
+  for (const TiltedOutcome& one : some.outcomes) sum += one.share;
+  BOOST_TEST(sum == 1, boost::test_tools::tolerance(1e-6));
+  BOOST_TEST(some.open_share > 0.5);
+}
+
 }  // namespace
