@@ -118,7 +118,7 @@ double FrictionPhases::note_variation(FrictionPhase& phase, const ContactInstant
   if (settings_.point_friction) return 0;
   const double spin_speed = std::fabs(system_.vertical_spin(now.state)) * system_.body().radius();
   phase.varies = spin_speed > least_spin * settings_.tolerance * scales_.speed;
-  phase.slow = phase.varies ? std::max(slow_slip() - spin_speed, 0.0) : slow_slip();
+  phase.slow = spin_speed < slow_slip() ? slow_slip() : 0;
   return spin_speed;
 }
 
