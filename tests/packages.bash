@@ -25,7 +25,7 @@ test_packages=(libboost-test-dev python3)
 # clang-format holds the form of C++ files, ctags the length of their functions.  The Python module, the figures and the
 # notebooks take the line of Python packages.
 # shellcheck disable=SC2034
-full_packages=(clang-format universal-ctags libgmsh-dev libbenchmark-dev zsh fish groff-base chromium chromium-driver emscripten firefox-esr nodejs npm "${mpi_packages[@]}"
+full_packages=(clang-format universal-ctags libgmsh-dev libbenchmark-dev zsh fish groff-base chromium chromium-driver emscripten firefox-esr nodejs npm zopfli "${mpi_packages[@]}"
                "${hdf5_packages[@]}" python3-h5py
                pybind11-dev python3-dev python3-numpy python3-matplotlib python3-mpmath jupyter-nbconvert python3-ipykernel mypy
                python3-venv python3-sphinx furo python3-myst-parser libjs-katex pkg-config dpkg-dev lintian

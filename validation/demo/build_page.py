@@ -10,7 +10,7 @@ Usage: build_page.py FOLDER [--renew] [--anew]
   --anew    compiles the models in any case
   --check   only says whether validation/demo/page.html is the page of these sources: status 0 if it is, 77 if not
 
-Needs Debian 12's emscripten (3.1.6), nodejs, npm and the program's packages. GSL comes as source from the archive that this
+Needs Debian 12's emscripten (3.1.6), nodejs, npm, zopfli and the program's packages. GSL comes as source from the archive that this
 machine's own lists of packages name.
 """
 
