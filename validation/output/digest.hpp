@@ -2,6 +2,7 @@
 // Digests that tell whether bytes are still the same.
 #pragma once
 
+#include <boost/crc.hpp>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -12,11 +13,11 @@ namespace clatter::validation::inline output {
 /// it guards against accidents and not against intent.
 class Digest {
  public:
-  void add(std::string_view bytes);
-  [[nodiscard]] std::uint64_t value() const { return ~remainder_; }
+  void add(std::string_view bytes) { crc_.process_bytes(bytes.data(), bytes.size()); }
+  [[nodiscard]] std::uint64_t value() const { return crc_.checksum(); }
 
  private:
-  std::uint64_t remainder_ = ~std::uint64_t{0};
+  boost::crc_optimal<64, 0x42F0E1EBA9EA3693U, 0xFFFFFFFFFFFFFFFFU, 0xFFFFFFFFFFFFFFFFU, true, true> crc_;
 };
 
 /// The digest of a file's contents.  @throws BadInput naming the file if it cannot be read.
