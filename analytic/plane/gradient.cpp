@@ -22,7 +22,6 @@ using detail::infinite;
 constexpr double shift = 0x1p-24;    ///< of a neighbour's angle, speed, tangential velocity or spin, relative
 constexpr double state_error = 16;   ///< of the state beside that of a number of the drop, in units of the last place
 constexpr double step_rounding = 8;  ///< of an entry of a Jacobian, in units of the last place
-const char* const slip_from_zero = "the contact begins to slip from rest: each way has a derivative of its own";
 
 /// A derivative of the state, and a bound on what rounding has added to it.
 struct Carried {
@@ -84,7 +83,8 @@ class Tracer {
     angle.value[at_normal] = v.angular * d.normal;
     angle.value[at_slip] = v.angular * d.tangential;
     of(DropParameter::speed).value[at_normal] = -1;
-    if (law_.law == RestitutionLaw::viscoelastic) refuse(DropParameter::restitution, "the ground's damping gives e");
+    if (law_.law == RestitutionLaw::viscoelastic)
+      refuse(DropParameter::restitution, refusals::ground_gives_restitution);
   }
 
   Trace run(std::size_t count) {
@@ -130,7 +130,7 @@ class Tracer {
       const auto parameter = static_cast<DropParameter>(i);
       const StateVector& g = carried_[i].value;
       if (is_flat && g[at_angle] != 0) refuse(parameter, "the body lands flat: any other angle has another sequence");
-      if (slips_from_rest && g[at_slip] != 0) refuse(parameter, slip_from_zero);
+      if (slips_from_rest && g[at_slip] != 0) refuse(parameter, refusals::slip_from_rest);
     }
   }
 
@@ -156,7 +156,7 @@ class Tracer {
     trace_.rows.push_back(gradient);
     trace_.modes.push_back(row.impact.mode);
     // A contact that stays for e = 0 bounces on for any other e.
-    if (law_.restitution == 0) refuse(DropParameter::restitution, "a contact that stays bounces on for e > 0");
+    if (law_.restitution == 0) refuse(DropParameter::restitution, refusals::contact_stays);
   }
 
   /// An impact's derivatives; `by_law` of a parameter of the law.
@@ -225,7 +225,7 @@ void compare(const Trace& other, SequenceGradient& gradient, const std::vector<I
     }
   }
   for (GradientRefusal& one : gradient.refused) {
-    if (one.from > common) one = {common, "a drop next to it has other impacts, or slips otherwise"};
+    if (one.from > common) one = {common, refusals::other_neighbour};
   }
 }
 

@@ -49,6 +49,15 @@ struct GradientRefusal {
   std::string reason{};  ///< empty: none
 };
 
+/// Reasons that the plane and space have in common.
+namespace refusals {
+inline constexpr const char* const ground_gives_restitution = "the ground's damping gives e";
+inline constexpr const char* const contact_stays = "a contact that stays bounces on for e > 0";
+inline constexpr const char* const slip_from_rest =
+    "the contact begins to slip from rest: each way has a derivative of its own";
+inline constexpr const char* const other_neighbour = "a drop next to it has other impacts, or slips otherwise";
+}  // namespace refusals
+
 struct SequenceGradient {
   std::vector<GradientRow> rows;
   std::array<GradientRefusal, drop_parameters> refused;

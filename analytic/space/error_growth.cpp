@@ -336,7 +336,7 @@ void ErrorGrowth::fly(const FreeFlight& flight, const FirstContact& contact, con
   if (!(contact.time > 0)) return strike_again(flight.start(), contact, {.index = contact.point, .place = to_place});
   const double t = contact.time;
   const State now = flight.at(t);
-  const auto [j, shift] = arrival_derivatives(body_, flight, contact, from_place, to_place);
+  const auto [j, shift] = arrival_derivatives(body_, flight, contact, now, from_place, to_place);
   const double late = bound(shift.lazyProduct(factor_)) + contact.time_error;  // beside the departure
   factor_ = j.lazyProduct(factor_).eval();
   of_drop_ = j.lazyProduct(of_drop_).eval();

@@ -103,9 +103,8 @@ RotationDerivatives rotation_derivatives(const FreeFlight& flight, const Matrix3
 }
 
 ArrivalDerivatives arrival_derivatives(const Body& body, const FreeFlight& flight, const FirstContact& contact,
-                                       const Vector3& from, const Vector3& to) {
+                                       const State& now, const Vector3& from, const Vector3& to) {
   const double t = contact.time;
-  const State now = flight.at(t);
   const auto [of_attitude, of_velocity] = rotation_derivatives(flight, body.inertia, t);
   const Matrix3 turn = cross_matrix(flight.start().angular_velocity);
   ArrivalDerivatives d{.of_state = Eigen::Matrix<double, 10, 10>::Identity(), .of_time = {}};

@@ -45,9 +45,10 @@ struct ArrivalDerivatives {
 /// By rotation_derivatives() at a fixed time; the touch at h = 0 then shifts the time by
 ///     δt = −δh/h′,   δh = −(δθ₀ × r₀)_z + t δV_z + (δθ₁ × r₁)_z,                                        (5)
 /// r₀, r₁ from the centre of mass to the point that departed, at height 0, and to the one that arrives.
+/// @param now       flight.at(contact.time)
 /// @param from, to  these points, body frame
 [[nodiscard]] ArrivalDerivatives arrival_derivatives(const Body& body, const FreeFlight& flight,
-                                                     const FirstContact& contact, const Vector3& from,
+                                                     const FirstContact& contact, const State& now, const Vector3& from,
                                                      const Vector3& to);
 
 }  // namespace clatter::analytic::space

@@ -100,10 +100,11 @@ class Differences {
   void add(const Struck& difference, double step) {
     if (table_.empty()) best_.error.fill(infinite);
     std::vector<Struck> row{difference};
-    double power = side_ == 0 ? 4 : 2;
+    const double base = side_ == 0 ? 4 : 2;  // each halving takes this from the error's leading term
+    double power = base;
     for (const Struck& above : table_) {
       row.push_back(row.back() + (row.back() - above) / (power - 1));
-      power *= side_ == 0 ? 4 : 2;
+      power *= base;
       const auto change = sizes(row.back() - above), beside = sizes(row.back() - row[row.size() - 2]);
       for (std::size_t k = 0; k < 3; ++k) {
         const double error = std::fmax(change[k], beside[k]) + rounding_[k] / step;
@@ -140,7 +141,8 @@ class Tracer {
     for (const SpaceParameter p : {SpaceParameter::angle, SpaceParameter::tilt})
       of(p).value.segment<3>(1) = turn_of(drop, p);
     of(SpaceParameter::speed).value[6] = -1;
-    if (law().law == RestitutionLaw::viscoelastic) refuse(SpaceParameter::restitution, "the ground's damping gives e");
+    if (law().law == RestitutionLaw::viscoelastic)
+      refuse(SpaceParameter::restitution, refusals::ground_gives_restitution);
   }
 
   void run(std::size_t count, SpaceGradient& gradient) {
@@ -149,7 +151,7 @@ class Tracer {
       SpaceGradientRow& made = gradient.rows.emplace_back();
       made.corners = now().corners;
       strike(made);
-      if (law().restitution == 0) refuse(SpaceParameter::restitution, "a contact that stays bounces on for e > 0");
+      if (law().restitution == 0) refuse(SpaceParameter::restitution, refusals::contact_stays);
     }
     for (GradientRefusal& one : refused_) {
       if (one.reason.empty()) one.from = count;
@@ -173,7 +175,9 @@ class Tracer {
     const FirstContact& contact = now().flight;
     if (!(contact.time > 0)) return;
     const FreeFlight flight(principal_, state_after(last), drop_.gravity, drop_.gravity_along);
-    const auto j = arrival_derivatives(body_, flight, contact, last.corners.front().place, now().corners.front().place);
+    const State arrived = flight.at(contact.time);
+    const Vector3 &from = last.corners.front().place, &to = now().corners.front().place;
+    const auto j = arrival_derivatives(body_, flight, contact, arrived, from, to);
     for (Carried& one : carried_) one.advance(j.of_state);
   }
 
@@ -240,7 +244,7 @@ class Tracer {
     const double length = d.segment<3>(1).norm() + (d.segment<3>(4).norm() + reach_ * d.tail<3>().norm()) / speed;
     if (!(length > 0)) return Slope{};
     if (slips_from_rest(d)) {
-      refuse(p, "the contact begins to slip from rest: each way has a derivative of its own");
+      refuse(p, refusals::slip_from_rest);
       return {};
     }
     const auto along = [&](double step) {
@@ -381,7 +385,7 @@ void compare(const SpaceGradient& other, bool leaves_plane, SpaceGradient& gradi
   for (std::size_t i = 0; i < space_parameters; ++i) {
     if (leaves_plane && i != static_cast<std::size_t>(SpaceParameter::tilt)) continue;
     GradientRefusal& one = gradient.refused[i];
-    if (one.from > common) one = {common, "a drop next to it has other impacts, or slips otherwise"};
+    if (one.from > common) one = {common, refusals::other_neighbour};
   }
 }
 

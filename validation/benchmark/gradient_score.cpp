@@ -8,6 +8,7 @@
 #include <exception>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <variant>
 
 #include "validation/output/number.hpp"
@@ -19,24 +20,20 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 constexpr double close = 1e-3;  ///< of a mistake that explains a derivative, relative
 
-/// "dV/dangle" cut in two.
-struct GradientColumn {
-  std::string name, number, parameter;
-};
-
+/// "dV/dangle" cut in two; nothing for another name.
 std::optional<GradientColumn> read_gradient_column(const std::string& name, bool in_space) {
   const std::size_t slash = name.find("/d");
   if (!name.starts_with('d') || slash == std::string::npos) return {};
-  GradientColumn column{name, name.substr(1, slash - 1), name.substr(slash + 2)};
+  const std::string number = name.substr(1, slash - 1), parameter = name.substr(slash + 2);
   const auto numbers = gradient_numbers(in_space);
-  const auto is_it = [&](const GradientNumber& one) {
-    return one.in_lists != nullptr && column.number == one.in_lists;
-  };
+  const auto found = std::find_if(numbers.begin(), numbers.end(), [&](const GradientNumber& one) {
+    return one.in_lists != nullptr && number == one.in_lists;
+  });
   std::vector<std::string> parameters{"angle", "speed", "restitution", "friction"};
   if (in_space) parameters.emplace_back("tilt");
-  if (std::none_of(numbers.begin(), numbers.end(), is_it)) return {};
-  if (std::find(parameters.begin(), parameters.end(), column.parameter) == parameters.end()) return {};
-  return column;
+  const bool is_known = std::find(parameters.begin(), parameters.end(), parameter) != parameters.end();
+  if (found == numbers.end() || !is_known) return {};
+  return GradientColumn{name, number, parameter, static_cast<std::size_t>(found - numbers.begin())};
 }
 
 /// The derivatives of one column, impact by impact; none where there are none.
@@ -60,19 +57,15 @@ double size_of(const std::string& number, const ReferenceSequence& sequence) {
   return size;
 }
 
-Wanted wanted_of(const GradientColumn& column, const DropGradient& gradient, const ReferenceSequence& sequence,
-                 bool in_space) {
-  const auto numbers = gradient_numbers(in_space);
-  std::size_t k = 0;
-  while (numbers[k].in_lists == nullptr || column.number != numbers[k].in_lists) ++k;
+Wanted wanted_of(const GradientColumn& column, const DropGradient& gradient, const ReferenceSequence& sequence) {
   const auto parameter = std::find_if(gradient.parameters.begin(), gradient.parameters.end(),
                                       [&](const ParameterGradient& one) { return one.name == column.parameter; });
   Wanted wanted{.values = {}, .reason = parameter->refused.reason, .size = size_of(column.number, sequence)};
   if (wanted.reason.empty()) wanted.reason = "it grazes, or another may come first";
   for (std::size_t n = 0; n < sequence.truth.size(); ++n) {
     const Derivatives* const of = parameter->of(n);
-    wanted.values.push_back(of != nullptr ? std::optional(of->value[k]) : std::nullopt);
-    if (of != nullptr) wanted.size = std::fmax(wanted.size, std::fabs(of->value[k]));
+    wanted.values.push_back(of != nullptr ? std::optional(of->value[column.index]) : std::nullopt);
+    if (of != nullptr) wanted.size = std::fmax(wanted.size, std::fabs(of->value[column.index]));
   }
   return wanted;
 }
@@ -144,15 +137,15 @@ const ReferenceSequence& sequence_of(const Reference& reference, const std::stri
 
 }  // namespace
 
-std::vector<std::string> gradient_columns_of(const std::vector<std::string>& header, bool in_space) {
-  std::vector<std::string> columns;
+std::vector<GradientColumn> gradient_columns_of(const std::vector<std::string>& header, bool in_space) {
+  std::vector<GradientColumn> columns;
   for (const std::string& name : header) {
-    if (read_gradient_column(name, in_space)) columns.push_back(name);
+    if (auto column = read_gradient_column(name, in_space)) columns.push_back(std::move(*column));
   }
   return columns;
 }
 
-void score_gradients(const Answer& answer, const std::vector<std::string>& columns, const Reference& reference,
+void score_gradients(const Answer& answer, const std::vector<GradientColumn>& columns, const Reference& reference,
                      Score& score) {
   if (columns.empty()) return;
   const ReferenceSequence& sequence = sequence_of(reference, score.law);
@@ -168,10 +161,7 @@ void score_gradients(const Answer& answer, const std::vector<std::string>& colum
   std::visit(set_law, drop);
   const DropGradient gradient = drop_gradient(drop, static_cast<int>(sequence.truth.size()));
   GradientJudge judge(answer, score);
-  for (const std::string& name : columns) {
-    const GradientColumn column = *read_gradient_column(name, !reference.is_planar);
-    judge.judge(column, wanted_of(column, gradient, sequence, !reference.is_planar));
-  }
+  for (const GradientColumn& column : columns) judge.judge(column, wanted_of(column, gradient, sequence));
 }
 
 }  // namespace clatter::validation::inline benchmark

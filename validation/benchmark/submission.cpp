@@ -21,7 +21,7 @@ namespace {
 struct ReadFile {
   NumericTable table;
   bool is_list;
-  std::vector<std::string> gradients;  ///< columns of derivatives, of a list
+  std::vector<GradientColumn> gradients;  ///< of a list
 };
 
 ReadFile read_file(const std::string& path, const ColumnNames& names) {
@@ -36,8 +36,8 @@ ReadFile read_file(const std::string& path, const ColumnNames& names) {
     return {NumericTable::parse(path, std::move(text), request), is_list, {}};
   }
   TableRequest request = impact_list_request(has("Px"), names);
-  std::vector<std::string> gradients = gradient_columns_of(header, has("Px"));
-  request.words.insert(request.words.end(), gradients.begin(), gradients.end());
+  std::vector<GradientColumn> gradients = gradient_columns_of(header, has("Px"));
+  for (const GradientColumn& column : gradients) request.words.push_back(column.name);
   return {NumericTable::parse(path, std::move(text), request), is_list, std::move(gradients)};
 }
 
