@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace clatter::validation::inline output {
@@ -15,6 +15,9 @@ using Fields = Value::Fields;
 /// As JSON writes it, DEL and C1, which JSON lets pass, as escapes like other control characters; bytes that are no
 /// UTF-8 become U+FFFD.
 std::string quoted(const std::string& text) {
+  const bool is_plain =
+      std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c < '\x7F' && c != '"' && c != '\\'; });
+  if (is_plain) return '"' + text + '"';
   const std::string dumped = Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
   std::string out;
   for (std::size_t i = 0; i < dumped.size(); ++i) {
@@ -36,16 +39,18 @@ class Writer {
  public:
   explicit Writer(bool indented) : indented_(indented) {}
 
-  void write(const Value& value, const std::string& indent) {
-    if (const auto* list = std::get_if<List>(&value.content())) return write_list(*list, indent);
-    if (const auto* fields = std::get_if<Fields>(&value.content())) return write_fields(*fields, indent);
+  void write(const Value& value) {
+    if (const auto* list = std::get_if<List>(&value.content())) return write_list(*list);
+    if (const auto* fields = std::get_if<Fields>(&value.content())) return write_fields(*fields);
     if (const auto* text = std::get_if<std::string>(&value.content())) out_ += quoted(*text);
     else out_ += value.is_nothing() ? "null" : value.text();
   }
   [[nodiscard]] const std::string& text() const { return out_; }
 
  private:
-  void write_list(const List& list, const std::string& indent) {
+  void begin_line() { out_.append(1, '\n').append(2 * depth_, ' '); }
+
+  void write_list(const List& list) {
     if (list.empty()) {
       out_ += "[]";
       return;
@@ -54,32 +59,37 @@ class Writer {
     for (const Value& item : list) flat = flat && !is_structured(item);
     const bool lines = indented_ && !flat;
     out_ += '[';
+    ++depth_;
     for (std::size_t i = 0; i < list.size(); ++i) {
       if (i > 0) out_ += lines || !indented_ ? "," : ", ";
-      if (lines) out_ += "\n" + indent + "  ";
-      write(list[i], indent + "  ");
+      if (lines) begin_line();
+      write(list[i]);
     }
-    if (lines) out_ += "\n" + indent;
+    --depth_;
+    if (lines) begin_line();
     out_ += ']';
   }
 
-  void write_fields(const Fields& fields, const std::string& indent) {
+  void write_fields(const Fields& fields) {
     if (fields.empty()) {
       out_ += "{}";
       return;
     }
     out_ += '{';
+    ++depth_;
     for (std::size_t i = 0; i < fields.size(); ++i) {
       if (i > 0) out_ += ',';
-      if (indented_) out_ += "\n" + indent + "  ";
+      if (indented_) begin_line();
       out_ += quoted(fields[i].name) + (indented_ ? ": " : ":");
-      write(fields[i].value, indent + "  ");
+      write(fields[i].value);
     }
-    if (indented_) out_ += "\n" + indent;
+    --depth_;
+    if (indented_) begin_line();
     out_ += '}';
   }
 
   bool indented_;
+  std::size_t depth_ = 0;  // of what is open
   std::string out_;
 };
 
@@ -87,13 +97,13 @@ class Writer {
 
 std::string json_text(const Value& value) {
   Writer writer(true);
-  writer.write(value, "");
+  writer.write(value);
   return writer.text() + "\n";
 }
 
 std::string compact_json(const Value& value) {
   Writer writer(false);
-  writer.write(value, "");
+  writer.write(value);
   return writer.text();
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "analytic/base/errors.hpp"
@@ -409,7 +410,7 @@ Report sequence_report(const PreparedScene& prepared, const DiscreteRun& found, 
   }
   auto impacts = std::get<Value::List>(row_objects(report.grid).content());
   add_outcomes(scene, found, sets, impacts);
-  report.fields["impacts"] = impacts;
+  report.fields["impacts"] = std::move(impacts);
   add_results(scene, run, report.fields);
   if (const auto* const sequence = std::get_if<space::Sequence>(&found.sequence)) {
     add_end(scene, std::get<space::Drop>(prepared.drop), *sequence, report.fields);

@@ -71,3 +71,21 @@ test("a drop that takes for ever is left for another one", () => onPage(
     await page.waitForSelector('tr[data-model="continuous"]');
     assert.equal(await page.textContent("#spinner"), "");
   }));
+
+/** The browser tells of a new address only after the page has had time to write its own. */
+const tellLate = () => {
+  const { addEventListener } = window;
+  window.addEventListener = (type, listener, ...options) => addEventListener.call(window, type,
+    type === "hashchange" ? (event) => setTimeout(() => listener(event), 500) : listener, ...options);
+};
+
+test("a link is opened although the page was about to write its own address", () => onPage("#predict=0&stiffness=1e8", async (page) => {
+  await page.waitForSelector('tr[data-model="continuous"]');
+  await page.evaluate(() => {
+    document.getElementById("next").click();  // writes the address soon
+    location.hash = "#predict=0&stiffness=1e8&angle=20";
+  });
+  await page.waitForEvent("load");
+  assert.match(page.url(), /[#&]angle=20(&|$)/);
+  await waitForCell(page, "Impulse", 0, printed("sequence", "--angle", "20", "--stiffness", "1e8").impacts[0].impulse_normal);
+}, { before: tellLate }));

@@ -149,12 +149,16 @@ export function addressOf(state: State): string {
   return url.href;
 }
 
+/** The address as the page has read or written it: any other one is a link that was opened, of which no event has told yet. */
+let known = location.hash;
 let pending = 0;
 /** Browsers allow only so many changes of the address a second: while something is dragged, one in 100 ms. */
 export function writeAddress(state: State): void {
   if (pending) return;
   pending = window.setTimeout(() => {
     pending = 0;
+    if (location.hash !== known) return;
     history.replaceState(null, "", addressOf(state));
+    known = location.hash;
   }, 100);
 }
