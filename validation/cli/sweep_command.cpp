@@ -12,6 +12,7 @@
 #include "validation/cli/progress.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
+#include "validation/output/json.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/reports/sweep_rows_picture.hpp"
 #include "validation/sweep/column_file.hpp"
