@@ -14,7 +14,9 @@ HERE = Path(__file__).resolve().parent
 LEFT_OUT = {"waiting.py", "no_time_test.py", "seeded_faults", "speed_benchmark.py", "score_benchmark.py", "numeric_benchmark.cpp",
             "mesh_campaign.cpp", "page_benchmark.mjs"}
 WAITS = {"launcher_test.bash": ['until "$@"; do sleep 0.02; done', " readlink rm sleep tail touch"],
-         "page_test.mjs": ["window.setTimeout = (act) => later.push(act);"]}
+         "page_test.mjs": ["window.setTimeout = (act) => later.push(act);"],
+         "page_browsers_test.mjs": ["const { setTimeout, clearTimeout } = window;", "window.setTimeout = (act, ...rest) => {",
+                                    "const id = setTimeout(() => { window.due.delete(id); act(); }, ...rest);"]}
 SLEEP = re.compile(r"\bu?sleep\b|\bnanosleep\b|\bsleep_(for|until)\b|\bsetTimeout\b|\bwaitForTimeout\b|\bwait_for\(.*\bchrono\b")
 CLOCK = re.compile(r"\bsteady_clock\b|\bsystem_clock\b|\bmonotonic\b|\bperf_counter\b|\btime\.time\b|\bSECONDS\b")
 LIMIT = re.compile(r"\btimeout\s*=\s*([\d_.]+)|\b(?:--timeout|timeout)\s+([\d_.]+)|\bsettimeout\(([\d_.]+)")
