@@ -10,7 +10,7 @@ namespace clatter::analytic::space {
 
 namespace {
 
-/// Local error of a step, relative to the largest slip so far.
+/// Local error of a step, relative to the largest slip so far, and of what goes along with it.
 constexpr double slip_step_error = 4e-15;
 /// Forecasts of a stop this near to one another, relative to the impulse of the slip, differ by the errors of steps;
 constexpr double stop_agreement = 16 * detail::epsilon;
@@ -44,8 +44,36 @@ SlipMotion::SlipMotion(Eigen::Index size)
 int SlipMotion::derivative(double, const double y[], double change[], void* motion) {
   auto& with = *static_cast<SlipMotion*>(motion);
   const auto size = static_cast<Eigen::Index>(with.size_);
-  Eigen::Map<Eigen::VectorXd>(change, size) = with.rate(Eigen::Map<const Eigen::VectorXd>(y, size));
+  Eigen::Map<Eigen::VectorXd> rates(change, size);
+  rates = with.rate(Eigen::Map<const Eigen::VectorXd>(y, size));
+  if (with.holds_direction_) rates.head<3>().setZero();
   return 0;
+}
+
+double SlipMotion::error_along(const Values& next, const Values& error) {
+  const Eigen::Index others = error.size() - 3;
+  return error.tail(others).lpNorm<1>() / std::fmax(1, next.tail(others).lpNorm<1>());
+}
+
+void SlipMotion::go_straight_to(double stop) {
+  constexpr double shortest = 1e-3;
+  const double whole = stop - spent_;
+  double length = whole;
+  holds_direction_ = true;
+  while (y_.size() > 3 && spent_ < stop) {
+    const bool is_last = length >= stop - spent_;
+    const double taken = is_last ? stop - spent_ : length;
+    Values next = y_, error = y_;
+    gsl_odeiv2_step_apply(step_.get(), 0, taken, next.data(), error.data(), nullptr, nullptr, &system_);
+    if (!(error_along(next, error) <= slip_step_error) && taken > shortest * whole) {
+      length = taken / 2;
+      continue;
+    }
+    y_ = next;
+    spent_ = is_last ? stop : spent_ + taken;
+  }
+  holds_direction_ = false;
+  spent_ = stop;
 }
 
 SlipMotion::End SlipMotion::slide(bool from_rest) {
@@ -67,16 +95,14 @@ SlipMotion::End SlipMotion::slide(bool from_rest) {
     if (scale > most_little) forecast.agreement = stop_agreement;
     const double stop = spent_ - size / growth;
     if (growth < 0 && forecast.agrees(spent_, left, size, stop, only_friction_)) {
-      const Eigen::Index others = y_.size() - 3;
-      y_.tail(others) += (stop - spent_) * now.tail(others);
-      spent_ = stop;
+      go_straight_to(stop);
       return End::stopped;
     }
     length = std::fmin(length, size / std::fmax(-growth / 0.9, now.head<3>().norm() / 8));
     const double taken = std::fmin(length, left);
     Values next = y_, error = y_;
     gsl_odeiv2_step_apply(step_.get(), 0, taken, next.data(), error.data(), now.data(), nullptr, &system_);
-    const double wrong = error.head<3>().norm() / (slip_step_error * scale);
+    const double wrong = (error.head<3>().norm() / scale + error_along(next, error)) / slip_step_error;
     if (wrong <= 1) {
       y_ = next;
       spent_ += taken;

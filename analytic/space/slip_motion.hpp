@@ -43,8 +43,13 @@ class SlipMotion {
     void operator()(gsl_odeiv2_step* step) const { gsl_odeiv2_step_free(step); }
   };
   static int derivative(double impulse, const double y[], double change[], void* motion);
+  /// Error of a step in what goes along with slip, relative to its size or to 1.
+  static double error_along(const Values& next, const Values& error);
+  /// What goes along with slip, up to where it stops without turning.
+  void go_straight_to(double stop);
 
   std::size_t size_;
+  bool holds_direction_ = false;
   gsl_odeiv2_system system_;
   std::unique_ptr<gsl_odeiv2_step, StepDeleter> step_;
 };

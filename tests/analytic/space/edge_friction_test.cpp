@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "analytic/law/viscoelastic.hpp"
 #include "analytic/space/simultaneous.hpp"
 #include "tests/analytic/space/flat_landing.hpp"
 #include "tests/analytic/space/random_contact.hpp"
@@ -37,15 +38,17 @@ Matrix3 leaning_box(double a, double b, double c, double angle = 0) {
   return lean * moments.asDiagonal() * lean.transpose();
 }
 
-/// The landing turned by `angle` about the vertical.
-std::optional<GroupImpact> land(const EdgeLanding& l, double angle = 0) {
+/// The landing turned by `angle` about the vertical, on a ground with c/k = `damping` for the viscoelastic law.
+std::optional<GroupImpact> land(const EdgeLanding& l, double angle = 0, double damping = 0) {
   const Body body{.mass = mass, .inertia = l.inertia, .vertices = {}, .rims = {}};
   State before;
   before.attitude = Eigen::AngleAxisd(angle, Vector3::UnitZ());
   before.velocity = before.attitude * l.velocity;
   before.angular_velocity = before.attitude * l.angular_velocity;
   const std::vector<Corner> corners{{.index = 0, .place = l.from}, {.index = 1, .place = l.to}};
-  return rebound_as_a_whole(body, before, corners, coulomb(l.restitution, l.friction, l.law));
+  Law law = coulomb(l.restitution, l.friction, l.law);
+  law.law.damping_per_stiffness = damping;
+  return rebound_as_a_whole(body, before, corners, law);
 }
 
 /// A rod on the ground, its centre of mass at the height of the ground.
@@ -201,6 +204,28 @@ BOOST_AUTO_TEST_CASE(a_rod_that_slides_straight_loses_mu_p_over_m_along_or_acros
     BOOST_REQUIRE(slid.has_value());
     BOOST_TEST((slid->velocity_after - 0.7 * s - 0.5 * Vector3::UnitZ()).norm() <= tolerance);
     BOOST_TEST(slid->angular_velocity_after.norm() <= tolerance);
+  }
+}
+
+// The work of the ground is that of the normal velocity alone, whose change is P/m.
+BOOST_AUTO_TEST_CASE(a_rod_that_slides_to_a_stop_rebounds_by_stronges_law_however_little_it_spins) {
+  constexpr double tolerance = 1e-12;
+  using enum RestitutionLaw;
+  for (const double spin : {0.0, 1e-12, 1e-9, 1e-6, 1e-3, 1.0}) {
+    for (const double friction : {0.21, 0.29, 0.3, 0.35, 1.0, 4.0}) {
+      for (const RestitutionLaw law : {newton, poisson, stronge, viscoelastic}) {
+        EdgeLanding low = rod({0.3, 0, -1}, spin);
+        low.from.z() = low.to.z() = -0.001;
+        low.friction = friction, low.law = law, low.restitution = law == viscoelastic ? 1 : 0.5;
+        const auto whole = land(low, 0.4, law == viscoelastic ? 0.7 : 0);
+        BOOST_REQUIRE(whole.has_value());
+        const double e = law == viscoelastic ? clatter::analytic::restitution_of_damping(0.7) : 0.5;
+        const bool stops = friction * (1 + e) >= 0.3;
+        BOOST_TEST(std::fabs(whole->velocity_after.z() - e) <= tolerance);
+        BOOST_TEST(std::fabs(whole->velocity_after.head<2>().norm() - (stops ? 0 : 0.3 - friction * (1 + e))) <=
+                   std::fmax(tolerance, 0.01 * spin * spin));
+      }
+    }
   }
 }
 
