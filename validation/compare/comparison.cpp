@@ -271,14 +271,15 @@ std::string shortfall_of(const Comparison& comparison, const Scene& scene) {
 
 /// The sequence of the body as given and, where the mesh has other corners, that of these.
 void find_discrete_sides(Comparison& comparison, const Scene& scene, const numeric::Body& body) {
-  const DiscreteDrop drop = discrete_drop(scene, body);
+  const bool is_mesh = scene.body.shape == BodyScene::Shape::mesh;
+  DiscreteBody mesh(std::shared_ptr<const numeric::Body>(std::shared_ptr<void>(), &body));
+  DiscreteBody given = is_mesh ? mesh : DiscreteBody(scene);
+  const DiscreteDrop drop = given.drop(scene);
   comparison.approach_speed = first_approach_speed(drop);
-  comparison.discrete = discrete_side(scene, drop);
-  if (scene.body.shape == BodyScene::Shape::mesh) return;
-  const DiscreteDrop of_mesh = mesh_drop(scene, body);
-  if (!has_other_corners(drop, of_mesh)) return;
+  comparison.discrete = discrete_side(scene, given);
+  if (is_mesh || !has_other_corners(drop, mesh.drop(scene))) return;
   comparison.as_given = std::move(comparison.discrete);
-  comparison.discrete = discrete_side(scene, of_mesh);
+  comparison.discrete = discrete_side(scene, mesh);
 }
 
 /// Where [impact] gives the discrete model another law than the ground's, one clause; empty: it does not.

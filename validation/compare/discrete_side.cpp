@@ -51,6 +51,12 @@ bool is_open_face(const ImpactRow& row) {
   return is_face(row) && (row.before.angular != 0 || row.impact.tangential_impulse != 0);
 }
 
+/// A whole face strikes first and slides without a turn.
+bool lands_sliding(const analytic::Drop& drop) {
+  const analytic::Sequence first = impact_sequence(drop, {.impacts = 1});
+  return !first.rows.empty() && is_open_face(first.rows[0]) && first.rows[0].before.angular == 0;
+}
+
 SequenceImpact planar_impact(const analytic::Drop& drop, const ImpactRow& row, const Impact& found) {
   const ImpactMode mode = row.impact.mode;
   SequenceImpact impact{.numbers = motion_numbers(found.value),
@@ -237,9 +243,12 @@ DiscreteSide space_side(const Scene& scene, const space::Drop& drop) {
 
 }  // namespace
 
-DiscreteSide discrete_side(const Scene& scene, const DiscreteDrop& drop) {
-  if (const auto* const planar = std::get_if<analytic::Drop>(&drop)) return planar_side(scene, *planar);
-  return space_side(scene, std::get<analytic::space::Drop>(drop));
+DiscreteSide discrete_side(const Scene& scene, DiscreteBody& body) {
+  const DiscreteDrop drop = body.drop(scene);
+  const auto* const planar = std::get_if<analytic::Drop>(&drop);
+  if (planar == nullptr) return space_side(scene, std::get<space::Drop>(drop));
+  if (!scene.world.planar && lands_sliding(*planar)) return space_side(scene, body.drop_in_space(scene));
+  return planar_side(scene, *planar);
 }
 
 }  // namespace clatter::validation::inline compare

@@ -50,8 +50,9 @@ struct DiscreteSide {
   std::function<std::vector<PredictedSize>(const std::vector<double>&)> predict;
 };
 
-/// The sequence of the drop of a scene.
+/// The sequence of the drop of a scene with that body: in space also where a face lands that slides in the plane, since
+/// only a face in space has its width, over which the ground presses and rubs.
 /// @throws analytic::OutsideModelError if the first impact leaves the model.
-[[nodiscard]] DiscreteSide discrete_side(const Scene& scene, const DiscreteDrop& drop);
+[[nodiscard]] DiscreteSide discrete_side(const Scene& scene, DiscreteBody& body);
 
 }  // namespace clatter::validation::inline compare

@@ -19,6 +19,7 @@ import gzip
 import hashlib
 import os
 import re
+import resource
 import shutil
 import subprocess
 import sys
@@ -271,6 +272,9 @@ def bundle(folder, module, models):
 
 def main():
     folder = Path(sys.argv[1]).resolve()
+    # Node.js reserves more addresses for a module than a campaign of faults leaves to a test.
+    most = resource.getrlimit(resource.RLIMIT_AS)[1]
+    resource.setrlimit(resource.RLIMIT_AS, (most, most))
     folder.mkdir(parents=True, exist_ok=True)
     compiled = (folder.parent / "module").resolve()
     compiled.mkdir(exist_ok=True)

@@ -409,8 +409,10 @@ const space::Body& DiscreteBody::in_space() {
 
 DiscreteDrop DiscreteBody::drop(const Scene& scene) {
   if (reason_in_space(scene).empty() && outline()) return planar_drop(scene, *outline());
-  return space_drop(scene, in_space());
+  return drop_in_space(scene);
 }
+
+space::Drop DiscreteBody::drop_in_space(const Scene& scene) { return space_drop(scene, in_space()); }
 
 DiscreteDrop discrete_drop(const Scene& scene) { return DiscreteBody(scene).drop(scene); }
 

@@ -72,6 +72,8 @@ class DiscreteBody {
   /// The drop of a scene that has this body.
   /// @throws BadInput if drop.height is not above the centre of mass at the touch; OutsideModelError as discrete_law.
   [[nodiscard]] DiscreteDrop drop(const Scene& scene);
+  /// The same in space, also where it moves in the plane.  @throws as drop
+  [[nodiscard]] analytic::space::Drop drop_in_space(const Scene& scene);
   /// Of mass, in the body's frame [m].
   [[nodiscard]] const numeric::Vector3& centre() const { return centre_; }
 

@@ -89,6 +89,13 @@ class Faces(SpaceFolder):
         allowed = impact["numbers"]["angular_velocity_after_z"]["allowance"]
         self.assertLessEqual(allowed, 0.01 * 20)  # an answer that keeps its spin would be found
 
+    def test_a_plate_that_slides_in_the_plane_without_a_turn_is_compared_too(self):
+        impact = self.box(THIN, spin=0)
+        self.assertTrue(impact["limit_is_discrete"])
+        self.assertRegex(impact["explanation"], "tips the body on an even bed")
+        self.assertLessEqual(self.largest_gap(impact, on_an_even_bed(THIN, 0.004, (0.3, 0, -1), 0)), 1e-3)
+        self.assertEqual(impact["numbers"]["velocity_after_x"]["discrete"], 0)
+
     def test_a_thick_body_is_told_how_far_the_rule_is_from_an_even_bed(self):
         impact = self.box(THICK)
         self.assertIsNone(impact["limit_is_discrete"])
