@@ -35,17 +35,28 @@ struct DirectionMoments {
   explicit DirectionMoments(const Vector3& slip);
 };
 
-DirectionMoments::DirectionMoments(const Vector3& slip) : along(Vector2::Zero()), across(Vector3::Zero()) {
-  const double a = slip[0], b = slip[1], w = slip[2];
-  if (std::hypot(a, b) > smooth_slip * std::fabs(w)) {
+/// Gauss's rule of ten points on [−1, 1].
+struct EdgeRule {
+  using Array = Eigen::Array<double, 10, 1>;
+  Array x, weight;
+
+  EdgeRule() {
     using Gauss = boost::math::quadrature::gauss<double, 10>;
-    for (std::size_t i = 0; i < Gauss::abscissa().size(); ++i) {
-      for (const double x : {Gauss::abscissa()[i], -Gauss::abscissa()[i]}) {
-        const double z = b + w * x, weight = Gauss::weights()[i] / std::hypot(a, z);
-        along += weight * a * Vector2(1, x);
-        across += weight * z * Vector3(1, x, x * x);
-      }
+    for (Eigen::Index i = 0; i < 5; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      x[i] = Gauss::abscissa()[k], x[9 - i] = -x[i];
+      weight[i] = weight[9 - i] = Gauss::weights()[k];
     }
+  }
+};
+
+DirectionMoments::DirectionMoments(const Vector3& slip) : along(Vector2::Zero()), across(Vector3::Zero()) {
+  static const EdgeRule rule;
+  const double a = slip[0], b = slip[1], w = slip[2];
+  if (a * a + b * b > smooth_slip * smooth_slip * w * w) {
+    const EdgeRule::Array z = b + w * rule.x, part = rule.weight / (a * a + z.square()).sqrt(), across_part = part * z;
+    along << a * part.sum(), a * (part * rule.x).sum();
+    across << across_part.sum(), (across_part * rule.x).sum(), (across_part * rule.x.square()).sum();
     return;
   }
   const double from = b - w, to = b + w, r1 = std::hypot(a, from), r2 = std::hypot(a, to);
@@ -234,7 +245,8 @@ std::optional<EdgeImpulse> EdgePath::follow() {
 
 Vector3 rub_of_edge(const Vector3& slip, double pressure_point) {
   const PressedPiece piece(pressure_point);
-  const DirectionMoments d({slip[0], slip[1] + piece.centre * slip[2], piece.half * slip[2]});
+  const Vector3 s = slip / slip.lpNorm<Eigen::Infinity>();  // its direction decides, and squares of it exist
+  const DirectionMoments d({s[0], s[1] + piece.centre * s[2], piece.half * s[2]});
   const auto weighted = [&](const auto& moments, int k) {
     return piece.level * moments[k] + piece.slope * moments[k + 1];
   };

@@ -14,6 +14,7 @@
 #include "analytic/plane/sequence.hpp"
 #include "analytic/space/body.hpp"
 #include "analytic/space/sequence.hpp"
+#include "analytic/space/tilted_outcomes.hpp"
 #include "tests/analytic/space/random_contact.hpp"
 
 namespace {
@@ -199,6 +200,43 @@ void space_sequence(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(space::impact_sequence(drop, options));
 }
 BENCHMARK(space_sequence)->Args({0, 0})->Args({0, 1})->Args({30, 0})->Args({30, 1});
+
+/// A body that lands level as it stands, without a spin.
+space::Drop level(const space::Body& body, double friction, double restitution = 0.5) {
+  space::Drop drop;
+  drop.body = body;
+  drop.velocity = {0, 0, -1};
+  drop.law.law = {.restitution = restitution, .friction = FrictionKind::coulomb, .friction_value = friction};
+  return drop;
+}
+space::Body phone() { return space::box(0.18, {.size = {0.14, 0.07, 0.008}}); }
+/// Corners far apart for its inertia strike one another again and again.
+space::Body light_box() {
+  space::Body box = space::box(1, {.size = {1, 0.7, 1}});
+  box.inertia = space::Vector3(6e-4, 5e-3, 5.5e-3).asDiagonal();
+  return box;
+}
+space::Body coin() {
+  space::Body coin = space::cylinder(0.0075, {.length = 0.0022, .radius = 0.0116});
+  for (space::Rim& rim : coin.rims) rim = {{0, 0, rim.centre.x()}, {0, 0, rim.axis.x()}, rim.radius};
+  coin.inertia = space::Vector3(coin.inertia(1, 1), coin.inertia(1, 1), coin.inertia(0, 0)).asDiagonal();
+  return coin;
+}
+
+/// A level landing, and what small tilts make of it; argument: most strikes with a whole edge or face.
+void level_landing(benchmark::State& state, const space::Drop& drop) {
+  const space::Sequence sequence = space::impact_sequence(drop, {.impacts = 1});
+  const space::ImpactRow& row = sequence.rows.at(0);
+  const space::TiltEffort most{.rubs = static_cast<std::size_t>(state.range(0))};
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(space::impact_sequence(drop, {.impacts = 1}));
+    benchmark::DoNotOptimize(space::tilted_outcomes(drop.body, row.before, row.corners, drop.law, most));
+  }
+}
+BENCHMARK_CAPTURE(level_landing, phone, level(phone(), 0))->Arg(20);
+BENCHMARK_CAPTURE(level_landing, phone_with_friction, level(phone(), 0.3))->Arg(20)->Arg(10'000);
+BENCHMARK_CAPTURE(level_landing, plastic_light_box, level(light_box(), 0.3, 0))->Arg(20)->Arg(10'000);
+BENCHMARK_CAPTURE(level_landing, coin, level(coin(), 0.3))->Arg(20)->Arg(10'000);
 
 }  // namespace
 
