@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <span>
-#include <sstream>
 #include <string_view>
 
 #include "validation/output/estimated.hpp"
@@ -54,15 +53,15 @@ void add_columns(const ImpactQuantity& quantity, const Entry& kind, const std::v
                        .shown = contains(shown, quantity.name)});
     return;
   }
-  std::istringstream symbols(quantity.symbol);
+  std::string_view symbols(quantity.symbol);
   const bool is_vector = width_of(kind) == 3;
   for (const char* const part :
        is_vector ? std::span<const char* const>(axes) : std::span<const char* const>(parameters)) {
-    std::string symbol;
-    symbols >> symbol;
+    const std::string_view symbol = symbols.substr(0, symbols.find(' '));
+    symbols.remove_prefix(std::min(symbol.size() + 1, symbols.size()));
     const std::string name = fmt::format("{}_{}", quantity.name, part);
     columns.push_back({.name = name,
-                       .heading = symbol,
+                       .heading = std::string(symbol),
                        .unit = quantity.unit,
                        .meaning = fmt::format("{}: {}", part, quantity.meaning),
                        .shown = contains(shown, name),
@@ -142,7 +141,9 @@ Scales scales_of(const Run& run, double reach) {
 }
 
 std::vector<Column> impact_columns(RunModel model, const std::vector<std::string>& shown) {
+  constexpr std::size_t about = 80;
   std::vector<Column> columns, errors;
+  columns.reserve(about), errors.reserve(about);
   for (const ImpactQuantity& quantity : impact_quantities()) {
     const Known known = quantity.known_to(model);
     if (known != Known::absent) add_columns(quantity, quantity.kind(), shown, columns);
