@@ -174,8 +174,9 @@ class Run {
         pieces_(body, world.planar, observer.history) {
     control_.steps = integration.steps;
     control_.evaluation_limit = integration.evaluation_limit;
-    control_.estimate_local_slip = (request.error_estimates || request.local_slip) && world.ground.has_friction() &&
-                                   world.ground.friction == FrictionLaw::coulomb;
+    control_.estimate_local_slip =
+        ((request.error_estimates && request.local_slip_with_errors) || request.local_slip) &&
+        world.ground.has_friction() && world.ground.friction == FrictionLaw::coulomb;
     control_.least_local_slip = request.local_slip ? 0 : integration.least_local_slip;
     control_.point_friction = world.point_friction;
     if (observer.history || observer.progress) {

@@ -42,6 +42,7 @@ struct Request {
   /// ImpactRecord::local_slip however small it is.  Otherwise it comes with the error estimates, of those parts of
   /// contacts where the laws of friction may differ by more than 10^−digits of the contact's mean force.
   bool local_slip = false;
+  bool local_slip_with_errors = true;  ///< false: only where asked for; it takes a tenth of the time
 
   /// @throws std::domain_error naming field, value and what is allowed.
   void validate() const;

@@ -256,6 +256,12 @@ void append_scene_row(const RowForm& form, const Run& run) {
 
 }  // namespace
 
+bool RowLayout::has(std::string_view quantity) const {
+  return rows == RowKind::impact || std::any_of(asked.begin(), asked.end(), [&](const ImpactColumn& one) {
+           return one.quantity->name == quantity;
+         });
+}
+
 std::vector<ImpactColumn> read_impact_columns(const std::string& names, const RowLayout& layout, int impacts) {
   AskedColumns asked(layout, impacts);
   for (std::size_t begin = 0; begin <= names.size();) {

@@ -31,6 +31,9 @@ struct RowLayout {
   bool in_space = false;  ///< whether a scene may leave its plane
   std::vector<std::string> swept{};
   std::vector<ImpactColumn> asked{};  ///< with rows of scenes
+
+  /// Whether rows have this number of impacts.
+  [[nodiscard]] bool has(std::string_view quantity) const;
 };
 
 /// The columns that a list of names asks for, separated by commas: QUANTITY_N of impact N, QUANTITY of each impact up

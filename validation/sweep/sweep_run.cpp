@@ -146,7 +146,9 @@ SweepBody make_sweep_body(const SweepPlan& plan, const Scene& scene) {
 }
 
 SceneRunner::SceneRunner(const SweepPlan& plan, const SweepBody& body, std::function<bool()> stop)
-    : plan_(plan), stop_(std::move(stop)), scene_(plan.scene), body_(plan, body) {}
+    : plan_(plan), stop_(std::move(stop)), scene_(plan.scene), body_(plan, body) {
+  scene_.request.local_slip_with_errors = plan.layout.has("local_slip");
+}
 
 RangeRows SceneRunner::operator()(const SceneRange& range) {
   RangeRows rows;

@@ -191,6 +191,16 @@ class Sweep(SpaceFolder):
                 hardest = max(own, key=lambda row: float(row["impulse_normal"]))
                 self.assertEqual((scene["hardest"], scene["hardest_end"]), (hardest["n"], hardest["end"]))
 
+    def test_a_column_of_local_slip_is_that_of_rows_of_impacts_and_changes_no_other_column(self):
+        arguments = ["--set", "drop.angle_deg=2:42:20", "--set", "ground.stiffness=1e7", "--set", "ground.static_friction=0.3",
+                     "--set", "ground.sliding_friction=0.3", "--set", "run.impacts=1", "--set", "run.digits=4"]
+        asked = self.swept(*arguments, "--columns", "local_slip", model="continuous")
+        impacts = self.swept(*arguments, "--rows", "impact", model="continuous")
+        self.assertEqual([row["local_slip_1"] for row in asked], [row["local_slip"] for row in impacts])
+        self.assertTrue(any(float(row["local_slip"]) > 0 for row in impacts))
+        for row, other in zip(asked, self.swept(*arguments, model="continuous")):
+            self.assertEqual({name: row[name] for name in other}, other)
+
     def test_a_sweep_that_asked_for_columns_goes_on_only_with_the_same_ones(self):
         arguments = ["sweep", "box.toml", "--set", "drop.attitude=uniform", "--random", "5", "--output", "rows.csv"]
         self.assertEqual(self.run_program(*arguments, "--columns", "hardest").returncode, 0)
