@@ -73,11 +73,18 @@ DropRun run_checked(const Body& body, const World& world, const MotionState& sta
 
 /// The second run, until its impacts go another way than `rows` do.
 DropRun run_again(const Body& body, const World& world, const MotionState& start, std::span<const ImpactRecord> rows,
-                  const SecondRun& second) {
+                  const Integration& main, const SecondRun& second) {
   const Request alone{.impacts = static_cast<int>(rows.size()), .error_estimates = false, .amplification = false};
+  Integration integration = second.integration;
   std::size_t place = 0;
+  if (is_adaptive(integration.method)) {
+    integration.next_tolerance = [&](const ImpactRecord& row) {
+      const double looser = tolerance_beside(body, main.steps.tolerance, rows[place], row);
+      return std::max(looser, second.integration.steps.tolerance);
+    };
+  }
   const auto goes_on = [&](const ImpactRecord& row) { return !goes_another_way(rows[place++], row); };
-  return run_checked(body, world, start, alone, second.integration, {.history = nullptr, .impact = goes_on});
+  return run_checked(body, world, start, alone, integration, {.history = nullptr, .impact = goes_on});
 }
 
 void check_start(const Body& body, const MotionState& start) {
@@ -143,7 +150,7 @@ Simulation simulate(const Body& body, const World& world, const MotionState& sta
   const SecondRun second = second_run(integration, main.step);
   const std::span<const ImpactRecord> known(simulation.impacts.data(),
                                             static_cast<std::size_t>(last - simulation.impacts.begin()));
-  const DropRun other = run_again(body, world, start, known, second);
+  const DropRun other = run_again(body, world, start, known, integration, second);
   simulation.force_evaluations += other.force_evaluations;
   simulation.root_evaluations += other.root_evaluations;
   estimate_errors(body, second.error_per_distance, simulation.impacts, other.impacts);

@@ -165,8 +165,8 @@ class Run {
  public:
   Run(const Body& body, const World& world, const MotionState& start, const Request& request,
       const Integration& integration, const Observer& observer)
-      : body_(body), world_(world), request_(request), observer_(observer), gravity_(world.pull()),
-        contact_gravity_(world.gravity_in_contact ? gravity_ : Gravity(0)),
+      : body_(body), world_(world), request_(request), integration_(integration), observer_(observer),
+        gravity_(world.pull()), contact_gravity_(world.gravity_in_contact ? gravity_ : Gravity(0)),
         system_(body, world.ground, contact_gravity_, world.planar), stepper_(make_stepper(integration.method)),
         contact_(system_, *stepper_), rough_stepper_(make_stepper(Method::rkck)),
         rough_contact_(system_, *rough_stepper_), state_(world.planar ? in_plane(start) : start),
@@ -239,6 +239,7 @@ class Run {
     if (!(contact.scales.depth > least_depth * placement_)) return end(Outcome::not_representable);
     result_.impacts.push_back(record(contact, point));
     if (request_.amplification) note_growth(contact);
+    if (integration_.next_tolerance) control_.steps.tolerance = integration_.next_tolerance(result_.impacts.back());
     if (observer_.impact && !observer_.impact(result_.impacts.back())) return end(Outcome::interrupted);
     state_ = world_.planar ? in_plane(contact.after) : contact.after;
     time_ += contact.duration;
@@ -297,6 +298,7 @@ class Run {
   const Body& body_;
   const World& world_;
   const Request& request_;
+  const Integration& integration_;
   const Observer& observer_;
   Gravity gravity_, contact_gravity_;
   ContactSystem system_;

@@ -2,6 +2,7 @@
 // One run of a drop: flights and contacts in turn, without error estimates.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "numeric/body/body.hpp"
@@ -17,6 +18,8 @@ struct Integration {
   StepSettings steps;
   long evaluation_limit = 3'000'000;  ///< of the contact forces, at which the run ends
   double least_local_slip = 0;        ///< see ContactControl
+  /// Tolerance of the contacts after an impact; null: that of `steps`.
+  std::function<double(const ImpactRecord&)> next_tolerance = nullptr;
 };
 
 struct DropRun {

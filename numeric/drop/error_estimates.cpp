@@ -14,6 +14,9 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 constexpr double finer = 0.1;   ///< tolerance of the second run, over that of the main one
 constexpr double coarser = 10;  ///< the same where a finer one is not to be had
+/// Of the second run's later contacts, over the relative distance of the runs, and the largest.
+constexpr double tolerance_per_distance = 0.1, loosest = 1e-5;
+constexpr double least_grown = 0.01;  ///< of the root of the tolerance, with which friction of slow slip errs
 /// Longest step of the second run, over that of the main one: where steps are as long as they may be, the tolerance
 /// changes nothing.
 constexpr double shorter_steps = 0.7;
@@ -116,6 +119,17 @@ SecondRun second_run(const Integration& main, double used_step) {
 bool goes_another_way(const ImpactRecord& row, const ImpactRecord& second) {
   if (second.end != row.end || second.touches != row.touches) return true;
   return !((second.value.impulse - row.value.impulse).norm() <= another_way * row.value.impulse.norm());
+}
+
+double tolerance_beside(const Body& body, double tolerance, const ImpactRecord& row, const ImpactRecord& second) {
+  const ImpactNumbers &one = row.value, &other = second.value;
+  const double radius = body.radius(), speed = one.velocity_after.norm() + radius * one.angular_velocity_after.norm();
+  const double distance = std::max((other.velocity_after - one.velocity_after).norm(),
+                                   radius * (other.angular_velocity_after - one.angular_velocity_after).norm()) /
+                          speed;
+  const double looser = std::min(tolerance_per_distance * distance, loosest);
+  const bool has_grown = distance > least_grown * std::sqrt(tolerance) && distance <= tolerance * row.amplification;
+  return has_grown && looser > coarser * tolerance ? looser : 0;
 }
 
 void estimate_errors(const Body& body, double error_per_distance, std::vector<ImpactRecord>& rows,

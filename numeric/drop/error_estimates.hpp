@@ -26,6 +26,13 @@ struct SecondRun {
 /// another end or number of touches in the second run, or an impulse that is a tenth of its size off.
 [[nodiscard]] bool goes_another_way(const ImpactRecord& row, const ImpactRecord& second);
 
+/// Tolerance that the second run's contacts may have after an impact, or 0: a tenth of the relative distance of the
+/// runs' speeds there, so that the distance grows on as it does and the second run costs less.  Only where it has grown
+/// from errors of the size of `tolerance`, that of the main run, beyond a hundredth of its root: where a contact has
+/// made it, the next one may err as much in both runs.  Never near that tolerance, for the same reason.
+[[nodiscard]] double tolerance_beside(const Body& body, double tolerance, const ImpactRecord& row,
+                                      const ImpactRecord& second);
+
 /// Fills in `error` of each row: error_per_distance × |row − second's row|, and rounding_errors().  A vector's
 /// component takes at least a tenth of the vector's distance, duration, restitution and peak force of the impulse's
 /// relative one, and energies and works that relative one of the energy before: two runs may agree by chance.  A row

@@ -178,6 +178,27 @@ BOOST_AUTO_TEST_CASE(the_second_run_ends_where_it_goes_another_way_and_nothing_i
   BOOST_TEST(space.force_evaluations < 2 * plain_run.force_evaluations);
 }
 
+/// Relative distance of the speeds: 1e-5 m/s of 2 m/s.
+BOOST_AUTO_TEST_CASE(the_second_run_is_looser_only_where_its_distance_has_grown_from_errors_far_below_it) {
+  const Body body = phone();
+  ImpactRecord row;
+  row.value.velocity_after = Vector3(0, 0, 2);
+  row.amplification = 1e6;
+  ImpactRecord second = row, far = row;
+  second.value.velocity_after.x() = 1e-5;
+  far.value.velocity_after.x() = 0.1;
+  const auto given = [&](double tolerance, double amplification, const ImpactRecord& other) {
+    row.amplification = amplification;
+    return tolerance_beside(body, tolerance, row, other);
+  };
+  BOOST_TEST(given(1e-10, 1e6, second) == 5e-7, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(given(1e-10, 1e4, second) == 0);  // errors of 1e-10 grow to 1e-6 only: a contact has made the rest
+  BOOST_TEST(given(1e-7, 1e6, second) == 0);   // 5e-7 is near that tolerance
+  BOOST_TEST(given(1e-10, std::numeric_limits<double>::quiet_NaN(), second) == 0);
+  const double farthest = given(1e-10, 1e12, far);
+  BOOST_TEST((farthest > 5e-7 && farthest <= 1e-4));
+}
+
 /// Steps are then as long as they may be, whatever the tolerance: a second run at a tenth of it alone would be the same
 /// run.
 BOOST_AUTO_TEST_CASE(error_bars_cover_where_the_tolerance_is_too_loose_to_shorten_a_step) {
