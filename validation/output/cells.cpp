@@ -23,6 +23,12 @@ void CellWriter::number(double value) {
   if (!packed_) append_number(out_, value);
 }
 
+void CellWriter::error(double value) {
+  if (packed_) return number(rounded_up(value));
+  out_ += ',';
+  append_rounded_up(out_, value);
+}
+
 void CellWriter::whole(long long value) {
   if (packed_) return pack(static_cast<double>(value));
   out_ += ',';

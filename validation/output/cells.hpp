@@ -18,6 +18,8 @@ class CellWriter {
 
   /// A number; none if it is not finite.
   void number(double value);
+  /// An error of a number, as rounded_up() gives it.
+  void error(double value);
   void whole(long long value);
   void truth(bool value);
   void word(std::string_view text);

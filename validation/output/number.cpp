@@ -51,11 +51,14 @@ double decimal(int digits, int exponent) {
   return error == std::errc() || exponent < 0 ? value : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace
+/// digits × 10^exponent, a double.
+struct Decimal {
+  int digits, exponent;
+  double value;
+};
 
-double rounded_up(double error) {
-  const double size = std::fabs(error);
-  if (!(size > 0 && size < std::numeric_limits<double>::infinity())) return error;
+/// The least one of two digits that is not below a size, which is positive and finite.
+Decimal two_digits_above(double size) {
   constexpr int least = -323;  // exponent of the smallest double
   // That of the size's second digit, or the one below: ⌊i log₁₀ 2⌋ − 1 for every exponent i of a double.
   int exponent = std::max((std::ilogb(size) * 315653 >> 20) - 1, least);
@@ -64,7 +67,34 @@ double rounded_up(double error) {
   int digits = static_cast<int>(size / decimal(1, exponent)) - (exponent < inexact ? 1 : 0);
   double shown = decimal(digits, exponent);
   while (shown < size) shown = decimal(++digits, exponent);
-  return std::copysign(shown, error);
+  return {digits, exponent, shown};
+}
+
+bool is_proper(double size) { return size > 0 && size < std::numeric_limits<double>::infinity(); }
+
+}  // namespace
+
+double rounded_up(double error) {
+  const double size = std::fabs(error);
+  return is_proper(size) ? std::copysign(two_digits_above(size).value, error) : error;
+}
+
+void append_rounded_up(std::string& out, double error) {
+  const double size = std::fabs(error);
+  if (!is_proper(size)) return append_number(out, error);
+  auto [digits, exponent, value] = two_digits_above(size);
+  while (digits % 10 == 0 && digits > 0) digits /= 10, ++exponent;
+  const int first = exponent + (digits > 9 ? 1 : 0);  // power of ten of the first digit
+  // From 1e-4 on the shortest form has no exponent; below 1e-99 that has three digits.
+  if (first >= -4 || first < -99 || digits > 99) return append_number(out, std::copysign(value, error));
+  char text[8], *end = text;
+  const auto add = [&end](int digit) { *end++ = static_cast<char>('0' + digit); };
+  if (error < 0) *end++ = '-';
+  if (digits > 9) add(digits / 10), *end++ = '.';
+  add(digits % 10);
+  *end++ = 'e', *end++ = '-';
+  add(-first / 10), add(-first % 10);
+  out.append(text, end);
 }
 
 bool read_number(std::string_view text, double& value) {

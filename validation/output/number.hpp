@@ -24,6 +24,8 @@ namespace clatter::validation::inline output {
 /// The least number of two significant digits whose magnitude is at least that of `error`, so that a bound stays one;
 /// 0, NaN and infinities as they are.
 [[nodiscard]] double rounded_up(double error);
+/// Appends rounded_up(error) as append_number() would.
+void append_rounded_up(std::string& out, double error);
 
 /// Reads a whole text as a finite decimal number (no "nan", "inf", "0x", blanks or overflow).
 /// @returns false if it is not one.

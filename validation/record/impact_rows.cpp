@@ -100,7 +100,7 @@ Known known_of(const ImpactQuantity& quantity, RunModel model, const Impact& imp
 }
 
 void append_error(CellWriter& out, const Entry& entry) {
-  for (std::size_t part = 0; part < width_of(entry); ++part) out.number(rounded_up(part_of(entry, part)));
+  for (std::size_t part = 0; part < width_of(entry); ++part) out.error(part_of(entry, part));
 }
 
 void append_entry(CellWriter& out, const Entry& entry) {

@@ -283,7 +283,7 @@ std::string angles_csv_rows(const AnglesRequest& request, long long begin, long 
     for (std::size_t k = 0; k < count; ++k) {
       if (!has_error(k)) continue;
       out += ',';
-      append_number(out, rounded_up(errors[k]));
+      append_rounded_up(out, errors[k]);
     }
     out += '\n';
   });

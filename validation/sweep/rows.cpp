@@ -246,7 +246,7 @@ void append_scene_row(const RowForm& form, const Run& run) {
   else form.out.nothing();
   append_asked(form, run, false);
   for_each_number(model, [&](const SceneNumber& n) {
-    if (form.errors) form.out.number(rounded_up((sums.*n.sum).error));
+    if (form.errors) form.out.error((sums.*n.sum).error);
     else form.out.nothing();
   });
   append_asked(form, run, true);

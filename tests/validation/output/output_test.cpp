@@ -61,6 +61,12 @@ BOOST_AUTO_TEST_CASE(an_error_has_two_significant_digits_and_is_never_rounded_do
   BOOST_TEST(rounded_up(0) == 0);
   BOOST_TEST(rounded_up(INFINITY) == INFINITY);
   BOOST_TEST(std::isnan(rounded_up(NAN)));
+  for (const double error : {1e-4, 9.95e-5, 1e-5, 1.1e-10, 9.91e-13, 1e-99, 1e-100, 0.0, 2e-5}) {
+    std::string text, general;
+    append_rounded_up(text, error);
+    append_number(general, rounded_up(error));
+    BOOST_TEST(text == general);
+  }
   std::mt19937_64 random(2);
   for (int i = 0; i < 100000; ++i) {
     const std::uint64_t bits = random() >> 1;
@@ -68,6 +74,10 @@ BOOST_AUTO_TEST_CASE(an_error_has_two_significant_digits_and_is_never_rounded_do
     std::memcpy(&error, &bits, sizeof error);
     if (!(error < 1e307)) continue;
     const double shown = rounded_up(error);
+    std::string text, general;
+    append_rounded_up(text, -error);
+    append_number(general, -shown);
+    BOOST_TEST(text == general);
     BOOST_REQUIRE(shown >= error);
     BOOST_REQUIRE(shown <= error * 1.1 || error < 1e-320);  // one unit of the second digit
     const std::string two_digits = fmt::format("{:.1e}", shown);
