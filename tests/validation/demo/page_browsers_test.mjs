@@ -86,12 +86,11 @@ const rememberWhatIsDue = () => {
 
 test("a link is opened although the page was about to write its own address", () => onPage("#predict=0&stiffness=1e8", async (page) => {
   await page.waitForSelector('tr[data-model="continuous"]');
-  await page.evaluate(() => {
+  await Promise.all([page.waitForEvent("load"), page.evaluate(() => {
     document.getElementById("next").click();  // writes the address soon
     location.hash = "#predict=0&stiffness=1e8&angle=20";
     for (const act of window.due.values()) act();  // before the browser tells of the link
-  });
-  await page.waitForEvent("load");
+  })]);
   assert.match(page.url(), /[#&]angle=20(&|$)/);
   await waitForCell(page, "Impulse", 0, printed("sequence", "--angle", "20", "--stiffness", "1e8").impacts[0].impulse_normal);
 }, { before: rememberWhatIsDue }));
