@@ -2,10 +2,11 @@
 #include "analytic/space/contact_area.hpp"
 
 #include <array>
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "analytic/space/gauss_rule.hpp"
 
 namespace clatter::analytic::space {
 
@@ -30,12 +31,8 @@ template <unsigned points>
 struct UnitRule {
   std::array<double, points> nodes, weights;
   UnitRule() {
-    using Gauss = boost::math::quadrature::gauss<double, points>;
-    constexpr unsigned half = points / 2;
-    for (unsigned i = 0; i < half; ++i) {
-      nodes[half + i] = (1 + Gauss::abscissa()[i]) / 2, nodes[half - 1 - i] = (1 - Gauss::abscissa()[i]) / 2;
-      weights[half + i] = weights[half - 1 - i] = Gauss::weights()[i] / 2;
-    }
+    const GaussRule<points> rule;
+    for (unsigned i = 0; i < points; ++i) nodes[i] = (1 + rule.nodes[i]) / 2, weights[i] = rule.weights[i] / 2;
   }
 };
 

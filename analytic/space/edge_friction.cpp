@@ -3,13 +3,13 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 
 #include "analytic/base/limits.hpp"
+#include "analytic/space/gauss_rule.hpp"
 #include "analytic/space/path_progress.hpp"
 #include "analytic/space/slip_motion.hpp"
 
@@ -35,28 +35,14 @@ struct DirectionMoments {
   explicit DirectionMoments(const Vector3& slip);
 };
 
-/// Gauss's rule of ten points on [−1, 1].
-struct EdgeRule {
-  using Array = Eigen::Array<double, 10, 1>;
-  Array x, weight;
-
-  EdgeRule() {
-    using Gauss = boost::math::quadrature::gauss<double, 10>;
-    for (Eigen::Index i = 0; i < 5; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      x[i] = Gauss::abscissa()[k], x[9 - i] = -x[i];
-      weight[i] = weight[9 - i] = Gauss::weights()[k];
-    }
-  }
-};
-
 DirectionMoments::DirectionMoments(const Vector3& slip) : along(Vector2::Zero()), across(Vector3::Zero()) {
-  static const EdgeRule rule;
+  static const GaussRule<10> rule;
   const double a = slip[0], b = slip[1], w = slip[2];
   if (a * a + b * b > smooth_slip * smooth_slip * w * w) {
-    const EdgeRule::Array z = b + w * rule.x, part = rule.weight / (a * a + z.square()).sqrt(), across_part = part * z;
-    along << a * part.sum(), a * (part * rule.x).sum();
-    across << across_part.sum(), (across_part * rule.x).sum(), (across_part * rule.x.square()).sum();
+    const auto& x = rule.nodes;
+    const GaussRule<10>::Array z = b + w * x, part = rule.weights / (a * a + z.square()).sqrt(), across_part = part * z;
+    along << a * part.sum(), a * (part * x).sum();
+    across << across_part.sum(), (across_part * x).sum(), (across_part * x.square()).sum();
     return;
   }
   const double from = b - w, to = b + w, r1 = std::hypot(a, from), r2 = std::hypot(a, to);

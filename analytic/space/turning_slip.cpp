@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analytic/space/turning_slip.hpp"
 
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <type_traits>
 
 #include "analytic/base/errors.hpp"
 #include "analytic/base/limits.hpp"
+#include "analytic/space/gauss_rule.hpp"
 
 namespace clatter::analytic::space {
 
@@ -22,21 +22,14 @@ constexpr double longest_panel = 8;
 /// Neglected Legendre coefficients of an integrand stay below this part of the integral.
 constexpr double resolution = 1e-14;
 
-using Nodes = Eigen::Array<double, node_count, 1>;
+using Nodes = GaussRule<node_count>::Array;
 
 /// Gauss–Legendre rule on [−1, 1] with integrals from −1 to each node and the last two Legendre coefficients.
-struct Rule {
-  Nodes nodes, weights, last, before_last;
+struct Rule : GaussRule<node_count> {
+  Nodes last, before_last;
   Eigen::Array<double, node_count, node_count> integral;
 
   Rule() {
-    using Gauss = boost::math::quadrature::gauss<double, node_count>;
-    constexpr int half = node_count / 2;
-    for (int i = 0; i <= half; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      nodes[half + i] = Gauss::abscissa()[k], weights[half + i] = Gauss::weights()[k];
-      nodes[half - i] = -nodes[half + i], weights[half - i] = weights[half + i];
-    }
     Eigen::Array<double, node_count, node_count + 1> legendre;  // P_k at the nodes
     legendre.col(0) = 1, legendre.col(1) = nodes;
     for (int k = 1; k < node_count; ++k) {

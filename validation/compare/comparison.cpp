@@ -271,13 +271,11 @@ std::string shortfall_of(const Comparison& comparison, const Scene& scene) {
 
 /// The sequence of the body as given and, where the mesh has other corners, that of these.
 void find_discrete_sides(Comparison& comparison, const Scene& scene, const numeric::Body& body) {
-  const bool is_mesh = scene.body.shape == BodyScene::Shape::mesh;
-  DiscreteBody mesh(std::shared_ptr<const numeric::Body>(std::shared_ptr<void>(), &body));
-  DiscreteBody given = is_mesh ? mesh : DiscreteBody(scene);
+  DiscreteBody given(scene, body), mesh(body);
   const DiscreteDrop drop = given.drop(scene);
   comparison.approach_speed = first_approach_speed(drop);
   comparison.discrete = discrete_side(scene, given);
-  if (is_mesh || !has_other_corners(drop, mesh.drop(scene))) return;
+  if (scene.body.shape == BodyScene::Shape::mesh || !has_other_corners(drop, mesh.drop(scene))) return;
   comparison.as_given = std::move(comparison.discrete);
   comparison.discrete = discrete_side(scene, mesh);
 }

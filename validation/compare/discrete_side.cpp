@@ -52,9 +52,8 @@ bool is_open_face(const ImpactRow& row) {
 }
 
 /// A whole face strikes first and slides without a turn.
-bool lands_sliding(const analytic::Drop& drop) {
-  const analytic::Sequence first = impact_sequence(drop, {.impacts = 1});
-  return !first.rows.empty() && is_open_face(first.rows[0]) && first.rows[0].before.angular == 0;
+bool lands_sliding(const analytic::Sequence& sequence) {
+  return !sequence.rows.empty() && is_open_face(sequence.rows[0]) && sequence.rows[0].before.angular == 0;
 }
 
 SequenceImpact planar_impact(const analytic::Drop& drop, const ImpactRow& row, const Impact& found) {
@@ -79,8 +78,7 @@ SequenceImpact planar_impact(const analytic::Drop& drop, const ImpactRow& row, c
   return impact;
 }
 
-DiscreteSide planar_side(const Scene& scene, const analytic::Drop& drop) {
-  const analytic::Sequence sequence = impact_sequence(drop, {.impacts = scene.request.impacts});
+DiscreteSide planar_side(const Scene& scene, const analytic::Drop& drop, const analytic::Sequence& sequence) {
   const Run run = run_of(sequence, scene.angle_deg);
   DiscreteSide side{.in_space = false,
                     .corners = {},
@@ -247,8 +245,9 @@ DiscreteSide discrete_side(const Scene& scene, DiscreteBody& body) {
   const DiscreteDrop drop = body.drop(scene);
   const auto* const planar = std::get_if<analytic::Drop>(&drop);
   if (planar == nullptr) return space_side(scene, std::get<space::Drop>(drop));
-  if (!scene.world.planar && lands_sliding(*planar)) return space_side(scene, body.drop_in_space(scene));
-  return planar_side(scene, *planar);
+  const analytic::Sequence sequence = impact_sequence(*planar, {.impacts = scene.request.impacts});
+  if (!scene.world.planar && lands_sliding(sequence)) return space_side(scene, body.drop_in_space(scene));
+  return planar_side(scene, *planar, sequence);
 }
 
 }  // namespace clatter::validation::inline compare

@@ -83,7 +83,7 @@ void append_rounded_up(std::string& out, double error) {
   const double size = std::fabs(error);
   if (!is_proper(size)) return append_number(out, error);
   auto [digits, exponent, value] = two_digits_above(size);
-  while (digits % 10 == 0 && digits > 0) digits /= 10, ++exponent;
+  while (digits % 10 == 0) digits /= 10, ++exponent;
   const int first = exponent + (digits > 9 ? 1 : 0);  // power of ten of the first digit
   // From 1e-4 on the shortest form has no exponent; below 1e-99 that has three digits.
   if (first >= -4 || first < -99 || digits > 99) return append_number(out, std::copysign(value, error));

@@ -96,7 +96,7 @@ void ModelHierarchy::find_discrete() {
   std::string &in_plane = against_[index(ModelLevel::discrete)],
               &in_space = against_[index(ModelLevel::discrete_in_space)];
   try {
-    const DiscreteDrop drop = discrete_drop(scene_, body_);
+    const DiscreteDrop drop = DiscreteBody(scene_, body_).drop(scene_);
     if (const auto* const planar = std::get_if<analytic::Drop>(&drop)) {
       drop_ = *planar;
       in_space = "the drop stays in its plane, where the discrete model gives the same";

@@ -141,9 +141,7 @@ Scales scales_of(const Run& run, double reach) {
 }
 
 std::vector<Column> impact_columns(RunModel model, const std::vector<std::string>& shown) {
-  constexpr std::size_t about = 80;
   std::vector<Column> columns, errors;
-  columns.reserve(about), errors.reserve(about);
   for (const ImpactQuantity& quantity : impact_quantities()) {
     const Known known = quantity.known_to(model);
     if (known != Known::absent) add_columns(quantity, quantity.kind(), shown, columns);

@@ -396,6 +396,11 @@ DiscreteBody::DiscreteBody(const Scene& scene) : centre_(body_properties(scene, 
 
 DiscreteBody::DiscreteBody(std::shared_ptr<const numeric::Body> solid) : solid_(std::move(solid)) {}
 
+DiscreteBody::DiscreteBody(const numeric::Body& solid) : solid_(std::shared_ptr<void>(), &solid) {}
+
+DiscreteBody::DiscreteBody(const Scene& scene, const numeric::Body& body)
+    : DiscreteBody(scene.body.shape == BodyScene::Shape::mesh ? DiscreteBody(body) : DiscreteBody(scene)) {}
+
 const std::optional<analytic::PlanarBody>& DiscreteBody::outline() {
   if (!has_looked_for_outline_) outline_ = solid_ ? symmetric_outline(*solid_) : simple_outline(*scene_);
   has_looked_for_outline_ = true;
@@ -415,14 +420,6 @@ DiscreteDrop DiscreteBody::drop(const Scene& scene) {
 space::Drop DiscreteBody::drop_in_space(const Scene& scene) { return space_drop(scene, in_space()); }
 
 DiscreteDrop discrete_drop(const Scene& scene) { return DiscreteBody(scene).drop(scene); }
-
-DiscreteDrop discrete_drop(const Scene& scene, const numeric::Body& body) {
-  return scene.body.shape == BodyScene::Shape::mesh ? mesh_drop(scene, body) : discrete_drop(scene);
-}
-
-DiscreteDrop mesh_drop(const Scene& scene, const numeric::Body& body) {
-  return DiscreteBody(std::shared_ptr<const numeric::Body>(std::shared_ptr<void>(), &body)).drop(scene);
-}
 
 bool has_other_corners(const DiscreteDrop& drop, const DiscreteDrop& mesh) {
   constexpr double same = 1e-9;

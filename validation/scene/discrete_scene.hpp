@@ -69,6 +69,10 @@ class DiscreteBody {
   explicit DiscreteBody(const Scene& scene);
   /// The corners of a mesh in place of those of the shape that it stands for.
   explicit DiscreteBody(std::shared_ptr<const numeric::Body> solid);
+  /// The same of a mesh that is there as long as this.
+  explicit DiscreteBody(const numeric::Body& solid);
+  /// A scene's where the continuous model's body is there already and stays, whose corners a mesh has.
+  DiscreteBody(const Scene& scene, const numeric::Body& body);
   /// The drop of a scene that has this body.
   /// @throws BadInput if drop.height is not above the centre of mass at the touch; OutsideModelError as discrete_law.
   [[nodiscard]] DiscreteDrop drop(const Scene& scene);
@@ -93,10 +97,6 @@ class DiscreteBody {
 
 /// The drop of a scene: its body, motion and law for the discrete model.  @throws as DiscreteBody
 [[nodiscard]] DiscreteDrop discrete_drop(const Scene& scene);
-/// The same where the continuous model's body is there already, whose corners a mesh has.
-[[nodiscard]] DiscreteDrop discrete_drop(const Scene& scene, const numeric::Body& body);
-/// The drop with the corners of the mesh that the continuous model drops, whatever shape that stands for.
-[[nodiscard]] DiscreteDrop mesh_drop(const Scene& scene, const numeric::Body& body);
 /// Whether the corners or the inertia of the two drops' bodies differ by more than 1e-9 of their size: those of a mesh
 /// from those of the shape that it stands for.
 [[nodiscard]] bool has_other_corners(const DiscreteDrop& drop, const DiscreteDrop& mesh);

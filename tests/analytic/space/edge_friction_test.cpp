@@ -208,7 +208,7 @@ BOOST_AUTO_TEST_CASE(a_rod_that_slides_straight_loses_mu_p_over_m_along_or_acros
 }
 
 // The work of the ground is that of the normal velocity alone, whose change is P/m.
-BOOST_AUTO_TEST_CASE(a_rod_that_slides_to_a_stop_rebounds_by_stronges_law_however_little_it_spins) {
+BOOST_AUTO_TEST_CASE(a_rod_that_slides_to_a_stop_rebounds_by_its_law_however_little_it_spins) {
   constexpr double tolerance = 1e-12;
   using enum RestitutionLaw;
   for (const double spin : {0.0, 1e-12, 1e-9, 1e-6, 1e-3, 1.0}) {

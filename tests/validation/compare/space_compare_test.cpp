@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(random_drops_in_space_are_boxes_off_centre_boxes_tetrahedra
     const SpaceScene drop = random_space_scene(3, index);
     const analytic::space::Body body = space_body(drop.body);
     BOOST_TEST(body.vertices.size() == corners[index % 4]);
-    BOOST_TEST(std::holds_alternative<analytic::space::Drop>(mesh_drop(drop.scene, drop.body)));
+    BOOST_TEST(std::holds_alternative<analytic::space::Drop>(DiscreteBody(drop.body).drop(drop.scene)));
     numeric::Vector3 sum = numeric::Vector3::Zero();
     for (const numeric::Vector3& vertex : body.vertices) sum += vertex;
     // A uniform box and a uniform tetrahedron have their mass in the middle of their corners.
