@@ -50,8 +50,9 @@ struct Scene {
 
 Scene::Scene(unsigned number) : random_(number) {
   const double mass = over(0.02, 5), length = over(0.05, 0.5), thickness = over(0.01, 0.2);
-  body = one_in(3) ? Body(rod_mesh({.length = 2 * length, .radius = thickness / 4, .mass = mass}))
-                   : box_body({length, over(0.02, 0.3), thickness}, mass);
+  const bool is_rod = one_in(3);
+  body = is_rod ? Body(rod_mesh({.length = 2 * length, .radius = thickness / 4, .mass = mass}))
+                : box_body({length, over(0.02, 0.3), thickness}, mass);
   const double angles[] = {0, 90, over(1e-3, 5), between(0, 90)}, tilts[] = {0, 90, between(0, 90)};
   world.planar = one_in(2);
   const double speed = over(0.3, 5);
@@ -65,7 +66,8 @@ Scene::Scene(unsigned number) : random_(number) {
   ground.sliding_friction = one_in(8) ? 0 : between(0, 2);
   ground.static_friction = one_in(2) ? ground.sliding_friction : between(ground.sliding_friction, 2);
   ground.area = one_in(2) ? AreaMeasure::surface : AreaMeasure::projected;
-  ground.friction = one_in(8) ? FrictionLaw::regularised : FrictionLaw::coulomb;
+  // Over the many facets on which a rod lies the regularised law, which is stiff, takes a minute.
+  if (one_in(8) && !is_rod) ground.friction = FrictionLaw::regularised;
   accuracy.method = methods[of(6)];
   accuracy.digits = 4 + of(2);
   request.impacts = 1 + of(3);
@@ -116,30 +118,6 @@ BOOST_AUTO_TEST_CASE(a_flat_or_upright_landing_with_friction_is_the_plain_reboun
             }
           }
         }
-      }
-    }
-  }
-}
-
-BOOST_AUTO_TEST_CASE(random_scenes_with_friction_end_in_numbers) {
-#ifdef CLATTER_TEST_SLOW_BUILD
-  const unsigned count = 8;
-#else
-  const unsigned count = 100;
-#endif
-  for (unsigned number = 1; number <= count; ++number) {
-    Scene scene(number);
-    Finite history;
-    const Simulation run =
-        simulate(scene.body, scene.world, scene.start, scene.request, scene.accuracy, {.history = &history});
-    BOOST_TEST_CONTEXT("scene " << number << ": " << run.message) {
-      BOOST_TEST((run.outcome == Outcome::no_further_impact || run.outcome == Outcome::impact_limit ||
-                  run.outcome == Outcome::at_rest || run.outcome == Outcome::sustained_contact));
-      BOOST_TEST(!run.impacts.empty());
-      BOOST_TEST(history.all);
-      for (const ImpactRecord& row : run.impacts) {
-        BOOST_TEST(is_number(row));
-        BOOST_TEST(row.value.work_friction >= -1e-9 * run.energy_start);
       }
     }
   }
@@ -355,5 +333,29 @@ BOOST_AUTO_TEST_CASE(few_evaluations_find_where_a_damped_contact_ends) {
     const Simulation run = simulate(body, world, start, plain_impacts(6), {.method = Method::rkck, .tolerance = 1e-4});
     BOOST_REQUIRE(run.impacts.size() == 6);
     BOOST_TEST(run.force_evaluations < 6 * 230, angle << " deg: " << run.force_evaluations / 6 << " for an impact");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(random_scenes_with_friction_end_in_numbers) {
+#ifdef CLATTER_TEST_SLOW_BUILD
+  const unsigned count = 8;
+#else
+  const unsigned count = 100;
+#endif
+  for (unsigned number = 1; number <= count; ++number) {
+    Scene scene(number);
+    Finite history;
+    const Simulation run =
+        simulate(scene.body, scene.world, scene.start, scene.request, scene.accuracy, {.history = &history});
+    BOOST_TEST_CONTEXT("scene " << number << ": " << run.message) {
+      BOOST_TEST((run.outcome == Outcome::no_further_impact || run.outcome == Outcome::impact_limit ||
+                  run.outcome == Outcome::at_rest || run.outcome == Outcome::sustained_contact));
+      BOOST_TEST(!run.impacts.empty());
+      BOOST_TEST(history.all);
+      for (const ImpactRecord& row : run.impacts) {
+        BOOST_TEST(is_number(row));
+        BOOST_TEST(row.value.work_friction >= -1e-9 * run.energy_start);
+      }
+    }
   }
 }
