@@ -306,3 +306,11 @@ BOOST_AUTO_TEST_CASE(nothing_presses_above_the_ground) {
   BOOST_TEST(load.force == 0);
   BOOST_TEST(load.deepest < 0);
 }
+
+/// So that a search for the lift-off knows how far the body is above the ground, whatever its size.
+BOOST_AUTO_TEST_CASE(a_body_high_above_the_ground_is_some_of_its_sizes_above) {
+  for (const double size : {1e-30, 1.0, 1e30}) {
+    const ContactLoad load = load_at(box_body(size * Vector3(1, 0.4, 0.2), 1), {}, {.inclination = 0.3}, -3 * size);
+    BOOST_TEST((load.deepest < -0.5 * size && load.deepest > -4 * size), size << ": " << load.deepest);
+  }
+}

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "numeric/drop/error_estimates.hpp"
+#include "numeric/drop/error_growth.hpp"
 #include "tests/numeric/bodies.hpp"
 
 namespace {
@@ -248,6 +249,22 @@ BOOST_AUTO_TEST_CASE(the_amplification_is_that_of_a_neighbouring_drop) {
       body.radius() / 4 / nudge;
   BOOST_TEST(drop.impacts[1].amplification >= 0.1 * growth);
   BOOST_TEST(drop.impacts[1].amplification <= 100 * growth);
+}
+
+/// The deviations of a flight are a linear map of those of its start, so that those of its parts multiply.
+BOOST_AUTO_TEST_CASE(parts_of_a_flight_amplify_as_the_whole_does) {
+  const Body body = phone();
+  const Gravity gravity = World{}.pull();
+  for (const bool planar : {true, false}) {
+    MotionState start = dropped(body, 10);
+    start.angular_velocity = planar ? Vector3(0, 3, 0) : Vector3(1, 3, -2);
+    ErrorGrowth parts(body, start, gravity, planar), whole(body, start, gravity, planar);
+    parts.fly(start, 0.1);
+    parts.fly(FreeFlight(body, start, gravity, planar).at(0.1), 0.2);
+    whole.fly(start, 0.3);
+    BOOST_TEST(whole.factor() > 5);
+    BOOST_TEST(parts.factor() == whole.factor(), boost::test_tools::tolerance(1e-5));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(in_space_the_elastic_phone_is_unpredictable_after_impact_2_and_in_its_plane_it_is_not) {

@@ -102,9 +102,15 @@ class Streams(Folder):
             self.assertEqual(self.closed(redirection, "sequence", "--angle", "10").stdout, self.run_program("sequence", "--angle", "10").stdout)
             for arguments, status in ((["sequence", "--angle", "91"], 2), (["sequence", "--angle", "63.4", "--impulse-ratio", "1.5"], 4)):
                 self.assertEqual(self.closed(redirection, *arguments).returncode, status, redirection)
-            # No file has got the number of stderr, and words for it.
             self.assertEqual(self.closed(redirection, "simulate", "scene.toml", "--output", "out", "--history", "h").returncode, 0)
             self.assertEqual(self.read("out"), self.run_program("simulate", "scene.toml").stdout)
+
+    def test_no_file_gets_the_number_of_a_closed_stream_and_words_for_it(self):
+        with subprocess.Popen(["/bin/bash", "-c", 'exec "$0" "$@" <&- 2>&-', PROGRAM, *LONG_RUN], cwd=self.folder,
+                              stdout=subprocess.PIPE) as process:
+            process.stdout.readline()
+            self.assertEqual([os.readlink(f"/proc/{process.pid}/fd/{number}") for number in (0, 2)], ["/dev/null"] * 2)
+            process.kill()
 
     def test_a_closed_stdout_is_one_line_where_there_is_something_to_print(self):
         for arguments in (["sequence", "--angle", "10"], ["--version"], ["--help"], ["man"], ["completion", "bash"],
