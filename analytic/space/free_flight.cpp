@@ -225,6 +225,8 @@ ThetaRotation::Moment ThetaRotation::at(double time) const {
   return moment;
 }
 
+double ThetaRotation::period() const { return static_cast<double>(4 * quarter_ / rate_); }
+
 double ThetaRotation::square_integral(double time) const {
   const Extended u = start_ + rate_ * time;
   const Extended halves = std::rint(u / (2 * quarter_));

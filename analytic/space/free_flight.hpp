@@ -54,7 +54,7 @@ class ThetaRotation {
   /// k² of (1).
   [[nodiscard]] double modulus_square() const { return modulus_square_; }
   /// 4K/λ, after which ω in body axes repeats; infinite on the separatrix [s].
-  [[nodiscard]] double period() const { return static_cast<double>(4 * quarter_ / rate_); }
+  [[nodiscard]] double period() const;
   /// σ of (1), 1 or −1.
   [[nodiscard]] double sense() const { return sense_; }
   /// λ of (1) [1/s].

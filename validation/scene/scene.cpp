@@ -22,6 +22,8 @@ Scene Scene::at(double value) const {
   return one;
 }
 
+int Scene::most_impacts() const { return until_rest ? 100'000 : request.impacts; }
+
 bool Scene::has_vectors() const { return !attitude.empty() || !velocity.empty() || !angular_velocity.empty(); }
 
 }  // namespace clatter::validation::inline scene

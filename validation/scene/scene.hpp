@@ -65,10 +65,7 @@ struct BodyScene {
   [[nodiscard]] double meshed_radius() const { return is_thin_rod() ? 0.01 * length : radius; }
   /// Of a mesh around an axis: the paper's 16, but 64 where a rod's rim is so wide beside the length that its corners
   /// turn the body noticeably otherwise than the rim does.
-  [[nodiscard]] int meshed_sectors() const {
-    if (sectors > 0) return sectors;
-    return shape == Shape::rod && meshed_radius() > length / 20 ? 64 : 16;
-  }
+  [[nodiscard]] int meshed_sectors() const;
 };
 
 /// Values of one quantity for which the drop is repeated: a list, or those from `from` to `to` by equal steps, equal
@@ -121,7 +118,7 @@ struct Scene {
 
   [[nodiscard]] bool has_ground() const { return world.ground.stiffness > 0; }
   /// Most impacts of the discrete model.
-  [[nodiscard]] int most_impacts() const { return until_rest ? 100'000 : request.impacts; }
+  [[nodiscard]] int most_impacts() const;
   /// Whether the body falls from rest, from a height or clearance.
   [[nodiscard]] bool falls() const { return height || clearance; }
   /// The scene with the swept quantity at one value, and no sweep.
