@@ -1,0 +1,415 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The copy of the source in which faults are tried, and what of it a fault changes."""
+
+import collections
+import contextlib
+import functools
+import json
+import os
+import re
+import shlex
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+# Two build the project themselves, the third starts a browser that asks for more memory than faults may have, and the
+# fourth fails with any fault.
+LEFT_OUT = {"launcher_test", "install.packages_test", "validation.verify.page_test", "seeded_faults.places"}
+TEST_SECONDS = 60  # or four times what the slowest of the tests takes without a fault, if that is known
+FIRST_SECONDS = 2400
+VERIFY_SECONDS = 600
+CONFIGURE = ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo", "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1",
+             "-DCLATTER_TESTS=ON", "-DCLATTER_PYTHON=ON", "-DCLATTER_BENCHMARKS=OFF", "-DCLATTER_GMSH=OFF",
+             "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON",
+             # A map tells which objects of the libraries a test contains.
+             "-DCMAKE_CXX_LINK_EXECUTABLE=<CMAKE_CXX_COMPILER> <FLAGS> <CMAKE_CXX_LINK_FLAGS> <LINK_FLAGS> <OBJECTS>"
+             " -o <TARGET> <LINK_LIBRARIES> -Wl,-Map=<TARGET>.map"]
+if shutil.which("ccache"):  # it keeps the objects of the files without their faults
+    CONFIGURE.append("-DCMAKE_CXX_COMPILER_LAUNCHER=ccache")
+    os.environ.setdefault("CCACHE_SLOPPINESS", "pch_defines,time_macros")
+LINKED = re.compile(r"^(?:LOAD )?(?:(\S+\.a)\()?(\S+?\.o)\)?$", re.MULTILINE)
+PASSED = re.compile(r"^ *\d+/\d+ Test +#\d+: (\S+) .* Passed +([\d.]+) sec", re.MULTILINE)
+FAILED = re.compile(r"^ *\d+/\d+ Test +#\d+: (\S+) .*?\*\*\*(?!Skipped)(\w+)", re.MULTILINE)
+NOTICED = re.compile(r"(?:fatal )?error: in \"|^(?:FAIL|ERROR): ")  # first lines of a failure of Boost.Test and unittest
+
+
+class Refused(Exception):
+    """The campaign cannot go on; the text says why."""
+
+
+class NotCompiled(Exception):
+    """With its fault; the text names the file that says why.  Such a fault tries nothing."""
+
+
+def say(text):
+    print(text, file=sys.stderr, flush=True)
+
+
+class Processes:
+    """Commands that run now, each of which leads a group: on an interrupt all end together with what they started."""
+
+    def __init__(self):
+        self.leaders = set()
+        self.lock = threading.Lock()
+        self.ended = False
+
+    @contextlib.contextmanager
+    def start(self, command, **options):
+        with self.lock:
+            if self.ended:
+                raise KeyboardInterrupt
+            process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                       errors="replace", stdin=subprocess.DEVNULL, start_new_session=True, **options)
+            self.leaders.add(process.pid)
+        try:
+            with process:
+                try:
+                    yield process
+                finally:
+                    end_group(process.pid)
+        finally:
+            self.leaders.discard(process.pid)
+
+    def end_all(self):
+        with self.lock:
+            self.ended = True
+            for leader in list(self.leaders):
+                end_group(leader)
+
+
+PROCESSES = Processes()
+
+
+def run(command, timeout=None, **options):
+    """Output and status of a command."""
+    with PROCESSES.start(command, **options) as process:
+        output = process.communicate(timeout=timeout)[0]
+    return output, process.returncode
+
+
+def end_group(leader):
+    try:
+        os.killpg(leader, signal.SIGKILL)
+    except ProcessLookupError:
+        pass
+
+
+@dataclass
+class Test:
+    name: str
+    command: list
+    environment: dict
+    folder: str
+    target: str  # what is built for it
+    executable: str = ""  # what of that a fault in C++ changes; none if it is more than one file
+
+    def fails(self, limit, executables=None):
+        """How: empty if it passes.  `executables`: what to run instead, with another path, of what was built."""
+        def replaced(text):
+            return functools.reduce(lambda text, paths: text.replace(*paths), (executables or {}).items(), text)
+
+        environment = {**os.environ, **{key: replaced(value) for key, value in self.environment.items()}}
+        command = [replaced(word) for word in self.command] + (["--failfast"] if self.is_unittest() else [])
+        if self.executable == f"tests/{self.name}":
+            command.append("--log_sink=stderr")  # at once, since no more is read once it has failed
+        with PROCESSES.start(command, cwd=self.folder, env=environment) as process:
+            timer = threading.Timer(limit, end_group, [process.pid])
+            timer.start()
+            try:
+                noticed = any(NOTICED.search(line) for line in process.stdout)
+                status = 1 if noticed else process.wait()
+            finally:
+                timer.cancel()
+        if status == -signal.SIGKILL:
+            return f"{self.name} (no end)"
+        return self.name if status else ""
+
+    def is_unittest(self):
+        script = Path(self.command[-1])
+        return script.name.endswith("_test.py") and script.is_file()
+
+
+class Campaign:
+    """A build without faults, and what the tests in it are made of; `quick` builds the libraries alone."""
+
+    def __init__(self, work, jobs, quick):
+        self.source = work / "source"
+        self.build_folder = work / "build"
+        self.apart = work / "apart"
+        self.logs = work / "logs"
+        self.jobs = jobs
+        self.options = ["-DCLATTER_PROGRAM=OFF"] if quick else []
+        self.tests = {}
+        self.read_by = {}  # of each object: the files of the source that it is made of
+        self.commands = {}  # of each object: the command that makes it, and its source
+        self.linked = {}  # of each executable: its objects, as the map of the linker has them
+        self.seconds = {}  # of each test without a fault
+        self.locks = collections.defaultdict(threading.Lock)  # of each test, while these are measured
+
+    def prepare(self, faults):
+        self.copy_source()
+        self.logs.mkdir(parents=True, exist_ok=True)
+        say("building without a fault ...")
+        output, status = run(["cmake", "-S", self.source, "-B", self.build_folder, *CONFIGURE, *self.options])
+        if status:
+            raise Refused(f"cmake failed:\n{output}")
+        self.list_tests()
+        unnamed = [fault.id for fault in faults if not self.likely(fault)]
+        if unnamed:
+            raise Refused(f"no test is likely to notice {', '.join(unnamed)}")
+        output, status = self.build({test.target for fault in faults for test in self.likely(fault)})
+        if status:
+            raise Refused(f"the build failed without a fault:\n{output}")
+        self.read_objects()
+
+    def copy_source(self):
+        """The tracked files as they are now; those that have not changed keep their build.  Also after an interrupt."""
+        listed = subprocess.run(["git", "-C", ROOT, "ls-files", "-z"], capture_output=True, text=True)
+        if listed.returncode:
+            raise Refused(f"git does not list the source:\n{listed.stderr}")
+        files = {name for name in listed.stdout.split("\0") if name and (ROOT / name).is_file()}
+        for old in [path for path in self.source.rglob("*") if path.is_file()]:
+            if str(old.relative_to(self.source)) not in files:
+                old.unlink()
+        for name in sorted(files):
+            copy_if_changed(ROOT / name, self.source / name)
+
+    def list_tests(self):
+        output, status = run(["ctest", "--test-dir", self.build_folder, "--show-only=json-v1"])
+        if status:
+            raise Refused(f"ctest failed:\n{output}")
+        listed = [self.read_test(test) for test in json.loads(output)["tests"] if test["name"] not in LEFT_OUT]
+        self.tests = {test.name: test for test in listed}
+
+    def read_test(self, test):
+        """A C++ test, which has no command before it is built, is a target of its own name; scripts run the program."""
+        properties = {one["name"]: one["value"] for one in test["properties"]}
+        environment = dict(setting.split("=", 1) for setting in properties.get("ENVIRONMENT", []))
+        name, program = test["name"], self.build_folder / "tests" / test["name"]
+        command = test.get("command") or [str(program), "--color_output=no"]
+        made = functools.partial(Test, name, command, environment, properties["WORKING_DIRECTORY"])
+        if command[0] == str(program):
+            return made(name, f"tests/{name}")
+        if name.startswith(("install.", "notebooks-data.")):
+            return made("all")
+        reads_the_copy = "." not in name or "FIXTURES_REQUIRED" in properties  # its files, or the page built of them
+        return made("clatter", "" if reads_the_copy else "validation/clatter")
+
+    def build(self, targets):
+        return run(["cmake", "--build", self.build_folder, "--parallel", str(self.jobs), "--target", *sorted(targets)])
+
+    def read_objects(self):
+        output, status = run(["ninja", "-C", self.build_folder, "-t", "deps"])
+        if status:
+            raise Refused(f"ninja does not list what files are made of:\n{output}")
+        for block in output.split("\n\n"):
+            head, *files = block.splitlines() or [""]
+            self.read_by[head.partition(":")[0]] = {
+                os.path.relpath(os.path.join(self.build_folder, file.strip()), self.source) for file in files}
+        for entry in json.loads((self.build_folder / "compile_commands.json").read_text(encoding="utf-8")):
+            words = shlex.split(entry["command"])
+            self.commands[words[words.index("-o") + 1]] = words, entry["file"]
+        for executable in {test.executable for test in self.tests.values()} - {""}:
+            path = self.build_folder / f"{executable}.map"
+            if path.exists():
+                self.linked[executable] = set(LINKED.findall(path.read_text(encoding="utf-8", errors="replace")))
+
+    def objects(self, executable, file):
+        """Those of an executable that are made of this file; an archive's is any of its library with that name."""
+        return [made for made, files in self.read_by.items() if file in files and made in self.commands and any(
+            made == name or library and made.startswith(f"{Path(library).parent}/") and made.endswith(f"/{name}")
+            for library, name in self.linked[executable])]
+
+    def likely(self, fault):
+        return [test for test in self.tests.values() if re.search(fault.tests, test.name)]
+
+    def limit(self, test):
+        """Seconds after which it is thought to have no end; it is run without a fault when this is first asked for."""
+        with self.locks[test.name]:
+            if test.name not in self.seconds:
+                start = time.monotonic()
+                if test.fails(FIRST_SECONDS):
+                    raise Refused(f"{test.name} fails without a fault")
+                self.seconds[test.name] = time.monotonic() - start
+        return max(TEST_SECONDS, 4 * self.seconds[test.name])
+
+    def judge(self, fault):
+        """What notices it; None if that is not known before it is in the copy itself."""
+        tests = [test for test in self.likely(fault) if test.executable in self.linked]
+        if fault.file.endswith((".cpp", ".hpp")):
+            with FaultyFiles(self, fault) as faulty:
+                for test in tests:
+                    limit = self.limit(test)
+                    faulty.link(test.executable)
+                    if caught_by := test.fails(limit, faulty.executables):
+                        return caught_by
+            if len(tests) == len(self.likely(fault)):
+                return ""
+        return None
+
+    def prepare_the_copy(self, faults):
+        names = {test.name for fault in faults for test in self.likely(fault)}
+        say(f"running {len(names)} tests without a fault ...")
+        failed, output = self.failing(names, "without-fault", ["--parallel", str(self.jobs)])
+        if failed:
+            raise Refused(f"{', '.join(failed)} fails without a fault:\n{output}")
+        self.seconds |= {name: float(seconds) for name, seconds in PASSED.findall(output)}
+
+    def judge_in_the_copy(self, fault):
+        path = self.source / fault.file
+        original = path.read_text(encoding="utf-8")
+        try:
+            path.write_text(fault.applied_to(original), encoding="utf-8")
+            return self.caught_in_the_copy(fault)
+        finally:
+            path.write_text(original, encoding="utf-8")
+
+    def caught_in_the_copy(self, fault):
+        self.check_compiled(fault, *self.build({test.target for test in self.likely(fault)}))
+        return next(iter(self.failing([test.name for test in self.likely(fault)], fault.id)[0]), "")
+
+    def check_compiled(self, fault, output, status):
+        if status:
+            log = self.logs / f"{fault.id}.log"
+            log.write_text(output, encoding="utf-8")
+            raise NotCompiled(log)
+
+    def failing(self, names, log, options=("--stop-on-failure",)):
+        """Those of the tests that fail, and what was printed."""
+        pattern = "^(" + "|".join(name.replace(".", r"\.") for name in names) + ")$"
+        limit = max(TEST_SECONDS, *(4 * self.seconds.get(name, FIRST_SECONDS) for name in names))
+        output, status = run(["ctest", "--test-dir", self.build_folder, "--tests-regex", pattern, "--no-tests=error",
+                              "--timeout", f"{limit:.0f}", "--output-on-failure", *options])
+        (self.logs / f"{log}.log").write_text(output, encoding="utf-8")
+        failed = [name + (" (no end)" if how == "Timeout" else "") for name, how in FAILED.findall(output)]
+        if status and not failed:
+            raise Refused(f"ctest failed without naming a test:\n{output}")
+        return failed, output
+
+
+class FaultyFiles:
+    """The objects and executables that a fault changes, in a folder of their own that goes when all is said."""
+
+    def __init__(self, campaign, fault):
+        self.campaign = campaign
+        self.fault = fault
+        self.folder = campaign.apart / fault.id
+        self.objects = {}  # of each object in the build: the faulty one
+        self.executables = {}  # of each path in the build: that of the faulty one
+
+    def __enter__(self):
+        shutil.rmtree(self.folder, ignore_errors=True)
+        path = self.folder / "source" / self.fault.file
+        path.parent.mkdir(parents=True)
+        path.write_text(self.fault.applied_to((self.campaign.source / self.fault.file).read_text(encoding="utf-8")),
+                        encoding="utf-8")
+        return self
+
+    def __exit__(self, *_):
+        shutil.rmtree(self.folder)
+
+    def link(self, executable):
+        """Makes the faulty executable.  Its faulty objects stand before the libraries, so that the linker does not look
+        for those in there."""
+        built = self.campaign.build_folder / executable
+        if str(built) in self.executables:
+            return
+        changed = self.campaign.objects(executable, self.fault.file)
+        if not changed:
+            raise Refused(f"{self.fault.id}: {executable} contains nothing of {self.fault.file}")
+        for made in changed:
+            self.compile(made)
+        target = self.folder / executable
+        target.parent.mkdir(parents=True, exist_ok=True)
+        output, status = run(self.link_command(executable, target, changed), shell=True, cwd=self.campaign.build_folder)
+        if status:
+            raise Refused(f"{self.fault.id} is not linked:\n{output}")
+        for beside in built.parent.iterdir():  # what the program loads
+            if beside.is_file() and not (target.parent / beside.name).exists():
+                (target.parent / beside.name).symlink_to(beside)
+        self.executables[str(built)] = str(target)
+
+    def link_command(self, executable, target, changed):
+        commands, _ = run(["ninja", "-C", self.campaign.build_folder, "-t", "commands", executable])
+        command = commands.splitlines()[-1].replace(f"-Wl,-Map={executable}.map", "")
+        for made in changed:
+            command = command.replace(f" {made} ", " ")
+        objects = " ".join(shlex.quote(str(self.objects[made])) for made in changed)
+        return command.replace(f" -o {executable} ", f" -o {shlex.quote(str(target))} {objects} ")
+
+    def compile(self, made):
+        if made in self.objects:
+            return
+        words, file = self.campaign.commands[made]
+        faulty = self.folder / "source" / os.path.relpath(file, self.campaign.source)
+        target = self.folder / "objects" / f"{len(self.objects)}.o"
+        target.parent.mkdir(exist_ok=True)
+        options = next(i for i, word in enumerate(words) if word.startswith("-"))
+        command = [*words[:options], f"-I{self.folder / 'source'}", *words[options:]]
+        command = [str(target) if word == made else str(faulty) if word == file and faulty.exists() else word
+                   for word in command]
+        self.campaign.check_compiled(self.fault, *run(command, cwd=self.campaign.build_folder))
+        self.objects[made] = target
+
+
+class VerifyCampaign(Campaign):
+    """A fault is caught if each check of `clatter verify` that it is to turn red fails."""
+
+    PROGRAM = "validation/clatter"
+
+    def prepare(self, faults):
+        super().prepare(faults)
+        checks = {check for fault in faults for check in fault.turns_red.split()}
+        if failing := checks - self.checks_that(True, checks, self.build_folder / self.PROGRAM):
+            raise Refused(f"{' '.join(sorted(failing))} fail without a fault")
+
+    def list_tests(self):
+        self.tests = {"verify": Test("verify", [], {}, "", "clatter", self.PROGRAM)}
+
+    def likely(self, fault):
+        return list(self.tests.values())
+
+    def checks_that(self, pass_, checks, program):
+        """Those of the checks that pass, or fail; none if the program says nothing, since a crash is not their doing."""
+        command = [program, "verify", "--format", "json", "--only", *sorted(checks)]
+        try:
+            said = json.loads(run(command, timeout=VERIFY_SECONDS)[0])["checks"]
+        except (subprocess.TimeoutExpired, ValueError):
+            return set()
+        return {check["id"] for check in said if (check["verdict"] == "passed") == pass_}
+
+    def judge(self, fault):
+        if not fault.file.endswith((".cpp", ".hpp")):
+            return None
+        with FaultyFiles(self, fault) as faulty:
+            faulty.link(self.PROGRAM)
+            return self.turned_red(fault, faulty.folder / self.PROGRAM)
+
+    def prepare_the_copy(self, faults):
+        pass
+
+    def caught_in_the_copy(self, fault):
+        self.check_compiled(fault, *self.build({"clatter"}))
+        return self.turned_red(fault, self.build_folder / self.PROGRAM)
+
+    def turned_red(self, fault, program):
+        checks = set(fault.turns_red.split())
+        missed = checks - self.checks_that(False, checks, program)
+        if missed:
+            say(f"{fault.id}: {' '.join(sorted(missed))} still pass")
+        return "" if missed else fault.turns_red
+
+
+def copy_if_changed(source, target):
+    content = source.read_bytes()
+    if target.is_file() and target.read_bytes() == content:
+        return
+    target.parent.mkdir(parents=True, exist_ok=True)
+    target.write_bytes(content)
+    shutil.copymode(source, target)
