@@ -36,6 +36,7 @@ if shutil.which("ccache"):  # it keeps the objects of the files without their fa
 LINKED = re.compile(r"^(?:LOAD )?(?:(\S+\.a)\()?(\S+?\.o)\)?$", re.MULTILINE)
 PASSED = re.compile(r"^ *\d+/\d+ Test +#\d+: (\S+) .* Passed +([\d.]+) sec", re.MULTILINE)
 FAILED = re.compile(r"^ *\d+/\d+ Test +#\d+: (\S+) .*?\*\*\*(?!Skipped)(\w+)", re.MULTILINE)
+CASE = re.compile(r"^(\w+)\*$", re.MULTILINE)  # or a whole suite
 NOTICED = re.compile(r"(?:fatal )?error: in \"|^(?:FAIL|ERROR): ")  # first lines of a failure of Boost.Test and unittest
 
 
@@ -108,15 +109,41 @@ class Test:
     folder: str
     target: str  # what is built for it
     executable: str = ""  # what of that a fault in C++ changes; none if it is more than one file
+    parts: tuple = ((),)  # options of the runs that make it up
 
-    def fails(self, limit, executables=None):
+    def is_in_cpp(self):
+        return self.executable == f"tests/{self.name}"
+
+    def is_unittest(self):
+        script = Path(self.command[-1])
+        return script.name.endswith("_test.py") and script.is_file()
+
+    def order_cases(self):
+        """Runs each case of a test in C++ by itself: later the quickest come first, so that a fault is noticed early,
+        those that take a second together in one run."""
+        listed, _ = run([*self.command, "--list_content"])
+        seconds = {f"--run_test={name}": 0 for name in CASE.findall(listed)}
+        for case in seconds:
+            start = time.monotonic()
+            if self.part_fails((case,), FIRST_SECONDS):
+                raise Refused(f"{self.name} {case} fails without a fault")
+            seconds[case] = time.monotonic() - start
+        cases = sorted(seconds, key=seconds.get)
+        quick = [case for i, case in enumerate(cases) if sum(map(seconds.get, cases[:i + 1])) <= 1]
+        self.parts = tuple(filter(None, [tuple(quick), *((case,) for case in cases[len(quick):])]))
+        return sum(seconds.values())
+
+    def fails(self, limit, executables):
         """How: empty if it passes.  `executables`: what to run instead, with another path, of what was built."""
+        return next(filter(None, (self.part_fails(part, limit, executables) for part in self.parts)), "")
+
+    def part_fails(self, options, limit, executables=None):
         def replaced(text):
             return functools.reduce(lambda text, paths: text.replace(*paths), (executables or {}).items(), text)
 
         environment = {**os.environ, **{key: replaced(value) for key, value in self.environment.items()}}
-        command = [replaced(word) for word in self.command] + (["--failfast"] if self.is_unittest() else [])
-        if self.executable == f"tests/{self.name}":
+        command = [*map(replaced, self.command), *options, *(["--failfast"] if self.is_unittest() else [])]
+        if self.is_in_cpp():
             command.append("--log_sink=stderr")  # at once, since no more is read once it has failed
         with PROCESSES.start(command, cwd=self.folder, env=environment) as process:
             timer = threading.Timer(limit, end_group, [process.pid])
@@ -129,10 +156,6 @@ class Test:
         if status == -signal.SIGKILL:
             return f"{self.name} (no end)"
         return self.name if status else ""
-
-    def is_unittest(self):
-        script = Path(self.command[-1])
-        return script.name.endswith("_test.py") and script.is_file()
 
 
 class Campaign:
@@ -233,11 +256,14 @@ class Campaign:
         """Seconds after which it is thought to have no end; it is run without a fault when this is first asked for."""
         with self.locks[test.name]:
             if test.name not in self.seconds:
-                start = time.monotonic()
-                if test.fails(FIRST_SECONDS):
-                    raise Refused(f"{test.name} fails without a fault")
-                self.seconds[test.name] = time.monotonic() - start
+                self.seconds[test.name] = test.order_cases() if test.is_in_cpp() else self.measure(test)
         return max(TEST_SECONDS, 4 * self.seconds[test.name])
+
+    def measure(self, test):
+        start = time.monotonic()
+        if test.fails(FIRST_SECONDS, {}):
+            raise Refused(f"{test.name} fails without a fault")
+        return time.monotonic() - start
 
     def judge(self, fault):
         """What notices it; None if that is not known before it is in the copy itself."""
