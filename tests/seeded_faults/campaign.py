@@ -268,9 +268,10 @@ class Campaign:
     def judge(self, fault):
         """What notices it; None if that is not known before it is in the copy itself."""
         tests = [test for test in self.likely(fault) if test.executable in self.linked]
+        containing = [test for test in tests if self.objects(test.executable, fault.file)]
         if fault.file.endswith((".cpp", ".hpp")):
             with FaultyFiles(self, fault) as faulty:
-                for test in tests:
+                for test in containing:
                     limit = self.limit(test)
                     faulty.link(test.executable)
                     if caught_by := test.fails(limit, faulty.executables):
@@ -347,8 +348,6 @@ class FaultyFiles:
         if str(built) in self.executables:
             return
         changed = self.campaign.objects(executable, self.fault.file)
-        if not changed:
-            raise Refused(f"{self.fault.id}: {executable} contains nothing of {self.fault.file}")
         for made in changed:
             self.compile(made)
         target = self.folder / executable

@@ -12,7 +12,8 @@ using namespace clatter::validation;
 namespace {
 
 Impact impact(bool predictable) {
-  Impact one{.predictable = predictable};
+  Impact one;
+  one.predictable = predictable;
   one.value.impulse[2] = one.value.energy_loss = one.value.peak_force = 2;
   one.error.impulse[2] = one.error.energy_loss = one.error.peak_force = 0.5;
   return one;
