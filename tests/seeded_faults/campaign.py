@@ -267,18 +267,17 @@ class Campaign:
 
     def judge(self, fault):
         """What notices it; None if that is not known before it is in the copy itself."""
-        tests = [test for test in self.likely(fault) if test.executable in self.linked]
-        containing = [test for test in tests if self.objects(test.executable, fault.file)]
-        if fault.file.endswith((".cpp", ".hpp")):
-            with FaultyFiles(self, fault) as faulty:
-                for test in containing:
-                    limit = self.limit(test)
-                    faulty.link(test.executable)
-                    if caught_by := test.fails(limit, faulty.executables):
-                        return caught_by
-            if len(tests) == len(self.likely(fault)):
-                return ""
-        return None
+        likely = self.likely(fault)
+        containing = [test for test in likely if test.executable in self.linked and self.objects(test.executable, fault.file)]
+        if not containing or not fault.file.endswith((".cpp", ".hpp")):
+            return None
+        with FaultyFiles(self, fault) as faulty:
+            for test in containing:
+                limit = self.limit(test)
+                faulty.link(test.executable)
+                if caught_by := test.fails(limit, faulty.executables):
+                    return caught_by
+        return "" if all(test.executable in self.linked for test in likely) else None
 
     def prepare_the_copy(self, faults):
         names = {test.name for fault in faults for test in self.likely(fault)}
