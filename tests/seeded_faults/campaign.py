@@ -4,6 +4,7 @@
 import collections
 import contextlib
 import functools
+import itertools
 import json
 import os
 import re
@@ -118,31 +119,33 @@ class Test:
         script = Path(self.command[-1])
         return script.name.endswith("_test.py") and script.is_file()
 
-    def order_cases(self):
-        """Runs each case of a test in C++ by itself: later the quickest come first, so that a fault is noticed early,
-        those that take a second together in one run."""
-        listed, _ = run([*self.command, "--list_content"])
-        seconds = {f"--run_test={name}": 0 for name in CASE.findall(listed)}
-        for case in seconds:
+    def measure(self):
+        """Seconds without a fault.  The cases of a test in C++ are run one by one; later the quickest come first, so that a
+        fault is noticed early, those that take a second together in one run."""
+        parts = self.parts
+        if self.is_in_cpp():
+            parts = [(f"--run_test={name}",) for name in CASE.findall(run([*self.command, "--list_content"])[0])]
+        seconds = {}
+        for part in parts:
             start = time.monotonic()
-            if self.part_fails((case,), FIRST_SECONDS):
-                raise Refused(f"{self.name} {case} fails without a fault")
-            seconds[case] = time.monotonic() - start
-        cases = sorted(seconds, key=seconds.get)
-        quick = [case for i, case in enumerate(cases) if sum(map(seconds.get, cases[:i + 1])) <= 1]
-        self.parts = tuple(filter(None, [tuple(quick), *((case,) for case in cases[len(quick):])]))
+            if self.part_fails(part, FIRST_SECONDS):
+                raise Refused(f"{' '.join([self.name, *part])} fails without a fault")
+            seconds[part] = time.monotonic() - start
+        ordered = sorted(seconds, key=seconds.get)
+        quick = sum(total <= 1 for total in itertools.accumulate(map(seconds.get, ordered)))
+        self.parts = [sum(ordered[:quick], ())] * (quick > 0) + ordered[quick:]
         return sum(seconds.values())
 
     def fails(self, limit, executables):
         """How: empty if it passes.  `executables`: what to run instead, with another path, of what was built."""
         return next(filter(None, (self.part_fails(part, limit, executables) for part in self.parts)), "")
 
-    def part_fails(self, options, limit, executables=None):
+    def part_fails(self, part, limit, executables=None):
         def replaced(text):
             return functools.reduce(lambda text, paths: text.replace(*paths), (executables or {}).items(), text)
 
         environment = {**os.environ, **{key: replaced(value) for key, value in self.environment.items()}}
-        command = [*map(replaced, self.command), *options, *(["--failfast"] if self.is_unittest() else [])]
+        command = [*map(replaced, self.command), *part, *(["--failfast"] if self.is_unittest() else [])]
         if self.is_in_cpp():
             command.append("--log_sink=stderr")  # at once, since no more is read once it has failed
         with PROCESSES.start(command, cwd=self.folder, env=environment) as process:
@@ -256,14 +259,8 @@ class Campaign:
         """Seconds after which it is thought to have no end; it is run without a fault when this is first asked for."""
         with self.locks[test.name]:
             if test.name not in self.seconds:
-                self.seconds[test.name] = test.order_cases() if test.is_in_cpp() else self.measure(test)
+                self.seconds[test.name] = test.measure()
         return max(TEST_SECONDS, 4 * self.seconds[test.name])
-
-    def measure(self, test):
-        start = time.monotonic()
-        if test.fails(FIRST_SECONDS, {}):
-            raise Refused(f"{test.name} fails without a fault")
-        return time.monotonic() - start
 
     def judge(self, fault):
         """What notices it; None if that is not known before it is in the copy itself."""
@@ -347,6 +344,8 @@ class FaultyFiles:
         if str(built) in self.executables:
             return
         changed = self.campaign.objects(executable, self.fault.file)
+        if not changed:
+            raise Refused(f"{self.fault.id}: {executable} contains nothing of {self.fault.file}")
         for made in changed:
             self.compile(made)
         target = self.folder / executable
@@ -409,22 +408,10 @@ class VerifyCampaign(Campaign):
         return {check["id"] for check in said if (check["verdict"] == "passed") == pass_}
 
     def judge(self, fault):
-        if not fault.file.endswith((".cpp", ".hpp")):
-            return None
+        checks = set(fault.turns_red.split())
         with FaultyFiles(self, fault) as faulty:
             faulty.link(self.PROGRAM)
-            return self.turned_red(fault, faulty.folder / self.PROGRAM)
-
-    def prepare_the_copy(self, faults):
-        pass
-
-    def caught_in_the_copy(self, fault):
-        self.check_compiled(fault, *self.build({"clatter"}))
-        return self.turned_red(fault, self.build_folder / self.PROGRAM)
-
-    def turned_red(self, fault, program):
-        checks = set(fault.turns_red.split())
-        missed = checks - self.checks_that(False, checks, program)
+            missed = checks - self.checks_that(False, checks, faulty.folder / self.PROGRAM)
         if missed:
             say(f"{fault.id}: {' '.join(sorted(missed))} still pass")
         return "" if missed else fault.turns_red
