@@ -87,11 +87,7 @@ bool agrees(const BatchOutcome& outcome, const Sequence& sequence) {
 
 bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0 || (std::isnan(a) && std::isnan(b)); }
 
-#ifdef CLATTER_TEST_SLOW_BUILD
-constexpr std::size_t drop_count = 400;
-#else
-constexpr std::size_t drop_count = 4000;
-#endif
+constexpr std::size_t drop_count = CLATTER_TEST_SLOW_BUILD ? 400 : 4000;
 
 /// Of wild drops the batch decides one of a hundred or fewer, so no build runs fewer.
 constexpr std::size_t wild_count = 4000;

@@ -24,11 +24,7 @@ using Real = long double;
 using RealVector = Eigen::Matrix<Real, 3, 1>;
 using RealMatrix = Eigen::Matrix<Real, 3, 3>;
 
-#ifdef CLATTER_TEST_SLOW_BUILD
-constexpr int corners = 10, strikes = 1;
-#else
-constexpr int corners = 60, strikes = 5;
-#endif
+constexpr int corners = CLATTER_TEST_SLOW_BUILD ? 10 : 60, strikes = CLATTER_TEST_SLOW_BUILD ? 1 : 5;
 
 /// Fourth-order differences of f(h).
 template <class Function>

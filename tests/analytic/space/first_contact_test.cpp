@@ -18,11 +18,7 @@ namespace {
 using namespace clatter::analytic::space;
 using clatter::analytic::FlightEnd;
 
-#ifdef CLATTER_TEST_SLOW_BUILD
-constexpr int drops = 2000;
-#else
-constexpr int drops = 100000;
-#endif
+constexpr int drops = CLATTER_TEST_SLOW_BUILD ? 2000 : 100000;
 
 /// A flight that begins with a vertex on the ground and rising, or with the body above the ground.
 struct Scene {

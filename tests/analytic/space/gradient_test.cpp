@@ -22,11 +22,7 @@ using ManyVector = Eigen::Matrix<Many, 3, 1>;
 using ManyMatrix = Eigen::Matrix<Many, 3, 3>;
 using Top = clatter::oracle::Top<Many>;
 
-#ifdef CLATTER_TEST_SLOW_BUILD
-constexpr int drops = 4;
-#else
-constexpr int drops = 18;
-#endif
+constexpr int drops = CLATTER_TEST_SLOW_BUILD ? 4 : 18;
 constexpr double agreement = 1e-10;  // of derivatives over the largest of their kind
 
 ManyMatrix axes_of(const std::array<Many, 4>& q) {

@@ -13,11 +13,7 @@ using namespace clatter::analytic;
 using namespace clatter::analytic::space;
 using clatter::oracle::Random;
 
-#ifdef CLATTER_TEST_SLOW_BUILD
-constexpr int corners = 300;
-#else
-constexpr int corners = 10000;
-#endif
+constexpr int corners = CLATTER_TEST_SLOW_BUILD ? 300 : 10000;
 
 BOOST_AUTO_TEST_CASE(random_corners_with_friction_and_any_law_agree_with_stepping_in_long_double) {
   constexpr double tolerance = 1e-11;

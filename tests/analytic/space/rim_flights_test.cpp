@@ -21,11 +21,7 @@ using clatter::oracle::Top;
 using clatter::oracle::TopSeries;
 using Wide = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<60>, boost::multiprecision::et_off>;
 
-#ifdef CLATTER_TEST_SLOW_BUILD
-constexpr int scenes = 40;
-#else
-constexpr int scenes = 300;
-#endif
+constexpr int scenes = CLATTER_TEST_SLOW_BUILD ? 40 : 300;
 
 struct Disc {
   double mass, length, radius;

@@ -18,11 +18,7 @@ using namespace clatter::analytic::space;
 using clatter::oracle::Random;
 using Wide = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<60>, boost::multiprecision::et_off>;
 
-#ifdef CLATTER_TEST_SLOW_BUILD
-constexpr int scenes = 40;
-#else
-constexpr int scenes = 300;
-#endif
+constexpr int scenes = CLATTER_TEST_SLOW_BUILD ? 40 : 300;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 Body random_body(Random& random) {

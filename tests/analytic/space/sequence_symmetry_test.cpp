@@ -16,11 +16,7 @@ using space::Matrix3;
 using space::Quaternion;
 using space::Vector3;
 
-#ifdef CLATTER_TEST_SLOW_BUILD
-constexpr int drops = 500;
-#else
-constexpr int drops = 10000;
-#endif
+constexpr int drops = CLATTER_TEST_SLOW_BUILD ? 500 : 10000;
 
 /// Allowed difference, relative to the size of a number, times how the sequence amplifies rounding.
 constexpr double tolerance = 1e-13;

@@ -259,11 +259,7 @@ class Draw {
 
 constexpr Middle places[] = {Middle::inside, Middle::on_an_edge, Middle::at_a_corner,
                              Middle::beside, Middle::far,        Middle::anywhere};
-#ifdef CLATTER_TEST_SLOW_BUILD
-constexpr int scenes_each = 1;
-#else
-constexpr int scenes_each = 5;
-#endif
+constexpr int scenes_each = CLATTER_TEST_SLOW_BUILD ? 1 : 5;
 
 double worst_of(double log_condition, double rounding_part, bool one_way = false) {
   double worst = 0;

@@ -22,11 +22,7 @@ MotionState dropped(const Body& body, double angle, double tilt = 0) {
                         {.inclination = angle * degree, .velocity = {0, 0, -4}, .out_of_plane_tilt = tilt * degree});
 }
 
-#ifdef CLATTER_TEST_SLOW_BUILD
-constexpr int random_drops = 8;
-#else
-constexpr int random_drops = 120;
-#endif
+constexpr int random_drops = CLATTER_TEST_SLOW_BUILD ? 8 : 120;
 
 /// A random drop of the phone or the rod, with friction or without.
 struct RandomDrop {

@@ -82,11 +82,7 @@ Vector3 world_momentum(const Matrix3& inertia, const Rotation& r) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(free_rotation_solves_euler_s_equations_over_1000_turns) {
-#ifdef CLATTER_TEST_SLOW_BUILD
-  constexpr double turns = 50;
-#else
-  constexpr double turns = 1000;
-#endif
+  constexpr double turns = CLATTER_TEST_SLOW_BUILD ? 50 : 1000;
   constexpr double tolerance = 1e-11;  // 7 eps for each of the 6283 radians
   const Body bodies[] = {
       {"phone about its long axis", phone, {20, 0.5, -0.3}},

@@ -196,11 +196,7 @@ BOOST_AUTO_TEST_CASE(a_late_release_does_not_depend_on_the_steps) {
 
 /// Deep in the bed the faces that look up were once driven along their slip.
 BOOST_AUTO_TEST_CASE(friction_over_faces_that_look_up_from_below_the_ground_never_drives) {
-#ifdef CLATTER_TEST_SLOW_BUILD
-  const std::vector<double> grounds{1e5, 1e7};
-#else
-  const std::vector<double> grounds{1e5, 3e5, 1e6, 1e7};
-#endif
+  const auto grounds = CLATTER_TEST_SLOW_BUILD ? std::vector{1e5, 1e7} : std::vector{1e5, 3e5, 1e6, 1e7};
   for (const FrictionLaw law : {FrictionLaw::regularised, FrictionLaw::coulomb}) {
     for (const double stiffness : grounds) {
       for (const double tilt : {0.0, 20.0}) {
@@ -337,11 +333,7 @@ BOOST_AUTO_TEST_CASE(few_evaluations_find_where_a_damped_contact_ends) {
 }
 
 BOOST_AUTO_TEST_CASE(random_scenes_with_friction_end_in_numbers) {
-#ifdef CLATTER_TEST_SLOW_BUILD
-  const unsigned count = 8;
-#else
-  const unsigned count = 100;
-#endif
+  const unsigned count = CLATTER_TEST_SLOW_BUILD ? 8 : 100;
   for (unsigned number = 1; number <= count; ++number) {
     Scene scene(number);
     Finite history;

@@ -15,11 +15,7 @@ namespace {
 using namespace clatter::numeric;
 using namespace clatter::numeric::test;
 
-#ifdef CLATTER_TEST_SLOW_BUILD
-constexpr int scenes_each = 1;
-#else
-constexpr int scenes_each = 5;
-#endif
+constexpr int scenes_each = CLATTER_TEST_SLOW_BUILD ? 1 : 5;
 
 struct RandomScene {
   Vector3 size;

@@ -15,15 +15,9 @@ namespace {
 using namespace clatter::numeric;
 using namespace clatter::numeric::test;
 
-#ifdef CLATTER_TEST_SLOW_BUILD
-constexpr int halvings = 4;
-constexpr long many_steps = 50'000;
-constexpr double phases[] = {0.37};
-#else
-constexpr int halvings = 6;
-constexpr long many_steps = 1'000'000;
-constexpr double phases[] = {1.0, 0.71, 0.37, 0.05};
-#endif
+constexpr int halvings = CLATTER_TEST_SLOW_BUILD ? 4 : 6;
+constexpr long many_steps = CLATTER_TEST_SLOW_BUILD ? 50'000 : 1'000'000;
+const std::vector<double> phases = CLATTER_TEST_SLOW_BUILD ? std::vector{0.37} : std::vector{1.0, 0.71, 0.37, 0.05};
 
 struct Scene {
   Body body;

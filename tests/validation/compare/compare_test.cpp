@@ -15,11 +15,7 @@ using namespace clatter;
 using namespace clatter::validation;
 
 constexpr double epsilon = 2.2e-16;
-#ifdef CLATTER_TEST_SLOW_BUILD
-constexpr int random_scene_count = 40;  // the sanitizers cost a factor of ten
-#else
-constexpr int random_scene_count = 200;
-#endif
+constexpr int random_scene_count = CLATTER_TEST_SLOW_BUILD ? 40 : 200;  // the sanitizers cost a factor of ten
 
 Scene box_scene(double angle_deg) {
   Scene scene = case_scene("phone-elastic");

@@ -14,11 +14,7 @@ namespace {
 using namespace clatter;
 using namespace clatter::validation;
 
-#ifdef CLATTER_TEST_SLOW_BUILD
-constexpr int random_scene_count = 8;  // the sanitizers cost a factor of ten; clatter verify has 200
-#else
-constexpr int random_scene_count = 48;
-#endif
+constexpr int random_scene_count = CLATTER_TEST_SLOW_BUILD ? 8 : 48;  // sanitizers cost a factor of ten
 
 /// A phone on a corner, without the error estimates of the single runs.
 Scene corner_scene() {

@@ -23,11 +23,9 @@ using clatter::analytic::Angle;
 using clatter::analytic::Drop;
 using clatter::analytic::Sequence;
 
-#ifdef CLATTER_TEST_SLOW_BUILD
-constexpr LongRuns runs{.impacts = 100, .discrete_scenes = 3000, .continuous_scenes = 30};
-#else
-constexpr LongRuns runs{.impacts = 1000, .discrete_scenes = 100'000, .continuous_scenes = 200};
-#endif
+constexpr LongRuns runs{.impacts = CLATTER_TEST_SLOW_BUILD ? 100 : 1000,
+                        .discrete_scenes = CLATTER_TEST_SLOW_BUILD ? 3000 : 100'000,
+                        .continuous_scenes = CLATTER_TEST_SLOW_BUILD ? 30 : 200};
 
 // A cell has a second; the test gives it more, so that no test depends on a time, and prints what the slowest took.
 constexpr double cell_seconds = 600;

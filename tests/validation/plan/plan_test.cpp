@@ -18,11 +18,7 @@ using namespace clatter::validation;
 
 namespace {
 
-#ifdef CLATTER_TEST_SLOW_BUILD
-constexpr int random_scenes = 16;
-#else
-constexpr int random_scenes = 120;
-#endif
+constexpr int random_scenes = CLATTER_TEST_SLOW_BUILD ? 16 : 120;
 
 /// Slope of the least-squares line through (x, y).
 double slope(const std::vector<double>& x, const std::vector<double>& y) {
