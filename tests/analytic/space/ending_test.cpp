@@ -74,6 +74,19 @@ BOOST_AUTO_TEST_CASE(a_slab_that_bounces_on_one_corner_is_seen_to_end_with_its_m
   for (const space::ImpactRow& row : s.rows) BOOST_TEST(row.before.position.z() > 0);
 }
 
+BOOST_AUTO_TEST_CASE(the_last_hops_of_a_corner_are_all_as_certain_relative_to_their_speed) {
+  // A hop returns with its own speed and e takes a share of it: the velocity of the centre of mass, which errs by more
+  // than the last hops have, has no part in that.
+  const space::Drop drop = slab(turn(0.05, {1, 0, 0}) * turn(0.2, {0, 1, 0}), 0.5);
+  const space::Sequence s = space::impact_sequence(drop, {.impacts = 400, .digits = 12});
+  const auto certainty = [](const space::ImpactRow& row) { return row.error.approach_speed / row.approach_speed; };
+  BOOST_TEST_REQUIRE(s.rows.size() > 12U);
+  for (auto row = s.rows.end() - 12; row != s.rows.end(); ++row) {
+    BOOST_TEST_REQUIRE(row->flight.is_hop);
+    BOOST_TEST(std::fabs(certainty(*row) / certainty(s.rows.back()) - 1) <= 1e-3);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(accumulations_of_a_corner_leave_that_corner_on_the_ground) {
   // On one corner with others clear: at the end of the tail the corner has no normal velocity.
   int corners = 0;
