@@ -27,7 +27,7 @@ FIRST_SECONDS = 2400
 VERIFY_SECONDS = 600
 CONFIGURE = ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo", "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1",
              "-DCLATTER_TESTS=ON", "-DCLATTER_PYTHON=ON", "-DCLATTER_BENCHMARKS=OFF", "-DCLATTER_GMSH=OFF",
-             "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON",
+             "-DCLATTER_UNITY_BUILD=ON", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON",
              # A map tells which objects of the libraries a test contains.
              "-DCMAKE_CXX_LINK_EXECUTABLE=<CMAKE_CXX_COMPILER> <FLAGS> <CMAKE_CXX_LINK_FLAGS> <LINK_FLAGS> <OBJECTS>"
              " -o <TARGET> <LINK_LIBRARIES> -Wl,-Map=<TARGET>.map"]
@@ -338,8 +338,8 @@ class FaultyFiles:
         shutil.rmtree(self.folder)
 
     def link(self, executable):
-        """Makes the faulty executable.  Its faulty objects stand before the libraries, so that the linker does not look
-        for those in there."""
+        """Makes the faulty executable.  The linker takes the first definition of what is defined twice: that in the
+        faulty objects, which stand before the libraries."""
         built = self.campaign.build_folder / executable
         if str(built) in self.executables:
             return
@@ -364,19 +364,19 @@ class FaultyFiles:
         for made in changed:
             command = command.replace(f" {made} ", " ")
         objects = " ".join(shlex.quote(str(self.objects[made])) for made in changed)
-        return command.replace(f" -o {executable} ", f" -o {shlex.quote(str(target))} {objects} ")
+        return command.replace(f" -o {executable} ", f" -Wl,-z,muldefs -o {shlex.quote(str(target))} {objects} ")
 
     def compile(self, made):
         if made in self.objects:
             return
         words, file = self.campaign.commands[made]
-        faulty = self.folder / "source" / os.path.relpath(file, self.campaign.source)
+        # A source that others are compiled with is compiled by itself: they call what it defines through its symbols.
+        compiled = self.folder / "source" / self.fault.file if self.fault.file.endswith(".cpp") else file
         target = self.folder / "objects" / f"{len(self.objects)}.o"
         target.parent.mkdir(exist_ok=True)
         options = next(i for i, word in enumerate(words) if word.startswith("-"))
         command = [*words[:options], f"-I{self.folder / 'source'}", *words[options:]]
-        command = [str(target) if word == made else str(faulty) if word == file and faulty.exists() else word
-                   for word in command]
+        command = [str({made: target, file: compiled}.get(word, word)) for word in command]
         self.campaign.check_compiled(self.fault, *run(command, cwd=self.campaign.build_folder))
         self.objects[made] = target
 

@@ -408,6 +408,18 @@ class Planted(unittest.TestCase):
                 large = found["error"] is None or found["error"] > exact_motion.told("benchmark", "show", problem)["tolerances"][3]
                 self.assertTrue(not large or found["verdict"] in ("fails", "incomplete"), found)
 
+    def test_a_start_is_not_named_where_it_is_not_all_that_is_wrong(self):
+        def soft_and_fast(code):
+            numbers(e=0.8)(code)
+            starts(velocity=lambda v: [1.05 * x for x in v])(code)
+
+        for name, plant, edit in (("restitution", soft_and_fast, None), ("units", None, times("vx vy vz", 1e3))):
+            texts = {problem: written(*faulty(problem, plant, edit)) for problem in ("rod-10", "corner", "box")}
+            with tempfile.TemporaryDirectory() as folder:
+                for problem, found in score(pathlib.Path(folder), texts).items():
+                    with self.subTest(also=name, problem=problem):
+                        self.assertNotIn("start-speed", {one["cause"] for one in found["causes"]})
+
     def test_no_fault_gets_a_wrong_name(self):
         for (name, problem), found in self.scored.items():
             if not found["causes"]:
