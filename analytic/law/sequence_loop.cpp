@@ -5,11 +5,6 @@
 
 namespace clatter::analytic {
 
-void SequenceOptions::validate() const {
-  detail::require(impacts >= 1, "impacts", impacts, "at least 1");
-  detail::require(digits >= 1 && digits <= 15, "digits", digits, "between 1 and 15");
-}
-
 std::string energy_warning(FrictionKind friction, const CreatedEnergy& created, double joules) {
   std::ostringstream text;
   text.precision(6);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the impact sequences of the plane and of space share: options, outcomes, and how a run begins, fills and ends.
+// What the runs of impact sequences share in the plane and in space: how one begins, fills and ends.
 #pragma once
 
 #include <cmath>
@@ -12,35 +12,9 @@
 
 #include "analytic/base/errors.hpp"
 #include "analytic/law/impact_law.hpp"
+#include "analytic/law/sequence_options.hpp"
 
 namespace clatter::analytic {
-
-struct SequenceOptions {
-  int impacts = 6;  ///< most impacts to report, >= 1
-  /// Relative error to which the end of an accumulation of impacts must be known before the sequence
-  /// is cut there: 10^−digits of the remaining time.  In [1, 15].
-  int digits = 6;
-  /// Also follow how errors of the drop and of rounding grow: `error` and `amplification` of each row, and the errors
-  /// of tail and total.
-  bool amplification = true;
-  /// In space: goes on after corners have stayed on the ground while the body turns (space/sustained_contact.hpp), and
-  /// ends where the body has to settle on one face and no impact can be predicted any more.
-  bool until_rest = false;
-
-  /// @throws std::domain_error naming the field, its value and what is allowed.
-  void validate() const;
-};
-
-enum class Outcome {
-  no_further_impact,  ///< nothing reaches the ground any more
-  impact_limit,       ///< as many impacts as asked for
-  at_rest,            ///< infinitely many impacts end in a finite time, with no normal or angular motion left that
-                      ///< doubles could tell from none, or with a face that the body must settle on
-  sustained_contact,  ///< a vertex stays on the ground (after infinitely many impacts, or with e = 0)
-                      ///< while the body still turns: beyond the model
-  not_computed,       ///< a number of the next flight or impact could not be had; the rows so far hold
-  outside_model,      ///< the next impact jams; the rows so far hold
-};
 
 /// When the last impact was, and what rounding leaves unknown of its flight.
 struct Resolution {

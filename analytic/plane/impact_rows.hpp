@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analytic/base/angle.hpp"
-#include "analytic/law/sequence_loop.hpp"
+#include "analytic/law/sequence_options.hpp"
 #include "analytic/plane/body.hpp"
 #include "analytic/plane/flight.hpp"
 #include "analytic/plane/impact.hpp"

@@ -9,6 +9,7 @@
 
 #include "analytic/base/errors.hpp"
 #include "analytic/base/limits.hpp"
+#include "analytic/law/sequence_loop.hpp"
 #include "analytic/plane/accumulation.hpp"
 #include "analytic/plane/body_motion.hpp"
 #include "analytic/plane/error_growth.hpp"

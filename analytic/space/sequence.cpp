@@ -10,6 +10,7 @@
 
 #include "analytic/base/errors.hpp"
 #include "analytic/base/limits.hpp"
+#include "analytic/law/sequence_loop.hpp"
 #include "analytic/space/accumulation.hpp"
 #include "analytic/space/error_growth.hpp"
 #include "analytic/space/first_contact.hpp"
