@@ -370,7 +370,8 @@ class FaultyFiles:
         if made in self.objects:
             return
         words, file = self.campaign.commands[made]
-        # A source that others are compiled with is compiled by itself: they call what it defines through its symbols.
+        # A source that others are compiled with is compiled by itself: in position-independent code they call what it
+        # defines through its symbols.
         compiled = self.folder / "source" / self.fault.file if self.fault.file.endswith(".cpp") else file
         target = self.folder / "objects" / f"{len(self.objects)}.o"
         target.parent.mkdir(exist_ok=True)
