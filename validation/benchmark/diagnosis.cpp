@@ -532,6 +532,22 @@ std::vector<Cause> chosen(std::vector<Cause> causes) {
   return causes;
 }
 
+/// What the columns of a run mean in place of what they should.
+std::vector<Cause> readings_of(const Answer& answer, const Motion& motion, const Reference& reference,
+                               const Score& score) {
+  constexpr std::size_t most_rows = 100'000;
+  std::vector<Cause> causes;
+  const bool is_strange =
+      score.start_error > 1e-2 || score.flight_error > 1e-2 || score.law_error > 2e-2 || !(score.motion_error() <= 0.5);
+  if (is_strange && answer.table.rows() <= most_rows) causes = misreadings_of(answer, reference, score);
+  const auto is_sharp = [&](const Cause& cause) { return cause.misfit <= reference.tolerances[1]; };
+  // A reading that leaves much may be right by chance, in a run that hardly moves.
+  if (std::none_of(causes.begin(), causes.end(), is_sharp)) {
+    if (auto scale = velocity_scale_of(motion, reference)) causes.push_back(std::move(*scale));
+  }
+  return causes;
+}
+
 std::vector<Cause> causes_of_list(const Answer& answer, const Reference& reference, const ReferenceSequence& sequence,
                                   const Score& score) {
   std::vector<Cause> causes = misreadings_of(answer, reference, score);
@@ -545,19 +561,13 @@ std::vector<Cause> causes_of_list(const Answer& answer, const Reference& referen
 }  // namespace
 
 std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, const Score& score) {
-  constexpr std::size_t most_rows = 100'000;
   const auto sequence = std::find_if(reference.sequences.begin(), reference.sequences.end(),
                                      [&](const ReferenceSequence& one) { return one.law.name == score.law; });
   if (sequence == reference.sequences.end()) return {};
   if (answer.is_list) return causes_of_list(answer, reference, *sequence, score);
-  std::vector<Cause> causes;
-  const bool is_strange =
-      score.start_error > 1e-2 || score.flight_error > 1e-2 || score.law_error > 2e-2 || !(score.motion_error() <= 0.5);
-  if (is_strange && answer.table.rows() <= most_rows) {
-    causes = misreadings_of(answer, reference, score);
-    if (!causes.empty()) return chosen(std::move(causes));
-  }
   const Motion motion(answer.table, reference);
+  std::vector<Cause> causes = readings_of(answer, motion, reference, score);
+  if (!causes.empty()) return chosen(std::move(causes));
   std::vector<FoundImpact> impacts = impacts_of(motion, reference);
   if (reference.stays()) impacts.resize(std::min(impacts.size(), sequence->truth.size()));  // the rest is not asked for
   // After one impact alone a wrong start and a wrong impact look alike.

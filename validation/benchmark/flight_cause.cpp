@@ -32,7 +32,7 @@ struct Rate {
   double value = 0, misfit = 0;
 };
 
-/// One number of (1) from all steps: its value in each step, and what a value leaves of the step's change.
+/// One number of (2) from all steps: its value in each step, and what a value leaves of the step's change.
 class Steps {
  public:
   [[nodiscard]] std::size_t count() const { return steps_.size(); }
@@ -134,6 +134,23 @@ class ConstantSpin {
 };
 
 }  // namespace
+
+std::optional<Cause> velocity_scale_of(const Motion& motion, const Reference& reference) {
+  constexpr double least_lag = 1e-2;  // less is what the steps of a code may leave
+  Steps lags;
+  for (std::size_t row = 0; row + 1 < motion.size(); row += 1 + motion.size() / looked_at) {
+    const auto from = motion.state(row), to = motion.state(row + 1);
+    const Vector3 mean = (from.velocity + to.velocity) / 2;
+    const Vector3 way = (motion.time(row + 1) - motion.time(row)) * mean;
+    if (mean.norm() > least_size * reference.speed()) lags.add(to.position - from.position - way, way);
+  }
+  const std::optional<Rate> lag = lags.rate(0);
+  if (!matters(lag, least_lag)) return {};
+  const double factor = 1 / (1 - lag->value);
+  return Cause{"velocity-scale", factor, lag->misfit,
+               fmt::format("velocities {} times those with which the places change explain the flights {}",
+                           significant(factor, 4), misfit_words(lag->misfit))};
+}
 
 std::vector<Cause> flight_causes_of(const Motion& motion, const Reference& reference) {
   Steps fall, linear, angular;

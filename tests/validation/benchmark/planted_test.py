@@ -293,6 +293,8 @@ FAULTS = {
     "lengths in millimetres": ("millimetres", None, times("x y z vx vy vz", 1e3)),
     "lengths in centimetres": ("centimetres", None, times("x y z vx vy vz", 1e2)),
     "lengths in feet": ("feet", None, times("x y z vx vy vz", 1 / 0.3048)),
+    "velocities in millimetres": ("velocity-scale", None, times("vx vy vz", 1e3)),
+    "velocities 1.1 times": ("velocity-scale", None, times("vx vy vz", 1.1)),
     "times in milliseconds": ("milliseconds", None, times("t", 1e3)),
     "place and velocity of a corner": ("other-point", None, of_a_corner),
     "cut off before the last impact": ("cut-off", None, truncated(0.9)),
@@ -413,12 +415,16 @@ class Planted(unittest.TestCase):
             numbers(e=0.8)(code)
             starts(velocity=lambda v: [1.05 * x for x in v])(code)
 
-        for name, plant, edit in (("restitution", soft_and_fast, None), ("units", None, times("vx vy vz", 1e3))):
+        for also, plant, edit in (("restitution", soft_and_fast, None), ("velocity-scale", None, times("vx vy vz", 1e3))):
             texts = {problem: written(*faulty(problem, plant, edit)) for problem in ("rod-10", "corner", "box")}
             with tempfile.TemporaryDirectory() as folder:
                 for problem, found in score(pathlib.Path(folder), texts).items():
-                    with self.subTest(also=name, problem=problem):
-                        self.assertNotIn("start-speed", {one["cause"] for one in found["causes"]})
+                    with self.subTest(also=also, problem=problem):
+                        causes = {one["cause"]: one["value"] for one in found["causes"]}
+                        self.assertNotIn("start-speed", causes)
+                        if also == "velocity-scale":
+                            self.assertEqual(list(causes), [also])
+                            self.assertAlmostEqual(causes[also], 1e3, delta=1e-9)
 
     def test_no_fault_gets_a_wrong_name(self):
         for (name, problem), found in self.scored.items():
