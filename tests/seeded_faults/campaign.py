@@ -2,7 +2,9 @@
 """The copy of the source in which faults are tried, and what of it a fault changes."""
 
 import collections
+import concurrent.futures
 import contextlib
+import enum
 import functools
 import itertools
 import json
@@ -22,15 +24,14 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 # Two build the project themselves, the third starts a browser that asks for more memory than faults may have, and the
 # fourth fails with any fault.
 LEFT_OUT = {"launcher_test", "install.packages_test", "validation.verify.page_test", "seeded_faults.places"}
+# Endings of files that neither the program nor a test of it reads.
+READ_BY_NO_PROGRAM = (".ts", ".html", ".mjs", ".md", ".reuse/dep5")
 TEST_SECONDS = 60  # or four times what the slowest of the tests takes without a fault, if that is known
 FIRST_SECONDS = 2400
 VERIFY_SECONDS = 600
 CONFIGURE = ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo", "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1",
              "-DCLATTER_TESTS=ON", "-DCLATTER_PYTHON=ON", "-DCLATTER_BENCHMARKS=OFF", "-DCLATTER_GMSH=OFF",
-             "-DCLATTER_UNITY_BUILD=ON", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON",
-             # A map tells which objects of the libraries a test contains.
-             "-DCMAKE_CXX_LINK_EXECUTABLE=<CMAKE_CXX_COMPILER> <FLAGS> <CMAKE_CXX_LINK_FLAGS> <LINK_FLAGS> <OBJECTS>"
-             " -o <TARGET> <LINK_LIBRARIES> -Wl,-Map=<TARGET>.map"]
+             "-DCLATTER_UNITY_BUILD=ON", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON"]
 if shutil.which("ccache"):  # it keeps the objects of the files without their faults
     CONFIGURE.append("-DCMAKE_CXX_COMPILER_LAUNCHER=ccache")
     os.environ.setdefault("CCACHE_SLOPPINESS", "pch_defines,time_macros")
@@ -161,12 +162,22 @@ class Test:
         return self.name if status else ""
 
 
-class Campaign:
-    """A build without faults, and what the tests in it are made of; `quick` builds the libraries alone."""
+class Place(enum.Enum):
+    """Where a fault is judged."""
 
-    def __init__(self, work, jobs, quick):
-        self.source = work / "source"
-        self.build_folder = work / "build"
+    APART = "with objects and executables of its own"
+    BESIDE = "in the copy of the source, where nothing else reads its file"
+    COPY = "in the copy, where nothing else is judged meanwhile"
+
+
+class Campaign:
+    """A build without faults, and what the tests in it are made of; `quick` builds the libraries alone.  `built`: a build
+    of the source itself, which is not changed, so that all faults must be judged apart; else one of a copy is made."""
+
+    def __init__(self, work, jobs, quick, built=None):
+        self.of_a_copy = built is None
+        self.source = work / "source" if self.of_a_copy else ROOT
+        self.build_folder = work / "build" if self.of_a_copy else built.resolve()
         self.apart = work / "apart"
         self.logs = work / "logs"
         self.jobs = jobs
@@ -179,23 +190,32 @@ class Campaign:
         self.locks = collections.defaultdict(threading.Lock)  # of each test, while these are measured
 
     def prepare(self, faults):
-        self.copy_source()
         self.logs.mkdir(parents=True, exist_ok=True)
-        say("building without a fault ...")
-        output, status = run(["cmake", "-S", self.source, "-B", self.build_folder, *CONFIGURE, *self.options])
-        if status:
-            raise Refused(f"cmake failed:\n{output}")
+        if self.of_a_copy:
+            self.copy_source()
+            self.configure()
         self.list_tests()
         unnamed = [fault.id for fault in faults if not self.likely(fault)]
         if unnamed:
             raise Refused(f"no test is likely to notice {', '.join(unnamed)}")
-        output, status = self.build({test.target for fault in faults for test in self.likely(fault)})
+        likely = [test for fault in faults for test in self.likely(fault)]
+        output, status = self.build({test.target for test in likely})
         if status:
             raise Refused(f"the build failed without a fault:\n{output}")
-        self.read_objects()
+        self.read_objects({test.executable for test in likely} - {""})
+        if not self.of_a_copy and (others := [fault.id for fault in faults if self.place(fault) != Place.APART]):
+            raise Refused(f"in a copy alone can be judged {', '.join(others)}")
+
+    def configure(self):
+        say("building without a fault ...")
+        output, status = run(["cmake", "-S", self.source, "-B", self.build_folder, *CONFIGURE, *self.options])
+        if status:
+            raise Refused(f"cmake failed:\n{output}")
 
     def copy_source(self):
         """The tracked files as they are now; those that have not changed keep their build.  Also after an interrupt."""
+        if not self.of_a_copy:
+            return
         listed = subprocess.run(["git", "-C", ROOT, "ls-files", "-z"], capture_output=True, text=True)
         if listed.returncode:
             raise Refused(f"git does not list the source:\n{listed.stderr}")
@@ -230,7 +250,7 @@ class Campaign:
     def build(self, targets):
         return run(["cmake", "--build", self.build_folder, "--parallel", str(self.jobs), "--target", *sorted(targets)])
 
-    def read_objects(self):
+    def read_objects(self, executables):
         output, status = run(["ninja", "-C", self.build_folder, "-t", "deps"])
         if status:
             raise Refused(f"ninja does not list what files are made of:\n{output}")
@@ -241,10 +261,27 @@ class Campaign:
         for entry in json.loads((self.build_folder / "compile_commands.json").read_text(encoding="utf-8")):
             words = shlex.split(entry["command"])
             self.commands[words[words.index("-o") + 1]] = words, entry["file"]
-        for executable in {test.executable for test in self.tests.values()} - {""}:
-            path = self.build_folder / f"{executable}.map"
-            if path.exists():
-                self.linked[executable] = set(LINKED.findall(path.read_text(encoding="utf-8", errors="replace")))
+        with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
+            self.linked = dict(zip(executables, pool.map(self.objects_linked, executables)))
+
+    def objects_linked(self, executable):
+        """Those of the libraries too, which a map of the linker tells."""
+        folder = self.apart / executable
+        folder.mkdir(parents=True, exist_ok=True)
+        self.link(executable, f" -Wl,-Map={shlex.quote(str(folder / 'map'))} -o {shlex.quote(str(folder / 'executable'))} ")
+        said = (folder / "map").read_text(encoding="utf-8", errors="replace")
+        shutil.rmtree(folder)
+        return set(LINKED.findall(said))
+
+    def link(self, executable, output, replaced=()):
+        """As it is linked in the build, but for the output and the objects that this replaces."""
+        commands, _ = run(["ninja", "-C", self.build_folder, "-t", "commands", executable])
+        command = commands.splitlines()[-1]
+        for made in replaced:
+            command = command.replace(f" {made} ", " ")
+        said, status = run(command.replace(f" -o {executable} ", output), shell=True, cwd=self.build_folder)
+        if status:
+            raise Refused(f"{executable} is not linked:\n{said}")
 
     def objects(self, executable, file):
         """Those of an executable that are made of this file; an archive's is any of its library with that name."""
@@ -262,22 +299,29 @@ class Campaign:
                 self.seconds[test.name] = test.measure()
         return max(TEST_SECONDS, 4 * self.seconds[test.name])
 
-    def judge(self, fault):
+    def place(self, fault):
+        if fault.file.endswith((".cpp", ".hpp")) and any(self.containing(fault)):
+            return Place.APART
+        return Place.BESIDE if fault.file.endswith(READ_BY_NO_PROGRAM) else Place.COPY
+
+    def containing(self, fault):
+        return (test for test in self.likely(fault) if test.executable in self.linked and self.objects(test.executable, fault.file))
+
+    def judge_apart(self, fault):
         """What notices it; None if that is not known before it is in the copy itself."""
-        likely = self.likely(fault)
-        containing = [test for test in likely if test.executable in self.linked and self.objects(test.executable, fault.file)]
-        if not containing or not fault.file.endswith((".cpp", ".hpp")):
-            return None
         with FaultyFiles(self, fault) as faulty:
-            for test in containing:
+            for test in self.containing(fault):
                 limit = self.limit(test)
                 faulty.link(test.executable)
                 if caught_by := test.fails(limit, faulty.executables):
                     return caught_by
-        return "" if all(test.executable in self.linked for test in likely) else None
+        return "" if all(test.executable in self.linked for test in self.likely(fault)) else None
 
-    def prepare_the_copy(self, faults):
-        names = {test.name for fault in faults for test in self.likely(fault)}
+    def try_without_faults(self, faults):
+        """The tests of faults in the copy, of which none may fail yet."""
+        names = {test.name for fault in faults for test in self.likely(fault)} - self.seconds.keys()
+        if not names:
+            return
         say(f"running {len(names)} tests without a fault ...")
         failed, output = self.failing(names, "without-fault", ["--parallel", str(self.jobs)])
         if failed:
@@ -350,21 +394,12 @@ class FaultyFiles:
             self.compile(made)
         target = self.folder / executable
         target.parent.mkdir(parents=True, exist_ok=True)
-        output, status = run(self.link_command(executable, target, changed), shell=True, cwd=self.campaign.build_folder)
-        if status:
-            raise Refused(f"{self.fault.id} is not linked:\n{output}")
+        objects = " ".join(shlex.quote(str(self.objects[made])) for made in changed)
+        self.campaign.link(executable, f" -Wl,-z,muldefs -o {shlex.quote(str(target))} {objects} ", changed)
         for beside in built.parent.iterdir():  # what the program loads
             if beside.is_file() and not (target.parent / beside.name).exists():
                 (target.parent / beside.name).symlink_to(beside)
         self.executables[str(built)] = str(target)
-
-    def link_command(self, executable, target, changed):
-        commands, _ = run(["ninja", "-C", self.campaign.build_folder, "-t", "commands", executable])
-        command = commands.splitlines()[-1].replace(f"-Wl,-Map={executable}.map", "")
-        for made in changed:
-            command = command.replace(f" {made} ", " ")
-        objects = " ".join(shlex.quote(str(self.objects[made])) for made in changed)
-        return command.replace(f" -o {executable} ", f" -Wl,-z,muldefs -o {shlex.quote(str(target))} {objects} ")
 
     def compile(self, made):
         if made in self.objects:
@@ -376,7 +411,7 @@ class FaultyFiles:
         target = self.folder / "objects" / f"{len(self.objects)}.o"
         target.parent.mkdir(exist_ok=True)
         options = next(i for i, word in enumerate(words) if word.startswith("-"))
-        command = [*words[:options], f"-I{self.folder / 'source'}", *words[options:]]
+        command = [*words[:options], f"-I{self.folder / 'source'}", *words[options:], "-Wno-error"]
         command = [str({made: target, file: compiled}.get(word, word)) for word in command]
         self.campaign.check_compiled(self.fault, *run(command, cwd=self.campaign.build_folder))
         self.objects[made] = target
@@ -408,7 +443,7 @@ class VerifyCampaign(Campaign):
             return set()
         return {check["id"] for check in said if (check["verdict"] == "passed") == pass_}
 
-    def judge(self, fault):
+    def judge_apart(self, fault):
         checks = set(fault.turns_red.split())
         with FaultyFiles(self, fault) as faulty:
             faulty.link(self.PROGRAM)
