@@ -100,6 +100,13 @@ inline Quaternion turn_by(const Vector3& rotation) {
   return angle > 0 ? Quaternion(Eigen::AngleAxisd(angle, rotation / angle)) : Quaternion::Identity();
 }
 
+/// The shortest turn of one direction into another, not the opposite one; lengths do not count.
+/// Quaternion::FromTwoVectors knows opposite ones too, for which it takes ten seconds to compile.
+inline Quaternion turn_between(const Vector3& from, const Vector3& to) {
+  const Vector3 a = from.normalized(), b = to.normalized(), middle = (a + b).normalized(), axis = a.cross(middle);
+  return {a.dot(middle), axis.x(), axis.y(), axis.z()};
+}
+
 /// A point of the hull, a vertex or the lowest point of a rim or ellipsoid; or all of a rim that lies level.
 struct Corner {
   int index = 0;                    ///< of the point, as Body counts them

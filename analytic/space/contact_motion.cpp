@@ -44,7 +44,7 @@ void ContactMotion::hold(State s) {
   s.attitude.normalize();
   if (points_.size() == 2) {
     const Vector3 edge = s.attitude * (points_[1].place - points_[0].place), along = horizontal(edge);
-    s.attitude = (Quaternion::FromTwoVectors(edge, along) * s.attitude).normalized();
+    s.attitude = (turn_between(edge, along) * s.attitude).normalized();
     const Vector3 across = Vector3::UnitZ().cross(along.normalized());  // a turn about it lifts one of the two
     s.angular_velocity -= s.angular_velocity.dot(across) * across;
   }

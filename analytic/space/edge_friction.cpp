@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analytic/space/edge_friction.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
@@ -107,6 +107,7 @@ class EdgePath final : SlipMotion {
   Values rate(const Values& y) override;
   double impulse_left(const Values& rate) override;
   bool end_stage() override;
+  [[nodiscard]] Vector5 holding() const;
   End go_on_from_rest();
   void stick(const Vector5& f);
   [[nodiscard]] std::optional<double> pressure_point(const Vector3& slip) const;
@@ -196,11 +197,19 @@ void EdgePath::stick(const Vector5& f) {
   y_[3] += point * (spent_ - begin);
 }
 
+/// f with G f = (0, 0, 0, profile), by elimination of the pushes along the ground.
+Vector5 EdgePath::holding() const {
+  const Eigen::Matrix<double, 3, 2> held = g_.topLeftCorner<3, 3>().inverse() * g_.topRightCorner<3, 2>();
+  const Matrix2 rest = g_.bottomRightCorner<2, 2>() - g_.bottomLeftCorner<2, 3>() * held;
+  const Vector2 normal = rest.inverse() * profile_;
+  Vector5 f;
+  f << -held * normal, normal;
+  return f;
+}
+
 /// Sticks if friction can hold the edge under a pressure that it has; slips on otherwise.
 EdgePath::End EdgePath::go_on_from_rest() {
-  Vector5 rises = Vector5::Zero();
-  rises.tail<2>() = profile_;
-  const Vector5 f = g_.ldlt().solve(rises);
+  const Vector5 f = holding();
   constexpr double most = 1 - nearest_to_end;
   const double point = f[4] / f[3];
   EdgeLetGo slip(g_, friction_, std::clamp(point, -most, most));
@@ -222,7 +231,7 @@ std::optional<EdgeImpulse> EdgePath::follow() {
   if (end == End::no_pressure) return {};
   const Vector2 pushes(spent_, y_[3]);
   const Vector3 change = y_.head<3>() - begin_ - g_.block<3, 2>(0, 3) * pushes;
-  result.impulse << g_.topLeftCorner<3, 3>().ldlt().solve(change), pushes;
+  result.impulse << g_.topLeftCorner<3, 3>().inverse() * change, pushes;
   result.impulse *= speed_ / unit_;
   return result;
 }

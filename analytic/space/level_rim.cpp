@@ -43,7 +43,7 @@ State levelled(const Body& body, const State& state, const Corner& rim) {
   State level = state;
   const Vector3 axis = state.attitude * body.rims[static_cast<std::size_t>(rim.index) - body.vertices.size()].axis;
   const Vector3 up = std::copysign(1.0, axis.z()) * Vector3::UnitZ();
-  level.attitude = (Quaternion::FromTwoVectors(axis, up) * state.attitude).normalized();
+  level.attitude = (turn_between(axis, up) * state.attitude).normalized();
   const Vector3& spin = state.angular_velocity;
   if (spin.head<2>().norm() <= 64 * detail::epsilon * std::fabs(spin.z())) level.angular_velocity = {0, 0, spin.z()};
   return level;

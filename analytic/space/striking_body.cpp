@@ -101,8 +101,7 @@ EdgeContact StrikingBody::edge_contact(const Vector3& from, const Vector3& to) c
   force << along, across, Vector3::Zero(), up, Vector3::Zero();
   moment << middle.cross(along), middle.cross(across), half.cross(across), middle.cross(up), half.cross(up);
   EdgeContact edge;
-  edge.inverse_inertia =
-      force.transpose() * force / body_.mass + moment.transpose() * body_.inertia.ldlt().solve(moment);
+  edge.inverse_inertia = force.transpose() * force / body_.mass + moment.transpose() * body_.inertia.inverse() * moment;
   edge.velocity = force.transpose() * place(state_.velocity) + moment.transpose() * place(state_.angular_velocity);
   edge.velocity_scale = state_.velocity.norm() + state_.angular_velocity.norm() * (middle.norm() + half.norm());
   return edge;

@@ -158,7 +158,7 @@ Matrix3 inverse_inertia(const Reference& reference, const State& state) {
 /// @pre v_n < 0
 /// @throws NumericalError if no direction of slip satisfies (1).
 Vector3 moreau_impulse(const Matrix3& w, const Vector3& v, const analytic::ImpactLaw& law) {
-  const Vector3 sticking = w.ldlt().solve(Vector3(-v.x(), -v.y(), -(1 + law.restitution) * v.z()));
+  const Vector3 sticking = w.inverse() * Vector3(-v.x(), -v.y(), -(1 + law.restitution) * v.z());
   if (sticking.head<2>().norm() <= law.friction_value * sticking.z()) return sticking;
   constexpr int parts = 720;
   const double part = 2 * std::numbers::pi / parts;
@@ -235,7 +235,7 @@ space::State Reference::struck(const space::State& state, int point, const Vecto
   after.velocity += impulse / body.mass;
   const Vector3 arm = arms(state.attitude)[static_cast<std::size_t>(point)];
   const Vector3 moment = state.attitude.conjugate() * arm.cross(impulse);
-  after.angular_velocity += state.attitude * body.inertia.ldlt().solve(moment);
+  after.angular_velocity += state.attitude * body.inertia.inverse() * moment;
   return after;
 }
 

@@ -193,7 +193,7 @@ FaceTipping face_tipping(const space::Drop& drop, const space::ImpactRow& row) {
   const space::Sequence even = run(pressed_evenly(here, depth), 1);
   const space::GroupImpact& group = *even.rows.at(0).group;
   const Vector3 moment = Vector3(0, 0, -depth).cross(group.impulse) + group.moment.z() * Vector3::UnitZ();
-  const Vector3 turn = axes * here.body.inertia.ldlt().solve(axes.transpose() * moment);
+  const Vector3 turn = axes * here.body.inertia.inverse() * (axes.transpose() * moment);
   const double tipped = turn.head<2>().norm(), reach = here.body.reach();
   FaceTipping tipping{.lean = tipped * reach / row.approach_speed, .size = {}};
   const double speed = depth * tipped + tipping.lean * tipping.lean * row.approach_speed;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/measured/calibration.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -12,11 +12,16 @@ constexpr double least_ground_error = 1e-6;  // [m]
 constexpr std::size_t enough = 3;            // resting poses to calibrate on
 constexpr Eigen::Index enough_points = 5;    // impacts, likewise
 
-/// The shortest x with N x = right: 0 in directions that N leaves open.
+/// The shortest x with N x = right for N of a least-squares problem: 0 in directions that N leaves open.
 Vector3 least_solution(const Matrix3& N, const Vector3& right) {
-  Eigen::CompleteOrthogonalDecomposition<Matrix3> factors;
-  factors.setThreshold(1e-9);
-  return factors.compute(N).solve(right);
+  constexpr double open = 1e-9;  // of the largest eigenvalue
+  const Eigen::SelfAdjointEigenSolver<Matrix3> axes(N);
+  Vector3 x = Vector3::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const Vector3 axis = axes.eigenvectors().col(i);
+    if (axes.eigenvalues()[i] > open * axes.eigenvalues()[2]) x += axis * (axis.dot(right) / axes.eigenvalues()[i]);
+  }
+  return x;
 }
 
 /// The body's true axes: a small turn δ for which each resting face's normal n looks straight down,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/measured/flights.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -22,6 +22,15 @@ constexpr double settled = 1e-11;  // change of the rotation [rad]
 
 /// Weight of a residual that is `size` expected ones long.
 double weight_of(double size) { return size > huber ? huber / size : 1; }
+
+/// Of a positive definite matrix, by blocks.
+Matrix6 inverse_of(const Matrix6& m) {
+  const Matrix3d first = m.topLeftCorner<3, 3>().inverse(), side = first * m.topRightCorner<3, 3>();
+  const Matrix3d last = (m.bottomRightCorner<3, 3>() - m.bottomLeftCorner<3, 3>() * side).inverse();
+  Matrix6 inverse;
+  inverse << first + side * last * side.transpose(), -side * last, -last * side.transpose(), last;
+  return inverse;
+}
 
 /// Left Jacobian of the rotation exp(v): exp(v + δ) = exp(J δ) exp(v) to first order.
 Matrix3d left_jacobian(const Vector3& v) {
@@ -76,7 +85,7 @@ void FlightFit::fit_position(std::span<const Frame> frames, const FlightModel& m
     fall(2, 2) += prior;
     fall_right.z() += prior * model.gravity.mean;
     const Matrix2d level_inverse = level.inverse();
-    const Matrix3d fall_inverse = fall.llt().solve(Matrix3d::Identity());
+    const Matrix3d fall_inverse = fall.inverse();
     const Matrix2d xy = level_inverse * level_right;
     const Vector3 z = fall_inverse * fall_right;
     state_.position = {xy(0, 0), xy(0, 1), z.x()};
@@ -111,7 +120,7 @@ void FlightFit::fit_rotation(std::span<const Frame> frames, const FlightModel& m
       normal += w * row.transpose() * row;
       right += w * row.transpose() * off;
     }
-    rotation_covariance_ = normal.ldlt().solve(Matrix6::Identity());
+    rotation_covariance_ = inverse_of(normal);
     const Vector6 change = rotation_covariance_ * right;
     state_.attitude = (rotation_of(change.head<3>()) * state_.attitude).normalized();
     state_.angular_velocity += change.tail<3>();

@@ -2,8 +2,11 @@
 // The errata E1 to E11: the printed form and the right one, both evaluated.
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
+#include <gsl/gsl_eigen.h>
+
+#include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "analytic/plane/impact.hpp"
 #include "numeric/motion/equations_of_motion.hpp"
@@ -116,11 +119,23 @@ struct General {
   numeric::WorldWrench wrench{.force = {1, 2, -12}, .moment = {0.3, -0.2, 0.1}};
 };
 
+/// Of a symmetric matrix, ascending.
+numeric::Vector7 eigenvalues(numeric::Matrix7 matrix) {
+  constexpr std::size_t size = 7;
+  numeric::Vector7 values;
+  const std::unique_ptr<gsl_eigen_symm_workspace, void (*)(gsl_eigen_symm_workspace*)> workspace(
+      gsl_eigen_symm_alloc(size), gsl_eigen_symm_free);
+  gsl_matrix_view of_matrix = gsl_matrix_view_array(matrix.data(), size, size);
+  gsl_vector_view of_values = gsl_vector_view_array(values.data(), size);
+  gsl_eigen_symm(&of_matrix.matrix, &of_values.vector, workspace.get());
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
 Measured singular_mass_matrix(CaseRuns&) {
   const General general;
   const numeric::LagrangeSystem system = lagrange_system(general.body, general.state, general.wrench);
-  const Eigen::SelfAdjointEigenSolver<numeric::Matrix7> eigen(system.mass_matrix);
-  const auto values = eigen.eigenvalues();
+  const numeric::Vector7 values = eigenvalues(system.mass_matrix);
   const numeric::LagrangeAcceleration solved = solve(system);
   // Newton–Euler, written out: I ω̇′ = Aᵀ M − ω′ × I ω′.
   const Vector3& omega = general.state.angular_velocity;
