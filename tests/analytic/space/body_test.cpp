@@ -2,6 +2,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <string>
 
 #include "analytic/space/body.hpp"
@@ -90,4 +91,20 @@ BOOST_AUTO_TEST_CASE(a_body_that_cannot_be_is_refused_by_the_name_of_its_field) 
 BOOST_AUTO_TEST_CASE(a_flat_plate_and_a_needle_hold_the_triangle_inequality_to_rounding) {
   BOOST_TEST(refusal(box(0.1, {.size = {0.3, 0.7, 1e-9}})).empty());
   BOOST_TEST(refusal(box(3.3, {.size = {1, 1e-7, 1e-7}})).empty());
+}
+
+BOOST_AUTO_TEST_CASE(the_shortest_turn_takes_one_direction_into_another_about_what_both_are_normal_to) {
+  std::mt19937 draw(3);
+  std::uniform_real_distribution<double> part(-1, 1);
+  for (int i = 0; i < 200; ++i) {
+    const Vector3 from(part(draw), part(draw), part(draw)), to(part(draw), part(draw), part(draw));
+    const double near_opposite = (from.normalized() + to.normalized()).norm();
+    const Quaternion turn = turn_between(from, to);
+    const double rounding = 1e-15 / near_opposite;
+    BOOST_TEST(std::fabs(turn.norm() - 1) <= rounding);
+    BOOST_TEST((turn * from.normalized() - to.normalized()).norm() <= 4 * rounding);
+    BOOST_TEST(std::fabs(turn.vec().dot(from.normalized())) <= rounding);
+  }
+  const Quaternion little = turn_between({2, 0, 0}, {3, 3e-9, 0});  // sin(θ/2) = 5e-10 to 20 digits
+  BOOST_TEST((little.vec() - Vector3(0, 0, 5e-10)).norm() <= 1e-25);
 }
