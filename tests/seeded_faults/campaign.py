@@ -39,6 +39,7 @@ LINKED = re.compile(r"^(?:LOAD )?(?:(\S+\.a)\()?(\S+?\.o)\)?$", re.MULTILINE)
 PASSED = re.compile(r"^ *\d+/\d+ Test +#\d+: (\S+) .* Passed +([\d.]+) sec", re.MULTILINE)
 FAILED = re.compile(r"^ *\d+/\d+ Test +#\d+: (\S+) .*?\*\*\*(?!Skipped)(\w+)", re.MULTILINE)
 CASE = re.compile(r"^(\w+)\*$", re.MULTILINE)  # or a whole suite
+CASE_OF_SCRIPT = re.compile(r"^test_\w+ \(__main__\.(\w+)\.(\w+)\)")  # as it begins
 NOTICED = re.compile(r"(?:fatal )?error: in \"|^(?:FAIL|ERROR): ")  # first lines of a failure of Boost.Test and unittest
 
 
@@ -121,8 +122,10 @@ class Test:
         return script.name.endswith("_test.py") and script.is_file()
 
     def measure(self):
-        """Seconds without a fault.  The cases of a test in C++ are run one by one; later the quickest come first, so that a
-        fault is noticed early, those that take a second together in one run."""
+        """Seconds without a fault.  Later the quickest cases come first, so that a fault is noticed early.  Those of a test
+        in C++ are run one by one, but for those that take a second together."""
+        if self.is_unittest():
+            return self.measure_script()
         parts = self.parts
         if self.is_in_cpp():
             parts = [(f"--run_test={name}",) for name in CASE.findall(run([*self.command, "--list_content"])[0])]
@@ -137,11 +140,31 @@ class Test:
         self.parts = [sum(ordered[:quick], ())] * (quick > 0) + ordered[quick:]
         return sum(seconds.values())
 
+    def measure_script(self):
+        """The cases of a class stay together, since they share what it prepares."""
+        classes = collections.defaultdict(dict)
+        begun = []
+
+        def watch(line):
+            now = time.monotonic()
+            if begun:
+                name, case, since = begun[-1]
+                classes[name][case] = now - since
+            if case := CASE_OF_SCRIPT.match(line):
+                begun.append((*case.groups(), now))
+
+        start = time.monotonic()
+        if self.part_fails(("-v",), FIRST_SECONDS, watch=watch):
+            raise Refused(f"{self.name} fails without a fault")
+        ordered = sorted(classes, key=lambda name: sum(classes[name].values()))
+        self.parts = [[f"{name}.{case}" for name in ordered for case in sorted(classes[name], key=classes[name].get)]]
+        return time.monotonic() - start
+
     def fails(self, limit, executables):
         """How: empty if it passes.  `executables`: what to run instead, with another path, of what was built."""
         return next(filter(None, (self.part_fails(part, limit, executables) for part in self.parts)), "")
 
-    def part_fails(self, part, limit, executables=None):
+    def part_fails(self, part, limit, executables=None, watch=lambda line: None):
         def replaced(text):
             return functools.reduce(lambda text, paths: text.replace(*paths), (executables or {}).items(), text)
 
@@ -153,7 +176,7 @@ class Test:
             timer = threading.Timer(limit, end_group, [process.pid])
             timer.start()
             try:
-                noticed = any(NOTICED.search(line) for line in process.stdout)
+                noticed = any(watch(line) or NOTICED.search(line) for line in process.stdout)
                 status = 1 if noticed else process.wait()
             finally:
                 timer.cancel()
