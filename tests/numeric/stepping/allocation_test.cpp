@@ -51,7 +51,7 @@ long allocations_in_contact(Method method, const Ground& ground, const MotionSta
 
 BOOST_AUTO_TEST_CASE(the_counter_counts) {
   const long before = allocations;
-  delete new int(1);
+  ::operator delete(::operator new(1));  // a compiler may leave out new and delete expressions, not these calls
   BOOST_TEST(allocations == before + 1);
 }
 
