@@ -112,7 +112,9 @@ Root bracketed_root(FunctionView f, Bracket bracket, double guess, bool rising) 
     if (next == x || bracket.high - bracket.low <= epsilon * std::fabs(x)) {
       return {x, evaluated.evaluations};
     }
-    if (stays) {
+    // Newton's steps may lead from one side of the root to the other without end.
+    const bool returns = step * previous_step < 0 && std::fabs(step) > 0.75 * std::fabs(previous_step);
+    if (stays && !returns) {
       status = gsl_root_fdfsolver_iterate(solver);
       x = gsl_root_fdfsolver_root(solver);
       previous_step = step;

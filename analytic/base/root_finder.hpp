@@ -38,8 +38,8 @@ class FunctionView {
 
 /// The root in `bracket` of a function that has one sign at the low end (`rising`: negative) and the
 /// other at the high end.  GSL's Newton method from `guess`; where a step leaves what is left of the
-/// bracket, bisection isolates the root further first.  Stops when the step predicted next is
-/// below half an ulp or the value below its rounding error.
+/// bracket or takes back most of the one before, bisection isolates the root further first.  Stops when the step
+/// predicted next is below half an ulp or the value below its rounding error.
 /// @throws NumericalError after 80 evaluations, or if the function is not finite.
 [[nodiscard]] Root bracketed_root(FunctionView f, Bracket bracket, double guess, bool rising);
 
