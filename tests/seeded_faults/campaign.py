@@ -226,7 +226,8 @@ class Campaign:
         if status:
             raise Refused(f"the build failed without a fault:\n{output}")
         self.read_objects({test.executable for test in likely} - {""})
-        if not self.of_a_copy and (others := [fault.id for fault in faults if self.place(fault) != Place.APART]):
+        others = [fault.id for fault in faults if self.place(fault) != Place.APART or not self.is_said_apart(fault)]
+        if others and not self.of_a_copy:  # a fault must not come into the source itself
             raise Refused(f"in a copy alone can be judged {', '.join(others)}")
 
     def configure(self):
@@ -338,7 +339,11 @@ class Campaign:
                 faulty.link(test.executable)
                 if caught_by := test.fails(limit, faulty.executables):
                     return caught_by
-        return "" if all(test.executable in self.linked for test in self.likely(fault)) else None
+        return "" if self.is_said_apart(fault) else None
+
+    def is_said_apart(self, fault):
+        """Whether no test of it needs the copy."""
+        return all(test.executable in self.linked for test in self.likely(fault))
 
     def try_without_faults(self, faults):
         """The tests of faults in the copy, of which none may fail yet."""

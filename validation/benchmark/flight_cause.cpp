@@ -32,7 +32,7 @@ struct Rate {
   double value = 0, misfit = 0;
 };
 
-/// One number of (2) from all steps: its value in each step, and what a value leaves of the step's change.
+/// One number of (1) or (2) from all steps: its value in each step, and what a value leaves of the step's change.
 class Steps {
  public:
   [[nodiscard]] std::size_t count() const { return steps_.size(); }

@@ -235,7 +235,7 @@ space::State Reference::struck(const space::State& state, int point, const Vecto
   after.velocity += impulse / body.mass;
   const Vector3 arm = arms(state.attitude)[static_cast<std::size_t>(point)];
   const Vector3 moment = state.attitude.conjugate() * arm.cross(impulse);
-  after.angular_velocity += state.attitude * body.inertia.inverse() * moment;
+  after.angular_velocity += state.attitude * (body.inertia.inverse() * moment);
   return after;
 }
 
