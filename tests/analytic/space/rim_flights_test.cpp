@@ -21,6 +21,7 @@ using clatter::oracle::Top;
 using clatter::oracle::TopSeries;
 using Wide = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<60>, boost::multiprecision::et_off>;
 
+constexpr double largest_turn_of_a_hop = 0.099;  // [rad], of the axis about the momentum
 constexpr int scenes = CLATTER_TEST_SLOW_BUILD ? 40 : 300;
 
 struct Disc {
@@ -152,28 +153,34 @@ void check(const Scene& s, const ImpactRow& from, const ImpactRow& to, Counts& c
   ++counts.flights;
   if (!(to.energy_before - from.energy_after <= 1e-12 * from.energy_after)) ++counts.gains;
   const double turning = from.impact.angular_velocity_after.norm();
-  const bool hop = t * turning < 0.1;
+  const Vector3 axis = from.before.attitude * Vector3::UnitX();
+  // The attitude's rounding turns the lowest point of a rim by that over its tilt.
+  const double tilt = Vector3::UnitZ().cross(axis).norm();
+  const double turned = 1 + s.disc.radius * turning * t / (tilt * reach);
+  const bool hop = RimHeights<double>(s.disc, from, s.drop.gravity, false).turn(t) < largest_turn_of_a_hop;
   const RimHeights<long double> h(s.disc, from, s.drop.gravity, hop);
-  if (!(lowest(h, t, reach) >= -1e-12L * reach)) ++counts.below;
+  if (!(lowest(h, t, reach) >= -(1e-12 + 1e-14 * turned) * reach)) ++counts.below;
   if (to.corners[0].radius > 0) return;
   const RimHeights<Wide> exact(s.disc, from, s.drop.gravity, hop);
   const int rim = to.corners[0].index;
   const double velocity = static_cast<double>(exact.velocity(rim, t));
   const double off = std::fabs(static_cast<double>(exact.height(rim, t)) / velocity);
   const double speed = from.impact.velocity_after.norm() + s.drop.gravity * t + reach * turning;
-  // The attitude's rounding turns the lowest point of a rim by that over its tilt.
-  const double tilt = Vector3::UnitZ().cross(from.before.attitude * Vector3::UnitX()).norm();
-  const double turned = 1 + s.disc.radius * turning * t / (tilt * reach);
   if (!(off <= 1e-14 * (t * speed + reach) * turned / std::fabs(velocity))) ++counts.late;
   if (!(hop && rim == from.corners[0].index && velocity > -1e-2 * speed)) return;
   ++counts.hops;
-  const double condition = (1 + std::fabs(from.impact.contact_after.z() / velocity)) / tilt;
+  // Rounding of ω counts beside its part across the axis, which alone moves the rims, and that of the parts of h″
+  // beside what they leave for the hop.
+  const double departure = from.impact.contact_after.z(), rate = static_cast<double>(exact.turn(1));
+  const double condition = (1 + std::fabs(departure / velocity)) / tilt * turning /
+                           axis.cross(from.impact.angular_velocity_after).norm() *
+                           (1 + reach * rate * rate * t / (2 * departure));
   double error = off / t / condition;
   // Faster arrivals near level take the velocity of the place, which the attitude's rounding turns.
   if (std::fabs(velocity) < tilt * speed)
     error = std::fmax(error, std::fabs(to.approach_speed / velocity + 1) / condition);
   counts.worst_hop = std::fmax(counts.worst_hop, error);
-  if (!(error <= 1e-13)) ++counts.rough_hops;
+  if (!(error <= 2e-14)) ++counts.rough_hops;
 }
 
 }  // namespace
