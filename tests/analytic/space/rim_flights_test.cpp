@@ -186,7 +186,7 @@ void check(const Scene& s, const ImpactRow& from, const ImpactRow& to, Counts& c
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(no_flight_of_a_rod_or_disc_goes_below_the_ground_gains_energy_or_misses_its_contact) {
-  Random random(26);
+  Random random(15);  // a draw of which three flights go below the ground with too low a bound of a rim's bends
   Counts counts;
   int stopped = 0;
   for (int i = 0; i < scenes; ++i) {
