@@ -37,7 +37,7 @@ if shutil.which("ccache"):  # it keeps the objects of the files without their fa
     os.environ.setdefault("CCACHE_SLOPPINESS", "pch_defines,time_macros")
 LINKED = re.compile(r"^(?:LOAD )?(?:(\S+\.a)\()?(\S+?\.o)\)?$", re.MULTILINE)
 PASSED = re.compile(r"^ *\d+/\d+ Test +#\d+: (\S+) .* Passed +([\d.]+) sec", re.MULTILINE)
-FAILED = re.compile(r"^ *\d+/\d+ Test +#\d+: (\S+) .*?\*\*\*(?!Skipped)(\w+)", re.MULTILINE)
+FAILED = re.compile(r"^ *\d+/\d+ Test +#\d+: (\S+) .*?\*\*\*(?!Skipped|Not Run)(\w+)", re.MULTILINE)
 CASE = re.compile(r"^(\w+)\*$", re.MULTILINE)  # or a whole suite
 CASE_OF_SCRIPT = re.compile(r"^test_\w+ \(__main__\.(\w+)\.(\w+)\)")  # as it begins
 NOTICED = re.compile(r"(?:fatal )?error: in \"|^(?:FAIL|ERROR): ")  # first lines of a failure of Boost.Test and unittest
@@ -367,7 +367,11 @@ class Campaign:
 
     def caught_in_the_copy(self, fault):
         self.check_compiled(fault, *self.build({test.target for test in self.likely(fault)}))
-        return next(iter(self.failing([test.name for test in self.likely(fault)], fault.id)[0]), "")
+        names = [test.name for test in self.likely(fault)]
+        failed, output = self.failing(names, fault.id)
+        caught_by = [name for name in failed if name.split()[0] in names]
+        self.check_compiled(fault, output, failed and not caught_by)  # what the tests need could not be made
+        return next(iter(caught_by), "")
 
     def check_compiled(self, fault, output, status):
         if status:
