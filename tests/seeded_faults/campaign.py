@@ -366,8 +366,9 @@ class Campaign:
             path.write_text(original, encoding="utf-8")
 
     def caught_in_the_copy(self, fault):
-        self.check_compiled(fault, *self.build({test.target for test in self.likely(fault)}))
-        names = [test.name for test in self.likely(fault)]
+        likely = self.likely(fault)
+        self.check_compiled(fault, *self.build({test.target for test in likely}))
+        names = [test.name for test in likely]
         failed, output = self.failing(names, fault.id)
         caught_by = [name for name in failed if name.split()[0] in names]
         self.check_compiled(fault, output, failed and not caught_by)  # what the tests need could not be made

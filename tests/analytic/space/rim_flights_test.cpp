@@ -157,7 +157,8 @@ void check(const Scene& s, const ImpactRow& from, const ImpactRow& to, Counts& c
   // The attitude's rounding turns the lowest point of a rim by that over its tilt.
   const double tilt = Vector3::UnitZ().cross(axis).norm();
   const double turned = 1 + s.disc.radius * turning * t / (tilt * reach);
-  const bool hop = RimHeights<double>(s.disc, from, s.drop.gravity, false).turn(t) < largest_turn_of_a_hop;
+  const double rate = RimHeights<double>(s.disc, from, s.drop.gravity, false).turn(1);
+  const bool hop = t * rate < largest_turn_of_a_hop;
   const RimHeights<long double> h(s.disc, from, s.drop.gravity, hop);
   if (!(lowest(h, t, reach) >= -(1e-12 + 1e-14 * turned) * reach)) ++counts.below;
   if (to.corners[0].radius > 0) return;
@@ -171,7 +172,7 @@ void check(const Scene& s, const ImpactRow& from, const ImpactRow& to, Counts& c
   ++counts.hops;
   // Rounding of ω counts beside its part across the axis, which alone moves the rims, and that of the parts of h″
   // beside what they leave for the hop.
-  const double departure = from.impact.contact_after.z(), rate = static_cast<double>(exact.turn(1));
+  const double departure = from.impact.contact_after.z();
   const double condition = (1 + std::fabs(departure / velocity)) / tilt * turning /
                            axis.cross(from.impact.angular_velocity_after).norm() *
                            (1 + reach * rate * rate * t / (2 * departure));
