@@ -51,6 +51,7 @@ double meeting_time(const State& before, const State& after, double step, double
 /// one after the other, if
 ///     r₁ × λP + r₂ × (1 − λ)P                                                                        (2)
 /// is, r₁ where the flight before touches the ground, r₂ where the flight after leaves it.
+/// A level face explains any jump: friction all over it turns the body about the normal.
 /// More than two impacts within a step cannot be told apart.
 /// @pre row + 1 < motion.size()
 class Step {
@@ -70,6 +71,7 @@ class Step {
     if (reference_.is_compliant && candidates_.size() == 1) return {whole(candidates_)};
     const One one = best_one();
     if (one.residual <= rounding) return {whole({one.point})};
+    if (const std::vector<int> face = level_face(); !face.empty()) return {whole(face)};
     const Two two = best_two();
     const bool exact = two.is_timed && two.residual <= rounding * 1e-2;
     if (exact || (one.residual > clearly_one && two.residual < 0.3 * one.residual)) return both(two);
@@ -187,6 +189,23 @@ class Step {
     return pose_.position.z() + arms_[0][static_cast<std::size_t>(k)].z();
   }
 
+  [[nodiscard]] std::vector<int> at_level(double level) const {
+    std::vector<int> group;
+    for (const int k : candidates_) {
+      if (std::fabs(height_between(k) - level) <= together * reference_.reach()) group.push_back(k);
+    }
+    return group;
+  }
+
+  /// The three points or more that come down as one; none.
+  [[nodiscard]] std::vector<int> level_face() const {
+    if (candidates_.empty() || !(jump_.impulse.z() > 0)) return {};
+    const int lowest = *std::min_element(candidates_.begin(), candidates_.end(),
+                                         [&](int k, int l) { return height_between(k) < height_between(l); });
+    std::vector<int> face = at_level(height_between(lowest));
+    return face.size() < 3 ? std::vector<int>{} : face;
+  }
+
   /// Normal velocity of a point.
   [[nodiscard]] double speed_of(const State& state, int point) const {
     const Vector3 arm = reference_.arms(state.attitude)[static_cast<std::size_t>(point)];
@@ -203,13 +222,9 @@ class Step {
   }
 
   [[nodiscard]] std::vector<StepImpulse> both(const Two& two) const {
-    const double level = height_between(two.first), slack = together * reference_.reach();
-    if (std::fabs(level - height_between(two.second)) <= slack) {
-      std::vector<int> group;
-      for (const int k : candidates_) {
-        if (std::fabs(height_between(k) - level) <= slack) group.push_back(k);
-      }
-      return {whole(group)};
+    const double level = height_between(two.first);
+    if (std::fabs(level - height_between(two.second)) <= together * reference_.reach()) {
+      return {whole(at_level(level))};
     }
     const State before = flight_.at(two.first_time);
     const Vector3 first = two.share * jump_.impulse, second = jump_.impulse - first;

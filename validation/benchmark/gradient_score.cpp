@@ -149,8 +149,9 @@ void score_gradients(const Answer& answer, const std::vector<GradientColumn>& co
                      Score& score) {
   if (columns.empty()) return;
   const ReferenceSequence& sequence = sequence_of(reference, score.law);
-  if (reference.is_compliant || sequence.law.is_moreau) {
-    score.findings.emplace_back("derivatives are not judged: none are known of this law");
+  if (reference.is_compliant || sequence.law.is_moreau || reference.ground_ends) {
+    score.findings.emplace_back(
+        fmt::format("derivatives are not judged: none are known of this {}", reference.ground_ends ? "ground" : "law"));
     return;
   }
   DiscreteDrop drop = reference.drop;

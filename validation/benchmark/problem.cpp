@@ -23,8 +23,8 @@ const std::vector<std::string> numbers{"t",  "Px", "Py", "Pz", "Vx",       "Vy",
 std::vector<std::string> known_keys() {
   std::vector<std::string> keys = scene_keys();
   for (const std::string& text : texts) keys.push_back("problem." + text);
-  for (const char* key :
-       {"version", "gaps", "until", "tolerances", "energy_alone", "at_rest", "end_energy", "laws_agree"}) {
+  for (const char* key : {"version", "gaps", "until", "tolerances", "energy_alone", "at_rest", "end_energy",
+                          "ground_end", "laws_agree"}) {
     keys.push_back(std::string("problem.") + key);
   }
   return keys;
@@ -44,8 +44,9 @@ Problem read_problem(const EmbeddedFile& file) {
   problem.is_compliant = values.text("problem.class") == "compliant";
   problem.energy_alone = values.truth("problem.energy_alone", false);
   problem.at_rest = values.truth("problem.at_rest", false);
-  constexpr Range energies{-1e9, 1e9, false, "finite"};
-  if (values.has("problem.end_energy")) problem.end_energy = values.number("problem.end_energy", 0, energies);
+  constexpr Range finite{-1e9, 1e9, false, "finite"};
+  if (values.has("problem.end_energy")) problem.end_energy = values.number("problem.end_energy", 0, finite);
+  if (values.has("problem.ground_end")) problem.ground_end = values.number("problem.ground_end", 0, finite);
   problem.gaps = values.numbers("problem.gaps", {1, 2, 3, 4, 5, 6, 7, 8}, positive, "heights in m");
   problem.tolerances = values.numbers("problem.tolerances", {4}, positive, "four errors");
   if (values.has("problem.until")) problem.until = values.number("problem.until", 0, positive);
@@ -137,6 +138,10 @@ std::string oracle_of(const Problem& problem) {
   }
   if (problem.scene.body.is_round()) {
     return "50-digit arithmetic: closed forms of a ball's impact and flight; second route: the discrete model in space";
+  }
+  if (truth_of(problem, truth_laws(problem).front()).front().place.find(' ') != std::string::npos) {
+    return "50-digit arithmetic: closed forms of a level landing that friction stops; second route: the discrete model "
+           "in space";
   }
   if (problem.scene.has_vectors()) {
     return "50-digit arithmetic: impulses from the 3 x 3 inverse contact inertia, Taylor series of flights and slip; "

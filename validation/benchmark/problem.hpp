@@ -33,11 +33,13 @@ struct Problem {
   bool energy_alone = false;         ///< after the impacts asked for, until `until`
   bool at_rest = false;              ///< by then, with the energy of the pose of the first touch
   std::optional<double> end_energy;  ///< then, of a body that has stayed on the ground since its last bounce [J]
-  std::vector<double> gaps;          ///< heights of the lowest point at t = 0 to start from [m]
-  std::optional<double> until;       ///< no impact more until then, since the first touch [s]
-  std::vector<double> tolerances;    ///< largest error of each class, Verdict's order
-  Scene scene;                       ///< run.impacts: how many are asked for
-  std::string scene_text;            ///< as a scene file
+  /// x of the ground's right end from the centre of mass at the first touch, under the lower face of a level box [m].
+  std::optional<double> ground_end;
+  std::vector<double> gaps;        ///< heights of the lowest point at t = 0 to start from [m]
+  std::optional<double> until;     ///< no impact more until then, since the first touch [s]
+  std::vector<double> tolerances;  ///< largest error of each class, Verdict's order
+  Scene scene;                     ///< run.impacts: how many are asked for
+  std::string scene_text;          ///< as a scene file
 };
 
 /// All of them, by ID.

@@ -240,7 +240,7 @@ space::State Reference::struck(const space::State& state, int point, const Vecto
 }
 
 std::string Reference::place_name(const std::vector<int>& group) const {
-  if (is_planar) {
+  if (is_planar && group.size() != 1) {
     analytic::VertexSet set = 0;
     for (const int point : group) set = static_cast<analytic::VertexSet>(set | 1 << point);
     return group.empty() ? "?" : analytic::PlanarBody::vertex_set_name(set);
@@ -252,10 +252,18 @@ std::string Reference::place_name(const std::vector<int>& group) const {
 
 std::optional<std::vector<int>> Reference::place_named(const std::string& place) const {
   const int count = static_cast<int>(points.size());
+  std::vector<int> group;
+  if (!is_planar) {
+    const std::string words = " " + place + " ";
+    for (int i = 0; i < count; ++i) {
+      if (words.find(" " + points[static_cast<std::size_t>(i)] + " ") != std::string::npos) group.push_back(i);
+    }
+    return !group.empty() && place_name(group) == place ? std::optional(group) : std::nullopt;
+  }
   for (int i = 0; i < count; ++i) {
-    if (place_name({i}) == place) return std::vector<int>{i};
-    for (int j = i + 1; j < count; ++j) {
-      if (place_name({i, j}) == place) return std::vector<int>{i, j};
+    for (int j = i; j < count; ++j) {
+      group = i == j ? std::vector<int>{i} : std::vector<int>{i, j};
+      if (place_name(group) == place) return group;
     }
   }
   return std::nullopt;
@@ -305,6 +313,7 @@ Reference reference_of(const Problem& problem) {
                       .energy_alone = problem.energy_alone,
                       .at_rest = problem.at_rest,
                       .end_energy = problem.end_energy,
+                      .ground_ends = problem.ground_end.has_value(),
                       .body = {},
                       .points = {},
                       .start = {},
@@ -312,8 +321,11 @@ Reference reference_of(const Problem& problem) {
                       .until = problem.until,
                       .sequences = {}};
   reference.drop = discrete_drop(problem.scene);
-  if (const auto* planar = std::get_if<analytic::Drop>(&reference.drop)) set_planar(reference, *planar);
-  else set_space(reference, problem.scene, std::get<space::Drop>(reference.drop));
+  if (auto* planar = std::get_if<analytic::Drop>(&reference.drop)) {
+    if (problem.ground_end) planar->body.vertices[1].x = *problem.ground_end;  // in place of b, which is over none
+    set_planar(reference, *planar);
+    if (problem.ground_end) reference.points[1] = "edge";
+  } else set_space(reference, problem.scene, std::get<space::Drop>(reference.drop));
   touch_down(reference);
   for (const std::string& law : truth_laws(problem)) {
     ReferenceSequence sequence{

@@ -39,11 +39,12 @@ struct Reference {
   bool is_compliant = false;
   bool energy_alone = false, at_rest = false;  ///< as Problem's
   std::optional<double> end_energy{};
-  DiscreteDrop drop{};  ///< as the discrete model has it
+  bool ground_ends = false;  ///< the point "edge" of a level box stands over the ground's end
+  DiscreteDrop drop{};       ///< as the discrete model has it
   analytic::space::Body body;
   /// Of the body.
   analytic::space::PrincipalAxes principal{analytic::space::Matrix3::Identity()};
-  std::vector<std::string> points;  ///< names of the vertices, then of the rims
+  std::vector<std::string> points;  ///< names of the vertices, then of the rims; "edge" where the ground ends
   analytic::space::State start;     ///< at the first touch
   double gravity = 0;               ///< towards the ground [m/s²]
   double gravity_along = 0;         ///< along x [m/s²]

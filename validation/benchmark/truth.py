@@ -325,13 +325,16 @@ class Scene:
         L, T = self.size
         if T == 0:
             return [(-L / 2, mpf(0))], [(L / 2, mpf(0))]
-        return [(-L / 2, -T / 2), (-L / 2, T / 2)], [(L / 2, -T / 2), (L / 2, T / 2)]
+        end = self.data["problem"].get("ground_end")  # which strikes in place of corner b
+        right = L / 2 if end is None else number(end)
+        return [(-L / 2, -T / 2), (-L / 2, T / 2)], [(right, -T / 2), (L / 2, T / 2)]
 
 
 def planar_names(scene):
     a, b = scene.planar_vertices()
     points = [a[0], b[0]] + a[1:] + b[1:]
-    return points, ["a", "b", "a-top", "b-top"][:len(points)]
+    right = "edge" if "ground_end" in scene.data["problem"] else "b"
+    return points, ["a", right, "a-top", "b-top"][:len(points)]
 
 
 def planar_start(scene):
@@ -572,6 +575,31 @@ def ball_truth(scene, law):
     return rows
 
 
+# ---------------------------------------------------------------- a level face that grips
+
+def face_truth(scene, law):
+    """A box that lands level and keeps level while friction stops it: its momentum and spin are what friction takes,
+    however the load is spread, and the normal velocity is reversed.  A load that lies evenly needs m |V + w x r| of
+    friction at r; at most half of what there is at the corners leaves room for a load that the friction shifts."""
+    L, W, T = scene.box
+    V = [number(x) for x in scene.drop["velocity"]]
+    spin = number(scene.drop["angular_velocity"][2])
+    assert [number(x) for x in scene.drop["attitude"]] == [1, 0, 0, 0]
+    place = " ".join(x + y + "-z" for x in ("-x", "+x") for y in ("-y", "+y"))
+    time, rows = mpf(0), []
+    for _ in range(scene.count):
+        normal = -(1 + scene.e) * scene.mass * V[2]
+        farthest = norm(V[:2]) + abs(spin) * norm([L / 2, W / 2])
+        shift = scene.mass * norm(V[:2]) * T / 2 / normal  # of the load's middle
+        assert 2 * scene.mass * farthest <= scene.mu * normal and 6 * shift < min(L, W) / 2
+        P = [-scene.mass * V[0], -scene.mass * V[1], normal]
+        V, spin = [mpf(0), mpf(0), -scene.e * V[2]], mpf(0)
+        rows.append((place, [time, *P, *V, mpf(0), mpf(0), mpf(0), mpf(0)]))
+        time += 2 * V[2] / scene.g
+        V = [mpf(0), mpf(0), -V[2]]
+    return rows
+
+
 # ---------------------------------------------------------------- the damped phone
 
 def quotient(a, b, c, k):
@@ -671,6 +699,8 @@ def truth(data, law):
         return compliant_truth(scene, law)
     if data["body"]["shape"] == "sphere":
         return ball_truth(scene, law)
+    if data["drop"].get("attitude") == [1, 0, 0, 0]:
+        return face_truth(scene, law)
     return space_truth(scene, law) if "attitude" in data["drop"] else planar_truth(scene, law)
 
 

@@ -2,18 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Builds the page of `clatter demo`, one file with both models in it, compiled to WebAssembly.
 
-Usage: build_page.py FOLDER [--renew] [--anew]
-       build_page.py FOLDER --check
-  writes FOLDER/page.html.  The compiled models are those of validation/demo/page.html if they come from these sources; else they
-  are compiled, what was compiled in FOLDER/../module before is used again
-  --renew   also puts the page where the program takes it from, validation/demo/page.html
-  --anew    compiles the models in any case
-  --check   only says whether validation/demo/page.html is the page of these sources: status 0 if it is, 77 if not
-
 Needs Debian 12's emscripten (3.1.6), nodejs, npm, zopfli and the program's packages. GSL comes as source from the archive that this
 machine's own lists of packages name.
 """
 
+import argparse
 import base64
 import gzip
 import hashlib
@@ -270,8 +263,21 @@ def bundle(folder, module, models):
     run("node", "build.mjs", module, version_of_project(), models, digest_of_page(), folder / "notices.txt", folder / "page.html", cwd=folder)
 
 
+def arguments():
+    what, needs = __doc__.split("\n\n")
+    parser = argparse.ArgumentParser(description=what, epilog=needs)
+    parser.add_argument("folder", type=Path, help="takes page.html; the compiled models are those of validation/demo/page.html if "
+                        "they come from these sources; else they are compiled, what was compiled in FOLDER/../module is used again")
+    doing = parser.add_mutually_exclusive_group()
+    doing.add_argument("--renew", action="store_true", help="also put the page where the program takes it from, validation/demo/page.html")
+    doing.add_argument("--check", action="store_true", help="only say whether that is the page of these sources: status 0 if it is, 77 if not")
+    parser.add_argument("--anew", action="store_true", help="compile the models in any case")
+    return parser.parse_args()
+
+
 def main():
-    folder = Path(sys.argv[1]).resolve()
+    asked = arguments()
+    folder = asked.folder.resolve()
     # Node.js reserves more addresses for a module than a campaign of faults leaves to a test.
     most = resource.getrlimit(resource.RLIMIT_AS)[1]
     resource.setrlimit(resource.RLIMIT_AS, (most, most))
@@ -280,16 +286,16 @@ def main():
     compiled.mkdir(exist_ok=True)
     generated(compiled)
     models = digest_of_models(compiled)
-    if "--check" in sys.argv:
+    if asked.check:
         return check(models)
     page = PAGE.read_text(encoding="utf-8")
-    if "--anew" in sys.argv or said_by(page, "clatter-models") != models:
+    if asked.anew or said_by(page, "clatter-models") != models:
         module = build_module(compiled)
     else:
         module = compiled / "of_the_page.js"
         write(module, unpacked(page))
     bundle(folder, module, models)
-    if "--renew" in sys.argv:
+    if asked.renew:
         shutil.copyfile(folder / "page.html", PAGE)
 
 

@@ -141,8 +141,8 @@ std::string equations_of(const Problem& problem) {
   const std::string flight = "between impacts a parabola and torque-free turning";
   if (problem.is_compliant) {
     return "pressure f = (k + c ddelta/dt) delta on each place at the depth delta below z = 0, over the body's "
-           "projected "
-           "area, k and c the ground's stiffness and damping; Newton's and Euler's equations with its resultant; " +
+           "projected area, k and c the ground's stiffness and damping; Newton's and Euler's equations with its "
+           "resultant; " +
            flight;
   }
   const std::string contact = "an impulse P at the place r from the centre of mass: m dV = P, dL = r x P; ";
@@ -162,13 +162,18 @@ std::string equations_of(const Problem& problem) {
 std::vector<std::string> data_lines(const Problem& problem) {
   std::vector<std::string> lines{
       "data: the scene below in the keys of scene files (clatter keys); floor z = 0, x to the right, y into the page; "
-      "the "
-      "body has the speed given at the first touch, at t = 0 in the truth"};
+      "the body has the speed given at the first touch, at t = 0 in the truth"};
   std::istringstream text(problem.scene_text);
   std::string table;
   for (std::string line; std::getline(text, line);) {
     if (line.starts_with('[')) table = line.substr(1, line.find(']') - 1);
     else if (!line.empty()) lines.push_back("  " + table + "." + line);
+  }
+  if (problem.ground_end) {
+    lines.push_back(fmt::format(
+        "ground: it ends at x = {} m, the centre of mass is at x = 0 at the first touch; what strikes there is "
+        "the lower face, at the place called edge; to the right there is no ground",
+        shortest(*problem.ground_end)));
   }
   for (const double gap : problem.gaps) lines.push_back("  " + start_words(problem, gap));
   lines.push_back("equations: " + equations_of(problem));
@@ -178,8 +183,7 @@ std::vector<std::string> data_lines(const Problem& problem) {
 std::string error_words(const Problem& problem) {
   return fmt::format(
       "error: the largest of: law (distance of an impact from the exact map at the code's own state, relative), V and "
-      "Ω "
-      "over the sequence's largest, t over the last impact's time, energy over the start's, way in flight over the "
+      "Ω over the sequence's largest, t over the last impact's time, energy over the start's, way in flight over the "
       "body's reach; order and number of places must be right.  Classes: exact {}, sharp {}, good {}, coarse {}",
       shortest(problem.tolerances[0]), shortest(problem.tolerances[1]), shortest(problem.tolerances[2]),
       shortest(problem.tolerances[3]));
@@ -400,6 +404,7 @@ Report benchmark_statement(const Problem& problem) {
   fields["until"] = problem.until ? Value(*problem.until) : Value();
   fields["at_rest"] = problem.at_rest;
   fields["stays"] = problem.at_rest || problem.end_energy;
+  fields["ground_end"] = problem.ground_end ? Value(*problem.ground_end) : Value();
   fields["tolerances"] = problem.tolerances;
   fields["laws"] = truth_laws(problem);
   fields["oracle"] = oracle_of(problem);

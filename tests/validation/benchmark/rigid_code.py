@@ -29,7 +29,8 @@ class RigidCode:
         self.mass, self.inertia = self.body.mass, np.diag(self.body.moments)
         self.size = scene["body"]["radius"] if not self.body.points else max(math.hypot(*p) for p in self.body.points)
         # One point for the ends of a planar body's edges, all along y.
-        flat = {(x, 0.0, z) for x, _, z in self.body.points}
+        end = self.statement["ground_end"]  # strikes a level box in place of the corner over it
+        flat = {(end if end is not None and x > 0 > z else x, 0.0, z) for x, _, z in self.body.points}
         start = starts[min(gap_index, len(starts) - 1)]
         self.is_planar, self.touch = "phi" in start, start["first_touch"]
         self.points = sorted(flat if self.is_planar else self.body.points)
@@ -107,12 +108,12 @@ class RigidCode:
         return state
 
     def land(self, state):
-        """Both ends of a level thin rod at once."""
+        """Both ends of a level thin rod, or a level face, at once; a face is slowed in its spin by the share of its slide."""
         normal, slip = -(1 + self.e) * state.velocity[2], np.array([*state.velocity[:2], 0.0])
-        stop = np.linalg.norm(slip)
-        if stop > 0:
-            slip *= 1 - min(self.friction * normal, stop) / stop
-        return struck(state, slip + [0, 0, -self.e * state.velocity[2]], -self.e * np.array(state.omega))
+        stop = np.linalg.norm(slip) + abs(state.omega[2]) * self.size  # no part of a face slips faster
+        left = 1 - min(self.friction * normal, stop) / stop if stop > 0 else 1.0
+        tilting = -self.e * np.array(state.omega)
+        return struck(state, [*(left * slip[:2]), -self.e * state.velocity[2]], [*tilting[:2], left * state.omega[2]])
 
     def end(self):
         until, last = self.statement["until"], self.truth[-1]["t"]
