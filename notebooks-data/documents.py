@@ -3,14 +3,12 @@
 """Writes what the documents show of the program's output: blocks of README.md and of the reference's pages,
 verification.md, the figures' data, extremes.md with figures/extremes.svg.
 
-    notebooks-data/documents.py PROGRAM            writes them
-    notebooks-data/documents.py PROGRAM --check    says which are not what PROGRAM prints, and changes nothing
-
 A block stands between "<!-- output: COMMAND -->", "<!-- code: FILE -->", "<!-- measurement -->" or "<!-- costs -->" and
 "<!-- end -->".  The costs are those of tradeoff.csv, which tradeoff.py measures.  The paper's figures and other pictures
 are drawn from the data by figures.py, to be run after this.
 """
 
+import argparse
 import csv
 import functools
 import itertools
@@ -204,15 +202,16 @@ def renewed(program, text):
 
 
 def main():
-    if len(sys.argv) not in (2, 3) or sys.argv[2:] not in ([], ["--check"]):
-        print(__doc__, file=sys.stderr)
-        return 2
-    program = str(Path(sys.argv[1]).resolve())
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", type=Path)
+    parser.add_argument("--check", action="store_true", help="say which are not what the program prints, and change nothing")
+    asked = parser.parse_args()
+    program = str(asked.program.resolve())
     result = json.loads(printed(program, ["verify", "--format", "json"]))
     shown = [README, *sorted(PAGES.rglob("*.md"))]
     wanted = {path: renewed(program, path.read_text(encoding="utf-8")) for path in shown} | {VERIFICATION: verification(result)}
     stale = [path for path, text in wanted.items() if not path.exists() or settled(path.read_text(encoding="utf-8")) != settled(text)]
-    if sys.argv[2:]:
+    if asked.check:
         for path in stale:
             print(f"{path.relative_to(ROOT)} is not what the program prints; run notebooks-data/documents.py")
         return 1 if stale else 0

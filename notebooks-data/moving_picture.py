@@ -2,12 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Draws the phone's two blows as a picture that moves, figures/phone.svg, from the simulator's history.
 
-    moving_picture.py PROGRAM            writes it
-    moving_picture.py PROGRAM --check    says whether it is what would be written, and changes nothing
-
 Motion is by style sheet, so that it stops where a reader asks for less motion, and on paper.
 """
 
+import argparse
 import csv
 import json
 import re
@@ -159,12 +157,13 @@ def same(kept, text):
 
 
 def main():
-    if len(sys.argv) not in (2, 3) or sys.argv[2:] not in ([], ["--check"]):
-        print(__doc__, file=sys.stderr)
-        return 2
-    text = picture(str(Path(sys.argv[1]).resolve()))
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("program", type=Path)
+    parser.add_argument("--check", action="store_true", help="say whether it is what would be written, and change nothing")
+    asked = parser.parse_args()
+    text = picture(str(asked.program.resolve()))
     stale = not FILE.exists() or not same(FILE.read_text(encoding="utf-8"), text)
-    if sys.argv[2:]:
+    if asked.check:
         if stale:
             print(f"{FILE.relative_to(ROOT)} is not what would be written; run notebooks-data/moving_picture.py")
         return 1 if stale else 0
