@@ -39,6 +39,7 @@ class FacePath final : SlipMotion {
       : SlipMotion(3), face_(face), turning_(face), area_(area), pushed_(area), root_mass_(std::sqrt(face.mass)),
         root_inertia_(std::sqrt(turning_.inertia)) {
     load_ << root_mass_ * drift_of_slip(face), root_inertia_ * turning_.drift;
+    if (!(face.normal_impulse * load_.norm() > rounding())) load_.setZero();
     only_friction_ = load_ == Vector3::Zero();
     y_ << root_mass_ * face.slip, root_inertia_ * face.spin;
     whole_moments_ = pushed_.moments();
@@ -55,7 +56,10 @@ class FacePath final : SlipMotion {
   Values rate(const Values& y) override;
   double impulse_left(const Values&) override { return face_.normal_impulse - spent_; }
   bool end_stage() override { return true; }
+  End slide_from_rest();
   bool sticks();
+  /// Of y.
+  [[nodiscard]] double rounding() const { return 16 * detail::epsilon * root_mass_ * face_.velocity_scale; }
   [[nodiscard]] bool solve(const Vector2& slip, double spin);
   void go_on_to(const Vector3& direction);
 
@@ -133,6 +137,28 @@ FacePath::Values FacePath::rate(const Values& y) {
   return load_ + Vector3(force_.x() / root_mass_, force_.y() / root_mass_, force_.z() / root_inertia_);
 }
 
+/// Whether slip of rounding's size along what drives it dies out.  Friction that is not all needed to hold the face may
+/// be more than the pressure of a face that slips can have: where a part of it holds the face, the face sticks.
+FacePath::End FacePath::slide_from_rest() {
+  constexpr double least_share = 1e-15;
+  const Matrix3 rubbing = rubbing_;
+  const double spent = spent_;
+  End end = End::no_pressure;
+  for (double share = 1; end == End::no_pressure && share >= least_share; share /= 2) {
+    rubbing_ = share * rubbing;
+    spent_ = spent;
+    y_ = first_slip * face_.normal_impulse * load_;
+    if (share < 1) pressure_ << 1 / whole_moments_(0, 0), 0, 0;
+    end = slide(true);
+    if (share < 1 && end == End::impulse_spent) {  // the part that has a pressure does not hold it
+      end = End::no_pressure;
+      break;
+    }
+  }
+  rubbing_ = rubbing;
+  return end;
+}
+
 /// Whether a face that holds still has a pressure; friction is what it takes.
 bool FacePath::sticks() {
   const Vector2 force = -root_mass_ * load_.head<2>();
@@ -143,12 +169,11 @@ bool FacePath::sticks() {
 std::optional<FaceFriction> FacePath::follow() {
   FaceFriction result;
   const Vector3 before = y_.head<3>();
-  const bool slips = before.norm() > 16 * detail::epsilon * root_mass_ * face_.velocity_scale;
+  const bool slips = before.norm() > rounding();
   End end = slips ? slide() : End::stopped;
   if (end == End::stopped) {
     result.path = slips ? PathKind::slip_stick : PathKind::stick;
-    y_ = first_slip * face_.normal_impulse * load_;
-    if (load_ != Vector3::Zero()) end = slide(true);
+    if (load_ != Vector3::Zero()) end = slide_from_rest();
     if (end == End::impulse_spent) result.path = slips ? PathKind::slip_reslip : PathKind::slip;
     if (end == End::stopped) {
       y_.setZero();

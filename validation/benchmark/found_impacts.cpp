@@ -51,7 +51,7 @@ double meeting_time(const State& before, const State& after, double step, double
 /// one after the other, if
 ///     r₁ × λP + r₂ × (1 − λ)P                                                                        (2)
 /// is, r₁ where the flight before touches the ground, r₂ where the flight after leaves it.
-/// A level face explains any jump: friction all over it turns the body about the normal.
+/// A level edge or face explains any jump: friction all over it turns the body about the normal.
 /// More than two impacts within a step cannot be told apart.
 /// @pre row + 1 < motion.size()
 class Step {
@@ -71,7 +71,7 @@ class Step {
     if (reference_.is_compliant && candidates_.size() == 1) return {whole(candidates_)};
     const One one = best_one();
     if (one.residual <= rounding) return {whole({one.point})};
-    if (const std::vector<int> face = level_face(); !face.empty()) return {whole(face)};
+    if (const std::vector<int> level = level_points(); !level.empty()) return {whole(level)};
     const Two two = best_two();
     const bool exact = two.is_timed && two.residual <= rounding * 1e-2;
     if (exact || (one.residual > clearly_one && two.residual < 0.3 * one.residual)) return both(two);
@@ -197,13 +197,14 @@ class Step {
     return group;
   }
 
-  /// The three points or more that come down as one; none.
-  [[nodiscard]] std::vector<int> level_face() const {
-    if (candidates_.empty() || !(jump_.impulse.z() > 0)) return {};
+  /// The points of an edge or a face that come down as one in space, or a rim that lies level; none.
+  [[nodiscard]] std::vector<int> level_points() const {
+    if (reference_.is_planar || candidates_.empty() || !(jump_.impulse.z() > 0)) return {};
     const int lowest = *std::min_element(candidates_.begin(), candidates_.end(),
                                          [&](int k, int l) { return height_between(k) < height_between(l); });
     std::vector<int> face = at_level(height_between(lowest));
-    return face.size() < 3 ? std::vector<int>{} : face;
+    const bool is_face = face.size() > 1 || reference_.corner(pose_.attitude, lowest).radius > 0;
+    return is_face ? face : std::vector<int>{};
   }
 
   /// Normal velocity of a point.

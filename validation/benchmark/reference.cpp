@@ -9,6 +9,8 @@
 
 #include "analytic/base/errors.hpp"
 #include "analytic/plane/sequence.hpp"
+#include "analytic/space/level_rim.hpp"
+#include "analytic/space/point_height.hpp"
 #include "analytic/space/sequence.hpp"
 #include "analytic/space/simultaneous.hpp"
 #include "validation/output/bad_input.hpp"
@@ -21,6 +23,8 @@ namespace space = analytic::space;
 using space::Matrix3;
 using space::State;
 using space::Vector3;
+
+constexpr double level_slope = 1e-6;  ///< of a rim that lies level in the rows of a run [rad]
 
 DeclaredLaw declared(const std::string& name, const analytic::ImpactLaw& base) {
   DeclaredLaw declared{.name = name, .law = {}};
@@ -269,19 +273,22 @@ std::optional<std::vector<int>> Reference::place_named(const std::string& place)
   return std::nullopt;
 }
 
+space::Corner Reference::corner(const space::Quaternion& attitude, int point) const {
+  const auto rim = static_cast<std::size_t>(point) - body.vertices.size();
+  if (rim < body.rims.size() && steepness(body, attitude, point) <= level_slope) {
+    return {.index = point, .place = body.rims[rim].centre, .radius = body.rims[rim].radius};
+  }
+  return touching_corner(body, attitude, point);
+}
+
 std::vector<Vector3> Reference::arms(const space::Quaternion& attitude) const {
   const space::Matrix3 turned = attitude.toRotationMatrix();
   std::vector<Vector3> arms;
   arms.reserve(points.size());
   for (const Vector3& vertex : body.vertices) arms.emplace_back(turned * vertex);
-  for (const space::Rim& rim : body.rims) {
-    const Vector3 axis = turned * rim.axis;
-    const Vector3 down = axis.z() * axis - Vector3::UnitZ();
-    arms.emplace_back(turned * rim.centre + (down.norm() > 0 ? Vector3(rim.radius * down.normalized())
-                                                             : Vector3(rim.radius * Vector3::UnitX())));
+  for (int i = static_cast<int>(arms.size()); i < body.points(); ++i) {
+    arms.emplace_back(turned * corner(attitude, i).place);
   }
-  for (int i = static_cast<int>(arms.size()); i < body.points(); ++i)
-    arms.emplace_back(turned * space::touching_place(body, attitude, i));
   return arms;
 }
 
@@ -373,9 +380,7 @@ State exact_map(const Reference& reference, const DeclaredLaw& law, const State&
                 const std::vector<int>& points) {
   const std::vector<Vector3> arms = reference.arms(before.attitude);
   std::vector<space::Corner> corners;
-  for (const int point : points) {
-    corners.push_back({point, before.attitude.conjugate() * arms[static_cast<std::size_t>(point)]});
-  }
+  for (const int point : points) corners.push_back(reference.corner(before.attitude, point));
   if (law.is_moreau && points.size() == 1) {
     return moreau_map(reference, law.law.law, before, arms[static_cast<std::size_t>(points.front())]);
   }
@@ -384,12 +389,14 @@ State exact_map(const Reference& reference, const DeclaredLaw& law, const State&
     if (const auto flat = flat_map(reference, law.law.law, before, arm(points[0]), arm(points[1]))) return *flat;
   }
   State after = before;
-  if (points.size() == 1) {
+  if (points.size() == 1 && corners.front().radius == 0) {
     const space::Impact impact = strike(reference.body, before, corners.front().place, law.law);
     after.velocity = impact.velocity_after;
     after.angular_velocity = impact.angular_velocity_after;
   } else {
-    const space::GroupImpact impact = strike_together(reference.body, before, corners, law.law);
+    const bool is_level_rim = corners.front().radius > 0;
+    const State level = is_level_rim ? levelled(reference.body, before, corners.front()) : before;
+    const space::GroupImpact impact = strike_together(reference.body, level, corners, law.law);
     after.velocity = impact.velocity_after;
     after.angular_velocity = impact.angular_velocity_after;
   }

@@ -74,7 +74,9 @@ struct Reference {
   [[nodiscard]] std::string place_name(const std::vector<int>& group) const;
   /// Indices of the points of a place; nothing for an unknown one.
   [[nodiscard]] std::optional<std::vector<int>> place_named(const std::string& place) const;
-  /// From the centre of mass to each point, world frame; of a rim the lowest point.
+  /// Where a point touches: of a rim its lowest point, of one that lies level to 1e-6 rad all of it, about its centre.
+  [[nodiscard]] analytic::space::Corner corner(const analytic::space::Quaternion& attitude, int point) const;
+  /// From the centre of mass to the place of each corner(), world frame.
   [[nodiscard]] std::vector<analytic::space::Vector3> arms(const analytic::space::Quaternion& attitude) const;
   /// The state from which the drop begins so that its lowest point is `gap` above the ground, and the time from there
   /// to the first touch.  @throws BadInput for a gap that the motion before the touch does not have.

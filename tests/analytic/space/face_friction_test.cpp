@@ -384,6 +384,34 @@ BOOST_AUTO_TEST_CASE(a_spinning_box_so_high_that_friction_would_tip_it_does_not_
   BOOST_TEST(!land(high).has_value());
 }
 
+/// Sliding as fast as friction may it would tip; held, it needs next to none.
+BOOST_AUTO_TEST_CASE(a_high_box_that_friction_has_stopped_sticks_however_little_it_turns_over) {
+  Landing high{.name = "high",
+               .depth = 0.0515,
+               .area = rectangle(0.204, 0.078),
+               .moments = of_box(0.204, 0.078, 0.103),
+               .products = Vector3::Zero(),
+               .friction = 0.9,
+               .restitution = 0.5,
+               .velocity = {-0.2, 0.3, -1.2},
+               .angular_velocity = {},
+               .velocity_after = {},
+               .spin_after = 0};
+  for (const double turn : {0.0, 1e-250, 1e-17, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 1e-2}) {
+    BOOST_TEST_CONTEXT(turn) {
+      high.angular_velocity = Vector3(turn, 0.1 * turn, 11);
+      const auto held = land(high);
+      BOOST_TEST_REQUIRE(held.has_value());
+      BOOST_CHECK(held->path == PathKind::slip_stick);
+      const Vector3 slip = held->velocity_after + held->angular_velocity_after.cross(Vector3(0, 0, -high.depth));
+      BOOST_TEST(slip.head<2>().norm() <= 1e-15);
+      BOOST_TEST(held->angular_velocity_after.z() == 0);
+      BOOST_TEST((held->angular_velocity_after.head<2>() + 0.5 * high.angular_velocity.head<2>()).norm() <=
+                 1e-15 * (1e-15 + turn));
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(the_errors_of_a_landing_with_slide_and_spin_are_those_of_its_rounding) {
   const Drop drop{.body = box(mass, {.size = {0.14, 0.07, 0.008}}),
                   .velocity = {0.3, 0, -1},

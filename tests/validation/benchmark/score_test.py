@@ -316,21 +316,30 @@ class Against(Folder):
         done = run("compare", scene, "--against", path, "--require", "1e-8")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
-    def test_a_level_face_whose_spin_friction_takes_strikes_as_a_face(self):
-        """A bed that pushes evenly rubs a face that spins with mu P times the mean distance from the middle."""
-        motion, spin = Motion("face-grip", 0), 60.0
-        x, y, r = 0.15, 0.1, math.hypot(0.15, 0.1)  # half the face, of a box of 1 kg
-        mean = r / 3 + (x**3 * math.log((y + r) / x) + y**3 * math.log((x + r) / y)) / (6 * x * y)
-        slower = 0.9 * 2.7 * mean / ((4 * x * x + 4 * y * y) / 12)
-        start = motion.pieces[0]
-        start.velocity, start.omega = [0.0, 0.0, -1.8], (0.0, 0.0, spin)
-        motion.pieces = [start]
-        motion.strike(0.0, [0.0, 0.0, 0.9], (0.0, 0.0, spin - slower))
-        scene = self.put(motion.statement["scene_toml"].replace("0.15, -0.1, -1.8", "0, 0, -1.8").replace("5.5", "60")
-                         .replace("impacts = 2", "impacts = 1"), "scene.toml")
-        path = self.put(motion.text([motion.row(start), *motion.rows(1 / 400, 0.1)[1:]]))
-        found = run("compare", scene, "--against", path, "--require", "exact")
-        self.assertEqual(found.returncode, 0, found.stdout + found.stderr)
+    def test_what_lands_level_and_is_slowed_in_its_spin_strikes_as_an_edge_or_a_face(self):
+        """A bed that pushes evenly rubs what spins on it with mu P times the mean distance from the middle."""
+        x, y, r = 0.15, 0.1, math.hypot(0.15, 0.1)
+        rectangle = r / 3 + (x**3 * math.log((y + r) / x) + y**3 * math.log((x + r) / y)) / (6 * x * y)
+        half = math.sqrt(0.5)
+        nearly = (math.cos(math.pi / 4 + 5e-9), 0, -math.sin(math.pi / 4 + 5e-9), 0)  # level as a code's rounding leaves it
+        cases = {  # attitude, height, principal moments about x, y, z of 1 kg, that about the vertical, mean distance
+            'shape = "box"\nsize = [0.3, 0.2, 0.1]': ((1, 0, 0, 0), 0.05, (5e-2 / 12, 0.1 / 12, 0.13 / 12), 0.13 / 12, rectangle),
+            'shape = "rod"\nlength = 0.1\nradius = 0.1': (nearly, 0.05, (5e-3, 4e-2 / 12, 4e-2 / 12), 5e-3, 0.2 / 3),
+            'shape = "rod"\nlength = 0.3\nradius = 0.02': ((1, 0, 0, 0), 0.02, (2e-4, 9.12e-2 / 12, 9.12e-2 / 12), 9.12e-2 / 12, 0.075)}
+        for body, (attitude, height, moments, about, distance) in cases.items():
+            with self.subTest(body):
+                motion = Motion("face-grip", 0)
+                motion.body.moments = moments
+                start = motion.pieces[0]
+                start.position, start.attitude, start.velocity, start.omega = [0.0, 0.0, height], attitude, [0.0, 0.0, -1.8], (0.0, 0.0, 60.0)
+                motion.pieces = [start]
+                motion.strike(0.0, [0.0, 0.0, 0.9], (0.0, 0.0, 60.0 - 0.9 * 2.7 * distance / about))
+                scene = self.put(f"[drop]\nattitude = {[half, 0, -half, 0] if attitude == nearly else list(attitude)}\nvelocity = [0, 0, -1.8]\nangular_velocity = [0, 0, 60]\n"
+                                 f"[impact]\nrestitution = 0.5\nfriction = 0.9\n[world]\ngravity = 9.81\n[body]\n{body}\n"
+                                 "[run]\nimpacts = 1\n", "scene.toml")
+                path = self.put(motion.text([motion.row(start), *motion.rows(1 / 400, 0.1)[1:]]))
+                found = run("compare", scene, "--against", path, "--require", "sharp" if attitude == nearly else "exact")
+                self.assertEqual(found.returncode, 0, found.stdout + found.stderr)
 
 
 class BadFiles(Folder):
