@@ -8,6 +8,7 @@
 #include "validation/cli/options.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/reports/benchmark_report.hpp"
+#include "validation/reports/score_report.hpp"
 #include "validation/scene/failure.hpp"
 #include "validation/scene/option_values.hpp"
 

@@ -32,6 +32,7 @@
 #include "validation/reports/measured_report.hpp"
 #include "validation/reports/plan_report.hpp"
 #include "validation/reports/regimes_report.hpp"
+#include "validation/reports/score_report.hpp"
 #include "validation/reports/sequence_report.hpp"
 #include "validation/reports/shock_history.hpp"
 #include "validation/reports/shock_pulses.hpp"

@@ -12,6 +12,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/reports/benchmark_report.hpp"
 #include "validation/reports/extremes_report.hpp"
+#include "validation/reports/score_report.hpp"
 #include "validation/reports/verify_report.hpp"
 #include "validation/verify/check.hpp"
 

@@ -48,8 +48,10 @@ class Problems(unittest.TestCase):
             with self.subTest(problem):
                 text = run("benchmark", "show", problem, "--format", "markdown").stdout
                 for part in ("**motivation:** ", "**separates:** ", "**data:** ", "**equations:** ", "law", "**asked:** ",
-                             "**error:** ", "**acceptance:** ", "**results:** as text", "truth by ", "run.impacts = "):
+                             "**error:** ", "**acceptance:** ", "**results:** as text", "truth by ", "run.impacts = ", "---> x", " > 0",
+                             "\n\n**signs:** ", "\n```\n\n**law"):
                     self.assertIn(part, text)
+                self.assertNotIn("\\x", text)
 
     def test_a_scene_in_a_statement_is_a_scene_file(self):
         with tempfile.TemporaryDirectory() as folder:
