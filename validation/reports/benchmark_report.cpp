@@ -263,6 +263,27 @@ std::string ending_words(const Problem& problem) {
              : fmt::format("; a motion must last {} s or say \"# ended: nothing approaches\", as a list must", until);
 }
 
+/// What a statement says as JSON, but for the truth.
+void add_statement_fields(const Problem& problem, Value& fields) {
+  fields["problem"] = problem.id;
+  fields["version"] = problem.version;
+  fields["title"] = problem.title;
+  fields["class"] = problem.is_compliant ? "compliant" : "rigid";
+  fields["motivation"] = problem.motivation;
+  fields["separates"] = problem.separates;
+  fields["acceptance"] = problem.acceptance;
+  fields["scene"] = scene_value(problem.scene, Model::discrete);
+  fields["scene_toml"] = problem.scene_text;
+  fields["starts"] = starts_value(problem);
+  fields["until"] = problem.until ? Value(*problem.until) : Value();
+  fields["at_rest"] = problem.at_rest;
+  fields["stays"] = problem.at_rest || problem.end_energy;
+  fields["ground_end"] = problem.ground_end ? Value(*problem.ground_end) : Value();
+  fields["tolerances"] = problem.tolerances;
+  fields["laws"] = truth_laws(problem);
+  fields["oracle"] = oracle_of(problem);
+}
+
 Report benchmark_statement(const Problem& problem) {
   Report report = begun_report("benchmark", problem.id + ", " + problem.title);
   report.head = {fmt::format("problem: {}", problem.id), fmt::format("version: {}", problem.version),
@@ -283,25 +304,8 @@ Report benchmark_statement(const Problem& problem) {
   report.grid = truth_grid(problem, law);
   if (law != "any")
     report.notes.push_back("by " + law + "; clatter benchmark truth " + problem.id + " --law has the others");
-  Value& fields = report.fields;
-  fields["problem"] = problem.id;
-  fields["version"] = problem.version;
-  fields["title"] = problem.title;
-  fields["class"] = problem.is_compliant ? "compliant" : "rigid";
-  fields["motivation"] = problem.motivation;
-  fields["separates"] = problem.separates;
-  fields["acceptance"] = problem.acceptance;
-  fields["scene"] = scene_value(problem.scene, Model::discrete);
-  fields["scene_toml"] = problem.scene_text;
-  fields["starts"] = starts_value(problem);
-  fields["until"] = problem.until ? Value(*problem.until) : Value();
-  fields["at_rest"] = problem.at_rest;
-  fields["stays"] = problem.at_rest || problem.end_energy;
-  fields["ground_end"] = problem.ground_end ? Value(*problem.ground_end) : Value();
-  fields["tolerances"] = problem.tolerances;
-  fields["laws"] = truth_laws(problem);
-  fields["oracle"] = oracle_of(problem);
-  fields["truth"] = row_objects(report.grid);
+  add_statement_fields(problem, report.fields);
+  report.fields["truth"] = row_objects(report.grid);
   return report;
 }
 
