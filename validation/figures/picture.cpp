@@ -125,8 +125,7 @@ std::string picture_script(const Picture& picture, PictureFormat format, const s
   text += fmt::format("set lmargin at screen {}\nset rmargin at screen {}\n", left / width, 1 - right / width);
   text +=
       "set border 3 lc rgb '#444444'\nset tics nomirror\nset grid lc rgb '#dddddd' lt 1\nset key at graph 0, graph "
-      "1.02 "
-      "bottom left horizontal Left reverse samplen 1.5\nset boxwidth 0.6\nset multiplot\n";
+      "1.02 bottom left horizontal Left reverse noenhanced samplen 1.5\nset boxwidth 0.6\nset multiplot\n";
   text += title_text(lines, layout.height);
   for (std::size_t i = 0; i < picture.panels.size(); ++i) {
     text += panel_text(picture.panels[i], layout, i);

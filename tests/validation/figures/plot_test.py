@@ -389,14 +389,15 @@ class Data(InFolder):
         rows = [line for line in truth.splitlines() if line[0].isdigit()]
         second = rows[1].split(",")
         second[7] = repr(float(second[7]) * (1 + 1e-5))  # Omega
-        with open(self.path("a.csv"), "w", encoding="utf-8") as file:
+        with open(self.path("of_a_code.csv"), "w", encoding="utf-8") as file:
             file.write(truth.replace(rows[1], ",".join(second)))
-        _, drawn = self.plotted("benchmark", "score", self.path("a.csv"))
+        _, drawn = self.plotted("benchmark", "score", self.path("of_a_code.csv"))
         largest = max(abs(float(row.split(",")[7])) for row in rows)
         self.assertEqual([n for n, _ in drawn["panel1_0"]], [1, 2, 3])
         self.assertGreaterEqual(drawn["panel1_0"][1][1], 1e-5 * abs(float(rows[1].split(",")[7])) / largest * (1 - 1e-9))
         self.assertLess(drawn["panel1_0"][0][1], 1e-15)
         self.assertEqual([drawn[f"panel1_{k}"][0][1] for k in range(1, 5)], [1e-9, 1e-6, 1e-3, 1e-2])
+        self.assertIn(">of_a_code.csv: ", self.read("p.svg"))  # no letter of it is a subscript
 
 
 class Refused(InFolder):
