@@ -11,7 +11,8 @@
 //     ∫q x dA = (−M_y, M_x) − h F,   M = E (τ − (I⁻¹)_hz K),                                          (2)
 // the moment that turns the body so; q is positive on a part of the area alone where (2) lies outside its kernel.
 // F and K depend on the direction of (U, w) alone, and slide and spin end together.  Thereafter the face sticks if
-// friction can hold it, or slip goes on: a slip of rounding's size along what drives it dies out, or grows.
+// friction can hold it, or slip goes on: a slip of rounding's size along what drives it dies out, or grows.  Where no
+// pressure lets it slip against all of the friction, it sticks if a half, a quarter, … of the friction holds it.
 #pragma once
 
 #include <optional>
