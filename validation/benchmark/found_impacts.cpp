@@ -202,9 +202,9 @@ class Step {
     if (reference_.is_planar || candidates_.empty() || !(jump_.impulse.z() > 0)) return {};
     const int lowest = *std::min_element(candidates_.begin(), candidates_.end(),
                                          [&](int k, int l) { return height_between(k) < height_between(l); });
-    std::vector<int> face = at_level(height_between(lowest));
-    const bool is_face = face.size() > 1 || reference_.corner(pose_.attitude, lowest).radius > 0;
-    return is_face ? face : std::vector<int>{};
+    std::vector<int> group = at_level(height_between(lowest));
+    const bool is_level = group.size() > 1 || reference_.corner(pose_.attitude, lowest).radius > 0;
+    return is_level ? group : std::vector<int>{};
   }
 
   /// Normal velocity of a point.

@@ -256,8 +256,8 @@ std::string Reference::place_name(const std::vector<int>& group) const {
 
 std::optional<std::vector<int>> Reference::place_named(const std::string& place) const {
   const int count = static_cast<int>(points.size());
-  std::vector<int> group;
   if (!is_planar) {
+    std::vector<int> group;
     const std::string words = " " + place + " ";
     for (int i = 0; i < count; ++i) {
       if (words.find(" " + points[static_cast<std::size_t>(i)] + " ") != std::string::npos) group.push_back(i);
@@ -265,9 +265,9 @@ std::optional<std::vector<int>> Reference::place_named(const std::string& place)
     return !group.empty() && place_name(group) == place ? std::optional(group) : std::nullopt;
   }
   for (int i = 0; i < count; ++i) {
-    for (int j = i; j < count; ++j) {
-      group = i == j ? std::vector<int>{i} : std::vector<int>{i, j};
-      if (place_name(group) == place) return group;
+    if (place_name({i}) == place) return std::vector<int>{i};
+    for (int j = i + 1; j < count; ++j) {
+      if (place_name({i, j}) == place) return std::vector<int>{i, j};
     }
   }
   return std::nullopt;
