@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import {
-  LARGE, SHOWN, address, chromium, close, column, number, onOnePage, onPage, sequence, slide, waitForCell,
+  LARGE, SHOWN, address, chromium, close, column, number, onOnePage, onPage, printed, sequence, slide, waitForCell,
 } from "./page_browser.mjs";
 
 onOnePage("the rod of the first visit", "#predict=0", {
@@ -128,6 +128,31 @@ test("the continuous model follows, and tends to the discrete one on a stiff gro
     close(await column(page, "Impulse", "continuous"), await column(page, "Impulse", "discrete"), 0.02);
     assert.match(await page.getAttribute("#force-chart", "aria-label"), /impact 2: \d+/);
   }));
+
+/** Drops in the plane, as `clatter demo` hands them to the page, and as flags. */
+const IN_PLANE = {
+  rod: ["angle=10&gravity=0&restitution=1&body=rod&mass=1&length=1&radius=0&stiffness=1e10&impacts=3",
+    ["--angle", "10", "--radius", "0.01", "--stiffness", "1e10", "--impacts", "3"]],
+  // It turns over, and the sixth blow of the continuous model is on the upper edge of an end.
+  phone: ["angle=10&height=1&gravity=9.81&restitution_law=viscoelastic&body=box&mass=0.08814&size=0.10566,0.04394,0.01905&stiffness=1e8"
+    + "&damping=1e7&static_friction=0.075&sliding_friction=0.075", ["phone-damped", "--planar"]],
+};
+/** The page asks four digits of the continuous model, of which the sixth blow, whose errors have grown, keeps three. */
+const CONTINUOUS_SHOWN = 2e-3;
+
+test("rows of a drop in the plane are those of simulate: which end strikes, velocity and spin with their signs", async () => {
+  for (const [fragment, flags] of Object.values(IN_PLANE)) {
+    const { impacts } = printed("simulate", ...flags);
+    await onPage(`#predict=0&hide=map,explain&given=1&${fragment}`, async (page) => {
+      await page.waitForSelector('#impact-table tr[data-model="continuous"]');
+      const places = await page.locator('#impact-table tr[data-model="continuous"] td:nth-of-type(2)').allTextContents();
+      assert.deepEqual(places, impacts.map(({ end, corners = "" }) => (/\+z/.test(corners) && !/-z/.test(corners) ? `${end}-top` : end)));
+      for (const [title, of] of [["Velocity after", (i) => i.velocity_after[2]], ["Spin after", (i) => i.angular_velocity_after[1]]]) {
+        close(await column(page, title, "continuous"), impacts.map(of), CONTINUOUS_SHOWN);
+      }
+    });
+  }
+});
 
 test("a flight ends where the next impact starts", async () => {
   const { impacts } = sequence("--angle", "20", "--gravity", "9.81", "--restitution", "0.9");

@@ -68,6 +68,11 @@ export function isDisc({ shape, length, radius }: Size): boolean {
   return shape === "rod" && 2 * radius > length;
 }
 
+/** Whether it can turn over, and strike with ends of its upper side. */
+export function hasUpperSide({ shape, radius, thickness }: Size): boolean {
+  return shape === "box" ? thickness > 0 : radius > 0;
+}
+
 /** The direction in which the body is long, within its plane of motion: from its middle to the one side, body axes [m]. */
 export function longHalf(body: Size): Vector {
   return isDisc(body) ? [0, 0, body.radius] : [body.length / 2, 0, 0];

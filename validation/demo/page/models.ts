@@ -6,7 +6,7 @@ import { CONTINUOUS_RADIUS, uniformBody, type Body } from "./body";
 import { ContinuousMotion } from "./continuous_motion";
 import { DiscreteMotion } from "./discrete_motion";
 import type { Motions } from "./frame";
-import { pairingOf, struckNames, type Pairing } from "./pairing";
+import { endInPlane, pairingOf, struckNames, type Pairing } from "./pairing";
 import { bodyOf, isInPlane, type Parameters } from "./parameters";
 import { TimeWarp } from "./playback";
 import { keyOf, sequenceRequest, simulateRequest } from "./requests";
@@ -100,15 +100,19 @@ export class Models {
     this.continuousOf = keyOf(simulateRequest(parameters));
     this.events.onError("continuous", null);
     const given = bodyOf(parameters);
-    // In space an end is not enough to say what strikes.
-    const impacts = isInPlane(parameters) ? answer.impacts
-      : answer.impacts.map((impact) => ({ ...impact, corners: struckNames(given, impact) }));
+    const impacts = answer.impacts.map((impact) => named(given, impact, isInPlane(parameters)));
     this.continuous = { ...answer, impacts };
     this.motions.continuous = answer.history.t.length > 1
       ? new ContinuousMotion(
         { ...continuousBody(given), ...answer.body }, impacts, answer.history, parameters.gravity) : null;
     this.events.onAnswer();
   }
+}
+
+/** An impact of the continuous model, which names ends and corners in any case, with the discrete model's names. */
+function named(body: Body, { corners: _both, ...impact }: Impact, inPlane: boolean): Impact {
+  // In space an end is not enough to say what strikes.
+  return inPlane ? { ...impact, end: endInPlane(body, impact) } : { ...impact, corners: struckNames(body, impact) };
 }
 
 function continuousBody(body: Body): Body {

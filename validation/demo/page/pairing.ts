@@ -2,10 +2,14 @@
 // Which impacts of the two models are the same blow: the n-th of both, while everything before was the same, the same end or
 // corner strikes, and neither is beyond prediction.
 import type { Impact, SequenceAnswer } from "./answers";
-import { lowestPoints, type Size } from "./body";
+import { hasUpperSide, lowestPoints, type Size } from "./body";
 import { touchRotation } from "./discrete_motion";
 import { significant } from "./format";
+import { rotateBack } from "./rotation";
 import { outcomeInWords } from "./words";
+
+/** Of the body's upright against the ground: what slants less stands on its end, and both sides touch. */
+const SLANT = 1e-9;
 
 export interface Pairing {
   /** Impacts 1 to count are the same blow in both models. */
@@ -47,6 +51,13 @@ export function growth({ amplification }: Impact): string {
 /** Of the corners that are lowest at the touch, or of the ends of a rod. */
 export function struckNames(body: Size, impact: Impact): string {
   return sorted(lowestPoints(body, touchRotation(impact)).map(({ name }) => name));
+}
+
+/** What strikes in the plane: ends a and b, or those of the upper side, where the body has turned over. */
+export function endInPlane(body: Size, impact: Impact): string {
+  const isOver = hasUpperSide(body) && rotateBack(touchRotation(impact), [0, 0, -1])[2] > SLANT;
+  if (!isOver) return impact.end;
+  return impact.end === "both" ? "a-top+b-top" : `${impact.end}-top`;
 }
 
 function sorted(names: string[]): string {

@@ -22,16 +22,14 @@ const COLUMNS: readonly Column[] = [
   { title: "Angle", unit: "°", value: (i) => i.contact_angle_deg, error: (bars) => bars.contact_angle_deg },
   { title: "Impulse", unit: "N·s", value: (i) => i.impulse_normal, error: (bars) => bars.impulse_normal },
   { title: "Velocity after", unit: "m/s", value: (i) => i.velocity_after[2], error: (bars) => bars.velocity_after?.[2] },
-  { title: "Spin after", unit: "rad/s", value: (i) => spinOf(i), error: (bars) => bars.angular_velocity_after && Math.hypot(...bars.angular_velocity_after) },
+  {
+    title: "Spin after", unit: "rad/s", value: (i) => i.angular_velocity_after[1],
+    error: (bars) => bars.angular_velocity_after?.[1],
+  },
   { title: "Lasts", unit: "ms", value: (i) => (i.peak_force === null ? null : i.duration * 1e3), error: (bars) => (bars.duration ?? 0) * 1e3 },
   { title: "Peak force", unit: "N", value: (i) => i.peak_force, error: (bars) => bars.peak_force },
   { title: "Energy lost", unit: "J", value: (i) => lossWithoutRounding(i), error: (bars) => bars.energy_loss },
 ];
-
-/** About the axis across the plane; in space, where it has no such axis, its size. */
-function spinOf({ corners, angular_velocity_after: spin }: Impact): number {
-  return corners ? Math.hypot(...spin) : spin[1];
-}
 
 const DIGITS: Readonly<Record<ModelName, number>> = { discrete: 6, continuous: CONTINUOUS_DIGITS };
 
