@@ -33,15 +33,20 @@ std::string text_of(const Value& value) {
   return text;
 }
 
+/// A file without a ground, like flags without one, is a drop of the discrete model; the page then has its own ground.
+Scene scene_of(const SceneFlags& given) {
+  const SceneValues values = scene_values(given.source);
+  const bool has_ground = values.has("ground.stiffness") || is_given(given, "--stiffness");
+  const std::vector<SceneOverride> overrides = overrides_of(given);
+  return has_ground ? read_scene(values, overrides, given.model) : read_discrete_scene(values, overrides).scene;
+}
+
 /// What the address of the page ends with: nothing, or the scene given: "given=1&body=box&angle=10…".
 std::string fragment_of(const SceneFlags& given) {
   const auto typed = [](const auto& text) { return text.second.has_value(); };
   if (given.source.empty() && !std::any_of(given.texts.begin(), given.texts.end(), typed)) return "";
-  // Flags alone describe a drop of the discrete model, unless they give a ground.
-  const bool is_discrete = given.source.empty() && !is_given(given, "--stiffness");
   std::string fragment = "given=1";
-  for (const Field& argument :
-       scene_arguments(is_discrete ? read_discrete_flags(given).scene : read_scene_flags(given)))
+  for (const Field& argument : scene_arguments(scene_of(given)))
     fragment += "&" + argument.name + "=" + text_of(argument.value);
   return fragment;
 }

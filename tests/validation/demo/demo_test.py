@@ -48,6 +48,17 @@ class Demo(unittest.TestCase):
                 model = "simulate" if "stiffness" in query else "sequence"
                 self.assertEqual(printed(model, *flags)["impacts"], printed(model, *arguments)["impacts"])
 
+    def test_a_file_without_a_ground_is_the_drop_of_the_same_flags(self):
+        flags = ["--angle", "10", "--gravity", "9.81", "--friction", "0.3", "--restitution", "0.8"]
+        text = "[drop]\nangle_deg = 10\n[world]\ngravity = 9.81\n[impact]\nfriction = 0.3\nrestitution = 0.8\n"
+        with tempfile.TemporaryDirectory() as folder:
+            Path(folder, "lesson.toml").write_text(text, encoding="utf-8")
+            for more in ([], ["--height", "1"], ["--stiffness", "1e9"]):
+                with self.subTest(more=more):
+                    done = run("lesson.toml", *more, folder=folder)
+                    self.assertEqual((done.returncode, done.stderr), (0, ""))
+                    self.assertEqual(done.stdout, run(*flags, *more, folder=folder).stdout)
+
     def test_without_a_scene_the_page_has_its_own(self):
         with tempfile.TemporaryDirectory(prefix="a folder #") as folder:
             done = run(folder=folder, XDG_CACHE_HOME=folder + "/cache")
