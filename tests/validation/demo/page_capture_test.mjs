@@ -134,3 +134,41 @@ test("the handout is one page: the drop in words, its picture, its blows, and qu
   const paper = (await page.pdf({ format: "A4" })).toString("latin1");
   assert.equal(paper.match(/\/Type\s*\/Page\b/g).length, 1);
 }, { before: () => { window.print = () => { globalThis.printing = document.body.classList.contains("handout"); }; } }));
+
+const HANDOUT = { before: () => { window.print = () => {}; } };
+
+test("the handout has the drop before it falls, and no answer; then the picture is as it was", () => onPage("", async (page) => {
+  await page.waitForSelector("#impact-table tbody tr", { state: "attached" });
+  await page.click('button[data-guess="harder"]');
+  for (let i = 0; i < 3; i++) await page.click("#next");
+  await page.waitForFunction(() => /^You guessed it/.test(document.getElementById("prediction-reveal").textContent));
+  const shown = () => page.evaluate(() =>
+    ["caption", "time", "profile-title"].map((id) => document.getElementById(id).textContent));
+  const before = await shown();
+  assert.match(before[0], /^Impact 3/);
+  await page.click("#handout-print");
+  await page.emulateMedia({ media: "print" });
+  assert.equal(await page.isVisible("#prediction-reveal"), false);
+  const [caption, time, profile] = await shown();
+  assert.deepEqual([caption, profile], ["Falling", "Along the body, at blow 1"]);
+  assert.ok(time.startsWith("−"), time);
+  await page.emulateMedia({ media: "screen" });
+  await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+  assert.deepEqual(await shown(), before);
+}, HANDOUT));
+
+for (const impacts of [6, 20]) {
+  test(`the handout has every one of ${impacts} blows of both models, on one page`, () => onPage(
+    `#predict=0&hide=map,explain&angle=2&gravity=9.81&e=0.8&impacts=${impacts}`, async (page) => {
+      await page.waitForSelector('tr[data-model="continuous"]');
+      await page.click("#handout-print");
+      await page.emulateMedia({ media: "print" });
+      for (const model of ["discrete", "continuous"]) {
+        const rows = await page.locator(`#impact-table tr[data-model="${model}"]`).count();
+        assert.ok(model === "continuous" || rows === impacts);
+        assert.equal(await page.locator(`[data-strip^="${model}"]:visible`).count(), rows);
+      }
+      const paper = (await page.pdf({ format: "A4" })).toString("latin1");
+      assert.equal(paper.match(/\/Type\s*\/Page\b/g).length, 1);
+    }, HANDOUT));
+}

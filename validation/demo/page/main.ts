@@ -29,6 +29,7 @@ import { explainRequest, gravityNumber } from "./requests";
 import { firstSpeed, restitutionOf } from "./restitution";
 import { SceneFile } from "./scene_file";
 import { setUpSharing } from "./sharing";
+import { showNotes } from "./situation_notes";
 import { Sound } from "./sound";
 import { Stage } from "./stage";
 import { readAddress, usualLayout, writeAddress, type State } from "./state";
@@ -36,7 +37,7 @@ import { Story } from "./story";
 import { Strip } from "./strip";
 import { ImpactTable, csvOf } from "./table";
 import { Transport } from "./transport";
-import { bodyInWords, dropInWords, impactInWords, outcomeInWords } from "./words";
+import { impactInWords, outcomeInWords } from "./words";
 
 /** After a change, until the equations are asked for, and until the drop is played [ms]. */
 const EXPLAIN_DELAY = 80;
@@ -52,7 +53,6 @@ class Page {
   /** Whether the time is that of the chosen impact, or one that was sought. */
   private followsImpact = false;
   private playTimer = 0;
-
   /** While the body is in the hand. */
   private held: Held | null = null;
   private wasHeld = false;
@@ -120,7 +120,7 @@ class Page {
     this.transport.setSettings(state.rate, state.slow, state.lock);
     this.showLayout = setUpLayout(state, () => this.onTime());
     new SceneFile(state, () => this.showAnew());
-    setUpSharing(state, () => this.syncTime(), (asks) => { if (asks) this.prediction.open(); });
+    setUpSharing(state, () => { state.time = this.player.time; }, (asks) => { if (asks) this.prediction.open(); });
     byId("csv").addEventListener("click", () => download("impacts.csv", csvOf(this.models.impacts), "text/csv"));
     if (state.predict) this.prediction.open();
     new Grab(byId("stage"), {
@@ -130,7 +130,7 @@ class Page {
       letGo: (held) => this.letGo(held),
     }, this.orbit);
     this.traces.addEventListener("change", () => this.draw());
-    setUpPrinting();
+    setUpPrinting(() => [state.impact, this.player.time], (n, time) => this.put(n, time));
     setUpLecture((on) => this.prediction.setVoting(on), () => this.onTime());
     // Another link to this page, opened where it stands.
     addEventListener("hashchange", () => location.reload());
@@ -150,9 +150,7 @@ class Page {
     const speed = firstSpeed(parameters);
     if (speed > 0) void this.map.show(gravityNumber(parameters, speed), restitutionOf(parameters));
     this.map.setAngle(parameters.angle);
-    byId("map-note").hidden = parameters.body === "rod" && parameters.friction === 0 && isInPlane(parameters);
-    byId("handout-drop").textContent = dropInWords({ ...parameters, e: restitutionOf(parameters) });
-    byId("body-note").textContent = bodyInWords(parameters.body);
+    showNotes(parameters);
     this.remember();
   }
 
@@ -303,10 +301,16 @@ class Page {
     if (!count || this.prediction.isOpen) return;
     const here = impactAt(this.models.steps, this.player.time)?.n ?? 0;
     const wanted = direction === 0 ? n : here + direction;
+    const chosen = Math.min(count, Math.max(1, wanted));
+    this.put(chosen, this.models.steps[chosen - 1]?.start ?? 0);
+  }
+
+  /** The picture at a time, with an impact chosen. */
+  private put(n: number, time: number): void {
     this.player.pause();
     clearTimeout(this.playTimer);
-    this.choose(Math.min(count, Math.max(1, wanted)));
-    this.player.seek(this.models.steps[this.state.impact - 1]?.start ?? 0);
+    this.choose(n);
+    this.player.seek(time);
     this.onTime();
   }
 
@@ -385,12 +389,8 @@ class Page {
     this.explaining.ask(request, null);
   }
 
-  private syncTime(): void {
-    this.state.time = this.player.time;
-  }
-
   private remember(): void {
-    if (this.hasShown) this.syncTime();
+    if (this.hasShown) this.state.time = this.player.time;
     writeAddress(this.state);
   }
 }

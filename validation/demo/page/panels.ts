@@ -31,12 +31,23 @@ export function setUpLayout(state: State, onChange: () => void): () => void {
   return show;
 }
 
-/** All of it, or one page for a class: the drop, its blows and questions. */
-export function setUpPrinting(): void {
+/**
+ * All of it, or one page for a class: the drop, its blows and questions, with the picture before the drop.
+ * @param moment the chosen impact and the time of the picture
+ * @param put shows them
+ */
+export function setUpPrinting(moment: () => [number, number], put: (n: number, time: number) => void): void {
+  let before: [number, number] | null = null;
   byId("print").addEventListener("click", () => print());
   byId("handout-print").addEventListener("click", () => {
+    before = moment();
+    put(1, -Infinity);
     document.body.classList.add("handout");
     print();
   });
-  addEventListener("afterprint", () => document.body.classList.remove("handout"));
+  addEventListener("afterprint", () => {
+    document.body.classList.remove("handout");
+    if (before) put(...before);
+    before = null;
+  });
 }

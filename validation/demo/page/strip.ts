@@ -13,8 +13,8 @@ import { sketch, svg } from "./sketch";
 import { cornersInWords } from "./words";
 
 const MODELS = ["discrete", "continuous"] as const;
-/** More pictures than these nobody looks at. */
-const MOST = 12;
+/** More pictures than these nobody looks at; they are as many as the page's own slider asks for. */
+const MOST = 20;
 
 export class Strip {
   private readonly rows = byId("strip-rows");
@@ -29,6 +29,8 @@ export class Strip {
       const motion = motions[model];
       if (!motion) return [];
       const cards = motion.impacts.slice(0, MOST).map((impact) => make("li", {}, this.card(model, motion, impact, pairing)));
+      const rest = motion.impacts.length - MOST;
+      if (rest > 0) cards.push(make("li", { class: "rest" }, `and ${rest} more in the table`));
       return [make("li", {}, make("p", { class: "name" }, make("span", { class: `swatch ${model}` }), `${model} model`),
         make("ol", { class: "cards" }, ...cards))];
     }));
