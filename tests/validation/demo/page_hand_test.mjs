@@ -6,6 +6,10 @@ import { test } from "node:test";
 import { number, onOnePage, onPage, sequence, waitForCell } from "./page_browser.mjs";
 
 const NARROW = { width: 390, height: 800 };
+/** What a browser on a laptop or a projector leaves of 1280 × 720. */
+const LAPTOP = { width: 1280, height: 657 };
+/** Half the breadth of the thin rod as it is drawn, with its outline. */
+const ROD = 4;
 
 /** Where a label of the picture stands in the window. */
 const placeOf = (page, text) => page.locator(".stage-label.end", { hasText: new RegExp(`^${text}$`) }).first().evaluate((label) => {
@@ -151,6 +155,44 @@ test("in a lecture the picture is large, a class votes by hands, and the most ar
   await page.keyboard.press("Escape");
   await page.waitForFunction(() => !document.body.classList.contains("lecture"));
 }));
+
+test("a lecture fits its window: question, picture, playback and the list of blows", () => onPage("", async (page) => {
+  const inside = async (part) => {
+    const { x, y, width, height } = await page.locator(part).boundingBox();
+    const fits = x >= 0 && y >= 0 && x + width <= LAPTOP.width && y + height <= LAPTOP.height;
+    assert.ok(height > 0 && fits, `${part}: ${y} + ${height}`);
+  };
+  const scrolls = () => page.evaluate(() => document.documentElement.scrollHeight > innerHeight);
+  await page.waitForSelector("#impact-table tbody tr", { state: "attached" });
+  await page.click("#lecture");
+  for (const part of ["#stage", "#prediction"]) await inside(part);
+  assert.equal(await scrolls(), false);
+  await page.click('button[data-guess="harder"]');
+  await page.click("#prediction-skip");
+  for (let i = 0; i < 2; i++) await page.keyboard.press("ArrowRight");
+  await page.waitForFunction(() => /^You guessed it/.test(document.getElementById("prediction-reveal").textContent));
+  for (const part of ["#stage", "#prediction-reveal", "#caption", ".transport"]) await inside(part);
+  for (const n of [1, 3]) await inside(`[data-strip="discrete-${n}"]`);
+  assert.ok((await page.locator("#stage").boundingBox()).height > 0.4 * LAPTOP.height);
+  assert.equal(await scrolls(), false);
+  await page.click('[data-strip="discrete-2"]');
+  assert.match(await page.textContent("#caption"), /^Impact 2/);
+}, { viewport: LAPTOP }));
+
+for (const [angle, n] of [[2, 1], [10, 1], [10, 2], [24, 1], [50, 1], [80, 1]]) {
+  test(`the angle of blow ${n} of a rod let go at ${angle}° stands beside the rod, not on it`, () => onPage(
+    `#predict=0&hide=map,explain&gravity=9.81&e=0.8&angle=${angle}&impact=${n}`, async (page) => {
+      await page.waitForSelector('tr[data-model="continuous"]');
+      await page.locator(".stage-label.angle").waitFor();
+      const [a, b] = (await Promise.all(["a", "b"].map((end) => placeOf(page, end)))).map(({ x, y }) => [x, y]);
+      const { x, y, width, height } = await page.locator(".stage-label.angle").boundingBox();
+      // On which side of the line from a to b each corner of the text lies, and how far from it.
+      const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
+      const distances = [[x, y], [x + width, y], [x, y + height], [x + width, y + height]]
+        .map(([p, q]) => ((b[0] - a[0]) * (q - a[1]) - (b[1] - a[1]) * (p - a[0])) / length);
+      assert.ok(Math.min(...distances) > ROD || Math.max(...distances) < -ROD, distances.join(" "));
+    }));
+}
 
 test("on paper the picture is there, no table is cut, and no control stands there", () => onPage("#predict=0", async (page) => {
   await page.waitForSelector('tr[data-model="continuous"]');

@@ -33,8 +33,8 @@ export interface Label {
   kind: "blow" | "end" | "angle" | "held";
   place: Vector;
   text: string;
-  /** Beside its place, outwards, instead of above it. */
-  aside?: "left" | "right";
+  /** Beside its place, outwards, or below it, instead of above it. */
+  aside?: "left" | "right" | "below";
 }
 
 export interface Frame {
@@ -207,6 +207,7 @@ function addTraces(frame: Frame, model: ModelName, motion: Motion, time: number,
 }
 
 const ARC = 0.26; // radius, in lengths of the body
+const ROOMY = 25; // between the body and the ground there is room for a text [degrees]
 const ANGLE_NAMES = ["θ", "β", "γ"];
 
 /** θ, β, γ at the last blow. */
@@ -218,12 +219,18 @@ function addArc(frame: Frame, motion: Motion, time: number): void {
   const radius = ARC * extentOf(motion.body);
   const angle = (impact.contact_angle_deg * Math.PI) / 180;
   frame.arcs.push({ at, radius, angle, toRight });
-  const out = (toRight ? 1.25 : -1.25) * radius;
+  const out = toRight ? radius : -radius;
   const name = ANGLE_NAMES[impact.n - 1];
-  frame.labels.push({
-    model: "discrete", kind: "angle", place: [at[0] + out * Math.cos(angle / 2), at[1], Math.abs(out) * Math.sin(angle / 2)],
-    text: `${name ? `${name} = ` : ""}${significant(impact.contact_angle_deg, 3)}°`,
-  });
+  const text = `${name ? `${name} = ` : ""}${significant(impact.contact_angle_deg, 3)}°`;
+  const label = { model: "discrete", kind: "angle", text } as const;
+  if (impact.contact_angle_deg > ROOMY) {
+    const place: Vector = [at[0] + out * Math.cos(angle / 2), at[1], radius * Math.sin(angle / 2)];
+    frame.labels.push({ ...label, place, aside: toRight ? "right" : "left" });
+  } else {
+    // The body would cover it: it stands on the ground before the body.
+    const deep = Math.max(motion.body.width / 2, motion.body.radius);
+    frame.labels.push({ ...label, place: [at[0] + 1.25 * out, at[1] - deep, 0], aside: "below" });
+  }
 }
 
 /** The body in the hand: nothing moves, and the picture stays as it is. */

@@ -34,14 +34,16 @@ export class Stage {
     this.frame = frame;
     this.orbit = orbit;
     this.view.draw(frame, orbit);
-    const { width } = this.box.getBoundingClientRect();
+    const { width, height } = this.box.getBoundingClientRect();
     frame.labels.forEach((label, i) => {
       const { x, y } = this.view.project(label.model, label.place, frame.side);
       const element = (this.labels.children[i] ?? this.labels.appendChild(make("span"))) as HTMLElement;
       element.className = `stage-label ${label.kind} ${label.model} ${label.aside ?? ""}`;
       if (element.textContent !== label.text) element.textContent = label.text;
       const margin = label.kind === "blow" ? 44 : 12;
-      element.style.transform = `translate(${Math.min(width - margin, Math.max(margin, x)).toFixed(1)}px, ${Math.max(14, y).toFixed(1)}px)`;
+      const lowest = height - (label.aside === "below" ? 42 : 0);
+      const [left, top] = [Math.min(width - margin, Math.max(margin, x)), Math.max(14, Math.min(lowest, y))];
+      element.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
     });
     while (this.labels.children.length > frame.labels.length) this.labels.lastElementChild?.remove();
   }
