@@ -134,25 +134,50 @@ const IN_PLANE = {
   rod: ["angle=10&gravity=0&restitution=1&body=rod&mass=1&length=1&radius=0&stiffness=1e10&impacts=3",
     ["--angle", "10", "--radius", "0.01", "--stiffness", "1e10", "--impacts", "3"]],
   // It turns over, and the sixth blow of the continuous model is on the upper edge of an end.
-  phone: ["angle=10&height=1&gravity=9.81&restitution_law=viscoelastic&body=box&mass=0.08814&size=0.10566,0.04394,0.01905&stiffness=1e8"
-    + "&damping=1e7&static_friction=0.075&sliding_friction=0.075", ["phone-damped", "--planar"]],
+  phone: ["angle=10&height=1&gravity=9.81&restitution_law=viscoelastic&body=box&mass=0.08814&size=0.10566,0.04394,0.01905"
+    + "&stiffness=1e8&damping=1e7&static_friction=0.075&sliding_friction=0.075", ["phone-damped", "--planar"]],
 };
 /** The page asks four digits of the continuous model, of which the sixth blow, whose errors have grown, keeps three. */
 const CONTINUOUS_SHOWN = 2e-3;
 
-test("rows of a drop in the plane are those of simulate: which end strikes, velocity and spin with their signs", async () => {
+/** On the upper side of a box the program tells an end by its corners alone. */
+const placeOf = ({ end, corners = "" }) => (/\+z/.test(corners) && !/-z/.test(corners) ? `${end}-top` : end);
+const AFTER = {
+  "Velocity after": ({ velocity_after: [, , up] }) => up, "Spin after": ({ angular_velocity_after: [, spin] }) => spin,
+};
+
+test("rows of a drop in the plane are simulate's: which end strikes, velocity and spin with their signs", async () => {
   for (const [fragment, flags] of Object.values(IN_PLANE)) {
     const { impacts } = printed("simulate", ...flags);
     await onPage(`#predict=0&hide=map,explain&given=1&${fragment}`, async (page) => {
       await page.waitForSelector('#impact-table tr[data-model="continuous"]');
-      const places = await page.locator('#impact-table tr[data-model="continuous"] td:nth-of-type(2)').allTextContents();
-      assert.deepEqual(places, impacts.map(({ end, corners = "" }) => (/\+z/.test(corners) && !/-z/.test(corners) ? `${end}-top` : end)));
-      for (const [title, of] of [["Velocity after", (i) => i.velocity_after[2]], ["Spin after", (i) => i.angular_velocity_after[1]]]) {
+      const places = page.locator('#impact-table tr[data-model="continuous"] td:nth-of-type(2)');
+      assert.deepEqual(await places.allTextContents(), impacts.map(placeOf));
+      for (const [title, of] of Object.entries(AFTER)) {
         close(await column(page, title, "continuous"), impacts.map(of), CONTINUOUS_SHOWN);
       }
     });
   }
 });
+
+test("beside the continuous model's numbers stands its ground, and whether the page chose it", () => onPage(
+  "#predict=0&hide=map,explain&given=1&angle=10&gravity=9.81&restitution=0.8&body=rod&radius=0", async (page) => {
+    const notes = () => page.locator(".ground-note:visible").allTextContents();
+    await page.waitForSelector('tr[data-model="continuous"]');
+    const all = await notes();
+    assert.equal(all.length, 3);
+    for (const note of all) assert.match(note, /k = 1·10¹⁰ N\/m³, c = .*, chosen by the page/);
+    // The numbers are those of the simulator on that very ground.
+    const [, mantissa, exponent] = /c = ([\d.]+)·10([⁰¹²³⁴⁵⁶⁷⁸⁹]+) N·s/.exec(all[0]);
+    const power = [...exponent].map((digit) => "⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(digit)).join("");
+    const { impacts } = printed("simulate", "--angle", "10", "--gravity", "9.81", "--radius", "0.01", "--impacts", "2",
+      "--stiffness", "1e10", "--damping", `${mantissa}e${power}`);
+    const shown = await column(page, "Impulse", "continuous");
+    close(shown.slice(0, 2), impacts.map((i) => i.impulse_normal), CONTINUOUS_SHOWN);
+    await page.fill("#stiffness", "1e9");
+    await page.waitForFunction(() => /k = 1·10⁹ /.test(document.querySelector(".ground-note").textContent));
+    for (const note of await notes()) assert.doesNotMatch(note, /chosen/);
+  }));
 
 test("a flight ends where the next impact starts", async () => {
   const { impacts } = sequence("--angle", "20", "--gravity", "9.81", "--restitution", "0.9");

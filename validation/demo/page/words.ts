@@ -25,6 +25,13 @@ export function dropInWords({ body, angle, tilt, turn, drop, height, speed, grav
   return `${BODIES[body].title}${leans}${falls}. Gravity ${significant(gravity, 4)} m/s², restitution e = ${significant(e, 4)}${floor}.`;
 }
 
+/** On what the continuous model runs, of which the discrete one knows nothing; whether nobody else chose it. */
+export function groundInWords({ stiffness, damping }: Parameters, isOfPage: boolean): string {
+  const numbers = `k = ${significant(stiffness, 4)} N/m³, c = ${significant(damping, 4)} N·s/m⁴`;
+  const choice = isOfPage ? ", chosen by the page; c is such that it gives e" : "";
+  return `The continuous model’s ground: ${numbers}${choice}.`;
+}
+
 /** How hard a blow is, compared with another. */
 export function comparison(ratio: number): string {
   if (ratio > 0.95 && ratio < 1.05) return "about as hard";
