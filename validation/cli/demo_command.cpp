@@ -93,9 +93,10 @@ std::string file_address(const std::string& path) {
   return text;
 }
 
-/// By the desktop's own choice of a browser, if there is a desktop.
+/// By the desktop's own choice of a browser; where there is no desktop, how to carry the page to one.
 void open_in_browser(const std::string& path) {
-  if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
+  if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr)
+    return say("no desktop here to open the page; --export FILE writes a copy to carry elsewhere");
   const pid_t process = fork();
   if (process == 0) {
     dup2(STDERR_FILENO, STDOUT_FILENO);
