@@ -11,6 +11,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/report.hpp"
 #include "validation/output/version.hpp"
+#include "validation/scene/keys.hpp"
 
 namespace clatter::validation::inline cli {
 
@@ -36,16 +37,29 @@ const Command& find_command(const std::vector<Command>& commands, const std::str
   throw BadInput(fmt::format("command '{}': unknown; did you mean {}?", name, nearest_name(name, names)));
 }
 
+/// A flag of scenes where scenes are varied by their keys instead.
+/// @throws BadInput saying how
+void require_scene_by_keys(const Command& command, const std::string& name) {
+  const std::vector<std::string> names = command.option_names();
+  if (std::find(names.begin(), names.end(), "--set") == names.end()) return;
+  for (const scene::Key& key : scene::all_keys()) {
+    if (key.flag != name) continue;
+    throw BadInput(fmt::format("{}: {} takes a scene and its keys, as in clatter {} rod-10 --set {}=...", name,
+                               command.name, command.name, key.name));
+  }
+}
+
 /// The argument of that name; none for --help, which every command has.
 const Argument* find_option(const Command& command, const std::string& name) {
   if (name == "--help") return nullptr;
   for (const Argument& argument : command.arguments) {
     if (argument.name == name && argument.is_option()) return &argument;
   }
-  static const std::set<std::string> of_simulator{"--tolerance", "--step", "--history"};
+  static const std::set<std::string> of_simulator{"--tolerance", "--step", "--history", "--planar"};
   if (command.name == "sequence" && of_simulator.contains(name)) {
-    throw BadInput(fmt::format("{}: the discrete model takes no time steps and has no such option", name));
+    throw BadInput(fmt::format("{}: is the simulator's; the discrete model has no such option", name));
   }
+  require_scene_by_keys(command, name);
   throw BadInput(fmt::format("option {}: unknown{}; did you mean {}?", name,
                              command.name.empty() ? "" : " for " + command.name,
                              nearest_name(name, command.option_names())));

@@ -299,8 +299,8 @@ Command sweep_command() {
   command.add_text("--random", request.random, "N", "N scenes with random values, --set KEY=LOW:HIGH or LOW:HIGH:log");
   command.add_text("--seed", request.seed, "S", "of the random values (1)");
   command.add_text("--scatter", request.scatter, "DEG",
-                   "with --random: attitudes about those of drop.attitude=26 or a list, each in its turn, turned about "
-                   "each axis by a normally distributed angle with this standard deviation");
+                   "with --random: attitudes about the scene's own, those of drop.attitude=26 or a list, each in its "
+                   "turn, turned about each axis by a normally distributed angle with this standard deviation");
   command.add_text("--model", request.model, "discrete|continuous", "(continuous if the scene has a ground)");
   command.add_text("--rows", request.rows, "scene|impact", "one row per scene or per impact (scene)");
   command.add_text(

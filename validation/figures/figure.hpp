@@ -84,6 +84,7 @@ struct FigurePlot {
   bool logarithmic_x = false;
   bool logarithmic_y = false;
   bool whole_x = false;       ///< x counts something: no fractions on its axis
+  bool whole_y = false;       ///< likewise y, over a few numbers alone
   bool equal_scales = false;  ///< a metre is as long on both axes
   bool ring = false;          ///< directions around the origin in place of axes; of the last panel alone
 };

@@ -17,7 +17,7 @@ namespace {
 
 // Lengths in units of the SVG's pixel.
 constexpr double width = 800, left = 100, right = 20, top = 8, line_height = 19, bottom = 60;
-constexpr double key_line = 19, above_panel = 11, character = 8.4, key_sample = 62;
+constexpr double key_line = 19, above_panel = 18, character = 8.4, key_sample = 62;
 constexpr std::array<double, 4> panel_heights{380, 250, 200, 160};  // with one, two, three, or more panels
 constexpr std::size_t title_columns = 112;
 constexpr double most_whole_tics = 20;
@@ -108,9 +108,10 @@ std::string panel_text(const PicturePanel& panel, const Layout& layout, std::siz
                       gnuplot_quoted(panel.plot.y_label), 14 / width);
   if (panel.plot.x_label.empty()) text += "set format x ''\n";
   if (panel.plot.whole_x && panel.plot.x.high - panel.plot.x.low <= most_whole_tics) text += "set xtics 1\n";
+  if (panel.plot.whole_y) text += "set ytics 1\n";
   const std::string name = fmt::format("$panel{}_", i + 1);
   return text + data_blocks(data, panel.plot, name) + plot_command(data, panel.plot, name) +
-         "unset logscale\nset format '% h'\nset xtics autofreq\n";
+         "unset logscale\nset format '% h'\nset xtics autofreq\nset ytics autofreq\n";
 }
 
 }  // namespace

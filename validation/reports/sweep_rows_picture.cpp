@@ -13,6 +13,7 @@
 #include "numeric/base/linear_algebra.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
+#include "validation/record/names.hpp"
 
 namespace clatter::validation::inline reports {
 namespace {
@@ -75,6 +76,17 @@ PicturePanel histogram(const Column& column, std::vector<double> values) {
   return panel;
 }
 
+/// Whole numbers that are few, from one below the least to one above the greatest, get an axis without fractions.
+void count_on_y(std::vector<double> values, FigurePlot& plot) {
+  constexpr double most = 12;
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  if (values.empty() || std::any_of(values.begin(), values.end(), [](double v) { return v != std::floor(v); })) return;
+  const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+  if (*greatest - *least > most) return;
+  plot.y = {std::min(*least, std::max(0.0, *least - 1)), *greatest + 1};
+  plot.whole_y = true;
+}
+
 /// Each quantity over the last swept key, a curve for each value of the key before it.
 PicturePanel curves(const Grid& grid, const SweepRowsView& view, std::size_t quantity) {
   const std::size_t over = view.first_swept + view.swept - 1;
@@ -87,6 +99,7 @@ PicturePanel curves(const Grid& grid, const SweepRowsView& view, std::size_t qua
                      .rows = {},
                      .plot = {.title = "", .x_label = "", .y_label = named(column), .curves = {}}};
   for (std::size_t i = 0; i < x.size(); ++i) panel.rows.push_back({x[i], y[i], of[i]});
+  count_on_y(y, panel.plot);
   for (const double value : std::set<double>(of.begin(), of.end())) {
     panel.plot.curves.push_back(
         {.x = "x",
@@ -167,10 +180,22 @@ bool has_curves(const Grid& grid, const SweepRowsView& view) {
   return view.swept == 1 || std::set<double>(first.begin(), first.end()).size() <= most_curves;
 }
 
+/// How many scenes were cut off where more impacts may follow, so that their sums are no whole sequence's; empty: none.
+std::string cut_words(const Grid& grid) {
+  const auto is_outcome = [](const Column& column) { return column.name == "outcome"; };
+  const auto outcome = std::find_if(grid.columns.begin(), grid.columns.end(), is_outcome) - grid.columns.begin();
+  const auto cut = std::count_if(grid.rows.begin(), grid.rows.end(), [&](const Row& row) {
+    const auto place = static_cast<std::size_t>(outcome);
+    return place < row.size() && row[place].value.text() == outcome_name(analytic::Outcome::impact_limit);
+  });
+  return cut == 0 ? "" : fmt::format("{} of {} rows end at run.impacts, where more may follow", cut, grid.rows.size());
+}
+
 }  // namespace
 
 Picture sweep_rows_picture(const Report& report, const SweepRowsView& view) {
   Picture picture{.what = "Many scenes", .scene = report.head, .panels = {}};
+  if (const std::string cut = cut_words(report.grid); !cut.empty()) picture.scene.push_back(cut);
   const bool over_a_key = has_curves(report.grid, view);
   for (std::size_t i = 0; i < report.grid.columns.size() && !view.quantities.empty(); ++i) {
     if (report.grid.columns[i].name == "drop.attitude_q0")

@@ -83,11 +83,6 @@ Drawing read_drawing(const SweepRequest& request) {
   Drawing drawing{.random = request.random.has_value()};
   if (!request.scatter) return drawing;
   if (!drawing.random) throw BadInput(fmt::format("--scatter {}: needs --random N", *request.scatter));
-  const bool attitudes = std::any_of(request.sets.begin(), request.sets.end(), [](const std::string& given) {
-    return given.starts_with(std::string(attitude_key) + "=");
-  });
-  if (!attitudes)
-    throw BadInput(fmt::format("--scatter {}: needs --set {}=26 or a list", *request.scatter, attitude_key));
   constexpr Range allowed{0, 180, false, "from 0 to 180 degrees"};
   drawing.scatter = read_number_option("--scatter", *request.scatter, allowed) * std::numbers::pi / 180;
   return drawing;
@@ -219,6 +214,21 @@ Model read_model(const SweepRequest& request, const SceneValues& values, const s
   return ground ? Model::continuous : Model::discrete;
 }
 
+/// Refuses to vary what the model does not read: all scenes would be one.
+/// @throws BadInput
+void require_effects(const std::vector<Setting>& settings, Model model) {
+  for (const Setting& setting : settings) {
+    if (!setting.axis || setting.number == nullptr) continue;
+    const bool has_effect =
+        model == Model::continuous ? !setting.key.starts_with("impact.") : setting.number->is_for(model);
+    if (has_effect) continue;
+    throw BadInput(fmt::format(
+        "--set {}={}: changes nothing in the {} model; give --model {}", setting.key, setting.text,
+        model_names[static_cast<std::size_t>(model)],
+        model_names[static_cast<std::size_t>(model == Model::continuous ? Model::discrete : Model::continuous)]));
+  }
+}
+
 /// Gives the numbered attitudes those of the scene's box.
 void number_attitudes(const Scene& scene, std::vector<Setting>& settings) {
   const auto is_numbered = [](const Setting& one) { return one.key == attitude_key && one.text == numbered_attitudes; };
@@ -243,6 +253,7 @@ void number_attitudes(const Scene& scene, std::vector<Setting>& settings) {
 void read_scene(const SweepRequest& request, std::vector<Setting>& settings, SceneValues& values, SweepPlan& plan) {
   make_room(values, settings);
   const Model model = plan.layout.model = read_model(request, values, settings);
+  require_effects(settings, model);
   plan.scene = read_scene(values, overrides_at(values, settings, &SweepAxis::first), model);
   static_cast<void>(read_scene(values, overrides_at(values, settings, &SweepAxis::last), model));
   number_attitudes(plan.scene, settings);
@@ -351,6 +362,33 @@ void forget(const std::vector<std::string>& keys, Value& scene) {
   }
 }
 
+/// Puts the scene's own attitude, that attitudes may scatter about it, in the place of the keys that say it.
+/// @throws BadInput where these are varied
+void name_own_attitude(const SweepRequest& request, const SceneValues& values, std::vector<std::string>& sets) {
+  const auto gives = [](const std::string& set, const char* key) { return set.starts_with(std::string(key) + "="); };
+  if (std::any_of(sets.begin(), sets.end(), [&](const auto& set) { return gives(set, attitude_key); })) return;
+  const std::vector<Setting> settings = read_settings(sets, {.random = true});
+  std::vector<std::string> others;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const std::string& key = settings[i].key;
+    const bool says_it = key == "drop.angle_deg" || key == "drop.tilt_deg" || key == "drop.orientation";
+    if (says_it && settings[i].axis) {
+      throw BadInput(
+          fmt::format("--scatter {} and --set {}: attitudes scatter about those of --set {}=26, about a "
+                      "list, or about the scene's own",
+                      *request.scatter, sets[i], attitude_key));
+    }
+    if (!says_it) others.push_back(sets[i]);
+  }
+  SceneValues own = values;
+  make_room(own, settings);
+  const Model model = read_model(request, own, settings);
+  const Eigen::Quaterniond q = read_scene(own, overrides_at(own, settings, &SweepAxis::first), model).touch_attitude();
+  others.push_back(fmt::format("{}=[{},{},{},{}]", attitude_key, shortest(q.w()), shortest(q.x()), shortest(q.y()),
+                               shortest(q.z())));
+  sets = std::move(others);
+}
+
 }  // namespace
 
 SweepPlan read_sweep_plan(const SweepRequest& request) {
@@ -360,7 +398,9 @@ SweepPlan read_sweep_plan(const SweepRequest& request) {
   std::vector<std::string> sets = request.sets;
   if (request.no_errors) sets.emplace_back("run.errors=false");
   if (request.require_digits) sets.emplace_back("run.require_digits=true");
-  std::vector<Setting> settings = read_settings(sets, read_drawing(request));
+  const Drawing drawing = read_drawing(request);
+  if (drawing.scatter) name_own_attitude(request, values, sets);
+  std::vector<Setting> settings = read_settings(sets, drawing);
   read_scene(request, settings, values, plan);
   plan.fixed_words = shell_word(request.file) + " --model " + model_names[static_cast<std::size_t>(plan.layout.model)];
   for (const Setting& setting : settings) {

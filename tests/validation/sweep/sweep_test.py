@@ -562,13 +562,42 @@ class RowsTogether(Folder):
         self.assertIn("left out", self.refuse(*arguments, "--format", "csv", "--output", self.path("rows.h5")))
         self.assertIn("--restart", self.refuse(*arguments, "--summary", "--output", self.path("a.txt"), "--restart"))
         self.assertIn("--random", self.refuse(*arguments, "--scatter", "3"))
-        self.assertIn("drop.attitude", self.refuse(self.scene, "--set", "drop.speed=1:2", "--random", "5", "--scatter", "3"))
+        self.assertIn("drop.attitude", self.refuse(self.scene, "--set", "drop.angle_deg=1:2", "--random", "5", "--scatter", "3"))
         listed = [self.scene, "--set", "drop.attitude=[1,0,0,0],[0,1,0,0]", "--random", "5"]
         self.assertIn("--scatter", self.refuse(*listed))
         for scatter in ("nan", "-1", "181", ""):
             self.assertIn("--scatter", self.refuse(*listed, "--scatter", scatter))
         self.assertIn("--scatter", self.refuse(self.scene, "--set", "drop.attitude=uniform", "--random", "5", "--scatter", "3"))
         self.assertEqual(os.listdir(self.folder), ["rod.toml"])
+
+
+class OneModelsKeys(Folder):
+    """Keys that the other model reads alone would give the same scene again and again."""
+
+    def test_are_refused(self):
+        for model, key in (("continuous", "impact.restitution=0.5:1:0.1"), ("continuous", "impact.friction=0,0.3"),
+                           ("discrete", "body.mesh.layers=10,20"), ("discrete", "run.tolerance=1e-6,1e-5")):
+            line = self.refuse("rod-10", "--model", model, "--set", key)
+            other = "discrete" if model == "continuous" else "continuous"
+            self.assertIn(f"changes nothing in the {model} model; give --model {other}", line)
+
+    def test_one_value_of_them_is_no_sweep_of_them(self):
+        rows = records(self.sweep("rod-10", "--set", "impact.restitution=0.5", "--set", "drop.speed=1,2", "--set", "run.impacts=1",
+                                  "--set", "run.digits=3"))
+        self.assertEqual(len(rows), 2)
+
+
+class Scatter(Folder):
+    def test_without_attitudes_it_is_about_the_scenes_own(self):
+        rows = records(self.sweep(self.scene, "--set", "drop.angle_deg=12", "--random", "400", "--scatter", "3"))
+        own = [math.cos(math.radians(6)), 0, -math.sin(math.radians(6)), 0]
+        squares = []
+        for row in rows:
+            q = [float(row[f"drop.attitude_q{i}"]) for i in range(4)]
+            cosine = abs(sum(a * b for a, b in zip(own, q)))
+            squares.append((2 * math.degrees(math.acos(min(1, cosine)))) ** 2)
+        # Three turns of variance 9: the mean square is 27, known to sqrt(2/3/400) = 4 per cent.
+        self.assertAlmostEqual(sum(squares) / len(squares), 27, delta=27 * 0.2)
 
 
 class Manners(Folder):
