@@ -2,10 +2,12 @@
 #include "validation/plan/closed_form.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "analytic/plane/contact_angles.hpp"
+#include "analytic/plane/sequence.hpp"
 
 namespace clatter::validation::inline plan {
 namespace {
@@ -40,6 +42,7 @@ ImpactRow row_of(const Drop& drop, int i, double start, double angle, const Plan
   row.energy_before = kinetic_energy(drop, before) + height;
   row.energy_after = kinetic_energy(drop, impact.after) + height;
   row.amplification = std::numeric_limits<double>::quiet_NaN();
+  row.error = analytic::RowErrors::unknown();
   return row;
 }
 
@@ -87,39 +90,59 @@ std::string reason_against_closed_form(const Drop& drop) {
 
 namespace {
 
-double relative_change(double value, double neighbour) {
-  return value == neighbour ? 0 : std::fabs((neighbour - value) / value);
+constexpr std::size_t number_count = 14;
+
+std::array<double, number_count> numbers_of(const ImpactRow& row) {
+  const analytic::Impact& impact = row.impact;
+  return {row.start,
+          row.inclination,
+          row.contact_angle,
+          impact.approach_speed,
+          impact.restitution(),
+          impact.normal_impulse,
+          impact.tangential_impulse,
+          impact.impulse_ratio(),
+          impact.after.normal,
+          impact.after.tangential,
+          impact.after.angular,
+          row.energy_before,
+          row.energy_after,
+          impact.energy_loss};
 }
 
-/// Largest relative change of the rows' angles, times and impulses over that of the drop's angle and speed, each.
-void add_amplification(const Drop& drop, Sequence& sequence) {
-  constexpr double shift = 0x1p-30;  // between rounding (2⁻⁵²) and the curvature of the results
-  Drop faster = drop, flatter = drop;
-  faster.velocity.normal *= 1 + shift;
-  flatter.inclination = analytic::Angle::from_radians(drop.inclination.radians * (1 - shift));
-  const int impacts = static_cast<int>(sequence.rows.size());
-  for (ImpactRow& row : sequence.rows) row.amplification = 0;
-  for (const Drop& neighbour : {faster, flatter}) {
-    const Sequence other = closed_form_sequence(neighbour, impacts);
-    for (std::size_t i = 0; i < sequence.rows.size(); ++i) {
-      ImpactRow& row = sequence.rows[i];
-      const bool there = i < other.rows.size();
-      const double growth =
-          there ? std::max({relative_change(row.start, other.rows[i].start),
-                            relative_change(row.contact_angle, other.rows[i].contact_angle),
-                            relative_change(row.impact.normal_impulse, other.rows[i].impact.normal_impulse)}) /
-                      shift
-                : std::numeric_limits<double>::infinity();
-      row.amplification = std::max(row.amplification, growth);
-    }
+/// In the order of numbers_of().
+std::array<double*, number_count> errors_of(analytic::RowErrors& error) {
+  return {&error.start,        &error.inclination,      &error.contact_angle,      &error.approach_speed,
+          &error.restitution,  &error.normal_impulse,   &error.tangential_impulse, &error.impulse_ratio,
+          &error.after.normal, &error.after.tangential, &error.after.angular,      &error.energy_before,
+          &error.energy_after, &error.energy_loss};
+}
+
+/// The discrete model's bounds, and beside each how far the two are apart: together they hold the closed form's errors.
+void add_errors(const Drop& drop, Sequence& sequence) {
+  const Sequence model = impact_sequence(drop, {.impacts = static_cast<int>(sequence.rows.size())});
+  for (std::size_t i = 0; i < std::min(sequence.rows.size(), model.rows.size()); ++i) {
+    ImpactRow& row = sequence.rows[i];
+    const ImpactRow& other = model.rows[i];
+    row.error = other.error;
+    row.amplification = other.amplification;
+    const auto here = numbers_of(row), there = numbers_of(other);
+    const auto errors = errors_of(row.error);
+    for (std::size_t k = 0; k < number_count; ++k) *errors[k] += std::fabs(here[k] - there[k]);
+    for (const std::size_t k : {0u, 2u, 5u})
+      if (here[k] != there[k]) row.error.relative = std::max(row.error.relative, *errors[k] / std::fabs(here[k]));
   }
+  sequence.total_normal_impulse_error =
+      model.total_normal_impulse_error + std::fabs(sequence.total_normal_impulse - model.total_normal_impulse);
+  sequence.end_predictable = model.end_predictable && sequence.rows.size() == model.rows.size();
 }
 
 }  // namespace
 
-Sequence closed_form_sequence(const Drop& drop, int impacts, bool amplification) {
+Sequence closed_form_sequence(const Drop& drop, int impacts, bool errors) {
   const Instants at = instants_of(drop, impacts);
   Sequence sequence;
+  sequence.total_normal_impulse_error = std::numeric_limits<double>::infinity();
   PlanarVelocity velocity = drop.velocity;
   for (int i = 0; i < at.count; ++i) {
     if (i > 0) velocity.normal -= drop.gravity * (at.time[i] - at.time[i - 1]);
@@ -134,7 +157,7 @@ Sequence closed_form_sequence(const Drop& drop, int impacts, bool amplification)
   sequence.message =
       at.count == most_impacts ? "the closed form ends with the third impact" : "the closed form has no further impact";
   if (at.count == impacts) sequence.message = "as many impacts as asked for";
-  if (amplification) add_amplification(drop, sequence);
+  if (errors) add_errors(drop, sequence);
   return sequence;
 }
 

@@ -14,8 +14,7 @@ namespace clatter::validation::inline plan {
 
 /// The first impacts, at most three, of a drop to which it applies.  One impact is Eq. 9; with the second and third
 /// come the roots β and γ of Eq. 12.  What comes after the third impact is not known. Accuracy: as contact_angles().
-/// @param amplification also the neighbouring drops that tell how errors grow; without it, amplifications are NaN.
-[[nodiscard]] analytic::Sequence closed_form_sequence(const analytic::Drop& drop, int impacts,
-                                                      bool amplification = false);
+/// @param errors also the discrete model, whose bounds the errors are; without it they are unknown, amplifications NaN.
+[[nodiscard]] analytic::Sequence closed_form_sequence(const analytic::Drop& drop, int impacts, bool errors = false);
 
 }  // namespace clatter::validation::inline plan
