@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "validation/explain/steps.hpp"
+#include "validation/output/number.hpp"
 #include "validation/record/names.hpp"
 
 namespace clatter::validation::inline explain {
@@ -42,6 +43,11 @@ class PlanarImpact {
   [[nodiscard]] static std::string ends(analytic::VertexSet vertices) {
     const bool several = std::popcount(vertices) > 1;
     return (several ? "vertices " : "end ") + analytic::PlanarBody::vertex_set_name(vertices);
+  }
+  /// The contact angle of impact k, as in the paper: θ, β, γ, and after these θ_4.
+  [[nodiscard]] static Symbol contact_angle_name(int k) {
+    const char* const paper[]{"θ", "β", "γ"};
+    return k <= 3 ? Symbol(paper[k - 1]) : "θ_" + std::to_string(k);
   }
   /// "V_n" as "V_n1" after impact 1.
   [[nodiscard]] Symbol after_last(const std::string& symbol) const {
@@ -101,13 +107,18 @@ class PlanarImpact {
     return writer_.found(number(name, value, unit, 0, unit[0] == 'm' ? speed_ : 0), formula);
   }
 
+  [[nodiscard]] std::string departure_words() const {
+    return fmt::format("contact angle of impact {}; beside φ it is {} rad", n_ - 1,
+                       significant(std::fabs(row_.departure.inclination), 6));
+  }
+
   /// Eq. 12 with the gravity term.
   void rod_equation() {
     const analytic::Arrival& arrival = row_.flight.arrival;
     const Expression rate = absolute(w0_);
     Quantity phi = number("φ", std::fabs(row_.departure.angular) * arrival.time, "rad");
-    Quantity theta =
-        number("θ", std::fabs(row_.departure.inclination) * degrees, "°", last_->error.contact_angle * degrees);
+    Quantity theta = number(contact_angle_name(n_ - 1), std::fabs(row_.departure.inclination) * degrees, "°",
+                            last_->error.contact_angle * degrees);
     const bool falls = given_.gravity.value(0, 0) > 0;
     const Quantity k_name = number("K", 0, ""), gamma_name = number("Γ", 0, "");
     const auto left = [&](const Quantity& k, const Quantity& gamma) {
@@ -126,19 +137,19 @@ class PlanarImpact {
     if (falls) words.insert(words.end(), {"; its term ", gamma_name, " for gravity is corrected"});
     words.emplace_back(".");
     writer_.say(words);
-    theta = writer_.found(theta, absolute(alpha0_), {fmt::format("contact angle of impact {}", n_ - 1)});
+    theta = writer_.found(theta, absolute(alpha0_), {departure_words()});
     const Quantity k = writer_.computed("K", "", 2 * Expression(vn0_) / (Expression(*length_) * rate));
     const Quantity gamma =
         falls ? writer_.computed("Γ", "", Expression(given_.gravity) / (Expression(*length_) * square(w0_)))
               : gamma_name;
     certified_bracket();
-    phi = writer_.found(phi, {fmt::format("the root, after {} evaluations", row_.flight.evaluations)});
+    phi = writer_.found(phi, {fmt::format("the root, found numerically by {} evaluations", row_.flight.evaluations)});
     const Expression f = left(k, gamma);
     const double turned = phi.value(0, 0),
                  terms = 2 + std::fabs(k.value(0, 0)) * turned + gamma.value(0, 0) * turned * turned;
     writer_.computed("f", "", f, {"left side of Eq. 12 at the root"}, terms);
     time_ = writer_.found(number("T", arrival.time, "s"), Expression(phi) / rate, {"time of flight"});
-    writer_.found(number("β", row_.contact_angle * degrees, "°", row_.error.contact_angle * degrees),
+    writer_.found(number(contact_angle_name(n_), row_.contact_angle * degrees, "°", row_.error.contact_angle * degrees),
                   absolute(Expression(phi) - theta), {"contact angle now"});
     inclination();
   }
@@ -152,9 +163,9 @@ class PlanarImpact {
   }
 
   void inclination() {
-    alpha_ =
-        writer_.found(number("α", row_.flight.arrival.inclination * degrees, "°", row_.error.inclination * degrees),
-                      Expression(alpha0_) - Expression(w0_) * time_, {"inclination at the touch"});
+    alpha_ = writer_.found(
+        number("α", row_.flight.arrival.inclination * degrees, "°", row_.error.inclination * degrees),
+        Expression(alpha0_) - Expression(w0_) * time_, {"inclination at the touch; the angle turned is in rad"});
   }
 
   /// The height of the vertex that arrives.
@@ -177,9 +188,10 @@ class PlanarImpact {
       writer_.found(number("T_low", row_.flight.arrival.bracket_low, "s"), {"left end of the certified bracket"});
       writer_.found(number("T_high", row_.flight.arrival.bracket_high, "s"), {"its right end"});
     }
-    time_ = writer_.found(
-        number("T", row_.flight.arrival.time, "s"),
-        {fmt::format("time of flight, the first root of the height after {} evaluations", row_.flight.evaluations)});
+    time_ =
+        writer_.found(number("T", row_.flight.arrival.time, "s"),
+                      {fmt::format("time of flight, the first root of the height, found numerically by {} evaluations",
+                                   row_.flight.evaluations)});
     Expression height = Expression(h0) + Expression(v0) * time_;
     if (falls) height = height - Expression(given_.gravity) * square(time_) / 2;
     if (turns) {
@@ -253,6 +265,13 @@ class PlanarImpact {
       ratio_ = writer_.found(number("μ_i", row_.impact.impulse_ratio(), "", row_.error.impulse_ratio, 1), drift / c,
                              {"impulse ratio that keeps the contact from slipping, at most μ"});
       return;
+    }
+    const bool begins = s_->value(0, 0) == 0;
+    if (begins) {
+      writer_.computed(
+          "r_0", "", absolute(drift) / c,
+          {"impulse ratio that would keep the contact from slipping: more than μ, so that it slips, the way "
+           "of −B"});
     }
     const Quantity r1 =
         writer_.computed(is_single ? "μ_i" : "r_1", "", -(Expression(*given_.friction) * function("sgn", along)),

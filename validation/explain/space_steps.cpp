@@ -183,8 +183,9 @@ class SpatialImpact {
       writer_.found(number("T_low", flight.bracket_low, "s"), {"left end of the certified bracket"});
       writer_.found(number("T_high", flight.bracket_high, "s"), {"its right end"});
     }
-    time_ = writer_.found(number("T", flight.time, "s"),
-                          {fmt::format("the root, after {} evaluations of the rotation", flight.evaluations)});
+    time_ = writer_.found(
+        number("T", flight.time, "s"),
+        {fmt::format("the root, found numerically by {} evaluations of the rotation", flight.evaluations)});
     if (period_) writer_.computed("N", "", Expression(time_) / *period_, {"periods flown"});
     else writer_.computed("θ", "rad", absolute(rate_b_) * time_, {"angle turned"});
     const Expression line = Expression(z0_) + up(v0_) * time_;

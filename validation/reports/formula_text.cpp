@@ -21,10 +21,11 @@ enum Binding { sums = 1, quotients, products, powers, atoms };
 struct Sign {
   std::string_view text, tex;
 };
-constexpr Sign signs[]{{"Ω", "\\Omega "},  {"ω", "\\omega "}, {"α", "\\alpha "}, {"β", "\\beta "},  {"θ", "\\theta "},
-                       {"φ", "\\varphi "}, {"Γ", "\\Gamma "}, {"μ", "\\mu "},    {"σ", "\\sigma "}, {"Δ", "\\Delta "},
-                       {"λ", "\\lambda "}, {"τ", "\\tau "},   {"ζ", "\\zeta "},  {"ψ", "\\psi "},   {"ρ", "\\rho "},
-                       {"²", "^2"},        {"³", "^3"},       {"⁴", "^4"},       {"·", "\\cdot "},  {"°", "^\\circ "}};
+constexpr Sign signs[]{{"Ω", "\\Omega "}, {"ω", "\\omega "},  {"α", "\\alpha "}, {"β", "\\beta "}, {"γ", "\\gamma "},
+                       {"θ", "\\theta "}, {"φ", "\\varphi "}, {"Γ", "\\Gamma "}, {"μ", "\\mu "},   {"σ", "\\sigma "},
+                       {"Δ", "\\Delta "}, {"λ", "\\lambda "}, {"τ", "\\tau "},   {"ζ", "\\zeta "}, {"ψ", "\\psi "},
+                       {"ρ", "\\rho "},   {"²", "^2"},        {"³", "^3"},       {"⁴", "^4"},      {"·", "\\cdot "},
+                       {"°", "^\\circ "}};
 
 /// Each sign by its TeX.
 std::string tex_of(std::string_view text) {
