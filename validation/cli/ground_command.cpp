@@ -60,7 +60,15 @@ std::vector<MaterialGround> materials_of(const GroundInput& input) {
            0}};
 }
 
-Report material_report_of(const GroundInput& input) {
+/// The restitution beside a material, of the scene's drop; none: none was given.
+std::optional<MaterialLoss> loss_of(const GroundInput& input, const std::vector<MeasuredNumber>& measured) {
+  if (measured.empty()) return {};
+  if (measured.size() > 1 || measured.front().measure != DropMeasure::restitution)
+    throw BadInput("--contact-time and the like: exclude a material, beside which --measured-e alone may stand");
+  return MaterialLoss{measured.front().value, first_approach_speed(read_discrete_flags(input.scene).drop)};
+}
+
+Report material_report_of(const GroundInput& input, const std::optional<MaterialLoss>& loss) {
   std::vector<MaterialGround> grounds = materials_of(input);
   if (input.thickness.has_value() == input.footprint.has_value()) {
     throw BadInput(fmt::format("{}: takes --thickness H of a layer, or --footprint A on a half-space; give one of them",
@@ -82,7 +90,7 @@ Report material_report_of(const GroundInput& input) {
                                "a rigid base, unable to bulge"
                              : "a half-space under a rigid flat footprint, as under a disc of its area, 2 E/((1 - ν²) "
                                "π a): the pressure of a real one is least in the middle and grows towards the rim",
-                         source);
+                         source, loss);
 }
 
 /// The scene takes any stiffness: that is sought.
@@ -103,8 +111,7 @@ int run_ground(const GroundInput& input) {
   const OutputChoice choice = read_output(input.output);
   const std::vector<MeasuredNumber> measured = measured_of(input);
   if (input.modulus || input.poisson || input.floor || input.thickness || input.footprint) {
-    if (!measured.empty()) throw BadInput("--measured-e and the like: exclude a material; give one of them, not both");
-    const Report report = material_report_of(input);
+    const Report report = material_report_of(input, loss_of(input, measured));
     check_files(choice);
     write_report(choice, report);
     return 0;
@@ -132,7 +139,8 @@ int run_ground(const GroundInput& input) {
 
 Command ground_command() {
   auto input = std::make_shared<GroundInput>();
-  const char *const measured = "Measured: two of them", *const material = "Or the material";
+  const char *const measured = "Measured: two of them", *const material =
+                                                            "Or the material, --measured-e beside it or not";
   Command command{.name = "ground", .help = "k_G and c_G from measurements of a drop, or from a layer"};
   add_scene_flags(command, input->scene);
   command.add_text("--measured-e", input->restitution, "E", "restitution of the drop's first impact", measured);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "validation/cli/command.hpp"
@@ -53,11 +54,12 @@ std::string probe_words(const ReportInput& input) {
   return words;
 }
 
-/// The sweep of a box's attitudes by the same scene; flags of the drop's own attitude stay out.
+/// The sweep of a box's attitudes by the same scene, to digits enough for a statistic; flags of the drop's own attitude
+/// stay out.
 SweepRequest sweep_of(const ReportInput& input, const Attitudes& attitudes) {
   SweepRequest request{.file = input.scene.source,
                        .text = {},
-                       .sets = {"drop.attitude=26"},
+                       .sets = {"drop.attitude=26", "run.digits=3"},
                        .random = std::to_string(attitudes.drops),
                        .seed = {},
                        .scatter = attitudes.scatter,
@@ -70,7 +72,8 @@ SweepRequest sweep_of(const ReportInput& input, const Attitudes& attitudes) {
   for (const SceneOverride& given : overrides_of(input.scene)) {
     const bool is_attitude = given.key == "drop.angle_deg" || given.key == "drop.tilt_deg" ||
                              given.key == "drop.attitude" || given.key == "drop.orientation";
-    if (!is_attitude && given.key != "run.errors") request.sets.push_back(given.key + "=" + given.text);
+    if (!is_attitude && given.key != "run.errors" && given.key != "run.digits")
+      request.sets.push_back(given.key + "=" + given.text);
   }
   return request;
 }
@@ -181,19 +184,29 @@ const std::vector<std::string>& left_out() {
   return items;
 }
 
+/// How many of the first impacts a start known to 16 digits determines.
+std::string trust_words(const ShockRun& run) {
+  const auto words = [](const auto& impacts) {
+    const auto lost = std::ranges::find_if(impacts, [](const auto& impact) { return !impact.predictable; });
+    const auto known = lost - impacts.begin();
+    if (lost == impacts.end()) return fmt::format("all {} impacts listed can be predicted", known);
+    return known == 0
+               ? std::string("no impact can be predicted: they depend on digits that nobody has")
+               : fmt::format("impacts 1 to {} can be predicted; later ones depend on digits that nobody has", known);
+  };
+  return run.continuous ? words(run.continuous->planned.run.impacts) : words(run.discrete_run->impacts);
+}
+
 std::string accuracy_html(const Scene& scene, const ShockRun& run) {
   std::vector<std::string> items{
       fmt::format("{} digits were asked for; digits that are not known are not printed, and ? marks rows that a start "
                   "known to 16 digits does not determine",
                   scene.accuracy.digits)};
   double closure = 0;
-  int known = 0;
   for (const ShockRow& row : run.rows()) {
-    if (!row.predictable) continue;
-    known = std::max(known, row.impact);
-    closure = std::max(closure, row.closure);
+    if (row.predictable) closure = std::max(closure, row.closure);
   }
-  items.push_back(fmt::format("impacts 1 to {} can be predicted; later ones depend on digits that nobody has", known));
+  items.push_back(trust_words(run));
   if (run.continuous && !run.probes.empty()) {
     items.push_back(
         fmt::format("the integral of the acceleration over each impact is the change of velocity to within "
@@ -209,7 +222,7 @@ std::string page_of(const ReportInput& input, const CooperativeInterrupt& interr
   const Model model = model_of(input);
   const std::vector<Probe> probes = probes_of(input);
   Attitudes attitudes;
-  if (input.drops) attitudes.drops = read_integer_option("--drops", *input.drops, 1, 1'000'000);
+  if (input.drops) attitudes.drops = read_integer_option("--drops", *input.drops, 0, 1'000'000);
   if (input.scatter) attitudes.scatter = *input.scatter;
   const ShockView view = view_of(input);
   const ShockRun run =
@@ -258,7 +271,7 @@ Command report_command() {
   auto input = std::make_shared<ReportInput>();
   Command command{.name = "report", .help = "one HTML page on a drop, to hand in"};
   add_shock_options(command, *input);
-  command.add_text("--drops", input->drops, "N", "of a box, over its faces, edges and corners (260)",
+  command.add_text("--drops", input->drops, "N", "of a box, over its faces, edges and corners (260); 0: none",
                    "Worst attitudes");
   command.add_text("--scatter", input->scatter, "DEG", "standard deviation of their turns about each axis (3)",
                    "Worst attitudes");

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "analytic/law/viscoelastic.hpp"
 #include "validation/output/estimated.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/body_properties.hpp"
@@ -52,7 +53,7 @@ std::vector<Column> ground_columns() {
       {"contact_time", "contact", "s", "by the model: how long the first impact lasts"},
       {"peak_force", "peak Fₙ", "N", "by the model: largest normal force of the first impact"},
       {"indentation", "δ", "m",
-       "by the model: depth at which the ground carries the body, in the attitude of the drop"},
+       "by the model: depth at which the ground carries the body at rest, in the attitude of the drop"},
       {"stiffness_by_first", "∂k/∂1", "", "∂ ln k_G/∂ ln of the first measured number, the second held"},
       {"stiffness_by_second", "∂k/∂2", "", "∂ ln k_G/∂ ln of the second measured number, the first held"},
       {"damping_by_first", "", "N·s/m⁴", "∂ c_G/∂ ln of the first measured number, the second held", false},
@@ -76,6 +77,9 @@ Report ground_report(const Scene& scene, const MeasuredNumber& first, const Meas
   } else if (fit.solutions.size() > 1) {
     report.notes.push_back(fmt::format("{} grounds give both numbers", fit.solutions.size()));
   }
+  report.notes.emplace_back(
+      "δ: depth under the body at rest; ∂k/∂1, ∂k/∂2: by how many per cent k_G changes with one per cent of the first "
+      "or the second measured number");
   report.notes.emplace_back(area_words(scene.world.ground.area));
   report.fields["scene"] = scene_value(scene);
   report.fields["body"] = body_value(scene);
@@ -88,17 +92,25 @@ Report ground_report(const Scene& scene, const MeasuredNumber& first, const Meas
 }
 
 Report material_report(const std::vector<MaterialGround>& grounds, const std::string& approximation,
-                       const std::string& source) {
+                       const std::string& source, const std::optional<MaterialLoss>& loss) {
   Report report = begun_report("ground", "the ground from a material");
   report.grid.columns = {{"stiffness", "k_G", "N/m³", "of the ground"},
                          {"modulus", "E", "Pa", "Young's modulus"},
                          {"poisson", "ν", "", "Poisson's ratio"}};
+  if (loss) report.grid.columns.push_back({"damping", "c_G", "N·s/m⁴", "of the ground"});
+  const double damping_per_stiffness =
+      loss ? analytic::damping_of_restitution(loss->restitution) / loss->approach_speed : 0;
   for (const MaterialGround& ground : grounds) {
-    report.grid.rows.push_back({Cell(ground.stiffness, 6), Cell(ground.modulus, 6), Cell(ground.poisson, 6)});
+    Row row{Cell(ground.stiffness, 6), Cell(ground.modulus, 6), Cell(ground.poisson, 6)};
+    if (loss) row.emplace_back(ground.stiffness * damping_per_stiffness, 6);
+    report.grid.rows.push_back(std::move(row));
   }
-  report.notes = {approximation,
-                  "c_G does not follow from a material: --measured-e with --contact-time, --peak-force or "
-                  "--indentation, in its place, gives both"};
+  report.notes = {
+      approximation,
+      loss ? fmt::format("c_G gives e = {} where the first contact approaches at {} m/s, exact for a flat or "
+                         "upright landing without friction",
+                         shortest(loss->restitution), significant(loss->approach_speed, 6))
+           : "c_G does not follow from a material: --measured-e beside it gives c_G, of the scene's drop"};
   if (!source.empty()) report.notes.push_back("least and largest numbers of the floor's material: " + source);
   report.fields["solutions"] = row_objects(report.grid);
   report.fields["approximation"] = approximation;

@@ -23,8 +23,12 @@ namespace clatter::validation::inline reports {
 struct MaterialGround {
   double modulus = 0, poisson = 0, stiffness = 0;
 };
+/// A restitution that was measured beside the material, which says nothing of damping.
+struct MaterialLoss {
+  double restitution = 1, approach_speed = 0;  ///< of the first contact [m/s]
+};
 /// A row for each; a named floor has two, the ends of its range.
 [[nodiscard]] Report material_report(const std::vector<MaterialGround>& grounds, const std::string& approximation,
-                                     const std::string& source);
+                                     const std::string& source, const std::optional<MaterialLoss>& loss);
 
 }  // namespace clatter::validation::inline reports

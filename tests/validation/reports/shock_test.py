@@ -13,6 +13,7 @@ from run_folder import EmptyFolder, records, run
 
 PROBE = ("--probe", "camera:0.048,0.016,0.0095")
 FEW = ("--impacts", "2", "--frequencies", "100:3000:4", "--no-sensitivity")
+ROCKING = ("--angle", "10", "--restitution", "0")  # its impacts follow each other ever faster
 FLAT = ("--body", "box", "--size", "0.1057x0.0439x0.0191", "--mass", "0.088", "--angle", "0", "--speed", "2")
 
 BAD = {
@@ -61,7 +62,7 @@ BAD_GROUND = {
     "an unknown floor": (("--floor", "lava", "--footprint", "1e-3"), "--floor"),
     "a floor and a modulus": (("--floor", "steel", "--modulus", "1e6", "--footprint", "1"), "--floor"),
     "a size alone": (("--thickness", "1"), "--modulus"),
-    "a material and a measurement": ((*FLAT, "--measured-e", "0.5", "--floor", "steel"), "exclude"),
+    "a material and a measurement": ((*FLAT, "--peak-force", "5", "--floor", "steel"), "exclude"),
     "a layer and a footprint": (("--modulus", "1e6", "--poisson", "0.3", "--thickness", "1", "--footprint", "1"), "--modulus"),
 }
 
@@ -220,6 +221,20 @@ class Handout(EmptyFolder):
         self.assertLessEqual(links, {"http://www.w3.org/2000/svg", "http://www.w3.org/1999/xlink"})
         self.assertNotRegex(page, r"<script|<link rel=\"style|@import|url\(http")
 
+    def test_it_says_how_many_impacts_can_be_predicted_with_a_probe_and_without(self):
+        for arguments in (PROBE, ()):
+            path = self.path("phone.html")
+            self.assertEqual(run("report", "phone-damped", *FEW, *arguments, "--drops", "0", "--output", path).returncode, 0)
+            page = self.read("phone.html")
+            self.assertIn("all 2 impacts listed can be predicted", page)
+            self.assertNotIn("Worst attitudes", page)
+
+    def test_where_prediction_ends_it_says_so(self):
+        sequence = json.loads(run("sequence", *ROCKING, "--format", "json").stdout)
+        known = [impact["predictable"] for impact in sequence["impacts"]].index(False)
+        self.assertEqual(run("report", *ROCKING, "--model", "discrete", "--drops", "0", "--output", self.path("rod.html")).returncode, 0)
+        self.assertIn(f"impacts 1 to {known} can be predicted; later ones", self.read("rod.html"))
+
     def test_without_a_file_nothing_is_written(self):
         found = run("report", "phone-damped")
         self.assertEqual((found.returncode, found.stdout), (2, ""))
@@ -227,6 +242,20 @@ class Handout(EmptyFolder):
 
 
 class Ground(unittest.TestCase):
+    def test_a_material_and_e_give_a_ground_that_gives_e_back(self):
+        found = json.loads(run("ground", *FLAT, "--modulus", "3e10", "--poisson", "0.2", "--thickness", "0.1", "--measured-e", "0.5",
+                               "--format", "json").stdout)
+        ground = found["solutions"][0]
+        self.assertAlmostEqual(ground["stiffness"], 3e10 * 0.8 / (1.2 * 0.6 * 0.1), delta=1)
+        again = json.loads(run("simulate", *FLAT, "--stiffness", repr(ground["stiffness"]), "--damping", repr(ground["damping"]),
+                               "--impacts", "1", "--digits", "8", "--format", "json").stdout)
+        after = again["impacts"][0]["velocity_after"][2]
+        self.assertAlmostEqual(after / 2, 0.5, delta=1e-5)
+        for other in ("--contact-time", "--peak-force", "--indentation"):
+            done = run("ground", *FLAT, "--floor", "steel", "--thickness", "0.1", other, "0.5")
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn("--measured-e alone", done.stderr)
+
     def test_e_and_contact_time_give_a_ground_that_gives_them_back(self):
         found = json.loads(run("ground", *FLAT, "--measured-e", "0.5", "--contact-time", "5e-4", "--format", "json").stdout)
         self.assertEqual(len(found["solutions"]), 1)
