@@ -116,6 +116,8 @@ int run_figures(const FiguresInput& input) {
     progress.show(progress_bar(done++, numbers.size()));
     write_figure(make_figure(number, case_runs), files);
   }
+  const std::string count = numbers.size() == 1 ? "1 file" : fmt::format("{} files", numbers.size());
+  write_out({}, fmt::format("{} in {}; clatter verify --html FILE draws the figures\n", count, *input.folder));
   return 0;
 }
 
@@ -132,7 +134,7 @@ Command figures_command() {
   command.footer =
       "Example: clatter figures --only 7 14 --output figures\n"
       "Comments \"plot: ...\" and in JSON the list plots say how each panel is drawn.\n"
-      "clatter verify --html FILE draws them.";
+      "clatter verify --html FILE draws them. Figs. 13 and 18 of the paper are meshes, Figs. 1 to 6 sketches.";
   command.run = [input] { return run_figures(*input); };
   return command;
 }

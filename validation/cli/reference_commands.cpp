@@ -155,7 +155,9 @@ std::string keys_text(bool ascii) {
 std::string example(const Key& key) {
   if (const auto* list = std::get_if<ListValue>(&key.value)) return list->example;
   if (std::holds_alternative<TextValue>(key.value)) return "\"name\"";
-  return std::holds_alternative<NumberValue>(key.value) ? "1e-6" : "1";
+  if (key.is_truth()) return "true";
+  const std::string_view name = key.name;
+  return name == "run.tolerance" || name == "run.step" ? "1e-6" : "1";
 }
 
 /// A scene file with every key: those of the rod are given, the others are comments.
@@ -167,10 +169,10 @@ std::string scene_file() {
     const Value value = key.get(scene);
     const std::string setting = fmt::format("{}{} = {}", value.is_nothing() ? "# " : "", name,
                                             value.is_nothing() ? example(key) : compact_json(value));
-    return fmt::format("{:<34} # {}", setting, meaning(key));
+    const std::string indent = "#   ";
+    return fmt::format("{}\n{}{}", setting, indent, wrapped(meaning(key), 75, indent));
   };
-  return scene_text("# A scene: clatter simulate FILE, sequence FILE, compare FILE.  clatter keys explains the keys.",
-                    keys, line);
+  return scene_text("# A scene: clatter simulate FILE, sequence FILE, compare FILE.", keys, line);
 }
 
 /// A scene that somebody wrote is worth more than the one to begin with.

@@ -47,7 +47,9 @@ bool has_error(std::size_t column) { return column != 0 && column != impacts_col
 
 std::vector<std::string> notes_of(const AnglesRequest& request) {
   if (!request.as_printed)
-    return {"An empty cell: that impact does not happen, comes with β, γ > 90°, or after another one."};
+    return {
+        "θ, β, γ: contact angles of the first, second and third impact; impacts: how many of these three there are."
+        " An empty cell: that impact does not happen, comes with β, γ > 90°, or after another one."};
   return {
       "β: with the gravity term − (g/vₙ²)(…)²(θ+β)²; printed: with the paper's + (g/2vₙ²)(…)²(θ+β)²,"
       " whose sign and factor are wrong, for g of either sign. An empty cell: no such impact."};
@@ -80,6 +82,7 @@ AnglesRequest angles_request(const NamedTexts& given) {
 
 std::vector<Column> angles_columns(const AnglesRequest& request) {
   const bool p = request.as_printed;
+  const bool returns_all = request.rod.restitution == 1 && request.rod.gravity_number == 0;  // or ΣP need not be near 2
   std::vector<Column> columns{
       {"theta_deg", "θ", "°", "contact angle of impact 1"},
       {"beta_deg", "β", "°", "contact angle of impact 2"},
@@ -96,8 +99,8 @@ std::vector<Column> angles_columns(const AnglesRequest& request) {
       {"T1", "T₁", "", "from impact 1 to 2 in units of L/|v_n|", false},
       {"T2", "T₂", "", "from impact 2 to 3 likewise", false},
       {"gamma_minus_theta_deg", "γ − θ", "°", "γ − θ", false},
-      {"impulse_deficit", "2 − ΣP", "", "2 less the sum of the impulses", !p},
-      {"impacts", "impacts", "", "how many impacts there are"},
+      {"impulse_deficit", "2 − ΣP", "", "2 less the sum of the impulses", !p && returns_all},
+      {"impacts", "impacts", "", "how many of the first three impacts there are"},
       {"beta_printed_deg", "β printed, g > 0", "°", "β by the printed gravity term", p},
       {"beta_printed_negative_g_deg", "β printed, g < 0", "°", "the same for g of the other sign", p}};
   columns.resize(column_count(request));

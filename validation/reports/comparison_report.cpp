@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "validation/compare/number_pair.hpp"
 #include "validation/output/number.hpp"
@@ -89,6 +91,51 @@ std::vector<std::string> explanations(const Comparison& comparison) {
   return notes;
 }
 
+/// A number in which the models differ.
+struct Difference {
+  const ComparedImpact* impact = nullptr;
+  ComparedQuantity quantity{};
+  double relative = 0;  ///< beside the size of such numbers
+};
+
+Difference largest_difference(const Comparison& comparison) {
+  Difference largest;
+  for (const ComparedImpact& impact : comparison.impacts) {
+    if (!impact.reason.empty() || !impact.discrete || !impact.continuous) continue;
+    for (const ComparedQuantity& quantity : comparison.discrete.quantities) {
+      const std::size_t q = quantity.place;
+      const double relative = std::fabs(NumberPair{impact, q}.deviation()) / comparison.discrete.scales[q];
+      if (relative > largest.relative) largest = {&impact, quantity, relative};
+    }
+  }
+  return largest;
+}
+
+/// What part of the discrete model's omissions brings most of the largest difference on this ground, and how long the
+/// contact before lasts; empty: the models do not differ, or nothing is known of it.
+std::string cause_words(const Comparison& comparison) {
+  using Part = std::pair<const char*, MotionNumbers PredictedSize::*>;
+  constexpr std::array parts{Part{"gravity, which acts during contacts too", &PredictedSize::gravity},
+                             Part{"how far the body turns during contacts", &PredictedSize::turning},
+                             Part{"the point of contact, which lies inside the corner", &PredictedSize::indentation},
+                             Part{"the time that the contacts before take", &PredictedSize::delay},
+                             Part{"the tipping of the face", &PredictedSize::tipping}};
+  const auto [impact, quantity, relative] = largest_difference(comparison);
+  if (impact == nullptr) return "";
+  const PredictedSize& size = impact->predicted;
+  const std::size_t q = quantity.place;
+  const auto& [words, most] =
+      *std::ranges::max_element(parts, {}, [&](const Part& part) { return (size.*part.second)[q]; });
+  if (!((size.*most)[q] > 0 && std::isfinite((size.*most)[q]))) return "";
+  const ComparedImpact& struck = impact->n > 1 ? comparison.impacts[static_cast<std::size_t>(impact->n - 2)] : *impact;
+  std::string contact = fmt::format("contact {} lasts {} ms", struck.n, significant(1e3 * struck.contact_time, 3));
+  if (impact->n > 1 && struck.discrete)
+    contact += fmt::format(" of the {} ms to the next in the discrete model",
+                           significant(1e3 * ((*impact->discrete)[0] - (*struck.discrete)[0]), 3));
+  return fmt::format("Why they differ on this ground: the largest difference, {} of impact {}, comes most from {}; {}.",
+                     quantity.heading, impact->n, words, contact);
+}
+
 std::string limit_words(const Comparison& comparison) {
   const StiffLimit& limit = comparison.limit;
   if (limit.rows.empty()) return "No limit: the impacts do not come apart on stiffer ground either.";
@@ -111,9 +158,10 @@ std::string verdict_words(const Comparison& comparison) {
   const bool tips = std::any_of(comparison.impacts.begin(), comparison.impacts.end(), [](const ComparedImpact& impact) {
     return impact.has_landing() && impact.predicted.tipping != MotionNumbers{};
   });
-  return fmt::format("The models agree: the limit is the discrete value {}{}for {} of {} impacts.",
-                     comparison.as_given ? "of the mesh's corners " : "", tips ? "up to the tipping of a face " : "",
-                     landed, comparison.impacts.size());
+  return fmt::format(
+      "The models agree as the ground gets ever stiffer: the limit is the discrete value {}{}for {} of {} impacts.",
+      comparison.as_given ? "of the mesh's corners " : "", tips ? "up to the tipping of a face " : "", landed,
+      comparison.impacts.size());
 }
 
 /// Whether every number of either model is known to its error.
@@ -306,10 +354,10 @@ Report comparison_report(const Scene& scene, const Comparison& comparison) {
   report.notes = reasons(comparison);
   for (const std::string& note : explanations(comparison)) report.notes.push_back(note);
   report.notes.emplace_back(
-      "t in s, angles in °, P in N·s, V in m/s, Ω in rad/s; predicted: the size, no bound, of what gravity, turning "
-      "and indentation do during contacts, carried on from impact to impact");
-  for (const std::string& words :
-       {comparison.shortfall, corners_words(comparison), limit_words(comparison), verdict_words(comparison)}) {
+      "t in s, angles in °, P in N·s, V in m/s, Ω in rad/s; predicted: about how much the number should change because "
+      "contacts take time and go into the ground, this one and those before; no bound");
+  for (const std::string& words : {comparison.shortfall, corners_words(comparison), cause_words(comparison),
+                                   limit_words(comparison), verdict_words(comparison)}) {
     if (!words.empty()) report.notes.push_back(words);
   }
   return report;

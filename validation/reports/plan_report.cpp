@@ -76,7 +76,10 @@ std::string parts_words(const Plan& plan, bool left_out) {
     if (part.left_out == left_out) words += (words.empty() ? "" : ", ") + part_words(part);
   }
   if (words.empty()) return "";
-  return fmt::format("{}, with the error that this brings: {}", left_out ? "Left out" : "Not left out", words);
+  return fmt::format(
+      "{}: {}",
+      left_out ? "Left out, with the error that this brings" : "Kept, with the error that to leave it out would bring",
+      words);
 }
 
 std::string plane_words(const Plan& plan) {
@@ -128,7 +131,7 @@ std::string level_words(const WeighedLevel& level, const Plan& plan) {
   if (!level.against.empty()) return name + " does not apply: " + level.against;
   if (!std::isfinite(level.assumption_error)) return "";
   if (level.level == ModelLevel::planar) return plane_words(plan);
-  return fmt::format("{} takes for granted: {}; by its own account an error of {}", name, level.assumption_words,
+  return fmt::format("{} takes for granted: {}; an error of {} is expected from that", name, level.assumption_words,
                      error_words(level.assumption_error));
 }
 

@@ -120,7 +120,7 @@ void add_boundary(const RegimeBoundary& b, int digits, Row& row) {
 Report report_of(const std::vector<Regimes>& all, const Quantity& quantity, const RodParameters& rod, int digits) {
   Report report = begun_report("regimes", regimes_summary);
   report.grid.columns = columns_of(quantity);
-  report.notes = {"Three impacts below θ₃, two from θ₃ to θ₂, one above (β, γ ≤ 90°).",
+  report.notes = {"Of the first three impacts all happen below θ₃, two from θ₃ to θ₂, one above (β, γ ≤ 90°).",
                   "fold: the end grazes the ground; upright: it arrives at 90°; order: another contact comes first."};
   for (const auto& [value, second, third] : all) {
     Row& row = report.grid.rows.emplace_back();

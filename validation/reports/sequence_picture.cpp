@@ -303,15 +303,11 @@ PicturePanel space_impulse_panel(const Run& run) {
   return panel;
 }
 
-/// Body, drop and impact, without what is zero.
+/// Body, drop and impact.
 std::vector<std::string> words_of(const Scene& scene) {
-  std::string drop = fmt::format("{}° at {} m/s", shortest(scene.angle_deg), shortest(scene.speed));
-  if (scene.tangential_velocity != 0) drop += fmt::format(", tangential {} m/s", shortest(scene.tangential_velocity));
-  if (scene.spin != 0) drop += fmt::format(", spin {} rad/s", shortest(scene.spin));
-  if (scene.has_vectors()) drop = scene.drop_words();
-  drop += fmt::format(", gravity {} m/s²", shortest(scene.world.gravity));
-  if (scene.world.incline_deg != 0) drop += fmt::format(", slope {}°", shortest(scene.world.incline_deg));
-  return {scene.summary(Model::discrete).front(), drop, law_words(scene, {})};
+  std::vector<std::string> words = scene.summary(Model::discrete);
+  words.push_back(law_words(scene, {}));
+  return words;
 }
 
 /// No impulse may fall into the window; its axis has a range all the same.

@@ -24,6 +24,8 @@ namespace {
 
 namespace space = analytic::space;
 
+constexpr int most_notes = 4;  // of one kind
+
 /// "1.25000 ± 0.00012"
 std::string with_error(const Estimated& number, const Shown& shown) {
   const std::string text = known_text(number, shown);
@@ -98,7 +100,7 @@ std::string contact_words(const Scene& scene, const space::Body& body, const spa
 /// The first contacts that lasted between impacts.
 void add_contact_notes(const Scene& scene, const space::Body& body, const space::Sequence& sequence,
                        std::vector<std::string>& notes) {
-  constexpr std::size_t most = 4;
+  constexpr std::size_t most = most_notes;
   const auto& contacts = sequence.contacts;
   for (std::size_t i = 0; i < std::min(contacts.size(), most); ++i) {
     notes.push_back(fmt::format("after impact {}{}: {}", contacts[i].rows, contacts[i].tail ? " and its hops" : "",
@@ -161,10 +163,16 @@ OutcomeSets outcome_sets(const PreparedScene& prepared, const DiscreteRun& found
   return sets;
 }
 
-/// The rows in which several corners arrive together.
+/// The first rows in which several corners arrive together.
 void add_group_notes(const DiscreteRun& found, const OutcomeSets& sets, std::vector<std::string>& notes) {
+  const auto landings = std::ranges::count_if(sets, [](const auto& set) { return set.has_value(); });
+  std::ptrdiff_t told = 0;
   for (std::size_t i = 0; i < sets.size(); ++i) {
     if (!sets[i]) continue;
+    if (++told > most_notes) {
+      notes.push_back(fmt::format("{} further landings like these are in JSON", landings - most_notes));
+      return;
+    }
     const space::ImpactRow& row = std::get<space::Sequence>(found.sequence).rows[i];
     const double speed = std::max(row.before.velocity.norm(), row.approach_speed);
     std::string words =

@@ -56,7 +56,7 @@ Row check_row(const CheckResult& result) {
           done ? number_cell(m.number) : Cell(),
           Cell(check.oracle, oracle_letter(check.oracle)),
           done ? Cell(rounded_up(m.error), 2) : Cell(),
-          Cell(check.tolerance, 1),
+          Cell(check.tolerance, 2),
           Cell(result.seconds, fmt::format("{:.2f}", result.seconds)),
           Cell(check.claim),
           Cell(check.number),
@@ -223,8 +223,8 @@ Report verify_report(const std::vector<CheckResult>& results, const std::string&
       {summary_words(summary),
        "by: the oracle, c closed form, t 30-digit table, l conservation law, m other model, o convergence, v "
        "independent value; limit: of the error",
-       "answer: does the claim hold?  ✓: the error is within its limit and the answer is the expected one.  "
-       "--format json says what each number is and what else was found"});
+       "answer: what became of the claim, which --only ID --format json prints in full; a refuted one is an error of "
+       "the paper.  ✓: the check passed, with the answer that was expected and an error within its limit"});
   report.fields["model"] = "verification";
   report.fields["selection"] = selection;
   report.fields["checks"] = row_objects(report.grid);

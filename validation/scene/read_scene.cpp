@@ -80,7 +80,8 @@ void check_body(const SceneValues& values, BodyScene& body) {
 }
 
 void check_ground(const SceneValues& values, numeric::Ground& ground, Model model) {
-  if (model == Model::continuous) values.require("ground.stiffness", "k_G in N/m3");
+  if (model == Model::continuous)
+    values.require("ground.stiffness", "k_G in N/m3, such as 1e11; clatter ground finds that of a floor");
   // One coefficient given is both.
   if (!values.has("ground.sliding_friction")) ground.sliding_friction = ground.static_friction;
   if (!values.has("ground.static_friction")) ground.static_friction = ground.sliding_friction;

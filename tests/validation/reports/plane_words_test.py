@@ -1,0 +1,112 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a first-time reader meets in the plane: names of angles, what a column counts, why models differ, how to go on."""
+
+import csv
+import json
+import os
+import re
+import subprocess
+import sys
+import unittest
+
+from run_folder import PROGRAM, ROOT, EmptyFolder, run
+
+REFERENCE = os.path.join(ROOT, "tests", "analytic", "reference", "rod_sequence_no_gravity.csv")
+
+
+def symbols(*arguments):
+    """Left sides of the steps of `clatter explain`."""
+    return set(re.findall(r"^ *(\S+) = ", run("explain", *arguments).stdout, re.MULTILINE))
+
+
+class Angles(unittest.TestCase):
+    def test_the_sum_of_impulses_is_held_against_2_only_where_all_speed_returns(self):
+        self.assertIn("2 − ΣP", run("angles").stdout)
+        self.assertNotIn("2 − ΣP", run("angles", "--restitution", "0.5").stdout)
+        self.assertNotIn("2 − ΣP", run("angles", "--gravity-number", "0.1").stdout)
+
+    def test_the_impacts_that_are_counted_are_the_first_three(self):
+        self.assertIn("how many of these three", " ".join(run("angles").stdout.split()))
+        sequence = json.loads(run("sequence", "--angle", "30", "--restitution", "0.2", "--format", "json").stdout)
+        self.assertGreater(len(sequence["impacts"]), 3)
+        self.assertIn("Of the first three impacts", run("regimes", "--over", "restitution").stdout)
+
+
+class Explanations(unittest.TestCase):
+    def test_contact_angles_have_the_names_of_the_paper_and_then_numbers(self):
+        self.assertLessEqual({"θ", "β"}, symbols("2", "--angle", "10"))
+        third = symbols("3", "--angle", "10")
+        self.assertLessEqual({"β", "γ"}, third)
+        self.assertNotIn("θ", third)
+        self.assertLessEqual({"γ", "θ₄"}, symbols("4", "--angle", "30", "--restitution", "0.2"))
+
+    def test_a_contact_slips_where_the_ratio_that_would_hold_it_is_above_friction(self):
+        for friction, slips in (("0.46", True), ("0.48", False)):  # |B|/C = 0.4705 at 10 degrees
+            said = run("explain", "1", "--angle", "10", "--friction", friction).stdout
+            self.assertEqual("r₀ = |B|/C" in said, slips, said)
+            self.assertIn("mode is " + ("slip" if slips else "stick"), said)
+
+
+class ClosedForm(unittest.TestCase):
+    def test_its_errors_hold_the_30_digit_values_and_its_sum_is_known(self):
+        with open(REFERENCE, encoding="utf-8") as file:
+            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        for row in rows:
+            if float(row["theta_deg"]) < 1 or not row["P3"]:
+                continue
+            found = json.loads(run("sequence", "--angle", row["theta_deg"], "--method", "closed-form", "--format", "json").stdout)
+            self.assertEqual(len(found["impacts"]), 3)
+            for impact, name in zip(found["impacts"], ("P1", "P2", "P3")):
+                error = impact["error_estimate"]["impulse_normal"]
+                self.assertLessEqual(abs(impact["impulse_normal"] - float(row[name])), error, row["theta_deg"])
+                self.assertLess(error, 1e-12)
+        self.assertRegex(run("sequence", "--angle", "10", "--method", "closed-form").stdout, r"achieved 1\d\.\d")
+
+
+class TheTwoModels(unittest.TestCase):
+    def test_why_they_differ_is_said_and_how_long_the_contact_is(self):
+        said = " ".join(run("compare", "phone-damped", "--impacts", "2").stdout.split())
+        contact = json.loads(run("simulate", "phone-damped", "--impacts", "1", "--format", "json").stdout)["impacts"][0]
+        flight = json.loads(run("sequence", "phone-damped", "--format", "json").stdout)["impacts"][1]["start"]
+        found = re.search(r"largest difference, \S+ of impact 2, comes most from [^;]+; contact 1 lasts (\S+) ms of the (\S+) ms", said)
+        self.assertIsNotNone(found, said)
+        self.assertAlmostEqual(float(found[1]), 1e3 * contact["duration"], delta=5e-3)
+        self.assertAlmostEqual(float(found[2]), 1e3 * flight, delta=5e-3)
+
+    def test_a_plan_tells_what_it_keeps_from_what_it_leaves_out(self):
+        said = run("plan", "phone-damped", "--digits", "4").stdout
+        self.assertIn("Kept, with the error that to leave it out would bring: friction", said)
+
+
+class HowToGoOn(EmptyFolder):
+    REFUSED = {
+        ("sweep", "--angle", "10"): "as in clatter sweep rod-10 --set drop.angle_deg=...",
+        ("map", "--speed", "2"): "as in clatter map rod-10 --set drop.speed=...",
+        ("sequence", "phone-elastic", "--planar"): "is the simulator's",
+        ("compare", "--angle", "10"): "such as 1e11",
+    }
+
+    def test_what_is_refused_says_what_to_type(self):
+        for arguments, words in self.REFUSED.items():
+            done = run(*arguments)
+            self.assertEqual(done.returncode, 2, arguments)
+            self.assertIn(words, done.stderr)
+
+    def test_figures_says_what_it_wrote_and_what_draws_it(self):
+        done = run("figures", "--only", "7", "8", "--output", self.path("new"))
+        self.assertEqual(done.stdout, f"2 files in {self.path('new')}; clatter verify --html FILE draws the figures\n")
+
+    def test_the_example_of_the_reference_reads_json(self):
+        path = os.path.dirname(PROGRAM) + os.pathsep + os.environ["PATH"]
+        done = subprocess.run([sys.executable, os.path.join(ROOT, "tests", "install", "json_example.py")],
+                              capture_output=True, text=True, env={**os.environ, "PATH": path})
+        self.assertRegex(done.stdout.splitlines()[1], r"^0\.087082 s  1\.002842 ± \de-1\d N·s$")
+
+    def test_the_scene_to_begin_with_fits_a_terminal(self):
+        text = run("init").stdout
+        self.assertEqual([line for line in text.splitlines() if len(line) > 80], [])
+
+
+if __name__ == "__main__":
+    unittest.main()
