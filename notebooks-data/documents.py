@@ -3,8 +3,8 @@
 """Writes what the documents show of the program's output: blocks of README.md and of the reference's pages,
 verification.md, the figures' data, extremes.md with figures/extremes.svg.
 
-A block stands between "<!-- output: COMMAND -->", "<!-- code: FILE -->", "<!-- measurement -->" or "<!-- costs -->" and
-"<!-- end -->".  The costs are those of tradeoff.csv, which tradeoff.py measures.  The paper's figures and other pictures
+A block stands between "<!-- output: COMMAND -->", "<!-- table: COMMAND -->", "<!-- code: FILE -->", "<!-- measurement -->" or
+"<!-- costs -->" and "<!-- end -->".  The costs are those of tradeoff.csv, which tradeoff.py measures.  The paper's figures and other pictures
 are drawn from the data by figures.py, to be run after this.
 """
 
@@ -26,7 +26,7 @@ FAULTS = ROOT / "tests" / "seeded_faults" / "faults.toml"
 VERIFICATION = ROOT / "notebooks-data" / "verification.md"
 TRADEOFF = ROOT / "notebooks-data" / "tradeoff.csv"
 PAGES = ROOT / "notebooks-data" / "reference"
-BLOCK = re.compile(r"(<!-- ((?P<kind>output|code|measurement|costs)(: (?P<what>[^\n]+?))?) -->\n).*?(?P<end><!-- end -->)", re.DOTALL)
+BLOCK = re.compile(r"(<!-- ((?P<kind>output|table|code|measurement|costs)(: (?P<what>[^\n]+?))?) -->\n).*?(?P<end><!-- end -->)", re.DOTALL)
 LANGUAGES = {".cpp": "cpp", ".py": "python", ".toml": "toml"}
 EXTREMES = ROOT / "notebooks-data" / "extremes.md"
 FIGURES = ROOT / "notebooks-data" / "figures"
@@ -189,12 +189,20 @@ def code(name):
     return f"```{LANGUAGES[Path(name).suffix]}\n{kept}```\n"
 
 
+def table(program, command):
+    """The rows that a command prints as Markdown, apart from what else it says."""
+    lines = printed_once(program, command + " --format markdown").splitlines(keepends=True)
+    return "".join(line for line in lines if line.startswith("|"))
+
+
 def renewed(program, text):
     """The text of a document with what its blocks show now."""
     def block(found):
         kind, what = found.group("kind"), found.group("what")
         if kind == "output":
             content = f"```\n{printed_once(program, what)}```\n"
+        elif kind == "table":
+            content = "\n" + table(program, what) + "\n"
         else:
             content = code(what) if kind == "code" else measurement(program) if kind == "measurement" else costs()
         return found.group(1) + content + found.group("end")

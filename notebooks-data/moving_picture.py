@@ -133,7 +133,7 @@ def picture(program):
     one, two = result["impacts"][:2]
     first, last = -BEFORE, two["start"] + AFTER
     total = (last - first) * SECONDS + HOLD
-    later = f"{1e3 * (peak_of(two) - peak_of(one)):.1f} ms later, {two['impulse_normal'] / one['impulse_normal']:.1f} times as hard"
+    later = f"{1e3 * (peak_of(two) - peak_of(one)):.1f} ms from peak to peak, {two['impulse_normal'] / one['impulse_normal']:.1f} times as hard"
     angle = result["scene"]["drop"]["angle_deg"]
     return "\n".join([
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" role="img" '

@@ -6,7 +6,7 @@ Usage: reference.py PROGRAM FOLDER    (then open FOLDER/index.html)
 
 A page is a Markdown file of notebooks-data/reference/ (index.md has their order; one that it does not name comes under
 "More"), of reference/commands/ for a command of the program, or of notebooks-data/ for tables that programs wrote; the
-notebooks are pages, too.  What each command prints as help, keys, columns, Python's docstrings and the public headers
+notebooks are pages, too.  What each command prints as help, Python's docstrings and the public headers
 are added from the program and the sources.
 """
 
@@ -62,7 +62,7 @@ def as_myst(text, name, depth=0):
     text = re.sub(r"@(?:sub)?(?:ref|page) (\w+)", r"[](\1.md)", text)
     if not re.search("^# ", text, re.M):
         text = f"# {name.replace('_', ' ').capitalize()}\n\n{text}"
-    return text.replace("](" + "../" * (depth + 1), "](" + "../" * depth)
+    return text.replace("](" + "../" * (depth + 1), "](" + "../" * depth).replace(".ipynb)", ".md)")
 
 
 def command_page(program, name):
@@ -71,12 +71,6 @@ def command_page(program, name):
     head = own.read_text(encoding="utf-8") if own.exists() else f"# clatter {name}\n"
     arguments = [name] if name != "clatter" else []
     return f"{head}\n## Options\n\n```text\n{printed(program, *arguments, '--help')}```\n"
-
-
-def table_page(program, title, words, command):
-    """A command's table as a page."""
-    table = "\n".join(line for line in printed(program, command, "--format", "markdown").splitlines() if line.startswith("|"))
-    return f"# {title}\n\n{words}\n\n{table}\n"
 
 
 def public_headers(library):
@@ -131,19 +125,12 @@ def stage(program, source):
         (source / folder).mkdir()
     for name in ["clatter", *commands(program)]:
         (source / "commands" / f"{name}.md").write_text(as_myst(command_page(program, name), name, 1), encoding="utf-8")
-    (source / "keys.md").write_text(table_page(program, "Keys of scenes", KEYS, "keys"), encoding="utf-8")
-    (source / "columns.md").write_text(table_page(program, "Columns", COLUMNS, "columns"), encoding="utf-8")
     for name, text in header_pages():
         (source / name).write_text(text, encoding="utf-8")
     notebook_pages(source / "notebooks")
     index = (source / "index.md").read_text(encoding="utf-8")
     more = sorted(path.stem for path in source.glob("*.md") if path.stem != "index" and not re.search(rf"^{path.stem}$", index, re.M))
     (source / "index.md").write_text(index.replace("<!-- more -->", "\n".join(more)), encoding="utf-8")
-
-
-KEYS = ("What a scene file may hold.  A key is also a flag of the commands and, with `_` for the dot or by its last part, an "
-        "argument of the Python functions; [scenes](scenes.md) says how they belong together.")
-COLUMNS = "What the columns of tables and CSV and the fields of JSON mean."
 
 
 def python_module(program, folder):
