@@ -129,7 +129,9 @@ Command compare_command() {
       "Example: clatter compare phone-damped --impacts 2\n"
       "         clatter compare phone-corner --impacts 8 (in space, corner by corner)\n"
       "With --against FILE a foreign run is judged by the discrete model: its impacts, velocities, times, energy.\n"
-      "Exit status 1 if the stiff limit of the continuous model misses the discrete value,\n"
+      "Exit status 1 if the stiff limit of the continuous model misses the discrete value or a run of --against is "
+      "worse\n"
+      "than --require, without which it is 0 whatever the verdict,\n"
       "3 if a limit or a number that could not be computed left fewer impacts than asked for,\n"
       "4 if nothing can be compared.";
   command.run = [input] { return run_compare(*input); };

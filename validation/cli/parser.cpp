@@ -60,6 +60,8 @@ const Argument* find_option(const Command& command, const std::string& name) {
     throw BadInput(fmt::format("{}: is the simulator's; the discrete model has no such option", name));
   }
   require_scene_by_keys(command, name);
+  if (command.name == "angles" && name == "--angle")
+    throw BadInput("--angle: angles takes a range of them, --from, --to and --step");
   throw BadInput(fmt::format("option {}: unknown{}; did you mean {}?", name,
                              command.name.empty() ? "" : " for " + command.name,
                              nearest_name(name, command.option_names())));

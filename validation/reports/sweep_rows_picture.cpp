@@ -14,6 +14,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/record/names.hpp"
+#include "validation/scene/keys.hpp"
 
 namespace clatter::validation::inline reports {
 namespace {
@@ -29,6 +30,15 @@ std::string with_blanks(std::string name) {
 
 std::string named(const Column& column) {
   return with_blanks(column.name) + (column.unit.empty() ? "" : fmt::format(" [{}]", column.unit));
+}
+
+/// A swept key by its name, whose underlines gnuplot must not take for subscripts, with the key's unit.
+std::string key_label(const std::string& name) {
+  std::string label;
+  for (const char c : name) label += c == '_' ? "\\_" : std::string(1, c);
+  const auto& keys = all_keys();
+  const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& one) { return one.name == name; });
+  return key == keys.end() || *key->unit == '\0' ? label : fmt::format("{} [{}]", label, key->unit);
 }
 
 std::vector<double> numbers_of(const Grid& grid, std::size_t column) {
@@ -104,7 +114,7 @@ PicturePanel curves(const Grid& grid, const SweepRowsView& view, std::size_t qua
     panel.plot.curves.push_back(
         {.x = "x",
          .y = "y",
-         .legend = view.swept > 1 ? with_blanks(grid.columns[view.first_swept].name) + " = " + shortest(value) : "",
+         .legend = view.swept > 1 ? grid.columns[view.first_swept].name + " = " + shortest(value) : "",
          .style = x.size() > most_marked_scenes ? FigureCurve::Style::line : FigureCurve::Style::line_points,
          .where = {{"of", value}}});
   }
@@ -206,7 +216,8 @@ Picture sweep_rows_picture(const Report& report, const SweepRowsView& view) {
     picture.panels.push_back(over_a_key ? curves(report.grid, view, quantity)
                                         : histogram(report.grid.columns[quantity], numbers_of(report.grid, quantity)));
   }
-  if (over_a_key) picture.panels.back().plot.x_label = named(report.grid.columns[view.first_swept + view.swept - 1]);
+  if (over_a_key)
+    picture.panels.back().plot.x_label = key_label(report.grid.columns[view.first_swept + view.swept - 1].name);
   return picture;
 }
 

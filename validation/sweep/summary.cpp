@@ -133,7 +133,8 @@ void Summary::add_attitudes(Report& report, const std::function<std::string(long
     return one.index >= 0 && (other.index < 0 || one.value > other.value);
   });
   constexpr std::size_t most_named = 5;
-  std::string words = fmt::format("attitudes by {}:", columns_[by].name);
+  const auto drops = numbers_[by].histogram.count() / static_cast<long long>(largest_.size());
+  std::string words = fmt::format("attitudes by {}, the largest of about {} drops of each:", columns_[by].name, drops);
   Value::List list;
   for (std::size_t place = 0; place < order.size(); ++place) {
     const std::vector<Extreme>& largest = largest_[order[place]];

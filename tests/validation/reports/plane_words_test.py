@@ -85,6 +85,7 @@ class HowToGoOn(EmptyFolder):
         ("map", "--speed", "2"): "as in clatter map rod-10 --set drop.speed=...",
         ("sequence", "phone-elastic", "--planar"): "is the simulator's",
         ("compare", "--angle", "10"): "such as 1e11",
+        ("angles", "--angle", "10"): "--from, --to and --step",
     }
 
     def test_what_is_refused_says_what_to_type(self):
