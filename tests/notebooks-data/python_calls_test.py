@@ -183,6 +183,63 @@ class Results(unittest.TestCase):
         self.assertRegex(repr(self.results["in space"][0]), r"^Impact 1: end \S+ at 0 s, .*P = \S+ N·s$")
 
 
+class Columns(unittest.TestCase):
+    """By the names of JSON and of CSV; what there is not is told."""
+
+    def test_errors_and_parts_of_vectors_have_names(self):
+        run = clatter.sequence(angle=10)
+        np.testing.assert_array_equal(run.column("velocity_after_z"), run.column("velocity_after")[:, 2])
+        self.assertEqual(list(run.column("impulse_normal_error")), [impact.error_estimate.impulse_normal for impact in run])
+        rows = clatter.sweep("rod-10", {"drop.angle_deg": [10, 20]}, model="discrete", rows="impact")
+        self.assertEqual(len(rows.column("impulse_normal_error")), len(rows))
+
+    def test_a_name_that_there_is_not_gets_those_that_there_are(self):
+        run, comparison = clatter.sequence(angle=10), clatter.compare("phone-damped", impacts=1)
+        for ask, known in ((lambda: run.column("impulsenormal"), "impulse_normal"), (lambda: run.column("error_estimate"), "start_error"),
+                           (lambda: run[0]["impuls"], "impulse_normal"), (lambda: comparison.column("impulse_normal", "continous"), "continuous"),
+                           (lambda: comparison.column("velocity_after", "discrete"), "velocity_normal"),
+                           (lambda: clatter.angles([10])["beta"], "beta_deg")):
+            with self.assertRaisesRegex(KeyError, known):
+                ask()
+
+
+class GivenAgain(unittest.TestCase):
+    def test_the_scene_of_a_result_gives_the_result_again(self):
+        for ask in (lambda scene: clatter.sequence(scene), lambda scene: clatter.simulate(scene, impacts=1),
+                    lambda scene: clatter.compare(scene, impacts=1)):
+            for scene in ("phone-damped", "rod-10", "phone-corner", {"drop": {"angle_deg": 10, "clearance": 0.5},
+                                                                      "world": {"gravity": 9.81}, "ground": {"stiffness": 1e9}}):
+                first = ask(scene)
+                again = ask(first.scene)
+                self.assertEqual(list(map(_plain, again.impacts)), list(map(_plain, first.impacts)))
+
+
+def _plain(record):
+    """Of equal content where numbers are."""
+    return {name: value.tolist() if hasattr(value, "tolist") else repr(value) for name, value in record.items()}
+
+
+class SweepsAsTheProgram(unittest.TestCase):
+    def test_scatter_columns_and_the_attitudes_of_a_box(self):
+        rows = clatter.sweep("phone-damped", {"drop.attitude": 26, "run.impacts": 2}, model="discrete", random=52, scatter=3,
+                             columns=["hardest", "hardest_impulse_normal"])
+        self.assertEqual(len(rows), 52)
+        self.assertTrue(np.all(rows["hardest_impulse_normal"] > 0))
+        own = clatter.sweep("phone-damped", {}, model="discrete", random=5, scatter=0)
+        turned = np.array([own[f"drop.attitude_q{i}"] for i in range(4)]).T
+        np.testing.assert_allclose(turned, [[np.cos(np.radians(5)), 0, -np.sin(np.radians(5)), 0]] * 5, atol=1e-12)
+
+    def test_flags_alone_are_a_scene_for_every_call(self):
+        self.assertEqual(clatter.simulate(angle=10, stiffness=1e9, impacts=1).impacts[0].n, 1)
+        with self.assertRaisesRegex(clatter.BadInput, "stiffness: required"):
+            clatter.compare(angle=10)
+
+    def test_whole_numbers_may_be_floats(self):
+        self.assertEqual(clatter.explain(2.0, angle=10, impacts=3.0).impact, 2)
+        with self.assertRaises(clatter.BadArgument):
+            clatter.explain(2.5, angle=10)
+
+
 class Signatures(unittest.TestCase):
     def test_the_keys_of_scenes_are_keyword_arguments(self):
         for name in SCENE_CALLS:
@@ -256,9 +313,9 @@ class WrongArguments(unittest.TestCase):
         self.refused("values 3: must be a dict of values by the keys of scenes", clatter.sweep, "rod-10", 3)
 
     def test_arguments_that_are_no_keys_are_told_so_too(self):
-        self.refused("impact 2.0: must be a whole number", clatter.explain, 2.0, 10)
+        self.refused("impact 2.5: must be a whole number", clatter.explain, 2.5, 10)
         self.refused("method 3: must be a text", clatter.sequence, 10, method=3)
-        self.refused("scene 3: must be a scene (a file, the name of a case, a dict)", clatter.simulate, 3)
+        self.refused("scene 3: must be a scene (a file, the name of a case, a dict)", clatter.sweep, 3, {})
         self.refused("progress 3: must be a function of (done, of)", clatter.angles, progress=3)
         self.refused("tracks 3: must be the path of a file", clatter.measured_fit, 3)
         self.refused("seed '1': must be a whole number", clatter.extremes, seed="1")

@@ -316,7 +316,8 @@ void append_run(std::vector<Key>& keys) {
            [](const Scene& s, Model) { return null_if(s.history.empty()); }},
           {"run.planar", Use::continuous, "--planar", "", "", "keep the motion in its plane",
            TruthValue{[](Scene& s) -> bool& { return s.world.planar; }}},
-          {"run.contact_gravity", Use::continuous, "--no-contact-gravity", "", "", "let gravity act in flight only",
+          {"run.contact_gravity", Use::continuous, "--no-contact-gravity", "", "",
+           "whether gravity acts during contacts too; by the flag in flight alone",
            TruthValue{[](Scene& s) -> bool& { return s.world.gravity_in_contact; }}},
       });
 }

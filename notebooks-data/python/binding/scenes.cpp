@@ -212,7 +212,7 @@ py::tuple sweep(const std::string& name, const std::optional<std::string>& text,
                                          .sets = sets,
                                          .random = given(options, "random"),
                                          .seed = given(options, "seed"),
-                                         .scatter = {},
+                                         .scatter = given(options, "scatter"),
                                          .model = given(options, "model"),
                                          .rows = given(options, "rows"),
                                          .columns = given(options, "columns")};

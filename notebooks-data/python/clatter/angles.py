@@ -85,7 +85,7 @@ class Angles:
     def __getitem__(self, name: str) -> Array:
         array: Array | None = getattr(self, name, None) if name in type(self).__annotations__ else None
         if array is None:
-            raise KeyError(name)
+            raise KeyError(f"no '{name}' here; there are {', '.join(self._arrays())}")
         return array
 
     def to_dict(self) -> dict[str, Any]:

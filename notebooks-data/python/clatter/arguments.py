@@ -105,7 +105,7 @@ def text_of(name: str, key: Key | None, value: Any) -> str:
     if isinstance(value, bool) and kind in ("truth", "any"):
         return "true" if value else "false"
     if is_number(value) and kind in ("number", "whole", "any"):
-        return number_text(value)
+        return number_text(int(value) if kind == "whole" and value == value // 1 else value)
     vector = _vector(value) if kind in ("list", "any") else None
     if vector is None:
         raise BadArgument(f"{name} {shown(value)}: must be {key.requirement() if key else 'a number, a text or a list of numbers'}")
@@ -122,7 +122,7 @@ def swept_text(name: str, values: Any) -> str:
     """The value or the values of a key of a scene file in a sweep, as --set has them.  @raise BadInput: there is none."""
     values, key = plain(values), _BY_NAME.get(name)
     if not is_list(values):
-        return text_of(name, key, values)
+        return number_text(values) if name == "drop.attitude" and is_number(values) else text_of(name, key, values)
     parts = [plain(part) for part in values]
     if not parts:
         raise BadInput(f"{name} {shown(values)}: must have at least one value")
@@ -158,6 +158,8 @@ def _checked_value(name: str, value: Any, annotation: str) -> Any:
     if is_list(value) and "Iterable" in annotation:
         value = list(value)
     types = [_TYPES[part] for part in annotation.split(" | ")]
+    if isinstance(value, float) and value.is_integer() and _TYPES["int"] in types and _TYPES["float"] not in types:
+        value = int(value)
     if not any(allows(value) for allows, _ in types):
         words = [words for _, words in types if words != "None"]
         raise BadArgument(f"{name} {shown(value)}: must be {' or '.join(words)}")

@@ -89,11 +89,11 @@ def gradient(scene: Scene | float | None = None, **changes: DiscreteKey) -> Grad
 
 
 @checked
-def simulate(scene: Scene, *, history: bool = False, progress: Progress | None = None, **changes: AnyKey) -> Simulation | Sweep:
+def simulate(scene: Scene | float | None = None, *, history: bool = False, progress: Progress | None = None, **changes: AnyKey) -> Simulation | Sweep:
     """Drop of any body by the continuous model.
 
-    scene: a scene file, the name of one of cases(), or a dict like case(name); a file that the scene names for its
-    time history is not written.
+    scene: a scene file, the name of one of cases(), a dict like case(name), or the angle, beside which a ground must be given;
+    a file that the scene names for its time history is not written.
     history: keep the time history in memory.  A sweep keeps none.
     progress(done, of): of the impacts, or of a sweep's values; called a few times a second, and what it raises ends the run.
 
@@ -113,7 +113,7 @@ def simulate(scene: Scene, *, history: bool = False, progress: Progress | None =
 
 
 @checked
-def compare(scene: Scene, *, progress: Progress | None = None, **changes: AnyKey) -> Comparison | ComparisonSweep:
+def compare(scene: Scene | float | None = None, *, progress: Progress | None = None, **changes: AnyKey) -> Comparison | ComparisonSweep:
     """Both models over one scene, aligned by impact, with the limit of ever stiffer grounds.
 
     scene and keys as for simulate().  A scene with a table [sweep] gives a ComparisonSweep, progress(done, of) its values.
@@ -150,6 +150,8 @@ def sweep(
     rows: str = "scene",
     random: int | None = None,
     seed: int | None = None,
+    scatter: float | None = None,
+    columns: str | Iterable[str] | None = None,
     errors: bool = True,
     require_digits: bool = False,
     progress: Progress | None = None,
@@ -157,11 +159,14 @@ def sweep(
     """Many scenes that differ in the values of a few keys, computed on all cores.
 
     scene: a scene file, the name of one of cases(), or a dict like case(name).
-    values: by the key of the scene file a value, a list or array of values (a row each where the value is a list itself,
-    as of drop.attitude), or a grid "FROM:TO:STEP", "FROM:TO:log:COUNT" or "A,B,..." ("LOW:HIGH" or "LOW:HIGH:log" with
-    random).
+    values: by the key of the scene file ("drop.angle_deg") a value, a list or array of values, or a grid "FROM:TO:STEP",
+    "FROM:TO:log:COUNT" or "A,B,..." ("LOW:HIGH" or "LOW:HIGH:log" with random).  The last key varies fastest, so that a column
+    of two keys is .reshape(len(first), len(second)).  Of keys that are lists drop.attitude alone can vary: a row of four for
+    each scene, 26 for a box's faces, edges and corners, or with random "uniform".
     model: "discrete" or "continuous" (that if the scene has a ground).  rows: one per "scene" or per "impact".
-    random: so many scenes with values at random, which depend on seed (1).  errors: without them at half the cost.
+    random: so many scenes with values at random, which depend on seed (1).  scatter [°]: turns attitudes at random, about
+    those of values or the scene's own.  columns: more of them with rows of scenes, as "hardest_impulse_normal" or
+    "impulse_normal_2".  errors: without them at half the cost.
     progress(done, of): of the scenes.
     Raises BadInput; NotComputed if require_digits and a scene has fewer; warns of scenes that fall short.  A scene that is
     refused or outside the model is a row with its outcome and reason.
@@ -172,7 +177,8 @@ def sweep(
     sets = [f"{key}={swept_text(key, value)}" for key, value in values.items()]
     sets += [] if errors else ["run.errors=false"]
     sets += ["run.require_digits=true"] if require_digits else []
-    options = texts_of({"random": random, "seed": seed, "model": model, "rows": rows})
+    names = columns if columns is None or isinstance(columns, str) else ",".join(columns)
+    options = texts_of({"random": random, "seed": seed, "scatter": scatter, "model": model, "rows": rows, "columns": names})
     name, text, _ = scene_text(scene, {})
     report, shortfall = called(_clatter.sweep, name, text, sets, options, progress)
     if shortfall and require_digits:
@@ -182,7 +188,7 @@ def sweep(
 
 
 @checked
-def plan(scene: Scene, *, within: float | None = None, **changes: AnyKey) -> Plan:
+def plan(scene: Scene | float | None = None, *, within: float | None = None, **changes: AnyKey) -> Plan:
     """The smallest model that gives the digits asked for, with its setting and cost.
 
     scene and keys as for simulate(); digits: asked for.  within: ms that the run may take; without digits the most
@@ -198,7 +204,7 @@ def plan(scene: Scene, *, within: float | None = None, **changes: AnyKey) -> Pla
 
 
 @checked
-def tradeoff(scene: Scene, *, progress: Progress | None = None, **changes: AnyKey) -> Tradeoff:
+def tradeoff(scene: Scene | float | None = None, *, progress: Progress | None = None, **changes: AnyKey) -> Tradeoff:
     """Cost against true error of every model and method on one scene; some seconds to a minute.
 
     scene and keys as for simulate().  progress(done, of): of the runs.  Raises BadInput, NotComputed; warns if the reference falls short.

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from typing import Any, overload
 
 from clatter.arrays import Array
-from clatter.records import Record, as_array
-from clatter.results import Report, Result
+from clatter.records import Record, column_of
+from clatter.results import Report, Result, given_again
 
 
 class Explanation(Result):
@@ -67,7 +67,7 @@ class Tradeoff(Result):
 
     def column(self, name: str) -> Array:
         """One value of each point; NaN where there is none."""
-        return as_array([point[name] for point in self._data["points"]])
+        return column_of(self._data["points"], name)
 
     def __len__(self) -> int:
         return len(self.points)
@@ -86,11 +86,11 @@ class Table(Result):
         """Everything that was computed with.  @raise AttributeError: the rows are not of one scene."""
         if "scene" not in self._data:
             raise AttributeError("these rows are not of one scene; to_dict() tells what there is")
-        return dict(self._data["scene"])
+        return given_again(self._data["scene"])
 
     def column(self, name: str) -> Array:
-        """One value of each row, vectors as rows; NaN where there is none."""
-        return as_array([row[name] for row in self._rows])
+        """One value of each row, vectors as rows; NaN where there is none.  NAME_error is its error, NAME_z a vector's part."""
+        return column_of(self._rows, name)
 
     def __len__(self) -> int:
         return len(self.rows)
@@ -163,4 +163,4 @@ class Rows(Table):
         """Everything that the first scene was computed with.  @raise AttributeError: regimes are of no scene."""
         if "scene" not in self._data:
             raise AttributeError("the rod's regimes have no scene; to_dict()['parameters'] tells them")
-        return dict(self._data["scene"])
+        return given_again(self._data["scene"])

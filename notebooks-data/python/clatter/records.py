@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Small objects over the program's JSON: each name of the JSON is an attribute."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from clatter.arrays import Array, frozen, numbers, same_arrays, words
@@ -18,6 +18,29 @@ def as_array(values: list[Any]) -> Array:
     if any(isinstance(value, (str, bool)) for value in values):
         return words(values)
     return numbers(nan if value is None else value for value in values)
+
+
+def value_of(row: JsonObject, name: str) -> Any:
+    """A value of a row by its name, by that of its error, as impulse_normal_error, or of a vector's part, as velocity_after_z.
+
+    @raise KeyError: there is none, with those that there are.
+    """
+    if name in row and not isinstance(row[name], dict):
+        return row[name]
+    errors = row.get("error_estimate") or {}
+    if name.endswith("_error") and name.removesuffix("_error") in row:
+        return errors.get(name.removesuffix("_error"))
+    whole, _, part = name.rpartition("_")
+    if part in ("x", "y", "z") and isinstance(row.get(whole), list):
+        return row[whole]["xyz".index(part)]
+    if isinstance(row.get(name), dict):
+        raise KeyError(f"'{name}' is no number; its numbers are {', '.join(f'{key}_error' for key in errors)}")
+    raise KeyError(f"no '{name}' here; there are {', '.join(row)}")
+
+
+def column_of(rows: Iterable[JsonObject], name: str) -> Array:
+    """A value of each row, vectors as rows; NaN where there is none."""
+    return as_array([value_of(row, name) for row in rows])
 
 
 class Record(Mapping[str, Any]):
@@ -57,6 +80,8 @@ class Record(Mapping[str, Any]):
         raise AttributeError(f"{name}: {type(self).__name__} cannot be changed")
 
     def __getitem__(self, name: str) -> Any:
+        if name not in self._values:
+            raise KeyError(f"no '{name}' here; there are {', '.join(self._values)}")
         return self._values[name]
 
     def __iter__(self) -> Iterator[str]:
@@ -84,8 +109,9 @@ class Impact(Record):
     n, start, duration, end ("a", "b", "both" ...), inclination_deg, contact_angle_deg, approach_speed, restitution,
     impulse_normal, impulse_tangential, impulse_ratio, mode, peak_force, peak_time, velocity_after (3),
     angular_velocity_after (3), energy_before, energy_after, energy_loss, error_estimate (a record), amplification,
-    predictable; from the continuous model also touches, impulse (3), work_damping, work_friction, work_released,
-    energy_stored, ledger_gap.  start counts from the first touch, peak_time from the impact's start.
+    predictable.  In space and from the continuous model also touches, impulse (3), and in space corners, place (3) and
+    attitude (4); from the continuous model work_damping, work_friction, work_released, submerged, local_slip, energy_stored,
+    ledger_gap.  An error is a bound by the discrete model, an estimate by the continuous one, None where it is not known.  start counts from the first touch, peak_time from the impact's start.
     """
 
     __slots__ = ()

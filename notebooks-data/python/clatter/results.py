@@ -12,7 +12,7 @@ from clatter import _clatter
 from clatter.arguments import checked
 from clatter.arrays import Array
 from clatter.errors import BadInput
-from clatter.records import History, Impact, Record, as_array
+from clatter.records import History, Impact, Record, as_array, column_of, value_of
 
 _FORMATS = ("table", "csv", "json", "markdown", "latex")
 
@@ -80,8 +80,11 @@ class Result:
 
     @property
     def scene(self) -> dict[str, Any]:
-        """Everything that was computed with, defaults included, under the names of scene files."""
-        return dict(self._data["scene"])
+        """Everything that was asked for, defaults included, under the names of scene files: a scene to be given again.
+
+        The law and the speed that follow from it are in to_dict()["scene"].
+        """
+        return given_again(self._data["scene"])
 
     @property
     def message(self) -> str:
@@ -102,6 +105,15 @@ class Result:
 
     def _repr_html_(self) -> str:
         return self._report.html()
+
+
+def given_again(scene: Mapping[str, Any]) -> dict[str, Any]:
+    """Without what is computed: the law of a ground, and the speed of a fall from a height."""
+    kept = {name: dict(table) if isinstance(table, dict) else table for name, table in scene.items() if name != "discrete_law"}
+    drop = kept.get("drop", {})
+    if any(drop.get(name) is not None for name in ("height", "clearance", "topple")):
+        drop.pop("speed", None)
+    return kept
 
 
 class Run(Result):
@@ -149,8 +161,8 @@ class Run(Result):
         return Record(self._data["accuracy"])
 
     def column(self, name: str) -> Array:
-        """One value of each impact, vectors as rows; NaN where there is none."""
-        return as_array([impact[name] for impact in self._data["impacts"]])
+        """One value of each impact, vectors as rows; NaN where there is none.  NAME_error is its error, NAME_z a vector's part."""
+        return column_of(self._data["impacts"], name)
 
     def __len__(self) -> int:
         return len(self.impacts)
@@ -218,7 +230,7 @@ class Sweep(Result):
     def column(self, name: str, impact: int = 1) -> Array:
         """A value of impact number `impact` of each run; NaN where a run has no such impact."""
         rows = [run["impacts"] for run in self._data["runs"]]
-        return as_array([row[impact - 1][name] if len(row) >= impact else None for row in rows])
+        return as_array([value_of(row[impact - 1], name) if len(row) >= impact else None for row in rows])
 
 
 class Comparison(Result):
@@ -226,7 +238,8 @@ class Comparison(Result):
 
     impacts: records with n, comparable, predictable, reason, discrete_end, continuous_end, contact_time, limit_is_discrete and
     numbers: by quantity (start, contact_angle_deg, impulse_normal ...) discrete, continuous, deviation and the error of
-    each (discrete_error ...), predicted, limit, limit_error, allowance.  In space the quantities are start,
+    each (discrete_error ...; NaN in a column: not known), predicted, limit, limit_error, allowance.  In the plane there are also
+    impulse_tangential, velocity_normal, velocity_tangential and angular_velocity.  In space the quantities are start,
     contact_angle_deg, impulse_x, velocity_after_x, angular_velocity_after_x ... with _y and _z, the ends are corners, and
     explanation says why an impact has no limit within its bar.
     """
@@ -237,15 +250,21 @@ class Comparison(Result):
 
     @property
     def agrees(self) -> bool:
-        """No limit of the stiffer and stiffer ground misses the discrete value."""
+        """Whether the limit of ever stiffer ground is the discrete value, wherever there is one."""
         return bool(self._data["agrees"])
 
     def __len__(self) -> int:
         return len(self.impacts)
 
     def column(self, quantity: str, name: str) -> Array:
-        """One number of each impact: column("impulse_normal", "deviation")."""
-        return as_array([impact["numbers"].get(quantity, {}).get(name) for impact in self._data["impacts"]])
+        """One number of each impact: column("impulse_normal", "deviation"); NaN where it was not compared or is not known."""
+        numbers = [impact["numbers"] for impact in self._data["impacts"]]
+        quantities = dict.fromkeys(key for of in numbers for key in of)
+        names = dict.fromkeys(key for of in numbers for number in of.values() for key in number)
+        for known, asked in ((quantities, quantity), (names, name)):
+            if numbers and asked not in known:
+                raise KeyError(f"no '{asked}' here; there are {', '.join(known)}")
+        return as_array([of.get(quantity, {}).get(name) for of in numbers])
 
 
 class ComparisonSweep(Result):
