@@ -20,6 +20,7 @@ myst_heading_anchors = 3
 myst_dmath_double_inline = True
 highlight_language = "none"
 nitpicky = False
+smartquotes = False  # they make a dash of --angle
 suppress_warnings = ["myst.header"]  # parts of the notebooks begin at any level
 
 autodoc_typehints = "none"

@@ -91,8 +91,10 @@ class Reference(unittest.TestCase):
         for command in re.findall(r"^  (\w+) ", printed("--help").split("Subcommands:\n")[1].split("\n\n")[0], re.M):
             self.assertIn(f"Usage: clatter {command} ", self.text(f"commands/{command}.html"))
 
-    def test_help_keeps_its_two_dashes(self):
-        self.assertIn("--angle", self.text("commands/sequence.html"))
+    def test_flags_keep_their_two_dashes(self):
+        for page in ("commands/sequence.html", "keys.html"):
+            self.assertIn("--angle", self.text(page), page)
+            self.assertNotRegex(self.text(page), "[–—]angle", page)
 
     def test_it_holds_every_key_and_column(self):
         for command in ("keys", "columns"):
