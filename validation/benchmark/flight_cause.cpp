@@ -133,6 +133,43 @@ class ConstantSpin {
   double left_ = 0;
 };
 
+/// What the steps between a run's rows say of (2).
+struct FlightSteps {
+  Steps fall, linear, angular;
+  ConstantSpin constant;
+  double precession = 0;  ///< change of the angular velocity that Euler's equations ask for [rad/s]
+  std::vector<Vector3> accelerations;
+
+  FlightSteps(const Motion& motion, const Reference& reference) {
+    const double until = reference.stays() ? motion.first_touch() + reference.sequences.front().truth.back().time : 0;
+    for (std::size_t row = 0; row + 1 < motion.size(); row += 1 + motion.size() / looked_at) {
+      if (reference.stays() && motion.time(row) > until) break;
+      add(motion, reference, row);
+    }
+  }
+
+ private:
+  void add(const Motion& motion, const Reference& reference, std::size_t row) {
+    const double time = motion.time(row + 1) - motion.time(row), slow = least_size * reference.speed();
+    const auto from = motion.state(row), to = motion.state(row + 1);
+    // Where no gravity is asked for, another one is still towards the ground.
+    const Vector3 pull = reference.pull(), down = pull.norm() > 0 ? pull.normalized() : Vector3(0, 0, -1);
+    fall.add(to.velocity - from.velocity, -time * down);
+    accelerations.emplace_back((to.velocity - from.velocity) / time);
+    const auto [impulse, moment] = motion.jump(row);
+    const Vector3 mean = (from.velocity + to.velocity) / 2, spin = (from.angular_velocity + to.angular_velocity) / 2;
+    if (mean.norm() > slow) linear.add(impulse / reference.body.mass, time * mean);
+    if (!(spin.norm() * reference.reach() > slow)) return;
+    const Vector3 turned = from.attitude.conjugate() * from.angular_velocity;
+    const Vector3 momentum = from.attitude * (reference.body.inertia * turned) + moment / 2;
+    angular.add(moment, time * momentum);
+    if (reference.is_planar) return;
+    const Vector3 asked = reference.flight(from).at(time).angular_velocity - from.angular_velocity;
+    constant.add(to.angular_velocity - from.angular_velocity, asked);
+    precession += asked.norm();
+  }
+};
+
 }  // namespace
 
 std::optional<Cause> velocity_scale_of(const Motion& motion, const Reference& reference) {
@@ -153,41 +190,19 @@ std::optional<Cause> velocity_scale_of(const Motion& motion, const Reference& re
 }
 
 std::vector<Cause> flight_causes_of(const Motion& motion, const Reference& reference) {
-  Steps fall, linear, angular;
-  ConstantSpin constant;
-  double precession = 0;  // change of the angular velocity that Euler's equations ask for [rad/s]
-  const double slow = least_size * reference.speed();
-  const Vector3 pull = reference.pull();
-  std::vector<Vector3> accelerations;
-  const double until = reference.stays() ? motion.first_touch() + reference.sequences.front().truth.back().time : 0;
-  for (std::size_t row = 0; row + 1 < motion.size(); row += 1 + motion.size() / looked_at) {
-    if (reference.stays() && motion.time(row) > until) break;
-    const double time = motion.time(row + 1) - motion.time(row);
-    const auto from = motion.state(row), to = motion.state(row + 1);
-    if (pull.norm() > 0) fall.add(to.velocity - from.velocity, -time * pull.normalized());
-    accelerations.emplace_back((to.velocity - from.velocity) / time);
-    const auto [impulse, moment] = motion.jump(row);
-    const Vector3 mean = (from.velocity + to.velocity) / 2, spin = (from.angular_velocity + to.angular_velocity) / 2;
-    if (mean.norm() > slow) linear.add(impulse / reference.body.mass, time * mean);
-    if (!(spin.norm() * reference.reach() > slow)) continue;
-    const Vector3 turned = from.attitude.conjugate() * from.angular_velocity;
-    const Vector3 momentum = from.attitude * (reference.body.inertia * turned) + moment / 2;
-    angular.add(moment, time * momentum);
-    if (reference.is_planar) continue;
-    const Vector3 asked = reference.flight(from).at(time).angular_velocity - from.angular_velocity;
-    constant.add(to.angular_velocity - from.angular_velocity, asked);
-    precession += asked.norm();
-  }
+  FlightSteps steps(motion, reference);
   const double length = motion.time(motion.size() - 1) - motion.time(0), least = reference.tolerances[1] / length;
-  std::vector<Cause> causes = damping_causes(linear.rate(0), angular.rate(0), angular.count() >= least_count, least);
-  constant.tell(precession, reference, causes);
-  const std::optional<Rate> gravity = fall.rate(pull.norm());
+  const Vector3 pull = reference.pull();
+  const std::optional<Rate> gravity = steps.fall.rate(pull.norm());
+  std::vector<Cause> causes =
+      damping_causes(steps.linear.rate(0), steps.angular.rate(0), steps.angular.count() >= least_count, least);
+  steps.constant.tell(steps.precession, reference, causes);
   if (gravity && std::fabs(gravity->value - pull.norm()) > least * reference.speed()) {
     causes.push_back(
         {"gravity", gravity->value, gravity->misfit,
          fmt::format("gravity {} m/s² ({} is asked) explains the flights {}", significant(gravity->value, 3),
                      significant(pull.norm(), 4), misfit_words(gravity->misfit))});
-  } else if (auto slope = slope_cause(accelerations, pull)) {
+  } else if (auto slope = slope_cause(steps.accelerations, pull)) {
     causes.push_back(std::move(*slope));
   }
   return causes;
