@@ -27,9 +27,18 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// A rate and the share of the total effect that it leaves in the median.
+/// A rate, the share of the total effect that it leaves in the median, and how many steps it explains.
 struct Rate {
   double value = 0, misfit = 0;
+  std::size_t steps = 0;
+
+  /// Whether it explains as many steps as another to the last digits, or clearly more of them about as well.
+  [[nodiscard]] bool explains_all_of(const Rate& other) const {
+    constexpr double last_digits = 1e-9, clearly_more = 1.05, about_as_well = 3;
+    if (misfit <= last_digits) return steps >= other.steps;
+    return static_cast<double>(steps) > clearly_more * static_cast<double>(other.steps) &&
+           misfit <= about_as_well * other.misfit;
+  }
 };
 
 /// One number of (1) or (2) from all steps: its value in each step, and what a value leaves of the step's change.
@@ -54,7 +63,7 @@ class Steps {
       left.push_back(share);
     }
     if (!(static_cast<double>(explained_steps) >= share_of_steps * static_cast<double>(steps_.size()))) return {};
-    return Rate{value, median(left)};
+    return Rate{value, median(left), explained_steps};
   }
 
  private:
@@ -194,8 +203,11 @@ std::vector<Cause> flight_causes_of(const Motion& motion, const Reference& refer
   const double length = motion.time(motion.size() - 1) - motion.time(0), least = reference.tolerances[1] / length;
   const Vector3 pull = reference.pull();
   const std::optional<Rate> gravity = steps.fall.rate(pull.norm());
+  std::optional<Rate> linear = steps.linear.rate(0);
+  // In one long flight straight down another gravity looks like velocities that grow or shrink.
+  if (gravity && linear && gravity->explains_all_of(*linear)) linear.reset();
   std::vector<Cause> causes =
-      damping_causes(steps.linear.rate(0), steps.angular.rate(0), steps.angular.count() >= least_count, least);
+      damping_causes(linear, steps.angular.rate(0), steps.angular.count() >= least_count, least);
   steps.constant.tell(steps.precession, reference, causes);
   if (gravity && std::fabs(gravity->value - pull.norm()) > least * reference.speed()) {
     causes.push_back(
