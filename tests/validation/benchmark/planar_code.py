@@ -44,7 +44,7 @@ class Code:
     def next_touch(self, state, struck, latest):
         """Earliest time at which a point comes down, by steps that none can outrun."""
         reach = max(math.hypot(*p) for p in self.points)
-        bound = self.gravity + reach * state[6] ** 2 + 1e-12
+        bound = abs(self.gravity) + reach * state[6] ** 2 + 1e-12
         t = 0.0
         while t < latest:
             now, steps = Code.fly(self, state, t), []
