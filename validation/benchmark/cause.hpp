@@ -16,6 +16,7 @@ struct Cause {
   std::optional<double> value;  ///< the number that explains the run, in SI units; nothing: the hypothesis has none
   double misfit = 0;            ///< the relative error that is left with it
   std::string words;            ///< one line
+  bool is_more = false;         ///< holds beside the cause before it, not in place of it
 };
 
 /// A run as its file has it.
@@ -28,6 +29,14 @@ struct Answer {
 
 /// Of a run's error, what a hypothesis may leave.
 inline constexpr double explained = 0.05;
+
+/// A number and what is left with it.
+struct Fitted {
+  double value = 0, misfit = Score::unknown;
+};
+
+/// Three significant digits.
+[[nodiscard]] std::string three_digits(double value);
 
 /// "to 2e-16": the misfit of a hypothesis, for its words.
 [[nodiscard]] std::string misfit_words(double misfit);

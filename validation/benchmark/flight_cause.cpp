@@ -149,15 +149,24 @@ struct FlightSteps {
   double precession = 0;  ///< change of the angular velocity that Euler's equations ask for [rad/s]
   std::vector<Vector3> accelerations;
 
-  FlightSteps(const Motion& motion, const Reference& reference) {
+  FlightSteps(const Motion& motion, const Reference& reference, const std::vector<FoundImpact>& impacts) {
     const double until = reference.stays() ? motion.first_touch() + reference.sequences.front().truth.back().time : 0;
+    const std::size_t asked = reference.sequences.front().truth.size();
     for (std::size_t row = 0; row + 1 < motion.size(); row += 1 + motion.size() / looked_at) {
       if (reference.stays() && motion.time(row) > until) break;
-      add(motion, reference, row);
+      if (impacts.size() > asked && row >= impacts[asked].first_row) break;  // what follows is not asked for
+      if (!is_of_contact(row, impacts)) add(motion, reference, row);
     }
   }
 
  private:
+  static bool is_of_contact(std::size_t row, const std::vector<FoundImpact>& impacts) {
+    constexpr std::size_t many = 8;  // rows
+    return std::any_of(impacts.begin(), impacts.end(), [&](const FoundImpact& one) {
+      return one.last_row > one.first_row + many && row >= one.first_row && row < one.last_row;
+    });
+  }
+
   void add(const Motion& motion, const Reference& reference, std::size_t row) {
     const double time = motion.time(row + 1) - motion.time(row), slow = least_size * reference.speed();
     const auto from = motion.state(row), to = motion.state(row + 1);
@@ -179,27 +188,47 @@ struct FlightSteps {
   }
 };
 
-}  // namespace
-
-std::optional<Cause> velocity_scale_of(const Motion& motion, const Reference& reference) {
+/// (1) of what a step changes and the mean rate by which it should; nothing where they agree.
+template <class Change>
+std::optional<Rate> lag_of(const Motion& motion, const Reference& reference, Change&& change) {
   constexpr double least_lag = 1e-2;  // less is what the steps of a code may leave
   Steps lags;
   for (std::size_t row = 0; row + 1 < motion.size(); row += 1 + motion.size() / looked_at) {
-    const auto from = motion.state(row), to = motion.state(row + 1);
-    const Vector3 mean = (from.velocity + to.velocity) / 2;
-    const Vector3 way = (motion.time(row + 1) - motion.time(row)) * mean;
-    if (mean.norm() > least_size * reference.speed()) lags.add(to.position - from.position - way, way);
+    const auto& [way, mean] = change(motion.state(row), motion.state(row + 1));
+    const Vector3 asked = (motion.time(row + 1) - motion.time(row)) * mean;
+    if (mean.norm() > least_size * reference.speed()) lags.add(way - asked, asked);
   }
   const std::optional<Rate> lag = lags.rate(0);
-  if (!matters(lag, least_lag)) return {};
+  return matters(lag, least_lag) ? lag : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Cause> velocity_scale_of(const Motion& motion, const Reference& reference) {
+  const std::optional<Rate> lag =
+      lag_of(motion, reference, [](const analytic::space::State& from, const analytic::space::State& to) {
+        return std::pair<Vector3, Vector3>{to.position - from.position, (from.velocity + to.velocity) / 2};
+      });
+  if (!lag) return {};
   const double factor = 1 / (1 - lag->value);
   return Cause{"velocity-scale", factor, lag->misfit,
                fmt::format("velocities {} times those with which the places change explain the flights {}",
                            significant(factor, 4), misfit_words(lag->misfit))};
 }
 
-std::vector<Cause> flight_causes_of(const Motion& motion, const Reference& reference) {
-  FlightSteps steps(motion, reference);
+bool moves_by_its_velocities(const Motion& motion, const Reference& reference) {
+  const auto turned = [&](const analytic::space::State& from, const analytic::space::State& to) {
+    const Vector3 half = (to.attitude * from.attitude.conjugate()).vec();
+    const double sign = (to.attitude * from.attitude.conjugate()).w() < 0 ? -1 : 1;
+    const Vector3 mean = (from.angular_velocity + to.angular_velocity) / 2;
+    return std::pair<Vector3, Vector3>{2 * sign * reference.reach() * half, reference.reach() * mean};
+  };
+  return !velocity_scale_of(motion, reference) && !lag_of(motion, reference, turned);
+}
+
+std::vector<Cause> flight_causes_of(const Motion& motion, const Reference& reference,
+                                    const std::vector<FoundImpact>& impacts) {
+  FlightSteps steps(motion, reference, impacts);
   const double length = motion.time(motion.size() - 1) - motion.time(0), least = reference.tolerances[1] / length;
   const Vector3 pull = reference.pull();
   const std::optional<Rate> gravity = steps.fall.rate(pull.norm());
@@ -218,6 +247,23 @@ std::vector<Cause> flight_causes_of(const Motion& motion, const Reference& refer
     causes.push_back(std::move(*slope));
   }
   return causes;
+}
+
+std::optional<Cause> first_order_step_of(const Motion& motion, const Reference& reference,
+                                         const ReferenceSequence& sequence, double flight_error) {
+  const Vector3 creep = motion.step() / 2 * reference.pull();  // (3)
+  if (!(flight_error > reference.tolerances[1]) || !(creep.norm() > 0)) return {};
+  for (const double sign : {1.0, -1.0}) {
+    const double left = flight_error_with(sign * creep, motion, reference, sequence);
+    if (!(left <= explained * flight_error)) continue;
+    return Cause{
+        "first-order-step", motion.step(), left,
+        fmt::format("the flights are a first-order step's: places fall g·step/2 = {} m/s {} than free flight, "
+                    "as by {} Euler in steps of {} s; without that they are free {}",
+                    significant(creep.norm(), 3), sign > 0 ? "faster" : "slower",
+                    sign > 0 ? "semi-implicit" : "explicit", significant(motion.step(), 3), misfit_words(left))};
+  }
+  return {};
 }
 
 }  // namespace clatter::validation::inline benchmark

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "validation/benchmark/cause.hpp"
-#include "validation/benchmark/motion.hpp"
+#include "validation/benchmark/found_impacts.hpp"
 
 namespace clatter::validation::inline benchmark {
 
@@ -15,11 +15,23 @@ namespace clatter::validation::inline benchmark {
 /// where v is the mean over the step.  Nothing for |1 − 1/k| ≤ 0.01.
 [[nodiscard]] std::optional<Cause> velocity_scale_of(const Motion& motion, const Reference& reference);
 
+/// Whether places and attitudes change as velocities and spin say, (1), for most of the steps.
+[[nodiscard]] bool moves_by_its_velocities(const Motion& motion, const Reference& reference);
+
 /// Another gravity, or damping of the velocity, of the spin or of both, if one of them explains at least three quarters
 /// of the run's steps.  From the step of Δt between two rows, with the means v and L of velocity and angular momentum:
 ///     g = −ΔV_z/Δt,     c v Δt = −(ΔV + g Δt z),     d L Δt = −ΔL                                    (2)
 /// each by the median over the steps, so that those with an impact do not count.  In space also an angular velocity
-/// that stays constant, as of codes without the gyroscopic term.
-[[nodiscard]] std::vector<Cause> flight_causes_of(const Motion& motion, const Reference& reference);
+/// that stays constant, as of codes without the gyroscopic term.  Where an impact lasts many rows the body lies, rocks
+/// or slides on the ground, and these say nothing of flight.
+[[nodiscard]] std::vector<Cause> flight_causes_of(const Motion& motion, const Reference& reference,
+                                                  const std::vector<FoundImpact>& impacts);
+
+/// A step of first order Δt, by whose velocities the places run ahead of free flight's or fall behind by
+///     ±g Δt/2                                                                                        (3)
+/// after each impact anew: + of the velocities at the step's end (semi-implicit Euler), − at its begin.  Its misfit is
+/// the flight error that is left.
+[[nodiscard]] std::optional<Cause> first_order_step_of(const Motion& motion, const Reference& reference,
+                                                       const ReferenceSequence& sequence, double flight_error);
 
 }  // namespace clatter::validation::inline benchmark

@@ -357,17 +357,31 @@ class Search {
                                         : reference_.flight(start).at(time - begin);
     impact.after = overlap(i) ? struck(impact) : reference_.flight(end).at(time - finish);
     impact.bookings.push_back({impact.before, impact.after});
-    if (alone && !is_resolved(impact)) add_bookings(impact, start, end);
+    impact.begins_in_a_row = alone && !impact.points.empty() && touches(start, impact.points);
+    impact.is_resolved = touches(impact.before, impact.points);
+    if (alone && (impact.begins_in_a_row || !impact.is_resolved)) add_bookings(impact, start, end);
+    if (impact.begins_in_a_row) add_first_step(impact, start);
     return impact;
   }
 
-  /// Whether the points are on the ground at the instant at which the flights meet.
-  [[nodiscard]] bool is_resolved(const FoundImpact& impact) const {
-    const std::vector<Vector3> arms = reference_.arms(impact.before.attitude);
-    return std::all_of(impact.points.begin(), impact.points.end(), [&](int point) {
-      return std::fabs(impact.before.position.z() + arms[static_cast<std::size_t>(point)].z()) <=
+  /// Whether the points are on the ground.
+  [[nodiscard]] bool touches(const State& state, const std::vector<int>& points) const {
+    const std::vector<Vector3> arms = reference_.arms(state.attitude);
+    return std::all_of(points.begin(), points.end(), [&](int point) {
+      return std::fabs(state.position.z() + arms[static_cast<std::size_t>(point)].z()) <=
              on_ground * reference_.reach();
     });
+  }
+
+  /// A code that adds its step's gravity before the impact, where a row has more than one step.
+  void add_first_step(FoundImpact& impact, const State& start) const {
+    const Vector3 fall = motion_.step() * reference_.pull();
+    const double late = impact.time + motion_.first_touch() - motion_.time(impact.first_row);
+    Booking booking{start, start};
+    booking.before.velocity += fall;
+    booking.after.velocity = impact.after.velocity - late * reference_.pull() + fall;
+    booking.after.angular_velocity = impact.after.angular_velocity;
+    impact.bookings.push_back(booking);
   }
 
   void add_bookings(FoundImpact& impact, const State& start, const State& end) const {

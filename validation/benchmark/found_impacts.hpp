@@ -26,6 +26,9 @@ struct FoundImpact {
   /// States right before and after, as the code may have had them; the first is (before, after).
   std::vector<Booking> bookings{};
   std::size_t first_row = 0, last_row = 0;  ///< of the motion, around it
+  bool is_resolved = false;                 ///< the points are on the ground at the instant at which the flights meet
+  bool begins_in_a_row = false;  ///< the points are on the ground in the first row: whether its code resolves the
+                                 ///< instant or strikes at the begin of a step cannot be told
 };
 
 /// What is looked for in a motion.

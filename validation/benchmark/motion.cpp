@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/benchmark/motion.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "validation/output/bad_input.hpp"
+#include "validation/output/number.hpp"
 
 namespace clatter::validation::inline benchmark {
 namespace {
@@ -44,6 +47,30 @@ double touch_time(const Reference& reference, const space::FreeFlight& flight) {
 
 }  // namespace
 
+std::string place_of(const NumericTable& table, const std::string& key) {
+  for (const NumericTable::Comment& one : table.comments()) {
+    if (one.key == key) return fmt::format("{}:{}:1: {}", table.path(), one.line, key);
+  }
+  return table.path() + ": " + key;
+}
+
+std::optional<double> stated_step(const NumericTable& table) {
+  const auto given = table.comment("step");
+  if (!given) return std::nullopt;
+  std::string text = *given;
+  if (text.ends_with("s")) text = trimmed(std::string_view(text).substr(0, text.size() - 1));
+  const std::size_t slash = text.find('/');
+  double value = 0, divisor = 1;
+  const bool is_number =
+      read_number(trimmed(std::string_view(text).substr(0, slash)), value) &&
+      (slash == std::string::npos || read_number(trimmed(std::string_view(text).substr(slash + 1)), divisor));
+  if (!is_number || !(value / divisor > 0 && std::isfinite(value / divisor))) {
+    throw BadInput(fmt::format("{} = {}: must be a number of seconds above 0, or 1/N", place_of(table, "step"),
+                               shown_field(*given)));
+  }
+  return value / divisor;
+}
+
 bool Motion::is_in_space(const std::vector<std::string>& header, const ColumnNames& names) {
   const auto has = [&](const std::string& name) {
     return std::find(header.begin(), header.end(), name) != header.end();
@@ -64,6 +91,16 @@ Motion::Motion(NumericTable table, const Reference& reference) : table_(std::mov
   check_rows();
   for (std::size_t row = 0; in_space_ && row < table_.rows(); ++row) momenta_.push_back(angular_momentum(row));
   find_first_touch();
+  step_ = stated_step(table_).value_or(median_step());
+}
+
+double Motion::median_step() const {
+  std::vector<double> steps;
+  for (std::size_t row = 0; row + 1 < table_.rows(); ++row)
+    steps.push_back(table_.at(row + 1, column_[0]) - table_.at(row, column_[0]));
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
 }
 
 void Motion::check_rows() const {

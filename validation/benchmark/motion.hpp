@@ -10,6 +10,11 @@
 
 namespace clatter::validation::inline benchmark {
 
+/// "FILE:LINE:1: KEY": where a line "# KEY: …" stands.
+[[nodiscard]] std::string place_of(const NumericTable& table, const std::string& key);
+/// Of the line "# step: 0.001" or "1/60", with or without "s" [s].  @throws BadInput
+[[nodiscard]] std::optional<double> stated_step(const NumericTable& table);
+
 /// In the plane  t,x,z,phi,vx,vz,omega: of the centre of mass, floor z = 0, x to the right, phi and omega
 /// counter-clockwise on the page, so that phi > 0 has end a low.  In space  t,x,y,z,q0,q1,q2,q3,vx,vy,vz,wx,wy,wz:
 /// y into the page, Euler parameters body → world with the scalar first, angular velocity in world components.
@@ -44,11 +49,14 @@ class Motion {
   [[nodiscard]] double start_error() const { return start_error_; }
   /// Whether the file's first row is the state after the first impact, so that no row shows the start.
   [[nodiscard]] bool begins_after_touch() const { return lead_.has_value(); }
+  /// Of the code: as its file says, otherwise the median from row to row [s].
+  [[nodiscard]] double step() const { return step_; }
   [[nodiscard]] const NumericTable& table() const { return table_; }
 
  private:
   void check_rows() const;
   [[nodiscard]] analytic::space::Vector3 angular_momentum(std::size_t row) const;
+  [[nodiscard]] double median_step() const;
   void find_first_touch();
   [[nodiscard]] double number(std::size_t row, std::size_t quantity) const {
     return table_.at(row - (lead_ ? 1 : 0), column_[quantity]);
@@ -62,6 +70,7 @@ class Motion {
   std::optional<analytic::space::State> lead_;
   std::vector<analytic::space::Vector3> momenta_;  ///< angular, of each row of a file in space [N·m·s]
   double first_touch_ = 0, start_error_ = 0;
+  double step_ = 0;
   double origin_ = 0;  ///< x of the first touch, where the ground slopes [m]
 };
 

@@ -187,6 +187,9 @@ class Flights {
           const std::vector<FoundImpact>& impacts, bool has_ended)
       : motion_(motion), reference_(reference), sequence_(sequence), impacts_(impacts), has_ended_(has_ended) {}
 
+  /// By flights whose places run ahead by this velocity [m/s].
+  void run_ahead(const Vector3& creep) { creep_ = creep; }
+
   void score(Score& score) {
     energy_ = reference_.energy(reference_.start);
     const double end = motion_.first_touch() + last_time();
@@ -221,8 +224,9 @@ class Flights {
       score.drift = n;
     }
     const State begin = motion_.state(from), end = motion_.state(to);
-    const State flown = reference_.flight(begin).at(motion_.time(to) - motion_.time(from));
-    double away = (flown.position - end.position).norm();
+    const double time = motion_.time(to) - motion_.time(from);
+    const State flown = reference_.flight(begin).at(time);
+    double away = (flown.position + time * creep_ - end.position).norm();
     const std::vector<Vector3> wanted = reference_.arms(flown.attitude), arms = reference_.arms(end.attitude);
     for (std::size_t i = 0; i < arms.size(); ++i) away = worse(away, (arms[i] - wanted[i]).norm());
     if (away / reference_.reach() > score.flight_error) {
@@ -277,6 +281,7 @@ class Flights {
   const ReferenceSequence& sequence_;
   const std::vector<FoundImpact>& impacts_;
   bool has_ended_;
+  Vector3 creep_ = Vector3::Zero();
   double energy_ = 1;
 };
 
@@ -325,6 +330,10 @@ double law_error(const Reference& reference, const DeclaredLaw& law, const Found
   return least;
 }
 
+double law_error_of_speed(const Reference& reference, const FoundImpact& impact, double speed) {
+  return std::sqrt(reference.body.mass) * speed / distance(reference, impact.after, impact.before);
+}
+
 std::vector<FoundImpact> impacts_of(const Motion& motion, const Reference& reference) {
   return find_impacts(motion, reference, search_for(reference));
 }
@@ -367,6 +376,16 @@ Score score_motion(const Motion& motion, const Reference& reference, const std::
     Flights(motion, reference, sequence, impacts, ending.nothing_approaches).score(score);
     return score;
   });
+}
+
+double flight_error_with(const Vector3& creep, const Motion& motion, const Reference& reference,
+                         const ReferenceSequence& sequence) {
+  const std::vector<FoundImpact> impacts = impacts_of(motion, reference);
+  Score score;
+  Flights flights(motion, reference, sequence, impacts, false);
+  flights.run_ahead(creep);
+  flights.score(score);
+  return score.flight_error;
 }
 
 Score score_list(const std::vector<FoundImpact>& impacts, const Reference& reference, const std::string& law,

@@ -73,6 +73,8 @@ struct Score {
 /// Distance of the velocities after an impact from the law's exact map at the state before it, over the map's own
 /// change; of the impact's bookings the nearest.  Unknown where no point struck or the law has no answer.
 [[nodiscard]] double law_error(const Reference& reference, const DeclaredLaw& law, const FoundImpact& impact);
+/// The same, of velocities that are off by a speed [m/s].
+[[nodiscard]] double law_error_of_speed(const Reference& reference, const FoundImpact& impact, double speed);
 /// Impacts of a motion that are large enough to be judged.
 [[nodiscard]] std::vector<FoundImpact> impacts_of(const Motion& motion, const Reference& reference);
 
@@ -90,6 +92,9 @@ struct Ending {
 /// The scores of a motion.  Without a declared law (empty) the one that fits best.
 [[nodiscard]] Score score_motion(const Motion& motion, const Reference& reference, const std::string& law,
                                  const Ending& ending = {});
+/// Score::flight_error of a motion whose places run ahead of free flight's by a constant velocity, `creep` [m/s].
+[[nodiscard]] double flight_error_with(const analytic::space::Vector3& creep, const Motion& motion,
+                                       const Reference& reference, const ReferenceSequence& sequence);
 /// The scores of a list of impacts; no score of flight and start.  Where the problem says until when nothing more
 /// strikes, the list must say that nothing does; where it asks for an energy, its own.
 [[nodiscard]] Score score_list(const std::vector<FoundImpact>& impacts, const Reference& reference,

@@ -41,38 +41,13 @@ ReadFile read_file(const std::string& path, const ColumnNames& names) {
   return {NumericTable::parse(path, std::move(text), request), is_list, std::move(gradients)};
 }
 
-std::string place_of(const NumericTable& table, const std::string& key) {
-  for (const NumericTable::Comment& one : table.comments()) {
-    if (one.key == key) return fmt::format("{}:{}:1: {}", table.path(), one.line, key);
-  }
-  return table.path() + ": " + key;
-}
-
-/// "0.001", "1/60", with or without "s".
-std::optional<double> read_step(const NumericTable& table) {
-  const auto given = table.comment("step");
-  if (!given) return std::nullopt;
-  std::string text = *given;
-  if (text.ends_with("s")) text = trimmed(std::string_view(text).substr(0, text.size() - 1));
-  const std::size_t slash = text.find('/');
-  double value = 0, divisor = 1;
-  const bool is_number =
-      read_number(trimmed(std::string_view(text).substr(0, slash)), value) &&
-      (slash == std::string::npos || read_number(trimmed(std::string_view(text).substr(slash + 1)), divisor));
-  if (!is_number || !(value / divisor > 0 && std::isfinite(value / divisor))) {
-    throw BadInput(fmt::format("{} = {}: must be a number of seconds above 0, or 1/N", place_of(table, "step"),
-                               shown_field(*given)));
-  }
-  return value / divisor;
-}
-
 SubmissionHead head_of(const NumericTable& table) {
   const auto text = [&](const char* key) { return table.comment(key).value_or(""); };
   SubmissionHead head{.problem = text("problem"),
                       .engine = text("engine"),
                       .version = text("version"),
                       .settings = text("settings"),
-                      .step = read_step(table)};
+                      .step = stated_step(table)};
   if (table.comment("law")) head.law = read_law(place_of(table, "law"), text("law"));
   return head;
 }

@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/benchmark/impact_cause.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <functional>
+#include <utility>
+
+#include "validation/output/number.hpp"
+
+namespace clatter::validation::inline benchmark {
+namespace {
+
+namespace space = analytic::space;
+using space::State;
+using space::Vector3;
+
+/// The least of a function on [low, high], by a scan and golden sections.
+Fitted least_of(double low, double high, const std::function<double(double)>& misfit) {
+  constexpr int parts = 40, cuts = 60;
+  const double part = (high - low) / parts, golden = (std::sqrt(5.0) - 1) / 2;
+  Fitted best;
+  for (int i = 0; i <= parts; ++i) {
+    const double value = low + i * part, left = misfit(value);
+    if (left < best.misfit) best = {value, left};
+  }
+  double a = std::max(low, best.value - part), b = std::min(high, best.value + part);
+  for (int i = 0; i < cuts; ++i) {
+    const double x = b - golden * (b - a), y = a + golden * (b - a);
+    (misfit(x) < misfit(y) ? b : a) = misfit(x) < misfit(y) ? y : x;
+  }
+  const double middle = (a + b) / 2, left = misfit(middle);
+  return left < best.misfit ? Fitted{middle, left} : best;
+}
+
+std::string impacts_words(std::size_t count, std::size_t of, std::size_t only) {
+  if (count < of) return count == 1 ? fmt::format("impact {} alone", only + 1) : fmt::format("{} impacts", count);
+  return of == 1 ? "the impact" : of == 2 ? "both impacts" : fmt::format("all {} impacts", of);
+}
+
+constexpr double step_share = 2;  ///< of g × step: before an impact and, by restitution, after it
+
+/// Impacts that begin in a row and do not follow the law, however they were booked, with the states of the rows alone:
+/// with bookings to choose from two values of one number fit.
+std::vector<FoundImpact> as_in_rows(const Reference& reference, const DeclaredLaw& law,
+                                    std::vector<FoundImpact> impacts) {
+  for (FoundImpact& impact : impacts) {
+    if (!impact.begins_in_a_row) continue;
+    FoundImpact plain = impact;
+    plain.bookings.resize(1);
+    const double booked = law_error(reference, law, impact), left = law_error(reference, law, plain);
+    if (!(booked <= reference.tolerances[1]) && !(booked <= explained * left)) impact = plain;
+  }
+  return impacts;
+}
+
+/// Hypotheses on the law of the impacts and on the body.
+class ImpactCauses {
+ public:
+  ImpactCauses(const Reference& reference, const DeclaredLaw& law, const std::vector<FoundImpact>& impacts,
+               double gravity_of_step)
+      : reference_(reference), law_(law) {
+    for (const FoundImpact& impact : impacts) {
+      if (!impact.points.empty()) impacts_.push_back(impact);
+    }
+    for (const FoundImpact& impact : impacts_) errors_.push_back(law_error(reference_, law_, impact));
+    for (const double error : errors_) worst_ = worse(worst_, error);
+    for (std::size_t i = 0; i < impacts_.size(); ++i) {
+      if (!(errors_[i] <= 0.1 * worst_)) broken_.push_back(i);
+    }
+    for (const std::size_t i : broken_) {
+      by_step_ = std::fmax(by_step_, step_share * law_error_of_speed(reference_, impacts_[i], gravity_of_step));
+    }
+  }
+
+  /// Those on the body alone.
+  std::vector<Cause> of_body() {
+    if (!broken_.empty()) add_body();
+    return std::move(causes_);
+  }
+
+  std::vector<Cause> of_impacts(const std::vector<FoundImpact>& impacts) {
+    if (reference_.is_compliant) return {};
+    add_centre_alone(impacts);
+    if (!causes_.empty()) return std::move(causes_);
+    if (broken_.empty() || !(worst_ > reference_.tolerances[1])) return {};
+    add_threshold();
+    if (!causes_.empty()) return std::move(causes_);
+    add_law();
+    add_restitution();
+    add_friction();
+    add_body();
+    return std::move(causes_);
+  }
+
+ private:
+  using Change = std::function<void(Reference&, DeclaredLaw&, double)>;
+
+  /// The largest error of the impacts under another law or body.
+  [[nodiscard]] double misfit(const Change& change, double value, const std::vector<std::size_t>& of) const {
+    Reference reference = reference_;
+    DeclaredLaw law = law_;
+    change(reference, law, value);
+    double error = 0;
+    for (const std::size_t i : of) error = worse(error, law_error(reference, law, impacts_[i]));
+    return error;
+  }
+
+  /// Whether the step makes errors of this size, too: one impact then proves nothing, nor do several nearly.
+  [[nodiscard]] bool is_of_the_step(double misfit) const {
+    return worst_ <= by_step_ && (broken_.size() == 1 || !(misfit <= reference_.tolerances[1]));
+  }
+
+  void keep(const char* name, const Fitted& fit, const std::string& words) {
+    if (!(fit.misfit <= explained * worst_) || is_of_the_step(fit.misfit)) return;
+    causes_.push_back({name, fit.value, fit.misfit, words + " " + misfit_words(fit.misfit)});
+  }
+
+  [[nodiscard]] std::string which() const { return impacts_words(broken_.size(), impacts_.size(), broken_.front()); }
+
+  [[nodiscard]] std::vector<std::size_t> all() const {
+    std::vector<std::size_t> each(impacts_.size());
+    for (std::size_t i = 0; i < each.size(); ++i) each[i] = i;
+    return each;
+  }
+
+  /// Separation over approach speed of the point that strikes, in the booking nearest to the law.
+  [[nodiscard]] double restitution_of(std::size_t i) const {
+    const Booking& booking = impacts_[i].bookings.front();
+    const auto speed = [&](const State& state) {
+      const Vector3 arm = reference_.arms(state.attitude)[static_cast<std::size_t>(impacts_[i].points.front())];
+      return (state.velocity + state.angular_velocity.cross(arm)).z();
+    };
+    return -speed(booking.after) / speed(booking.before);
+  }
+
+  [[nodiscard]] double approach_of(std::size_t i) const {
+    const State& before = impacts_[i].bookings.front().before;
+    const Vector3 arm = reference_.arms(before.attitude)[static_cast<std::size_t>(impacts_[i].points.front())];
+    return -(before.velocity + before.angular_velocity.cross(arm)).z();
+  }
+
+  /// Slow contacts that do not rebound, where faster ones follow the law.
+  void add_threshold() {
+    if (!(law_.law.law.restitution > 0.05) || broken_.size() == impacts_.size()) return;
+    const Change change = [](Reference&, DeclaredLaw& law, double e) { law.law.law.restitution = e; };
+    const double left = misfit(change, 0, broken_);
+    double fastest = 0, slowest = Score::unknown;
+    for (std::size_t i = 0; i < impacts_.size(); ++i) {
+      const bool is_broken = std::find(broken_.begin(), broken_.end(), i) != broken_.end();
+      if (is_broken) fastest = std::fmax(fastest, approach_of(i));
+      else slowest = std::fmin(slowest, approach_of(i));
+    }
+    if (!(fastest < slowest)) return;
+    keep("restitution-threshold", {fastest, left},
+         fmt::format("restitution is left out at {} m/s and slower, and taken at {} m/s and faster: that explains {}",
+                     three_digits(fastest), three_digits(slowest), which()));
+  }
+
+  /// Another of the laws that the problem has a truth for.
+  void add_law() {
+    for (const ReferenceSequence& other : reference_.sequences) {
+      if (other.law.name == law_.name) continue;
+      const Change change = [&](Reference&, DeclaredLaw& law, double) { law = other.law; };
+      const double left = misfit(change, 0, all());
+      if (!(left <= explained * worst_) || is_of_the_step(left)) continue;
+      causes_.push_back({"law",
+                         {},
+                         left,
+                         fmt::format("the law {} (judged by {}) explains {} {}", other.law.name, law_.name,
+                                     impacts_words(impacts_.size(), impacts_.size(), 0), misfit_words(left))});
+      return;
+    }
+  }
+
+  void add_restitution() {
+    const double asked = law_.law.law.restitution;
+    if (law_.law.law.law == analytic::RestitutionLaw::viscoelastic) return;
+    const Change change = [](Reference&, DeclaredLaw& law, double e) { law.law.law.restitution = e; };
+    Fitted fit = least_of(0, 1, [&](double e) { return misfit(change, e, broken_); });
+    if (const Fitted more = beyond_elastic(); more.misfit < fit.misfit) fit = more;
+    // The change of e alone must be able to make the error: where the law jumps, any e beside the right one may fit.
+    if (!(std::fabs(fit.value - asked) >= 0.1 * std::fmin(worst_, 1))) return;
+    keep("restitution", fit,
+         fmt::format("e = {} ({} is asked) explains {}", three_digits(fit.value), shortest(asked), which()));
+  }
+
+  /// e > 1, which the law refuses: without friction the change is (1 + e)/2 times that of e = 1.
+  [[nodiscard]] Fitted beyond_elastic() const {
+    if (law_.law.law.friction != analytic::FrictionKind::none && law_.law.law.friction_value != 0) return {};
+    double mean = 0;
+    for (const std::size_t i : broken_) mean += restitution_of(i) / static_cast<double>(broken_.size());
+    if (!(mean > 1)) return {};
+    DeclaredLaw elastic = law_;
+    elastic.law.law.restitution = 1;
+    Fitted fit{mean, 0};
+    for (const std::size_t i : broken_) {
+      const auto& [before, after] = impacts_[i].bookings.front();
+      const State once = exact_map(reference_, elastic, before, impacts_[i].points);
+      const Vector3 change = (once.velocity - before.velocity) * (1 + mean) / 2;
+      const Vector3 turn = (once.angular_velocity - before.angular_velocity) * (1 + mean) / 2;
+      const double velocity = (before.velocity + change - after.velocity).norm() / change.norm();
+      const double rate = (before.angular_velocity + turn - after.angular_velocity).norm() / turn.norm();
+      fit.misfit = worse(fit.misfit, worse(velocity, turn.norm() > 0 ? rate : 0));
+    }
+    return fit;
+  }
+
+  void add_friction() {
+    const bool has_friction = law_.law.law.friction == analytic::FrictionKind::coulomb;
+    const double asked = has_friction ? law_.law.law.friction_value : 0;
+    const Change coulomb = [](Reference&, DeclaredLaw& law, double value) {
+      law.law.law.friction = analytic::FrictionKind::coulomb;
+      law.law.law.friction_value = value;
+    };
+    const Fitted fit = least_of(0, 2, [&](double value) { return misfit(coulomb, value, broken_); });
+    const std::string words = fit.value <= 1e-6 ? "no friction" : fmt::format("friction {}", three_digits(fit.value));
+    const std::size_t before = causes_.size();
+    if (broken_.size() == impacts_.size() || !(misfit(coulomb, fit.value, all()) > explained * worst_)) {
+      keep("friction", fit, fmt::format("{} ({} is asked) explains {}", words, shortest(asked), which()));
+    }
+    if (causes_.size() > before || add_friction_that_pushes(asked) || !reference_.is_planar) return;
+    const Change ratio = [](Reference&, DeclaredLaw& law, double value) {
+      law.is_moreau = false;
+      law.law.law.friction = analytic::FrictionKind::impulse_ratio;
+      law.law.law.friction_value = value;
+    };
+    const Fitted as_ratio = least_of(-2, 2, [&](double value) { return misfit(ratio, value, broken_); });
+    if (pushes())
+      keep("friction-direction", {std::fabs(as_ratio.value), as_ratio.misfit}, pushing_words(as_ratio.value));
+    else
+      keep("friction-ratio", as_ratio,
+           fmt::format("a tangential impulse of {} times the normal one, whatever the slip (friction {} is asked), "
+                       "explains {}",
+                       three_digits(as_ratio.value), shortest(asked), which()));
+  }
+
+  /// Friction along the slip in place of against it; Moreau's cone with a negative coefficient.
+  bool add_friction_that_pushes(double asked) {
+    const Change along = [](Reference&, DeclaredLaw& law, double value) {
+      law.is_moreau = true;
+      law.law.law.friction_value = -value;
+    };
+    if (!(asked > 0) || !pushes()) return false;
+    const std::size_t before = causes_.size();
+    const Fitted fit = least_of(0, 2, [&](double value) { return misfit(along, value, broken_); });
+    keep("friction-direction", fit, pushing_words(fit.value));
+    return causes_.size() > before;
+  }
+
+  [[nodiscard]] std::string pushing_words(double friction) const {
+    return fmt::format("friction {} that acts along the slip and not against it explains {}",
+                       three_digits(std::fabs(friction)), which());
+  }
+
+  /// Whether each tangential impulse points along the slip before it.
+  [[nodiscard]] bool pushes() const {
+    return std::all_of(broken_.begin(), broken_.end(), [&](std::size_t i) {
+      const State& before = impacts_[i].bookings.front().before;
+      const Vector3 arm = reference_.arms(before.attitude)[static_cast<std::size_t>(impacts_[i].points.front())];
+      const double slip = (before.velocity + before.angular_velocity.cross(arm)).x();
+      return std::fabs(slip) > 1e-3 * reference_.speed() && slip * impacts_[i].impulse.x() > 0;
+    });
+  }
+
+  /// Properties of the body hold at every impact.
+  void add_body() {
+    const Change inertia = [](Reference& reference, DeclaredLaw&, double factor) {
+      reference.body.inertia *= factor;
+      reference.principal = space::PrincipalAxes(reference.body.inertia);
+    };
+    const Change lever = [](Reference& reference, DeclaredLaw&, double factor) {
+      for (Vector3& vertex : reference.body.vertices) vertex *= factor;
+      for (space::Rim& rim : reference.body.rims) rim.centre *= factor, rim.radius *= factor;
+      for (space::Ellipsoid& part : reference.body.ellipsoids) part.centre *= factor, part.semiaxes *= factor;
+    };
+    const auto each = all();
+    const Fitted heavy = least_of(0.3, 3, [&](double factor) { return misfit(inertia, factor, each); });
+    keep("inertia", heavy,
+         fmt::format("{} times the moment of inertia explains {}", three_digits(heavy.value),
+                     impacts_words(each.size(), each.size(), 0)));
+    const Fitted longer = least_of(0.5, 1.5, [&](double factor) { return misfit(lever, factor, each); });
+    keep("lever", longer,
+         fmt::format("levers {} times as long explain {}", three_digits(longer.value),
+                     impacts_words(each.size(), each.size(), 0)));
+  }
+
+  /// Normal velocity and spin of two states, as speeds at the farthest point, apart from each other.
+  [[nodiscard]] double rebound_distance(const State& a, const State& b) const {
+    const double turn = (a.angular_velocity - b.angular_velocity).norm() * reference_.reach();
+    return std::fmax(std::fabs(a.velocity.z() - b.velocity.z()), turn);
+  }
+
+  /// A velocity of the centre that is reversed without regard to the point that strikes, where the point matters.
+  void add_centre_alone(const std::vector<FoundImpact>& impacts) {
+    double left = 0, lever = 0;
+    for (const FoundImpact& impact : impacts) {
+      const auto& [before, after] = impact.bookings.front();
+      const double change = std::fabs(after.velocity.z() - before.velocity.z());
+      State alone = before;
+      alone.velocity.z() *= -law_.law.law.restitution;
+      left = worse(left, rebound_distance(after, alone) / change);
+      lever = worse(lever, impact.points.empty() ? 1 : lever_share(impact, alone));
+    }
+    if (impacts.empty() || !(lever > reference_.tolerances[2])) return;
+    if (!(left <= explained * std::fmin(lever, 1)) || !(left <= reference_.tolerances[2])) return;
+    causes_.push_back({"centre-alone",
+                       {},
+                       left,
+                       fmt::format("restitution of the velocity of the centre of mass, without a lever, explains {} {}",
+                                   impacts_words(impacts.size(), impacts.size(), 0), misfit_words(left))});
+  }
+
+  /// What the law without friction gives beside a rebound of the centre alone, over the change of normal velocity.
+  [[nodiscard]] double lever_share(const FoundImpact& impact, const State& alone) const {
+    const State& before = impact.bookings.front().before;
+    DeclaredLaw smooth = law_;
+    smooth.law.law.friction = analytic::FrictionKind::none;
+    smooth.law.law.friction_value = 0;
+    try {
+      return rebound_distance(exact_map(reference_, smooth, before, impact.points), alone) /
+             std::fabs(alone.velocity.z() - before.velocity.z());
+    } catch (const std::exception&) {
+      return Score::unknown;  // the law has no answer there
+    }
+  }
+
+  const Reference& reference_;
+  const DeclaredLaw& law_;
+  std::vector<FoundImpact> impacts_;
+  std::vector<double> errors_;
+  std::vector<std::size_t> broken_;  ///< impacts that do not follow the law
+  double worst_ = 0;
+  double by_step_ = 0;  ///< law error that g × step can make
+  std::vector<Cause> causes_;
+};
+
+/// An inertia or levers so far off that no point of the body explains a jump: it is taken for one of the lowest point.
+std::vector<Cause> far_body_causes(const Reference& reference, const DeclaredLaw& law,
+                                   std::vector<FoundImpact> impacts) {
+  if (reference.is_compliant) return {};
+  for (FoundImpact& impact : impacts) {
+    if (!impact.points.empty()) continue;
+    const std::vector<Vector3> arms = reference.arms(impact.before.attitude);
+    const auto lowest =
+        std::min_element(arms.begin(), arms.end(), [](const Vector3& a, const Vector3& b) { return a.z() < b.z(); });
+    impact.points = {static_cast<int>(lowest - arms.begin())};
+  }
+  return ImpactCauses(reference, law, impacts, 0).of_body();
+}
+
+/// Another inertia, by the lowest point's lever at the first impact: with it the impacts are looked for anew, since of
+/// two within a step the share of each depends on it.
+void add_far_inertia(const Answer& answer, const Reference& reference, const DeclaredLaw& law, const FoundImpact& first,
+                     std::vector<Cause>& causes) {
+  const std::vector<Vector3> arms = reference.arms(first.before.attitude);
+  const Vector3 arm =
+      *std::min_element(arms.begin(), arms.end(), [](const Vector3& a, const Vector3& b) { return a.z() < b.z(); });
+  const space::Quaternion& turn = first.before.attitude;
+  const Vector3 change = first.after.angular_velocity - first.before.angular_velocity;
+  const Vector3 moment = turn * (reference.body.inertia * (turn.conjugate() * change));
+  const double factor = arm.cross(first.impulse).dot(moment) / moment.squaredNorm();
+  if (reference.is_compliant || !(factor > 0.1 && factor < 10)) return;
+  Reference other = reference;
+  other.body.inertia *= factor;
+  other.principal = space::PrincipalAxes(other.body.inertia);
+  double left = 0;
+  const std::vector<FoundImpact> impacts = impacts_of(Motion(answer.table, other), other);
+  for (const FoundImpact& impact : impacts) left = worse(left, law_error(other, law, impact));
+  if (!(left <= explained * std::fabs(factor - 1))) return;
+  causes.push_back({"inertia", factor, left,
+                    fmt::format("{} times the moment of inertia explains {} {}", three_digits(factor),
+                                impacts_words(impacts.size(), impacts.size(), 0), misfit_words(left))});
+}
+
+}  // namespace
+
+std::vector<Cause> impact_causes_of(const Reference& reference, const DeclaredLaw& law,
+                                    const std::vector<FoundImpact>& impacts, double gravity_of_step) {
+  const std::vector<FoundImpact> plain = as_in_rows(reference, law, impacts);
+  std::vector<Cause> causes = ImpactCauses(reference, law, plain, gravity_of_step).of_impacts(plain);
+  return !causes.empty() ? causes : ImpactCauses(reference, law, impacts, gravity_of_step).of_impacts(impacts);
+}
+
+std::vector<Cause> far_body_causes_of(const Answer& answer, const Reference& reference, const DeclaredLaw& law,
+                                      const std::vector<FoundImpact>& impacts) {
+  std::vector<Cause> causes;
+  add_far_inertia(answer, reference, law, impacts.front(), causes);
+  if (causes.empty()) causes = far_body_causes(reference, law, impacts);
+  return causes;
+}
+
+}  // namespace clatter::validation::inline benchmark
