@@ -41,8 +41,4 @@ struct Fitted {
 /// "to 2e-16": the misfit of a hypothesis, for its words.
 [[nodiscard]] std::string misfit_words(double misfit);
 
-/// The ways to read an answer's rows by which all of it is right: other signs, axes, units and frames, and of a list
-/// other ends.
-[[nodiscard]] std::vector<Cause> misreadings_of(const Answer& answer, const Reference& reference, const Score& score);
-
 }  // namespace clatter::validation::inline benchmark

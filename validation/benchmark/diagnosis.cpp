@@ -12,6 +12,8 @@
 
 #include "validation/benchmark/flight_cause.hpp"
 #include "validation/benchmark/impact_cause.hpp"
+#include "validation/benchmark/reading_cause.hpp"
+#include "validation/benchmark/start_cause.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation::inline benchmark {
@@ -23,7 +25,6 @@ using space::Vector3;
 
 constexpr double well_explained = 3;   ///< times the least misfit, within which another hypothesis is told as well
 constexpr double least_misfit = 1e-9;  ///< below it misfits do not decide between hypotheses
-constexpr double degrees = 180 / std::numbers::pi;
 
 /// The slope of b over a through the origin, by least squares, and the largest residual.
 Fitted slope_of(const std::vector<std::pair<double, double>>& points) {
@@ -32,45 +33,6 @@ Fitted slope_of(const std::vector<std::pair<double, double>>& points) {
   Fitted fit{ab / aa, 0};
   for (const auto& [a, b] : points) fit.misfit = worse(fit.misfit, std::fabs(b - fit.value * a));
   return fit;
-}
-
-/// The state in which the drop that is asked for has its centre of mass at a height, on its way down to the touch.
-State asked_at_height(const Reference& reference, double height) {
-  const double above = height - reference.start.position.z(), speed = -reference.start.velocity.z();
-  const double square = speed * speed - 2 * reference.gravity * above;
-  return reference.flight(reference.start).at(-2 * above / (speed + std::sqrt(std::fmax(square, 0))));
-}
-
-/// Which part of the state at the start is another one; `left_after` is what flights and impacts after it leave.
-void add_start(const Motion& motion, const Reference& reference, double left_after, std::vector<Cause>& causes) {
-  if (!(motion.start_error() > reference.tolerances[1])) return;
-  if (!(left_after <= explained * std::fmin(motion.start_error(), 1))) return;
-  const State first = motion.state(0);
-  const State start = asked_at_height(reference, first.position.z());
-  const auto angle = [](const State& state) {
-    return std::remainder(2 * std::atan2(-state.attitude.y(), state.attitude.w()), 2 * std::numbers::pi) * degrees;
-  };
-  const double turned = 2 * (first.attitude.conjugate() * start.attitude).vec().norm();
-  const double spin = reference.reach() * (first.angular_velocity - start.angular_velocity).norm() / reference.speed();
-  const double speed = (first.velocity - start.velocity).norm() / reference.speed();
-  const double most = std::max({turned, spin, speed});
-  const auto alone = [&](double part) { return part == most && turned + spin + speed - part <= explained * part; };
-  const double left = turned + spin + speed - most;
-  if (alone(turned)) {
-    const std::string words = reference.is_planar ? fmt::format("at {}° and not at {}°", significant(angle(first), 4),
-                                                                significant(angle(start), 4))
-                                                  : fmt::format("turned by {}°", three_digits(turned * degrees));
-    causes.push_back(
-        {"start-angle", reference.is_planar ? angle(first) : turned * degrees, left, "the body starts " + words});
-  } else if (alone(spin)) {
-    const double rate = (first.angular_velocity - start.angular_velocity).norm();
-    causes.push_back(
-        {"start-spin", rate, left, fmt::format("the body starts with {} rad/s more or less", three_digits(rate))});
-  } else if (alone(speed)) {
-    const double factor = first.velocity.norm() / start.velocity.norm();
-    causes.push_back(
-        {"start-speed", factor, left, fmt::format("the body starts with {} times the speed", significant(factor, 4))});
-  }
 }
 
 /// A run that is right as far as it goes, and ends before the next impact.
@@ -250,6 +212,83 @@ std::vector<Cause> causes_of_list(const Answer& answer, const Reference& referen
   return chosen(std::move(causes));
 }
 
+/// What a motion is diagnosed by.
+struct Diagnosed {
+  const Answer& answer;
+  const Motion& motion;
+  const Reference& reference;
+  const ReferenceSequence& sequence;
+  const Score& score;
+  std::vector<FoundImpact> impacts;    ///< of the problem
+  std::optional<Cause> first_order{};  ///< the step that makes the flight error
+  double flight_left = 0;              ///< flight error without that
+
+  Diagnosed(const Answer& rows, const Motion& moved, const Reference& asked, const ReferenceSequence& by,
+            const Score& scored)
+      : answer(rows), motion(moved), reference(asked), sequence(by), score(scored), impacts(impacts_of(moved, asked)),
+        first_order(first_order_step_of(moved, asked, by, scored.flight_error)),
+        flight_left(first_order ? first_order->misfit : scored.flight_error) {
+    if (asked.stays()) impacts.resize(std::min(impacts.size(), by.truth.size()));  // the rest is not asked for
+  }
+
+  /// g × step of a code that does not resolve the instants of its impacts, otherwise 0 [m/s].
+  [[nodiscard]] double gravity_of_step() const {
+    const bool is_exact = !first_order && resolves_instants(impacts);
+    return is_exact ? 0 : motion.step() * reference.pull().norm();
+  }
+
+  /// The largest law error that the step does not make.
+  [[nodiscard]] double law_left() const {
+    double left = 0;
+    for (const FoundImpact& impact : impacts) {
+      const double error = law_error(reference, sequence.law, impact);
+      if (!(error <= 2 * law_error_of_speed(reference, impact, gravity_of_step()))) left = worse(left, error);
+    }
+    return left;
+  }
+};
+
+/// Another start, where the rest follows from it.
+std::vector<Cause> causes_at_start(const Diagnosed& run) {
+  if (run.impacts.empty()) return {};
+  return start_causes_of(run.motion, run.reference, worse(run.flight_left, run.law_left()));
+}
+
+/// Another place, size or start of the body, or rows that end too early.
+std::vector<Cause> causes_of_scene(const Diagnosed& run, const Misses& misses) {
+  std::vector<Cause> causes;
+  add_margin(run.answer, run.reference, run.score, misses, causes);
+  if (causes.empty() && !run.impacts.empty()) {
+    causes = size_causes_of(run.motion, run.reference, run.sequence.law, run.impacts.front(), run.law_left());
+  }
+  if (!causes.empty()) return chosen(std::move(causes));
+  causes = causes_at_start(run);
+  if (causes.empty()) add_cut_off(run.motion, run.sequence, run.reference, run.score, causes);
+  return causes;
+}
+
+/// Another law, body or delay of the impacts, or the steps of the code.
+std::vector<Cause> causes_of_impacts(const Diagnosed& run, const Misses& misses) {
+  constexpr double free_flight = 1e-2;  // beyond, states before impacts are not those of the run
+  const auto& impacts = run.impacts;
+  std::vector<Cause> causes;
+  if (run.flight_left <= free_flight) {
+    causes = impact_causes_of(run.reference, run.sequence.law, impacts, run.gravity_of_step());
+  }
+  if (causes.empty() && !impacts.empty() && impacts.front().points.empty()) {
+    causes = far_body_causes_of(run.answer, run.reference, run.sequence.law, impacts);
+  }
+  if (causes.empty()) add_delay(run.reference, misses, causes);
+  if (causes.empty()) add_time_step(run.motion, run.reference, run.score, run.flight_left, impacts, causes);
+  causes = chosen(std::move(causes));
+  const bool is_alone = causes.empty();  // then it must be able to be all that is wrong
+  const double most = run.reference.tolerances[2];
+  if (run.first_order && (!is_alone || (run.law_left() <= most && run.score.start_error <= most))) {
+    add_first_order(*run.first_order, causes);
+  }
+  return causes;
+}
+
 }  // namespace
 
 std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, const Score& score) {
@@ -258,37 +297,22 @@ std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, c
   if (sequence == reference.sequences.end()) return {};
   if (answer.is_list) return causes_of_list(answer, reference, *sequence, score);
   const Motion motion(answer.table, reference);
-  std::vector<Cause> causes = readings_of(answer, motion, reference, score);
-  if (!causes.empty()) return chosen(std::move(causes));
-  std::vector<FoundImpact> impacts = impacts_of(motion, reference);
-  if (reference.stays()) impacts.resize(std::min(impacts.size(), sequence->truth.size()));  // the rest is not asked for
+  std::vector<Cause> causes = chosen(readings_of(answer, motion, reference, score));
+  const auto is_mirrored = [](const Cause& one) { return one.name == "phi-sign" || one.name == "left-right"; };
+  if (!causes.empty() && !std::any_of(causes.begin(), causes.end(), is_mirrored)) return causes;
+  const Diagnosed run(answer, motion, reference, *sequence, score);
+  if (!causes.empty()) {  // a body that starts with phi of the other sign is its own mirror image
+    for (Cause& cause : causes_at_start(run)) {
+      if (cause.name == "start-angle") causes.push_back(std::move(cause));
+    }
+    return causes;
+  }
   // After one impact alone a wrong start and a wrong impact look alike.
   if (motion.begins_after_touch() && sequence->truth.size() == 1) return {};
-  const Misses misses(reference, std::span(impacts).first(std::min(impacts.size(), sequence->truth.size())));
-  add_margin(answer, reference, score, misses, causes);
-  const std::optional<Cause> first_order = first_order_step_of(motion, reference, *sequence, score.flight_error);
-  const double flight_left = first_order ? first_order->misfit : score.flight_error;
-  if (causes.empty() && !impacts.empty()) {
-    double left = flight_left;
-    for (const FoundImpact& impact : impacts) left = worse(left, law_error(reference, sequence->law, impact));
-    add_start(motion, reference, left, causes);
-  }
-  if (causes.empty()) add_cut_off(motion, *sequence, reference, score, causes);
-  if (!causes.empty()) return causes;
-  causes = flight_causes_of(motion, reference, impacts);
-  if (!causes.empty()) return chosen(std::move(causes));
-  constexpr double free_flight = 1e-2;  // beyond, states before impacts are not those of the run
-  const bool is_exact = !first_order && resolves_instants(impacts);
-  const double gravity_of_step = is_exact ? 0 : motion.step() * reference.pull().norm();
-  if (flight_left <= free_flight) causes = impact_causes_of(reference, sequence->law, impacts, gravity_of_step);
-  if (causes.empty() && !impacts.empty() && impacts.front().points.empty()) {
-    causes = far_body_causes_of(answer, reference, sequence->law, impacts);
-  }
-  if (causes.empty()) add_delay(reference, misses, causes);
-  if (causes.empty()) add_time_step(motion, reference, score, flight_left, impacts, causes);
-  causes = chosen(std::move(causes));
-  if (first_order) add_first_order(*first_order, causes);
-  return causes;
+  const Misses misses(reference, std::span(run.impacts).first(std::min(run.impacts.size(), sequence->truth.size())));
+  causes = causes_of_scene(run, misses);
+  if (causes.empty()) causes = chosen(flight_causes_of(motion, reference));
+  return !causes.empty() ? causes : causes_of_impacts(run, misses);
 }
 
 }  // namespace clatter::validation::inline benchmark

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -149,27 +150,29 @@ struct FlightSteps {
   double precession = 0;  ///< change of the angular velocity that Euler's equations ask for [rad/s]
   std::vector<Vector3> accelerations;
 
-  FlightSteps(const Motion& motion, const Reference& reference, const std::vector<FoundImpact>& impacts) {
+  FlightSteps(const Motion& motion, const Reference& reference) {
     const double until = reference.stays() ? motion.first_touch() + reference.sequences.front().truth.back().time : 0;
-    const std::size_t asked = reference.sequences.front().truth.size();
     for (std::size_t row = 0; row + 1 < motion.size(); row += 1 + motion.size() / looked_at) {
       if (reference.stays() && motion.time(row) > until) break;
-      if (impacts.size() > asked && row >= impacts[asked].first_row) break;  // what follows is not asked for
-      if (!is_of_contact(row, impacts)) add(motion, reference, row);
+      add(motion, reference, row);
     }
   }
 
  private:
-  static bool is_of_contact(std::size_t row, const std::vector<FoundImpact>& impacts) {
-    constexpr std::size_t many = 8;  // rows
-    return std::any_of(impacts.begin(), impacts.end(), [&](const FoundImpact& one) {
-      return one.last_row > one.first_row + many && row >= one.first_row && row < one.last_row;
-    });
+  /// Whether the body lies, rocks or slides on the ground in a row.
+  static bool is_on_ground(const analytic::space::State& state, const Reference& reference) {
+    constexpr double on_ground = 1e-3;  // of the reach
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const Vector3& arm : reference.arms(state.attitude)) {
+      lowest = std::fmin(lowest, state.position.z() + arm.z());
+    }
+    return std::fabs(lowest) <= on_ground * reference.reach();
   }
 
   void add(const Motion& motion, const Reference& reference, std::size_t row) {
     const double time = motion.time(row + 1) - motion.time(row), slow = least_size * reference.speed();
     const auto from = motion.state(row), to = motion.state(row + 1);
+    if (is_on_ground(from, reference) && is_on_ground(to, reference)) return;
     // Where no gravity is asked for, another one is still towards the ground.
     const Vector3 pull = reference.pull(), down = pull.norm() > 0 ? pull.normalized() : Vector3(0, 0, -1);
     fall.add(to.velocity - from.velocity, -time * down);
@@ -226,9 +229,8 @@ bool moves_by_its_velocities(const Motion& motion, const Reference& reference) {
   return !velocity_scale_of(motion, reference) && !lag_of(motion, reference, turned);
 }
 
-std::vector<Cause> flight_causes_of(const Motion& motion, const Reference& reference,
-                                    const std::vector<FoundImpact>& impacts) {
-  FlightSteps steps(motion, reference, impacts);
+std::vector<Cause> flight_causes_of(const Motion& motion, const Reference& reference) {
+  FlightSteps steps(motion, reference);
   const double length = motion.time(motion.size() - 1) - motion.time(0), least = reference.tolerances[1] / length;
   const Vector3 pull = reference.pull();
   const std::optional<Rate> gravity = steps.fall.rate(pull.norm());

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "validation/benchmark/cause.hpp"
-#include "validation/benchmark/found_impacts.hpp"
+#include "validation/benchmark/motion.hpp"
 
 namespace clatter::validation::inline benchmark {
 
@@ -24,8 +24,7 @@ namespace clatter::validation::inline benchmark {
 /// each by the median over the steps, so that those with an impact do not count.  In space also an angular velocity
 /// that stays constant, as of codes without the gyroscopic term.  Where an impact lasts many rows the body lies, rocks
 /// or slides on the ground, and these say nothing of flight.
-[[nodiscard]] std::vector<Cause> flight_causes_of(const Motion& motion, const Reference& reference,
-                                                  const std::vector<FoundImpact>& impacts);
+[[nodiscard]] std::vector<Cause> flight_causes_of(const Motion& motion, const Reference& reference);
 
 /// A step of first order Δt, by whose velocities the places run ahead of free flight's or fall behind by
 ///     ±g Δt/2                                                                                        (3)

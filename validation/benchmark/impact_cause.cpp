@@ -71,9 +71,9 @@ class ImpactCauses {
     for (std::size_t i = 0; i < impacts_.size(); ++i) {
       if (!(errors_[i] <= 0.1 * worst_)) broken_.push_back(i);
     }
-    for (const std::size_t i : broken_) {
-      by_step_ = std::fmax(by_step_, step_share * law_error_of_speed(reference_, impacts_[i], gravity_of_step));
-    }
+    by_step_ = std::all_of(broken_.begin(), broken_.end(), [&](std::size_t i) {
+      return errors_[i] <= step_share * law_error_of_speed(reference_, impacts_[i], gravity_of_step);
+    });
   }
 
   /// Those on the body alone.
@@ -111,7 +111,7 @@ class ImpactCauses {
 
   /// Whether the step makes errors of this size, too: one impact then proves nothing, nor do several nearly.
   [[nodiscard]] bool is_of_the_step(double misfit) const {
-    return worst_ <= by_step_ && (broken_.size() == 1 || !(misfit <= reference_.tolerances[1]));
+    return by_step_ && (broken_.size() == 1 || !(misfit <= reference_.tolerances[1]));
   }
 
   void keep(const char* name, const Fitted& fit, const std::string& words) {
@@ -334,7 +334,7 @@ class ImpactCauses {
   std::vector<double> errors_;
   std::vector<std::size_t> broken_;  ///< impacts that do not follow the law
   double worst_ = 0;
-  double by_step_ = 0;  ///< law error that g × step can make
+  bool by_step_ = false;  ///< g × step can make the law errors of these
   std::vector<Cause> causes_;
 };
 

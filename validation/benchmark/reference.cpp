@@ -325,6 +325,7 @@ Reference reference_of(const Problem& problem) {
                       .points = {},
                       .start = {},
                       .tolerances = problem.tolerances,
+                      .gaps = problem.gaps,
                       .until = problem.until,
                       .sequences = {}};
   reference.drop = discrete_drop(problem.scene);

@@ -49,6 +49,7 @@ struct Reference {
   double gravity = 0;               ///< towards the ground [m/s²]
   double gravity_along = 0;         ///< along x [m/s²]
   std::vector<double> tolerances{1e-9, 1e-6, 1e-3, 1e-2};
+  std::vector<double> gaps{0};  ///< that the problem names to start from [m]
   std::optional<double> until;  ///< no impact more until then, since the first touch [s]
   std::vector<ReferenceSequence> sequences;
   std::string remark{};  ///< on the truth, for readers; empty: none

@@ -8,6 +8,7 @@
 #include <exception>
 
 #include "validation/benchmark/reference.hpp"
+#include "validation/benchmark/start.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation::inline benchmark {
@@ -65,20 +66,25 @@ ImpactScore impact_score(const Reference& reference, const ReferenceSequence& se
   return score;
 }
 
+/// A place for readers; "?" is that of a jump that no point explains.
+std::string place_words(const std::string& place) { return place == "?" ? "no point of the body" : place; }
+
 void find_missing(Score& score, const ReferenceSequence& sequence) {
   for (std::size_t i = 0; i < sequence.truth.size(); ++i) {
     const std::string& place = sequence.truth[i].place;
     if (i >= score.impacts.size()) {
       score.findings.push_back(fmt::format("impact {} at {} is missing", i + 1, place));
     } else if (score.impacts[i].place != place) {
-      score.findings.push_back(fmt::format("impact {} is at {}, must be at {}", i + 1, score.impacts[i].place, place));
+      score.findings.push_back(
+          fmt::format("impact {} is at {}, must be at {}", i + 1, place_words(score.impacts[i].place), place));
     } else {
       continue;
     }
     return;
   }
   if (score.found > score.expected) {
-    score.findings.push_back(fmt::format("an impact more at {}, {} s after the first touch", score.impacts.back().place,
+    score.findings.push_back(fmt::format("an impact more at {}, {} s after the first touch",
+                                         place_words(score.impacts.back().place),
                                          significant(score.impacts.back().time, 4)));
   }
 }
@@ -114,17 +120,19 @@ Score score_impacts(const std::vector<FoundImpact>& impacts, const Reference& re
 
 /// Words for each error beyond the class "sharp".
 void explain(Score& score, double tolerance, double time) {
-  const auto percent = [](double error) {
-    return std::isfinite(error) ? significant(error, 2) : std::string("unknown");
-  };
   const auto add = [&](double error, const std::string& words) {
-    if (!(error <= tolerance)) score.findings.push_back(words + ", error " + percent(error));
+    if (error <= tolerance) return;
+    score.findings.push_back(words + (std::isfinite(error) ? ", error " + significant(error, 2) : ""));
   };
-  add(score.start_error, "the run does not start as the problem says");
+  add(score.start_error,
+      "the run does not start as the problem says" + (score.start_words.empty() ? "" : ": " + score.start_words));
   for (std::size_t i = 0; i < std::min(score.impacts.size(), score.expected); ++i) {
     const ImpactScore& one = score.impacts[i];
     if (one.law_error <= tolerance) continue;
-    add(one.law_error, fmt::format("impact {} does not follow the law", i + 1));
+    add(one.law_error, fmt::format("impact {} does not follow the law{}", i + 1,
+                                   std::isfinite(one.law_error) ? ""
+                                   : one.place == "?"           ? ": no point of the body explains its jump"
+                                                                : ", which has no answer there"));
     break;
   }
   if (score.drift) add(score.energy_error, fmt::format("energy drifts in flight after impact {}", *score.drift));
@@ -373,6 +381,7 @@ Score score_motion(const Motion& motion, const Reference& reference, const std::
   return best_of(reference, law, [&](const ReferenceSequence& sequence) {
     Score score = score_impacts(impacts, reference, sequence);
     score.start_error = motion.start_error();
+    if (!(score.start_error <= reference.tolerances[1])) score.start_words = start_differences(motion, reference);
     Flights(motion, reference, sequence, impacts, ending.nothing_approaches).score(score);
     return score;
   });

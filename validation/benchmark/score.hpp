@@ -59,6 +59,7 @@ struct Score {
          flight_error = 0, start_error = 0;
   double gradient_error = 0;                    ///< of derivatives that a list gives (gradient_score.hpp)
   std::optional<std::size_t> drift{}, stray{};  ///< after how many impacts energy or flight is worst
+  std::string start_words{};                    ///< what differs at the start
   std::string left_out{};               ///< what the problem asks for and the answer does not say; empty: nothing
   std::vector<std::string> findings{};  ///< what is wrong, in words, the first first
 

@@ -171,6 +171,12 @@ std::vector<std::string> data_lines(const Problem& problem) {
         fmt::format("ground: it ends at x = {} m, the centre of mass is at x = 0 at the first touch; what "
                     "strikes there is the lower face, at the place called edge; there is none to the right",
                     shortest(*problem.ground_end)));
+  lines.push_back(
+      problem.gaps.size() > 1
+          ? "starts: one of these, any will do; it is one drop, seen first at several heights of the lowest "
+            "point, so that impacts fall elsewhere within a code's steps: best are runs from all of them, "
+            "of which the worst counts"
+          : "start: the only one");
   for (const double gap : problem.gaps) lines.push_back("  " + start_words(problem, gap));
   lines.push_back("equations: " + equations_of(problem));
   return lines;
@@ -252,15 +258,24 @@ std::vector<std::string> slope_lines(const Problem& problem) {
           "               -> x"};
 }
 
-/// What an answer must say beside its rows; empty: nothing.
+/// Until when an answer must go, and what it must say beside its rows.
 std::string ending_words(const Problem& problem) {
-  if (!problem.until) return "";
+  if (!problem.until) {
+    const double last = truth_of(problem, truth_laws(problem).front()).back().time;
+    return last > 0 ? fmt::format("; a motion must go on beyond the last impact, {} s after the first touch",
+                                  significant(last, 4))
+                    : "; a motion must go on beyond the impact at the first touch";
+  }
   const std::string until = shortest(*problem.until);
   return problem.energy_alone
-             ? fmt::format("; a motion must last {} s, a list needs \"# energy: J\" then, with {}", until,
+             ? fmt::format("; a motion must last {} s from the first touch, a list needs \"# energy: J\" then, with {}",
+                           until,
                            problem.scene.world.incline_deg == 0 ? "m g z"
                                                                 : "-m (g . way) along the slope and m g_n z across it")
-             : fmt::format("; a motion must last {} s or say \"# ended: nothing approaches\", as a list must", until);
+             : fmt::format(
+                   "; a motion must last {} s from the first touch or say \"# ended: nothing approaches\", as a list "
+                   "must",
+                   until);
 }
 
 /// What a statement says as JSON, but for the truth.

@@ -2,6 +2,7 @@
 #include "validation/reports/score_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -105,6 +106,19 @@ Value group_value(const SubmissionGroup& group) {
   return value;
 }
 
+/// Causes that explain a run in place of each other in one line, those beside them in lines of their own.
+std::vector<std::string> cause_words(const std::vector<Cause>& causes) {
+  std::vector<std::string> lines, either;
+  for (const Cause& cause : causes) {
+    if (cause.is_more) lines.push_back("and: " + cause.words);
+    else either.push_back(cause.words);
+  }
+  if (either.empty()) return lines;
+  const std::string first = either.size() > 1 ? "either " : "";
+  lines.insert(lines.begin(), fmt::format("likely cause: {}{}", first, fmt::join(either, "; or ")));
+  return lines;
+}
+
 std::string group_words(const SubmissionGroup& group) {
   std::string name;
   for (const std::string& part : {group.head.problem, group.head.engine, group.head.version, group.head.settings}) {
@@ -113,8 +127,9 @@ std::string group_words(const SubmissionGroup& group) {
   std::string words = (name.empty() ? "all files" : name) + ": " + verdict_name(group.verdict);
   for (const SubmissionGroup::Step& step : group.steps) {
     if (step.files < 2 && group.steps.size() < 2) continue;
-    words += fmt::format("; {}worst of {}: {}", step.step ? "step " + significant(*step.step, 3) + " s, " : "",
-                         step.files, std::isfinite(step.error) ? significant(step.error, 2) : "?");
+    words += fmt::format("; {}largest error of {} file{}: {}",
+                         step.step ? "step " + significant(*step.step, 3) + " s, " : "", step.files,
+                         step.files == 1 ? "" : "s", std::isfinite(step.error) ? significant(step.error, 2) : "?");
   }
   if (group.order) words += fmt::format("; order {:.2f} in the step", *group.order);
   return words;
@@ -151,9 +166,21 @@ std::vector<Column> score_columns() {
       Column{"finding", "", "", "what is wrong, the first", false, true}};
 }
 
+/// What stands below the table.
+std::vector<std::string> score_legend() {
+  return {
+      "found, of: impacts found, impacts asked for",
+      "law: impacts against the exact law at the run's own state before them, of the change that the law makes",
+      "V, Ω: velocity and spin after impacts against the truth, of the sequence's largest; t: times of impacts, of the "
+      "last one's",
+      "energy: after impacts against the truth, and its drift between them, of the start's",
+      "all without units, 1 is 100 %; ?: cannot be told, an impact is wrong, missing or too many"};
+}
+
 Report score_report(const std::string& command, const std::vector<Submission>& submissions) {
   Report report = begun_report(command, "answers of others against the truth");
   report.grid.columns = score_columns();
+  report.notes = score_legend();
   Value files{Value::List{}}, problems{Value::List{}};
   Verdict worst = Verdict::exact;
   for (const Submission& one : submissions) {
@@ -162,7 +189,7 @@ Report score_report(const std::string& command, const std::vector<Submission>& s
     files.push_back(submission_value(report.grid.columns, one));
     worst = std::max(worst, one.verdict);
     const std::string name = std::filesystem::path(one.path).filename().string();
-    for (const Cause& cause : one.causes) report.notes.push_back(name + ": likely cause: " + cause.words);
+    for (const std::string& words : cause_words(one.causes)) report.notes.push_back(name + ": " + words);
     for (const std::string& finding : one.score.findings) report.notes.push_back(name + ": " + finding);
     if (!one.score.law_is_declared && one.score.law != "any") {
       report.notes.push_back(name + ": declares no law; judged by the one that fits best, " + one.score.law);

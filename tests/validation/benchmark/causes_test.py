@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Right codes of fixed steps and wrong scenes: what the judge says of each, and in which order."""
 import json
+import os
 import pathlib
 import tempfile
 import unittest
@@ -94,6 +95,116 @@ class Steps(unittest.TestCase):
             causes = judged(code.text())["causes"]
             self.assertEqual([cause["cause"] for cause in causes], ["restitution", "first-order-step"])
             self.assertAlmostEqual(causes[0]["value"], code.e, delta=1e-6)
+
+
+def resized(code, along=1.0, across=1.0, raised=True):
+    """Another body, whose lowest point starts as high above the ground as that of the problem's, if raised."""
+    lowest = min(code.height(code.state, k) for k in range(len(code.points)))
+    x, z = (max(point[i] for point in code.points) for i in (0, 1))
+    of_length = code.mass * x * x / 3
+    code.moment = of_length * along**2 + (code.moment - of_length) * across**2
+    code.points = [(along * x, across * z) for x, z in code.points]
+    if raised:
+        code.state[2] += lowest - min(code.height(code.state, k) for k in range(len(code.points)))
+    return code
+
+
+class Starts(unittest.TestCase):
+    def test_what_differs_at_the_start_is_told_with_both_values(self):
+        for k, change, words in ((3, 1.01, "phi is 0.440696 rad, must be 0.436332 rad"), (5, 1.01, "vz is -1.49204 m/s, must be -1.47726 m/s"),
+                                 (4, 0.3, "vx is 0.3 m/s, must be 0 m/s"), (6, -0.2, "omega is -0.2 rad/s, must be 0 rad/s")):
+            with self.subTest(words):
+                code = Code("box", 1)
+                code.state[k] = code.state[k] * change if code.state[k] else change
+                finding, = (one for one in judged(code.text(code.rows(1 / 500)))["findings"] if "does not start" in one)
+                self.assertIn(f"does not start as the problem says: {words}, error 0.", finding)
+
+    def test_a_start_is_told_beside_the_one_that_is_nearest_to_it(self):
+        findings = " ".join(judged(resized(StepCode("box", 1), across=2).text())["findings"])
+        self.assertIn("says: z is 0.136343 m, must be 0.0910272 m, error 0.", findings)
+
+    def test_a_start_in_space_is_told_by_its_parts(self):
+        motion = exact_motion.Motion("corner", 1)
+        motion.pieces[0].omega = (0.5, *motion.pieces[0].omega[1:])
+        findings = " ".join(judged(motion.text(motion.rows(1 / 500)))["findings"])
+        self.assertIn("does not start as the problem says: wx is 0.5 rad/s, must be", findings)
+
+    def test_an_angle_in_degrees_at_the_start_alone_is_named(self):
+        for problem, degrees in (("box", 25), ("rod-10", 10), ("clatter-08", 10)):
+            for gap in (0, 1):
+                for code in (StepCode(problem, gap), Code(problem, gap)):
+                    code.state[3] = float(degrees)
+                    with self.subTest(problem=problem, gap=gap):
+                        text = code.text() if isinstance(code, StepCode) else code.text(code.rows(1 / 500))
+                        found = judged(text)
+                        self.assertEqual([cause["cause"] for cause in found["causes"]], ["start-degrees"])
+                        self.assertIn(f"phi is {degrees} rad, must be ", " ".join(found["findings"]))
+
+    def test_another_size_of_the_body_is_named(self):
+        for problem, changes, size in (("rod-10", {"along": 0.9}, 0.9), ("rod-10", {"along": 0.9, "raised": False}, 0.9),
+                                       ("rod-45", {"along": 0.5}, 0.5), ("box", {"across": 2}, 0.2), ("box", {"along": 0.9}, 0.18),
+                                       ("thick-rod", {"across": 2}, 0.1)):
+            exact = resized(Code(problem, 1), **changes)
+            for text, tolerance in ((exact.text(exact.rows(1 / 500)), 1e-9),
+                                    (resized(StepCode(problem, 1, 1 / 3840), **changes).text(), 0.01 * size)):
+                with self.subTest(problem=problem, **changes):
+                    causes = judged(text)["causes"]
+                    self.assertEqual([cause["cause"] for cause in causes], ["size"])
+                    self.assertAlmostEqual(causes[0]["value"], size, delta=tolerance)
+                    self.assertIn("is asked", causes[0]["words"])
+
+    def test_a_body_that_starts_tilted_the_other_way_is_its_own_mirror_image(self):
+        code = Code("box", 1)
+        code.state[3] *= -1
+        text = code.text(code.rows(1 / 500))
+        self.assertEqual(told(text), ["phi-sign", "left-right", "start-angle"])
+        causes = [line for line in shown(text) if "likely cause" in line]
+        self.assertEqual(len(causes), 1, causes)
+        self.assertIn("likely cause: either phi and omega count the other turn", causes[0])
+
+
+def shown(text):
+    """The lines of the report for people."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder, "run.csv")
+        path.write_text(text)
+        return exact_motion.run("benchmark", "score", str(path)).stdout.splitlines()
+
+
+class Words(unittest.TestCase):
+    def test_each_column_has_its_meaning_below_the_table_in_eighty_columns(self):
+        lines = shown(StepCode("box", 1).text(step="1/960"))
+        for word in ("found, of: ", "law: ", "V, Ω: ", "energy: "):
+            self.assertEqual(sum(line.startswith(word) for line in lines), 1, (word, lines))
+        self.assertIn("without units", " ".join(lines))
+        self.assertLessEqual(max(map(len, lines)), 80)
+
+    def test_no_question_mark_stands_for_a_place(self):
+        code = Code("rod-10", 1)
+        code.points = [(x, 0.1) for x, _ in code.points]
+        code.moment *= 3
+        findings = judged(code.text(code.rows(1 / 500)))["findings"]
+        self.assertIn("impact 1 is at no point of the body, must be at a", findings)
+        self.assertIn("impact 1 does not follow the law: no point of the body explains its jump", findings)
+        self.assertNotIn("?", " ".join(findings))
+
+
+class Documents(unittest.TestCase):
+    def test_the_example_of_the_reference_is_right_as_far_as_it_goes(self):
+        page = (pathlib.Path(os.environ["CLATTER_ROOT"]) / "notebooks-data/reference/benchmark.md").read_text()
+        example = page.split("## Hand in a motion")[1].split("```")[1].strip() + "\n"
+        found = judged(example)
+        self.assertEqual([cause["cause"] for cause in found["causes"]], ["cut-off"])
+        self.assertLess(found["start_error"], 1e-6)
+        self.assertLess(found["impact_scores"][0]["law_error"], 1e-6)
+
+    def test_each_statement_says_what_its_starts_are_for_and_until_when_a_motion_goes(self):
+        for problem in exact_motion.told("benchmark", "list")["problems"]:
+            with self.subTest(problem["id"]):
+                text = " ".join(exact_motion.run("benchmark", "show", problem["id"]).stdout.split())
+                several = len(exact_motion.told("benchmark", "show", problem["id"])["starts"]) > 1
+                self.assertIn("starts: one of these, any will do" if several else "start: the only one", text)
+                self.assertRegex(text, "a motion must (last [0-9.e-]+ s from the first touch|go on beyond the (last impact, [0-9.e-]+ s|impact))")
 
 
 if __name__ == "__main__":

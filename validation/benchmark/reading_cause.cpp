@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/benchmark/reading_cause.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <exception>
+#include <functional>
+#include <numbers>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+#include "validation/benchmark/flight_cause.hpp"
+
+namespace clatter::validation::inline benchmark {
+namespace {
+
+namespace space = analytic::space;
+using space::Vector3;
+
+/// A way to read rows that is not the one asked for.
+struct Reading {
+  const char* name;
+  std::string words;
+  std::function<void(const NumericTable&, std::span<double>)> change;
+};
+
+std::function<void(const NumericTable&, std::span<double>)> scaled(std::vector<const char*> names, double factor) {
+  return [names, factor](const NumericTable& table, std::span<double> row) {
+    for (const char* name : names) {
+      if (const auto at = table.column(name)) row[*at] *= factor;
+    }
+  };
+}
+
+void from_body_frame(const NumericTable& table, std::span<double> row) {
+  const auto at = [&](const char* name) -> double& { return row[table.column(name).value()]; };
+  const space::Quaternion turn(at("q0"), at("q1"), at("q2"), at("q3"));
+  const Vector3 rate = turn * Vector3(at("wx"), at("wy"), at("wz"));
+  at("wx") = rate.x(), at("wy") = rate.y(), at("wz") = rate.z();
+}
+
+void scalar_first(const NumericTable& table, std::span<double> row) {
+  const auto at = [&](const char* name) -> double& { return row[table.column(name).value()]; };
+  const double scalar = at("q3");
+  at("q3") = at("q2"), at("q2") = at("q1"), at("q1") = at("q0"), at("q0") = scalar;
+}
+
+void exchange_axes(const NumericTable& table, std::span<double> row) {
+  for (const auto& [x, z] : {std::pair{"x", "z"}, std::pair{"vx", "vz"}}) {
+    std::swap(row[table.column(x).value()], row[table.column(z).value()]);
+  }
+}
+
+void from_y_up(const NumericTable& table, std::span<double> row) {
+  const auto at = [&](const char* name) -> double& { return row[table.column(name).value()]; };
+  for (const auto& [y, z] : {std::pair{"y", "z"}, std::pair{"vy", "vz"}, std::pair{"wy", "wz"}}) {
+    const double up = at(y);
+    at(y) = -at(z), at(z) = up;
+  }
+  const double half = std::sqrt(0.5);
+  const space::Quaternion turn =
+      space::Quaternion(half, half, 0, 0) * space::Quaternion(at("q0"), at("q1"), at("q2"), at("q3"));
+  at("q0") = turn.w(), at("q1") = turn.x(), at("q2") = turn.y(), at("q3") = turn.z();
+}
+
+/// From a point of the body, `place` in its axes, to the centre of mass.
+void from_point(const Vector3& place, const NumericTable& table, std::span<double> row) {
+  const auto at = [&](const char* name) -> double& { return row[table.column(name).value()]; };
+  if (!table.column("q0")) {
+    const double s = std::sin(at("phi")), c = std::cos(at("phi"));
+    const double along = place.x() * c - place.z() * s, up = place.x() * s + place.z() * c;
+    at("x") -= along, at("z") -= up;
+    at("vx") += at("omega") * up, at("vz") -= at("omega") * along;
+    return;
+  }
+  const space::Quaternion turn(at("q0"), at("q1"), at("q2"), at("q3"));
+  const Vector3 arm = turn * place, speed = Vector3(at("wx"), at("wy"), at("wz")).cross(arm);
+  at("x") -= arm.x(), at("y") -= arm.y(), at("z") -= arm.z();
+  at("vx") -= speed.x(), at("vy") -= speed.y(), at("vz") -= speed.z();
+}
+
+constexpr double radian = std::numbers::pi / 180, full_turn = 2 * std::numbers::pi;  // [rad]
+constexpr double foot = 0.3048;                                                      // [m]
+
+const std::vector<Reading>& planar_readings() {
+  static const std::vector<Reading> readings{
+      {"phi-sign", "phi and omega count the other turn as positive", scaled({"phi", "omega"}, -1)},
+      {"omega-sign", "omega has not the sign of phi's rate", scaled({"omega"}, -1)},
+      {"left-right", "left and right are exchanged: x, phi, vx and omega have the other sign",
+       scaled({"x", "phi", "vx", "omega"}, -1)},
+      {"up-down", "z points down", scaled({"z", "vz"}, -1)},
+      {"exchanged", "x and z are exchanged, and vx and vz", exchange_axes},
+      {"degrees", "phi and omega are in degrees", scaled({"phi", "omega"}, radian)},
+      {"degrees", "phi is in degrees", scaled({"phi"}, radian)},
+      {"degrees", "omega is in degrees per second", scaled({"omega"}, radian)},
+      {"turns", "omega is in turns per second", scaled({"omega"}, full_turn)},
+      {"millimetres", "lengths are in millimetres", scaled({"x", "z", "vx", "vz"}, 1e-3)},
+      {"centimetres", "lengths are in centimetres", scaled({"x", "z", "vx", "vz"}, 1e-2)},
+      {"feet", "lengths are in feet", scaled({"x", "z", "vx", "vz"}, foot)},
+      {"milliseconds", "t is in milliseconds", scaled({"t"}, 1e-3)}};
+  return readings;
+}
+
+const std::vector<Reading>& space_readings() {
+  static const std::vector<Reading> readings{
+      {"conjugate", "the Euler parameters turn from the world to the body", scaled({"q1", "q2", "q3"}, -1)},
+      {"body-frame", "the angular velocity is in body axes", from_body_frame},
+      {"scalar-last", "the Euler parameters have their scalar last", scalar_first},
+      {"omega-sign", "the angular velocity has the other sign", scaled({"wx", "wy", "wz"}, -1)},
+      {"up-down", "z points down", scaled({"z", "vz"}, -1)},
+      {"y-up", "y points up, and z out of the page", from_y_up},
+      {"mirrored", "the axes are left-handed: y points the other way", scaled({"y", "q1", "q3", "vy", "wx", "wz"}, -1)},
+      {"degrees", "the angular velocity is in degrees per second", scaled({"wx", "wy", "wz"}, radian)},
+      {"turns", "the angular velocity is in turns per second", scaled({"wx", "wy", "wz"}, full_turn)},
+      {"millimetres", "lengths are in millimetres", scaled({"x", "y", "z", "vx", "vy", "vz"}, 1e-3)},
+      {"centimetres", "lengths are in centimetres", scaled({"x", "y", "z", "vx", "vy", "vz"}, 1e-2)},
+      {"feet", "lengths are in feet", scaled({"x", "y", "z", "vx", "vy", "vz"}, foot)},
+      {"milliseconds", "t is in milliseconds", scaled({"t"}, 1e-3)}};
+  return readings;
+}
+
+const std::vector<Reading>& list_readings() {
+  static const std::vector<Reading> readings{
+      {"omega-sign", "Omega has the other sign than its line says", scaled({"Omega"}, -1)},
+      {"up-down", "V counts down as positive", scaled({"V"}, -1)},
+      {"tangential-sign", "Pt counts left as positive", scaled({"Pt"}, -1)},
+      {"degrees", "Omega is in degrees per second", scaled({"Omega", "Wx", "Wy", "Wz"}, radian)},
+      {"milliseconds", "t is in milliseconds", scaled({"t"}, 1e-3)}};
+  return readings;
+}
+
+/// Rows that are right when read otherwise.
+class ReadingCauses {
+ public:
+  ReadingCauses(const Answer& answer, const Reference& reference, const Score& score)
+      : table_(answer.table), reference_(reference), answer_(answer), law_(score.law == "any" ? "" : score.law),
+        error_(score.error()) {}
+
+  void of_motion() {
+    for (const Reading& reading : table_.column("q0") ? space_readings() : planar_readings()) {
+      add(reading, [&] { return score_as(reading); });
+    }
+    if (causes_.empty()) of_other_points();
+  }
+
+  void of_list() {
+    for (const Reading& reading : list_readings()) {
+      add(reading, [&] { return score_list(impacts(changed(reading)), reference_, law_, answer_.ending); });
+    }
+    if (!reference_.is_planar || reference_.points.size() != 2) return;
+    add({"ends-exchanged", "the ends are exchanged", {}}, [&] {
+      std::vector<FoundImpact> exchanged = impacts(table_);
+      for (FoundImpact& impact : exchanged) {
+        if (impact.points.size() == 1) impact.points = {1 - impact.points.front()};
+        impact.place = reference_.place_name(impact.points);
+      }
+      return score_list(exchanged, reference_, law_, answer_.ending);
+    });
+  }
+
+  [[nodiscard]] const std::vector<Cause>& causes() const { return causes_; }
+
+ private:
+  /// Place and velocity of a corner or an end, in place of the centre of mass.
+  void of_other_points() {
+    for (std::size_t k = 0; k < reference_.body.vertices.size() && k < reference_.points.size(); ++k) {
+      const Vector3 place = reference_.body.vertices[k];
+      const Reading reading{
+          "other-point",
+          fmt::format("place and velocity are those of {}, not of the centre of mass", reference_.points[k]),
+          [&](const NumericTable& table, std::span<double> row) { from_point(place, table, row); }};
+      add(reading, [&] { return score_as(reading); });
+      if (!causes_.empty()) return;
+    }
+  }
+
+  /// @throws std::domain_error if the rows do not move by their velocities, read so
+  [[nodiscard]] Score score_as(const Reading& reading) const {
+    const Motion motion(changed(reading), reference_);
+    if (!moves_by_its_velocities(motion, reference_)) throw std::domain_error("rows that contradict each other");
+    return score_motion(motion, reference_, law_, answer_.ending);
+  }
+
+  [[nodiscard]] NumericTable changed(const Reading& reading) const {
+    return table_.changed([&](std::span<double> row) { reading.change(table_, row); });
+  }
+
+  [[nodiscard]] std::vector<FoundImpact> impacts(const NumericTable& table) const {
+    return listed_impacts(table, reference_, answer_.is_counter_clockwise);
+  }
+
+  template <class Judge>
+  void add(const Reading& reading, Judge&& judge) {
+    double left = Score::unknown;
+    try {
+      left = judge().error();
+    } catch (const std::exception&) {
+      return;  // read so, the rows are no motion of the body
+    }
+    constexpr std::size_t few_rows = 6;  // may be right by chance
+    if (!(left <= explained * std::fmin(error_, 1))) return;
+    if (table_.rows() < few_rows && !(left <= reference_.tolerances[1])) return;
+    causes_.push_back(
+        {reading.name, {}, left, fmt::format("{}: read so, all is right {}", reading.words, misfit_words(left))});
+  }
+
+  const NumericTable& table_;
+  const Reference& reference_;
+  const Answer& answer_;
+  std::string law_;
+  double error_;
+  std::vector<Cause> causes_;
+};
+
+}  // namespace
+
+std::vector<Cause> misreadings_of(const Answer& answer, const Reference& reference, const Score& score) {
+  ReadingCauses readings(answer, reference, score);
+  if (answer.is_list) readings.of_list();
+  else readings.of_motion();
+  return readings.causes();
+}
+
+}  // namespace clatter::validation::inline benchmark
