@@ -169,12 +169,10 @@ std::vector<Column> score_columns() {
 /// What stands below the table.
 std::vector<std::string> score_legend() {
   return {
-      "found, of: impacts found, impacts asked for",
-      "law: impacts against the exact law at the run's own state before them, of the change that the law makes",
-      "V, Ω: velocity and spin after impacts against the truth, of the sequence's largest; t: times of impacts, of the "
-      "last one's",
-      "energy: after impacts against the truth, and its drift between them, of the start's",
-      "all without units, 1 is 100 %; ?: cannot be told, an impact is wrong, missing or too many"};
+      "Errors, 1 is 100 %.  law: off the exact law at the run's own state; V, Ω, t: off the truth, of the largest V "
+      "and Ω and "
+      "of the last t; energy: off the truth, and its drift between impacts, of the start's; ?: cannot be told where an "
+      "impact is wrong, missing or too many"};
 }
 
 Report score_report(const std::string& command, const std::vector<Submission>& submissions) {
