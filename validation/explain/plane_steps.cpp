@@ -108,7 +108,7 @@ class PlanarImpact {
   }
 
   [[nodiscard]] std::string departure_words() const {
-    return fmt::format("contact angle of impact {}; beside φ it is {} rad", n_ - 1,
+    return fmt::format("contact angle of impact {}, in radians {}", n_ - 1,
                        significant(std::fabs(row_.departure.inclination), 6));
   }
 
@@ -270,8 +270,8 @@ class PlanarImpact {
     if (begins) {
       writer_.computed(
           "r_0", "", absolute(drift) / c,
-          {"impulse ratio that would keep the contact from slipping: more than μ, so that it slips, the way "
-           "of −B"});
+          {"impulse ratio that would keep the contact from slipping: more than that of friction, so that it "
+           "slips, the other way than B"});
     }
     const Quantity r1 =
         writer_.computed(is_single ? "μ_i" : "r_1", "", -(Expression(*given_.friction) * function("sgn", along)),

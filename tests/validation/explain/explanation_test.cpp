@@ -173,11 +173,11 @@ BOOST_AUTO_TEST_CASE(every_formula_evaluates_to_the_number_of_the_sequence_and_h
 
 BOOST_AUTO_TEST_CASE(tex_has_balanced_braces_ascii_characters_and_commands_of_amsmath_alone) {
   const std::set<std::string> commands{
-      "Omega", "omega",  "alpha",        "beta", "theta", "varphi",       "Gamma", "mu",    "sigma",
-      "Delta", "lambda", "tau",          "zeta", "psi",   "rho",          "cdot",  "times", "frac",
-      "sqrt",  "sin",    "cos",          "ln",   "exp",   "left",         "right", "begin", "end",
-      "vec",   "mathrm", "operatorname", "circ", "text",  "paragraph",    "surd",  "dots",  "le",
-      "pi",    "infty",  "approx",       "pm",   "to",    "textbackslash"};
+      "Omega", "omega", "alpha",  "beta",         "gamma", "theta", "varphi",       "Gamma", "mu",
+      "sigma", "Delta", "lambda", "tau",          "zeta",  "psi",   "rho",          "cdot",  "times",
+      "frac",  "sqrt",  "sin",    "cos",          "ln",    "exp",   "left",         "right", "begin",
+      "end",   "vec",   "mathrm", "operatorname", "circ",  "text",  "paragraph",    "surd",  "dots",
+      "le",    "pi",    "infty",  "approx",       "pm",    "to",    "textbackslash"};
   for (const Told& one : told()) {
     const std::string all = explanation_text(one.explanation, {.format = Format::latex});
     std::string tex;
