@@ -168,11 +168,11 @@ std::vector<Column> score_columns() {
 
 /// What stands below the table.
 std::vector<std::string> score_legend() {
-  return {
-      "Errors, 1 is 100 %.  law: off the exact law at the run's own state; V, Ω, t: off the truth, of the largest V "
-      "and Ω and "
-      "of the last t; energy: off the truth, and its drift between impacts, of the start's; ?: cannot be told where an "
-      "impact is wrong, missing or too many"};
+  return {"found, of: impacts found, impacts asked for",
+          "law: off the exact law at the run's own state, of the change that it makes",
+          "V, Ω: off the truth, of the sequence's largest; t: off it, of the last one's",
+          "energy: off the truth, and drift between impacts, of the start's",
+          "all without units, 1 is 100 %; ?: not told, impacts are wrong, missing or extra"};
 }
 
 Report score_report(const std::string& command, const std::vector<Submission>& submissions) {
