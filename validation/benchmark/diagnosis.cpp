@@ -226,7 +226,7 @@ struct Diagnosed {
   Diagnosed(const Answer& rows, const Motion& moved, const Reference& asked, const ReferenceSequence& by,
             const Score& scored)
       : answer(rows), motion(moved), reference(asked), sequence(by), score(scored), impacts(impacts_of(moved, asked)),
-        first_order(first_order_step_of(moved, asked, by, scored.flight_error)),
+        first_order(first_order_step_of(moved, asked, by, impacts, scored.flight_error)),
         flight_left(first_order ? first_order->misfit : scored.flight_error) {
     if (asked.stays()) impacts.resize(std::min(impacts.size(), by.truth.size()));  // the rest is not asked for
   }

@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <optional>
 #include <utility>
 
+#include "analytic/base/angle.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation::inline benchmark {
@@ -112,7 +111,7 @@ std::optional<Cause> slope_cause(const std::vector<Vector3>& accelerations, cons
   const auto explains = [](double share) { return share <= explained; };
   const auto count = static_cast<double>(std::count_if(left.begin(), left.end(), explains));
   if (!(change > least_size * pull.norm()) || !(count >= share_of_steps * static_cast<double>(left.size()))) return {};
-  const auto angle = [](const Vector3& g) { return std::atan2(g.x(), -g.z()) * (180 / std::numbers::pi); };
+  const auto angle = [](const Vector3& g) { return std::atan2(g.x(), -g.z()) * analytic::degrees_per_radian; };
   const double misfit = median(std::move(left));
   return Cause{"slope", angle(found), misfit,
                fmt::format("gravity {}° from the ground's normal ({}° is asked) explains the flights {}",
@@ -162,11 +161,8 @@ struct FlightSteps {
   /// Whether the body lies, rocks or slides on the ground in a row.
   static bool is_on_ground(const analytic::space::State& state, const Reference& reference) {
     constexpr double on_ground = 1e-3;  // of the reach
-    double lowest = std::numeric_limits<double>::infinity();
-    for (const Vector3& arm : reference.arms(state.attitude)) {
-      lowest = std::fmin(lowest, state.position.z() + arm.z());
-    }
-    return std::fabs(lowest) <= on_ground * reference.reach();
+    const std::vector<Vector3> arms = reference.arms(state.attitude);
+    return std::fabs(state.position.z() + arms[lowest_of(arms)].z()) <= on_ground * reference.reach();
   }
 
   void add(const Motion& motion, const Reference& reference, std::size_t row) {
@@ -252,11 +248,12 @@ std::vector<Cause> flight_causes_of(const Motion& motion, const Reference& refer
 }
 
 std::optional<Cause> first_order_step_of(const Motion& motion, const Reference& reference,
-                                         const ReferenceSequence& sequence, double flight_error) {
+                                         const ReferenceSequence& sequence, const std::vector<FoundImpact>& impacts,
+                                         double flight_error) {
   const Vector3 creep = motion.step() / 2 * reference.pull();  // (3)
   if (!(flight_error > reference.tolerances[1]) || !(creep.norm() > 0)) return {};
   for (const double sign : {1.0, -1.0}) {
-    const double left = flight_error_with(sign * creep, motion, reference, sequence);
+    const double left = flight_error_with(sign * creep, motion, reference, sequence, impacts);
     if (!(left <= explained * flight_error)) continue;
     return Cause{
         "first-order-step", motion.step(), left,

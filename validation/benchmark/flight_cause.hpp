@@ -30,7 +30,9 @@ namespace clatter::validation::inline benchmark {
 ///     ±g Δt/2                                                                                        (3)
 /// after each impact anew: + of the velocities at the step's end (semi-implicit Euler), − at its begin.  Its misfit is
 /// the flight error that is left.
+/// @param impacts all of the motion
 [[nodiscard]] std::optional<Cause> first_order_step_of(const Motion& motion, const Reference& reference,
-                                                       const ReferenceSequence& sequence, double flight_error);
+                                                       const ReferenceSequence& sequence,
+                                                       const std::vector<FoundImpact>& impacts, double flight_error);
 
 }  // namespace clatter::validation::inline benchmark

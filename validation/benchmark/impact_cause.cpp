@@ -268,10 +268,7 @@ class ImpactCauses {
 
   /// Properties of the body hold at every impact.
   void add_body() {
-    const Change inertia = [](Reference& reference, DeclaredLaw&, double factor) {
-      reference.body.inertia *= factor;
-      reference.principal = space::PrincipalAxes(reference.body.inertia);
-    };
+    const Change inertia = [](Reference& reference, DeclaredLaw&, double factor) { reference.scale_inertia(factor); };
     const Change lever = [](Reference& reference, DeclaredLaw&, double factor) {
       for (Vector3& vertex : reference.body.vertices) vertex *= factor;
       for (space::Rim& rim : reference.body.rims) rim.centre *= factor, rim.radius *= factor;
@@ -344,10 +341,7 @@ std::vector<Cause> far_body_causes(const Reference& reference, const DeclaredLaw
   if (reference.is_compliant) return {};
   for (FoundImpact& impact : impacts) {
     if (!impact.points.empty()) continue;
-    const std::vector<Vector3> arms = reference.arms(impact.before.attitude);
-    const auto lowest =
-        std::min_element(arms.begin(), arms.end(), [](const Vector3& a, const Vector3& b) { return a.z() < b.z(); });
-    impact.points = {static_cast<int>(lowest - arms.begin())};
+    impact.points = {static_cast<int>(lowest_of(reference.arms(impact.before.attitude)))};
   }
   return ImpactCauses(reference, law, impacts, 0).of_body();
 }
@@ -357,16 +351,14 @@ std::vector<Cause> far_body_causes(const Reference& reference, const DeclaredLaw
 void add_far_inertia(const Answer& answer, const Reference& reference, const DeclaredLaw& law, const FoundImpact& first,
                      std::vector<Cause>& causes) {
   const std::vector<Vector3> arms = reference.arms(first.before.attitude);
-  const Vector3 arm =
-      *std::min_element(arms.begin(), arms.end(), [](const Vector3& a, const Vector3& b) { return a.z() < b.z(); });
+  const Vector3& arm = arms[lowest_of(arms)];
   const space::Quaternion& turn = first.before.attitude;
   const Vector3 change = first.after.angular_velocity - first.before.angular_velocity;
   const Vector3 moment = turn * (reference.body.inertia * (turn.conjugate() * change));
   const double factor = arm.cross(first.impulse).dot(moment) / moment.squaredNorm();
   if (reference.is_compliant || !(factor > 0.1 && factor < 10)) return;
   Reference other = reference;
-  other.body.inertia *= factor;
-  other.principal = space::PrincipalAxes(other.body.inertia);
+  other.scale_inertia(factor);
   double left = 0;
   const std::vector<FoundImpact> impacts = impacts_of(Motion(answer.table, other), other);
   for (const FoundImpact& impact : impacts) left = worse(left, law_error(other, law, impact));

@@ -281,6 +281,11 @@ space::Corner Reference::corner(const space::Quaternion& attitude, int point) co
   return touching_corner(body, attitude, point);
 }
 
+void Reference::scale_inertia(double factor) {
+  body.inertia *= factor;
+  principal = space::PrincipalAxes(body.inertia);
+}
+
 std::vector<Vector3> Reference::arms(const space::Quaternion& attitude) const {
   const space::Matrix3 turned = attitude.toRotationMatrix();
   std::vector<Vector3> arms;
@@ -290,6 +295,12 @@ std::vector<Vector3> Reference::arms(const space::Quaternion& attitude) const {
     arms.emplace_back(turned * corner(attitude, i).place);
   }
   return arms;
+}
+
+std::size_t lowest_of(const std::vector<Vector3>& arms) {
+  const auto lowest =
+      std::min_element(arms.begin(), arms.end(), [](const Vector3& a, const Vector3& b) { return a.z() < b.z(); });
+  return static_cast<std::size_t>(lowest - arms.begin());
 }
 
 Reference::Release Reference::release(double gap) const {

@@ -77,6 +77,8 @@ struct Reference {
   [[nodiscard]] std::optional<std::vector<int>> place_named(const std::string& place) const;
   /// Where a point touches: of a rim its lowest point, of one that lies level to 1e-6 rad all of it, about its centre.
   [[nodiscard]] analytic::space::Corner corner(const analytic::space::Quaternion& attitude, int point) const;
+  /// Gives the body so many times its moments of inertia.
+  void scale_inertia(double factor);
   /// From the centre of mass to the place of each corner(), world frame.
   [[nodiscard]] std::vector<analytic::space::Vector3> arms(const analytic::space::Quaternion& attitude) const;
   /// The state from which the drop begins so that its lowest point is `gap` above the ground, and the time from there
@@ -92,6 +94,9 @@ struct Reference {
 /// The discrete model's answer: with the real body and ground where the scene has one, otherwise by its impact.* keys.
 /// @throws as the discrete model does; BadInput for a scene that has no impact.
 [[nodiscard]] Reference reference_of(const Scene& scene);
+
+/// Index of the lowest of some arms().  @pre there is one
+[[nodiscard]] std::size_t lowest_of(const std::vector<analytic::space::Vector3>& arms);
 
 /// The state right after the points strike by `law`: the impact laws of the discrete model in space, or Moreau's.
 /// A point that does not approach gets no impulse.

@@ -388,8 +388,7 @@ Score score_motion(const Motion& motion, const Reference& reference, const std::
 }
 
 double flight_error_with(const Vector3& creep, const Motion& motion, const Reference& reference,
-                         const ReferenceSequence& sequence) {
-  const std::vector<FoundImpact> impacts = impacts_of(motion, reference);
+                         const ReferenceSequence& sequence, const std::vector<FoundImpact>& impacts) {
   Score score;
   Flights flights(motion, reference, sequence, impacts, false);
   flights.run_ahead(creep);

@@ -94,8 +94,10 @@ struct Ending {
 [[nodiscard]] Score score_motion(const Motion& motion, const Reference& reference, const std::string& law,
                                  const Ending& ending = {});
 /// Score::flight_error of a motion whose places run ahead of free flight's by a constant velocity, `creep` [m/s].
+/// @param impacts all of the motion
 [[nodiscard]] double flight_error_with(const analytic::space::Vector3& creep, const Motion& motion,
-                                       const Reference& reference, const ReferenceSequence& sequence);
+                                       const Reference& reference, const ReferenceSequence& sequence,
+                                       const std::vector<FoundImpact>& impacts);
 /// The scores of a list of impacts; no score of flight and start.  Where the problem says until when nothing more
 /// strikes, the list must say that nothing does; where it asks for an energy, its own.
 [[nodiscard]] Score score_list(const std::vector<FoundImpact>& impacts, const Reference& reference,

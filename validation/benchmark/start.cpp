@@ -5,9 +5,9 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "analytic/base/angle.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation::inline benchmark {
@@ -51,11 +51,11 @@ class Differences {
     if (turned <= reference_.tolerances[1]) return;
     if (reference_.is_planar && motion_.table().column("phi")) {
       const double phi = motion_.table().at(0, motion_.table().column("phi").value());  // with its whole turns
-      const double asked = 2 * std::atan2(-asked_.attitude.y(), asked_.attitude.w());
-      words_.push_back(fmt::format("phi is {:.6g} rad, must be {:.6g} rad", phi, asked));
+      words_.push_back(fmt::format("phi is {:.6g} rad, must be {:.6g} rad", phi, inclination_of(asked_)));
       return;
     }
-    words_.push_back(fmt::format("the attitude is turned by {}°", significant(turned * 180 / std::numbers::pi, 3)));
+    words_.push_back(
+        fmt::format("the attitude is turned by {}°", significant(turned * analytic::degrees_per_radian, 3)));
   }
 
   const Motion& motion_;
@@ -66,6 +66,8 @@ class Differences {
 };
 
 }  // namespace
+
+double inclination_of(const State& state) { return 2 * std::atan2(-state.attitude.y(), state.attitude.w()); }
 
 State asked_at_height(const Reference& reference, double height) {
   const double above = height - reference.start.position.z(), speed = -reference.start.velocity.z();

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "analytic/base/angle.hpp"
 #include "validation/benchmark/start.hpp"
 #include "validation/output/number.hpp"
 
@@ -17,7 +18,7 @@ namespace space = analytic::space;
 using space::State;
 using space::Vector3;
 
-constexpr double degrees = 180 / std::numbers::pi;
+using analytic::degrees_per_radian;
 
 /// The number of degrees that is asked for, as phi in radians.
 void add_degrees(const Motion& motion, const Reference& reference, std::vector<Cause>& causes) {
@@ -25,8 +26,8 @@ void add_degrees(const Motion& motion, const Reference& reference, std::vector<C
   if (!column) return;
   const double phi = motion.table().at(0, *column);
   const State asked = asked_at_height(reference, motion.state(0).position.z());
-  const double angle = 2 * std::atan2(-asked.attitude.y(), asked.attitude.w());
-  const double left = std::fabs(phi / degrees - angle);
+  const double angle = inclination_of(asked);
+  const double left = std::fabs(phi / degrees_per_radian - angle);
   if (!(std::fabs(angle) > reference.tolerances[2]) || !(left <= reference.tolerances[2] * std::fabs(angle))) return;
   causes.push_back(
       {"start-degrees", phi, left,
@@ -39,7 +40,7 @@ void add_start(const Motion& motion, const Reference& reference, double left_aft
   const State first = motion.state(0);
   const State start = asked_at_height(reference, first.position.z());
   const auto angle = [](const State& state) {
-    return std::remainder(2 * std::atan2(-state.attitude.y(), state.attitude.w()), 2 * std::numbers::pi) * degrees;
+    return std::remainder(inclination_of(state), 2 * std::numbers::pi) * degrees_per_radian;
   };
   const double turned = 2 * (first.attitude.conjugate() * start.attitude).vec().norm();
   const double spin = reference.reach() * (first.angular_velocity - start.angular_velocity).norm() / reference.speed();
@@ -48,11 +49,12 @@ void add_start(const Motion& motion, const Reference& reference, double left_aft
   const auto alone = [&](double part) { return part == most && turned + spin + speed - part <= explained * part; };
   const double left = turned + spin + speed - most;
   if (alone(turned)) {
-    const std::string words = reference.is_planar ? fmt::format("at {}° and not at {}°", significant(angle(first), 4),
-                                                                significant(angle(start), 4))
-                                                  : fmt::format("turned by {}°", three_digits(turned * degrees));
-    causes.push_back(
-        {"start-angle", reference.is_planar ? angle(first) : turned * degrees, left, "the body starts " + words});
+    const std::string words =
+        reference.is_planar
+            ? fmt::format("at {}° and not at {}°", significant(angle(first), 4), significant(angle(start), 4))
+            : fmt::format("turned by {}°", three_digits(turned * degrees_per_radian));
+    causes.push_back({"start-angle", reference.is_planar ? angle(first) : turned * degrees_per_radian, left,
+                      "the body starts " + words});
   } else if (alone(spin)) {
     const double rate = (first.angular_velocity - start.angular_velocity).norm();
     causes.push_back(
@@ -92,8 +94,7 @@ Reference with_size(const Reference& reference, const Size& size) {
   if (!size.inertia_follows) return other;
   const auto [along, across] = parts_of_inertia(reference.body);
   const double square = size.factor * size.factor;
-  other.body.inertia *= (size.axis == 0 ? along * square + across : along + across * square) / (along + across);
-  other.principal = space::PrincipalAxes(other.body.inertia);
+  other.scale_inertia((size.axis == 0 ? along * square + across : along + across * square) / (along + across));
   return other;
 }
 
@@ -133,8 +134,7 @@ double size_misfit(const NumericTable& table, const Reference& other, const Decl
 /// Whether the lowest point is at the ground, or was or will be within a step.
 bool is_at_ground(const Reference& reference, const State& state, double step) {
   const std::vector<Vector3> arms = reference.arms(state.attitude);
-  const Vector3 arm =
-      *std::min_element(arms.begin(), arms.end(), [](const Vector3& a, const Vector3& b) { return a.z() < b.z(); });
+  const Vector3& arm = arms[lowest_of(arms)];
   const double approach = std::fabs((state.velocity + state.angular_velocity.cross(arm)).z());
   return std::fabs(state.position.z() + arm.z()) <= 1e-6 * reference.reach() + step * approach;
 }

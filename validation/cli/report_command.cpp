@@ -70,8 +70,7 @@ SweepRequest sweep_of(const ReportInput& input, const Attitudes& attitudes) {
                        .summary = true};
   if (request.file.empty()) request.text = "";
   for (const SceneOverride& given : overrides_of(input.scene)) {
-    const bool is_attitude = given.key == "drop.angle_deg" || given.key == "drop.tilt_deg" ||
-                             given.key == "drop.attitude" || given.key == "drop.orientation";
+    const bool is_attitude = given.key == "drop.attitude" || are_alternatives(given.key, "drop.attitude");
     if (!is_attitude && given.key != "run.errors" && given.key != "run.digits")
       request.sets.push_back(given.key + "=" + given.text);
   }

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "analytic/base/angle.hpp"
 #include "validation/explain/steps.hpp"
 #include "validation/record/names.hpp"
 #include "validation/scene/shortfall.hpp"
@@ -92,7 +92,7 @@ Quantity StepWriter::found(const Quantity& quantity, const Expression& formula, 
 Quantity StepWriter::computed(const Symbol& symbol, const std::string& unit, const Expression& formula,
                               const Words& words, double size) {
   Quantity quantity{symbol, evaluated(formula), unit, 0, size};
-  if (unit == "°") quantity.value *= 180 / std::numbers::pi;
+  if (unit == "°") quantity.value *= analytic::degrees_per_radian;
   return found(quantity, formula, words);
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "analytic/base/angle.hpp"
 #include "validation/explain/steps.hpp"
 #include "validation/output/number.hpp"
 #include "validation/record/names.hpp"
@@ -17,7 +18,7 @@ namespace {
 using analytic::ImpactMode;
 using analytic::ImpactRow;
 
-constexpr double degrees = 180 / std::numbers::pi;
+constexpr double degrees = analytic::degrees_per_radian;
 
 /// The steps of one impact.  Velocities before it are v_n, v_t, ω and after it V_n, V_t, Ω, as in the paper; those
 /// after an earlier impact k have the index k.

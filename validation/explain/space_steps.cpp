@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "analytic/base/angle.hpp"
 #include "analytic/law/coulomb_path.hpp"
 #include "analytic/space/free_flight.hpp"
 #include "analytic/space/point_height.hpp"
@@ -24,7 +24,7 @@ namespace space = analytic::space;
 using space::ImpactRow;
 using space::Vector3;
 
-constexpr double degrees = 180 / std::numbers::pi;
+constexpr double degrees = analytic::degrees_per_radian;
 
 const char* path_words(space::PathKind path) {
   switch (path) {

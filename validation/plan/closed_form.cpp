@@ -129,7 +129,7 @@ void add_errors(const Drop& drop, Sequence& sequence) {
     const auto here = numbers_of(row), there = numbers_of(other);
     const auto errors = errors_of(row.error);
     for (std::size_t k = 0; k < number_count; ++k) *errors[k] += std::fabs(here[k] - there[k]);
-    for (const std::size_t k : {0u, 2u, 5u})
+    for (const std::size_t k : {0u, 2u, 5u})  // start, contact angle and normal impulse, as in RowErrors::relative
       if (here[k] != there[k]) row.error.relative = std::max(row.error.relative, *errors[k] / std::fabs(here[k]));
   }
   sequence.total_normal_impulse_error =

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "analytic/base/angle.hpp"
 #include "validation/record/names.hpp"
 
 namespace clatter::validation::inline record {
@@ -12,7 +12,7 @@ namespace {
 
 namespace space = analytic::space;
 
-constexpr double degrees = 180 / std::numbers::pi;
+constexpr double degrees = analytic::degrees_per_radian;
 
 EntryVector entry(const numeric::Vector3& v) { return {v.x(), v.y(), v.z()}; }
 EntryParameters entry(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }

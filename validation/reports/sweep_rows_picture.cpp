@@ -190,13 +190,11 @@ bool has_curves(const Grid& grid, const SweepRowsView& view) {
   return view.swept == 1 || std::set<double>(first.begin(), first.end()).size() <= most_curves;
 }
 
-/// How many scenes were cut off where more impacts may follow, so that their sums are no whole sequence's; empty: none.
+/// How many rows end where more impacts may follow, so that their sums are no whole sequence's; empty: none.
 std::string cut_words(const Grid& grid) {
-  const auto is_outcome = [](const Column& column) { return column.name == "outcome"; };
-  const auto outcome = std::find_if(grid.columns.begin(), grid.columns.end(), is_outcome) - grid.columns.begin();
+  const std::size_t outcome = place_of(grid, "outcome");
   const auto cut = std::count_if(grid.rows.begin(), grid.rows.end(), [&](const Row& row) {
-    const auto place = static_cast<std::size_t>(outcome);
-    return place < row.size() && row[place].value.text() == outcome_name(analytic::Outcome::impact_limit);
+    return outcome < row.size() && row[outcome].value.text() == outcome_name(analytic::Outcome::impact_limit);
   });
   return cut == 0 ? "" : fmt::format("{} of {} rows end at run.impacts, where more may follow", cut, grid.rows.size());
 }

@@ -180,6 +180,13 @@ const std::vector<Alternative>& alternatives() {
   return pairs;
 }
 
+bool are_alternatives(std::string_view one, std::string_view other) {
+  const auto& pairs = alternatives();
+  return std::any_of(pairs.begin(), pairs.end(), [&](const Alternative& pair) {
+    return (pair.key == one && pair.instead_of == other) || (pair.key == other && pair.instead_of == one);
+  });
+}
+
 const std::vector<std::string>& scene_keys() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> list;

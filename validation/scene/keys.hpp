@@ -111,6 +111,8 @@ struct Alternative {
   const char* instead_of;
 };
 [[nodiscard]] const std::vector<Alternative>& alternatives();
+/// Whether one of two keys takes the place of the other.
+[[nodiscard]] bool are_alternatives(std::string_view one, std::string_view other);
 /// Names of the keys, and of those that a file's sweep has.
 [[nodiscard]] const std::vector<std::string>& scene_keys();
 

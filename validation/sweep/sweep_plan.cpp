@@ -371,7 +371,7 @@ void name_own_attitude(const SweepRequest& request, const SceneValues& values, s
   std::vector<std::string> others;
   for (std::size_t i = 0; i < sets.size(); ++i) {
     const std::string& key = settings[i].key;
-    const bool says_it = key == "drop.angle_deg" || key == "drop.tilt_deg" || key == "drop.orientation";
+    const bool says_it = are_alternatives(key, attitude_key);
     if (says_it && settings[i].axis) {
       throw BadInput(
           fmt::format("--scatter {} and --set {}: attitudes scatter about those of --set {}=26, about a "

@@ -11,6 +11,7 @@ from clatter.arguments import Progress, checked, is_list, is_number, plain, show
 from clatter.arrays import Array, frozen, numpy_for, same_arrays
 from clatter.errors import BadArgument
 from clatter.findings import Rows
+from clatter.records import absent
 from clatter.results import Report
 from clatter.scenes import called
 
@@ -71,7 +72,7 @@ class Angles:
             self._keep({other: array for other, array in arrays.items() if other not in self._names})
             if name in arrays:
                 return self[name]
-        raise AttributeError(f"no '{name}' here; there are {', '.join(key for key in vars(self) if not key.startswith('_'))}")
+        raise AttributeError(absent(name, (key for key in vars(self) if not key.startswith("_"))))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (self._report, self._arrays(), self._given)
@@ -85,7 +86,7 @@ class Angles:
     def __getitem__(self, name: str) -> Array:
         array: Array | None = getattr(self, name, None) if name in type(self).__annotations__ else None
         if array is None:
-            raise KeyError(f"no '{name}' here; there are {', '.join(self._arrays())}")
+            raise KeyError(absent(name, self._arrays()))
         return array
 
     def to_dict(self) -> dict[str, Any]:

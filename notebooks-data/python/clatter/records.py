@@ -20,6 +20,11 @@ def as_array(values: list[Any]) -> Array:
     return numbers(nan if value is None else value for value in values)
 
 
+def absent(name: str, known: Iterable[str]) -> str:
+    """What is said of a name that there is not."""
+    return f"no '{name}' here; there are {', '.join(known)}"
+
+
 def value_of(row: JsonObject, name: str) -> Any:
     """A value of a row by its name, by that of its error, as impulse_normal_error, or of a vector's part, as velocity_after_z.
 
@@ -35,7 +40,7 @@ def value_of(row: JsonObject, name: str) -> Any:
         return row[whole]["xyz".index(part)]
     if isinstance(row.get(name), dict):
         raise KeyError(f"'{name}' is no number; its numbers are {', '.join(f'{key}_error' for key in errors)}")
-    raise KeyError(f"no '{name}' here; there are {', '.join(row)}")
+    raise KeyError(absent(name, row))
 
 
 def column_of(rows: Iterable[JsonObject], name: str) -> Array:
@@ -71,7 +76,7 @@ class Record(Mapping[str, Any]):
         try:
             return self._values[name]
         except KeyError:
-            raise AttributeError(f"no '{name}' here; there are {', '.join(self._values)}") from None
+            raise AttributeError(absent(name, self._values)) from None
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError(f"{name}: {type(self).__name__} cannot be changed")
@@ -81,7 +86,7 @@ class Record(Mapping[str, Any]):
 
     def __getitem__(self, name: str) -> Any:
         if name not in self._values:
-            raise KeyError(f"no '{name}' here; there are {', '.join(self._values)}")
+            raise KeyError(absent(name, self._values))
         return self._values[name]
 
     def __iter__(self) -> Iterator[str]:

@@ -12,7 +12,7 @@ from clatter import _clatter
 from clatter.arguments import checked
 from clatter.arrays import Array
 from clatter.errors import BadInput
-from clatter.records import History, Impact, Record, as_array, column_of, value_of
+from clatter.records import History, Impact, Record, absent, as_array, column_of, value_of
 
 _FORMATS = ("table", "csv", "json", "markdown", "latex")
 
@@ -263,7 +263,7 @@ class Comparison(Result):
         names = dict.fromkeys(key for of in numbers for number in of.values() for key in number)
         for known, asked in ((quantities, quantity), (names, name)):
             if numbers and asked not in known:
-                raise KeyError(f"no '{asked}' here; there are {', '.join(known)}")
+                raise KeyError(absent(asked, known))
         return as_array([of.get(quantity, {}).get(name) for of in numbers])
 
 
