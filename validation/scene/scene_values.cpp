@@ -12,6 +12,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/sink.hpp"
+#include "validation/output/symbols.hpp"
 #include "validation/scene/option_values.hpp"
 
 namespace clatter::validation::inline scene {
@@ -20,6 +21,9 @@ namespace {
 std::string position(const std::string& path, const toml::source_region& region) {
   return fmt::format("{}:{}:{}", path, region.begin.line, region.begin.column);
 }
+
+/// One line: the parser quotes what it met, the end of a line as well.
+std::string words_of(const toml::parse_error& error) { return printable(error.description()); }
 
 template <class Node>
 std::string as_given(const Node& node) {
@@ -34,7 +38,7 @@ toml::table parse(const std::string& path, std::string_view text) {
   try {
     return toml::parse(text, path);
   } catch (const toml::parse_error& error) {
-    throw BadInput(fmt::format("{}: {}", position(path, error.source()), error.description()));
+    throw BadInput(fmt::format("{}: {}", position(path, error.source()), words_of(error)));
   }
 }
 
@@ -48,7 +52,7 @@ toml::table parse(const std::string& path) {
   } catch (const toml::parse_error& error) {
     const toml::source_region& region = error.source();
     if (region.begin.line == 0) throw BadInput(fmt::format("{}: cannot be read", path));
-    throw BadInput(fmt::format("{}: {}", position(path, region), error.description()));
+    throw BadInput(fmt::format("{}: {}", position(path, region), words_of(error)));
   }
 }
 
