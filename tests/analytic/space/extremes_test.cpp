@@ -65,13 +65,14 @@ struct Tally {
 BOOST_AUTO_TEST_CASE(thin_plates_and_needles_give_every_number_or_a_typed_refusal_and_no_nan) {
   Random random(1);
   Tally tally;
-  for (int i = 0; i < 60; ++i) {
+  constexpr int scenes = CLATTER_TEST_SLOW_BUILD ? 12 : 60;
+  for (int i = 0; i < scenes; ++i) {
     const double thin = std::exp2(-random.uniform(3, 40));
     const Vector3 size = i % 2 == 0 ? Vector3(1, random.uniform(0.2, 1), thin) : Vector3(1, thin, thin * 0.7);
     tally.run(drop_of(random, box(1, {.size = size}), random.uniform(0, 5)));
     tally.run(drop_of(random, cylinder(1, {.length = i % 2 == 0 ? thin : 1, .radius = i % 2 == 0 ? 1 : thin}), 1));
   }
-  BOOST_TEST(tally.rows > 200);
+  BOOST_TEST(3 * tally.rows > 10 * scenes);
 }
 
 BOOST_AUTO_TEST_CASE(nearly_equal_inertias_give_every_number_or_a_typed_refusal_and_no_nan) {

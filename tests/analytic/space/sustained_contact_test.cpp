@@ -318,7 +318,8 @@ BOOST_AUTO_TEST_CASE(a_contact_that_ends_soon_after_slip_began_has_moved_as_one_
   std::normal_distribution<double> normal;
   const Body body = box(0.7, {.size = {0.3, 0.2, 0.12}});
   int judged = 0;
-  for (int n = 0; n < 200 && judged < 150; ++n) {
+  constexpr int wanted = CLATTER_TEST_SLOW_BUILD ? 15 : 150;
+  for (int n = 0; n < 200 && judged < wanted; ++n) {
     const Quaternion attitude = Quaternion(1, 0.4 * normal(random), 0.4 * normal(random), normal(random)).normalized();
     const int lowest = lowest_vertex(body, attitude);
     const State s = standing(body, attitude, lowest, Vector3(normal(random), normal(random), normal(random)));
@@ -345,7 +346,7 @@ BOOST_AUTO_TEST_CASE(a_contact_that_ends_soon_after_slip_began_has_moved_as_one_
       }
     }
   }
-  BOOST_TEST(judged > 100);
+  BOOST_TEST(judged > 2 * wanted / 3);
 }
 
 BOOST_AUTO_TEST_CASE(slip_that_begins_where_friction_gives_way_is_that_of_short_steps_from_next_to_nothing) {
