@@ -6,7 +6,7 @@
     notebooks-data/notebooks.py --check [NOTEBOOK ...]   executes them, says where the outputs differ, changes nothing
     ... --in FOLDER ...                                  they are opened there; otherwise in an empty folder
 
-The module clatter comes from PYTHONPATH, or from build/dev/python without one.  Exit status 0, or 1 if a cell fails or an output differs.
+The module clatter comes from PYTHONPATH, or from build/full/python without one.  Exit status 0, or 1 if a cell fails or an output differs.
 """
 
 import os
@@ -28,7 +28,7 @@ def prepare_kernel(scratch):
     os.environ.update(IPYTHONDIR=scratch, JUPYTER_CONFIG_DIR=scratch, JUPYTER_DATA_DIR=scratch, JUPYTER_RUNTIME_DIR=scratch,
                       MPLCONFIGDIR=scratch, PYTHONDONTWRITEBYTECODE="1", PYDEVD_DISABLE_FILE_VALIDATION="1")
     given = os.environ.get("PYTHONPATH", "").split(os.pathsep)
-    search = [Path(path).resolve() for path in given if path] or [FOLDER.parent.parent / "build" / "dev" / "python"]
+    search = [Path(path).resolve() for path in given if path] or [FOLDER.parent.parent / "build" / "full" / "python"]
     os.environ["PYTHONPATH"] = os.pathsep.join(map(str, search))  # the kernel starts in another folder
 
 

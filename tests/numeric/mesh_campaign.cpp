@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Random drops with friction: each face as one facet against the same body in a fine mesh, number by number, in units
-// of the error bars.  Run on one core: build/dev/tests/mesh_campaign [scenes [first [parts [seconds [laws]]]]]
+// of the error bars.  Run on one core: build/full/tests/mesh_campaign [scenes [first [parts [seconds [laws]]]]]
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cost of the simulator: whole drops, single evaluations, and cost against error for each method.
-// Run on one core: build/dev/tests/numeric_benchmark
+// Run on one core: build/full/tests/numeric_benchmark
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
