@@ -58,7 +58,9 @@ void ContactMotion::hold(State s) {
 
 void ContactMotion::stick_where_slow() {
   for (GroundPoint& p : points_) {
-    p.sticks = law_.friction() > 0 && slip_of(state(), p).norm() <= left_slip * speed_scale();
+    const Vector3 slip = slip_of(state(), p);
+    p.sticks = law_.friction() > 0 && slip.norm() <= left_slip * speed_scale();
+    if (!p.sticks) p.angle = std::atan2(slip.y(), slip.x());
   }
   hold(state());
 }
@@ -115,11 +117,22 @@ bool ContactMotion::give_way() {
   return true;
 }
 
+/// Whether slip has turned back whose direction is kept, across an edge or where it begins: friction would drive it on.
+bool ContactMotion::turns_back() const {
+  for (std::size_t i = 0; i < points_.size() && law_.friction() > 0; ++i) {
+    const GroundPoint& p = points_[i];
+    const bool is_kept = p.begins || (points_.size() == 2 && (p.across || points_[1 - i].sticks));
+    if (p.sticks || !is_kept) continue;
+    if (slip_of(state(), p).dot(slip_at(p.angle)) < -no_slip * speed_scale()) return true;
+  }
+  return false;
+}
+
 /// Whether slip still begins after a step, or (1) has become precise enough; nothing where the step did not keep to
-/// (2).
+/// (2), or went on until slip has turned back.
 std::optional<bool> ContactMotion::still_begins(const State& start) const {
   const auto turning = turning_points(points_);
-  if (turning.empty()) return true;
+  if (turning.empty()) return turns_back() ? std::optional<bool>() : true;
   const SlipAngles now = begun(motion_, 0), lag = begun(motion_, 1) - now;
   bool goes_on = true;
   for (std::size_t k = 0; k < turning.size(); ++k) {
@@ -132,9 +145,10 @@ std::optional<bool> ContactMotion::still_begins(const State& start) const {
   return goes_on;
 }
 
-/// Directions of slip after a step.
-void ContactMotion::note_directions(bool begins) {
-  // Across an edge slip has begun once it is more than rounding, or where (1) is not stiff any more.
+/// Directions of slip after a step from `start`.
+void ContactMotion::note_directions(const State& start, bool begins) {
+  // Across an edge slip has begun once it is more than rounding, or no longer grows, and it is kept across until (1) is
+  // not stiff any more.
   constexpr double rounding = 1e-9, not_stiff = 1e-3;
   const State s = state();
   const auto turning = turning_points(points_);
@@ -145,8 +159,10 @@ void ContactMotion::note_directions(bool begins) {
     const Vector3 v = slip_of(s, p);
     if (p.sticks || (p.begins && some_turn)) continue;
     const double begun = v.dot(slip_at(p.angle)), aside = (v - begun * slip_at(p.angle)).norm();
-    const bool keeps_across = p.across && aside <= 1e-6 * begun + 1e-12 * speed_scale();
-    if (p.begins && begun > (keeps_across ? not_stiff : rounding) * speed_scale()) p.begins = p.across = false;
+    const bool grows = begun > slip_of(start, p).dot(slip_at(p.angle));
+    if (p.begins && (!grows || begun > rounding * speed_scale())) p.begins = false;
+    const bool keeps_across = aside <= 1e-6 * begun + 1e-12 * speed_scale() && begun <= not_stiff * speed_scale();
+    if (!p.begins && !keeps_across) p.across = false;
     if (!p.begins && v.norm() > 0) p.angle = std::atan2(v.y(), v.x());
   }
 }
@@ -302,7 +318,7 @@ void ContactMotion::step() {
     if (share <= 1 && clear) {
       length_ = length;
       locate_first(from);
-      note_directions(*begins);
+      note_directions(start, *begins);
       time_ += length_;
       length_ = event_ == Event::none ? length * std::fmin(better, 4) : length;
       return;
@@ -347,6 +363,10 @@ SustainedContact ContactMotion::ended(ContactEnd end, const std::string& reason)
   const double rise = result.after.velocity.z() - start_.velocity.z();
   result.normal_impulse = drop_.body.mass * (rise + drop_.gravity * time_);
   result.energy_loss = given_ - mechanical_energy(drop_, result.after);
+  const double size = drop_.body.mass * speed_scale() * speed_scale();
+  if (!(mechanical_energy(drop_, start_) - mechanical_energy(drop_, result.after) >= -1e-8 * size)) {
+    throw NumericalError("a body that stays on the ground gains energy");
+  }
   return result;
 }
 

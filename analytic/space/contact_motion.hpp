@@ -75,8 +75,9 @@ class ContactMotion {
   [[nodiscard]] Motion rate(const Motion& y, const GroundForces& f) const;
   [[nodiscard]] SlipAngles begun(const Motion& y, int order) const;
   bool give_way();
+  [[nodiscard]] bool turns_back() const;
   [[nodiscard]] std::optional<bool> still_begins(const State& start) const;
-  void note_directions(bool begins);
+  void note_directions(const State& start, bool begins);
   bool keep_or_begin_slip();
   [[nodiscard]] bool begin_slip();
   bool stop_slips();
