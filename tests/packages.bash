@@ -18,7 +18,7 @@ hdf5_packages=(libhdf5-dev)
 # shellcheck disable=SC2034
 mpi_packages=(libopenmpi-dev openmpi-bin)
 # shellcheck disable=SC2034
-test_packages=(libboost-test-dev python3)
+test_packages=(libboost-test-dev python3 python3-numpy python3-matplotlib python3-mpmath)
 # What `tests/run --full` alone needs.  Without the shells and groff the tests of completion and man page would be
 # skipped; help2man writes the packages' manual pages; emscripten, with Node.js, builds the page of clatter demo from the
 # program's sources and those of GSL; Chromium and Firefox open it; OpenMPI shares a sweep among processes.
@@ -28,7 +28,7 @@ test_packages=(libboost-test-dev python3)
 # shellcheck disable=SC2034
 full_packages=(ccache clang-format universal-ctags libgmsh-dev libbenchmark-dev zsh fish groff-base chromium chromium-driver emscripten firefox-esr nodejs npm zopfli "${mpi_packages[@]}"
                "${hdf5_packages[@]}" python3-h5py
-               pybind11-dev python3-dev python3-numpy python3-matplotlib python3-mpmath jupyter-nbconvert python3-ipykernel mypy
+               pybind11-dev python3-dev jupyter-nbconvert python3-ipykernel mypy
                python3-venv python3-sphinx furo python3-myst-parser libjs-katex pkg-config dpkg-dev lintian
                mmdebstrap help2man reuse)
 # Engines of others that the tests put through the league, the smallest two; validation/benchmark/engines/run installs the
