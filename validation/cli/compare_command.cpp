@@ -13,6 +13,7 @@
 #include "validation/reports/comparison_picture.hpp"
 #include "validation/reports/score_report.hpp"
 #include "validation/reports/swept_comparison_report.hpp"
+#include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/failure.hpp"
 #include "validation/scene/shortfall.hpp"
 
@@ -47,7 +48,7 @@ int compare_foreign(const CompareInput& input) {
     submissions.push_back(judge_file(file, reference, names));
     is_met = is_met && requirement.is_met(submissions.back());
   }
-  write_report(choice, against_report(scene, reference, submissions));
+  write_report(choice, against_report(prepared(scene).scene, reference, submissions));
   return is_met ? 0 : check_failed;
 }
 

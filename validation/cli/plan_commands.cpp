@@ -84,7 +84,9 @@ int run_tradeoff(const TradeoffInput& input) {
     };
     tradeoff = measure_tradeoff(scene, options);
   }
-  write_report(choice, tradeoff_report(scene, tradeoff));
+  Report report = tradeoff_report(scene, tradeoff);
+  if (interrupt.requested()) note_interrupt("the models and settings that are not listed were not run", report);
+  write_report(choice, report);
   if (interrupt.requested()) {
     plot.leave_out("interrupted");
     return interrupted_status;

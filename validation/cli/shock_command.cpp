@@ -43,7 +43,9 @@ int run_shock_command(const ShockCommandInput& input) {
   const CooperativeInterrupt interrupt;
   const ShockRun run =
       run_shock(scene, probes, request, {.progress = [&](int, long) { return !interrupt.requested(); }});
-  write_report(choice, shock_report(run, view));
+  Report report = shock_report(run, view);
+  if (interrupt.requested()) note_interrupt("errors, sensitivities and spectra may be missing", report);
+  write_report(choice, report);
   if (interrupt.requested()) {
     plot.leave_out("interrupted");
     return interrupted_status;

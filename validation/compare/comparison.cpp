@@ -280,27 +280,6 @@ void find_discrete_sides(Comparison& comparison, const Scene& scene, const numer
   comparison.discrete = discrete_side(scene, mesh);
 }
 
-/// Where [impact] gives the discrete model another law than the ground's, one clause; empty: it does not.
-std::string other_law_of(const Scene& scene, double approach) {
-  const DiscreteLaw found = discrete_law(scene);
-  const analytic::ImpactLaw& law = found.law;
-  const numeric::Ground& ground = scene.world.ground;
-  std::string words;
-  if (found.restitution_from == LawSource::impact) {
-    const double e = analytic::restitution_of_damping(ground.damping / ground.stiffness * approach);
-    if (law.restitution != e) {
-      words = fmt::format("e = {} where the ground has {} at {} m/s", shortest(law.restitution), significant(e, 3),
-                          significant(approach, 3));
-    }
-  }
-  const bool is_own = law.friction != analytic::FrictionKind::coulomb || law.friction_value != ground.sliding_friction;
-  if (found.friction_from == LawSource::impact && is_own) {
-    words += fmt::format("{}friction of {} where the ground has {}", words.empty() ? "" : ", ",
-                         shortest(law.friction_value), shortest(ground.sliding_friction));
-  }
-  return words.empty() ? "" : "the law of [impact] is not the ground's: " + words;
-}
-
 /// Whether the same end of the body strikes with the mesh's corners as with the body as given: a level rim is many of
 /// those corners.
 bool is_same_end(const ComparedImpact& impact) {
@@ -387,7 +366,7 @@ Comparison compare_models(const Scene& scene, const numeric::Body& body) {
     comparison.impacts[i].explanation = explanation_of(comparison, scene, radius, i);
   }
   comparison.shortfall = shortfall_of(comparison, scene);
-  comparison.other_law = other_law_of(scene, comparison.approach_speed);
+  comparison.other_law = other_law_words(scene, comparison.approach_speed);
   return comparison;
 }
 

@@ -57,7 +57,7 @@ std::string html_table(const Report& report) {
     }
     out += "</tr>\n";
   }
-  return out + "</tbody>\n</table>\n" + paragraphs(report.notes);
+  return out + "</tbody>\n</table>\n" + paragraphs(notes_and_commands(report));
 }
 
 }  // namespace clatter::validation::inline output

@@ -10,6 +10,7 @@
 
 #include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
+#include "validation/output/shell_word.hpp"
 #include "validation/output/symbols.hpp"
 #include "validation/output/version.hpp"
 
@@ -216,6 +217,8 @@ std::string aligned(const Report& report) {
   for (const auto& line : head_lines(report)) out += wrapped(line) + "\n";
   out += aligned_grid(report.table());
   for (const auto& line : report.notes) out += wrapped(line) + "\n";
+  for (const auto& [what, command] : report.commands)
+    out += what + ":\n  " + folded_command(command, "    ", 77) + "\n";
   return out;
 }
 
@@ -226,9 +229,11 @@ Report shown_report(const Report& report, const std::function<std::string(const 
   shown.head = report.head;
   shown.notes = report.notes;
   shown.grid = report.table();
+  shown.commands = report.commands;
   for (auto* lines : {&shown.head, &shown.notes}) {
     for (auto& line : *lines) line = written(line);
   }
+  for (NamedCommand& one : shown.commands) one = {written(one.what), written(one.command)};
   for (Column& column : shown.grid.columns) {
     column.heading = written(column.heading);
     column.unit = written(column.unit);
@@ -258,7 +263,7 @@ std::string markdown(const Report& report) {
     out += "\n";
   }
   out += "\n";
-  for (const auto& line : report.notes) out += line + "\n";
+  for (const auto& line : notes_and_commands(report)) out += line + "\n";
   return out;
 }
 
@@ -275,7 +280,7 @@ std::string latex(const Report& report) {
     out += row == 1 ? " \\\\\n\\hline\n" : " \\\\\n";
   }
   out += "\\hline\n\\end{tabular}\n";
-  for (const auto& line : report.notes) out += "% " + line + "\n";
+  for (const auto& line : notes_and_commands(report)) out += "% " + line + "\n";
   return out;
 }
 
@@ -314,6 +319,18 @@ Report begun_report(const std::string& command, const std::string& what) {
   report.title = headline(command, what);
   report.fields = Value::Fields{{"clatter", version}};
   return report;
+}
+
+std::vector<std::string> notes_and_commands(const Report& report) {
+  std::vector<std::string> lines = report.notes;
+  for (const auto& [what, command] : report.commands) lines.push_back(fmt::format("{}: {}", what, command));
+  return lines;
+}
+
+void note_interrupt(const std::string& left_out, Report& report) {
+  report.notes.push_back("interrupted: " + left_out);
+  report.fields["outcome"] = "interrupted";
+  report.fields["message"] = report.notes.back();
 }
 
 std::string shown_text(const Cell& cell) {
@@ -380,9 +397,8 @@ std::string csv_head(const Report& report, bool bare) {
     if (asked && std::holds_alternative<Value::Fields>(asked->content()))
       comment(std::string(name) + ": " + compact_json(*asked));
   }
-  for (const auto* lines : {&report.remarks, &report.notes}) {
-    for (const std::string& line : *lines) comment(line);
-  }
+  for (const std::string& line : report.remarks) comment(line);
+  for (const std::string& line : notes_and_commands(report)) comment(line);
   for (const Column& column : report.grid.columns) {
     if (report.explains_columns) comment(explanation(column));
   }

@@ -56,15 +56,21 @@ struct Grid {
   std::size_t leading = 1;  ///< so many shown columns say which row it is: in each block of a table that is too wide
 };
 
+/// A command that a reader may want next.
+struct NamedCommand {
+  std::string what, command;
+};
+
 /// What was asked, what came out, in rows and in words.
 struct Report {
-  std::string title;                   ///< "clatter 0.1.0, COMMAND: WHAT"
-  std::vector<std::string> head;       ///< what was asked, for readers
-  Value fields;                        ///< all of JSON
-  Grid grid;                           ///< all of CSV; its shown columns are the table
-  std::optional<Grid> digest{};        ///< the table, where that has other rows
-  std::vector<std::string> notes{};    ///< what came out, in words
-  std::vector<std::string> remarks{};  ///< likewise, in CSV alone
+  std::string title;                     ///< "clatter 0.1.0, COMMAND: WHAT"
+  std::vector<std::string> head;         ///< what was asked, for readers
+  Value fields;                          ///< all of JSON
+  Grid grid;                             ///< all of CSV; its shown columns are the table
+  std::optional<Grid> digest{};          ///< the table, where that has other rows
+  std::vector<std::string> notes{};      ///< what came out, in words
+  std::vector<std::string> remarks{};    ///< likewise, in CSV alone
+  std::vector<NamedCommand> commands{};  ///< after the notes; not in JSON
 
   bool explains_columns = false;  ///< CSV has a line "NAME [UNIT]: MEANING" for each column
 
@@ -96,6 +102,13 @@ struct TextStyle {
 /// The columns as fields of an object for each row.
 [[nodiscard]] Value row_objects(const Grid& grid);
 [[nodiscard]] Value row_object(const std::vector<Column>& columns, const Row& row);
+
+/// The notes, and after them the commands, a line each.
+[[nodiscard]] std::vector<std::string> notes_and_commands(const Report& report);
+
+/// Says in the report, whose rows are those so far, that the run was interrupted.
+/// @param left_out  what is missing, for a reader
+void note_interrupt(const std::string& left_out, Report& report);
 
 /// What a reader sees of a cell.
 [[nodiscard]] std::string shown_text(const Cell& cell);

@@ -150,7 +150,8 @@ std::string verdict_words(const Comparison& comparison) {
                                     [](const ComparedImpact& impact) { return impact.has_landing(); });
   if (!comparison.agrees()) {
     return "The models DIFFER: a limit (!) misses the discrete value" +
-           (comparison.other_law.empty() ? "." : "; " + comparison.other_law + ".");
+           (comparison.other_law.empty() ? "."
+                                         : "; the law of [impact] is not the ground's: " + comparison.other_law + ".");
   }
   if (landed == 0) {
     return comparison.has_content() ? "No limit is to be the discrete value." : "Nothing could be compared.";

@@ -12,6 +12,7 @@
 #include "validation/reports/shock_history.hpp"
 #include "validation/reports/shock_pulses.hpp"
 #include "validation/scene/body_properties.hpp"
+#include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/probes.hpp"
 #include "validation/scene/scene_value.hpp"
 #include "validation/scene/shortfall.hpp"
@@ -327,6 +328,9 @@ std::vector<std::string> notes_of(const ShockRun& run, const ShockView& view) {
   if (run.continuous) {
     for (const std::string& warning : run.continuous->planned.warnings) notes.push_back("!: warning: " + warning);
     const numeric::Simulation& simulation = run.continuous->planned.run;
+    if (!simulation.impacts.empty()) {
+      notes.push_back(other_law_remark(run.scene, simulation.impacts.front().value.approach_speed));
+    }
     notes.push_back(fmt::format("{}: {}", outcome_name(simulation.outcome), simulation.message));
   } else if (run.discrete_run) {
     notes.push_back(fmt::format("{}: {}", run.discrete_run->outcome, run.discrete_run->message));

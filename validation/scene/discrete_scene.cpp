@@ -304,6 +304,32 @@ DiscreteLaw discrete_law(const Scene& scene) {
   return found;
 }
 
+std::string other_law_words(const Scene& scene, double approach) {
+  const DiscreteImpact& impact = scene.impact;
+  const numeric::Ground& ground = scene.world.ground;
+  const double e = analytic::restitution_of_damping(ground.damping / ground.stiffness * approach);
+  std::string words;
+  if (impact.restitution && *impact.restitution != e) {
+    words = fmt::format("e = {} where the ground has {} at {} m/s", shortest(*impact.restitution), significant(e, 3),
+                        significant(approach, 3));
+  }
+  const bool has_friction = impact.impulse_ratio || impact.friction;
+  if (has_friction && (!impact.friction || *impact.friction != ground.sliding_friction)) {
+    words += fmt::format("{}{} where the ground has μ = {}", words.empty() ? "" : ", ",
+                         impact.friction ? fmt::format("μ = {}", shortest(*impact.friction))
+                                         : fmt::format("an impulse ratio of {}", shortest(*impact.impulse_ratio)),
+                         shortest(ground.sliding_friction));
+  }
+  return words;
+}
+
+std::string other_law_remark(const Scene& scene, double approach) {
+  const std::string words = other_law_words(scene, approach);
+  if (words.empty()) return "";
+  return fmt::format("the law of [impact] is the discrete model's alone: {}{}", words,
+                     words.starts_with("e = ") ? "; clatter ground finds the damping for it" : "");
+}
+
 std::string reason_in_space(const Scene& scene) {
   const auto given = [&](const char* key) {
     return fmt::format("{} = {}", key, compact_json(key_named(key).get(scene)));

@@ -37,6 +37,13 @@ struct DiscreteLaw {
 /// @throws analytic::OutsideModelError where the ground's regularised friction would be taken.
 [[nodiscard]] DiscreteLaw discrete_law(const Scene& scene);
 
+/// By what the law that [impact] gives the discrete model is not the ground's, which the continuous model takes, one
+/// clause; empty: by nothing.
+/// @param approach  speed of the first contact, for the ground's restitution [m/s]
+[[nodiscard]] std::string other_law_words(const Scene& scene, double approach);
+/// The same as a remark on the continuous model's numbers, which a reader may take for those of that law.
+[[nodiscard]] std::string other_law_remark(const Scene& scene, double approach);
+
 /// Why the drop moves in space and not in the plane y = 0, as its keys say; empty: in the plane.  The one place that
 /// decides so; planar_body refuses meshes whose shape or mass is not symmetric about that plane.
 [[nodiscard]] std::string reason_in_space(const Scene& scene);

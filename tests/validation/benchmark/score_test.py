@@ -295,6 +295,10 @@ class Against(Folder):
             self.assertEqual(json.loads(done.stdout)["files"][0]["found"], 3)
         done = run("compare", "--angle", "26", "--speed", "1.3", "--impacts", "3", "--against", path, "--require", "good")
         self.assertEqual(done.returncode, 1)
+        fall = ("--angle", "25", "--height", "0.6", "--impacts", "3")
+        head = run("sequence", *fall).stdout.splitlines()[1:5]
+        self.assertRegex(head[2] + head[3], r"at 2\.\d+ m/s")
+        self.assertEqual(run("compare", *fall, "--against", path).stdout.splitlines()[1:5], head)
         for arguments in (("--columns", "t=time"), ("--require", "good")):
             self.assertEqual(run("compare", "rod-10", *arguments).returncode, 2)
 

@@ -138,7 +138,7 @@ class Compare(SpaceFolder):
             self.assertIn("the law of [impact] is not the ground's: " + words_of, done["message"])
         done = self.json_of("compare", *self.DISC, "--angle", "35", "--tangential-velocity", "1", "--friction", "0.3", "--impacts", "1",
                             "--tilt", "5", status=(1,))
-        self.assertIn("not the ground's: friction of 0.3 where the ground has 0.", done["message"])
+        self.assertIn("not the ground's: μ = 0.3 where the ground has μ = 0.", done["message"])
 
 
 if __name__ == "__main__":

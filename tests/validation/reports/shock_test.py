@@ -97,6 +97,11 @@ class Shock(EmptyFolder):
         for row, impact in zip(found["impacts"], sequence["impacts"], strict=True):
             self.assertAlmostEqual(row["discrete_delta_v_z"], impact["impulse_normal"], delta=1e-14)
 
+    def test_a_law_of_impact_that_is_not_the_grounds_is_said_to_be_the_other_models(self):
+        said = run("shock", "phone-damped", *PROBE, *FEW, "--friction", "0.9", "--restitution", "0.2").stdout
+        self.assertRegex(" ".join(said.split()), r"alone: e = 0\.2 where the ground has 0\.\d+ at \d\.\d+ m/s, μ = 0\.9 where the ground "
+                                                 r"has μ = 0\.075")
+
     def test_probes_of_a_file_are_those_of_flags(self):
         scene = "[drop]\nangle_deg = 10\n[[probe]]\nname = 'tip'\nplace = [-0.5, 0, 0]\n"
         path = self.write("scene.toml", scene)

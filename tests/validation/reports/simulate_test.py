@@ -433,6 +433,26 @@ class Claims(Folder):
             row = self.case("phone-damped.toml", "--angle", angle, "--impacts", "1")["impacts"][0]
             self.assertEqual(row["touches"], touches, angle)
 
+    def test_on_stiff_grounds_with_much_damping_no_known_number_is_withheld(self):
+        free = ["--sliding-friction", "0", "--static-friction", "0", "--impacts", "2"]
+        for angle, stiffness, damping in ((20, 1e9, 4e8), (20, 1e10, 4e9), (12, 1e10, 1e10), (5, 1e10, 1e11)):
+            scene = [os.path.join(CASES, "phone-damped.toml"), *free, "--angle", str(angle), "--stiffness", str(stiffness), "--damping",
+                     str(damping)]
+            close = self.json(*scene, "--digits", "10")["impacts"]
+            for digits in (4, 6):
+                rows = self.json(*scene, "--digits", str(digits))["impacts"]
+                for row, truth in zip(rows, close):
+                    self.assertLess(abs(row["impulse_normal"] - truth["impulse_normal"]), 10**-digits * truth["impulse_normal"])
+                self.assertNotIn("?", simulate(*scene, "--digits", str(digits)).stdout, (stiffness, damping, digits))
+
+    def test_a_law_of_impact_beside_another_ground_is_said_to_be_the_other_models(self):
+        path = self.scene("[drop]\nangle_deg = 10\n[impact]\nrestitution = 0.5\nfriction = 0.3\n[ground]\nstiffness = 1e8\n"
+                          "damping = 1e6\n[run]\nimpacts = 1\n")
+        note = self.json(path)["notes"][0]
+        self.assertRegex(note, r"\[impact\] is the discrete model's alone: e = 0.5 where the ground has 0\.\d+ at 1.00 m/s, "
+                               "μ = 0.3 where the ground has μ = 0; clatter ground")
+        self.assertEqual(self.json(os.path.join(CASES, "phone-damped.toml"), "--impacts", "1")["notes"], [])
+
     def test_the_rods_friction_sweep_ends_in_a_plateau(self):
         ratios = [run_["impacts"][0]["impulse_ratio"] for run_ in self.case("rod-friction-sweep.toml")["runs"]]
         self.assertEqual(len(ratios), 17)
