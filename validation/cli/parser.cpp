@@ -10,6 +10,7 @@
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/report.hpp"
+#include "validation/output/shell_word.hpp"
 #include "validation/output/version.hpp"
 #include "validation/scene/keys.hpp"
 
@@ -209,8 +210,7 @@ std::string folded(const std::vector<std::string>& lines) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     std::string text = lines[i];
     if (text.starts_with("Example: ")) {
-      std::istringstream parts(wrapped(text, width - 2, "  "));
-      for (std::string part, before; std::getline(parts, part); before = " \\\n") out += before + part;
+      out += folded_command(text);
     } else if (text.empty() || text.starts_with(' ')) {
       out += folded_line(text);
     } else {

@@ -103,9 +103,8 @@ std::string worst_html(const ReportInput& input, const Attitudes& attitudes, con
       report, [&](long long index) { return plan.command_of(index); },
       [&](long long place) { return plan.attitude_name(place); });
   // Of the commands that show extremes that of the hardest blow; without a file none could name the scene.
-  std::erase_if(report.notes, [&](const std::string& note) {
-    return note.starts_with("largest ") &&
-           (request.file.empty() || !note.starts_with("largest hardest_impulse_normal:"));
+  std::erase_if(report.commands, [&](const NamedCommand& one) {
+    return request.file.empty() || one.what != "largest hardest_impulse_normal";
   });
   if (!request.file.empty()) commands.push_back(sweep_command_of(request));
   return fmt::format(

@@ -86,7 +86,8 @@ struct FigurePlot {
   bool whole_x = false;       ///< x counts something: no fractions on its axis
   bool whole_y = false;       ///< likewise y, over a few numbers alone
   bool equal_scales = false;  ///< a metre is as long on both axes
-  bool ring = false;          ///< directions around the origin in place of axes; of the last panel alone
+  bool no_axes = false;       ///< places on a map: their numbers mean nothing
+  bool ring = false;          ///< directions around the origin in place of axes; with no_axes
 };
 
 /// The colour of each curve; "" for areas.

@@ -323,6 +323,12 @@ Range2 decades(const PlotData& data, const FigurePlot& plot, double CurvePoint::
   return {std::pow(10, low), std::pow(10, std::max(high, low + 1))};
 }
 
+/// With both ends, where there is no number to take them from.
+Range2 whole_range(const Range2& range) {
+  if (std::isfinite(range.low)) return {range.low, std::isfinite(range.high) ? range.high : range.low + 1};
+  return std::isfinite(range.high) ? Range2{range.high - 1, range.high} : Range2{0, 1};
+}
+
 bool is_given(const Range2& range) { return std::isfinite(range.low) || std::isfinite(range.high); }
 
 }  // namespace
@@ -341,8 +347,8 @@ std::string axes_text(const PlotData& data, const FigurePlot& plot) {
   if (plot.logarithmic_x && !is_given(x)) x = decades(data, plot, &CurvePoint::x, 0);
   if (plot.logarithmic_y && !is_given(y)) y = decades(data, plot, &CurvePoint::y, 0.2);
   if (!has_numbers(data, plot)) {
-    if (!is_given(x)) x = {0, 1};
-    if (!is_given(y)) y = {0, 1};
+    x = whole_range(x);
+    y = whole_range(y);
   }
   std::string text = fmt::format("set xlabel {}\n", gnuplot_quoted(plot.x_label));
   if (!plot.title.empty()) text += fmt::format("set title {}\n", gnuplot_quoted(plot.title));
@@ -353,9 +359,10 @@ std::string axes_text(const PlotData& data, const FigurePlot& plot) {
                                         [](const FigureCurve& curve) { return curve.style == Style::segments; });
   if (has_segments) text += "set palette defined (0 '#c6dbef', 1 '#0072b2', 2 '#08306b')\nunset colorbox\n";
   if (plot.equal_scales) text += "set size ratio -1\nset offsets 0, 0, 0, 0\n";
+  if (plot.no_axes) text += "unset border\nunset tics\nunset grid\n";
   if (plot.ring) {
     text +=
-        "unset border\nunset tics\nunset grid\nset label 11 '0°' at 1.05, 0 left\nset label 12 '90°' at 0, 1.14 "
+        "set label 11 '0°' at 1.05, 0 left\nset label 12 '90°' at 0, 1.14 "
         "center\nset label 13 '180°' at -1.05, 0 right\nset label 14 '270°' at 0, -1.14 center\n";
   }
   if (plot.logarithmic_x) text += "set logscale x\nset format x '10^{%T}'\n";

@@ -23,6 +23,7 @@ constexpr std::size_t title_columns = 112;
 constexpr double most_whole_tics = 20;
 constexpr double png_scale = 1.4;       // 1120 pixels wide
 constexpr double png_font_scale = 0.7;  // its font sizes are points, those of SVG pixels
+const std::string axes_style = "set border 3 lc rgb '#444444'\nset tics nomirror\nset grid lc rgb '#dddddd' lt 1\n";
 
 std::vector<std::string> title_of(const Picture& picture) {
   std::vector<std::string> lines{picture.what};
@@ -111,7 +112,8 @@ std::string panel_text(const PicturePanel& panel, const Layout& layout, std::siz
   if (panel.plot.whole_y) text += "set ytics 1\n";
   const std::string name = fmt::format("$panel{}_", i + 1);
   return text + data_blocks(data, panel.plot, name) + plot_command(data, panel.plot, name) +
-         "unset logscale\nset format '% h'\nset xtics autofreq\nset ytics autofreq\n";
+         "unset logscale\nset size noratio\nset format '% h'\nset xtics autofreq\nset ytics autofreq\n" +
+         (panel.plot.no_axes ? axes_style : "");
 }
 
 }  // namespace
@@ -124,9 +126,9 @@ std::string picture_script(const Picture& picture, PictureFormat format, const s
   std::string text = "set encoding utf8\n" + terminal_text(format, layout.height);
   if (!output.empty()) text += fmt::format("set output {}\n", gnuplot_quoted(output));
   text += fmt::format("set lmargin at screen {}\nset rmargin at screen {}\n", left / width, 1 - right / width);
-  text +=
-      "set border 3 lc rgb '#444444'\nset tics nomirror\nset grid lc rgb '#dddddd' lt 1\nset key at graph 0, graph "
-      "1.02 bottom left horizontal Left reverse noenhanced samplen 1.5\nset boxwidth 0.6\nset multiplot\n";
+  text += axes_style +
+          "set key at graph 0, graph 1.02 bottom left horizontal Left reverse noenhanced samplen 1.5\nset boxwidth "
+          "0.6\nset multiplot\n";
   text += title_text(lines, layout.height);
   for (std::size_t i = 0; i < picture.panels.size(); ++i) {
     text += panel_text(picture.panels[i], layout, i);
@@ -142,9 +144,8 @@ std::string script(const Figure& figure, const FigurePlot& plot, std::size_t ind
   return fmt::format(
              "set encoding utf8\nset terminal svg size 560,380 dynamic font 'sans-serif,13' background '#ffffff' name "
              "'f{}_{}'\n"
-             "set border 3 lc rgb '#444444'\nset tics nomirror\nset grid lc rgb '#dddddd' lt 1\nset key outside top "
-             "center horizontal samplen 1.5\nset boxwidth 0.6\n",
-             figure.number, index) +
+             "{}set key outside top center horizontal samplen 1.5\nset boxwidth 0.6\n",
+             figure.number, index, axes_style) +
          fmt::format("set ylabel {}\n", gnuplot_quoted(plot.y_label)) + axes_text(data, plot) +
          data_blocks(data, plot, "$d") + plot_command(data, plot, "$d");
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include "numeric/base/linear_algebra.hpp"
@@ -97,15 +98,20 @@ void count_on_y(std::vector<double> values, FigurePlot& plot) {
   plot.whole_y = true;
 }
 
-/// Each quantity over the last swept key, a curve for each value of the key before it.
-PicturePanel curves(const Grid& grid, const SweepRowsView& view, std::size_t quantity) {
-  const std::size_t over = view.first_swept + view.swept - 1;
-  const std::vector<double> x = numbers_of(grid, over), y = numbers_of(grid, quantity);
-  const std::vector<double> of = view.swept > 1 ? numbers_of(grid, view.first_swept) : std::vector<double>(x.size(), 0);
+/// The columns of the key along x and of that whose values have a curve each.
+struct SweptAxes {
+  std::size_t over, of;  ///< the same: one curve
+};
+
+/// Each quantity over a swept key, a curve for each value of the other.
+PicturePanel curves(const Grid& grid, const SweptAxes& keys, std::size_t quantity) {
+  const bool has_many = keys.over != keys.of;
+  const std::vector<double> x = numbers_of(grid, keys.over), y = numbers_of(grid, quantity);
+  const std::vector<double> of = has_many ? numbers_of(grid, keys.of) : std::vector<double>(x.size(), 0);
   const Column& column = grid.columns[quantity];
-  PicturePanel panel{.columns = {{"x", "1", named(grid.columns[over])},
+  PicturePanel panel{.columns = {{"x", "1", named(grid.columns[keys.over])},
                                  {"y", column.unit.empty() ? "1" : column.unit, column.name},
-                                 {"of", "1", named(grid.columns[view.first_swept])}},
+                                 {"of", "1", named(grid.columns[keys.of])}},
                      .rows = {},
                      .plot = {.title = "", .x_label = "", .y_label = named(column), .curves = {}}};
   for (std::size_t i = 0; i < x.size(); ++i) panel.rows.push_back({x[i], y[i], of[i]});
@@ -114,7 +120,7 @@ PicturePanel curves(const Grid& grid, const SweepRowsView& view, std::size_t qua
     panel.plot.curves.push_back(
         {.x = "x",
          .y = "y",
-         .legend = view.swept > 1 ? grid.columns[view.first_swept].name + " = " + shortest(value) : "",
+         .legend = has_many ? grid.columns[keys.of].name + " = " + shortest(value) : "",
          .style = x.size() > most_marked_scenes ? FigureCurve::Style::line : FigureCurve::Style::line_points,
          .where = {{"of", value}}});
   }
@@ -135,6 +141,14 @@ std::pair<double, double> mapped(const numeric::Vector3& direction) {
   return {2 * std::numbers::sqrt2 / pi * longitude * std::cos(low), std::numbers::sqrt2 * std::sin(low)};
 }
 
+/// With as many digits, three to six, as tell the two apart.
+std::string range_words(double low, double high) {
+  int digits = 3;
+  while (digits < 6 && significant(low, digits) == significant(high, digits)) ++digits;
+  const std::string first = significant(low, digits), last = significant(high, digits);
+  return first == last ? first : fmt::format("{} to {}", first, last);
+}
+
 /// Which direction of the body points down, coloured by a quantity in classes of as many drops each; the largest on
 /// top.
 PicturePanel sphere(const Grid& grid, std::size_t attitude, std::size_t quantity) {
@@ -150,9 +164,10 @@ PicturePanel sphere(const Grid& grid, std::size_t attitude, std::size_t quantity
                                  {"class", "1", "fifth of the drops"}},
                      .rows = {},
                      .plot = {.x_label = "direction of the body that points down: +x in the middle, +z at the top",
-                              .y_label = named(grid.columns[quantity]),
+                              .y_label = "colour: " + named(grid.columns[quantity]),
                               .curves = {{.x = "x", .y = "y", .where = {{"class", -1}}, .colour = ink}},
-                              .equal_scales = true}};
+                              .equal_scales = true,
+                              .no_axes = true}};
   for (int i = 0; i <= 120; ++i) {
     const double turn = 2 * std::numbers::pi * i / 120;
     panel.rows.push_back({2 * std::numbers::sqrt2 * std::cos(turn), std::numbers::sqrt2 * std::sin(turn), -1});
@@ -168,9 +183,11 @@ PicturePanel sphere(const Grid& grid, std::size_t attitude, std::size_t quantity
   }
   for (std::size_t k = 0; k < classes && !known.empty(); ++k) {
     const auto at = [&](std::size_t part) { return known[std::min(part * known.size() / classes, known.size() - 1)]; };
+    const auto is_of_class = [&](const std::vector<double>& row) { return row[2] == static_cast<double>(k); };
+    if (std::none_of(panel.rows.begin(), panel.rows.end(), is_of_class)) continue;
     panel.plot.curves.push_back({.x = "x",
                                  .y = "y",
-                                 .legend = fmt::format("{} to {}", significant(at(k), 3), significant(at(k + 1), 3)),
+                                 .legend = range_words(at(k), at(k + 1)),
                                  .style = FigureCurve::Style::points,
                                  .where = {{"class", static_cast<double>(k)}},
                                  .colour = colours[k]});
@@ -178,16 +195,19 @@ PicturePanel sphere(const Grid& grid, std::size_t attitude, std::size_t quantity
   return panel;
 }
 
-/// Whether the rows are few curves over the last key.
-bool has_curves(const Grid& grid, const SweepRowsView& view) {
-  if (view.random || view.swept == 0 || view.swept > 2) return false;
-  for (std::size_t i = 0; i < view.swept; ++i) {
-    for (const double value : numbers_of(grid, view.first_swept + i)) {
-      if (!std::isfinite(value)) return false;
-    }
+/// The rows as few curves, over the last key if that leaves few; none: they are no curves.
+std::optional<SweptAxes> axes_of(const Grid& grid, const SweepRowsView& view) {
+  if (view.random || view.swept == 0 || view.swept > 2) return {};
+  const std::size_t first = view.first_swept, last = view.first_swept + view.swept - 1;
+  std::set<double> values[2];
+  for (const std::size_t key : {first, last}) {
+    const std::vector<double> numbers = numbers_of(grid, key);
+    if (!std::all_of(numbers.begin(), numbers.end(), [](double value) { return std::isfinite(value); })) return {};
+    values[key == first ? 0 : 1].insert(numbers.begin(), numbers.end());
   }
-  const std::vector<double> first = numbers_of(grid, view.first_swept);
-  return view.swept == 1 || std::set<double>(first.begin(), first.end()).size() <= most_curves;
+  if (view.swept == 1 || values[0].size() <= most_curves) return SweptAxes{last, first};
+  if (values[1].size() <= most_curves) return SweptAxes{first, last};
+  return {};
 }
 
 /// How many rows end where more impacts may follow, so that their sums are no whole sequence's; empty: none.
@@ -201,21 +221,27 @@ std::string cut_words(const Grid& grid) {
 
 }  // namespace
 
+bool holds_texts(const Grid& grid, const std::string& column) {
+  const std::size_t place = place_of(grid, column);
+  return std::any_of(grid.rows.begin(), grid.rows.end(), [&](const Row& row) {
+    return place < row.size() && !row[place].value.number() && !row[place].value.text().empty();
+  });
+}
+
 Picture sweep_rows_picture(const Report& report, const SweepRowsView& view) {
   Picture picture{.what = "Many scenes", .scene = report.head, .panels = {}};
   if (const std::string cut = cut_words(report.grid); !cut.empty()) picture.scene.push_back(cut);
-  const bool over_a_key = has_curves(report.grid, view);
+  const std::optional<SweptAxes> swept = axes_of(report.grid, view);
   for (std::size_t i = 0; i < report.grid.columns.size() && !view.quantities.empty(); ++i) {
     if (report.grid.columns[i].name == "drop.attitude_q0")
       picture.panels.push_back(sphere(report.grid, i, place_of(report.grid, view.quantities.front())));
   }
   for (const std::string& name : view.quantities) {
     const std::size_t quantity = place_of(report.grid, name);
-    picture.panels.push_back(over_a_key ? curves(report.grid, view, quantity)
-                                        : histogram(report.grid.columns[quantity], numbers_of(report.grid, quantity)));
+    picture.panels.push_back(swept ? curves(report.grid, *swept, quantity)
+                                   : histogram(report.grid.columns[quantity], numbers_of(report.grid, quantity)));
   }
-  if (over_a_key)
-    picture.panels.back().plot.x_label = key_label(report.grid.columns[view.first_swept + view.swept - 1].name);
+  if (swept) picture.panels.back().plot.x_label = key_label(report.grid.columns[swept->over].name);
   return picture;
 }
 

@@ -17,7 +17,10 @@ struct SweepRowsView {
   std::vector<std::string> quantities;     ///< columns to draw, a panel each
 };
 
-/// One key swept: each quantity over it.  Two keys, of which the first has few values: a curve for each of these.
+/// Whether a column has texts, which are not drawn.
+[[nodiscard]] bool holds_texts(const Grid& grid, const std::string& column);
+
+/// One key swept: each quantity over it.  Two keys, of which one has few values: a curve for each of these.
 /// Otherwise, and of random values: how many scenes have which value, in forty classes of equal width.
 /// @param report of the sweep, with its rows; those without a number are left out.
 [[nodiscard]] Picture sweep_rows_picture(const Report& report, const SweepRowsView& view);

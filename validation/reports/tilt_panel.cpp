@@ -136,6 +136,7 @@ PicturePanel ring_panel(const space::ImpactRow& row, std::size_t number, const s
                .x = {-1.25 * aspect, 1.25 * aspect},
                .y = {-1.25, 1.25},
                .equal_scales = true,
+               .no_axes = true,
                .ring = true}};
   RingRows ring;
   const auto add_curve = [&](const std::string& legend, Style style, const std::string& colour) {

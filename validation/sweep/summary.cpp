@@ -111,7 +111,7 @@ void Summary::add_number(Report& report, std::size_t column, const std::string& 
   row.insert(row.end(), {Cell(numbers.largest.value, 6), Cell(numbers.least.index), Cell(numbers.largest.index)});
   row.insert(row.end(), errors.begin(), errors.end());
   row.insert(row.end(), {Cell(least), Cell(largest)});
-  report.notes.push_back(fmt::format("largest {}: {}", columns_[column].name, largest));
+  report.commands.push_back({fmt::format("largest {}", columns_[column].name), largest});
   report.grid.rows.push_back(std::move(row));
 }
 

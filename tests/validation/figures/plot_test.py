@@ -31,7 +31,7 @@ COMMANDS = {
                ["β, second impact", "γ, third impact", "P₁", "P₂", "P₃"]),
     "regimes": (["regimes", "--over", "restitution"],
                 ["coefficient of restitution e", "contact angle θ of the first impact [°]"],
-                ["one impact", "two impacts", "three impacts", "θ₂", "θ₃"]),
+                ["at least one", "at least two", "three impacts", "θ₂", "θ₃"]),
     "simulate": (["simulate", case("phone-damped"), "--impacts", "3"],
                  ["time since the first touch-down [s]", "height [m]", "force [N]", "energy [J]"],
                  ["mass centre", "lowest point", "normal contact force", "translation", "rotation", "potential", "ground",
@@ -295,6 +295,31 @@ class Data(InFolder):
             self.assertEqual(drawn[f"panel2_{i}"], [[float(row["drop.angle_deg"]), float(row["total_normal_impulse"])]
                                                     for row in records(out) if row["impact.restitution"] == value])
         self.assertIn("impact.restitution = 0.5", self.read("p.gnuplot"))
+
+    def test_of_two_keys_that_with_few_values_names_the_curves(self):
+        out, drawn = self.plotted("sweep", case("rod-10"), "--model", "discrete", "--set", "drop.angle_deg=10:34:2",
+                                  "--set", "impact.restitution=0.5,0.9")
+        for i, value in enumerate(("0.5", "0.9")):
+            self.assertEqual(drawn[f"panel2_{i}"], [[float(row["drop.angle_deg"]), float(row["total_normal_impulse"])]
+                                                    for row in records(out) if row["impact.restitution"] == value])
+
+    def test_the_panel_below_a_map_is_as_wide_as_any(self):
+        self.plotted("sweep", case("phone-corner"), "--set", "drop.attitude=uniform", "--random", "50", "--model", "discrete",
+                     "--columns", "impulse_normal_1")
+        bars = ElementTree.fromstring(self.read("p.svg")).find(".//{*}g[@id='clatter_plot_1b']")
+        numbers = [float(x) for x in re.findall(r"(-?[\d.]+),-?[\d.]+", "".join(ElementTree.tostring(bars, "unicode")))]
+        self.assertGreater(max(numbers) - min(numbers), 500)
+
+    def test_columns_of_texts_are_not_drawn(self):
+        _, drawn = self.plotted("sweep", case("phone-corner"), "--set", "drop.attitude=uniform", "--random", "9", "--model", "discrete",
+                                "--columns", "hardest_corners,hardest")
+        self.assertEqual(sum(bar[2] for bar in drawn["panel2_0"][::2]), 9)
+        self.assertNotIn("panel3_0", drawn)
+
+    def test_where_no_drop_has_a_number_the_picture_says_so(self):
+        self.plotted("sweep", case("rod-10"), "--model", "discrete", "--set", "drop.angle_deg=5:20", "--random", "9",
+                     "--set", "run.impacts=6", "--columns", "impulse_normal_6")
+        self.assertIn("no number to draw here", self.read("p.svg"))
 
     def test_a_sweep_of_random_drops_is_drawn_as_a_histogram_of_all_of_them(self):
         out, drawn = self.plotted("sweep", case("phone-corner"), "--set", "drop.attitude=uniform", "--random", "50", "--model", "discrete",

@@ -6,6 +6,7 @@ import importlib.util
 import json
 import math
 import os
+import re
 import shlex
 import shutil
 import signal
@@ -519,6 +520,21 @@ class RowsTogether(Folder):
         worst = [row for row in summary["rows"] if row["quantity"] == "hardest_impulse_normal"][0]
         again = self.numbers(self.sweep(*shlex.split(worst["largest_command"])[2:]), "impulse_normal")
         self.assertEqual(max(again), worst["largest"])
+
+    def test_the_commands_below_a_summary_can_be_pasted_into_a_shell(self):
+        summary = self.sweep(os.path.join(CASES, "phone-corner.toml"), "--model", "discrete", "--set", "drop.attitude=26", "--random", "26",
+                             "--scatter", "4", "--summary")
+        pasted = summary[summary.index("largest impacts:"):]
+        for line in pasted.splitlines():
+            self.assertTrue(len(line) < 80 or len(line.split()) <= 2, line)  # an attitude is one long word
+        commands = re.findall(r"^largest (\w+):\n((?:.*\\\n)*.*)$", pasted, re.M)
+        self.assertIn("hardest_impulse_normal", dict(commands))
+        for name, command in commands:
+            done = subprocess.run(["bash", "-c", f'clatter() {{ "$PROGRAM" "$@"; }}\n{command}'], capture_output=True, text=True,
+                                  check=False, env={**os.environ, "PROGRAM": PROGRAM})
+            self.assertEqual((done.returncode, done.stderr), (0, ""), (name, command))
+            self.assertIn("drop.attitude=", command)
+            self.assertGreater(len(records(done.stdout)), 0)
 
     @unittest.skipUnless(HDF5, "a build without HDF5")
     def test_hdf5_holds_the_numbers_of_csv_bit_for_bit(self):
